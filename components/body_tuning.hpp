@@ -9,15 +9,15 @@
 namespace handhold {
 
 inline constexpr double k_scale_eye_m = 1.6;
-// True if a hand, head or chest moved farther in one frame than it can in play space: it was
-// repositioned, so its history does not apply.
+// True if a hand, head or chest moved farther in one frame than a person can move it. The part was
+// then repositioned (for example re-centred), and its history does not apply.
 inline bool is_jump(double distance_m, double dt_s) {
     constexpr double k_jump_m = 0.15;
     constexpr double k_jump_speed_mps = 20.0;
     return distance_m > k_jump_m + k_jump_speed_mps * dt_s;
 }
 
-// Chest, shoulders and elbows: what is a matter of looks. The fitted constants are in
+// Chest, shoulders and elbows: the constants that are a matter of looks. The fitted ones are in
 // systems/arm/shared/body_constants.hpp.
 struct ArmTuning {
     double learned = 1.0;

@@ -57,7 +57,7 @@ class StageTimer {
     std::int64_t begin_ns_;
 };
 
-// What every stage is bound from: below, one function per stage selects the columns it gets.
+// Everything that stages may need. Below, one function per stage selects the columns that it gets.
 struct FrameContext {
     World& w;
     FrameCaches& caches;

@@ -23,12 +23,12 @@ struct FrameInput {
     std::span<const PlayerInput> players;  // any subset of the world's players
 };
 
-// What a frame keeps outside the world: caches, and the assets they are built from. Caches may be
-// dropped before any frame; that changes no bit of the next.
+// Data that frames keep outside the world: caches, and the assets that they are built from. Caches
+// may be dropped before any frame; no bit of a result changes.
 struct FrameCaches {
     // `shapes` must outlive the caches and contain every shape of the world's colliders.
-    // `grip_meshes`, to which hands are fitted, must outlive them too. Without it, or for a shape
-    // it lacks, hands are shown as tracked.
+    // `grip_meshes` has the meshes that hands are fitted to, and must outlive the caches too. Hands
+    // are shown as tracked without it, and on shapes that it lacks.
     explicit FrameCaches(const ShapeLibrary& shapes, const GripMeshLibrary* grip_meshes = nullptr)
         : collision(shapes), meshes_for_hands(grip_meshes) {}
 
@@ -42,13 +42,13 @@ struct FrameCaches {
     HandScratch hands;
 };
 
-// Steps one frame: a straight line of stage calls, in frame.cpp. `stats` is cleared first. Throws
-// PreconditionError if dt_s is out of range; no player input makes it fail.
+// Steps one frame. `stats` is cleared first. Throws PreconditionError if dt_s,
+// world.reference_velocity_mps or `tuning` is out of range; no player input makes it fail.
 void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
                 StageStats& stats);
 
-// Hash of all columns by persistent id: independent of slots, creation order, thread count, build
-// and compiler.
+// Hash of all columns, the clock and the reference velocity. Identifies rows by persistent id, so
+// it is independent of slots, creation order, thread count, build and compiler.
 std::uint64_t hash_state(const World& world);
 
 }  // namespace handhold

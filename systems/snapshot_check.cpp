@@ -12,7 +12,7 @@
 namespace handhold {
 namespace {
 
-// Latest time: beyond it adding a frame's length is lost to rounding.
+// Latest clock time. Beyond it, rounding would swallow part of a frame's length.
 constexpr double k_max_time_s = 1e9;
 
 constexpr double k_min_bone_ratio = 0.01;

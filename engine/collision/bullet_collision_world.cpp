@@ -1,7 +1,7 @@
-// Implementation of CollisionWorld. Bullet provides the candidates (btDbvt over swept bounds, a
-// quantised tree over each mesh's triangles), tests rays against triangles and, in
-// bullet_separation and bullet_manifold, measures distances and clips faces. docs/decisions/, 10
-// lists what is implemented here instead, and why.
+// Implementation of CollisionWorld. Bullet finds the candidates (btDbvt over swept bounds, a
+// quantised tree over each mesh's triangles) and tests rays against triangles. bullet_separation
+// and bullet_manifold use Bullet to measure distances and to clip faces. docs/decisions/, 10 lists
+// what is implemented here instead, and why.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -25,21 +25,21 @@ void* counted_allocate(std::size_t size) {
     g_allocations.fetch_add(1, std::memory_order_relaxed);
     void* const memory = std::malloc(size);
     if (memory == nullptr) {
-        throw std::bad_alloc();  // Bullet writes to it unseen
+        throw std::bad_alloc();  // Bullet writes to the memory without a check
     }
     return memory;
 }
 
 constexpr std::size_t k_usual_contacts = 16;  // initial capacity per body
 
-// Memory allocated before the hook may be freed through it: Bullet's default allocator is malloc
-// too.
+// Bullet may free memory through this hook that it allocated before the hook was set. This is safe,
+// because Bullet's default allocator is malloc too.
 void hook_allocator() {
     static std::once_flag once;
     std::call_once(once, [] { btAlignedAllocSetCustom(&counted_allocate, &std::free); });
 }
 
-// Per thread: several threads process pairs of one world at the same time.
+// One per thread, because several threads process pairs of one world at the same time.
 PairScratch& pair_scratch() {
     thread_local PairScratch scratch;
     return scratch;
@@ -49,9 +49,8 @@ Corners moved(const Corners& corners, const Vec3& by) {
     return {corners[0] + by, corners[1] + by, corners[2] + by};
 }
 
-// A box around a's swept bounds, larger than necessary, in which the resting mesh b has no
-// triangles. While a stays in this box, the pair needs no narrowphase. nullopt if b moves or no
-// such box is found.
+// A box, larger than a's swept bounds, in which the resting mesh b has no triangles. While a stays
+// in this box, the pair needs no narrowphase. nullopt if b moves or no such box is found.
 std::optional<Bounds> find_clear_box(const BroadphaseBody& a, const ColliderProxy& b,
                                      const ScaledTriangles& triangles, double margin_m) {
     constexpr std::array k_slacks_m = {k_isolation_reach_m, 0.2 * k_isolation_reach_m};
@@ -189,8 +188,8 @@ void CollisionWorld::find_contacts(const ContactLimits& limits,
     }
     auto find = [&](std::size_t i) {
         world.found[i].clear();
-        world.found[i].reserve(
-            k_usual_contacts);  // so that a body's first contacts allocate nothing
+        // Without this, a body's first contacts would allocate.
+        world.found[i].reserve(k_usual_contacts);
         world.find_contacts_of(world.body_pairs[i], limits, world.found[i]);
     };
     parallel_for(world.body_pairs.size(), find);

@@ -14,7 +14,7 @@ namespace {
 constexpr double k_min_size_m = 1e-3;
 constexpr double k_max_size_m = 1e4;
 
-// NaN is outside too.
+// False for NaN too.
 bool is_size(double size_m) { return size_m >= k_min_size_m && size_m <= k_max_size_m; }
 
 constexpr double k_min_scale = 1e-3;
@@ -47,8 +47,8 @@ double farthest_m(const PlacedShape& part) {
     }
 }
 
-// True if the shape's frame is at its centre of mass along principal axes, within rounding and a
-// file's digits.
+// True if the shape's frame is at its centre of mass along principal axes. The tolerance allows for
+// rounding and for the digits of numbers in files.
 bool is_centred(const MassProperties& properties, double reach_m) {
     constexpr double k_rounding = 1e-6;
     const Mat3& inertia = properties.inertia_per_kg_m2;

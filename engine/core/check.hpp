@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-// Reports violated API preconditions: a programming error, never bad user input.
+// Reports violated preconditions of the API: programming errors, never bad user input.
 namespace handhold {
 
 class PreconditionError : public std::logic_error {
@@ -18,7 +18,7 @@ class PreconditionError : public std::logic_error {
 
 }  // namespace handhold
 
-// Checks a precondition. A macro because of __func__: Clang 14 has no std::source_location.
+// Checks a precondition. It is a macro because of __func__: Clang 14 has no std::source_location.
 #define HH_CHECK(condition, what, value)                                          \
     do {                                                                          \
         if (!(condition)) [[unlikely]] {                                          \

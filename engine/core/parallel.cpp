@@ -16,7 +16,7 @@
 namespace handhold {
 namespace {
 
-// Threads persist between calls. With a count of one no thread exists and TBB is never touched.
+// The threads persist between calls. If `count` is one, there are no threads and TBB is not used.
 struct Workers {
     std::optional<tbb::global_control> limit;  // allows more threads than cores
     std::optional<tbb::task_arena> arena;
@@ -28,8 +28,8 @@ Workers& workers() {
     return instance;
 }
 
-// True inside a task. Nested calls run serially: a waiting thread could otherwise start another
-// outer task in the middle of its own.
+// True inside a task. Nested calls run serially: while waiting, a thread could otherwise start
+// another outer task in the middle of its own.
 thread_local bool t_in_task = false;
 
 class InTask {
@@ -40,8 +40,8 @@ class InTask {
     InTask& operator=(const InTask&) = delete;
 };
 
-// The work of one call. Each runner claims the next index, so the first (largest) tasks start first
-// and no fixed partition can turn out unbalanced.
+// The work of one call. Each runner claims the next index, so the first (largest) tasks start
+// first. Unlike with a fixed partition, no runner is left with too much work.
 struct Job {
     const std::size_t count;
     void* const context;

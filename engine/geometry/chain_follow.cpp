@@ -41,7 +41,7 @@ class ChainFollower {
                std::ranges::any_of(depth_.beyond_m, [](double beyond_m) { return beyond_m > 0.0; });
     }
 
-    // Gap to the nearest surface: < 0 penetrating; query_gap_m if none is nearer than that.
+    // Gap to the nearest surface; < 0: penetrating. query_gap_m if no surface is nearer.
     double gap_m(std::size_t link) const { return depth_.nearest_m[link] - chain_.radius_m[link]; }
 
     std::size_t deepest_link() const {
@@ -82,9 +82,10 @@ class ChainFollower {
     }
 
     // Rate of change of a link's gap g with the closing fraction s, while hinges first..link turn
-    // together: dg/ds = sum_j range_j * n . perp(p - h_j). n is the unit direction from the surface
-    // to the nearest point p on the link's axis, h_j is hinge j, and perp turns by +90 degrees.
-    // Hinges at their limit towards `side` (1: closing, -1: opening) do not move and are left out.
+    // together: dg/ds = sum_j range_j * n . perp(p - h_j). p is the point on the link's axis that
+    // is nearest to the surface, n the unit direction from the surface to p, h_j is hinge j, and
+    // perp turns by +90 degrees. Hinges at their limit towards `side` (1: closing, -1: opening) do
+    // not move and are left out.
     double opening_m(std::size_t link, std::size_t first, double side) const {
         double sum_m = 0.0;
         for (std::size_t i = first; i <= link; ++i) {
@@ -97,7 +98,7 @@ class ChainFollower {
         return sum_m;
     }
 
-    // Depenetrates the link by opening all hinges up to its own.
+    // Depenetrates the link by opening its hinge and all hinges before it.
     bool open(std::size_t link) {
         const double opening = -opening_m(link, 0, -1.0);
         if (opening < k_min_opening_m) {
@@ -112,13 +113,15 @@ class ChainFollower {
         return true;
     }
 
-    // Closes the links beyond the last touching one until the first of them touches.
+    // Closes the links beyond the last touching link until one of them touches.
     bool close() {
-        // Closing fraction at the first contact.
+        // Closing fraction at the first new contact.
         double share = std::numeric_limits<double>::infinity();
-        double unseen_share = share;  // up to here no surface beyond query_gap_m can be reached
+        // Up to this fraction no surface farther away than query_gap_m can be reached.
+        double unseen_share = share;
         for (std::size_t i = frozen_links_; i < chain_.link_count; ++i) {
-            double arm_m = 0.0;  // bound on the speed of the link's end per closing fraction
+            // Upper bound on the speed of the link's far end, per closing fraction.
+            double arm_m = 0.0;
             for (std::size_t j = frozen_links_; j <= i; ++j) {
                 const Vec2 arm = points_ds_[i + 1] - points_ds_[j];
                 arm_m += range_rad(j) * arm.norm();
@@ -140,7 +143,8 @@ class ChainFollower {
         return true;
     }
 
-    static constexpr double k_min_opening_m = 0.01;  // per full range; smaller rates are ignored
+    // Metres per full range; smaller rates are ignored.
+    static constexpr double k_min_opening_m = 0.01;
 
     const HingeChain& chain_;
     ChainPatch& patch_;
@@ -148,7 +152,8 @@ class ChainFollower {
     ChainAngles angle_rad_ = {};
     ChainDepth depth_;
     std::array<Vec2, k_max_disc_links + 1> points_ds_;
-    std::size_t frozen_links_ = 0;  // links before it touch and keep their hinge angles
+    // The first `frozen_links_` links touch and keep their hinge angles.
+    std::size_t frozen_links_ = 0;
     double total_opening_ = 0.0;
     double total_closing_ = 0.0;
 };

@@ -37,7 +37,7 @@ class ChainRefitter {
     }
 
   private:
-    // Turns the hinges up to and including `last` by a fraction of their range.
+    // The angles after turning the hinges up to and including `last` by a fraction of their range.
     ChainAngles moved_by(const ChainAngles& angle_rad, double share,
                          std::size_t last = k_max_disc_links) const {
         ChainAngles moved_rad = angle_rad;
@@ -56,19 +56,19 @@ class ChainRefitter {
         return limited_rad;
     }
 
-    // Gathers what the chain can reach in one opening or closing.
+    // Gathers the triangles that the chain can reach in one opening or closing.
     void gather_near(std::span<const PlacedMesh> meshes) {
         gather_between(moved_by(fit_.angle_rad, -refit_.open_share * refit_.open_steps),
                        moved_by(fit_.angle_rad, refit_.close_share), meshes);
     }
 
-    // Gathers what it can reach until it is fully closed or at rest.
+    // Gathers the triangles that the chain can reach on its way to fully closed or to rest.
     void gather_all(std::span<const PlacedMesh> meshes) {
         gather_between(lowest(fit_.angle_rad, chain_.rest_rad),
                        highest(chain_.closed_rad, chain_.rest_rad), meshes);
     }
 
-    // Gathers what it can reach with each hinge anywhere between two angles.
+    // Gathers the triangles that the chain can reach with each hinge anywhere between two angles.
     void gather_between(const ChainAngles& min_rad, const ChainAngles& max_rad,
                         std::span<const PlacedMesh> meshes) {
         ChainReach reach = chain_reach(chain_, min_rad, max_rad, refit_.query_gap_m);
@@ -80,7 +80,7 @@ class ChainRefitter {
         return chain_depth(chain_, angle_rad, scratch_.patch, {.extra_radius_m = extra_radius_m});
     }
 
-    // Follows a nearby surface. False if it does not converge: the chain has to be closed again.
+    // Follows a nearby surface. False if it does not converge: the chain must be closed again.
     bool follow(const ChainDepth& depth) {
         const ChainFollowSettings settings = {
             .touch_gap_m = refit_.touch_gap_m,
@@ -115,7 +115,7 @@ class ChainRefitter {
         return depth.depth_m <= 0.0;
     }
 
-    // Largest fraction of the range that no hinge's limit forbids.
+    // Largest fraction of the range by which no hinge turns more than max_turn_rad.
     double turn_share() const {
         double max_rad = 0.0;
         for (std::size_t i = 0; i < chain_.link_count; ++i) {
@@ -149,7 +149,7 @@ class ChainRefitter {
         return is_closed;
     }
 
-    // Closes from a clear pose, or from one whose first links touch.
+    // Closes the links that are not frozen until they touch.
     void close_on(std::span<const PlacedMesh> meshes) {
         const double turn = turn_share();
         fit_.contact_link = static_cast<std::int32_t>(frozen_links_) - 1;
@@ -172,7 +172,8 @@ class ChainRefitter {
         }
     }
 
-    // Nothing near is touched: looks for a surface farther ahead, and turns by `turn` of the range.
+    // Looks for a surface over the whole range. Turns towards it by `turn`, a fraction of the
+    // range. Returns to rest if there is none.
     void close_far(std::span<const PlacedMesh> meshes, double turn) {
         gather_all(meshes);
         cut();
@@ -200,7 +201,7 @@ class ChainRefitter {
         flat.open_rad = fit_.angle_rad;
         flat.closed_rad = fit_.angle_rad;
         for (std::size_t i = frozen_links_; i < chain_.link_count; ++i) {
-            // Same speed as in a full closing, but clamped at the hinge's limit.
+            // Turns as fast as a full closing would, but stops at the hinge's limit.
             flat.closed_rad[i] += std::min(chain_.closed_rad[i] - chain_.open_rad[i],
                                            (chain_.closed_rad[i] - fit_.angle_rad[i]) / share);
         }
@@ -217,8 +218,8 @@ class ChainRefitter {
         fit_.fallback = ChainFallback::none;
     }
 
-    // Turns towards the rest pose as far as max_turn_rad allows. Stays and returns false if that
-    // pose penetrates.
+    // Turns towards the rest pose as far as max_turn_rad allows. If the pose reached penetrates,
+    // stays and returns false.
     bool return_to_rest() {
         fit_.fallback = ChainFallback::rest_pose;
         fit_.contact_link = DiscClosure::k_none;
@@ -246,9 +247,11 @@ class ChainRefitter {
     const ChainRefitSettings& refit_;
     ChainFitScratch& scratch_;
     ChainFit fit_;
-    std::size_t unmoved_links_ = 0;  // links before it have not moved since the depth query
-    double unmoved_depth_m_ = 0.0;   // largest depth among those
-    std::size_t frozen_links_ = 0;   // links before it touch and keep their hinge angles
+    // The first `unmoved_links_` links have not moved since the depth query.
+    std::size_t unmoved_links_ = 0;
+    double unmoved_depth_m_ = 0.0;  // largest depth of the unmoved links
+    // The first `frozen_links_` links touch and keep their hinge angles.
+    std::size_t frozen_links_ = 0;
 };
 
 }  // namespace

@@ -20,7 +20,8 @@ std::size_t work_of(const Shape& shape) {
     return shape.kind == ShapeKind::mesh ? shape.mesh->triangles.size() : 1000;
 }
 
-// Larger round shapes would be tessellated too coarsely to grip, or into too many triangles.
+// Round shapes above this size would be tessellated too coarsely to grip, or into too many
+// triangles.
 bool is_too_large(const Shape& shape) {
     constexpr double k_largest_m = 64.0;
     const bool may_be_round = shape.kind == ShapeKind::sphere || shape.kind == ShapeKind::capsule ||
@@ -97,7 +98,8 @@ void GripMeshLibrary::add(const ShapeLibrary& shapes, std::span<const ShapeId> w
         const std::size_t place = order[i];
         GripMesh& made = meshes_[first + place];
         made = cached_grip_mesh(shapes.at(distinct[place]), settings, cache_directory);
-        // What was not counted on the way: triangles that are dropped, or come from the cache.
+        // Adds the planned work that the build did not count: dropped triangles and meshes read
+        // from the cache.
         const std::uint64_t planned = k_passes * work_of(shapes.at(distinct[place]));
         meter.done += planned - std::min<std::uint64_t>(
                                     planned, made.full_triangles + made.contact.triangles.size());

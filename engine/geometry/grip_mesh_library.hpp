@@ -11,23 +11,24 @@
 
 namespace handhold {
 
-// Grip meshes of a scene's shapes, built before the first frame. Equal shapes share one: the same
-// mesh at the same scale, the same hull or compound parts, or equal primitives. Round shapes with a
-// bounding radius above 64 m have none. Immutable between calls of add: any number of threads may
-// read it.
+// Grip meshes of a scene's shapes, built before the first frame. Equal shapes share one grip mesh:
+// the same mesh at the same scale, the same hull or compound parts, or equal primitives. Round
+// shapes with a bounding radius above 64 m have none. Immutable between calls of add, so any number
+// of threads may read it.
 class GripMeshLibrary {
   public:
     GripMeshLibrary() = default;
-    // Builds the meshes of the shapes in `wanted`, or of all. Runs on the threads of parallel.hpp;
-    // the result does not depend on their number. `cache_directory`: see grip_mesh_cache.hpp.
+    // Builds the grip meshes of the shapes in `wanted`, or of all shapes. Uses the threads of
+    // parallel.hpp; the result does not depend on their number. `cache_directory`: see
+    // grip_mesh_cache.hpp.
     explicit GripMeshLibrary(const ShapeLibrary& shapes, const GripMeshSettings& settings = {},
                              const std::filesystem::path& cache_directory = {});
     GripMeshLibrary(const ShapeLibrary& shapes, std::span<const ShapeId> wanted,
                     const GripMeshSettings& settings = {},
                     const std::filesystem::path& cache_directory = {});
 
-    // Builds the missing meshes of `wanted`; existing ones stay. `shapes` must extend the library
-    // of earlier calls.
+    // Builds the missing grip meshes of `wanted`. `shapes` must contain the shapes of earlier
+    // calls, with the same ids.
     void add(const ShapeLibrary& shapes, std::span<const ShapeId> wanted,
              const GripMeshSettings& settings = {},
              const std::filesystem::path& cache_directory = {});
@@ -45,7 +46,7 @@ class GripMeshLibrary {
     static SurfaceKey surface_key(const Shape& shape);
 
     std::map<SurfaceKey, std::uint32_t> mesh_of_surface_;  // index into meshes_
-    std::vector<std::uint32_t> mesh_of_shape_;             // by ShapeId::index; k_no_triangle: none
+    std::vector<std::uint32_t> mesh_of_shape_;  // by ShapeId::index; k_no_triangle: no grip mesh
     std::vector<GripMesh> meshes_;
 };
 

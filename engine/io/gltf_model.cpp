@@ -54,7 +54,7 @@ bool read_synthetic(const JsonValue& object) {
     return extras.is_object() && extras["synthetic"].flag_or(false);
 }
 
-// Fills a Model and keeps the first error in the JSON document.
+// Fills a Model. The JSON document keeps the first error.
 class ModelParser {
   public:
     explicit ModelParser(const JsonValue& root) : root_(root) {}
@@ -97,7 +97,8 @@ bool changes_geometry(std::string_view extension) {
            extension == k_instancing || (extension == k_draco && has_draco());
 }
 
-// Whether geometry is right without the extension: these change looks, lights or metadata only.
+// True if geometry is correct without the extension. The ones listed change only appearance, lights
+// or metadata.
 bool may_be_ignored(std::string_view extension) {
     constexpr std::array<std::string_view, 13> k_families = {"KHR_materials_",
                                                              "KHR_texture_",
@@ -200,7 +201,7 @@ void ModelParser::parse_views() {
         if (const JsonValue meshopt = extension_of(value, k_meshopt); meshopt.exists()) {
             view.meshopt = parse_meshopt(meshopt);
         }
-        model_.views.push_back(std::move(view));
+        model_.views.push_back(view);
     }
 }
 
@@ -257,7 +258,7 @@ void ModelParser::parse_accessors() {
         if (const JsonValue sparse = value["sparse"]; sparse.exists()) {
             accessor.sparse = parse_sparse(sparse);
         }
-        model_.accessors.push_back(std::move(accessor));
+        model_.accessors.push_back(accessor);
     }
 }
 
@@ -267,7 +268,7 @@ void ModelParser::parse_meshes() {
         Mesh mesh;
         mesh.name = value["name"].label();
         mesh.is_synthetic = read_synthetic(value);
-        std::size_t targets_of_mesh = 0;  // every primitive has the same
+        std::size_t targets_of_mesh = 0;  // all primitives of a mesh have the same number
         for (const JsonValue& item : value["primitives"].items()) {
             Primitive primitive;
             primitive.attributes = read_attributes(item["attributes"]);
@@ -324,7 +325,8 @@ Affine parse_transform(const JsonValue& node) {
     return transform;
 }
 
-// Members of other types are for other programs.
+// Reads the members that are numbers or arrays of numbers. Members of other types are for other
+// programs.
 std::map<std::string, std::vector<double>> parse_extras(const JsonValue& extras) {
     constexpr NumberRange k_any = {-std::numeric_limits<double>::max(),
                                    std::numeric_limits<double>::max()};

@@ -19,8 +19,8 @@
 namespace handhold {
 namespace {
 
-// A rotation with the direction of the frame's Y axis, and with its Z axis as close to the frame's
-// as that allows.
+// A pose whose Y axis has the direction of the frame's Y axis. Its Z axis is as close as possible
+// to the frame's.
 Pose straightened(const Affine& frame) {
     Vec3 y = frame.linear.col(1);
     Vec3 z = frame.linear.col(2);
@@ -40,10 +40,10 @@ Pose straightened(const Affine& frame) {
     return {frame.translation, Quat(axes).normalized()};
 }
 
-// Which nodes become joints: those of the only skin, or all of the scene.
+// The nodes that become joints: the joints of the only skin, or all nodes of the scene.
 enum class JointSource { skin, scene };
 
-// Reads a model's scene into one skinned mesh. The first error stops it.
+// Reads a model's scene into one skinned mesh. Stops at the first error.
 class SkinReader {
   public:
     SkinReader(const gltf::Model& model, std::span<const std::string_view> buffers,
@@ -70,7 +70,7 @@ class SkinReader {
         std::uint16_t joint = 0;
         Affine to_scene;
     };
-    // What a mesh follows: the slots of its skin, or only its node.
+    // The slots that move a mesh: those of its skin, or those of its node.
     struct Binding {
         std::vector<Slot> slots;
         bool is_skinned = false;
@@ -109,17 +109,17 @@ class SkinReader {
     gltf::AccessorReader reader_;
     JointSource source_;
     SkinnedMesh skin_;
-    int skin_index_ = gltf::k_none;  // of JointSource::skin
+    int skin_index_ = gltf::k_none;  // used only with JointSource::skin
     std::vector<PlacedNode> placed_;
     std::map<int, const PlacedNode*> by_node_;
     std::map<int, std::uint16_t> joint_of_node_;
-    std::map<int, Binding> skins_;       // by skin, those that a mesh uses
-    Binding rigid_;                      // of the mesh that is being read, if it has no skin
+    std::map<int, Binding> skins_;       // by skin; only skins that a mesh uses
+    Binding rigid_;                      // for the mesh being read, if it has no skin
     gltf::PrimitiveData primitive_;      // scratch
-    std::vector<Influence> influences_;  // scratch: of one vertex, heaviest first
+    std::vector<Influence> influences_;  // scratch: those of one vertex, heaviest first
     std::size_t skipped_primitives_ = 0;
-    std::size_t reduced_vertices_ = 0;     // had more than four joints
-    std::size_t unweighted_vertices_ = 0;  // had no weight above 0
+    std::size_t reduced_vertices_ = 0;     // vertices with more than four joints
+    std::size_t unweighted_vertices_ = 0;  // vertices without a weight above 0
 };
 
 bool SkinReader::choose_skin() {
@@ -143,7 +143,7 @@ bool SkinReader::choose_skin() {
     return skin_index_ != gltf::k_none || refuse("/nodes", "expected a mesh with a skin");
 }
 
-// The nodes that become joints, in order.
+// Lists the nodes that become joints, in order.
 bool SkinReader::list_joints(std::vector<int>& nodes) {
     if (source_ == JointSource::skin) {
         nodes = gltf::element(model_.skins, skin_index_).joints;
@@ -209,7 +209,7 @@ bool SkinReader::append_joint(const PlacedNode& placed) {
 }
 
 void SkinReader::find_parents() {
-    std::map<int, std::int32_t> joint_above;    // by node
+    std::map<int, std::int32_t> joint_above;    // by node: the nearest joint above it
     for (const PlacedNode& placed : placed_) {  // parents first
         const auto self = joint_of_node_.find(placed.node);
         const auto above = joint_above.find(placed.node);
@@ -224,7 +224,7 @@ void SkinReader::find_parents() {
     }
 }
 
-// Null after a refusal.
+// The slots that move the node's mesh; null after an error.
 const SkinReader::Binding* SkinReader::bind(const PlacedNode& placed) {
     const int skin = gltf::element(model_.nodes, placed.node).skin;
     if (skin == gltf::k_none) {
@@ -270,7 +270,7 @@ bool SkinReader::bind_skin(int skin, Binding& binding) {
     return apply_inverse_binds(skin, binding);
 }
 
-// Prepends the inverse bind matrices to the slots' maps.
+// Multiplies the slots' maps by the inverse bind matrices, which are applied first.
 bool SkinReader::apply_inverse_binds(int skin, Binding& binding) {
     const int accessor = gltf::element(model_.skins, skin).inverse_binds;
     if (accessor == gltf::k_none) {  // then they are identities (specification, 3.7.3.1)
@@ -367,7 +367,7 @@ bool SkinReader::read_primitive(const gltf::Primitive& primitive, const Binding&
     return true;
 }
 
-// `mirrored` becomes the number of vertices whose joints mirror them.
+// Adds to `mirrored` the number of vertices whose joints mirror them.
 bool SkinReader::append_skinned(const Binding& binding, const std::string& place,
                                 std::size_t& mirrored) {
     for (std::size_t i = 0; i < primitive_.vertices; ++i) {
@@ -384,8 +384,8 @@ bool SkinReader::append_skinned(const Binding& binding, const std::string& place
     return true;
 }
 
-// Fills influences_ with the vertex's weights above 0, each joint once. A joint of weight 0 may be
-// out of range: some exporters fill unused entries with any number.
+// Fills influences_ with the vertex's weights above 0, each joint once. The joint of a weight 0 may
+// be out of range: some exporters fill unused entries with any number.
 bool SkinReader::collect_influences(std::size_t vertex, const Binding& binding,
                                     const std::string& place) {
     influences_.clear();
@@ -420,7 +420,8 @@ bool SkinReader::collect_influences(std::size_t vertex, const Binding& binding,
     return true;
 }
 
-// The four heaviest influences, with a sum of weights of 1, and where they map the vertex.
+// Appends the four heaviest influences, scaled to a sum of 1. Sets `to_scene` to the map of the
+// vertex.
 void SkinReader::append_weights(const Binding& binding, Affine& to_scene) {
     constexpr float k_min_sum = 1e-12F;
     SkinWeights weights;
@@ -480,7 +481,7 @@ bool SkinReader::append_vertex(std::size_t vertex, const Affine& to_scene,
     return true;
 }
 
-// Appends the primitive's triangles with its vertices from `first` on.
+// Appends the primitive's triangles. Its first vertex is vertex `first` of the skin.
 void SkinReader::append_surface(const gltf::Material* material, std::size_t first,
                                 bool is_mirrored) {
     ColorRun run = {static_cast<std::uint32_t>(skin_.triangles.size()), {0.6F, 0.6F, 0.62F}};
@@ -491,7 +492,7 @@ void SkinReader::append_surface(const gltf::Material* material, std::size_t firs
         run.gloss = material->gloss;
     }
     skin_.color_runs.push_back(run);
-    Mesh mesh;  // append_triangles needs one
+    Mesh mesh;  // append_triangles needs a Mesh
     mesh.positions.swap(skin_.positions);
     mesh.triangles.swap(skin_.triangles);
     append_triangles(primitive_.mode, is_mirrored ? Winding::reversed : Winding::kept,

@@ -14,7 +14,7 @@ namespace handhold {
 
 using Json = nlohmann::json;
 
-// nlohmann's destructor allocates for nested documents; k_max_depth bounds that.
+// nlohmann's destructor allocates for nested documents; k_max_depth limits how much.
 struct JsonValue::Document {  // NOLINT(bugprone-exception-escape)
     Json root;
     std::string file;
@@ -75,7 +75,7 @@ std::string append_key(const std::string& pointer, std::string_view key) {
     return result;
 }
 
-// "line 3, column 7" of the byte at `position` (counted from 1, as the parser does).
+// The line and column of the byte at `position`, which counts from 1: "line 3, column 7".
 std::string describe_place(std::string_view text, std::size_t position) {
     const std::string_view before = text.substr(0, position == 0 ? 0 : position - 1);
     const auto line = std::count(before.begin(), before.end(), '\n') + 1;
@@ -122,8 +122,9 @@ class TreeBuilder {
 
     bool parse_error(std::size_t position, const std::string& /*token*/,
                      const Json::exception& exception) {
-        // Keeps "syntax error ..." of "[json.exception.parse_error.101] parse error at line 1,
-        // column 2: syntax error ...". describe_place gives the position of every kind of error.
+        // Removes the beginning of the library's message: "[json.exception.parse_error.101] parse
+        // error at line 1, column 2: syntax error ..." becomes "syntax error ...". describe_place
+        // gives the position.
         std::string reason = exception.what();
         const std::size_t place = reason.find(": ");
         const std::size_t name = reason.find("] ");
@@ -193,8 +194,8 @@ class TreeBuilder {
     std::string_view text_;
     std::string file_;
     std::vector<Json*> open_;        // containers, outermost first
-    std::vector<std::string> keys_;  // by container: its key, if its parent is an object
-    std::string key_;                // of the next value
+    std::vector<std::string> keys_;  // key of each open container, if its parent is an object
+    std::string key_;                // key of the next value
     std::optional<FileError> error_;
 };
 
@@ -348,7 +349,8 @@ Quat JsonValue::rotation() const {
         refuse("a quaternion of length 1, not " + write_number(value.norm()));
         return Quat::Identity();
     }
-    // A quaternion of unit length up to rounding is kept, so that writing and reading is lossless.
+    // A quaternion of unit length up to rounding is not normalised, so that writing and reading it
+    // is lossless.
     constexpr double k_rounding = 1e-15;
     return std::abs(value.squaredNorm() - 1.0) <= k_rounding ? value : value.normalized();
 }

@@ -12,19 +12,23 @@ namespace handhold {
 namespace {
 
 constexpr double k_query_interval_s = 0.1;
-constexpr double k_missed_after_s = 0.02;  // a closed hand that still holds nothing by then failed
-constexpr double k_grip_lost_m = 0.1;   // grab error above which a hand is held back by something
-constexpr double k_both_hold_s = 0.15;  // before one of two holding hands moves on
+// A closed hand that holds nothing after this time has failed to grip.
+constexpr double k_missed_after_s = 0.02;
+// Grab error above which the hand releases, because something holds it back.
+constexpr double k_grip_lost_m = 0.1;
+// Both hands hold at least this long before one of them releases.
+constexpr double k_both_hold_s = 0.15;
 constexpr double k_near_waypoint_m = 0.3;
-constexpr double k_leap_clearance_m = 1.2;  // free distance that is worth a push-off
+constexpr double k_leap_clearance_m = 1.2;  // minimum free distance ahead for a push-off
 constexpr double k_leap_mps = 1.2;
 constexpr double k_leap_longest_s = 0.8;
 constexpr double k_leap_stretch_m = 0.62;
 constexpr std::uint32_t k_failed_queries_before_leap = 3;
-constexpr double k_adrift_s = 1.0;  // without a hold before the climber acts
+constexpr double k_adrift_s = 1.0;  // time without a hold before the climber may use jets
 constexpr double k_return_mps = 1.2;
 constexpr double k_detour_s = 2.0;
-constexpr double k_stuck_s = 12.0;  // on the way to one waypoint
+// Time without reaching the next waypoint before the climber takes a detour.
+constexpr double k_stuck_s = 12.0;
 
 // The inputs and state of one frame's decision.
 struct Mind {
@@ -60,8 +64,8 @@ void feel_closing(const Mind& mind, HandSide side, const Grab& grab) {
         hand.mode = ClimberHandMode::holding;
         hand.change_s = mind.now.t_s;
         mind.state.home = hand.hold;
-        mind.state.home.body =
-            grab.body;  // the grab may have hit something in front of the planned hold
+        // The hand may have gripped a body in front of the planned hold.
+        mind.state.home.body = grab.body;
         hand.hold.body = grab.body;
         hand.hold.wrist_bs = grab.anchor_bs;
     } else if (grab.kind == GripKind::held) {
@@ -108,7 +112,8 @@ Vec3 waypoint_ws(const Mind& mind) {
     return body != nullptr ? transform_point(body->pose_ws, waypoint.point_bs) : waypoint.point_bs;
 }
 
-// Points the heading to the waypoint. False if the climber stays.
+// Sets the heading towards the current waypoint, or a detour if the climber is stuck. Returns false
+// if the climber is at the last waypoint and stays.
 bool head_for_waypoint(const Mind& mind) {
     ClimberState& state = mind.state;
     Vec3 way = waypoint_ws(mind) - mind.now.head_ws;
@@ -148,8 +153,8 @@ void look_ahead(const Mind& mind) {
     mind.state.shore_ahead = way_m.has_value();
 }
 
-// The wanted velocity of the head: along the heading, slower in front of a wall, away from nearby
-// surfaces.
+// Updates the heading. Returns the wanted velocity of the head in the world: along the heading,
+// slower in front of a wall, and away from surfaces nearby.
 Vec3 steer(const Mind& mind) {
     ClimberState& state = mind.state;
     bool goes_on = true;
@@ -194,7 +199,7 @@ bool try_reach(const Mind& mind, HandSide side, const Vec3& toward_ws) {
     return true;
 }
 
-// Releases the hand that is farther behind, of two that hold.
+// Precondition: both hands hold. Releases the hand that is farther back along the heading.
 void release_trailing(const Mind& mind) {
     const auto ahead_m = [&mind](HandSide side) {
         return (mind.wrist_ws(side) - mind.now.head_ws).dot(mind.state.heading_ws);
@@ -209,7 +214,8 @@ void release_trailing(const Mind& mind) {
     let_go(mind.state, left_m < right_m ? HandSide::left : HandSide::right);
 }
 
-// With single_hand the climber floats for a moment between two holds.
+// For ClimberTask::single_hand: releases the holding hand shortly before the other hand closes, so
+// the climber floats for a moment.
 void hand_over(const Mind& mind) {
     constexpr double k_float_s = 0.06;
     for (const HandSide side : k_sides) {
@@ -258,8 +264,8 @@ void go_on(const Mind& mind, const Vec3& wanted_mps) {
     }
 }
 
-// Pushes off with the holding hand: releases it once the climber is fast enough or the arm is
-// straight.
+// Pushes off with the holding hand. Releases it once the climber is fast enough, the arm is nearly
+// straight, or the push has lasted too long.
 void leap(const Mind& mind) {
     ClimberState& state = mind.state;
     const Vec3 heading_ps = mind.now.origin_ws.rotation.conjugate() * state.heading_ws;
@@ -283,7 +289,8 @@ void leap(const Mind& mind) {
 
 // --- Without a hold ---
 
-// Uses small jets, as a person would by hand, towards the last support or something near.
+// Thrusts with the jets towards `home`. If the head is already near it, or now and then at random,
+// first replaces `home` by a surface nearby.
 void return_home(const Mind& mind) {
     ClimberState& state = mind.state;
     const double jets_mps2 = mind.sight.scene.tuning.locomotion.thruster_mps2;
@@ -390,9 +397,10 @@ PlayerCommands climb(const ClimberSight& sight, const ClimberTask& task, double 
         state.first_given = true;
     }
     feel_hands(mind);
-    mind.now = sense(sight.scene, task, state);  // the present hold is the support
+    // Again: feel_hands() may have changed the hold that supports the climber.
+    mind.now = sense(sight.scene, task, state);
     if (mind.now.t_s >= state.next_query_s) {
-        // Climbers of a crowd look around in different frames.
+        // The interval is random, so that the climbers of a crowd decide in different frames.
         state.next_query_s = mind.now.t_s + state.random.between(0.8, 1.2) * k_query_interval_s;
         decide(mind);
     }

@@ -31,7 +31,7 @@ ClimberTask task_of(const ClimbPlan& plan, const PlayerEntities& player) {
 
 Recording record_climb(Scene& scene, const ClimbPlan& plan) {
     HH_CHECK(scene.world.clock.frame == 0, "the scene has been played", plan.seconds);
-    // A recording has no sticks, so jets could not be replayed.
+    // Recordings contain no stick input, so the use of jets could not be replayed.
     scene.tuning.locomotion.thruster_mps2 = 0.0;
     const PlayerEntities player = add_scene_player(scene, {"player0", plan.origin_ws, 80.0});
     const ClimberTask task = task_of(plan, player);

@@ -37,11 +37,11 @@ namespace {
 
 struct Session {
     std::optional<Recording> recording;
-    std::vector<Recording> more;  // of the second player, the third...
-    std::string name;             // files, "built-in <name>", or empty
+    std::vector<Recording> more;  // recordings of the second player, the third, ...
+    std::string name;             // names of the files, "built-in <name>", or empty: no session
 };
 
-// The players' recordings: those of --input, else the scene's session, else none.
+// Loads the players' recordings: those of --input, else the scene's session, else none.
 Result<Session> load_session(const RunOptions& options, const Scene& scene) {
     Session session;
     std::filesystem::path file = options.input;
@@ -78,10 +78,10 @@ Result<Session> load_session(const RunOptions& options, const Scene& scene) {
     return session;
 }
 
-// Times in a recording are arbitrary: two samples may be years apart.
+// Limits the session's length. Times in a recording are arbitrary: two samples may be years apart.
 std::optional<FileError> check_length(const RunOptions& options, const std::string& name,
                                       double length_s) {
-    constexpr double k_longest_s = 1e6;  // as --seconds
+    constexpr double k_longest_s = 1e6;  // the limit of --seconds
     if (length_s <= k_longest_s) {
         return std::nullopt;
     }
@@ -95,7 +95,7 @@ struct Place {
     std::string name;
 };
 
-// `spawn` as in RunOptions.
+// `spawn`: see RunOptions::spawn.
 Result<Place> choose_place(const RunOptions& options, const std::string& spawn, const Scene& scene,
                            FrameCaches& caches, const Recording* recording) {
     if (spawn == "auto") {
@@ -129,8 +129,8 @@ Result<Place> choose_place(const RunOptions& options, const std::string& spawn, 
 
 std::size_t recorded_players(const RunOptions& options) { return 1 + options.more_inputs.size(); }
 
-// Places of players with recordings: the first at `first`, the others at their --spawn, else at the
-// scene's next spawn. May be fewer than the recordings if the scene has no more spawns.
+// Start places of players with recordings: `first`, then those of --spawn, then the scene's next
+// spawns. Returns fewer places than recordings if the scene has no more spawns.
 Result<std::vector<Place>> choose_places(const RunOptions& options, const Place& first,
                                          const Scene& scene, FrameCaches& caches,
                                          const Session& session) {
@@ -152,8 +152,8 @@ Result<std::vector<Place>> choose_places(const RunOptions& options, const Place&
     return places;
 }
 
-// The scene's own players, if they are enough and neither place nor number was given. Else the
-// first players at `places`, the others spread over the scene.
+// Adds the scene's own players if there are enough of them and neither --spawn nor --players was
+// given. Otherwise adds the first players at `places` and spreads the others over the scene.
 Result<std::vector<PlayerEntities>> add_players(Scene& scene, FrameCaches& caches,
                                                 const std::vector<Place>& places,
                                                 const RunOptions& options) {
@@ -202,7 +202,7 @@ void warn_of_overlaps(const Scene& scene, FrameCaches& caches,
     }
 }
 
-// Saves a snapshot once its time is reached.
+// Saves the snapshot of --snapshot once its time is reached.
 class SnapshotTaker {
   public:
     SnapshotTaker(const RunOptions& options, const SnapshotAssets& assets)
@@ -215,7 +215,7 @@ class SnapshotTaker {
             error_ = save_snapshot_file(options_.snapshot, scene.world, assets_);
         }
     }
-    // Call after the session.
+    // Call after the session. The snapshot's error, or nullopt.
     std::optional<FileError> error() const {
         if (!options_.snapshot.empty() && !taken_ && !is_interrupted()) {
             return FileError{options_.snapshot, "",
@@ -232,8 +232,8 @@ class SnapshotTaker {
     std::optional<FileError> error_;
 };
 
-// Replaces the scene's initial state by the snapshot of --resume, if given. The players keep their
-// identities. Refused with climbers: their plans are not part of a snapshot.
+// Replaces the scene's initial state by the snapshot of --resume, if given. Players keep their
+// persistent ids. Fails if there are climbers, because a snapshot does not contain their plans.
 std::optional<FileError> resume(const RunOptions& options, const RunSettings& settings,
                                 const SnapshotAssets& assets, Scene& scene,
                                 std::vector<PlayerEntities>& players) {
@@ -325,7 +325,7 @@ void print_summary(const RunLog& log, const RunSummary& summary) {
     }
 }
 
-// Climbers need jets to return to something in reach: a scene without jets gets small ones.
+// Climbers need jets to return to a hold, so a scene without jets gets weak ones.
 RunSettings choose_settings(const RunOptions& options, Scene& scene, std::size_t players) {
     RunSettings settings{options.hz, options.seconds, options.threads};
     settings.climbers_from = options.climbers ? 0 : recorded_players(options);
@@ -364,7 +364,7 @@ Film open_film(const RunOptions& options, const Scene& scene, PlayerModels model
     return film;
 }
 
-// The pictures. The video is written.
+// Finishes the video and returns the pictures.
 std::vector<FilmShot> finish_film(Film& film) {
     if (film.camera == nullptr) {
         return {};
@@ -420,7 +420,7 @@ int run_command(const RunOptions& options) {
     if (!session) {
         return refuse(session.error());
     }
-    std::optional<OutputFolder> out;  // locked until the end
+    std::optional<OutputFolder> out;  // the folder stays locked until the run ends
     if (!options.out.empty()) {
         Result<OutputFolder> folder = OutputFolder::open(options.out);
         if (!folder) {

@@ -11,8 +11,9 @@
 #include "engine/math/math.hpp"
 #include "game/headset/headset_reading.hpp"
 
-// What moves on a controller when it is used: buttons, triggers, sticks. Pictures only. As WebXR's
-// input profiles have it: a node of the model goes from one place to another.
+// Moving parts of a drawn controller: buttons, triggers, sticks. They have no effect on the
+// simulation. As in WebXR's input profiles, a node of the model moves between the poses of two
+// other nodes.
 namespace handhold {
 
 enum class Control : std::uint8_t {
@@ -20,35 +21,38 @@ enum class Control : std::uint8_t {
     squeeze,
     stick_x,       // 0 left, 1 right
     stick_y,       // 0 forward, 1 back
-    lower_button,  // what brakes: X, A, a pressed trackpad
-    upper_button,  // what calibrates: Y, B, the menu of a controller that has no other
+    lower_button,  // brake: X, A or a pressed trackpad
+    upper_button,  // calibrate: Y, B, or the menu button if there is neither
     count
 };
 inline constexpr std::size_t k_control_count = static_cast<std::size_t>(Control::count);
-// How far each control is, in [0, 1].
+// Position of each Control, in [0, 1].
 using ControlValues = std::array<double, k_control_count>;
 inline constexpr ControlValues k_controls_at_rest = {0.0, 0.0, 0.5, 0.5, 0.0, 0.0};
 
 ControlValues control_values(const HandReading& hand);
-// Of whose input says no more than whether the hand closes.
+// Control values if only `closes` is known of the input.
 ControlValues closing_values(bool closes);
 
-// A node of a model that goes with a control, and those that say from where to where.
+// Names of three nodes of a model. `node` follows the control: from the pose of `from` (value 0) to
+// that of `to` (value 1).
 struct ControlledNode {
     Control control = Control::trigger;
     std::string node, from, to;
 };
 
-// The same, found in the model. Suffix _ms: in the model's frame, everything else at rest.
+// Poses of the three nodes of a ControlledNode. _ms: in the model's frame, with all other nodes at
+// rest.
 struct ControlMove {
     Control control = Control::trigger;
     Pose rest_ms, from_ms, to_ms;
 };
-// Of what hangs at the model's node with this pointer, the outermost first. What the model does not
-// have, is squashed, or does not lie beside its ends moves nothing.
+// Moves of the node with this pointer and of its ancestors, outermost first. A node is skipped if
+// it or its end nodes (`from`, `to`) are missing, have a scale that a Pose cannot hold, or are not
+// siblings.
 std::vector<ControlMove> moves_of(const std::string& pointer, std::span<const GltfNode> nodes,
                                   std::span<const ControlledNode> controlled);
-// Moves what is at its rest in the model's frame: in it too.
+// Transform in the model's frame that moves a part from its rest pose to its pose at `values`.
 Pose moved_by(std::span<const ControlMove> moves, const ControlValues& values);
 
 }  // namespace handhold

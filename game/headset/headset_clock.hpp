@@ -4,22 +4,23 @@
 
 namespace handhold {
 
-// The times at which a headset shows its pictures, as frames of the simulation: one for every
-// refresh of the display, however late a picture comes, all of one length. A session that was
-// recorded then plays again at `hz` bit for bit.
+// Converts a headset's display times to simulation frames of constant length: one per display
+// refresh, even if pictures come late. Because the length is constant, a recorded session can be
+// replayed at `hz`, bit for bit.
 class HeadsetClock {
   public:
-    // Frames that are due until a picture that will be seen at display_ns; 0 where that refresh had
-    // its frame. The first call, and the first after pause(), has none due. The first
-    // period_ns > 0 decides how long a frame is. Later than k_max_frames, time goes slower.
+    // Returns the number of frames to simulate before drawing the picture that is displayed at
+    // display_ns. 0 if that refresh already had its frame, and in the first call and the first call
+    // after pause(). At most k_max_frames: beyond that, simulated time falls behind. The first
+    // period_ns > 0 in such a first call sets the length of a frame.
     int advance(std::int64_t display_ns, std::int64_t period_ns);
 
-    // Until the next advance() no time passes: the runtime was away, or its clock is another.
+    // Skips the time until the next advance(): the runtime was lost, or has a different clock now.
     void pause() { runs_ = false; }
 
     double hz() const { return hz_; }
     double dt_s() const { return 1.0 / hz_; }
-    // Of the n-th last of the frames that advance() gave, 0 being the last: when it is seen.
+    // Display time of one of the frames that advance() counted: 0: the last one, 1: the one before.
     std::int64_t frame_ns(int before_last) const;
 
     static constexpr int k_max_frames = 9;
@@ -29,7 +30,7 @@ class HeadsetClock {
     bool has_hz_ = false;
     bool runs_ = false;
     std::int64_t begin_ns_ = 0;  // display time of frame 0
-    std::int64_t done_ = 0;      // frames
+    std::int64_t done_ = 0;      // number of frames counted so far
 };
 
 }  // namespace handhold

@@ -7,38 +7,39 @@
 #include "game/desktop/play_settings.hpp"
 #include "game/headset/headset_reading.hpp"
 
-// What a headset's runtime says, as the input of the game: the samples that recordings and the
-// emulated body of keyboard and mouse give, and what sticks and buttons ask for.
+// Converts readings of a headset to the game's input: tracking samples (as from recordings, or from
+// keyboard and mouse) and player commands.
 namespace handhold {
 
-// The wrist in OpenXR's grip frame, which lies in a controller's handle: the palm's skin is on the
-// handle as HandleGrip says, as with WebXR's profiles.
+// Wrist pose in OpenXR's grip frame. The hand holds the controller's handle like a default
+// HandleGrip.
 Pose hand_in_grip(HandSide side, const HandTuning& tuning);
-// The wrist in OpenXR's palm frame, whose origin is the palm's centre, on its skin, and which knows
-// the hand's own axis.
+// Wrist pose in OpenXR's palm frame: origin at the palm's centre, on the skin; -Z along the hand to
+// the fingers.
 Pose hand_in_palm(HandSide side, const HandTuning& tuning);
 
-// 0 for a finger in line with the hand, 1 for one whose tip has come back to point at the wrist.
+// Curl of a finger: 0 if it is in line with the hand, 1 if it points back to the wrist.
 double finger_curl(const Vec3& wrist, const Vec3& knuckle, const Vec3& tip);
 
 // State kept from one reading to the next.
 struct HeadsetMemory {
     std::array<bool, k_hand_count> grabs{};
-    bool turned = false;  // one snap turn a push of the stick
+    bool turned = false;  // the current push of the stick has made its snap turn
 };
 
-// A hand closes from 55 % of squeeze, trigger or curled fingers on until all are below 35 %. A
-// palm counts before a grip, and both before tracked fingers; what is not tracked has a pose of NaN
-// and keeps its button as it was: losing sight of a hand does not open it.
+// A hand closes when squeeze, trigger or finger curl exceeds 0.55, and opens when none exceeds
+// 0.35. Finger curl counts only for a hand without palm and grip pose. The hand's pose comes from
+// the palm pose, else the grip pose, else the tracked wrist. If none is tracked, the pose is NaN
+// and the hand stays open or closed: losing sight of a hand does not open it.
 //
-// `own_joints`: the joint of a controller's profile, in place of the ones above and of Tuning's;
-// a grip then counts before a palm, and is itself the controller's pose.
+// `own_joints`: controller-to-hand joints of a profile, by HandSide, instead of the default ones.
+// The grip pose then precedes the palm pose, and is itself the controller's pose.
 TrackingSample read_headset(const HeadsetReading& reading, double t_s, const HandTuning& tuning,
                             HeadsetMemory& memory,
                             const std::array<Pose, k_hand_count>* own_joints = nullptr);
 
-// Right stick: turns, by steps or smoothly. Left stick and head: where the jets push. Either brake
-// brakes; both calibrate buttons together ask for calibration.
+// Right stick: turns, in steps or smoothly. Left stick: thrust of the jets, relative to the head.
+// Either brake button brakes. Both calibrate buttons together start a calibration.
 PlayerCommands read_headset_commands(const HeadsetReading& reading, TurnKind turn,
                                      HeadsetMemory& memory);
 

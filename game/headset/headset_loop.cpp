@@ -24,7 +24,7 @@ double microseconds_since(std::int64_t begin_ns) {
     return 1e-3 * static_cast<double>(now_ns() - begin_ns);
 }
 
-// Left and right beside each other.
+// Copies one eye's picture (0 left, 1 right) into its half of `both`.
 void put_beside(const Image& eye, std::size_t which, Image& both) {
     const int width = eye.width_px;
     both.width_px = 2 * width;
@@ -101,7 +101,7 @@ class HeadsetLoop {
         return false;
     }
 
-    // The runtime ends the session while frames go on.
+    // Asks the runtime to end the session, and submits empty frames until it has.
     void leave() {
         constexpr int k_max_frames = 200;
         headset_->ask_to_leave();
@@ -112,7 +112,7 @@ class HeadsetLoop {
         }
     }
 
-    // Who wants to end it here.
+    // Sets ends_ if a signal, the mirror window or its leave key asks for it.
     void look_around() {
         ends_ = ends_ || (stage_.asked_to_end != nullptr && *stage_.asked_to_end != 0);
         if (stage_.mirror == nullptr) {
@@ -125,7 +125,7 @@ class HeadsetLoop {
 
     void frame() {
         const HeadsetFrame frame = headset_->begin_frame();
-        if (frame.display_ns == 0) {  // lost: poll() says so
+        if (frame.display_ns == 0) {  // lost: the next poll() reports it
             return;
         }
         headset_->sync();
@@ -188,7 +188,7 @@ class HeadsetLoop {
         std::fflush(stage_.status);
     }
 
-    // What he is told of himself.
+    // Message for the player on the help panel: a lost hand, or the state of the calibration.
     std::string notice() const {
         const Calibration& calibration = world().calibration.at(stage_.session.player().player);
         for (const HandSide side : {HandSide::left, HandSide::right}) {
@@ -215,7 +215,7 @@ class HeadsetLoop {
         sheet_ui_ = overlay_->end();
     }
 
-    // Where it is beside the head in the room, it is beside the head in the world.
+    // The panel has the same pose relative to the head in the world as in play space.
     std::optional<Sheet> sheet_before(const Pose& head_ws) const {
         if (!panel_.shows()) {
             return std::nullopt;
@@ -235,7 +235,7 @@ class HeadsetLoop {
         return overlay_->end();
     }
 
-    // Where the eye is beside the head in the room, it is beside the head in the world.
+    // The eye has the same pose relative to the head in the world as in play space.
     void draw(const EyePicture& eye, const UiPicture& ui) {
         const Entity player = stage_.session.player().player;
         const RenderPose& render = world().render_pose.at(player);
@@ -272,10 +272,11 @@ class HeadsetLoop {
     HeadsetClock clock_;
     HeadsetMemory memory_;
     HeadsetFigures figures_;
-    std::optional<Overlay> overlay_;  // of both eyes and the panel; none: headless
+    // Lays out the help panel and the eyes' vignette, one after the other. nullopt if headless.
+    std::optional<Overlay> overlay_;
     HeadsetPanel panel_;
-    UiPicture sheet_ui_;  // while it shows
-    Pose head_ps_;        // as the last reading had it
+    UiPicture sheet_ui_;  // layout of the help panel, while it is shown
+    Pose head_ps_;        // of the last reading that had one
     Image eye_image_;     // reused
     Image mirror_image_;  // the left eye's
     std::uint64_t frames_ = 0;

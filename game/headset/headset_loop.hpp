@@ -15,23 +15,24 @@
 
 namespace handhold {
 
-// One scene, played in a headset until somebody leaves it.
+// Inputs and outputs of a session that is played in a headset.
 struct HeadsetStage {
     const PlayOptions& options;
     HeadsetSession& session;
     PlayerView* view = nullptr;  // null: headless
-    Window* mirror = nullptr;    // null: none
+    Window* mirror = nullptr;    // null: no mirror window
     EyeSize eye_size;
     PlayTally& tally;
-    Image& picture;               // both eyes beside each other, where options ask for a picture
-    std::FILE* status = nullptr;  // a line every tenth of a second; none: null
+    Image& picture;               // out: both eyes side by side, if `options` ask for a picture
+    std::FILE* status = nullptr;  // gets a line every tenth of a second; null: none
     const volatile std::sig_atomic_t* asked_to_end = nullptr;  // not 0: leave
     double hz = 90.0;  // out: frames a second of the session
 };
 
-// One frame of the simulation for each refresh of the display, drawn for when it will be seen. A
-// runtime that is lost is looked for again for half a minute; meanwhile no time passes. False, with
-// the reason, where it does not come back.
+// Plays the session until somebody ends it. Simulates one frame per display refresh, and draws it
+// as predicted for the time of its display. If the runtime is lost, tries for half a minute to
+// reopen it; simulated time stands still meanwhile. Returns false, with the reason, if the session
+// cannot begin or the runtime does not come back.
 bool play_in_headset(HeadsetStage& stage, std::unique_ptr<Headset> headset, std::string& why_not);
 
 }  // namespace handhold

@@ -16,18 +16,19 @@ class HeadsetSession {
   public:
     HeadsetSession(Scene scene, const Pose& origin_ws);
 
-    // A controller's own joint in place of Tuning's; before the first frame.
+    // Replaces the controller-to-hand joints from Tuning, by HandSide. Call before the first frame.
     void set_controller_joints(const std::array<Pose, k_hand_count>& hand_in_grip);
-    // Those, or nullptr.
+    // The joints set by set_controller_joints, or nullptr.
     const std::array<Pose, k_hand_count>* controller_joints() const {
         return joints_ ? &*joints_ : nullptr;
     }
 
-    // One frame of dt_s: `sample` is at its end, and, before the first frame, at its beginning too.
+    // Steps one frame of dt_s. `sample` applies to the end of the frame; in the first frame, also
+    // to its beginning.
     void step(TrackingSample sample, PlayerCommands commands, double dt_s);
 
-    // What his controllers shake with after the last frame: a little where a palm came near enough
-    // to touch something, more where the hand gripped it.
+    // Haptic pulses due after the last frame, by HandSide: weak if the palm has begun to touch
+    // something, strong if the hand has begun to grip.
     std::array<HapticPulse, k_hand_count> pulses() const { return pulses_; }
 
     const Scene& scene() const { return scene_; }
@@ -36,8 +37,9 @@ class HeadsetSession {
     const PlayerEntities& player() const { return player_; }
     double t_s() const { return scene_.world.clock.t_s; }
 
-    // Keeps what the headset says from the first frame on. Played from the same place at the same
-    // rate it repeats every bit, but for turns, brake and jets.
+    // Records the tracking samples; call before the first frame. Replayed from the same start pose
+    // at the same rate, they reproduce the session bit for bit, unless the player used turns, brake
+    // or jets (used_sticks).
     void record() { records_ = true; }
     const Recording& recording() const { return recording_; }
     bool used_sticks() const { return used_sticks_; }

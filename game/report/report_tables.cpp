@@ -35,7 +35,7 @@ std::string wrap_table(const std::string& rows) {
     return "<div class=\"scroll\"><table>\n" + rows + "</tbody></table></div>\n";
 }
 
-// A fixed number of decimals, so that decimal points align.
+// A table cell with a fixed number of decimals, so that decimal points align.
 std::string make_fixed_cell(double value, int decimals, const char* unit = "") {
     std::string text;
     append_fixed(text, value, decimals);

@@ -16,7 +16,8 @@ namespace {
 constexpr int k_climbers = 12;
 constexpr std::size_t k_body_count = 24;
 constexpr std::uint64_t k_seed = 7;
-constexpr double k_session_clearance_m = 3.0;  // around the first spawn, where the session begins
+// No bodies are added within this distance of the first spawn, where the session begins.
+constexpr double k_session_clearance_m = 3.0;
 
 struct Thing {
     const char* name;

@@ -69,8 +69,8 @@ class SceneBuilder {
     }
 
   private:
-    // Names within the file are unique already; parts of levels and players' hands get their names
-    // here. Returns false, and keeps the error, if the name is taken.
+    // Reserves a name. Names within the file are already unique, but those of levels' parts and
+    // players' hands are not. Returns false, and keeps the error, if the name is taken.
     bool take_name(const std::string& name) {
         if (!error_ && !names_.insert(name).second) {
             error_ =
@@ -82,7 +82,7 @@ class SceneBuilder {
 
     Vec3 turned(const Vec3& vector) const { return file_.world_transform.rotation * vector; }
 
-    // Empty, with the error kept, if the file is refused.
+    // nullopt, with the error kept, if the file cannot be loaded.
     std::optional<GltfLevel> load(const std::filesystem::path& path) {
         if (error_) {
             return std::nullopt;
@@ -92,7 +92,8 @@ class SceneBuilder {
             error_ = level.error();
             return std::nullopt;
         }
-        for (const std::string& note : level.value().notes) {  // once for a file of many bodies
+        // A file that several bodies use adds its notes once.
+        for (const std::string& note : level.value().notes) {
             if (std::find(scene_.notes.begin(), scene_.notes.end(), note) == scene_.notes.end()) {
                 scene_.notes.push_back(note);
             }
@@ -122,7 +123,8 @@ class SceneBuilder {
                     add_static_body(scene_, name, placed_mesh(mesh, level), file_.world_transform));
             }
         }
-        if (!bodies.empty()) {  // they are static, so any of them carries the visuals
+        // All parts are static, so the body of any part can carry the visuals.
+        if (!bodies.empty()) {
             for (LevelMesh& part : make_level_meshes(*loaded)) {
                 scene_.visuals.push_back({bodies.front(), placed_mesh(std::move(part.mesh), level),
                                           std::nullopt, part.look});
@@ -130,7 +132,7 @@ class SceneBuilder {
         }
     }
 
-    // A model that is drawn instead of the body's shape.
+    // Adds a model that is drawn instead of the body's shape.
     void add_visuals(Entity body, const GltfLevel& model, const Pose& pose_bs) {
         SceneLevel placed;
         placed.pose = pose_bs;
@@ -140,7 +142,7 @@ class SceneBuilder {
         }
     }
 
-    // All parts of a file as one mesh, shared by all bodies that name the file.
+    // All parts of a file as one mesh. Bodies that name the same file share the mesh.
     std::shared_ptr<const Mesh> load_mesh(const std::filesystem::path& path) {
         std::shared_ptr<const Mesh>& mesh = meshes_[path];
         if (mesh != nullptr) {
@@ -344,10 +346,11 @@ class SceneBuilder {
     const std::filesystem::path& path_;
     const LevelSource& levels_;
     Scene& scene_;
-    std::string place_;            // JSON pointer of what is being added
+    std::string place_;            // JSON pointer of the element that is being added
     std::set<std::string> names_;  // taken names
     std::map<std::filesystem::path, std::shared_ptr<const Mesh>> meshes_;
-    std::map<std::array<double, 6>, std::shared_ptr<const Mesh>> shape_meshes_;  // by their numbers
+    // By kind and dimensions of the shape.
+    std::map<std::array<double, 6>, std::shared_ptr<const Mesh>> shape_meshes_;
     std::optional<FileError> error_;
 };
 

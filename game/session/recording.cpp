@@ -17,8 +17,8 @@ constexpr double k_max_time_s = 1e9;
 constexpr double k_max_coordinate_m = 1e6;
 constexpr double k_max_buttons = 65535.0;
 constexpr double k_length_tolerance = 1e-2;
-// A quaternion so near to unit length is as unit as rounding allows; dividing again could move its
-// last bits, and a saved recording has to load as what it was.
+// A quaternion this near to unit length is not normalised. That could change its last bits, but a
+// saved recording must load unchanged.
 constexpr double k_unit_tolerance = 1e-14;
 
 constexpr std::size_t k_pose_cells = 7;
@@ -35,7 +35,7 @@ constexpr std::array<const char*, k_head_begin + k_pose_cells + 2 * k_hand_cells
 // One row's cells in the order of k_columns.
 using Cells = std::array<double, k_columns.size()>;
 
-// Reads rows into samples; the first bad cell is kept as the error.
+// Reads rows into samples and keeps the first bad cell as the error.
 class RowReader {
   public:
     explicit RowReader(std::string file) : file_(std::move(file)) {}
@@ -96,7 +96,7 @@ class RowReader {
     bool read_hand(const Cells& cells, std::size_t begin, RecordedHand& hand) {
         const std::size_t buttons = begin + k_pose_cells;
         const std::size_t trigger = buttons + 1;
-        // Written so that NaN, allowed for poses only, fails.
+        // Written so that NaN fails: NaN is allowed only in poses.
         if (!read_pose(cells, begin, hand.controller) ||
             !check(buttons,
                    cells[buttons] >= 0.0 && cells[buttons] <= k_max_buttons &&
@@ -201,8 +201,8 @@ Result<Recording> load_recording(const std::filesystem::path& path) {
 
 std::optional<FileError> save_recording(const std::filesystem::path& path,
                                         const Recording& recording) {
-    constexpr std::size_t k_bytes_per_row =
-        480;  // 26 cells of up to 17 digits: one allocation for nearly all
+    // 26 cells of up to 17 digits, so that nearly every recording needs one allocation.
+    constexpr std::size_t k_bytes_per_row = 480;
     std::string text;
     text.reserve((recording.samples.size() + 1) * k_bytes_per_row);
     for (const char* column : k_columns) {

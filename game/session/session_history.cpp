@@ -68,7 +68,8 @@ std::size_t SessionHistory::rewind(DesktopSession& session, std::size_t frames) 
     return frames - left;
 }
 
-// Replays from the stretch's start with the tuning it had then.
+// Restores the stretch's first state and replays its inputs with the tuning of that time. Keeps the
+// session's current tuning.
 void SessionHistory::play_again(DesktopSession& session, const Stretch& stretch) const {
     const Tuning now = std::exchange(session.tuning(), stretch.tuning);
     session.restore(stretch.state, assets_);

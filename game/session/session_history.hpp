@@ -9,8 +9,8 @@
 
 namespace handhold {
 
-// The last seconds of a session, for rewinding to any frame bit for bit: snapshots about every
-// tenth of a second, and the input of each frame since. Frames between two snapshots are replayed.
+// The last seconds of a session, for rewinding to any frame, bit for bit. Keeps snapshots about
+// every tenth of a second and the input of each frame. Frames between two snapshots are replayed.
 class SessionHistory {
   public:
     static constexpr std::size_t k_frames_a_snapshot = 10;
@@ -21,16 +21,18 @@ class SessionHistory {
 
     // Steps the session by a frame and records it.
     void step(DesktopSession& session, const DesktopInput& input);
-    // Rewinds by so many frames, or as many as are recorded, and forgets the frames after. Returns
-    // the number of frames. The present tuning stays; replayed frames use the tuning they had.
+    // Rewinds by `frames`, or by as many as are recorded, and forgets the later ones. Returns the
+    // number of frames rewound. The session keeps its current tuning; replayed frames use the
+    // tuning of their time.
     std::size_t rewind(DesktopSession& session, std::size_t frames);
 
-    std::size_t frames() const;  // frames that it can rewind
+    std::size_t frames() const;  // number of frames that can be rewound
     std::size_t bytes() const { return bytes_; }
 
   private:
+    // A snapshot and the inputs of the frames after it.
     struct Stretch {
-        DesktopState state;  // at the start of the stretch
+        DesktopState state;  // state before the first input
         Tuning tuning;
         std::vector<DesktopInput> inputs;
     };
@@ -39,7 +41,7 @@ class SessionHistory {
 
     SnapshotAssets assets_;
     std::size_t most_bytes_;
-    std::size_t bytes_ = 0;  // of the snapshots
+    std::size_t bytes_ = 0;  // size of all snapshots
     std::deque<Stretch> stretches_;
 };
 

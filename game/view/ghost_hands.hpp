@@ -5,8 +5,8 @@
 #include "components/render.hpp"
 #include "game/render/render_frame.hpp"
 
-// A ghost shows where a player's hand is tracked if it is shown elsewhere (talk row 18). Rendering
-// only: the simulation reads nothing of this.
+// A ghost shows where a player's hand is tracked while the hand is shown elsewhere (talk row 18).
+// Rendering only: the simulation does not read it.
 namespace handhold {
 
 struct GhostSettings {
@@ -14,13 +14,14 @@ struct GhostSettings {
     // is fully shown. A fitted palm is up to 4 cm from the tracked hand.
     double apart_from_m = 0.05;
     double apart_full_m = 0.14;
-    // The same for the angle between them.
+    // The same two limits for the angle between tracked and shown wrist.
     double turned_from_rad = 0.9;
     double turned_full_rad = 1.4;
     float seen = 0.66F;    // [0, 1]; opacity where visible
     float hidden = 0.55F;  // opacity where geometry hides it
-    // An empty hand inside or behind a wall shines through it in its own player's view. This starts
-    // at the first depth along the view and is complete at the second. Rails are thinner than that.
+    // In the player's own view, an empty hand inside or behind a wall shines through the wall.
+    // This starts at a depth of fade_start_m and is complete at fade_full_m. Rails are thinner,
+    // so hands do not shine through them.
     double fade_start_m = 0.045;
     double fade_full_m = 0.09;
     float penetrating = 0.62F;
@@ -33,7 +34,7 @@ struct GhostSettings {
     Color lost = {1.0F, 0.55F, 0.15F};  // tracking is lost: the last known pose
 };
 
-// Strength of the ghost, [0, 1]; 0 if tracked and shown pose agree.
+// Opacity factor of the ghost, [0, 1]; 0 if tracked and shown pose are nearly equal.
 inline double ghost_share(const RenderPose::Hand& hand, const GhostSettings& settings) {
     const auto ramp = [](double x, double from, double full) {
         return std::clamp((x - from) / (full - from), 0.0, 1.0);

@@ -13,7 +13,7 @@
 namespace handhold {
 namespace {
 
-// The shots of the scene; fails if the list has none.
+// Loads the scene's shots; fails if the list has none.
 Result<std::vector<Shot>> choose_shots(const RunOptions& options) {
     Result<std::vector<Shot>> shots = load_shots(options.shots);
     if (!shots) {
@@ -27,7 +27,7 @@ Result<std::vector<Shot>> choose_shots(const RunOptions& options) {
     return shots;
 }
 
-// The first shot that names something the scene lacks.
+// An error for the first shot that names a body or player that the scene does not have.
 std::optional<FileError> check_names(const RunOptions& options, const std::vector<Shot>& shots,
                                      const World& world) {
     for (const Shot& shot : shots) {

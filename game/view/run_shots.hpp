@@ -8,7 +8,7 @@
 
 namespace handhold {
 
-// A session that is ready to be played.
+// A session that can be played.
 struct ReadySession {
     Scene& scene;
     FrameCaches& caches;

@@ -80,7 +80,7 @@ bool Eyes::create_eye(XrSession session, Eye& eye, std::string& why_not) const {
                       xr_struct<XrSwapchainImageOpenGLKHR>(XR_TYPE_SWAPCHAIN_IMAGE_OPENGL_KHR));
     return xr_succeeds(xrEnumerateSwapchainImages(swapchain, count, &count,
                                                   reinterpret_cast<XrSwapchainImageBaseHeader*>(
-                                                      eye.images.data())),  // NOLINT: its way
+                                                      eye.images.data())),  // NOLINT: OpenXR
                        "xrEnumerateSwapchainImages", why_not);
 }
 
@@ -134,7 +134,7 @@ bool Eyes::draw(XrSession session, XrSpace room, XrTime time, const DrawEye& dra
 }
 
 const XrCompositionLayerBaseHeader* Eyes::layer() const {
-    return reinterpret_cast<const XrCompositionLayerBaseHeader*>(&layer_);  // NOLINT: OpenXR's way
+    return reinterpret_cast<const XrCompositionLayerBaseHeader*>(&layer_);  // NOLINT: OpenXR API
 }
 
 }  // namespace handhold

@@ -10,18 +10,18 @@
 
 namespace handhold {
 
-// What the runtime would have each eye's picture be; zero where it does not say.
+// Recommended and largest size of each eye's picture; 0 if the runtime does not say.
 EyeSizes eye_sizes_of(const HeadsetInstance& instance);
 
-// The pictures of both eyes, as the runtime owns them. The session must outlive it.
+// Pictures of both eyes, in swapchains of the runtime. The session must outlive this object.
 class Eyes {
   public:
     static std::optional<Eyes> create(XrSession session, const EyeSize& size, std::string& why_not);
 
-    // Draws both eyes, where they are at `time`, into pictures of the runtime. False where the
-    // runtime does not say where they are or lends no picture.
+    // Draws both eyes into the runtime's pictures, from their predicted poses at `time`. Returns
+    // false if the runtime does not know the poses or provides no picture.
     bool draw(XrSession session, XrSpace room, XrTime time, const DrawEye& draw_eye);
-    // What draw() made, for the end of a frame. Valid until the next draw().
+    // Layer of the last draw(), for xrEndFrame. Valid until the next draw().
     const XrCompositionLayerBaseHeader* layer() const;
 
   private:

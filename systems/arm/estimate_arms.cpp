@@ -19,7 +19,7 @@ bool has_jumped(const Vec3& before, const Vec3& now, double dt_s) {
     return is_jump((now - before).norm(), dt_s);
 }
 
-// Values of a time step that all players share.
+// Values of one time step that are the same for all players.
 struct Step {
     double dt_s = 0.0;
     std::array<double, k_look_filters> look_shares{};  // filter gains for the look direction
@@ -86,7 +86,7 @@ ArmLine line_of(const Vec3& facing, const Vec3& rest_ps, const Vec3& hand_ps, do
 // Inputs of one elbow's estimate.
 struct ArmStep {
     HandSide side = HandSide::left;
-    bool reset = false;  // ignore the memory
+    bool reset = false;  // true: ignore ArmMemory
     double upper_m = 0.0;
     double forearm_m = 0.0;
     Vec3 pole_ts = Vec3::Zero();
@@ -112,7 +112,8 @@ void estimate_elbow(const Step& step, const ArmStep& arm, ArmMemory::Arm& memory
     if (fresh) {
         memory.bend_ts = wanted_ts;
     } else {
-        // A pole near the axis determines no direction: the filter slows down there.
+        // A pole nearly parallel to the axis determines no direction, so the filter slows down
+        // there.
         const double clear = smooth_step(length / std::max(arm.pole_ts.norm(), 1e-9), 0.0, 0.5);
         memory.bend_ts = turn_bend(
             axis_ts, before_ts, wanted_ts,
@@ -162,9 +163,9 @@ Pose between(const Pose& a, const Pose& b, double share) {
             unit_quat(mixed[3], mixed[0], mixed[1], mixed[2])};
 }
 
-// Subdivides frames much longer than k_step_s and interpolates head and hands linearly between the
-// frames. The state then evolves nearly equally at any frame rate down to 10 Hz. k_round_up places
-// the thresholds between step counts away from usual frame rates.
+// Divides frames much longer than k_step_s into steps, with head and hands interpolated linearly.
+// The state then evolves nearly equally at any frame rate down to 10 Hz. k_round_up keeps the frame
+// lengths at which the number of steps changes away from usual frame rates.
 void estimate_player(const TrackedBody& now, const Step& frame, ArmMemory& memory,
                      ArmEstimate& out) {
     constexpr double k_step_s = 1.0 / 90.0;
@@ -203,14 +204,14 @@ void estimate_player(const TrackedBody& now, const Step& frame, ArmMemory& memor
     }
 }
 
-// Writes the palms' poses in play space.
+// Writes the palms' poses to the estimates, in play space.
 void take_hands(const EstimateArmsIo& io) {
     Entity player = k_no_entity;
     const Pose* origin_ws = nullptr;
     ArmEstimate* estimate = nullptr;
     for (std::size_t row = 0; row < io.owner.size(); ++row) {
         const HandOwner& owner = io.owner.rows()[row];
-        if (owner.player != player) {  // a player's hands are usually neighbours
+        if (owner.player != player) {  // a player's hands are usually in adjacent rows
             player = owner.player;
             origin_ws = &io.origin.at(player).pose_ws;
             estimate = &io.estimate.at(player);

@@ -16,14 +16,15 @@ struct EstimateArmsIo {
     const Column<HeadTracking>& head;      // in
     const Column<BodyMeasures>& measures;  // in: every player
     const Column<HandOwner>& owner;        // in
-    const Column<PalmPose>& palm;          // in: hands as they are shown
+    const Column<PalmPose>& palm;          // in: shown hands
     Column<ArmMemory>& memory;             // in/out
     Column<ArmEstimate>& estimate;         // out
 };
 
 // Stage 12. Estimates every player's chest, shoulders and elbow directions from head and hands
-// (talk rows 19 to 22; the steps are in systems/arm/shared). Works in play space, so that a player
-// may hang upside down or turn with a ship. Re-initialises the state if the head or a hand jumps.
+// (talk rows 19 to 22; the steps are in systems/arm/shared). Works in play space, so that players
+// may hang upside down or turn with a ship. If the head jumps, the state is re-initialised; if a
+// hand jumps, that arm's state.
 void estimate_arms(const EstimateArmsIo& io, const ArmTuning& tuning);
 
 }  // namespace handhold

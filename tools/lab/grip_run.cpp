@@ -66,7 +66,7 @@ class OneHand {
         }
     }
 
-    // Runs one frame with the previous frame's results.
+    // Runs one frame that reuses the previous frame's results. Returns its time in microseconds.
     double run_frame_us(const Pose& wrist, const Tuning& tuning, const GripVariant& variant) {
         surroundings_.front().wrist_bs = wrist;
         traces_.front() = {};
@@ -108,7 +108,8 @@ class OneHand {
             close_baseline(f, tuning, variant);
         }
     }
-    // Shows the target pose at once: transitions are not compared.
+    // Closes one finger with a baseline method. The target pose is shown at once, because
+    // transitions are not compared.
     void close_baseline(std::size_t f, const Tuning& tuning, const GripVariant& variant) {
         const FingerRig& finger = rig_.fingers[f];
         FingerAngles& shown = fingers_.rows().front().shown[f];
@@ -212,7 +213,7 @@ void add_pops(const std::array<FingerTrace, k_finger_count>& traces, WarmHand& w
     }
 }
 
-// The hand as shown.
+// Writes the shown hand to `posed`.
 void describe(const OneHand& hand, const GripMesh& mesh, const HandRig& rig, PosedHand& posed) {
     posed.gripped = hand.surface().triangle != GripSurface::k_none;
     posed.reason = posed.gripped ? "" : "no_surface";

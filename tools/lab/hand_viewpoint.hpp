@@ -27,16 +27,16 @@ struct HandView {
 
 using Triangle = std::array<Vec3, 3>;
 
-// The triangles of all meshes within `reach_m` of the point.
+// The triangles of all meshes that are within `reach_m` of the point.
 std::vector<Triangle> triangles_near(std::span<const Mesh> meshes, const Vec3& point,
                                      double reach_m);
 
-// Of evenly spread directions, the one from which most of the fingers is visible at `distance_m`,
-// in front of both the triangles and the hand itself. Prefers views from beside the hand, which
-// show gaps and penetrating fingers.
+// Chooses, among evenly spread directions, the one from which most of the fingers is visible at
+// `distance_m`: hidden neither by the triangles nor by the hand. Prefers views from beside the
+// hand, which show gaps and penetrating fingers.
 HandView choose_hand_view(std::span<const HandCapsule> capsules, const Quat& wrist,
                           std::span<const Triangle> around, double distance_m);
-// Only the bounding sphere.
+// The sphere around the hand; `towards` stays at its default.
 HandView hand_bounds(std::span<const HandCapsule> capsules);
 
 }  // namespace handhold::lab

@@ -10,10 +10,11 @@
 // Commit 20cfacb, seed 1. Data: body_train, 29 people fitted, 10 to choose by. Scores of those
 // who were not fitted, without low-pass filters: mean (lowest to highest with one person left out).
 // Chest:
-//   the talk's form, 0 numbers: chest yaw, deg 9.36 (8.39 to 9.79); shoulder, cm 5.35 (5.20 to 5.51)
-//   8 hidden, 343 numbers: chest yaw, deg 7.90 (6.89 to 8.47); shoulder, cm 4.60 (4.32 to 4.75)
-//   16 hidden, 623 numbers: chest yaw, deg 7.83 (6.79 to 8.41); shoulder, cm 4.59 (4.30 to 4.75)
-//   24 hidden, 903 numbers: chest yaw, deg 7.60 (6.66 to 8.17); shoulder, cm 4.54 (4.30 to 4.68)
+//   the talk's form, 0 numbers: chest yaw, deg 9.36 (8.39 to 9.79); shoulder, cm 5.35 (5.20
+//   to 5.51) 8 hidden, 343 numbers: chest yaw, deg 7.90 (6.89 to 8.47); shoulder, cm 4.60 (4.32
+//   to 4.75) 16 hidden, 623 numbers: chest yaw, deg 7.83 (6.79 to 8.41); shoulder, cm 4.59 (4.30
+//   to 4.75) 24 hidden, 903 numbers: chest yaw, deg 7.60 (6.66 to 8.17); shoulder, cm 4.54 (4.30
+//   to 4.68)
 // Elbows, chest with 24 hidden:
 //   the talk's form, 0 numbers: elbow, cm 5.85 (5.45 to 6.32); swivel, deg 17.32 (16.77 to 18.12)
 //   8 hidden, 385 numbers: elbow, cm 5.28 (4.85 to 5.81); swivel, deg 13.90 (13.26 to 15.54)

@@ -12,12 +12,13 @@
 // Constants: body_constants.hpp, fitted by tools/lab/fit_body.
 namespace handhold {
 
-// Lean of the chest: rotates the play space's up by a share of the head's tilt.
+// Lean of the chest: the rotation from the play space's up towards the head's up, by a fitted
+// share.
 Quat chest_lean(const Vec3& head_up_ps);
 
 // Level direction in which the chest faces, in the talk's form. The chest turns from `look_ps`
-// towards the hands' sum, turns perpendicular to the line between the hands, and follows hands that
-// roll.
+// towards the mean position of the hands, turns perpendicular to the line between them, and follows
+// rolling hands. `lean_ps`: chest_lean. `limit`: the maximum angle from the look direction.
 Vec3 chest_facing(const Vec3& look_ps, const Quat& lean_ps, const TrackedBody& body,
                   const BodyAxes& axes, const TurnLimit& limit);
 

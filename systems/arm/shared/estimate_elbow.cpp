@@ -10,10 +10,12 @@
 namespace handhold {
 namespace {
 
-// Reach of the clavicle by the hand's distance in arm lengths; piecewise linear.
+// Largest displacement of the shoulder by the clavicle, as a piecewise linear function of the
+// hand's distance from the shoulder in arm lengths.
 double clavicle_reach_m(double distance) {
     struct Knot {
-        double distance, reach_m, rise_m;  // rise_m: slope to the next knot, per arm length
+        // rise_m: slope from this knot to the next, per arm length
+        double distance, reach_m, rise_m;
     };
     constexpr std::array<Knot, 4> k_curve = {{{1.05, 0.032, (0.070 - 0.032) / (1.2 - 1.05)},
                                               {0.85, 0.018, (0.032 - 0.018) / (1.05 - 0.85)},
@@ -33,7 +35,7 @@ double clavicle_reach_m(double distance) {
 constexpr double k_near_shoulder = 0.3;
 constexpr double k_clear = 0.7;
 
-constexpr double k_near_bend_cosine = 0.95;  // above it share_of_line replaces trigonometry
+constexpr double k_near_bend_cosine = 0.95;  // for larger cosines, share_of_line is used
 
 }  // namespace
 
@@ -95,7 +97,8 @@ Vec3 reachable_bend(const ElbowCircle& circle, const Vec3& bend_ts, HandSide sid
     Vec3 cone_ts = tuning.elbow_cone;
     cone_ts.x() *= side == HandSide::right ? 1.0 : -1.0;
     const double upper2 = circle.middle_ts.squaredNorm() + circle.radius_m * circle.radius_m;
-    // Required displacement of the elbow along the cone's axis, from the circle's middle.
+    // Minimum displacement of the elbow from the circle's middle along the cone's axis that keeps
+    // the upper arm inside the cone.
     const double needs = std::sqrt(upper2 * cone_ts.squaredNorm()) * tuning.elbow_cone_cosine -
                          circle.middle_ts.dot(cone_ts);
     if (circle.radius_m * bend_ts.dot(cone_ts) >= needs) {
@@ -106,7 +109,8 @@ Vec3 reachable_bend(const ElbowCircle& circle, const Vec3& bend_ts, HandSide sid
     if (length < 1e-6) {
         return bend_ts;
     }
-    // Turns from the cone's direction towards `bend_ts` until the cone is reached.
+    // Starts at the direction deepest inside the cone and turns towards `bend_ts` until the cone's
+    // boundary.
     const Vec3 best = aside / length;
     const double cosine = std::clamp(needs / std::max(circle.radius_m * length, 1e-9), -1.0, 1.0);
     const Vec3 square = circle.axis_ts.cross(best);
@@ -116,13 +120,14 @@ Vec3 reachable_bend(const ElbowCircle& circle, const Vec3& bend_ts, HandSide sid
 
 Vec3 carry_bend(const ArmMemory::Arm& arm, const Vec3& axis_ts, const ArmTuning& tuning) {
     const double cosine = arm.axis_ts.dot(axis_ts);
-    // Shortest rotation between the axes, simplified for a vector perpendicular to the first.
+    // Shortest rotation from the old axis to the new one, simplified for a vector perpendicular to
+    // the old axis.
     const Vec3 carried = cosine > -0.5
                              ? Vec3(arm.bend_ts - (arm.axis_ts + axis_ts) *
                                                       (axis_ts.dot(arm.bend_ts) / (1.0 + cosine)))
                              : Vec3(rotation_between(arm.axis_ts, axis_ts) * arm.bend_ts);
-    // Distance of the elbow from the line, divided by the upper arm. If it is small, the elbow's
-    // position does not determine its direction.
+    // Distance of the elbow from the old line, divided by the length of the upper arm. If it is
+    // small, the elbow's position does not determine its direction.
     const double by_upper = 1.0 / std::max(arm.elbow_ts.norm(), 1e-9);
     const double bent = arm.elbow_ts.dot(arm.bend_ts) * by_upper;
     const double stays = tuning.elbow_inertia * smooth_step(bent, 0.3, 0.8);

@@ -12,12 +12,12 @@
 // Constants: body_constants.hpp, fitted by tools/lab/fit_body.
 namespace handhold {
 
-// Displacement of the shoulder by the clavicle, metres. `hand`: from the shoulder, in torso axes
-// and arm lengths.
+// Displacement of the shoulder by the clavicle's movement, metres. `hand`: position relative to the
+// shoulder at rest, in torso axes and arm lengths.
 Vec3 clavicle_shift(const Vec3& hand, const ArmTuning& tuning);
 
-// Displacement of the shoulder towards a hand that the arm does not reach. `hand_m`: from the
-// shoulder.
+// Displacement of the shoulder towards a hand that the arm does not reach. `hand_m`: position
+// relative to the shoulder.
 Vec3 shoulder_follow(const Vec3& hand_m, double arm_m, const ArmTuning& tuning);
 
 // The line from a shoulder to its hand.
@@ -36,8 +36,8 @@ Vec3 elbow_pole(const BodyView& view, HandSide side);
 Vec3 elbow_correction(const BodyView& view, const std::array<ArmLine, k_hand_count>& lines,
                       double turned, double arm_m, HandSide side);
 
-// Positions that the bone lengths allow an elbow: a circle about the line from shoulder to hand.
-// Measured from the shoulder.
+// Elbow positions that the bone lengths allow: a circle about the line from shoulder to hand.
+// Positions are relative to the shoulder.
 struct ElbowCircle {
     Vec3 axis_ts = -Vec3::UnitY();  // unit, towards the hand
     Vec3 middle_ts = Vec3::Zero();
@@ -45,23 +45,23 @@ struct ElbowCircle {
 };
 ElbowCircle elbow_circle(double distance_m, const Vec3& axis_ts, double upper_m, double forearm_m);
 
-// Direction closest to `bend_ts` (unit, perpendicular to the axis) in which the upper arm stays
-// inside the shoulder's cone (ArmTuning::elbow_cone). If the whole circle is outside the cone,
-// returns the direction nearest to it.
+// Returns the elbow direction closest to `bend_ts` (unit, perpendicular to the axis) for which the
+// upper arm is inside the shoulder's cone (ArmTuning::elbow_cone). If the whole circle is outside
+// the cone, returns the direction nearest to the cone.
 Vec3 reachable_bend(const ElbowCircle& circle, const Vec3& bend_ts, HandSide side,
                     const ArmTuning& tuning);
 
-// Carries the last frame's elbow direction to the current line from shoulder to hand. A straight
-// arm's direction turns with the line, without rotating about it; a bent arm's elbow tends to keep
-// its place (ArmTuning::elbow_inertia).
+// Adapts the last frame's elbow direction to the current line from shoulder to hand. If the arm is
+// straight, the direction turns with the line, without rotating about it. The more the arm is bent,
+// the more its elbow keeps its position (ArmTuning::elbow_inertia).
 Vec3 carry_bend(const ArmMemory::Arm& arm, const Vec3& axis_ts, const ArmTuning& tuning);
 
-// Turns `bend_ts` about the axis towards `wanted_ts` by a share of the angle, at most by
-// `most_rad`.
+// How far turn_bend turns: by this share of the angle, but by at most `most_rad`.
 struct BendTurn {
     double share = 0.0;
     double most_rad = 0.0;
 };
+// Turns `bend_ts` about the axis towards `wanted_ts`.
 Vec3 turn_bend(const Vec3& axis_ts, const Vec3& bend_ts, const Vec3& wanted_ts,
                const BendTurn& turn);
 

@@ -8,7 +8,7 @@
 namespace handhold {
 namespace {
 
-constexpr double k_near_level_cosine = 0.95;  // above it share_of_line replaces trigonometry
+constexpr double k_near_level_cosine = 0.95;  // for larger cosines, share_of_line is used
 
 Vec3 level_unit(const Vec3& v) {
     const double by = 1.0 / std::sqrt(v.x() * v.x() + v.z() * v.z());
@@ -22,7 +22,7 @@ Vec3 turned_left(const Vec3& v, double cosine, double sine) {
 }
 
 Quat level_rotation(const Vec3& facing) {
-    // Half-angle formulas.
+    // Half-angle formulas instead of trigonometry.
     const double cosine = -facing.z();
     const double sine = -facing.x();
     if (cosine > -0.5) {
@@ -55,7 +55,8 @@ Vec3 follow_look(const Vec3& look_ps, const Vec3& now_ps, double share) {
 Vec3 turn_at_most(const Vec3& facing_ps, const Vec3& now_ps, double most_rad) {
     const double sine_now = sine_between(facing_ps, now_ps);
     const double cosine_now = facing_ps.dot(now_ps);
-    // Most frames turn by less; sin x > 0.9 x for x < 0.7 shows it without trigonometry.
+    // In most frames the angle is below the limit. sin x > 0.9 x for x < 0.7 shows this without
+    // trigonometry.
     if (cosine_now > 0.75 && std::abs(sine_now) <= 0.9 * most_rad) {
         return now_ps;
     }

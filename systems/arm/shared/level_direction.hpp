@@ -2,10 +2,10 @@
 
 #include "engine/math/math.hpp"
 
-// Level directions: unit vectors with y = 0, in play space. No trigonometry for small angles.
+// Level directions: horizontal unit vectors, in play space. Small angles need no trigonometry.
 namespace handhold {
 
-// A largest angle, at most half a turn, as sine and cosine.
+// A maximum angle of at most half a turn, given by its sine and cosine.
 struct TurnLimit {
     double sine = 0.0;
     double cosine = 1.0;
@@ -14,7 +14,8 @@ struct TurnLimit {
 // Sine of the angle from `a` to `b`, both level; positive if `b` is to the left of `a`.
 inline double sine_between(const Vec3& a, const Vec3& b) { return a.z() * b.x() - a.x() * b.z(); }
 
-// Axes whose -Z is the level direction `facing` and whose +Y is up: into them and back.
+// to_facing converts a play-space vector to axes whose -Z is the level direction `facing`;
+// from_facing converts back.
 inline Vec3 to_facing(const Vec3& facing, const Vec3& v) {
     return {facing.x() * v.z() - facing.z() * v.x(), v.y(),
             -(facing.x() * v.x() + facing.z() * v.z())};
@@ -30,12 +31,12 @@ Vec3 turned_left(const Vec3& v, double cosine, double sine);
 // Rotation about +Y that turns -Z to the level direction.
 Quat level_rotation(const Vec3& facing);
 
-// Level direction in which a head looks, from its forward and up axes. Beyond 45 degrees of pitch
-// the up axis blends in (negated if the head looks up).
+// Level look direction of a head, from its forward axis `ahead` and its up axis. Beyond 45 degrees
+// of pitch the up axis blends in (negated if the head looks up), because `ahead` becomes vertical.
 Vec3 level_look(const Vec3& ahead, const Vec3& up);
 
-// Gain dt / (dt + lag) of an implicit low-pass filter. A steady motion lags by lag_s at any frame
-// rate.
+// Gain dt / (dt + lag) of an implicit low-pass filter. The output lags a steady motion by lag_s at
+// any frame rate.
 inline double follow_share(double dt_s, double lag_s) { return dt_s / (dt_s + lag_s); }
 
 // Turns the level direction `look_ps` towards `now_ps` by `share` of the angle.

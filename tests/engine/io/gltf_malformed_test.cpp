@@ -18,11 +18,11 @@ using test::triangle_file;
 
 struct BadFile {
     const char* what;
-    const char* place;  // that the error must name
+    const char* place;  // the place that the error must name
     std::function<void(GltfBuilder&)> spoil;
 };
 
-// Overwrites positions of the triangle; every value is (2, 2, 2).
+// Overwrites positions of the triangle; every overwritten value is (2, 2, 2).
 Json& make_sparse(GltfBuilder& b, const std::vector<std::uint16_t>& indices) {
     const std::size_t views = b.json["bufferViews"].size();
     b.add_indices(indices);

@@ -6,7 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include "engine/solver/newton/geometric_stiffness.hpp"
+#include "engine/solver/model/geometric_stiffness.hpp"
 #include "engine/solver/packed/triad_kernels.hpp"
 #include "tests/engine/solver/scene.hpp"
 
@@ -104,7 +104,7 @@ Bodies4 inverses_of(const TriadKernels& kernels, const Pair& pair) {
     return bodies[0];
 }
 
-TEST(GeometricStiffness, KernelsAgreeWithTheScalarRoutine) {
+TEST(GeometricStiffness, KernelsAgreeWithTheSolveRowByRow) {
     Random random(2);
     for (std::uint64_t i = 0; i < 2000; ++i) {
         const Pair pair(i, random);

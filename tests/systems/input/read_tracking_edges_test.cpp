@@ -55,8 +55,8 @@ TEST(ReadTracking, BouncesThatEndAsTheyBeganAreOneEdge) {
     EXPECT_TRUE(devices.right().pressed);
 }
 
-// Onsets and releases alternate for ever, at most one a frame, each within its frame; the hand ends
-// as the button does.
+// Onsets and releases alternate, at most one per frame, each within its frame. At the end, the
+// hand's state is the button's.
 RC_GTEST_PROP(ReadTracking, EdgesAlternateHoweverTheButtonBounces, (std::uint64_t seed)) {
     Random random(seed);
     Devices devices;

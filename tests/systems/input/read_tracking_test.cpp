@@ -179,13 +179,13 @@ TEST(ReadTracking, HeadThatJumpsIsRecentredAndItsHandsWithIt) {
     devices.step({sample_at(0.024, place_at(0.024) + jump_m, true),
                   sample_at(0.029, place_at(0.029) + jump_m, true)});
     EXPECT_EQ(count_of(devices.stats, Fallback::head_recentred), 1U);
-    // It stood still for the 9 ms of the jump, and its hands with it.
+    // The player does not move for the 9 ms of the jump, nor do the hands.
     const Vec3 stood_m(0.009, 0.0, 0.0);
     EXPECT_LT((devices.player_head().pose_ps.position + stood_m - place_at(0.029)).norm(), 1e-9);
     EXPECT_LT((devices.right().edge_ps.position + stood_m - place_at(0.024)).norm(), 1e-9);
     EXPECT_FALSE(devices.right().resumed);
     devices.step({sample_at(0.039, place_at(0.039) + jump_m)});
-    // What it throws with: 1 m/s, less what the jump stood still.
+    // Release velocity: 1 m/s, less because of the time without motion during the jump.
     const double slope_mps = devices.left().release_velocity_ps_mps.x();
     EXPECT_GT(slope_mps, 0.5);
     EXPECT_LT(slope_mps, 1.0);
@@ -217,7 +217,7 @@ TEST(ReadTracking, HandOutOfItsHeadsReachIsNotBelieved) {
     glitch.controllers[1].controller_ps.position.x() = devices.tuning.hand.max_arm_m + 0.001;
     devices.step({glitch});
     EXPECT_EQ(count_of(devices.stats, Fallback::hand_out_of_reach), 1U);
-    // Where it was, but what its button says counts: it may open.
+    // The pose stays, but the button still counts: the hand may open.
     EXPECT_EQ(devices.right().pose_ps.position, Vec3::Zero());
     EXPECT_EQ(devices.right().edge, GrabEdge::release);
     EXPECT_EQ(devices.right().release_velocity_ps_mps, Vec3::Zero());

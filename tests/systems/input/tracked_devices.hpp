@@ -7,7 +7,7 @@
 #include "systems/input/read_tracking.hpp"
 #include "tests/systems/frame/column_scene.hpp"
 
-// What the tests of read_tracking share: players' devices as columns, and samples made on the spot.
+// Shared by the tests of read_tracking: players' devices as columns, and made-up samples.
 namespace handhold::test {
 
 inline constexpr double k_frame_s = 0.01;
@@ -21,7 +21,7 @@ inline TrackingSample sample_at(double t_s, const Vec3& place = Vec3::Zero(), bo
     return sample;
 }
 
-// One player whose hands are where his controllers are.
+// One player whose hands are where the controllers are.
 struct Devices {
     Column<HandOwner> owner;
     Column<ControllerToHand> joint;

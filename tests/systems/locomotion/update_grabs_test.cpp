@@ -187,7 +187,7 @@ TEST(UpdateGrabs, HeadsAreNothingToHoldOnTo) {
 }
 
 TEST(UpdateGrabs, HeadInTheWayHidesNoSurface) {
-    // Along the ray: the head's top at 1.06, the floor at 1.0.
+    // Along the ray, the head's top is at 1.06 m and the floor at 1.0 m.
     Grabs behind;
     behind.add_floor(1.0);
     behind.add_head(Vec3(0.0, 0.95, 0.0));
@@ -196,7 +196,7 @@ TEST(UpdateGrabs, HeadInTheWayHidesNoSurface) {
     EXPECT_EQ(behind.grab.at(k_right).body, k_wall);
     EXPECT_LT((behind.grab.at(k_right).hit_bs - Vec3(0.0, 0.5, 0.0)).norm(), 1e-9);
 
-    // Beside the palm, nearer than the floor.
+    // beside the palm and nearer than the floor
     Grabs beside;
     beside.add_floor(1.0);
     beside.add_head(Vec3(0.14, 1.08, 0.0));
@@ -265,8 +265,8 @@ TEST(UpdateGrabs, HandLetsGoWhereItIsStretchedFartherThanAllowed) {
     }
 }
 
-// The one that is stretched more; of two alike the one that joined; of two that closed at once the
-// left one. In either order of rows.
+// The hand that is stretched more releases; if equal, the hand that closed later; if they closed at
+// the same time, the left one. The order of rows must not matter.
 TEST(UpdateGrabs, OfTwoStretchedHandsOnlyOneLetsGo) {
     struct Case {
         double left_more_m;
@@ -302,7 +302,7 @@ TEST(UpdateGrabs, OfTwoStretchedHandsOnlyOneLetsGo) {
     }
 }
 
-// One hand keeps a rock while the other takes and drops many: what is held is never forgotten.
+// One hand keeps a rock while the other grips and drops many. The held rock must stay in the list.
 TEST(UpdateGrabs, HeldBodyStaysIgnoredWhilePlacesAreFree) {
     Grabs grabs;
     grabs.add_rock(k_rock, 5.0, Vec3(-1.0, 1.0, 0.0));

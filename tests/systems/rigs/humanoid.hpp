@@ -15,15 +15,15 @@
 // Humanoid figures with the joint names, hierarchies and axes of public rig conventions.
 namespace handhold::test {
 
-// Which way a convention's joints turn their own axes.
+// Orientation of the joints' own axes in a convention.
 enum class JointAxes { world, y_along, x_along, x_along_mirrored };
 
-// One joint. '*' stands for the side: the joint is made twice.
+// One joint. "*" stands for the side: a left and a right joint are made.
 struct HumanoidJoint {
     const char* name;
     const char* parent;   // "": the root
     const char* place;    // "upper_arm" or, halfway to its end, "upper_arm/0.5"
-    bool is_bone = true;  // the joint that a body rig takes for the bone of that place
+    bool is_bone = true;  // true: a body rig must find the bone of `place` at this joint
 };
 struct HumanoidConvention {
     const char* name;
@@ -493,7 +493,7 @@ class HumanoidMaker {
                bone == "thumb" || bone == "finger_end" || bone == "thumb_end";
     }
     Pose stand() const { return {Vec3::Zero(), rotation_about(Vec3::UnitY(), options_.yaw_rad)}; }
-    // Of that side, posed and scaled.
+    // Position of the joint of `bone` on that side, posed and scaled.
     Vec3 place(const std::string& bone, double side) const {
         Vec3 at = base_place(bone);
         if (is_of_arm(bone)) {
@@ -560,8 +560,8 @@ class HumanoidMaker {
         }
     }
 
-    // The deforming joint last before `along` on a bone; bones that the convention lacks are
-    // carried by the one above.
+    // The last joint with skin before `along` on a bone. A bone that the convention lacks is
+    // represented by the one above.
     std::uint16_t joint_at(std::string bone, double along, double side) const {
         static const std::map<std::string, std::string> k_above = {
             {"index", "hand"},        {"thumb", "hand"},         {"hand", "forearm"},
@@ -658,7 +658,7 @@ class HumanoidMaker {
         }
         add_nose();
     }
-    // Shows where the figure looks.
+    // A part that shows where the figure looks.
     void add_nose() {
         const auto first = static_cast<std::uint32_t>(made_.figure.positions.size());
         const std::array<Vec3, 4> corners = {Vec3(-0.02, 1.60, 0.09), Vec3(0.02, 1.60, 0.09),
