@@ -1,4 +1,6 @@
-"""fit_body's parts: gradients against differences, mirrored inputs, the choice by person, the written header, and that two runs agree."""
+"""fit_body's parts: gradients against differences, mirrored inputs, the choice by person, the written header, that two runs agree, and that the
+runtime estimates what was fitted. HANDHOLD_LAB: the handhold-lab to compare with; without it that test is skipped."""
+import os
 import re
 import subprocess
 import sys
@@ -11,7 +13,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "tools" / "lab" / "fit_body"
 sys.path.insert(0, str(ROOT / "tools" / "lab"))
-from bodies import choosing, constants, estimator, fitting, network
+from bodies import choosing, constants, estimator, fitting, network, recordings, scoring, situations
 
 SIDES = "lr"
 
@@ -162,6 +164,74 @@ class Runs(unittest.TestCase):
         calib = ["clip,name,subject,dataset,eye_height,upper_arm,forearm,shoulder_width"] + [f"{clip},c{clip},p{clip},d,1.6,.3,.27,.36" for clip in (1, 2)]
         for name, lines in (("in", inputs), ("truth", truth), ("calib", calib)):
             (folder / f"{part}_{name}.csv").write_text("\n".join(lines) + "\n")
+
+
+class Situations(unittest.TestCase):
+    def test_bones_keep_their_lengths_and_hands_lie_along_the_forearm(self):
+        for name, situation in situations.SITUATIONS.items():
+            _, inputs, truth = situations.frames(situation)
+            for side in (0, 1):
+                shoulder, elbow = truth[:, 2 + 3 * side:5 + 3 * side], truth[:, 8 + 3 * side:11 + 3 * side]
+                wrist, rotation = inputs[:, 7 + 7 * side:10 + 7 * side], estimator.matrices(inputs[:, 10 + 7 * side:14 + 7 * side])
+                np.testing.assert_allclose(scoring.distance(shoulder, elbow), situations.UPPER_M, atol=1e-9, err_msg=name)
+                np.testing.assert_allclose(scoring.distance(elbow, wrist), situations.FOREARM_M, atol=1e-9, err_msg=name)
+                np.testing.assert_allclose(-rotation[..., 2], estimator.unit(wrist - elbow), atol=1e-6, err_msg=name)
+
+
+def header_network(text, name):
+    """The network of body_constants.hpp."""
+    body = text[text.index(f"k_{name}_network = "):]
+    inputs, hidden, outputs = (int(each) for each in re.search(rf"k_{name}_inputs = (\d+);.*k_{name}_outputs = (\d+);.*?k_{name}_inputs, (\d+),", text, re.S)
+                               .group(1, 3, 2))
+    lists = [np.array(re.findall(r"(-?[\d.]+(?:e[-+]?\d+)?)F", part), np.float32) for part in body.split("{\n")[2:8]]
+    result = network.Network(np.zeros((2, inputs)), hidden, np.ones(outputs), np.random.default_rng(0))
+    result.mean, result.deviation = lists[0], 1.0 / lists[1]
+    result.weights, result.bias = [lists[2].reshape(inputs, hidden), lists[4].reshape(hidden, outputs)], [lists[3], lists[5]]
+    return result
+
+
+@unittest.skipUnless(os.environ.get("HANDHOLD_LAB"), "no handhold-lab")
+class Runtime(unittest.TestCase):
+    """Each clip has one frame, in which the runtime's low-pass filters start: chest and shoulders must equal the numpy estimator's."""
+
+    def test_chest_and_shoulders_are_those_that_were_fitted(self):
+        text = (ROOT / "systems/arm/shared/body_constants.hpp").read_text()
+        constant = lambda name: float(re.search(rf"k_{name} = (\S+);", text).group(1))
+        talked = {name: constant(name) for name in estimator.CHEST_START}
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            self.write_single_frames(folder)
+            out = folder / "out.csv"
+            subprocess.run([os.environ["HANDHOLD_LAB"], "body", "--in", folder / "in.csv", "--calib", folder / "calib.csv", "--out", out], check=True,
+                           capture_output=True)
+            recording = recordings.Recording(folder / "timed.csv")
+            truth = recordings.Bodies(folder / "truth.csv", recording, is_truth=True)
+            clips = recordings.Clips(folder / "calib.csv", recording)
+            lines = [line.split(",") for line in out.read_text().splitlines()[1:]]
+        motion = estimator.Motion(recording, truth, clips, 1000.0)
+        motion.looks = np.tile(motion.look, (3, 1))
+        yaw, resting = fitting.Chest(motion, talked).corrected(header_network(text, "chest"))
+        shoulders = estimator.shoulders_of(motion, yaw, resting)
+        measured = np.array(lines, float)
+        np.testing.assert_allclose(estimator.wrapped(np.radians(measured[:, 2]) - yaw), 0.0, atol=1e-4)
+        np.testing.assert_allclose(measured[:, 3:6], shoulders[0], atol=1e-4)
+        np.testing.assert_allclose(measured[:, 6:9], shoulders[1], atol=1e-4)
+
+    def write_single_frames(self, folder):
+        """in.csv: every 20th frame of the situations as a clip of its own; timed.csv: the same with two rows a clip's time step apart."""
+        texts = situations.files()
+        head, *rows = texts["in"].splitlines()
+        truth_head, *truths = texts["truth"].splitlines()
+        rows, truths = rows[::20], truths[::20]
+        renumbered = lambda lines: [f"{clip},{clip / 90.0:.6f},{line.split(',', 2)[2]}" for clip, line in enumerate(lines, 1)]
+        single = renumbered(rows)
+        # The numpy reader derives the rate from steps within a clip: there all frames are of one clip.
+        timed, truth = ([f"1,{line.split(',', 1)[1]}" for line in renumbered(lines)] for lines in (rows, truths))
+        (folder / "in.csv").write_text("\n".join([head, *single]) + "\n")
+        (folder / "timed.csv").write_text("\n".join([head, *timed]) + "\n")
+        (folder / "truth.csv").write_text("\n".join([truth_head, *truth]) + "\n")
+        calib_head, first = texts["calib"].splitlines()[:2]
+        (folder / "calib.csv").write_text("\n".join([calib_head] + [f"{clip},{first.split(',', 1)[1]}" for clip in range(1, len(rows) + 1)]) + "\n")
 
 
 if __name__ == "__main__":
