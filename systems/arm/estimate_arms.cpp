@@ -41,14 +41,14 @@ Vec3 estimate_chest(const TrackedBody& body, const BodyAxes& axes, const Step& s
                     ArmMemory& memory, ArmEstimate& out) {
     const ArmTuning& tuning = step.tuning;
     const Vec3 up_ps = axes.head.col(1);
-    const Vec3 look_ps = level_look(-axes.head.col(2), up_ps);
+    Vec3 now_ps = level_look(-axes.head.col(2), up_ps);
     for (std::size_t i = 0; i < k_look_filters; ++i) {
-        Vec3& look = memory.looks_ps[i];
-        look = reset ? look_ps : follow_look(look, look_ps, step.look_shares[i]);
+        Vec3& filtered_ps = memory.looks_ps[i];
+        filtered_ps = reset ? now_ps : follow_look(filtered_ps, now_ps, step.look_shares[i]);
     }
     const Quat lean = chest_lean(up_ps);
     const Vec3 talked_ps = chest_facing(memory.looks_ps[0], lean, body, axes, step.limit);
-    ChestCorrection correction = chest_correction(talked_ps, look_ps, memory.looks_ps, body, axes);
+    ChestCorrection correction = chest_correction(talked_ps, now_ps, memory.looks_ps, body, axes);
     correction.offset.middle_m *= tuning.learned;
     correction.offset.roll *= tuning.learned;
     double sine = 0.0;
@@ -68,7 +68,7 @@ Vec3 estimate_chest(const TrackedBody& body, const BodyAxes& axes, const Step& s
     }
     out.facing_ps = memory.facing_ps;
     out.chest_ps = chest_pose(out.facing_ps, lean, memory.chest, body, up_ps);
-    return look_ps;
+    return now_ps;
 }
 
 // The line of an arm whose shoulder at rest is `rest_ps`.
