@@ -79,9 +79,11 @@ void teleport_player(World& world, Entity player, const Pose& origin_ws) {
     let_go_of(world, player, k_no_entity);
     Entity carried_before = k_no_entity;
     for (std::size_t row = 0; row < world.grab.size(); ++row) {
-        if (world.hand_owner.at(world.grab.owners()[row]).player != player) {
+        const Entity hand = world.grab.owners()[row];
+        if (world.hand_owner.at(hand).player != player) {
             continue;
         }
+        world.hand_sight.at(hand) = {};  // the way of the hand to its new place crosses no wall
         const Grab& grab = world.grab.rows()[row];
         if (!is_carried(world, grab)) {
             let_go(world, row);

@@ -1,7 +1,6 @@
 #include "systems/locomotion/update_grabs.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -289,6 +288,9 @@ void carry_out_orders(const UpdateGrabsIo& io, const Tuning& tuning, StageStats&
         const Entity body = io.order->rows().front().body;
         io.order->remove(hand);
         const std::size_t row = io.grab.find_row(hand);
+        if (row >= io.grab.size()) {
+            continue;  // no hand
+        }
         const bool has_body = io.body.contains(body) ||
                               (io.origin.contains(body) && body != io.owner.at(hand).player &&
                                io.head.at(body).state != TrackingState::never);
@@ -326,9 +328,11 @@ void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& sta
         }
         update_authored_hold(io, entity, grab, stats);
         const HandPull* const pull = io.pull.find(entity);
-        if (hand.edge == GrabEdge::onset && !has_joined(io, grab, hand)) {
+        if (hand.edge == GrabEdge::onset) {
             ++stats.grab_onsets;
-            begin_grab(io, row, {hand.edge_ps, hand.edge_t_s, k_no_entity}, tuning, stats);
+            if (!has_joined(io, grab, hand)) {
+                begin_grab(io, row, {hand.edge_ps, hand.edge_t_s, k_no_entity}, tuning, stats);
+            }
         } else if (pull != nullptr && hand.edge == GrabEdge::none && hand.pressed &&
                    hand.state == TrackingState::tracked && !hand.resumed &&
                    grab.kind == GripKind::none) {

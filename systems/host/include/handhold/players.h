@@ -120,11 +120,11 @@ typedef enum hh_event_kind {
 typedef enum hh_reason {
     HH_REASON_NONE = 0,
     HH_REASON_OPENED = 1,          /* the player opened the hand */
-    HH_REASON_NO_SURFACE = 2,      /* nothing in reach */
+    HH_REASON_NO_SURFACE = 2,      /* nothing in reach, or only behind a wall */
     HH_REASON_NOT_ALLOWED = 3,     /* by a grab rule or layers */
     HH_REASON_NEEDS_TWO_HANDS = 4, /* the other hand is not there, or left */
     HH_REASON_STRETCHED = 5,       /* farther from its anchor than hand.max_stretch_m */
-    HH_REASON_TRACKING_LOST = 6,   /* it opened while nobody saw it */
+    HH_REASON_TRACKING_LOST = 6,   /* it opened unseen, or came back too far away */
     HH_REASON_BODY_GONE = 7,       /* the body was removed */
     HH_REASON_BY_HOST = 8,         /* hh_hand_release, hh_hand_grip or a teleport */
     HH_REASON_OTHER_HAND = 9       /* one of two hands on a body left */
