@@ -22,10 +22,10 @@ void let_go(World& world, std::size_t row) {
     world.hand_pull.remove(hand);
 }
 
-void let_go_of(World& world, Entity gripped, Entity except_player) {
+void let_go_of(World& world, Entity gripped, Entity keeper) {
     for (std::size_t row = 0; row < world.grab.size(); ++row) {
         const Entity player = world.hand_owner.at(world.grab.owners()[row]).player;
-        if (world.grab.rows()[row].body == gripped && player != except_player) {
+        if (world.grab.rows()[row].body == gripped && player != keeper) {
             let_go(world, row);
         }
     }
