@@ -36,24 +36,24 @@ TEST(BodyNetwork, EqualsTheDocumentedEquation) {
         std::array<double, 7> hidden{};
         std::array<double, 5> z{};
         for (std::size_t k = 0; k < 5; ++k) {
-            z[k] = std::clamp(
-                (double{x[k]} - double{network.mean[k]}) * double{network.inverse_deviation[k]},
-                -4.0, 4.0);
+            z[k] = std::clamp((static_cast<double>(x[k]) - static_cast<double>(network.mean[k])) *
+                                  static_cast<double>(network.inverse_deviation[k]),
+                              -4.0, 4.0);
         }
         for (std::size_t j = 0; j < 7; ++j) {
-            hidden[j] = double{network.bias0[j]};
+            hidden[j] = static_cast<double>(network.bias0[j]);
             for (std::size_t k = 0; k < 5; ++k) {
-                hidden[j] += double{network.weights0[k * 7 + j]} * z[k];
+                hidden[j] += static_cast<double>(network.weights0[k * 7 + j]) * z[k];
             }
             hidden[j] /= std::sqrt(1.0 + hidden[j] * hidden[j]);
         }
         const auto answer = evaluate(network, x);
         for (std::size_t j = 0; j < 3; ++j) {
-            double expected = double{network.bias1[j]};
+            double expected = static_cast<double>(network.bias1[j]);
             for (std::size_t k = 0; k < 7; ++k) {
-                expected += double{network.weights1[k * 3 + j]} * hidden[k];
+                expected += static_cast<double>(network.weights1[k * 3 + j]) * hidden[k];
             }
-            EXPECT_NEAR(double{answer.values[j]}, expected, 1e-5);
+            EXPECT_NEAR(static_cast<double>(answer.values[j]), expected, 1e-5);
         }
     }
 }
@@ -66,11 +66,11 @@ TEST(BodyNetwork, AnswersAreBoundedForAnyInput) {
         EXPECT_GE(answer.familiarity, 0.0);
         EXPECT_LE(answer.familiarity, 1.0);
         for (std::size_t j = 0; j < 3; ++j) {
-            double most = std::abs(double{network.bias1[j]});
+            double most = std::abs(static_cast<double>(network.bias1[j]));
             for (std::size_t k = 0; k < 7; ++k) {
-                most += std::abs(double{network.weights1[k * 3 + j]});
+                most += std::abs(static_cast<double>(network.weights1[k * 3 + j]));
             }
-            EXPECT_LE(std::abs(double{answer.values[j]}), most + 1e-5);
+            EXPECT_LE(std::abs(static_cast<double>(answer.values[j])), most + 1e-5);
         }
     }
 }
