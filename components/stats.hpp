@@ -60,7 +60,7 @@ enum class Fallback : std::uint8_t {
     grip_reanchored,       // tracking returned or the other hand let go: anchor moved to the hand
     two_hand_grip_ended,   // one of two hands let go: the body is not thrown
     hands_too_close,       // both hands too close on one free body: only the first hand drives it
-    grab_refused_by_rule,  // all that is in reach refuses the hand: GrabRule or GrabLayers
+    grab_refused_by_rule,  // a body within reach or pull refuses the hand: GrabRule or GrabLayers
     grab_needs_two_hands,  // the body is gripped by both hands or by none, and one closed
     grip_needs_two_hands,  // one of both hands left such a body: the other lets go
     grip_ended_by_host,    // a GrabOrder

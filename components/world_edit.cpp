@@ -68,6 +68,11 @@ void teleport_body(World& world, Entity body, const Pose& pose_ws) {
     HH_CHECK(world.body.contains(body), "no body with this handle", body.slot);
     check_place(__func__, pose_ws);
     let_go_of(world, body, k_no_entity);
+    for (HandSight& sight : world.hand_sight.rows()) {
+        if (sight.frame == body) {
+            sight = {};  // the hand stays where it is
+        }
+    }
     place_body(world, body, pose_ws);
 }
 

@@ -27,7 +27,7 @@ using UpdateGrabsIo = GrabSearch;  // systems/locomotion/shared/grab_search.hpp
 //
 // Bodies that refuse the hand by their GrabRule or its player's GrabLayers are passed over. A body
 // for two hands is gripped when the second of them closes on it. A host's orders (GrabOrder) come
-// before hands that close, and ask no rule.
+// before hands that close, and ask no rule; but one hand alone never holds a body for two hands.
 void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats);
 
 }  // namespace handhold

@@ -15,8 +15,9 @@ constexpr double k_violated_m = 2e-7;
 constexpr double k_touching_m = 1e-5;  // closer contacts may support a body
 // Overlap within a heap from which the hands that press it give way.
 constexpr double k_heap_violated_m = 1e-3;
-// Contact points that the searches of a frame may find. Beyond, no phase searches again.
-constexpr std::uint64_t k_max_contact_visits = 12'000;
+// Constraint blocks of heaps that the searches of a frame may find. Beyond, no phase of the frame
+// searches again, because a search visits the whole world.
+constexpr std::uint64_t k_max_heap_visits = 12'000;
 constexpr int k_max_heap_rounds = 2;  // of a phase; what appears later waits for the next frame
 
 enum class Phase : std::uint8_t { reach, forward, relax, backward, contradiction };
@@ -25,7 +26,7 @@ struct Solve {
     const SolvePhasesIo& io;
     const Tuning& tuning;
     StageStats& stats;
-    std::uint64_t& contact_visits;
+    std::uint64_t& heap_visits;
 
     double violated_m() const { return std::max(k_violated_m, 2.0 * tuning.solver.tolerance_m); }
     ConstraintGraph& graph() const { return io.frame.graph; }
@@ -254,7 +255,7 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
 // Sweeps colliders to the solved poses. True if contacts found there overlap.
 bool refresh_contacts(const Solve& s, OldPoints old_points) {
     FrameGraph& frame = s.io.frame;
-    if (s.contact_visits > k_max_contact_visits) {
+    if (s.heap_visits > k_max_heap_visits) {
         s.stats.count(Fallback::solver_budget);
         return false;
     }
@@ -263,7 +264,7 @@ bool refresh_contacts(const Solve& s, OldPoints old_points) {
         {s.tuning.contact.margin_m, s.tuning.contact.sweep_m}, old_points);
     if (found != FoundContacts::unchanged) {
         ++s.stats.contact_rounds;
-        s.contact_visits += frame.contacts.size();
+        s.heap_visits += heap_block_count(frame.graph);
         clear_errors(s);
     }
     return found == FoundContacts::overlapping;
@@ -342,6 +343,8 @@ bool prepare_backward(const Solve& s) {
         mark_pushed(s, island);
         for (const std::uint32_t i : s.graph().bodies_of(island)) {
             SolverBody& body = s.graph().bodies[i];
+            // A budget of its own: a heap that spent forward's must not cost the player exactness.
+            s.phase_of(i).work = 0;
             if (body.role == BodyRole::translating || s.phase_of(i).held) {
                 body.pose_ws = s.phase_of(i).reached_ws;
             }
@@ -393,8 +396,8 @@ void contradiction(const Solve& s) {
 }  // namespace
 
 void solve_phases(const SolvePhasesIo& io, const Tuning& tuning, StageStats& stats) {
-    std::uint64_t contact_visits = io.frame.contacts.size();
-    const Solve s{io, tuning, stats, contact_visits};
+    std::uint64_t heap_visits = heap_block_count(io.frame.graph);
+    const Solve s{io, tuning, stats, heap_visits};
     clear_errors(s);
     reach(s);
     forward(s);

@@ -94,7 +94,8 @@ HH_API hh_result hh_player_hand(const hh_world* world, hh_player player, hh_side
 HH_API hh_result hh_world_player_poses(const hh_world* world, const hh_player* players,
                                        size_t count, hh_player_pose* poses);
 /* In the next step the hand grips `body` where both are, at any distance, whatever the grab rules
- * say. It holds until hh_hand_release or until the player opens the hand; if the player closes it
+ * say; only a body for two hands needs an order for both. No grip begins while the player opens the
+ * hand. It holds until hh_hand_release or until the player opens the hand; if the player closes it
  * first, it grips what is there then, if anything is. HH_ERROR_STATE for a hand that was never
  * tracked. */
 HH_API hh_result hh_hand_grip(hh_world* world, hh_player player, hh_side side, hh_body body);
