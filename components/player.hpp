@@ -31,6 +31,12 @@ struct PlayerVelocity {
     Vec3 linear_mps = Vec3::Zero();
 };
 
+// How far contacts moved a player's play space in this frame.
+struct PushBack {
+    Entity player;
+    double distance_m = 0.0;
+};
+
 // Velocity relative to which drag, brake and the release clamp act: that of the body last gripped
 // at the point of the grip, else the scene's. Written by locomote_players.
 struct ReferenceVelocity {
