@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+
+#include "systems/frame.hpp"
+#include "systems/physics/accept_solution.hpp"
+
+// Frames for hosts with physics of their own. Such a host sets FrameCaches::host_surfaces, and its
+// bodies need no colliders.
+namespace handhold {
+
+// First half of a frame: intent, prediction and the frame's hand constraints, which are in
+// caches.graph.hand_blocks. The host then solves its bodies and players, writes BodyPose and
+// BodyVelocity of the bodies that moved, and calls end_host_frame. No other change of the world
+// between the two. Throws as step_frame.
+void begin_host_frame(World& world, FrameCaches& caches, const Tuning& tuning,
+                      const FrameInput& input, StageStats& stats);
+
+// Second half: releases and limits of velocities, joints, shown hands and bodies, and the clock.
+// `input` must be that of begin_host_frame.
+void end_host_frame(World& world, FrameCaches& caches, const Tuning& tuning,
+                    const FrameInput& input, std::span<const SolvedPlayer> solved,
+                    StageStats& stats);
+
+// A whole frame for a host that also moves players itself: it has written PlayerOrigin,
+// PlayerVelocity, BodyPose, BodyVelocity and what each hand holds (Grab). Shows hands and bodies.
+void show_host_frame(World& world, FrameCaches& caches, const Tuning& tuning,
+                     const FrameInput& input, StageStats& stats);
+
+}  // namespace handhold
