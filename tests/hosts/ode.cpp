@@ -15,6 +15,7 @@ void crawl() {
     Scene scene;
     scene.engine.add_box(host::Kind::fixed, {20.0, 2.0, 0.1}, hh::pose_at({0.0, 1.5, -0.6}), 0.0);
     scene.begin();
+    long most = 0;
     for (int frame = 0; frame < 540; ++frame) {
         Devices devices;
         for (int side = 0; side < 2; ++side) {
@@ -23,11 +24,14 @@ void crawl() {
             devices.wrist[side].x += 0.2 - 0.4 * pulled;
             devices.closed[side] = phase > 0.05 && phase < 0.55;
         }
+        const long before = scene.engine.queries();
         scene.step(devices);
+        most = std::max(most, scene.engine.queries() - before);
     }
     const double moved_m = scene.pose().origin.position.x;
-    std::printf("crawl: %.2f m in %.1f s, hand error %.2g mm\n", moved_m, scene.t_s,
-                1e3 * scene.worst_fixed_m);
+    std::printf("crawl: %.2f m in %.1f s, hand error %.2g mm; %.1f queries a frame, at most %ld\n",
+                moved_m, scene.t_s, 1e3 * scene.worst_fixed_m,
+                static_cast<double>(scene.engine.queries()) / scene.steps, most);
     expect(moved_m > 3.0, "the player crawls");
     expect(scene.worst_fixed_m <= k_exact_m, "hand error on a wall");
 }
@@ -101,6 +105,96 @@ void pull_door() {
            "hand error on a door");
 }
 
+// Both hands hold a crate and turn it between them.
+void carry_with_two_hands() {
+    Scene scene;
+    const std::size_t crate = scene.engine.add_box(host::Kind::dynamic, {0.35, 0.15, 0.15},
+                                                   hh::pose_at({0.0, 1.48, -0.65}), 20.0);
+    scene.begin();
+    Devices devices;
+    double roll_rad = 0.0;
+    double worst_m = 0.0;
+    for (int frame = 0; frame < 270; ++frame) {
+        const double t = scene.t_s + k_dt_s;
+        const double wave = ease((t - 0.6) / 1.5);
+        const hh::Quat roll = host::turn_about({0.0, 0.0, 1.0}, 0.5 * wave);
+        for (int side = 0; side < 2; ++side) {
+            const double x = side == 0 ? -0.2 : 0.2;
+            devices.turn[side] = host::multiply(roll, k_palm_ahead);
+            devices.wrist[side] = hh::Vec3{0.0, 1.4 + 0.1 * wave, -0.43 - 0.1 * wave} +
+                                  host::rotate(roll, {x, 0.0, 0.0});
+            devices.closed[side] = t > 0.2 + 0.1 * side;
+        }
+        scene.step(devices);
+        const hh::Pose pose = scene.engine.box(crate).pose();
+        roll_rad = 2.0 * std::atan2(pose.rotation.z, pose.rotation.w);
+        for (int side = 0; side < 2 && t > 0.4; ++side) {
+            expect(grips(scene, side, crate), "both hands hold the crate");
+            const hh::Vec3 wrist = host::at(scene.pose().origin, devices.wrist[side]);
+            const hh::Vec3 anchor = host::at(pose, scene.hand(side).anchor.position);
+            worst_m = std::max(worst_m, host::length(wrist - anchor));
+        }
+    }
+    std::printf("two hands: crate turned by %.3f rad, hand error %.2g mm\n", roll_rad,
+                1e3 * worst_m);
+    expect(std::fabs(roll_rad - 0.5) < 0.01, "the crate turns with both hands");
+    expect(worst_m <= k_dynamic_m, "hand error with two hands");
+}
+
+// A held crate that hits a wall pushes the player back, and does not enter the wall.
+void push_off_with_a_crate() {
+    Scene scene;
+    const std::size_t crate = scene.engine.add_box(host::Kind::dynamic, {0.15, 0.15, 0.15},
+                                                   hh::pose_at({0.2, 1.48, -0.65}), 10.0);
+    scene.engine.add_box(host::Kind::fixed, {2.0, 2.0, 0.1}, hh::pose_at({0.0, 1.5, -1.0}), 0.0);
+    scene.begin();
+    Devices devices;
+    double deepest_m = 0.0;
+    for (int frame = 0; frame < 180; ++frame) {
+        const double t = scene.t_s + k_dt_s;
+        devices.closed[1] = t > 0.2;
+        devices.wrist[1].z = -0.43 - 0.3 * ease((t - 0.4) / 0.8);
+        scene.step(devices);
+        const double front_m = scene.engine.box(crate).pose().position.z - 0.15;
+        deepest_m = std::max(deepest_m, -0.9 - front_m);
+    }
+    const double back_m = scene.pose().origin.position.z;
+    std::printf(
+        "crate against a wall: player pushed back %.3f m, crate %.2g mm inside, hand error "
+        "%.2g mm\n",
+        back_m, 1e3 * deepest_m, 1e3 * scene.worst_dynamic_m);
+    expect(grips(scene, 1, crate), "the crate is held");
+    expect(back_m > 0.19, "the wall pushes the player back");
+    expect(deepest_m < 2e-3, "the crate stays outside of the wall");
+    expect(scene.worst_dynamic_m <= k_dynamic_m, "hand error against a wall");
+}
+
+// A body as heavy as a vehicle: player and body share their momentum.
+void pull_on_a_heavy_body() {
+    Scene scene;
+    const std::size_t ship = scene.engine.add_box(host::Kind::dynamic, {2.0, 1.0, 0.5},
+                                                  hh::pose_at({0.2, 1.48, -1.0}), 2000.0);
+    scene.begin();
+    expect(static_cast<bool>(scene.world.tune("locomotion.drift_drag_per_s", 0.0)), "no drag");
+    Devices devices;
+    for (int frame = 0; frame < 180; ++frame) {
+        const double t = scene.t_s + k_dt_s;
+        devices.closed[1] = t > 0.2 && t < 1.2;
+        devices.wrist[1].z = -0.43 + 0.3 * std::clamp(t - 0.6, 0.0, 1.0);
+        scene.step(devices);
+    }
+    const double player_mps = scene.pose().velocity_mps.z;
+    const double ship_mps = scene.engine.velocity(ship).z;
+    const double momentum = 80.0 * player_mps + 2000.0 * ship_mps;
+    std::printf(
+        "heavy body: player %.4f m/s, body %.5f m/s, momentum %.2g kg m/s, hand error "
+        "%.2g mm\n",
+        player_mps, ship_mps, momentum, 1e3 * scene.worst_dynamic_m);
+    expect(std::fabs(ship_mps - player_mps - 0.3) < 0.01, "they part at the hand's speed");
+    expect(std::fabs(momentum) < 0.01, "momentum is kept");
+    expect(scene.worst_dynamic_m <= k_dynamic_m, "hand error on a heavy body");
+}
+
 static hh::Pose platform_at(double t_s) {
     return hh::pose_at({0.5 * std::sin(t_s), 1.4 + 0.3 * std::sin(0.7 * t_s), -0.6},
                        host::turn_about({0.0, 1.0, 0.0}, 0.4 * std::sin(1.3 * t_s)));
@@ -134,6 +228,9 @@ int main() {
     crawl();
     carry_and_throw();
     pull_door();
+    carry_with_two_hands();
+    push_off_with_a_crate();
+    pull_on_a_heavy_body();
     ride();
     carry_by_handhold();
     hold_by_host();

@@ -75,6 +75,7 @@ class Engine {
     // One step of level (c). False if a call failed.
     bool step_for_hands(hh::World& world, double dt_s, std::span<const hh_player_input> inputs);
     double hands_us() const { return hands_us_; }  // of begin and end of all steps
+    long queries() const { return queries_; }      // that Handhold made
 
   private:
     struct Driven {
@@ -88,6 +89,7 @@ class Engine {
                        hh_surface_hit& hit) const;
     void set_player(const hh_player_motion& motion);
     void add_hand(const hh_hand_constraint& hand);
+    void add_direction(const Box& box, const hh_hand_constraint& hand);
     dBodyID player_body(hh::Player id) const;
 
     dWorldID world_;
@@ -100,6 +102,8 @@ class Engine {
     std::vector<hh_body_motion> motions_;
     std::vector<hh_solved_player> solved_;
     double hands_us_ = 0.0;
+    double step_s_ = 0.0;
+    long queries_ = 0;
 };
 
 // The point of a solid box nearest to `point`, with the normal out of it. Returns the distance, 0

@@ -78,13 +78,16 @@ hh_surface_query Engine::queries_for_hands() {
     query.context = this;
     query.cast_ray = [](void* context, hh_vec3 from, hh_vec3 to, const hh_body* skip, size_t count,
                         hh_surface_hit* hit) {
+        ++static_cast<Engine*>(context)->queries_;
         return static_cast<Engine*>(context)->cast_ray(from, to, {skip, count}, *hit);
     };
     query.closest_point = [](void* context, hh_vec3 point, double max_m, const hh_body* skip,
                              size_t count, hh_surface_hit* hit) {
+        ++static_cast<Engine*>(context)->queries_;
         return static_cast<Engine*>(context)->closest_point(point, max_m, {skip, count}, *hit);
     };
     query.closest_point_on = [](void* context, hh_body body, hh_vec3 point, hh_surface_hit* hit) {
+        ++static_cast<Engine*>(context)->queries_;
         const Box* const box = static_cast<Engine*>(context)->find(body);
         if (box == nullptr) {
             return false;
@@ -168,6 +171,10 @@ void Engine::set_player(const hh_player_motion& motion) {
 void Engine::add_hand(const hh_hand_constraint& hand) {
     const dBodyID player = player_body(hand.player);
     const Box& box = *find(hand.body);
+    if (hand.rows == HH_ROWS_DIRECTION) {
+        add_direction(box, hand);
+        return;
+    }
     const hh::Vec3 origin = vec(dBodyGetPosition(player));
     const bool is_welded = hand.rows == HH_ROWS_WELD;
     const dJointID joint =
@@ -200,9 +207,36 @@ void Engine::add_hand(const hh_hand_constraint& hand) {
 }
 // [hand]
 
+// The second of two hands on one body: a motor that turns it in this step to where it shall be.
+void Engine::add_direction(const Box& box, const hh_hand_constraint& hand) {
+    hh::Quat turn = multiply(hand.body_rotation, conjugate(box.pose().rotation));
+    if (turn.w < 0.0) {
+        turn = {-turn.x, -turn.y, -turn.z, -turn.w};
+    }
+    const hh::Vec3 axis{turn.x, turn.y, turn.z};
+    const double sine = length(axis);
+    const double per_sine = sine > 0.0 ? 2.0 * std::atan2(sine, turn.w) / (sine * step_s_) : 0.0;
+    const hh::Vec3 spin = per_sine * axis;
+    const dJointID joint = dJointCreateAMotor(world_, nullptr);
+    dJointAttach(joint, box.body, nullptr);
+    dJointSetAMotorMode(joint, dAMotorUser);
+    dJointSetAMotorNumAxes(joint, 3);
+    dJointSetAMotorAxis(joint, 0, 0, 1.0, 0.0, 0.0);
+    dJointSetAMotorAxis(joint, 1, 0, 0.0, 1.0, 0.0);
+    dJointSetAMotorAxis(joint, 2, 0, 0.0, 0.0, 1.0);
+    dJointSetAMotorParam(joint, dParamVel1, spin.x);
+    dJointSetAMotorParam(joint, dParamVel2, spin.y);
+    dJointSetAMotorParam(joint, dParamVel3, spin.z);
+    for (const int force : {dParamFMax1, dParamFMax2, dParamFMax3}) {
+        dJointSetAMotorParam(joint, force, dInfinity);
+    }
+    hands_.push_back(joint);
+}
+
 // [step]
 bool Engine::step_for_hands(hh::World& world, double dt_s,
                             std::span<const hh_player_input> inputs) {
+    step_s_ = dt_s;
     place_for_hands(world);
     if (!timed(hands_us_, [&] {
             return hh_world_begin_step(world.get(), dt_s, inputs.data(), inputs.size());

@@ -112,6 +112,9 @@ inline bool grips(const Scene& scene, int side, std::size_t box) {
 void crawl();
 void carry_and_throw();
 void pull_door();
+void carry_with_two_hands();
+void push_off_with_a_crate();
+void pull_on_a_heavy_body();
 void ride();
 // Handhold moves bodies while hands hold them.
 void carry_by_handhold();

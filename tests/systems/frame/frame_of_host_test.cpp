@@ -24,7 +24,7 @@ constexpr double k_end_s = 0.8;
 // a free body goes where its hand is.
 class ExactHost {
   public:
-    explicit ExactHost(const ShapeLibrary& shapes) : shapes_(shapes), collision_(shapes) {}
+    explicit ExactHost(const ShapeLibrary& shapes) : collision_(shapes) {}
 
     void step(World& world, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
               StageStats& stats) {
@@ -92,7 +92,6 @@ class ExactHost {
                 dt_s};
     }
 
-    const ShapeLibrary& shapes_;
     CollisionWorld collision_;
 };
 
