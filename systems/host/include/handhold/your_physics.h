@@ -34,7 +34,7 @@ typedef struct hh_surface_hit {
 /* Queries against the host's surfaces. Each returns true if it found something, and then fills
  * `hit`. `skip`: bodies that count as not there. Called only inside hh_world_step, _step_hands,
  * _begin_step, _end_step and _step_pose_only of this world, by the thread that made that call. Per
- * player and frame: about 2 queries, up to 50 when a hand closes behind walls or among many bodies. */
+ * player and frame: about 2 queries, up to 50 when a hand closes behind walls or among bodies. */
 typedef struct hh_surface_query {
     uint32_t struct_size;
     void* context; /* passed to each of the functions */
@@ -53,7 +53,7 @@ typedef struct hh_surface_query {
 } hh_surface_query;
 /* All functions null: nothing is found. */
 HH_API hh_surface_query hh_default_surface_query(void);
-/* From now on hands and legs ask the host instead of the world's shapes. Null: back to the shapes. */
+/* From now on hands and legs ask the host, not the world's shapes. Null: back to the shapes. */
 HH_API hh_result hh_world_set_surface_query(hh_world* world, const hh_surface_query* query);
 /* The triangles that palm and fingers close on, in the body's frame; null: none. Not needed for
  * gripping. The body must have no shape. HH_ERROR_STATE if it has, or if the mesh or the world was
@@ -117,7 +117,7 @@ typedef struct hh_hand_constraint {
     /* The anchor in the world at the end of the step, if the solver leaves the body's velocity as
      * it is: exact for static and kinematic bodies, which need no other end of the joint. */
     hh_pose anchor_end;
-    double compliance_m_per_n; /* of the rows; 0: rigid, which is what the runtime's own solver has */
+    double compliance_m_per_n; /* of the rows; 0: rigid, as in the runtime's own solver */
     double max_force_n; /* enough to stop what the hand drives from its highest speed in one step */
     bool is_releasing;  /* the hand lets go in this step */
 } hh_hand_constraint;
@@ -131,7 +131,7 @@ typedef struct hh_player_motion {
      * do not shake the player. */
     double mass_kg;
     hh_pose head;         /* of the head's centre: from the origin, with the world's axes */
-    double head_radius_m; /* the host may let this sphere collide; it belongs to the player's body */
+    double head_radius_m; /* the host may let this sphere collide, on the player's body */
 } hh_player_motion;
 
 typedef struct hh_solved_player {
@@ -147,8 +147,7 @@ typedef struct hh_velocity_change {
     hh_vec3 angular_velocity_radps;
 } hh_velocity_change;
 
-/* First half of a step: tracking, grips and the step's constraints. Bodies must be placed where they
- * are. Until hh_world_end_step, HH_ERROR_STATE for adding, removing, teleporting, saving and other
+/* First half of a step: tracking, grips and constraints. Bodies must be placed where they are. Until hh_world_end_step, HH_ERROR_STATE for adding, removing, teleporting, saving and other
  * steps; hh_world_restore forgets the begun step. */
 HH_API hh_result hh_world_begin_step(hh_world* world, double dt_s, const hh_player_input* inputs,
                                      size_t input_count);
