@@ -93,7 +93,7 @@ struct Anchoring {
 
 // Everything moves; the player drifts along a line.
 inline Anchoring random_anchoring(Random& random,
-                                std::initializer_list<Entity> hands = {k_left, k_right}) {
+                                  std::initializer_list<Entity> hands = {k_left, k_right}) {
     Anchoring scene(hands);
     const Pose origin = random.pose();
     scene.move_player(origin, {origin.position + random.vector(0.05), origin.rotation});
