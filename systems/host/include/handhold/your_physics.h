@@ -147,7 +147,8 @@ typedef struct hh_velocity_change {
     hh_vec3 angular_velocity_radps;
 } hh_velocity_change;
 
-/* First half of a step: tracking, grips and constraints. Bodies must be placed where they are. Until hh_world_end_step, HH_ERROR_STATE for adding, removing, teleporting, saving and other
+/* First half of a step: tracking, grips and constraints. Bodies must be placed where they are.
+ * Until hh_world_end_step, HH_ERROR_STATE for adding, removing, teleporting, saving and other
  * steps; hh_world_restore forgets the begun step. */
 HH_API hh_result hh_world_begin_step(hh_world* world, double dt_s, const hh_player_input* inputs,
                                      size_t input_count);
