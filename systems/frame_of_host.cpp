@@ -60,6 +60,7 @@ void show_host_frame(World& world, FrameCaches& caches, const Tuning& tuning,
     read_tracking(f);
     calibrate_players(f);
     place_colliders(f, Stage::gather_surroundings);
+    update_sights(f);
     caches.graph.contacts.clear();
     caches.graph.graph.blocks.clear();
     caches.graph.push_backs.clear();
@@ -73,6 +74,17 @@ void show_host_frame(World& world, FrameCaches& caches, const Tuning& tuning,
 
     ++world.clock.frame;
     world.clock.t_s += input.dt_s;
+}
+
+std::optional<GrabTarget> find_grip(World& world, FrameCaches& caches, const Tuning& tuning,
+                                    Entity hand, StageStats& stats) {
+    const FrameInput no_input;
+    const stages::FrameContext f{world, caches, tuning, no_input, stats};
+    const HandTracking& tracking = world.hand_tracking.at(hand);
+    const Pose hand_ws =
+        world.player_origin.at(world.hand_owner.at(hand).player).pose_ws * tracking.pose_ps;
+    return find_grab_target(stages::grab_search(f), hand, hand_ws, k_no_entity, tuning, stats)
+        .target;
 }
 
 }  // namespace handhold

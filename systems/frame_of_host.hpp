@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "systems/frame.hpp"
+#include "systems/locomotion/shared/grab_search.hpp"
 #include "systems/physics/accept_solution.hpp"
 
 // Frames for hosts with physics of their own. Such a host sets FrameCaches::host_surfaces, and its
@@ -26,5 +28,10 @@ void end_host_frame(World& world, FrameCaches& caches, const Tuning& tuning,
 // PlayerVelocity, BodyPose, BodyVelocity and what each hand holds (Grab). Shows hands and bodies.
 void show_host_frame(World& world, FrameCaches& caches, const Tuning& tuning,
                      const FrameInput& input, StageStats& stats);
+
+// What the hand would grip if it closed where it is: the body and the point of its surface. No
+// change of the world. Counts authored grips that are occupied or blocked in `stats`.
+std::optional<GrabTarget> find_grip(World& world, FrameCaches& caches, const Tuning& tuning,
+                                    Entity hand, StageStats& stats);
 
 }  // namespace handhold

@@ -101,29 +101,40 @@ void place_colliders(const FrameContext& f, Stage needed_by) {
         f.tuning.head);
 }
 
+GrabSearch grab_search(const FrameContext& f) {
+    World& w = f.w;
+    return {f.surfaces(),
+            w.persistent_id,
+            w.hand_owner,
+            w.hand_tracking,
+            w.player_origin,
+            w.head_tracking,
+            w.body,
+            w.body_pose,
+            f.graph().joint_groups,
+            w.authored_grips,
+            w.hand_pull,
+            w.reference_velocity,
+            w.hand_sight,
+            w.grab,
+            w.authored_hold,
+            w.head_ignores,
+            {&w.grab_rule, &w.grab_layers, &w.filter},
+            &w.grab_order,
+            f.start_s()};
+}
+
 void update_grabs(const FrameContext& f) {
     const StageTimer timer(Stage::update_grabs, f.stats);
-    World& w = f.w;
-    handhold::update_grabs({f.surfaces(),
-                            w.persistent_id,
-                            w.hand_owner,
-                            w.hand_tracking,
-                            w.player_origin,
-                            w.head_tracking,
-                            w.body,
-                            w.body_pose,
-                            f.graph().joint_groups,
-                            w.authored_grips,
-                            w.hand_pull,
-                            w.reference_velocity,
-                            w.hand_sight,
-                            w.grab,
-                            w.authored_hold,
-                            w.head_ignores,
-                            {&w.grab_rule, &w.grab_layers, &w.filter},
-                            &w.grab_order,
-                            f.start_s()},
-                           f.tuning, f.stats);
+    handhold::update_grabs(grab_search(f), f.tuning, f.stats);
+}
+
+void update_sights(const FrameContext& f) {
+    const StageTimer timer(Stage::update_grabs, f.stats);
+    const GrabSearch search = grab_search(f);
+    for (const Entity hand : f.w.grab.owners()) {
+        update_sight(search, hand, f.tuning);
+    }
 }
 
 void locomote_players(const FrameContext& f) {

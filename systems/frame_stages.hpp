@@ -1,6 +1,7 @@
 #pragma once
 
 #include "systems/frame.hpp"
+#include "systems/locomotion/shared/grab_search.hpp"
 
 // The stages over a world's columns, for frame.cpp and host_frame.cpp, which decide their order.
 namespace handhold::stages {
@@ -29,7 +30,10 @@ void read_paused_tracking(const FrameContext& f);
 void calibrate_players(const FrameContext& f);
 void group_joints(const FrameContext& f);
 void place_colliders(const FrameContext& f, Stage needed_by);
+GrabSearch grab_search(const FrameContext& f);
 void update_grabs(const FrameContext& f);
+// Only HandSight, for frames in which hands grip nothing by themselves.
+void update_sights(const FrameContext& f);
 void locomote_players(const FrameContext& f);
 void pull_bodies(const FrameContext& f);
 void animate_movers(const FrameContext& f);

@@ -286,6 +286,30 @@ hh_result hh_hand_hold(hh_world* world, hh_player player, hh_side side, hh_body 
     });
 }
 
+hh_result hh_hand_find_grip(hh_world* world, hh_player player, hh_side side, hh_surface_hit* hit) {
+    return call([&] {
+        hh_world& host = world_of(world);
+        require_idle(host);
+        require(hit != nullptr, HH_ERROR_NULL, "the output is null");
+        const Entity owner = player_of(host, player);
+        const HandSide which = side_of(side);
+        const Entity hand = hand_of(host.world, owner, which);
+        const HandTracking& tracking = host.world.hand_tracking.at(hand);
+        require(tracking.state != TrackingState::never, HH_ERROR_STATE,
+                "the hand was never tracked");
+        const auto target =
+            find_grip(host.world, host.caches, host.tuning, hand, host.search_stats);
+        hh_surface_hit found{};
+        if (target && host.world.body.contains(target->body)) {
+            const Pose hand_ws = host.world.player_origin.at(owner).pose_ws * tracking.pose_ps;
+            const Vec3 palm_ws = palm_ray(hand_ws, which, host.tuning.hand).palm_ws;
+            found = {id_of<hh_body>(target->body), to_c(target->point_ws), to_c(target->normal_ws),
+                     (target->point_ws - palm_ws).norm()};
+        }
+        *hit = found;
+    });
+}
+
 hh_result hh_world_step_hands(hh_world* world, double dt_s, const hh_player_input* inputs,
                               size_t input_count) {
     return step_with(world, dt_s, inputs, input_count, &show_host_frame, true);

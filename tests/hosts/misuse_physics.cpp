@@ -62,6 +62,7 @@ void misuse_pointers(hh_world* world, hh_body body, hh_player player) {
     HH_GIVES(HH_OK, hh_world_place_bodies(world, nullptr, 0));
     HH_GIVES(HH_ERROR_NULL, hh_player_place(nullptr, player, k_origin, {}));
     HH_GIVES(HH_ERROR_NULL, hh_hand_hold(nullptr, player, HH_LEFT, body, nullptr));
+    HH_GIVES(HH_ERROR_NULL, hh_hand_find_grip(world, player, HH_LEFT, nullptr));
     HH_GIVES(HH_ERROR_NULL, hh_world_step_hands(world, 0.01, nullptr, 1));
     HH_GIVES(HH_ERROR_NULL, hh_world_begin_step(nullptr, 0.01, nullptr, 0));
     HH_GIVES(HH_ERROR_NULL, hh_world_end_step(nullptr, nullptr, 0));
@@ -79,6 +80,9 @@ void misuse_ids(hh_world* world, hh_player real, hh_body real_body, std::uint32_
     const hh_player player{index, 77};
     HH_GIVES(HH_ERROR_HANDLE, hh_body_set_surface(world, body, nullptr));
     HH_GIVES(HH_ERROR_HANDLE, hh_player_place(world, player, k_origin, {}));
+    hh_surface_hit hit{};
+    HH_GIVES(HH_ERROR_HANDLE, hh_hand_find_grip(world, player, HH_LEFT, &hit));
+    HH_GIVES(HH_ERROR_STATE, hh_hand_find_grip(world, real, HH_LEFT, &hit));
     HH_GIVES(HH_ERROR_HANDLE, hh_hand_hold(world, player, HH_LEFT, real_body, nullptr));
     HH_GIVES(HH_ERROR_HANDLE, hh_hand_hold(world, real, HH_LEFT, body, nullptr));
     HH_GIVES(HH_ERROR_VALUE,
@@ -131,6 +135,8 @@ void misuse_numbers(hh_world* world, const std::vector<hh_body>& bodies, hh_play
     (void)hh_player_place(world, player, rng.next() % 2 == 0 ? k_origin : rng.pose(), rng.vector());
     const hh_pose anchor = rng.pose();
     (void)hh_hand_hold(world, player, HH_LEFT, body, &anchor);
+    hh_surface_hit hit{};
+    (void)hh_hand_find_grip(world, player, HH_RIGHT, &hit);
     hh_tracking_sample sample = hh_default_tracking_sample();
     hh_player_input input = hh_default_player_input();
     double now_s = 0.0;

@@ -146,6 +146,8 @@ void hold_by_host() {
         expect(hh_player_place(scene.world.get(), scene.you, origin, motion.velocity_mps) == HH_OK,
                "player_place");
         if (frame == 30) {
+            const hh_surface_hit found = scene.world.find_grip(scene.you, HH_RIGHT).value_or({});
+            expect(found.body == id && found.distance_m < 0.07, "the platform is under the palm");
             expect(hh_hand_hold(scene.world.get(), scene.you, HH_RIGHT, id, nullptr) == HH_OK,
                    "hand_hold");
         }

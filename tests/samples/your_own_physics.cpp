@@ -219,7 +219,8 @@ int main() {
     // [locomotion]
     // Or your own locomotion: you say where the player is and what a hand holds.
     const hh::Body wall = boxes.front().id;
-    if (!world.hold(you, HH_RIGHT, wall)) {
+    const hh_surface_hit under_palm = *world.find_grip(you, HH_RIGHT);
+    if (under_palm.body != wall || !world.hold(you, HH_RIGHT, under_palm.body)) {
         return 1;
     }
     for (int frame = 181; frame <= 270; ++frame) {

@@ -340,6 +340,11 @@ class World {
     Status hold(Player player, Side side, Body body, const Pose* anchor = nullptr) {
         return hh_hand_hold(world_, player, side, body, anchor);
     }
+    // As hh_hand_find_grip.
+    Maybe<hh_surface_hit> find_grip(Player player, Side side) {
+        return make<hh_surface_hit>(
+            [&](hh_surface_hit* hit) { return hh_hand_find_grip(world_, player, side, hit); });
+    }
     // As hh_world_step_hands.
     Status step_hands(double dt_s, std::span<const hh_player_input> inputs) {
         return hh_world_step_hands(world_, dt_s, inputs.data(), inputs.size());

@@ -84,6 +84,11 @@ HH_API hh_result hh_player_place(hh_world* world, hh_player player, hh_pose orig
  * null: where both are now. Only with hh_world_step_hands. */
 HH_API hh_result hh_hand_hold(hh_world* world, hh_player player, hh_side side, hh_body body,
                               const hh_pose* anchor);
+/* What the hand would grip if it closed where it is, by the rules of hands that pull players: reach,
+ * sight, grab rules, authored grips. A null body: nothing, or another player. distance_m: from the
+ * palm. In every kind of world. HH_ERROR_STATE for a hand that was never tracked. */
+HH_API hh_result hh_hand_find_grip(hh_world* world, hh_player player, hh_side side,
+                                   hh_surface_hit* hit);
 /* One frame: reads tracking and shows hands and bodies where the host put them. No query moves a
  * player or a body, and buttons do nothing. Cost: as hh_world_step without physics. */
 HH_API hh_result hh_world_step_hands(hh_world* world, double dt_s, const hh_player_input* inputs,
