@@ -115,7 +115,7 @@ struct hh_world {
     // Of hosts with physics of their own.
     handhold::HostSurfaces surfaces;
     handhold::StageStats search_stats;  // of queries between steps: ignored
-    bool is_stepping = false;  // between hh_world_begin_step and hh_world_end_step
+    bool is_stepping = false;           // between hh_world_begin_step and hh_world_end_step
     double begun_dt_s = 0.0;
     std::vector<hh_hand_constraint> hand_constraints;
     std::vector<hh_player_motion> player_motions;
