@@ -122,6 +122,8 @@ struct hh_world {
     std::vector<hh_velocity_change> velocity_changes;
     std::vector<handhold::SolvedPlayer> solved_players;     // scratch
     std::vector<handhold::BodyVelocity> solved_velocities;  // scratch, by row
+    std::vector<handhold::BodyVelocity> begun_velocities;   // by row, before hh_world_begin_step
+    std::vector<std::uint8_t> are_placed;                   // by row, since then
 };
 // NOLINTEND(readability-identifier-naming)
 

@@ -126,6 +126,32 @@ void misuse_order(hh_world* world, hh_body body, hh_player player) {
     HH_GIVES(HH_OK, hh_world_end_step(world, nullptr, 0));
 }
 
+// A body that sleeps in the host's engine is not placed, and must not fall in Handhold's world.
+void let_sleep(hh_world* world, hh_body dynamic) {
+    hh_pose before{};
+    hh_pose after{};
+    hh_vec3 velocity{};
+    HH_GIVES(HH_OK, hh_world_set_gravity(world, {0.0, -10.0, 0.0}));
+    HH_GIVES(HH_OK, hh_body_pose(world, dynamic, &before));
+    for (int step = 0; step < 10; ++step) {
+        HH_GIVES(HH_OK, hh_world_begin_step(world, 0.1, nullptr, 0));
+        HH_GIVES(HH_OK, hh_world_end_step(world, nullptr, 0));
+    }
+    HH_GIVES(HH_OK, hh_body_pose(world, dynamic, &after));
+    HH_GIVES(HH_OK, hh_body_velocity(world, dynamic, &velocity, nullptr));
+    expect(before.position.y == after.position.y && velocity.y == 0.0, "a sleeping body fell",
+           __LINE__);
+    const hh_body_motion motion{dynamic, {{1.0, 2.0, 3.0}, {0, 0, 0, 1}}, {0.0, 1.0, 0.0}, {}};
+    HH_GIVES(HH_OK, hh_world_begin_step(world, 0.1, nullptr, 0));
+    HH_GIVES(HH_OK, hh_world_place_bodies(world, &motion, 1));
+    HH_GIVES(HH_OK, hh_world_end_step(world, nullptr, 0));
+    HH_GIVES(HH_OK, hh_body_pose(world, dynamic, &after));
+    HH_GIVES(HH_OK, hh_body_velocity(world, dynamic, &velocity, nullptr));
+    expect(after.position.y == 2.0 && velocity.y == 1.0, "a placed body is where the host put it",
+           __LINE__);
+    HH_GIVES(HH_OK, hh_world_set_gravity(world, {}));
+}
+
 void misuse_numbers(hh_world* world, const std::vector<hh_body>& bodies, hh_player player,
                     Rng& rng) {
     const hh_body body = bodies[rng.next() % bodies.size()];
@@ -197,6 +223,7 @@ int main() {
         misuse_ids(world, player, surfaces.bodies.front(), index);
     }
     misuse_order(world, surfaces.bodies.front(), player);
+    let_sleep(world, surfaces.bodies.back());
 
     const hh_surface_query query = answers_anything(surfaces);
     HH_GIVES(HH_OK, hh_world_set_surface_query(world, &query));

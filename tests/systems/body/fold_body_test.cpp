@@ -52,7 +52,7 @@ struct Body {
         velocity.at(k_player).linear_mps = velocity_mps;
         t_s += dt_s;
         propagate_spine({dt_s, t_s, origin, velocity, reference, measures, estimate, memory, pose,
-                         nullptr, &head, nullptr},
+                         {}, &head, nullptr},
                         {});
         return pose.at(k_player);
     }

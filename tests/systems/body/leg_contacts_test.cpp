@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/anim/deflect_outward.hpp"
+#include "engine/collision/collision_world.hpp"
 #include "systems/body/propagate_spine.hpp"
 #include "tests/random.hpp"
 #include "tests/systems/frame/column_scene.hpp"

@@ -68,9 +68,9 @@ typedef struct hh_body_motion {
     hh_vec3 velocity_mps;
     hh_vec3 angular_velocity_radps;
 } hh_body_motion;
-/* Where bodies are now, after the host's own step. Unlike a teleport it ends no grip. Before
- * a step, hh_body_move_kinematic says where a kinematic body will be at its end. Places all or, on
- * an error, none. */
+/* Where bodies are now, after the host's own step. Unlike a teleport it ends no grip. A kinematic
+ * body rests there until hh_body_move_kinematic says where it will be at the end of the next step.
+ * Places all or, on an error, none. */
 HH_API hh_result hh_world_place_bodies(hh_world* world, const hh_body_motion* motions,
                                        size_t count);
 /* Where a player's play space is now, by the host's locomotion. Unlike a teleport it ends no grip,
@@ -164,9 +164,9 @@ HH_API hh_result hh_world_hand_constraints(const hh_world* world,
 /* One a player, in the order of hh_world_players. Valid until hh_world_end_step. */
 HH_API hh_result hh_world_player_motions(const hh_world* world, const hh_player_motion** motions,
                                          size_t* count);
-/* Second half, after the host's solver: `players` has the solved play spaces (one left out moves as
- * predicted), and hh_world_place_bodies was called with the bodies that moved. Releases grips,
- * limits velocities and shows hands and bodies. On an error the step stays begun. */
+/* Second half, after the host's solver. `players`: the solved play spaces; one left out moves as
+ * predicted. Bodies that the host has not placed since hh_world_begin_step rest where they were.
+ * Releases grips, limits velocities and shows hands and bodies. On an error the step stays begun. */
 HH_API hh_result hh_world_end_step(hh_world* world, const hh_solved_player* players, size_t count);
 /* Velocities that the host must give its bodies: after hh_world_begin_step those of bodies that the
  * distance grab pulls, after hh_world_end_step those of thrown and limited bodies. Players':
