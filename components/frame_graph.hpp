@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "components/player.hpp"
 #include "engine/collision/collision_world.hpp"
 #include "engine/ecs/entity.hpp"
 #include "engine/solver/contact/missed_overlaps.hpp"
@@ -57,13 +58,13 @@ struct FrameGraph {
         bool grips_surface = false;
         bool pushed = false;  // the backward or contradiction phase ran on the body's island
         Vec3 velocity_before_mps = Vec3::Zero();  // players: velocity before the velocity solve
-        std::uint64_t work = 0;    // spent by the position solves of its islands (WorkBudget)
-        double push_back_m = 0.0;  // players: how far contacts moved the origin in this frame
+        std::uint64_t work = 0;  // spent by the position solves of its islands (WorkBudget)
     };
     // graph.bodies has one more element at the end, the world, if a joint connects a body to the
     // world.
     std::vector<PhaseBody> phase;
-    JointGroups joint_groups;  // written by group_joints
+    JointGroups joint_groups;          // written by group_joints
+    std::vector<PushBack> push_backs;  // of every player; written by finish_positions
 
     std::vector<ContactPoint> contacts;  // written by find_contacts, solve_phases
     std::vector<IgnoredPair> ignored;    // written by find_contacts

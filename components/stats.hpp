@@ -102,6 +102,8 @@ enum class Fallback : std::uint8_t {
     pull_refused_heavy,  // the body is heavier than PullTuning::max_mass_kg
     pull_refused_held,   // the body is held, or pulled by another hand
     pull_lost,  // body gone, too far or held, or hand not tracked: the pull ends, the body flies on
+    // Hosts.
+    surface_answer_invalid,  // a host answered a query with numbers that mean nothing: no surface
     count
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/collision/shape_library.hpp"
+#include "engine/collision/surface_query.hpp"
 #include "engine/math/math.hpp"
 
 // Broadphase, narrowphase and queries, behind an interface without types of the underlying library
@@ -61,23 +62,6 @@ struct ContactLimits {
     double margin_m = 0.02;  // contacts with a larger separation are dropped; > 0
     // Pairs whose relative displacement exceeds this are swept; > 0.
     double sweep_m = 0.005;
-};
-
-struct RayHit {
-    std::uint64_t id = 0;
-    Vec3 point_ws = Vec3::Zero();
-    // Unit, towards the side that the ray came from, whatever the triangle's winding.
-    Vec3 normal_ws = Vec3::UnitY();
-    double distance_m = 0.0;  // from the ray's start
-};
-
-struct SurfacePoint {
-    std::uint64_t id = 0;
-    Vec3 point_ws = Vec3::Zero();
-    // Unit, from the surface point towards the query point; outward if the two coincide or the
-    // query point is inside.
-    Vec3 normal_ws = Vec3::UnitY();
-    double distance_m = 0.0;  // 0 inside a solid; point_ws is on the surface there too
 };
 
 // The BVH of a mesh. Keeps a reference to the mesh, which must outlive it. Any thread.

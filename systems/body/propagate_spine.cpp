@@ -10,7 +10,6 @@
 #include "engine/anim/deflect_outward.hpp"
 #include "engine/anim/joint_range.hpp"
 #include "engine/anim/quadratic_path.hpp"
-#include "engine/collision/collision_world.hpp"
 #include "engine/ecs/join.hpp"
 #include "engine/math/scalar_rotation.hpp"
 #include "systems/body/shared/fold_body.hpp"
@@ -248,7 +247,7 @@ LegContact find_surface_below(const PropagateSpineIo& io, Entity player, const P
     }
     const Vec3 along = path * (1.0 / length);
     const std::array<std::uint64_t, 1> skip = {io.persistent_id->at(player).value};
-    const auto hit = io.collision->cast_ray(
+    const auto hit = io.surfaces.cast_ray(
         transform_point(origin_ws, head_ps),
         transform_point(origin_ws, head_ps + (length + sole_m + k_ahead_m) * along), skip);
     if (!hit) {
@@ -270,7 +269,7 @@ bool is_tracked_floor(const LegContact& contact, const TrackedFloor& floor) {
 
 void touch_surfaces(const PropagateSpineIo& io, Entity player, const Motion& motion,
                     const TrackedFloor& floor, SpineMemory& memory) {
-    if (io.collision == nullptr) {
+    if (!io.surfaces) {
         return;
     }
     const double scale = floor.scale;

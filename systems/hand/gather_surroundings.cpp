@@ -55,7 +55,8 @@ class Gatherer {
             add_to_signature(stream, grab.body, out.meshes.back());
             add_nearby_meshes(out, stream);
             out.signature = stream.value() | 1U;  // never 0, which means that there is no body
-        } else if (io_.meshes != nullptr && io_.body_pose.contains(grab.body)) {
+        } else if ((io_.meshes != nullptr || io_.body_surface != nullptr) &&
+                   io_.body_pose.contains(grab.body)) {
             stats_.count(Fallback::body_no_surface);
         }
     }
@@ -68,9 +69,17 @@ class Gatherer {
     }
 
     const GripMesh* mesh_of(Entity body) const {
+        if (!io_.body_pose.contains(body)) {
+            return nullptr;
+        }
+        if (io_.body_surface != nullptr) {
+            if (const BodySurface* const own = io_.body_surface->find(body)) {
+                return own->mesh.get();
+            }
+        }
         const Collider* const collider = io_.collider.find(body);
-        const bool is_known = io_.meshes != nullptr && collider != nullptr &&
-                              io_.body_pose.contains(body) && io_.meshes->has(collider->shape);
+        const bool is_known =
+            io_.meshes != nullptr && collider != nullptr && io_.meshes->has(collider->shape);
         return is_known ? &io_.meshes->at(collider->shape) : nullptr;
     }
 
@@ -97,8 +106,7 @@ class Gatherer {
     void add_nearby_meshes(HandSurroundings& out, HashStream& stream) const {
         const Vec3 palm_ws =
             transform_point(out.body_ws, transform_point(out.wrist_bs, out.rig->palm_center_hs));
-        for (std::size_t i = 0; i < io_.frame.entities.size(); ++i) {
-            const Entity body = io_.frame.entities[i];
+        for (const Entity body : io_.bodies) {
             if (body == out.body || !io_.body_pose.contains(body)) {
                 continue;
             }

@@ -58,8 +58,8 @@ void discard_broken_results(const DiscardBrokenResultsIo& io, StageStats& stats)
     for (Grab& grab : io.grab.rows()) {
         bound(grab.error_m);
     }
-    for (FrameGraph::PhaseBody& body : io.frame.phase) {
-        bound(body.push_back_m);
+    for (PushBack& push_back : io.frame.push_backs) {
+        bound(push_back.distance_m);
     }
 }
 

@@ -223,6 +223,7 @@ void restore_penetrating_bodies(const FinishPositionsIo& io, const ContactTuning
 
 void write_poses(const FinishPositionsIo& io) {
     FrameGraph& frame = io.frame;
+    frame.push_backs.clear();
     for (std::uint32_t i = 0; i < frame.graph.bodies.size(); ++i) {
         const SolverBody& body = frame.graph.bodies[i];
         if (body.role == BodyRole::fixed) {
@@ -231,8 +232,8 @@ void write_poses(const FinishPositionsIo& io) {
         const Entity entity = frame.entities[i];
         if (body.role == BodyRole::translating) {
             io.origin.at(entity).pose_ws.position = body.pose_ws.position;
-            frame.phase[i].push_back_m =
-                (body.pose_ws.position - frame.phase[i].reached_ws.position).norm();
+            frame.push_backs.push_back(
+                {entity, (body.pose_ws.position - frame.phase[i].reached_ws.position).norm()});
         } else {
             io.body_pose.at(entity).pose_ws = body.pose_ws;
         }

@@ -24,7 +24,7 @@ namespace handhold {
 
 struct FinishPositionsIo {
     CollisionWorld& collision;     // in/out: proxies of restored bodies, world
-    FrameGraph& frame;             // in/out: graph, contacts; out: phase (push_back_m)
+    FrameGraph& frame;             // in/out: graph, contacts; out: push_backs
     Column<BodyPose>& body_pose;   // out, free bodies: world, end of the frame
     Column<PlayerOrigin>& origin;  // out: world, position only
     Column<Grab>& grab;            // out: error_m, m
