@@ -98,7 +98,8 @@ void place_colliders(const FrameContext& f, Stage needed_by) {
     World& w = f.w;
     handhold::place_colliders(
         {w.persistent_id, w.collider, w.body, w.body_pose, w.body_start, w.player_origin,
-         w.player_start, w.head_tracking, w.last_valid, f.collision(), f.graph(), &w.filter},
+         w.player_start, w.head_tracking, w.last_valid, f.collision(), f.graph(), &w.filter,
+         &w.body_velocity},
         f.tuning.head);
 }
 

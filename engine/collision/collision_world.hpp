@@ -80,6 +80,13 @@ struct SurfacePoint {
     double distance_m = 0.0;  // 0 inside a solid; point_ws is on the surface there too
 };
 
+// What the world has done: deterministic units of cost.
+struct CollisionWork {
+    std::uint64_t narrowphase_calls = 0;  // pairs whose contacts were computed, not recalled
+    std::uint64_t bounds_updates = 0;     // colliders whose place in the tree was updated
+    std::uint64_t tree_queries = 0;       // of find_contacts
+};
+
 // The BVH of a mesh. Keeps a reference to the mesh, which must outlive it. Any thread.
 class TriangleTree;
 std::shared_ptr<const TriangleTree> build_triangle_tree(const Mesh& mesh);
@@ -109,6 +116,10 @@ class CollisionWorld {
     // valid. An unchanged proxy costs only a comparison. No allocation once the largest number of
     // proxies has been seen.
     void set_proxies(std::span<const ColliderProxy> proxies);
+    // Replaces the proxies with the ids of `proxies`, in any order. All others stay as they are and
+    // cost nothing. Adds and removes no collider: throws PreconditionError if a proxy with a shape
+    // has an unknown id, or one without a shape a known one.
+    void update_proxies(std::span<const ColliderProxy> proxies);
     // Replaces the ignored pairs. `pairs` must be sorted.
     void set_ignored_pairs(std::span<const IgnoredPair> pairs);
 
@@ -132,6 +143,12 @@ class CollisionWorld {
     // Of contacts with the same normal only the deepest and at most 8 corners of their outline are
     // kept.
     void find_contacts(const ContactLimits& limits, std::vector<ContactPoint>& contacts);
+
+    // Work since the last call.
+    CollisionWork take_work();
+    // How often set_proxies has run: tells a caller of update_proxies whether the set is still its
+    // own.
+    std::uint64_t proxy_set() const;
 
     // First surface that the segment hits, from outside or inside. Colliders are at their end poses
     // (ColliderProxy::to_ws). Ignores the ids in `skip`.

@@ -102,7 +102,7 @@ void find_penetrating_bodies(double restore_depth_m, FrameGraph& frame) {
             }
         }
     }
-    for (std::uint32_t index = 0; index < graph.bodies.size(); ++index) {
+    for (const std::uint32_t index : frame.hidden_overlaps.deep) {
         const auto involves_body = [index](const RowBlock& block) {
             return block.a == index || block.b == index;
         };
@@ -148,13 +148,15 @@ void rebuild_contacts(const FinishPositionsIo& io, const ContactTuning& tuning, 
         return is_penetrating(contact.id_a) || is_penetrating(contact.id_b);
     });
     const FoundContacts found = refresh_contacts(
-        {io.collision, frame.proxies, frame.contacts, frame.graph, frame.fresh_contacts},
+        {io.collision, frame.proxies, frame.contacts, frame.graph, frame.fresh_contacts,
+         frame.proxy_updates, frame.displaced, frame.active.list},
         {tuning.margin_m, tuning.sweep_m}, OldPoints::replaced);
     if (found == FoundContacts::unchanged) {
         replace_contact_rows(frame.contacts, frame.graph);
     } else {
         ++stats.contact_rounds;
     }
+    activate_islands(frame);
 }
 
 // For each island: keeps the restores of all its bodies (counted), or undoes them all. True if any
@@ -196,16 +198,17 @@ void restore_penetrating_bodies(const FinishPositionsIo& io, const ContactTuning
     FrameGraph& frame = io.frame;
     if (heap_block_count(frame.graph) > k_max_restore_blocks) {
         frame.penetrating_bodies.clear();
-        frame.hidden_overlaps.of_body.resize(frame.graph.bodies.size());
-        for (std::uint32_t i = 0; i < frame.graph.bodies.size(); ++i) {
-            frame.hidden_overlaps.of_body[i] = {0.0, i};
-        }
+        frame.hidden_overlaps.clear(frame.graph.bodies.size());
         stats.count(Fallback::solver_budget);
         return;
     }
     find_missed_overlaps(
-        {io.collision, frame.proxies, frame.contacts, frame.graph, frame.fresh_contacts},
-        {tuning.margin_m, tuning.sweep_m}, frame.hidden_overlaps);
+        {io.collision, frame.proxies, frame.contacts, frame.graph, frame.fresh_contacts,
+         frame.proxy_updates, frame.displaced},
+        {tuning.margin_m, tuning.sweep_m}, frame.active.list, frame.hidden_overlaps);
+    for (const std::uint32_t i : frame.displaced) {
+        frame.active.add(i);
+    }
     find_penetrating_bodies(tuning.restore_depth_m, frame);
     if (frame.penetrating_bodies.empty()) {
         return;
@@ -223,7 +226,7 @@ void restore_penetrating_bodies(const FinishPositionsIo& io, const ContactTuning
 
 void write_poses(const FinishPositionsIo& io) {
     FrameGraph& frame = io.frame;
-    for (std::uint32_t i = 0; i < frame.graph.bodies.size(); ++i) {
+    for (const std::uint32_t i : frame.active.list) {
         const SolverBody& body = frame.graph.bodies[i];
         if (body.role == BodyRole::fixed) {
             continue;
@@ -286,8 +289,8 @@ void write_errors(const FinishPositionsIo& io, StageStats& stats) {
     for (std::size_t island = 0; island < io.frame.graph.islands.size(); ++island) {
         write_island_errors(io, island, stats);
     }
-    for (const Overlap& hidden : io.frame.hidden_overlaps.of_body) {
-        stats.residual_m = std::max(stats.residual_m, hidden.depth_m);
+    for (const std::uint32_t i : io.frame.hidden_overlaps.deep) {
+        stats.residual_m = std::max(stats.residual_m, io.frame.hidden_overlaps.of_body[i].depth_m);
     }
 }
 
@@ -298,6 +301,11 @@ void finish_positions(const FinishPositionsIo& io, const ContactTuning& tuning, 
     write_poses(io);
     write_errors(io, stats);
     stats.contacts += io.frame.contacts.size();
+    const CollisionWork work = io.collision.take_work();
+    stats.narrowphase_calls += work.narrowphase_calls;
+    stats.bounds_updates += work.bounds_updates;
+    stats.tree_queries += work.tree_queries;
+    stats.active_bodies += io.frame.active.list.size();
 }
 
 }  // namespace handhold

@@ -260,9 +260,11 @@ bool refresh_contacts(const Solve& s, OldPoints old_points) {
         return false;
     }
     const FoundContacts found = refresh_contacts(
-        {s.io.collision, frame.proxies, frame.contacts, frame.graph, frame.fresh_contacts},
+        {s.io.collision, frame.proxies, frame.contacts, frame.graph, frame.fresh_contacts,
+         frame.proxy_updates, frame.displaced},
         {s.tuning.contact.margin_m, s.tuning.contact.sweep_m}, old_points);
     if (found != FoundContacts::unchanged) {
+        activate_islands(frame);
         ++s.stats.contact_rounds;
         s.heap_visits += heap_block_count(frame.graph);
         clear_errors(s);
@@ -291,7 +293,8 @@ void reach(const Solve& s) {
     HH_DETAIL_ZONE("reach");
     solve_islands(s, Phase::reach,
                   [&](const Island& island) { return has_hand_or_joint(s, island); });
-    for (std::uint32_t i = 0; i < s.graph().bodies.size(); ++i) {
+    // build_constraints wrote the poses of all others.
+    for (const std::uint32_t i : s.graph().island_bodies) {
         s.phase_of(i).reached_ws = s.graph().bodies[i].pose_ws;
     }
     refresh_contacts(s, OldPoints::replaced);
@@ -399,6 +402,7 @@ void solve_phases(const SolvePhasesIo& io, const Tuning& tuning, StageStats& sta
     std::uint64_t heap_visits = heap_block_count(io.frame.graph);
     const Solve s{io, tuning, stats, heap_visits};
     clear_errors(s);
+    activate_islands(io.frame);
     reach(s);
     forward(s);
     relax(s);
