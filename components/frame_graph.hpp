@@ -63,11 +63,11 @@ struct FrameGraph {
         ColumnWatch<PlayerOrigin> origin;
     };
     Watches watches;
-    std::vector<std::uint32_t> index_of_slot;   // by Entity::slot: index into `entities`
-    std::vector<ColliderProxy> proxy_updates;   // scratch: proxies to send to the collision world
-    std::vector<std::uint32_t> displaced;       // bodies whose proxy there is not the one in `proxies`
-    double heavy_body_kg = 0.0;                 // of the last build_constraints
-    std::uint64_t proxy_set = 0;                // CollisionWorld::proxy_set() after place_colliders
+    std::vector<std::uint32_t> index_of_slot;  // by Entity::slot: index into `entities`
+    std::vector<ColliderProxy> proxy_updates;  // scratch: proxies to send to the collision world
+    std::vector<std::uint32_t> displaced;  // bodies whose proxy there is not the one in `proxies`
+    double heavy_body_kg = 0.0;            // of the last build_constraints
+    std::uint64_t proxy_set = 0;           // CollisionWorld::proxy_set() after place_colliders
     struct PhaseBody {
         Pose reached_ws;  // pose after the reach phase
         // Players: 1/kappa, the factor on the player's inverse mass in the forward phase; from 0 to
@@ -81,6 +81,7 @@ struct FrameGraph {
         bool pushed = false;  // the backward or contradiction phase ran on the body's island
         Vec3 velocity_before_mps = Vec3::Zero();  // players: velocity before the velocity solve
         std::uint64_t work = 0;    // spent by the position solves of its islands (WorkBudget)
+        std::uint64_t visits = 0;  // contacts of its heaps that searches have visited
         double push_back_m = 0.0;  // players: how far contacts moved the origin in this frame
     };
     // graph.bodies has one more element at the end, the world, if a joint connects a body to the

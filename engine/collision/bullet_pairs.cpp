@@ -8,10 +8,11 @@ namespace {
 
 PairCache::Version version_of(const BroadphaseBody& body) { return {body.proxy.id, body.stamp}; }
 
-// Bodies spawned in one place would be n^2 pairs. Of the free bodies that overlap a free body so
-// deeply that it contains their centres, or they its, only the first few by id are tested. The
-// others follow as these come apart.
-constexpr std::size_t k_max_deep_pairs = 8;
+// Bodies spawned in one place would be n^2 pairs. A body that overlaps others deeply has at most
+// this many pairs with free bodies. The others follow as these come apart.
+constexpr std::size_t k_max_crowded_pairs = 6;
+// Share of the distance at which two convex bodies can touch, below which they overlap deeply.
+constexpr double k_deep_share = 0.75;
 
 double smallest_half(const Bounds& box) { return 0.5 * (box.high - box.low).minCoeff(); }
 
@@ -29,13 +30,18 @@ bool CollisionWorld::Impl::is_pair(const BroadphaseBody& a, const BroadphaseBody
 }
 
 bool CollisionWorld::Impl::is_deep(const BroadphaseBody& a, const BroadphaseBody& b) const {
-    if (!b.proxy.free) {
+    // The centre of a compound may be empty.
+    if (!b.proxy.free || cache[a.proxy.shape.index].parts.size() > 1 ||
+        cache[b.proxy.shape.index].parts.size() > 1) {
         return false;
     }
-    const double depth_m = std::min(smallest_half(extents[a.proxy.shape.index].box),
-                                    smallest_half(extents[b.proxy.shape.index].box));
-    const Vec3 offset = a.proxy.to_ws.position - b.proxy.to_ws.position;
-    return offset.squaredNorm() < depth_m * depth_m;
+    const double depth_m = k_deep_share * (smallest_half(extents[a.proxy.shape.index].box) +
+                                           smallest_half(extents[b.proxy.shape.index].box));
+    // A pair that was deep at the last valid poses was never apart: a sweep between them says
+    // nothing.
+    const Vec3 from = a.proxy.from_ws.position - b.proxy.from_ws.position;
+    const Vec3 to = a.proxy.to_ws.position - b.proxy.to_ws.position;
+    return std::min(from.squaredNorm(), to.squaredNorm()) < depth_m * depth_m;
 }
 
 void CollisionWorld::Impl::mark(std::size_t body, Visit visit, std::size_t slot) {
@@ -77,8 +83,8 @@ void CollisionWorld::Impl::mark_near_changes(double margin_m) {
     }
 }
 
-// Lists the bodies to visit, ascending: those that mark_near_changes marks, and those that had pairs
-// in the last pass. All other bodies have no pairs, as before, and cost nothing.
+// Lists the bodies to visit, ascending: those that mark_near_changes marks, and those that had
+// pairs in the last pass. All other bodies have no pairs, as before, and cost nothing.
 void CollisionWorld::Impl::find_visits(double margin_m) {
     const std::size_t count = broadphase.bodies().size();
     visits.clear();
@@ -130,13 +136,20 @@ void CollisionWorld::Impl::search_pairs(std::size_t i, double margin_m) {
     }
     const std::uint64_t since = is_isolated ? a.isolated_since : 0;
     const std::size_t first = pairs.size();
-    std::size_t deep_pairs = 0;
+    std::size_t free_pairs = 0;
+    bool is_crowded = false;
     for (const std::size_t other : find_candidates(i, reach_ws)) {
         const BroadphaseBody& b = bodies[other];
-        if (b.stamp > since && b.leaf != nullptr && overlaps(b.bounds_ws, reach_ws) &&
-            is_pair(a, b) && (!is_deep(a, b) || deep_pairs++ < k_max_deep_pairs)) {
-            pairs.push_back(other);
+        if (b.stamp <= since || b.leaf == nullptr || !overlaps(b.bounds_ws, reach_ws) ||
+            !is_pair(a, b)) {
+            continue;
         }
+        is_crowded = is_crowded || is_deep(a, b);
+        if (b.proxy.free && is_crowded && free_pairs >= k_max_crowded_pairs) {
+            continue;
+        }
+        free_pairs += b.proxy.free ? 1U : 0U;
+        pairs.push_back(other);
     }
     if (!is_isolated || pairs.size() > first) {
         body_pairs.push_back({i, first, pairs.size(), is_isolated, true});

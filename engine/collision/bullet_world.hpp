@@ -40,7 +40,7 @@ struct CollisionWorld::Impl {
     void check(std::span<const ColliderProxy> proxies) const;
     void check(const ColliderProxy& proxy) const;
     bool is_pair(const BroadphaseBody& a, const BroadphaseBody& b) const;
-    // True if one of two free bodies has the other's centre well inside.
+    // True if two convex free bodies overlap by about a quarter of their thickness or more.
     bool is_deep(const BroadphaseBody& a, const BroadphaseBody& b) const;
     // Fills body_pairs and pairs. Costs nothing for bodies that have no pairs and near which nothing
     // changed since the last pass.

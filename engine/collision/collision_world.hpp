@@ -162,6 +162,9 @@ class CollisionWorld {
     // precision).
     std::optional<SurfacePoint> closest_point(const Vec3& point_ws, double max_distance_m,
                                               std::span<const std::uint64_t> skip = {}) const;
+    // Ids of the colliders whose bounds overlap the box, ascending. Valid until the calling
+    // thread's next query.
+    std::span<const std::uint64_t> find_near(const Vec3& low_ws, const Vec3& high_ws) const;
     // Nearest surface point of the collider `id`, at any distance. nullopt if no collider has this
     // id.
     std::optional<SurfacePoint> closest_point_on(std::uint64_t id, const Vec3& point_ws) const;

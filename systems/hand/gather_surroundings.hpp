@@ -37,6 +37,8 @@ struct GatherSurroundingsIo {
     // In: hands with a rig of their own, and these rigs. Null, or an index beyond: `rigs`.
     const Column<HandRigChoice>* rig_choice = nullptr;
     std::span<const HandRig> more_rigs = {};
+    // In: finds the bodies near a hand. Null: all bodies are looked at.
+    const CollisionWorld* collision = nullptr;
 };
 
 // Collects each hand's wrist pose and the surfaces near the hand, in the gripped body's frame. This
@@ -48,5 +50,8 @@ struct GatherSurroundingsIo {
 //
 // Fallbacks counted: body_no_surface.
 void gather_surroundings(const GatherSurroundingsIo& io, StageStats& stats);
+// The same for the rows [first, last) of `owner`. `surroundings` has its size already.
+void gather_surroundings(const GatherSurroundingsIo& io, std::size_t first, std::size_t last,
+                         StageStats& stats);
 
 }  // namespace handhold

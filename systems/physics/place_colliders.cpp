@@ -43,7 +43,7 @@ ColliderProxy proxy_of(const PlaceCollidersIo& io, Entity entity, const HeadTuni
 
 constexpr std::uint32_t k_no_index = std::numeric_limits<std::uint32_t>::max();
 
-// Lists all bodies and players afresh.
+// Lists and places all bodies and players.
 void place_all(const PlaceCollidersIo& io, const HeadTuning& tuning) {
     FrameGraph& frame = io.frame;
     frame.by_id.clear();
@@ -78,7 +78,7 @@ std::uint32_t index_of(const FrameGraph& frame, Entity entity) {
 }
 
 // Notes the bodies whose components changed since the last call, and all players. False if bodies
-// or players were added or removed: then everything is placed afresh.
+// or players were added or removed: then all must be placed.
 bool note_changes(const PlaceCollidersIo& io) {
     FrameGraph& frame = io.frame;
     FrameGraph::Watches& watches = frame.watches;

@@ -10,9 +10,9 @@
 
 // Lists all bodies and players by persistent id and gives their colliders to the collision world.
 // Runs before stages 2 and 4. Only bodies whose components changed since the last call are placed;
-// the others cost a comparison of bytes. A proxy goes from the last valid pose to the current pose; fixed and
-// kinematic bodies from their pose at the start of the frame. A player's collider is the sphere of
-// the head, at the end of the frame; a head that was never tracked takes no part.
+// the others cost a comparison of bytes. A proxy goes from the last valid pose to the current pose;
+// fixed and kinematic bodies from their pose at the start of the frame. A player's collider is the
+// sphere of the head, at the end of the frame; a head that was never tracked takes no part.
 // Fallbacks counted: none.
 namespace handhold {
 

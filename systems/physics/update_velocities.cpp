@@ -170,7 +170,9 @@ void book_impulses(const ConstraintGraph& graph, MomentumLedger& ledger) {
         const Vec3 point_ws = is_contact(block) ? transform_point(a.pose_ws, block.point_a_bs)
                                                 : transform_point(b.pose_ws, block.point_b_bs);
         book_impulse(a, point_ws, block.impulse_ws_ns, block.angular_impulse_ws_nms, ledger);
-        book_impulse(b, point_ws, -block.impulse_ws_ns, -block.angular_impulse_ws_nms, ledger);
+        const Vec3 point_b_ws =
+            block.is_impact ? transform_point(b.pose_ws, block.point_b_bs) : point_ws;
+        book_impulse(b, point_b_ws, -block.impulse_ws_ns, -block.angular_impulse_ws_nms, ledger);
     }
 }
 

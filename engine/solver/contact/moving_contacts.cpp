@@ -37,7 +37,8 @@ bool exceeds_contact_motion(const Pose& from, const Pose& to, double limit_m) {
 // without a collider are skipped.
 void move_proxy(const MovingContacts& moving, std::uint32_t i) {
     const SolverBody& body = moving.graph.bodies[i];
-    if (body.role == BodyRole::fixed || moving.proxies[i].shape == k_no_shape) {
+    if (body.role == BodyRole::fixed || !body.is_searched ||
+        moving.proxies[i].shape == k_no_shape) {
         return;
     }
     ColliderProxy& proxy = moving.proxies[i];
@@ -150,7 +151,7 @@ void merge_contacts(const MovingContacts& moving, OldPoints old_points) {
 
 FoundContacts refresh_contacts(const MovingContacts& moving, const ContactLimits& limits,
                                OldPoints old_points) {
-    if (!move_proxies(moving)) {
+    if (!move_proxies(moving) && moving.also_moved.empty()) {
         return FoundContacts::unchanged;
     }
     for (const std::uint32_t i : moving.displaced) {

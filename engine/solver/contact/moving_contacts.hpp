@@ -24,7 +24,8 @@ struct MovingContacts {
     std::vector<ColliderProxy>& updates;  // scratch: proxies to send to the collision world
     // In/out: bodies whose proxy in the collision world is not the one in `proxies`.
     std::vector<std::uint32_t>& displaced;
-    // Bodies outside of all islands that may have moved too.
+    // Bodies outside of all islands that may have moved too. If there are any, contacts are always
+    // searched again.
     std::span<const std::uint32_t> also_moved = {};
 };
 

@@ -219,14 +219,6 @@ void sort_largest_first(const ConstraintGraph& graph, std::span<std::uint32_t> i
     });
 }
 
-std::size_t heap_block_count(const ConstraintGraph& graph) {
-    std::size_t count = 0;
-    for (const Island& island : graph.islands) {
-        count += island.is_heap ? graph.blocks_of(island).size() : 0;
-    }
-    return count;
-}
-
 bool is_heap_contact(std::span<const SolverBody> bodies, const RowBlock& block) {
     const SolverBody& a = bodies[block.a];
     const SolverBody& b = bodies[block.b];

@@ -100,8 +100,6 @@ struct IslandErrors {
     double without_drives_m() const { return std::max(joints_m, contacts_m); }
     double worst_m() const { return std::max(drives_m, without_drives_m()); }
 };
-// Blocks of all islands that are heaps.
-std::size_t heap_block_count(const ConstraintGraph& graph);
 // True if all movable bodies of a contact are in a heap.
 bool is_heap_contact(std::span<const SolverBody> bodies, const RowBlock& block);
 IslandErrors island_errors(const ConstraintGraph& graph, const Island& island);
