@@ -6,8 +6,8 @@
 
 namespace handhold {
 
-// Which bodies of a frame the physics stages look at, by index into FrameGraph::entities. Everything
-// the stages keep about the others is as they left it, so bodies at rest cost nothing.
+// Which bodies of a frame the physics stages look at, by index into FrameGraph::entities.
+// Everything the stages keep about the others is as they left it, so bodies at rest cost nothing.
 //
 // place_colliders notes the bodies whose components changed, the solver stages those that they
 // touched. build_constraints turns the noted bodies into those of its frame. If nobody tracks
