@@ -8,8 +8,8 @@
 #include "engine/math/scalar_rotation.hpp"
 #include "systems/arm/shared/body_constants.hpp"
 #include "systems/arm/shared/body_view.hpp"
+#include "systems/arm/shared/elbow_direction.hpp"
 #include "systems/arm/shared/estimate_chest.hpp"
-#include "systems/arm/shared/estimate_elbow.hpp"
 #include "systems/arm/shared/level_direction.hpp"
 
 namespace handhold {

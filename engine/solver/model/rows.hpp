@@ -87,8 +87,9 @@ struct JointRows {
     double lock_impulse = 0.0;  // out of solve_velocities: impulse that held the lock
 };
 
-// One constraint between two bodies. Drives: a is the driving (translating) body, b the driven one.
-// Contacts: a is the free collider, b holds the normal.
+// One constraint between two bodies. Drives: a is the driving body (BodyRole::translating), b the
+// one that it drives. Contacts: a has a free collider (if both have, a has the lower id), and the
+// normal is given in b's frame.
 struct RowBlock {
     RowKind kind = RowKind::contact;
     std::uint32_t a = 0;  // into ConstraintGraph::bodies
