@@ -137,6 +137,10 @@ struct StageStats {
     std::uint64_t islands_pushed = 0;  // islands that ran the backward phase
     std::uint64_t contacts = 0;
     std::uint64_t contact_rounds = 0;     // narrowphase passes inside solve_phases
+    std::uint64_t narrowphase_calls = 0;  // pairs whose contacts were computed, in all passes
+    std::uint64_t bounds_updates = 0;     // colliders whose place in the broadphase was updated
+    std::uint64_t tree_queries = 0;       // searches of the broadphase for pairs
+    std::uint64_t active_bodies = 0;      // bodies and players that the physics stages looked at
     std::uint64_t newton_iterations = 0;  // sum over all islands and phases
     double residual_m = 0.0;              // deepest contact overlap at the end of the frame
     double joint_error_m = 0.0;  // largest distance of a joint's points, or slider limit violation

@@ -1,5 +1,9 @@
 #include "systems/frame_stages.hpp"
 
+#include <algorithm>
+#include <functional>
+
+#include "engine/core/parallel.hpp"
 #include "engine/core/profile.hpp"
 #include "systems/arm/estimate_arms.hpp"
 #include "systems/arm/pose_arms.hpp"
@@ -95,10 +99,10 @@ void group_joints(const FrameContext& f) {
 void place_colliders(const FrameContext& f, Stage needed_by) {
     const StageTimer timer(needed_by, f.stats);
     World& w = f.w;
-    handhold::place_colliders(
-        {w.persistent_id, w.collider, w.body, w.body_pose, w.body_start, w.player_origin,
-         w.player_start, w.head_tracking, w.last_valid, f.collision(), f.graph(), &w.filter},
-        f.tuning.head);
+    handhold::place_colliders({w.persistent_id, w.collider, w.body, w.body_pose, w.body_start,
+                               w.player_origin, w.player_start, w.head_tracking, w.last_valid,
+                               f.collision(), f.graph(), &w.filter, &w.body_velocity},
+                              f.tuning.head);
 }
 
 GrabSearch grab_search(const FrameContext& f) {
@@ -223,8 +227,9 @@ void solve_phases(const FrameContext& f) {
 void finish_positions(const FrameContext& f) {
     const StageTimer timer(Stage::solve_phases, f.stats);
     World& w = f.w;
-    handhold::finish_positions({f.collision(), f.graph(), w.body_pose, w.player_origin, w.grab},
-                               f.tuning.contact, f.stats);
+    handhold::finish_positions({f.collision(), f.graph(), w.body_pose, w.player_origin, w.grab,
+                                f.dt_s(), w.head_tracking, w.player_velocity},
+                               f.tuning.contact, f.tuning.head, f.stats);
 }
 
 void update_velocities(const FrameContext& f) {
@@ -259,46 +264,107 @@ void discard_broken_results(const FrameContext& f) {
 
 // --- Shown hands ---------------------------------------------------------------------------------
 
+namespace {
+
+constexpr std::size_t k_hands_per_slice = 8;
+
+// Runs a hand stage on slices of the hands in parallel: stage(slice, first, last). The slices do
+// not depend on the number of threads, and neither do the sums of their counters.
+template <typename HandStage>
+void for_hand_slices(const FrameContext& f, const HandStage& stage) {
+    HandScratch& hands = f.hands();
+    const std::size_t count = hands.surroundings.size();
+    const std::size_t slices = (count + k_hands_per_slice - 1) / k_hands_per_slice;
+    if (hands.slices.size() < slices) {
+        hands.slices.resize(slices);
+    }
+    const auto run = [&](std::size_t slice, std::size_t first, std::size_t last) {
+        hands.slices[slice].stats.clear();
+        stage(hands.slices[slice], first, last);
+    };
+    parallel_slices(count, k_hands_per_slice, run);
+    for (std::size_t slice = 0; slice < slices; ++slice) {
+        std::ranges::transform(f.stats.fallbacks, hands.slices[slice].stats.fallbacks,
+                               f.stats.fallbacks.begin(), std::plus<>());
+    }
+}
+
+std::span<const HandSurroundings> hands_of(const FrameContext& f, std::size_t first,
+                                           std::size_t last) {
+    return std::span(f.hands().surroundings).subspan(first, last - first);
+}
+
+}  // namespace
+
 void gather_surroundings(const FrameContext& f) {
     const StageTimer timer(Stage::gather_surroundings, f.stats);
     World& w = f.w;
-    handhold::gather_surroundings(
-        {f.caches.meshes_for_hands, f.caches.hand_rigs, f.graph().entities, w.persistent_id,
-         w.hand_owner, w.hand_tracking, w.grab, w.player_origin, w.head_tracking, w.body_pose,
-         w.collider, w.authored_hold, f.hands().surroundings, &w.hand_rig, f.caches.more_hand_rigs,
-         f.caches.body_surfaces.empty() ? nullptr : &f.caches.body_surfaces},
-        f.stats);
-    f.hands().traces.assign(f.hands().surroundings.size(), {});
+    f.hands().surroundings.resize(w.hand_owner.size());
+    f.hands().traces.assign(w.hand_owner.size(), {});
+    const Column<BodySurface>* const own_surfaces =
+        f.caches.body_surfaces.empty() ? nullptr : &f.caches.body_surfaces;
+    const GatherSurroundingsIo io{f.caches.meshes_for_hands,
+                                  f.caches.hand_rigs,
+                                  f.graph().entities,
+                                  w.persistent_id,
+                                  w.hand_owner,
+                                  w.hand_tracking,
+                                  w.grab,
+                                  w.player_origin,
+                                  w.head_tracking,
+                                  w.body_pose,
+                                  w.collider,
+                                  w.authored_hold,
+                                  f.hands().surroundings,
+                                  &w.hand_rig,
+                                  f.caches.more_hand_rigs,
+                                  own_surfaces,
+                                  f.caches.host_surfaces ? nullptr : &f.collision(),
+                                  f.graph().proxies};
+    for_hand_slices(f, [&io](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
+        handhold::gather_surroundings(io, first, last, slice.stats);
+    });
 }
 
 void search_grip(const FrameContext& f) {
     const StageTimer timer(Stage::search_grip, f.stats);
-    handhold::search_grip({f.dt_s(), f.hands().surroundings, f.w.grip_surface, f.hands().search},
-                          f.tuning, f.stats);
+    for_hand_slices(f, [&f](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
+        handhold::search_grip({f.dt_s(), hands_of(f, first, last), f.w.grip_surface, slice.search},
+                              f.tuning, slice.stats);
+    });
 }
 
 void constrain_palms(const FrameContext& f) {
     const StageTimer timer(Stage::constrain_palms, f.stats);
     World& w = f.w;
-    handhold::constrain_palms(
-        {f.dt_s(), f.hands().surroundings, w.grip_surface, w.palm_offset, w.palm_pose}, f.tuning);
+    for_hand_slices(f, [&](HandScratch::Slice& /*slice*/, std::size_t first, std::size_t last) {
+        handhold::constrain_palms(
+            {f.dt_s(), hands_of(f, first, last), w.grip_surface, w.palm_offset, w.palm_pose},
+            f.tuning);
+    });
 }
 
 void sweep_fingers(const FrameContext& f) {
     const StageTimer timer(Stage::sweep_fingers, f.stats);
     World& w = f.w;
-    handhold::sweep_fingers(
-        {f.dt_s(), f.hands().surroundings, w.hand_tracking, w.grip_surface, w.palm_pose,
-         w.palm_offset, w.finger_pose, f.hands().traces, f.hands().fit},
-        f.tuning, f.stats);
+    for_hand_slices(f, [&](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
+        handhold::sweep_fingers(
+            {f.dt_s(), hands_of(f, first, last), w.hand_tracking, w.grip_surface, w.palm_pose,
+             w.palm_offset, w.finger_pose, std::span(f.hands().traces).subspan(first, last - first),
+             slice.fit},
+            f.tuning, slice.stats);
+    });
 }
 
 void pose_thumb(const FrameContext& f) {
     const StageTimer timer(Stage::pose_thumb, f.stats);
     World& w = f.w;
-    handhold::pose_thumb({f.dt_s(), f.hands().surroundings, w.hand_tracking, w.grip_surface,
-                          w.palm_offset, w.finger_pose, f.hands().traces, f.hands().fit},
-                         f.tuning, f.stats);
+    for_hand_slices(f, [&](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
+        handhold::pose_thumb(
+            {f.dt_s(), hands_of(f, first, last), w.hand_tracking, w.grip_surface, w.palm_offset,
+             w.finger_pose, std::span(f.hands().traces).subspan(first, last - first), slice.fit},
+            f.tuning, slice.stats);
+    });
 }
 
 // --- Shown body ----------------------------------------------------------------------------------

@@ -27,8 +27,9 @@ struct SurfacePoint {
     double distance_m = 0.0;  // 0 inside a solid; point_ws is on the surface there too
 };
 
-// A reference to an object with the four queries below; CollisionWorld documents them. Does not own
-// the object, which must outlive it. Without an object it finds nothing.
+// A reference to an object with the four queries below; CollisionWorld documents them. An object
+// with a member k_any_thread that is true may be asked by several threads at the same time. Does
+// not own the object, which must outlive it. Without an object it finds nothing.
 class SurfaceQuery {
   public:
     using Skip = std::span<const std::uint64_t>;
@@ -40,6 +41,9 @@ class SurfaceQuery {
         // NOLINTNEXTLINE(google-explicit-constructor)
         SurfaceQuery(const Surfaces& surfaces)
         : surfaces_(&surfaces), functions_(&k_functions_of<Surfaces>) {}
+
+    // True if several threads may ask at the same time.
+    bool any_thread() const { return surfaces_ == nullptr || functions_->any_thread; }
 
     // False if it finds nothing because there is no object.
     explicit operator bool() const { return surfaces_ != nullptr; }
@@ -71,6 +75,7 @@ class SurfaceQuery {
         std::optional<RayHit> (*cast_sphere)(const void*, double, const Vec3&, const Vec3&, Skip);
         std::optional<SurfacePoint> (*closest_point)(const void*, const Vec3&, double, Skip);
         std::optional<SurfacePoint> (*closest_point_on)(const void*, std::uint64_t, const Vec3&);
+        bool any_thread;
     };
     template <typename Surfaces>
     static constexpr Functions k_functions_of = {
@@ -88,10 +93,14 @@ class SurfaceQuery {
         },
         [](const void* surfaces, std::uint64_t id, const Vec3& point_ws) {
             return static_cast<const Surfaces*>(surfaces)->closest_point_on(id, point_ws);
-        }};
+        },
+        requires {requires Surfaces::k_any_thread;
+}
+};  // namespace handhold
 
-    const void* surfaces_ = nullptr;
-    const Functions* functions_ = nullptr;
-};
+const void* surfaces_ = nullptr;
+const Functions* functions_ = nullptr;
+}
+;
 
 }  // namespace handhold

@@ -11,6 +11,7 @@
 #include "components/player.hpp"
 #include "components/stats.hpp"
 #include "components/tracking.hpp"
+#include "engine/collision/collision_world.hpp"
 #include "engine/ecs/column.hpp"
 #include "engine/geometry/grip_mesh_library.hpp"
 
@@ -39,6 +40,10 @@ struct GatherSurroundingsIo {
     std::span<const HandRig> more_rigs = {};
     // In: bodies with a grip mesh of their own, which comes before that of their shape.
     const Column<BodySurface>* body_surface = nullptr;
+    // In: finds the bodies near a hand among the colliders of `bodies`, which are in the same
+    // order, sorted by id. Null: all bodies are looked at.
+    const CollisionWorld* collision = nullptr;
+    std::span<const ColliderProxy> proxies = {};
 };
 
 // Collects each hand's wrist pose and the surfaces near the hand, in the gripped body's frame. This
@@ -50,5 +55,8 @@ struct GatherSurroundingsIo {
 //
 // Fallbacks counted: body_no_surface.
 void gather_surroundings(const GatherSurroundingsIo& io, StageStats& stats);
+// The same for the rows [first, last) of `owner`. `surroundings` has its size already.
+void gather_surroundings(const GatherSurroundingsIo& io, std::size_t first, std::size_t last,
+                         StageStats& stats);
 
 }  // namespace handhold

@@ -169,7 +169,9 @@ void book_impulses(const ConstraintGraph& graph, MomentumLedger& ledger) {
         const Vec3 point_ws = is_contact(block) ? transform_point(a.pose_ws, block.point_a_bs)
                                                 : transform_point(b.pose_ws, block.point_b_bs);
         book_impulse(a, point_ws, block.impulse_ws_ns, block.angular_impulse_ws_nms, ledger);
-        book_impulse(b, point_ws, -block.impulse_ws_ns, -block.angular_impulse_ws_nms, ledger);
+        const Vec3 point_b_ws =
+            block.is_impact ? transform_point(b.pose_ws, block.point_b_bs) : point_ws;
+        book_impulse(b, point_b_ws, -block.impulse_ws_ns, -block.angular_impulse_ws_nms, ledger);
     }
 }
 
@@ -185,7 +187,7 @@ Vec3 clamp_spin(const SolverBody& body, double limit_radps, StageStats& stats) {
 
 void write_velocities(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning,
                       StageStats& stats) {
-    for (std::size_t i = 0; i < io.frame.entities.size(); ++i) {
+    for (const std::uint32_t i : io.frame.active.list) {
         const SolverBody& body = io.frame.graph.bodies[i];
         const Entity entity = io.frame.entities[i];
         if (body.role == BodyRole::translating) {
@@ -200,9 +202,18 @@ void write_velocities(const UpdateVelocitiesIo& io, const LocomotionTuning& tuni
 // For each body, the other body of its deepest overlap; its own index if no overlap is too deep.
 void find_overlaps(FrameGraph& frame) {
     const ConstraintGraph& graph = frame.graph;
-    frame.overlap_m.assign(graph.bodies.size(), k_valid_overlap_m);
+    // Entries of bodies that are not active are not read.
+    frame.overlap_m.resize(graph.bodies.size());
     frame.overlaps_with.resize(graph.bodies.size());
-    std::iota(frame.overlaps_with.begin(), frame.overlaps_with.end(), 0U);
+    const auto clear = [&frame](std::uint32_t body) {
+        frame.overlap_m[body] = k_valid_overlap_m;
+        frame.overlaps_with[body] = body;
+    };
+    std::ranges::for_each(frame.active.list, clear);
+    for (const RowBlock& block : graph.blocks) {
+        clear(block.a);
+        clear(block.b);
+    }
     const auto update = [&frame](std::uint32_t body, std::uint32_t other, double depth_m) {
         if (depth_m > frame.overlap_m[body]) {
             frame.overlap_m[body] = depth_m;
@@ -216,7 +227,7 @@ void find_overlaps(FrameGraph& frame) {
             update(block.b, block.a, depth_m);
         }
     }
-    for (std::uint32_t i = 0; i < graph.bodies.size(); ++i) {
+    for (const std::uint32_t i : frame.hidden_overlaps.deep) {
         const Overlap& hidden = frame.hidden_overlaps.of_body[i];
         update(i, hidden.with, hidden.depth_m);
     }
@@ -225,7 +236,7 @@ void find_overlaps(FrameGraph& frame) {
 void write_last_valid(const UpdateVelocitiesIo& io) {
     FrameGraph& frame = io.frame;
     find_overlaps(frame);
-    for (std::uint32_t i = 0; i < frame.entities.size(); ++i) {
+    for (const std::uint32_t i : frame.active.list) {
         LastValidPose* const valid = io.last_valid.find(frame.entities[i]);
         if (valid == nullptr) {
             continue;
@@ -238,6 +249,7 @@ void write_last_valid(const UpdateVelocitiesIo& io) {
             valid->pose_ws = collider_pose(body);
             continue;
         }
+        frame.active.note(i);  // the sweep of the next frame starts elsewhere
         // Penetrating: keep the last valid pose, carried along if the obstacle moves.
         const ColliderProxy& other = frame.proxies[frame.overlaps_with[i]];
         if (frame.graph.bodies[frame.overlaps_with[i]].role == BodyRole::fixed) {
@@ -249,7 +261,7 @@ void write_last_valid(const UpdateVelocitiesIo& io) {
 }  // namespace
 
 void update_velocities(const UpdateVelocitiesIo& io, const Tuning& tuning, StageStats& stats) {
-    for (std::size_t i = 0; i < io.frame.phase.size(); ++i) {
+    for (const std::uint32_t i : io.frame.active.list) {
         io.frame.phase[i].velocity_before_mps = io.frame.graph.bodies[i].velocity_mps;
     }
     solve_islands(io.frame, tuning, stats);
