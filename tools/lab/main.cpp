@@ -89,6 +89,12 @@ void add_hands_picture_options(CLI::App& picture, lab::HandsPictureOptions& opti
         ->delimiter(',');
     picture.add_option("--count", options.count, "Number of hands without --ids")
         ->check(CLI::Range(1, 400));
+    picture.add_option("--style", options.style, "Draws capsules or the game's hand")
+        ->check(CLI::IsMember({"capsules", "skin"}));
+    picture.add_option("--hand", options.hand, "Side of the game's hand")
+        ->check(CLI::IsMember({"left", "right"}));
+    picture.add_option("--views", options.views, "Pictures of each hand, from different sides")
+        ->check(CLI::Range(1, 2));
     picture.add_option("--columns", options.columns, "Pictures in a row")->check(CLI::Range(1, 20));
     picture.add_option("--width", options.width_px, "Width of one picture")
         ->check(CLI::Range(64, 4096));

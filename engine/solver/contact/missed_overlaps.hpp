@@ -16,9 +16,9 @@ struct Overlap {
 };
 
 struct MissedOverlaps {
-    std::vector<Overlap> of_body;        // out
-    std::vector<std::uint32_t> deep;     // out: bodies with an overlap, ascending
-    std::vector<std::uint8_t> is_marked;  // scratch, by body; all 0 between calls
+    std::vector<Overlap> of_body;          // out
+    std::vector<std::uint32_t> deep;       // out: bodies with an overlap, ascending
+    std::vector<std::uint8_t> is_marked;   // scratch, by body; all 0 between calls
     std::vector<std::uint8_t> is_suspect;  // the same
 
     // Makes `count` bodies without an overlap.

@@ -91,11 +91,10 @@ void place_members(ConstraintGraph& graph) {
 
 // True if the bodies of every block, and which of them move, are as when the islands were built.
 bool has_same_topology(const ConstraintGraph& graph) {
-    return std::ranges::equal(
-        graph.blocks, graph.ties,
-        [&graph](const RowBlock& block, const ConstraintGraph::Tie& tie) {
-            return tie_of(graph, block) == tie;
-        });
+    return std::ranges::equal(graph.blocks, graph.ties,
+                              [&graph](const RowBlock& block, const ConstraintGraph::Tie& tie) {
+                                  return tie_of(graph, block) == tie;
+                              });
 }
 
 void record_topology(ConstraintGraph& graph) {

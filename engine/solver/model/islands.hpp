@@ -67,8 +67,8 @@ struct ConstraintGraph {
     };
     std::vector<BlockPlace> places;
     std::vector<RowBlock> sorted_blocks;
-    std::vector<std::uint32_t> members;  // movable bodies with a block, ascending
-    std::vector<std::uint8_t> is_member;  // by body; all 0 between builds
+    std::vector<std::uint32_t> members;         // movable bodies with a block, ascending
+    std::vector<std::uint8_t> is_member;        // by body; all 0 between builds
     std::vector<std::uint32_t> parent;          // by body; valid for members
     std::vector<std::uint32_t> island_of_root;  // by body; valid for members
     std::vector<std::uint32_t> root_of_block;

@@ -107,8 +107,8 @@ struct RowBlock {
     // Drives: velocity and spin of the target relative to a, world axes.
     Vec3 drive_velocity_ws_mps = Vec3::Zero();
     Vec3 drive_spin_ws_radps = Vec3::Zero();
-    // Contact: found by a sweep. Its two points coincide at the impact, not at the end of the frame:
-    // each body's lever arm ends at its own point, and the normal does not turn with b.
+    // Contact: found by a sweep. Its two points coincide at the impact, not at the end of the
+    // frame: each body's lever arm ends at its own point, and the normal does not turn with b.
     bool is_impact = false;
     double restitution = 0.0;  // contact
     double friction = 0.0;     // contact: Coulomb coefficient
