@@ -72,6 +72,17 @@ TEST_F(LabScenes, JumpingHandsAndRingsHoldWithoutMovingPlayers) {
 // Every scene and every mass pattern with all four solvers: each runs, or names what it cannot
 // express. The runtime's solver satisfies the joints; the baselines move the player of a reachable
 // chain.
+TEST_F(LabScenes, EverySceneHasBodiesAndFiguresByDefault) {
+    for (const std::string_view scene : scene_names()) {
+        SCOPED_TRACE(scene);
+        EXPECT_FALSE(make_scene(scene, {}).bodies.empty());
+        const Json json = solve(options(std::string(scene), 60));
+        for (const auto& [name, value] : json["scene_figures"].items()) {
+            EXPECT_TRUE(value.is_number()) << name;
+        }
+    }
+}
+
 TEST_F(LabScenes, EverySceneRunsWithEverySolver) {
     const auto run = [&](SolveOptions run_options, const std::string& solver) {
         run_options.solver = solver;

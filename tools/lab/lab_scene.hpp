@@ -155,6 +155,8 @@ struct SceneOptions {
     double hz = 90.0;
     // kinematic: levers, drawers and doors are not pulled beyond their range
     Holder holder = Holder::player;
+
+    int links_or(int count) const { return links > 0 ? links : count; }
 };
 
 // Names of all scenes, in the order of docs/reference/lab.md.

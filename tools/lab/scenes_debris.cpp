@@ -134,8 +134,8 @@ LabScene make_impact(const SceneOptions& /*options*/) {
             expected.push_back(velocity);
         }
     }
-    scene.closed_from_s =
-        0.0;  // not in spin: bodies are moved out of each other without a velocity
+    // Not in spin: bodies are moved out of each other without a velocity.
+    scene.closed_from_s = 0.0;
     scene.watch = [expected](const FrameRecord& frame, Figures& figures) {
         if (frame.t_s < k_apart_s) {
             return;
@@ -155,16 +155,17 @@ LabScene make_debris(const SceneOptions& options) {
     constexpr double k_pitch_m = 0.5;
     constexpr double k_half_m = 0.1;
     constexpr double k_speed_mps = 0.5;
-    const int side = static_cast<int>(std::ceil(std::cbrt(static_cast<double>(options.links))));
-    for (int i = 0; i < options.links; ++i) {
+    const int count = options.links_or(32);
+    const int side = static_cast<int>(std::ceil(std::cbrt(static_cast<double>(count))));
+    for (int i = 0; i < count; ++i) {
         const Vec3 cell(i / (side * side), i / side % side, i % side);
         add_debris(scene, Vec3::Constant(k_half_m), k_pitch_m * cell, numbers);
         scene.bodies.back().restitution = 0.5 + 0.5 * numbers.next();
         scene.bodies.back().velocity = {k_speed_mps * numbers.next_vector(),
                                         k_speed_mps * numbers.next_vector()};
     }
-    scene.closed_from_s =
-        0.0;  // not in spin: bodies are moved out of each other without a velocity
+    // Not in spin: bodies are moved out of each other without a velocity.
+    scene.closed_from_s = 0.0;
     // Without its own `watch`: a copy of this lambda would hold a copy of itself.
     const LabScene bodies = scene;
     scene.watch = [bodies, first_j = -1.0](const FrameRecord& frame, Figures& figures) mutable {
@@ -181,7 +182,7 @@ LabScene make_overlap(const SceneOptions& options) {
     Numbers numbers;
     constexpr double k_place_m = 0.1;  // half edge of the cube that holds all centres
     constexpr double k_half_m = 0.1;
-    for (int i = 0; i < options.links; ++i) {
+    for (int i = 0; i < options.links_or(32); ++i) {
         add_debris(scene, Vec3::Constant(k_half_m), k_place_m * numbers.next_vector(), numbers);
     }
     const LabScene bodies = scene;

@@ -46,7 +46,7 @@ LabScene make_heap(const SceneOptions& options) {
     scene.planes.push_back({Vec3::UnitX(), 0.0});
 
     // The largest cube of crates that has at most `links` of them.
-    const int side = static_cast<int>(std::cbrt(static_cast<double>(options.links) + 0.5));
+    const int side = static_cast<int>(std::cbrt(static_cast<double>(options.links_or(32)) + 0.5));
     const double middle = 0.5 * (side - 1);
     const double front_m = side * k_pitch_m + 0.005;
     const Vec3 held(front_m + k_crate_half_m + 0.15, 0.0, 0.0);
