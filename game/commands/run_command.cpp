@@ -17,30 +17,12 @@
 #include "game/commands/run_shots.hpp"
 #include "game/commands/run_snapshot.hpp"
 #include "game/report/run_summary.hpp"
-#include "game/scene/player_defaults.hpp"
 #include "game/session/interrupt.hpp"
 #include "game/session/session_run.hpp"
 #include "systems/snapshot.hpp"
 
 namespace handhold {
 namespace {
-
-// Climbers need jets to return to a hold, so a scene without jets gets weak ones.
-RunSettings choose_settings(const RunOptions& options, Scene& scene, std::size_t players) {
-    RunSettings settings{options.hz, options.seconds, options.threads};
-    settings.climbers_from = options.climbers ? 0 : recorded_players(options);
-    settings.seed = options.seed;
-    settings.keep_frames = !options.out.empty();
-    settings.should_stop = is_interrupted;
-    if (options.distance_grab) {
-        scene.tuning.pull.reach_m = k_pull_reach_m;
-    }
-    double& jets_mps2 = scene.tuning.locomotion.thruster_mps2;
-    if (players > settings.climbers_from && jets_mps2 == 0.0) {
-        jets_mps2 = k_jets_mps2;
-    }
-    return settings;
-}
 
 RunLog play(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>& players,
             const Recording* recording, const RunSettings& settings, SessionFilm* camera,
@@ -114,7 +96,8 @@ int run_command(const RunOptions& options) {
         set_controller_joints(*joints, scene.world);
     }
     const SnapshotAssets assets(*scene.shapes, scene.name);
-    RunSettings settings = choose_settings(options, scene, players.value().size());
+    RunSettings settings = choose_settings(options, players.value().size(), scene);
+    settings.should_stop = is_interrupted;
     for (const Recording& more : session.value().more) {
         settings.more_recordings.push_back(&more);
     }
