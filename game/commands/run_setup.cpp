@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/io/printable.hpp"
+#include "game/climber/crowd.hpp"
 #include "game/scene/built_in_scenes.hpp"
 #include "game/scene/overlaps.hpp"
 #include "game/scene/player_defaults.hpp"

@@ -1,4 +1,4 @@
-// The player's hands and arms as capsules between the joints that the library gives.
+// The player's hands and arms as rounded bones between the joints that the library gives.
 import * as THREE from 'three';
 import { HH_LEFT, HH_LEFT_HAND, HH_LEFT_LOWER_ARM, HH_LEFT_UPPER_ARM, HH_RIGHT, HH_RIGHT_HAND, HH_RIGHT_LOWER_ARM, HH_RIGHT_UPPER_ARM,
     HH_SPACE_WORLD } from 'handhold';
@@ -14,18 +14,25 @@ const up = new THREE.Vector3(0, 1, 0);
 const from = new THREE.Vector3();
 const to = new THREE.Vector3();
 
+const cylinder = new THREE.CylinderGeometry(1, 1, 1, 10, 1, true);
+const sphere = new THREE.SphereGeometry(1, 10, 8);
+
+// A cylinder with a ball at the end: bones in a row look like capsules.
 function bone(material) {
-    return new THREE.Mesh(new THREE.CapsuleGeometry(1, 1, 4, 10), material);
+    const group = new THREE.Group();
+    group.add(new THREE.Mesh(cylinder, material), new THREE.Mesh(sphere, material));
+    return group;
 }
-// A capsule of unit radius and length, stretched from one joint to another.
-function stretch(mesh, a, b, radius_m) {
+function stretch(group, a, b, radius_m) {
+    const [shaft, ball] = group.children;
     from.copy(a);
     to.copy(b);
-    mesh.position.lerpVectors(from, to, 0.5);
+    ball.position.copy(to);
+    ball.scale.setScalar(radius_m);
+    shaft.position.lerpVectors(from, to, 0.5);
     to.sub(from);
-    const length_m = to.length();
-    mesh.quaternion.setFromUnitVectors(up, to.normalize());
-    mesh.scale.set(radius_m, Math.max(length_m, 1e-3), radius_m);
+    shaft.scale.set(radius_m, Math.max(to.length(), 1e-4), radius_m);
+    shaft.quaternion.setFromUnitVectors(up, to.normalize());
 }
 
 export class Avatar {

@@ -108,4 +108,4 @@ element('panel').hidden = false;
 element('help').hidden = false;
 renderer.setAnimationLoop(onFrame);
 await offerHeadset();
-window.demo = { handhold, world, player, desktop, level, panel };
+window.demo = { handhold, world, player, desktop, level, panel, renderer };
