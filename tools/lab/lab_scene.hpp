@@ -36,6 +36,7 @@ struct LabBody {
     bool collides = false;       // has a collider
     // Fixed body: a one-sided mesh of the box's +x face instead of the box.
     bool is_mesh = false;
+    bool is_ball = false;  // a ball of radius half_m.x() instead of the box
     double restitution = 0.0;
     double friction = 0.0;
     PathOfTime drive;  // kinematic body: its pose over time

@@ -9,6 +9,16 @@
 namespace handhold {
 namespace {
 
+// True if the contact's points are beside each other: a sweep found them where they met.
+bool has_slid(const ConstraintGraph& graph, const RowBlock& block) {
+    constexpr double k_slid_m = 1e-3;
+    const Pose& b = graph.bodies[block.b].pose_ws;
+    const Vec3 offset = transform_point(graph.bodies[block.a].pose_ws, block.point_a_bs) -
+                        transform_point(b, block.point_b_bs);
+    const Vec3 normal = b.rotation * block.normal_b_bs;
+    return (offset - normal * normal.dot(offset)).squaredNorm() > k_slid_m * k_slid_m;
+}
+
 RowBlock contact_block(const ContactPoint& contact, const ConstraintGraph& graph) {
     const std::size_t a = find_body(graph, contact.id_a);
     const std::size_t b = find_body(graph, contact.id_b);
@@ -22,6 +32,7 @@ RowBlock contact_block(const ContactPoint& contact, const ConstraintGraph& graph
     block.point_a_bs = contact.point_a_bs + graph.bodies[a].collider_offset_bs;
     block.point_b_bs = contact.point_b_bs + graph.bodies[b].collider_offset_bs;
     block.normal_b_bs = contact.normal_b_bs;
+    block.is_impact = has_slid(graph, block);
     block.friction = std::sqrt(graph.bodies[a].friction * graph.bodies[b].friction);
     block.restitution = std::max(graph.bodies[a].restitution, graph.bodies[b].restitution);
     return block;

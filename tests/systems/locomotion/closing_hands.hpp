@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <vector>
 
+#include "engine/collision/collision_world.hpp"
 #include "systems/locomotion/update_grabs.hpp"
 #include "tests/systems/frame/column_scene.hpp"
 

@@ -1,0 +1,451 @@
+#include "systems/frame_stages.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "engine/core/parallel.hpp"
+#include "engine/core/profile.hpp"
+#include "systems/arm/estimate_arms.hpp"
+#include "systems/arm/pose_arms.hpp"
+#include "systems/body/calibrate_players.hpp"
+#include "systems/body/layer_additives.hpp"
+#include "systems/body/propagate_spine.hpp"
+#include "systems/body/publish_body.hpp"
+#include "systems/body/publish_pose.hpp"
+#include "systems/hand/constrain_palms.hpp"
+#include "systems/hand/gather_surroundings.hpp"
+#include "systems/hand/pose_thumb.hpp"
+#include "systems/hand/search_grip.hpp"
+#include "systems/hand/sweep_fingers.hpp"
+#include "systems/input/read_paused_tracking.hpp"
+#include "systems/input/read_tracking.hpp"
+#include "systems/locomotion/anchor_grabs.hpp"
+#include "systems/locomotion/locomote_players.hpp"
+#include "systems/locomotion/pull_bodies.hpp"
+#include "systems/locomotion/update_grabs.hpp"
+#include "systems/physics/animate_movers.hpp"
+#include "systems/physics/build_constraints.hpp"
+#include "systems/physics/discard_broken_results.hpp"
+#include "systems/physics/find_contacts.hpp"
+#include "systems/physics/finish_positions.hpp"
+#include "systems/physics/group_joints.hpp"
+#include "systems/physics/limit_velocities.hpp"
+#include "systems/physics/place_colliders.hpp"
+#include "systems/physics/predict_bodies.hpp"
+#include "systems/physics/solve_phases.hpp"
+#include "systems/physics/update_joints.hpp"
+#include "systems/physics/update_velocities.hpp"
+
+namespace handhold::stages {
+namespace {
+
+// Adds a scope's time to its stage, and marks the scope as a zone in traces.
+class StageTimer {
+  public:
+    StageTimer(Stage stage, StageStats& stats)
+        : zone_(name_of(stage)),
+          stage_us_(stats.stage_us[static_cast<std::size_t>(stage)]),
+          begin_ns_(stage_now_ns()) {}
+    ~StageTimer() { stage_us_ += 1e-3 * static_cast<double>(stage_now_ns() - begin_ns_); }
+    StageTimer(const StageTimer&) = delete;
+    StageTimer& operator=(const StageTimer&) = delete;
+
+  private:
+    Zone zone_;
+    double& stage_us_;
+    std::int64_t begin_ns_;
+};
+
+}  // namespace
+
+// --- Input and intent ----------------------------------------------------------------------------
+
+void read_tracking(const FrameContext& f) {
+    const StageTimer timer(Stage::read_tracking, f.stats);
+    World& w = f.w;
+    handhold::read_tracking(
+        {f.input.players, f.start_s(), f.end_s(), w.hand_owner, w.controller_to_hand,
+         w.head_tracking, w.hand_tracking, w.hand_history, w.player_commands},
+        f.tuning, f.stats);
+}
+
+void read_paused_tracking(const FrameContext& f) {
+    const StageTimer timer(Stage::read_tracking, f.stats);
+    World& w = f.w;
+    handhold::read_paused_tracking({f.input.players,
+                                    w.hand_owner,
+                                    w.controller_to_hand,
+                                    w.head_tracking,
+                                    w.hand_tracking,
+                                    w.hand_history,
+                                    {default_controller_to_hand(HandSide::left, f.tuning.hand),
+                                     default_controller_to_hand(HandSide::right, f.tuning.hand)}});
+}
+
+void calibrate_players(const FrameContext& f) {
+    const StageTimer timer(Stage::calibrate_players, f.stats);
+    World& w = f.w;
+    handhold::calibrate_players({f.dt_s(), w.player_commands, w.head_tracking, w.hand_owner,
+                                 w.hand_tracking, w.calibration, w.body_measures},
+                                f.tuning.calibration);
+}
+
+void group_joints(const FrameContext& f) {
+    const StageTimer timer(Stage::group_joints, f.stats);
+    handhold::group_joints({f.w.joint, f.w.body, f.graph()}, f.tuning.phases);
+}
+
+// Runs twice a frame; its time counts for the stage that needs the colliders.
+void place_colliders(const FrameContext& f, Stage needed_by) {
+    const StageTimer timer(needed_by, f.stats);
+    World& w = f.w;
+    handhold::place_colliders({w.persistent_id, w.collider, w.body, w.body_pose, w.body_start,
+                               w.player_origin, w.player_start, w.head_tracking, w.last_valid,
+                               f.collision(), f.graph(), &w.filter, &w.body_velocity},
+                              f.tuning.head);
+}
+
+GrabSearch grab_search(const FrameContext& f) {
+    World& w = f.w;
+    return {f.surfaces(),
+            w.persistent_id,
+            w.hand_owner,
+            w.hand_tracking,
+            w.player_origin,
+            w.head_tracking,
+            w.body,
+            w.body_pose,
+            f.graph().joint_groups,
+            w.authored_grips,
+            w.hand_pull,
+            w.reference_velocity,
+            w.hand_sight,
+            w.grab,
+            w.authored_hold,
+            w.head_ignores,
+            {&w.grab_rule, &w.grab_layers, &w.filter},
+            &w.grab_order,
+            f.start_s()};
+}
+
+void update_grabs(const FrameContext& f) {
+    const StageTimer timer(Stage::update_grabs, f.stats);
+    handhold::update_grabs(grab_search(f), f.tuning, f.stats);
+}
+
+void update_sights(const FrameContext& f) {
+    const StageTimer timer(Stage::update_grabs, f.stats);
+    const GrabSearch search = grab_search(f);
+    for (const Entity hand : f.w.grab.owners()) {
+        update_sight(search, hand, f.tuning);
+    }
+}
+
+void locomote_players(const FrameContext& f) {
+    const StageTimer timer(Stage::locomote_players, f.stats);
+    World& w = f.w;
+    handhold::locomote_players(
+        {f.dt_s(), w.reference_velocity_mps, w.player_commands, w.head_tracking, w.hand_owner,
+         w.hand_tracking, w.grab, w.body_pose, w.body_velocity, w.player_origin, w.player_velocity,
+         w.reference_velocity},
+        f.tuning.locomotion);
+}
+
+void pull_bodies(const FrameContext& f) {
+    const StageTimer timer(Stage::locomote_players, f.stats);
+    World& w = f.w;
+    handhold::pull_bodies({f.dt_s(),
+                           f.surfaces(),
+                           w.persistent_id,
+                           w.hand_owner,
+                           w.hand_tracking,
+                           w.grab,
+                           w.hand_sight,
+                           w.player,
+                           w.player_origin,
+                           w.body,
+                           w.body_pose,
+                           f.graph().joint_groups,
+                           w.hand_pull,
+                           w.body_velocity,
+                           w.player_velocity,
+                           {&w.grab_rule, &w.grab_layers, &w.filter}},
+                          f.tuning, f.stats);
+}
+
+// --- Prediction ----------------------------------------------------------------------------------
+
+void animate_movers(const FrameContext& f) {
+    const StageTimer timer(Stage::animate_movers, f.stats);
+    World& w = f.w;
+    handhold::animate_movers({f.end_s(), w.mover, w.path_mover, w.leg_mover, w.body_pose,
+                              w.body_start, w.body_velocity, &w.move_target, f.dt_s()});
+}
+
+void predict_bodies(const FrameContext& f) {
+    const StageTimer timer(Stage::predict_bodies, f.stats);
+    World& w = f.w;
+    handhold::predict_bodies({f.dt_s(), w.body, w.player_velocity, w.body_pose, w.body_start,
+                              w.body_velocity, w.player_origin, w.player_start, w.gravity_mps2,
+                              &w.gravity_scale});
+}
+
+void anchor_grabs(const FrameContext& f) {
+    const StageTimer timer(Stage::anchor_grabs, f.stats);
+    World& w = f.w;
+    handhold::anchor_grabs({f.start_s(), f.end_s(), w.hand_owner, w.hand_tracking, w.hand_history,
+                            w.player_start, w.player_origin, w.head_tracking, w.body_start,
+                            w.body_pose, w.authored_hold, w.body, w.joint, w.joint_state, w.grab},
+                           f.tuning, f.stats);
+}
+
+// --- Constraints and solve -----------------------------------------------------------------------
+
+void find_contacts(const FrameContext& f) {
+    const StageTimer timer(Stage::find_contacts, f.stats);
+    World& w = f.w;
+    handhold::find_contacts({w.persistent_id, w.body, w.joint, w.head_tracking, w.hand_owner,
+                             w.grab, f.collision(), w.head_ignores, f.graph()},
+                            f.tuning.contact);
+}
+
+void build_constraints(const FrameContext& f) {
+    const StageTimer timer(Stage::build_constraints, f.stats);
+    World& w = f.w;
+    handhold::build_constraints(
+        {f.dt_s(), w.persistent_id, w.body, w.body_pose, w.body_velocity, w.joint, w.joint_state,
+         w.player, w.player_origin, w.player_velocity, w.head_tracking, w.hand_owner, w.grab,
+         f.graph()},
+        f.tuning);
+}
+
+void solve_phases(const FrameContext& f) {
+    const StageTimer timer(Stage::solve_phases, f.stats);
+    handhold::solve_phases({f.collision(), f.graph()}, f.tuning, f.stats);
+}
+
+void finish_positions(const FrameContext& f) {
+    const StageTimer timer(Stage::solve_phases, f.stats);
+    World& w = f.w;
+    handhold::finish_positions({f.collision(), f.graph(), w.body_pose, w.player_origin, w.grab,
+                                f.dt_s(), w.head_tracking, w.player_velocity},
+                               f.tuning.contact, f.tuning.head, f.stats);
+}
+
+void update_velocities(const FrameContext& f) {
+    const StageTimer timer(Stage::update_velocities, f.stats);
+    World& w = f.w;
+    handhold::update_velocities(
+        {w.head_tracking, f.graph(), w.body_velocity, w.player_velocity, w.last_valid}, f.tuning,
+        f.stats);
+}
+
+void limit_velocities(const FrameContext& f) {
+    const StageTimer timer(Stage::update_velocities, f.stats);
+    World& w = f.w;
+    handhold::limit_velocities(
+        {w.hand_owner, w.reference_velocity, f.graph(), w.body_velocity, w.player_velocity, w.grab},
+        f.tuning.locomotion, f.stats);
+}
+
+void update_joints(const FrameContext& f) {
+    const StageTimer timer(Stage::update_joints, f.stats);
+    handhold::update_joints({f.dt_s(), f.graph(), f.w.joint, f.w.joint_state});
+}
+
+void discard_broken_results(const FrameContext& f) {
+    const StageTimer timer(Stage::update_joints, f.stats);
+    World& w = f.w;
+    handhold::discard_broken_results(
+        {w.body_start, w.player_start, w.body_pose, w.body_velocity, w.player_origin,
+         w.player_velocity, w.last_valid, w.joint_state, w.grab, f.graph()},
+        f.stats);
+}
+
+// --- Shown hands ---------------------------------------------------------------------------------
+
+namespace {
+
+constexpr std::size_t k_hands_per_slice = 8;
+
+// Runs a hand stage on slices of the hands in parallel: stage(slice, first, last). The slices do
+// not depend on the number of threads, and neither do the sums of their counters.
+template <typename HandStage>
+void for_hand_slices(const FrameContext& f, const HandStage& stage) {
+    HandScratch& hands = f.hands();
+    const std::size_t count = hands.surroundings.size();
+    const std::size_t slices = (count + k_hands_per_slice - 1) / k_hands_per_slice;
+    if (hands.slices.size() < slices) {
+        hands.slices.resize(slices);
+    }
+    const auto run = [&](std::size_t slice, std::size_t first, std::size_t last) {
+        hands.slices[slice].stats.clear();
+        stage(hands.slices[slice], first, last);
+    };
+    parallel_slices(count, k_hands_per_slice, run);
+    for (std::size_t slice = 0; slice < slices; ++slice) {
+        std::ranges::transform(f.stats.fallbacks, hands.slices[slice].stats.fallbacks,
+                               f.stats.fallbacks.begin(), std::plus<>());
+    }
+}
+
+std::span<const HandSurroundings> hands_of(const FrameContext& f, std::size_t first,
+                                           std::size_t last) {
+    return std::span(f.hands().surroundings).subspan(first, last - first);
+}
+
+}  // namespace
+
+void gather_surroundings(const FrameContext& f) {
+    const StageTimer timer(Stage::gather_surroundings, f.stats);
+    World& w = f.w;
+    f.hands().surroundings.resize(w.hand_owner.size());
+    f.hands().traces.assign(w.hand_owner.size(), {});
+    const Column<BodySurface>* const own_surfaces =
+        f.caches.body_surfaces.empty() ? nullptr : &f.caches.body_surfaces;
+    const GatherSurroundingsIo io{f.caches.meshes_for_hands,
+                                  f.caches.hand_rigs,
+                                  f.graph().entities,
+                                  w.persistent_id,
+                                  w.hand_owner,
+                                  w.hand_tracking,
+                                  w.grab,
+                                  w.player_origin,
+                                  w.head_tracking,
+                                  w.body_pose,
+                                  w.collider,
+                                  w.authored_hold,
+                                  f.hands().surroundings,
+                                  &w.hand_rig,
+                                  f.caches.more_hand_rigs,
+                                  own_surfaces,
+                                  f.caches.host_surfaces ? nullptr : &f.collision(),
+                                  f.graph().proxies};
+    for_hand_slices(f, [&io](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
+        handhold::gather_surroundings(io, first, last, slice.stats);
+    });
+}
+
+void search_grip(const FrameContext& f) {
+    const StageTimer timer(Stage::search_grip, f.stats);
+    for_hand_slices(f, [&f](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
+        handhold::search_grip({f.dt_s(), hands_of(f, first, last), f.w.grip_surface, slice.search},
+                              f.tuning, slice.stats);
+    });
+}
+
+void constrain_palms(const FrameContext& f) {
+    const StageTimer timer(Stage::constrain_palms, f.stats);
+    World& w = f.w;
+    for_hand_slices(f, [&](HandScratch::Slice& /*slice*/, std::size_t first, std::size_t last) {
+        handhold::constrain_palms(
+            {f.dt_s(), hands_of(f, first, last), w.grip_surface, w.palm_offset, w.palm_pose},
+            f.tuning);
+    });
+}
+
+void sweep_fingers(const FrameContext& f) {
+    const StageTimer timer(Stage::sweep_fingers, f.stats);
+    World& w = f.w;
+    for_hand_slices(f, [&](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
+        handhold::sweep_fingers(
+            {f.dt_s(), hands_of(f, first, last), w.hand_tracking, w.grip_surface, w.palm_pose,
+             w.palm_offset, w.finger_pose, std::span(f.hands().traces).subspan(first, last - first),
+             slice.fit},
+            f.tuning, slice.stats);
+    });
+}
+
+void pose_thumb(const FrameContext& f) {
+    const StageTimer timer(Stage::pose_thumb, f.stats);
+    World& w = f.w;
+    for_hand_slices(f, [&](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
+        handhold::pose_thumb(
+            {f.dt_s(), hands_of(f, first, last), w.hand_tracking, w.grip_surface, w.palm_offset,
+             w.finger_pose, std::span(f.hands().traces).subspan(first, last - first), slice.fit},
+            f.tuning, slice.stats);
+    });
+}
+
+// --- Shown body ----------------------------------------------------------------------------------
+
+void estimate_arms(const FrameContext& f) {
+    const StageTimer timer(Stage::estimate_arms, f.stats);
+    World& w = f.w;
+    handhold::estimate_arms({f.dt_s(), w.player_origin, w.head_tracking, w.body_measures,
+                             w.hand_owner, w.palm_pose, w.arm_memory, w.arm_estimate},
+                            f.tuning.arm);
+}
+
+void layer_clavicles(const FrameContext& f) {
+    const StageTimer timer(Stage::layer_additives, f.stats);
+    handhold::layer_clavicles({f.caches.body_clips, f.w.body_measures, f.w.arm_estimate},
+                              f.tuning.additive, f.tuning.arm);
+}
+
+void pose_arms(const FrameContext& f) {
+    const StageTimer timer(Stage::pose_arms, f.stats);
+    World& w = f.w;
+    handhold::pose_arms(
+        {w.player_origin, w.body_measures, w.hand_owner, w.palm_pose, w.arm_estimate, w.arm_pose});
+}
+
+void propagate_spine(const FrameContext& f) {
+    const StageTimer timer(Stage::propagate_spine, f.stats);
+    World& w = f.w;
+    handhold::propagate_spine(
+        {f.dt_s(), f.end_s(), w.player_origin, w.player_velocity, w.reference_velocity,
+         w.body_measures, w.arm_estimate, w.spine_memory, w.spine_pose, f.surfaces(),
+         &w.head_tracking, &w.persistent_id},
+        f.tuning.spine);
+}
+
+void layer_additives(const FrameContext& f) {
+    const StageTimer timer(Stage::layer_additives, f.stats);
+    World& w = f.w;
+    handhold::layer_additives(
+        {f.dt_s(), f.caches.body_clips, w.head_tracking, w.player_velocity, w.reference_velocity,
+         w.hand_owner, w.grab, w.arm_estimate, w.body_clip_state, w.spine_pose},
+        f.tuning.additive);
+}
+
+void publish_pose(const FrameContext& f) {
+    const StageTimer timer(Stage::publish_pose, f.stats);
+    World& w = f.w;
+    handhold::publish_pose(
+        {f.graph().push_backs, w.player_origin, w.head_tracking, w.hand_owner, w.hand_tracking,
+         w.grab, w.palm_pose, w.finger_pose, w.authored_hold, w.render_pose},
+        f.tuning);
+}
+
+void publish_body(const FrameContext& f) {
+    const StageTimer timer(Stage::publish_pose, f.stats);
+    handhold::publish_body({f.w.arm_pose, f.w.spine_pose, f.w.render_pose});
+}
+
+// --- Groups of stages ----------------------------------------------------------------------------
+
+// Palms and fingers on what they hold.
+void show_hands(const FrameContext& f) {
+    gather_surroundings(f);
+    search_grip(f);
+    constrain_palms(f);
+    sweep_fingers(f);
+    pose_thumb(f);
+}
+
+// Arms, spine and legs between head and hands.
+void show_bodies(const FrameContext& f) {
+    estimate_arms(f);
+    layer_clavicles(f);
+    pose_arms(f);
+    propagate_spine(f);
+    layer_additives(f);
+}
+
+void publish(const FrameContext& f) {
+    publish_pose(f);
+    publish_body(f);
+}
+
+}  // namespace handhold::stages
