@@ -63,7 +63,7 @@ void step_pose_only(World& world, FrameCaches& caches, const Tuning& tuning,
 
 // Hash of all columns, the clock, the reference velocity and, unless it is zero, gravity.
 // Identifies rows by persistent id, so it is independent of slots, creation order, thread count,
-// build and compiler.
+// build, compiler and processor. Targets that were tried: docs/guide/platforms.md.
 std::uint64_t hash_state(const World& world);
 
 }  // namespace handhold

@@ -20,30 +20,12 @@
 #include "game/commands/run_shots.hpp"
 #include "game/commands/run_snapshot.hpp"
 #include "game/report/run_summary.hpp"
-#include "game/scene/player_defaults.hpp"
 #include "game/session/interrupt.hpp"
 #include "game/session/session_run.hpp"
 #include "systems/snapshot.hpp"
 
 namespace handhold {
 namespace {
-
-// Climbers need jets to return to a hold, so a scene without jets gets weak ones.
-RunSettings choose_settings(const RunOptions& options, Scene& scene, std::size_t players) {
-    RunSettings settings{options.hz, options.seconds, options.threads};
-    settings.climbers_from = options.climbers ? 0 : recorded_players(options);
-    settings.seed = options.seed;
-    settings.keep_frames = !options.out.empty();
-    settings.should_stop = is_interrupted;
-    if (options.distance_grab) {
-        scene.tuning.pull.reach_m = k_pull_reach_m;
-    }
-    double& jets_mps2 = scene.tuning.locomotion.thruster_mps2;
-    if (players > settings.climbers_from && jets_mps2 == 0.0) {
-        jets_mps2 = k_jets_mps2;
-    }
-    return settings;
-}
 
 RunLog play(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>& players,
             const Recording* recording, const RunSettings& settings, SessionFilm* camera,
@@ -137,7 +119,8 @@ std::optional<FileError> place_players(const RunOptions& options, PreparedRun& r
 // Checks the session's length and replaces the state by the snapshot of --resume.
 std::optional<FileError> set_start(const RunOptions& options, PreparedRun& run) {
     run.assets = std::make_unique<SnapshotAssets>(*run.scene.shapes, run.scene.name);
-    run.settings = choose_settings(options, run.scene, run.players.size());
+    run.settings = choose_settings(options, run.players.size(), run.scene);
+    run.settings.should_stop = is_interrupted;
     for (const Recording& more : run.session.more) {
         run.settings.more_recordings.push_back(&more);
     }
