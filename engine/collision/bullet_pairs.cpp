@@ -9,7 +9,7 @@ namespace {
 PairCache::Version version_of(const BroadphaseBody& body) { return {body.proxy.id, body.stamp}; }
 
 // Bodies spawned in one place would be n^2 pairs. A body that overlaps others deeply has at most
-// this many pairs with free bodies. The others follow as these come apart.
+// this many pairs with free bodies, the deep ones first. The others follow as these come apart.
 constexpr std::size_t k_max_crowded_pairs = 6;
 // Share of the distance at which two convex bodies can touch, below which they overlap deeply.
 constexpr double k_deep_share = 0.75;
@@ -121,6 +121,23 @@ std::span<const std::size_t> CollisionWorld::Impl::find_candidates(std::size_t b
     return std::span(near_changed).subspan(first, near_ends[slot] - first);
 }
 
+// Adds the pairs with free bodies to those that begin at `first`; ascending.
+void CollisionWorld::Impl::add_free_pairs(std::size_t first) {
+    const auto deep =
+        static_cast<std::size_t>(std::ranges::count(free_pairs, true, &FreePair::deep));
+    const bool is_crowded = deep > 0;
+    std::size_t deep_left = k_max_crowded_pairs;
+    std::size_t others_left = k_max_crowded_pairs - std::min(deep, k_max_crowded_pairs);
+    for (const FreePair& pair : free_pairs) {
+        std::size_t& left = pair.deep ? deep_left : others_left;
+        if (!is_crowded || left > 0) {
+            pairs.push_back(pair.other);
+            left -= left > 0 ? 1 : 0;
+        }
+    }
+    std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end());
+}
+
 // A body that stays inside its isolation box is tested only against bodies that changed since the
 // box was computed.
 void CollisionWorld::Impl::search_pairs(std::size_t i, double margin_m) {
@@ -136,21 +153,20 @@ void CollisionWorld::Impl::search_pairs(std::size_t i, double margin_m) {
     }
     const std::uint64_t since = is_isolated ? a.isolated_since : 0;
     const std::size_t first = pairs.size();
-    std::size_t free_pairs = 0;
-    bool is_crowded = false;
+    free_pairs.clear();
     for (const std::size_t other : find_candidates(i, reach_ws)) {
         const BroadphaseBody& b = bodies[other];
         if (b.stamp <= since || b.leaf == nullptr || !overlaps(b.bounds_ws, reach_ws) ||
             !is_pair(a, b)) {
             continue;
         }
-        is_crowded = is_crowded || is_deep(a, b);
-        if (b.proxy.free && is_crowded && free_pairs >= k_max_crowded_pairs) {
-            continue;
+        if (b.proxy.free) {
+            free_pairs.push_back({other, is_deep(a, b)});
+        } else {
+            pairs.push_back(other);
         }
-        free_pairs += b.proxy.free ? 1U : 0U;
-        pairs.push_back(other);
     }
+    add_free_pairs(first);
     if (!is_isolated || pairs.size() > first) {
         body_pairs.push_back({i, first, pairs.size(), is_isolated, true});
     }

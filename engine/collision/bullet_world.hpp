@@ -42,6 +42,7 @@ struct CollisionWorld::Impl {
     bool is_pair(const BroadphaseBody& a, const BroadphaseBody& b) const;
     // True if two convex free bodies overlap by about a quarter of their thickness or more.
     bool is_deep(const BroadphaseBody& a, const BroadphaseBody& b) const;
+    void add_free_pairs(std::size_t first);
     // Fills body_pairs and pairs. Costs nothing for bodies that have no pairs and near which
     // nothing changed since the last pass.
     void find_pairs(double margin_m);
@@ -81,6 +82,11 @@ struct CollisionWorld::Impl {
     std::vector<Visit> visit_of_body;  // all none between passes
     // Changed bodies: index into near_ends. Listed bodies: index into last_body_pairs.
     std::vector<std::uint32_t> slot_of_visit;
+    struct FreePair {
+        std::size_t other;
+        bool deep;
+    };
+    std::vector<FreePair> free_pairs;  // of one body
     std::vector<std::size_t>
         near_changed;                      // bodies near each changed body, one range after another
     std::vector<std::size_t> near_ends;    // end of each range; in the order of changed()

@@ -224,16 +224,20 @@ void restore_penetrating_bodies(const FinishPositionsIo& io, const ContactTuning
 
 // --- Players who are pushed out ------------------------------------------------------------------
 
-// Speed at which a player leaves a wall in which he is stuck.
+// Speed at which a player leaves a wall in which they are stuck.
 constexpr double k_eject_mps = 3.0;
 
-// How far the head moves in this frame, tracked and with the play space, if nothing stops it.
-Vec3 head_motion_m(const FinishPositionsIo& io, Entity player, const HeadTuning& tuning) {
-    const HeadTracking& head = io.head.at(player);
+// How far the head moves in this frame, with its grips, the play space and tracking, if no contact
+// stops it.
+Vec3 head_motion_m(const FinishPositionsIo& io, std::uint32_t player, const HeadTuning& tuning) {
+    const Entity entity = io.frame.entities[player];
+    const HeadTracking& head = io.head.at(entity);
+    const Pose& predicted_ws = io.origin.at(entity).pose_ws;
     const Vec3 tracked_ps = transform_point(head.pose_ps, tuning.center_m) -
                             transform_point(head.start_ps, tuning.center_m);
-    return io.origin.at(player).pose_ws.rotation * tracked_ps +
-           io.dt_s * io.player_velocity.at(player).linear_mps;
+    const Vec3 gripped_m = io.frame.phase[player].reached_ws.position - predicted_ws.position;
+    return predicted_ws.rotation * tracked_ps + io.dt_s * io.player_velocity.at(entity).linear_mps +
+           gripped_m;
 }
 
 // How far contacts may push a player in this frame; none: any distance. Only a head that was inside
@@ -243,7 +247,7 @@ std::optional<double> push_limit_m(const FinishPositionsIo& io, std::uint32_t pl
                                    const HeadTuning& tuning) {
     const FrameGraph& frame = io.frame;
     const ConstraintGraph& graph = frame.graph;
-    const Vec3 head_motion = head_motion_m(io, frame.entities[player], tuning);
+    const Vec3 head_motion = head_motion_m(io, player, tuning);
     const FrameGraph::PhaseBody& info = frame.phase[player];
     std::optional<double> limit_m;
     for (const RowBlock& block : graph.blocks) {

@@ -104,8 +104,12 @@ void MissedOverlaps::clear(std::size_t count) {
 
 void find_missed_overlaps(const MovingContacts& moving, const ContactLimits& limits,
                           std::span<const std::uint32_t> moved, MissedOverlaps& missed) {
-    missed.clear(moving.graph.bodies.size());
+    const std::size_t count = moving.graph.bodies.size();
+    missed.clear(count);
     const std::size_t first = moving.displaced.size();
+    // All bodies may be displaced; a warm frame allocates nothing.
+    moving.displaced.reserve(2 * count);
+    moving.updates.reserve(2 * count);
     const bool any = prepare_static_query(moving, limits.sweep_m, moved, missed);
     if (any) {
         query(moving, limits, missed);

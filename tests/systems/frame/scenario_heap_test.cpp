@@ -139,7 +139,10 @@ TEST(Heap, RingThatCannotCloseStaysBoundedInWorkAndSpeed) {
     EXPECT_LE(most_iterations, 400U);
 }
 
+// Moving overlapping bodies apart turns them at constant spin, which changes the energy of a body
+// with unequal inertias: up to 5e-6 of the sum is seen.
 TEST(Heap, RestitutionAndFrictionNeverAddEnergy) {
+    constexpr double k_turned = 1e-5;
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         Random random(seed);
         Scenario s;
@@ -170,7 +173,7 @@ TEST(Heap, RestitutionAndFrictionNeverAddEnergy) {
         s.add_player_here(Vec3(0.0, 0.0, 3.0));
         const double start = kinetic_energy(s);
         s.run(3.0, [&] {
-            ASSERT_LE(kinetic_energy(s), start * (1.0 + 1e-6)) << seed << " " << s.t_s();
+            ASSERT_LE(kinetic_energy(s), start * (1.0 + k_turned)) << seed << " " << s.t_s();
         });
         EXPECT_GT(kinetic_energy(s), 0.05 * start) << seed;
     }
