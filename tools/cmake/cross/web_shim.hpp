@@ -175,6 +175,18 @@ constexpr O transform(R&& range, O out, F function) {
     return out;
 }
 
+// Of two ranges.
+template <class A, class B, class O, class F>
+requires requires(B& b) { std::begin(b); }
+constexpr O transform(A&& a, B&& b, O out, F function) {
+    return std::transform(std::begin(a), std::end(a), std::begin(b), out, function);
+}
+template <class A, class B, class O>
+constexpr O set_symmetric_difference(A&& a, B&& b, O out) {
+    return std::set_symmetric_difference(std::begin(a), std::end(a), std::begin(b), std::end(b),
+                                         out);
+}
+
 }  // namespace ranges
 }  // namespace std
 #endif
