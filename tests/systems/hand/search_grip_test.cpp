@@ -84,7 +84,6 @@ TEST(SearchGrip, JumpIntoABlockIsDepenetratedInTheSameFrame) {
         FittedHand hand(scene.mesh, beside_block(k_beside_x_m));
         hand.search(k_dt_s);
         ASSERT_TRUE(hand.surface.at(k_right).evaluated_this_frame) << jump_m;
-        ASSERT_GT(hand.surface.at(k_right).clearance_recheck_in_m, 0.0) << jump_m;
         ASSERT_LE(palm_penetration_m(hand), 1e-4) << jump_m;
         hand.wrist_bs() = beside_block(k_beside_x_m + jump_m);
         hand.search(k_dt_s);
@@ -103,7 +102,6 @@ TEST(SearchGrip, HandAtRestIsDepenetratedFromAMovedBody) {
         HandSurroundings& around = hand.hands.front();
         around.meshes.push_back({&block, {Vec3(-0.16, 0.06, 0.0), Quat::Identity()}});
         hand.search(k_dt_s);
-        ASSERT_GT(hand.surface.at(k_right).clearance_recheck_in_m, 0.0);
         ASSERT_LE(palm_penetration_m(hand), 1e-4);
         around.meshes.back().pose.position.x() += shift_m;
         ++around.signature;
@@ -139,32 +137,35 @@ TEST(SearchGrip, MovesPalmUntilFingersAreClear) {
               0.003);
     unbudgeted.search();
     EXPECT_LE(finger_penetration_m(unbudgeted), k_finger_penetration_tolerance_m);
-    // With a budget, the palm alone is evaluated first, then with its fingers.
+    // With a budget, the palm alone is evaluated first, then with its fingers: two frames at most.
     FittedHand hand(floor, wrist_bs);
     hand.search(k_dt_s);
-    EXPECT_TRUE(hand.surface.at(k_right).pending_finger_samples != FingerSamplePoses{});
     constexpr int k_evaluated_frame = 2;
     for (int frame = 1; frame < 60; ++frame) {
         hand.search(k_dt_s);
         if (frame >= k_evaluated_frame) {
             EXPECT_LE(finger_penetration_m(hand), k_finger_penetration_tolerance_m) << frame;
-            EXPECT_TRUE(hand.surface.at(k_right).pending_finger_samples == FingerSamplePoses{})
-                << frame;
         }
     }
 }
 
-// A cheap surface with clearance is taken in the first frame, without evaluating other candidates.
+// A cheap surface with clearance is taken in the first frame, as an unbudgeted search takes it, and
+// kept.
 TEST(SearchGrip, EndsInFirstFrameOnPlainFloor) {
     constexpr double k_dt_s = 1.0 / 90.0;
     const GripMesh floor = build_grip_mesh(test::make_floor_mesh());
     const HandRig rig = builtin_hand_rig(HandSide::right);
-    FittedHand hand(floor, wrist_with_palm_at(rig, {0.013, 0.01, 0.007}, Vec3::UnitY()));
-    for (int frame = 0; frame < 3; ++frame) {
+    const Pose wrist_bs = wrist_with_palm_at(rig, {0.013, 0.01, 0.007}, Vec3::UnitY());
+    FittedHand unbudgeted(floor, wrist_bs);
+    unbudgeted.search();
+    const GripSurface& whole = unbudgeted.surface.at(k_right);
+    FittedHand hand(floor, wrist_bs);
+    for (int frame = 0; frame < 30; ++frame) {
         hand.search(k_dt_s);
-        EXPECT_EQ(hand.surface.at(k_right).evaluated_count, 0U) << frame;
-        EXPECT_EQ(hand.surface.at(k_right).candidate_recheck_in_m, 0.0) << frame;
-        EXPECT_GT(hand.surface.at(k_right).clearance_recheck_in_m, 0.0) << frame;
+        const GripSurface& found = hand.surface.at(k_right);
+        EXPECT_EQ(found.triangle, whole.triangle) << frame;
+        EXPECT_LT((found.fitted_wrist_bs.position - whole.fitted_wrist_bs.position).norm(), 1e-5)
+            << frame;
     }
 }
 
@@ -190,7 +191,6 @@ TEST(SearchGrip, BudgetedSearchReachesUnbudgetedResult) {
         const GripSurface found = hand.surface.at(k_right);
         hand.constrain(test::k_unbudgeted_s);
         EXPECT_LT((hand.shown_bs().position - found.fitted_wrist_bs.position).norm(), 1e-9);
-        EXPECT_EQ(found.evaluated_count, 0U);
         EXPECT_LE(scene.penetration_m(hand), k_finger_penetration_tolerance_m);
         EXPECT_LT((found.fitted_wrist_bs.position -
                    unbudgeted.surface.at(k_right).fitted_wrist_bs.position)
@@ -202,33 +202,24 @@ TEST(SearchGrip, BudgetedSearchReachesUnbudgetedResult) {
     }
 }
 
-// Candidates are listed once, even if the hand moves meanwhile, and the list is evaluated once.
-TEST(SearchGrip, ListsCandidatesOnce) {
+// The search of a hand that drifts on meanwhile comes to its end all the same: soon the fingers are
+// clear, and they stay so.
+TEST(SearchGrip, SearchOfADriftingHandComesToItsEnd) {
     constexpr double k_dt_s = 1.0 / 90.0;
+    constexpr int k_found_frame = 20;
     FloorAndBlock scene;
     FittedHand hand(scene.mesh, scene.before_block);
-    const GripSurface& surface = hand.surface.at(k_right);
-    std::vector<std::uint32_t> listed;
-    std::uint32_t evaluated = 0;
-    int frames = 0;
-    for (int frame = 0; frame < 60 && (frame < 2 || surface.evaluated_count > 0); ++frame) {
+    hand.tuning.palm.evaluations_per_frame = 1;
+    for (int frame = 0; frame < 60; ++frame) {
         hand.wrist_bs().position.x() += 2e-4;
         hand.search(k_dt_s);
-        if (surface.evaluated_count > 0 && surface.candidate_count > 0) {
-            const std::vector<std::uint32_t> now(
-                surface.candidates.begin(), surface.candidates.begin() + surface.candidate_count);
-            listed = listed.empty() ? now : listed;
-            EXPECT_EQ(now, listed) << frame;
-            EXPECT_GE(surface.evaluated_count, evaluated) << frame;
-            EXPECT_LE(surface.evaluated_count, surface.candidate_count) << frame;
-            evaluated = surface.evaluated_count;
-            ++frames;
+        if (frame == 0) {
+            EXPECT_GT(scene.penetration_m(hand), k_finger_penetration_tolerance_m);
+        }
+        if (frame >= k_found_frame) {
+            EXPECT_LE(scene.penetration_m(hand), k_finger_penetration_tolerance_m) << frame;
         }
     }
-    EXPECT_EQ(surface.evaluated_count, 0U);
-    EXPECT_EQ(surface.candidate_count, 0U);
-    EXPECT_GT(listed.size(), 1U);
-    EXPECT_GT(frames, 1);
 }
 
 // Along a ring, a followed surface, with a full search only every few frames, needs hardly more
