@@ -36,8 +36,8 @@ struct JointGroups {
     }
 };
 
-// Data passed between the physics stages within one frame. Not state: it is rebuilt every frame. It
-// persists only so that its memory is reused.
+// Data passed between the physics stages within one frame. Not state: without it, the next frame
+// has the same result. What belongs to bodies at rest is kept from frame to frame (ActiveBodies).
 struct FrameGraph {
     // One element per body or player, sorted by persistent id. `proxies`, `entities`, `phase` and
     // graph.bodies share this index. The proxy of a body without a collider has shape k_no_shape

@@ -60,6 +60,7 @@ void gather_surroundings(const FrameContext& f) {
     f.hands().traces.assign(w.hand_owner.size(), {});
     const Column<BodySurface>* const own_surfaces =
         f.caches.body_surfaces.empty() ? nullptr : &f.caches.body_surfaces;
+    const bool has_all_colliders = !f.caches.host_surfaces && own_surfaces == nullptr;
     const GatherSurroundingsIo io{f.caches.meshes_for_hands,
                                   f.caches.hand_rigs,
                                   f.graph().entities,
@@ -76,7 +77,7 @@ void gather_surroundings(const FrameContext& f) {
                                   &w.hand_rig,
                                   f.caches.more_hand_rigs,
                                   own_surfaces,
-                                  f.caches.host_surfaces ? nullptr : &f.collision(),
+                                  has_all_colliders ? &f.collision() : nullptr,
                                   f.graph().proxies};
     for_hand_slices(f, [&io](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
         handhold::gather_surroundings(io, first, last, slice.stats);

@@ -3,7 +3,7 @@
 #include "systems/frame.hpp"
 #include "systems/locomotion/shared/grab_search.hpp"
 
-// The stages over a world's columns, for frame.cpp and host_frame.cpp, which decide their order.
+// The stages over a world's columns, for frame.cpp and frame_of_host.cpp, which decide their order.
 namespace handhold::stages {
 
 // Everything that stages may need. One function per stage selects the columns that it gets.

@@ -8,13 +8,15 @@ namespace {
 
 PairCache::Version version_of(const BroadphaseBody& body) { return {body.proxy.id, body.stamp}; }
 
-// Bodies spawned in one place would be n^2 pairs. A body that overlaps others deeply has at most
-// this many pairs with free bodies, the deep ones first. The others follow as these come apart.
+// Bodies spawned in one place would be n^2 pairs. From a body that overlaps others deeply, at most
+// this many pairs with free bodies of higher id are found, the deep ones first. The others follow
+// as these come apart.
 constexpr std::size_t k_max_crowded_pairs = 6;
 // Share of the distance at which two convex bodies can touch, below which they overlap deeply.
 constexpr double k_deep_share = 0.75;
 
-double smallest_half(const Bounds& box) { return 0.5 * (box.high - box.low).minCoeff(); }
+// Smallest distance of the shape's centre from a side of its box.
+double inner_radius(const Bounds& box) { return box.high.cwiseMin(-box.low).minCoeff(); }
 
 }  // namespace
 
@@ -35,8 +37,8 @@ bool CollisionWorld::Impl::is_deep(const BroadphaseBody& a, const BroadphaseBody
         cache[b.proxy.shape.index].parts.size() > 1) {
         return false;
     }
-    const double depth_m = k_deep_share * (smallest_half(extents[a.proxy.shape.index].box) +
-                                           smallest_half(extents[b.proxy.shape.index].box));
+    const double depth_m = k_deep_share * (inner_radius(extents[a.proxy.shape.index].box) +
+                                           inner_radius(extents[b.proxy.shape.index].box));
     // A pair that was deep at the last valid poses was never apart: a sweep between them says
     // nothing.
     const Vec3 from = a.proxy.from_ws.position - b.proxy.from_ws.position;

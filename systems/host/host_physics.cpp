@@ -1,6 +1,8 @@
 // Hosts with physics of their own (handhold/your_physics.h): surfaces, where bodies and players
 // are, and what hands hold. The step around a host's solver is in host_solver.cpp.
 #include <algorithm>
+#include <iterator>
+#include <vector>
 
 #include "components/play_space.hpp"
 #include "components/world_edit.hpp"
@@ -115,6 +117,7 @@ hh_result hh_player_place(hh_world* world, hh_player player, hh_pose origin, hh_
         host.world.player_origin.at(entity).pose_ws = origin_ws;
         host.world.player_start.at(entity).pose_ws = origin_ws;
         host.world.player_velocity.at(entity).linear_mps = velocity;
+        host.world.last_valid.at(entity).known = false;  // nothing is swept over the way
     });
 }
 
@@ -184,22 +187,10 @@ hh_result hh_world_held_bodies(const hh_world* world, hh_body* bodies, size_t ca
                                size_t* count) {
     return call([&] {
         const hh_world& host = world_of(world);
-        const FrameGraph& frame = host.caches.graph;
-        const std::size_t size = std::min(frame.entities.size(), frame.phase.size());
-        const auto is_held = [&](std::size_t i) {
-            const RigidBody* const body = host.world.body.find(frame.entities[i]);
-            return frame.phase[i].held && body != nullptr && body->kind == BodyKind::free;
-        };
-        std::size_t held = 0;
-        for (std::size_t i = 0; i < size; ++i) {
-            held += is_held(i) ? std::size_t{1} : std::size_t{0};
-        }
-        std::size_t next = 0;
-        write_list(held, bodies, capacity, count, [&](std::size_t) {
-            while (!is_held(next)) {
-                ++next;
-            }
-            return id_of<hh_body>(frame.entities[next++]);
-        });
+        std::vector<Entity> held;  // without those that were removed since
+        std::ranges::copy_if(host.held_bodies, std::back_inserter(held),
+                             [&](Entity body) { return host.world.body.contains(body); });
+        write_list(held.size(), bodies, capacity, count,
+                   [&](std::size_t i) { return id_of<hh_body>(held[i]); });
     });
 }

@@ -223,6 +223,7 @@ hh_result hh_world_end_step(hh_world* world, const hh_solved_player* players, si
                            host.solved_players, host.stats);
             collect_velocity_changes(host);
             finish_events(host);
+            host.held_bodies.clear();
             finish_step(host);
         },
         HH_ERROR_INTERNAL);

@@ -130,6 +130,18 @@ void finish_step(hh_world& host) {
     }
 }
 
+// Notes the bodies that the frame's hands hold, also through joints, by id.
+void note_held_bodies(hh_world& host) {
+    const FrameGraph& frame = host.caches.graph;
+    host.held_bodies.clear();
+    for (std::size_t i = 0; i < std::min(frame.entities.size(), frame.phase.size()); ++i) {
+        const RigidBody* const body = host.world.body.find(frame.entities[i]);
+        if (frame.phase[i].held && body != nullptr && body->kind == BodyKind::free) {
+            host.held_bodies.push_back(frame.entities[i]);
+        }
+    }
+}
+
 hh_result step_with(hh_world* world, double dt_s, const hh_player_input* inputs, std::size_t count,
                     HostStep step, bool makes_events) {
     hh_result result = call([&] {
@@ -143,6 +155,7 @@ hh_result step_with(hh_world* world, double dt_s, const hh_player_input* inputs,
     return call(
         [&] {
             hh_world& host = *world;
+            host.velocity_changes.clear();
             begin_events(host);
             if (makes_events) {
                 keep_early_samples(host, host.world.clock.t_s + dt_s);
@@ -150,6 +163,9 @@ hh_result step_with(hh_world* world, double dt_s, const hh_player_input* inputs,
             step(host.world, host.caches, host.tuning, {dt_s, host.inputs}, host.stats);
             if (makes_events) {
                 finish_events(host);
+            }
+            if (step == &step_frame) {
+                note_held_bodies(host);
             }
             finish_step(host);
         },
@@ -279,6 +295,10 @@ hh_result hh_world_restore(hh_world* world, const void* bytes, size_t size) {
         }
         sync_index(host.world);
         host.is_stepping = false;
+        host.hand_constraints.clear();
+        host.player_motions.clear();
+        host.velocity_changes.clear();
+        host.held_bodies.clear();
         forget_events(host);
     });
 }

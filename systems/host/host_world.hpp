@@ -120,6 +120,7 @@ struct hh_world {
     std::vector<hh_hand_constraint> hand_constraints;
     std::vector<hh_player_motion> player_motions;
     std::vector<hh_velocity_change> velocity_changes;
+    std::vector<handhold::Entity> held_bodies;  // free bodies that hands held in the last step
     std::vector<handhold::SolvedPlayer> solved_players;     // scratch
     std::vector<handhold::BodyVelocity> solved_velocities;  // scratch, by row
     std::vector<handhold::BodyVelocity> begun_velocities;   // by row, before hh_world_begin_step

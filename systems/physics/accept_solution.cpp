@@ -34,7 +34,8 @@ void write_solved_bodies(const AcceptSolutionIo& io) {
             body.spin_radps = io.body_velocity.at(entity).angular_radps;
         }
         if (LastValidPose* const valid = io.last_valid.find(entity)) {
-            *valid = {collider_pose(body), true};
+            // The proxy of a head that was never tracked has no valid pose.
+            *valid = {collider_pose(body), is_valid(frame.proxies[i].to_ws)};
         }
     }
 }

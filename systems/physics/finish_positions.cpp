@@ -240,35 +240,24 @@ Vec3 head_motion_m(const FinishPositionsIo& io, std::uint32_t player, const Head
            gripped_m;
 }
 
-// How far contacts may push a player in this frame; none: any distance. Only a head that was inside
-// a fixed or kinematic body before this frame is limited. What approached in this frame, head or
-// wall, is always pushed back whole.
-std::optional<double> push_limit_m(const FinishPositionsIo& io, std::uint32_t player,
-                                   const HeadTuning& tuning) {
+// Limits the push along the normal of a wall in which the head was before this frame. What
+// approached in this frame, head or wall, is pushed back whole.
+void limit_push(const FinishPositionsIo& io, const RowBlock& block, const Vec3& head_motion_m,
+                Vec3& push_m) {
     const FrameGraph& frame = io.frame;
-    const ConstraintGraph& graph = frame.graph;
-    const Vec3 head_motion = head_motion_m(io, player, tuning);
-    const FrameGraph::PhaseBody& info = frame.phase[player];
-    std::optional<double> limit_m;
-    for (const RowBlock& block : graph.blocks) {
-        if (!is_contact(block) || block.a != player ||
-            graph.bodies[block.b].role != BodyRole::fixed) {
-            continue;
-        }
-        const Pose& wall_ws = graph.bodies[block.b].pose_ws;
-        const ColliderProxy& wall = frame.proxies[block.b];
-        const Vec3 normal = wall_ws.rotation * block.normal_b_bs;
-        const Vec3 wall_motion_m = transform_point(wall.to_ws, block.point_b_bs) -
-                                   transform_point(wall.from_ws, block.point_b_bs);
-        const double allowed_m =
-            std::max(0.0, normal.dot(wall_motion_m - head_motion)) + k_eject_mps * io.dt_s;
-        const double depth_m = normal.dot(transform_point(wall_ws, block.point_b_bs) -
-                                          transform_point(info.reached_ws, block.point_a_bs));
-        if (depth_m > allowed_m) {
-            limit_m = std::max(limit_m.value_or(0.0), allowed_m);
-        }
+    const Pose& wall_ws = frame.graph.bodies[block.b].pose_ws;
+    const ColliderProxy& wall = frame.proxies[block.b];
+    const Vec3 normal = wall_ws.rotation * block.normal_b_bs;
+    const Vec3 wall_motion_m = transform_point(wall.to_ws, block.point_b_bs) -
+                               transform_point(wall.from_ws, block.point_b_bs);
+    const double allowed_m =
+        std::max(0.0, normal.dot(wall_motion_m - head_motion_m)) + k_eject_mps * io.dt_s;
+    const double depth_m =
+        normal.dot(transform_point(wall_ws, block.point_b_bs) -
+                   transform_point(frame.phase[block.a].reached_ws, block.point_a_bs));
+    if (depth_m > allowed_m) {
+        push_m -= normal * std::max(0.0, normal.dot(push_m) - allowed_m);
     }
-    return limit_m;
 }
 
 // Walls that close around a head contradict each other until it is past the middle of one. It then
@@ -280,13 +269,19 @@ void limit_pushes(const FinishPositionsIo& io, const HeadTuning& tuning) {
         if (body.role != BodyRole::translating) {
             continue;
         }
-        const Vec3 push_m = body.pose_ws.position - frame.phase[i].reached_ws.position;
-        const std::optional<double> limit_m =
-            push_m.norm() > k_eject_mps * io.dt_s ? push_limit_m(io, i, tuning) : std::nullopt;
-        if (limit_m && push_m.norm() > *limit_m) {
-            body.pose_ws.position =
-                frame.phase[i].reached_ws.position + push_m * (*limit_m / push_m.norm());
+        const Vec3& reached_m = frame.phase[i].reached_ws.position;
+        Vec3 push_m = body.pose_ws.position - reached_m;
+        if (push_m.norm() <= k_eject_mps * io.dt_s) {
+            continue;
         }
+        const Vec3 motion_m = head_motion_m(io, i, tuning);
+        for (const RowBlock& block : frame.graph.blocks) {
+            if (is_contact(block) && block.a == i &&
+                frame.graph.bodies[block.b].role == BodyRole::fixed) {
+                limit_push(io, block, motion_m, push_m);
+            }
+        }
+        body.pose_ws.position = reached_m + push_m;
     }
 }
 

@@ -33,8 +33,9 @@ typedef struct hh_surface_hit {
 
 /* Queries against the host's surfaces. Each returns true if it found something, and then fills
  * `hit`. `skip`: bodies that count as not there. Called only inside hh_world_step, _step_hands,
- * _begin_step, _end_step and _step_pose_only of this world, by the thread that made that call. Per
- * player and frame: about 2 queries, up to 50 when a hand closes behind walls or among bodies. */
+ * _begin_step, _end_step, _step_pose_only and hh_hand_find_grip of this world, by the thread that
+ * made that call. Per player and frame: about 2 queries, up to 50 when a hand closes behind walls
+ * or among bodies. */
 typedef struct hh_surface_query {
     uint32_t struct_size;
     void* context; /* passed to each of the functions */
