@@ -71,7 +71,7 @@ def check_debian(build: Path, work: Path) -> None:
     library = next((root / "usr").rglob("libhandhold.so.*")).parent
     environment = dict(os.environ, LD_LIBRARY_PATH=str(library), PKG_CONFIG_PATH=str(library / "pkgconfig"))
     flags = run("pkg-config", "--cflags", "--libs", "handhold", env=environment).split()
-    if any("/tmp" in flag and str(root) not in flag for flag in flags) or any(str(SOURCE) in flag for flag in flags):
+    if any(path in flag and str(root) not in flag for flag in flags for path in ("/tmp", str(SOURCE))):
         raise SystemExit(f"pkg-config gives paths outside of the package: {flags}")
     program = work / "by_pkg_config"
     run("cc", "-std=c99", SAMPLES / "hello_hand_c.c", *flags, "-lm", "-o", program)

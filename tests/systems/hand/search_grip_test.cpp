@@ -202,7 +202,7 @@ TEST(SearchGrip, BudgetedSearchReachesUnbudgetedResult) {
     }
 }
 
-// The search of a hand that drifts on meanwhile comes to its end all the same: soon the fingers are
+// The search of a hand that drifts on meanwhile comes to its end nevertheless: soon the fingers are
 // clear, and they stay so.
 TEST(SearchGrip, SearchOfADriftingHandComesToItsEnd) {
     constexpr double k_dt_s = 1.0 / 90.0;
