@@ -89,10 +89,8 @@ TEST(Heap, BodiesSpawnedInOnePlaceComeApartAtRest) {
     EXPECT_LE(s.stats.residual_m, 1e-4);
 }
 
-// Crates between closing walls contradict each other, and some slip out like wet seeds. Which of
-// them do, and how fast, changes with the last bits.
 TEST(Heap, WallsThatCloseOnCratesAndOnThePlayerThrowNothing) {
-    constexpr double k_fastest_mps = 20.0;
+    constexpr double k_fastest_mps = 10.0;
     for (const double speed_mps : {0.28, 0.3, 0.32}) {
         Scenario s;
         s.fits_hands = false;
@@ -145,10 +143,10 @@ TEST(Heap, RingThatCannotCloseStaysBoundedInWorkAndSpeed) {
     EXPECT_LE(most_iterations, 400U);
 }
 
-// Moving overlapping bodies apart turns them at constant spin, which changes the energy of a body
-// with unequal inertias: up to 5e-6 of the sum is seen.
+// Fast impacts act on two lever arms (RowBlock::is_impact); 5e-6 of the energy was seen to be
+// added.
 TEST(Heap, RestitutionAndFrictionNeverAddEnergy) {
-    constexpr double k_turned = 1e-5;
+    constexpr double k_two_arms = 1e-5;
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         Random random(seed);
         Scenario s;
@@ -179,7 +177,7 @@ TEST(Heap, RestitutionAndFrictionNeverAddEnergy) {
         s.add_player_here(Vec3(0.0, 0.0, 3.0));
         const double start = kinetic_energy(s);
         s.run(3.0, [&] {
-            ASSERT_LE(kinetic_energy(s), start * (1.0 + k_turned)) << seed << " " << s.t_s();
+            ASSERT_LE(kinetic_energy(s), start * (1.0 + k_two_arms)) << seed << " " << s.t_s();
         });
         EXPECT_GT(kinetic_energy(s), 0.05 * start) << seed;
     }
