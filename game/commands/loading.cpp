@@ -69,6 +69,7 @@ class AllThreads {
 // The folder for files that may be deleted at any time; empty if the environment names none.
 std::filesystem::path user_cache_directory() {
     const auto folder = [](const char* variable) {
+        // NOLINTNEXTLINE(concurrency-mt-unsafe): no thread changes the environment
         const char* const value = std::getenv(variable);
         return std::filesystem::path(value != nullptr ? value : "");
     };

@@ -107,7 +107,7 @@ std::optional<int> play_scene(PlayProgram& program) {
 
 }  // namespace
 
-int play_command(PlayOptions options) {
+int play_command(const PlayOptions& options) {
     if (options.xr || options.xr_headless) {
         return headset_command(options);
     }

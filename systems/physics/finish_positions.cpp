@@ -240,10 +240,15 @@ Vec3 head_motion_m(const FinishPositionsIo& io, std::uint32_t player, const Head
            gripped_m;
 }
 
-// Limits the push along the normal of a wall in which the head was before this frame. What
-// approached in this frame, head or wall, is pushed back whole.
-void limit_push(const FinishPositionsIo& io, const RowBlock& block, const Vec3& head_motion_m,
-                Vec3& push_m) {
+// A wall in which the head was before this frame, and by how much too far it pushes the head out
+// along its normal.
+struct StuckIn {
+    Vec3 normal = Vec3::Zero();
+    double excess_m = 0.0;
+};
+
+// What approached in this frame, head or wall, is pushed back whole.
+StuckIn stuck_in(const FinishPositionsIo& io, const RowBlock& block, const Vec3& head_motion_m) {
     const FrameGraph& frame = io.frame;
     const Pose& wall_ws = frame.graph.bodies[block.b].pose_ws;
     const ColliderProxy& wall = frame.proxies[block.b];
@@ -255,9 +260,7 @@ void limit_push(const FinishPositionsIo& io, const RowBlock& block, const Vec3& 
     const double depth_m =
         normal.dot(transform_point(wall_ws, block.point_b_bs) -
                    transform_point(frame.phase[block.a].reached_ws, block.point_a_bs));
-    if (depth_m > allowed_m) {
-        push_m -= normal * std::max(0.0, normal.dot(push_m) - allowed_m);
-    }
+    return {normal, depth_m - allowed_m};
 }
 
 // Walls that close around a head contradict each other until it is past the middle of one. It then
@@ -275,12 +278,16 @@ void limit_pushes(const FinishPositionsIo& io, const HeadTuning& tuning) {
             continue;
         }
         const Vec3 motion_m = head_motion_m(io, i, tuning);
+        StuckIn worst;
         for (const RowBlock& block : frame.graph.blocks) {
             if (is_contact(block) && block.a == i &&
                 frame.graph.bodies[block.b].role == BodyRole::fixed) {
-                limit_push(io, block, motion_m, push_m);
+                const StuckIn found = stuck_in(io, block, motion_m);
+                worst = found.excess_m > worst.excess_m ? found : worst;
             }
         }
+        const double along_m = worst.normal.dot(push_m);
+        push_m -= worst.normal * std::clamp(along_m, 0.0, worst.excess_m);
         body.pose_ws.position = reached_m + push_m;
     }
 }

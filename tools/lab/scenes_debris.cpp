@@ -158,7 +158,9 @@ LabScene make_debris(const SceneOptions& options) {
     const int count = options.links_or(32);
     const int side = static_cast<int>(std::ceil(std::cbrt(static_cast<double>(count))));
     for (int i = 0; i < count; ++i) {
-        const Vec3 cell(i / (side * side), i / side % side, i % side);
+        const int layer = i / (side * side);
+        const int row = i / side % side;
+        const Vec3 cell(layer, row, i % side);
         add_debris(scene, Vec3::Constant(k_half_m), k_pitch_m * cell, numbers);
         scene.bodies.back().restitution = 0.5 + 0.5 * numbers.next();
         scene.bodies.back().velocity = {k_speed_mps * numbers.next_vector(),
