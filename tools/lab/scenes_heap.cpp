@@ -52,7 +52,9 @@ LabScene make_heap(const SceneOptions& options) {
     const Vec3 held(front_m + k_crate_half_m + 0.15, 0.0, 0.0);
     add_crate(scene, 2.0, held);
     for (int i = 0; i < side * side * side; ++i) {
-        const Vec3 cell(i / (side * side), i / side % side - middle, i % side - middle);
+        const int layer = i / (side * side);
+        const int row = i / side % side;
+        const Vec3 cell(layer, row - middle, i % side - middle);
         add_crate(scene, 5.0, k_pitch_m * cell + Vec3(k_crate_half_m + 0.005, 0.0, 0.0));
     }
     scene.players.emplace_back();

@@ -24,7 +24,6 @@ using test::Random;
 using test::sample_at;
 
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
 
 // --- What a hand can do --------------------------------------------------------------------------
 
