@@ -239,25 +239,26 @@ class DirectMethod {
         scratch_.system.assemble(island.bodies, scratch_.inverse_inertia_ws, scratch_.rows);
         regularise(scratch_.rows, settings.regularisation, 1.0, scratch_.system);
     }
-    // False if there is no plausible answer. The last iterate of a stick-slip iteration that did
-    // not converge is none: it may throw bodies.
+    // False if there is no plausible answer.
     bool solve() {
         std::span<const double> lambda;
-        const bool converged = solve_stick_slip(settings_.friction_passes, scratch_, lambda) &&
-                               !scratch_.system.is_active_set_unconverged();
+        is_unconverged_ = !solve_stick_slip(settings_.friction_passes, scratch_, lambda);
         gather_moves(scratch_.system.moves(), scratch_);
         scratch_.lambda.assign(lambda.begin(), lambda.end());
-        if (!converged || !has_contact(scratch_.rows)) {
-            return converged;
+        if (scratch_.system.is_active_set_unconverged() || !has_contact(scratch_.rows)) {
+            return !scratch_.system.is_active_set_unconverged();
         }
         // No velocity satisfies contacts that contradict each other (a jam); stiff rows answer
-        // with huge impulses.
+        // with huge impulses. A stick-slip iteration that did not converge may throw bodies.
+        constexpr double k_max_unconverged_ratio = 2.0;
         double largest = 0.0;
         for (const Row& row : scratch_.rows) {
             largest = std::max(largest, std::abs(row.residual));
         }
-        return longest_move(scratch_) <= k_max_move_ratio * largest;
+        return longest_move(scratch_) <=
+               (is_unconverged_ ? k_max_unconverged_ratio : k_max_move_ratio) * largest;
     }
+    bool is_unconverged() const { return is_unconverged_; }
     // Iterative refinement of the multipliers and of the gathered moves.
     void refine() {
         double previous = std::numeric_limits<double>::infinity();
@@ -308,6 +309,7 @@ class DirectMethod {
     const IslandView& island_;
     const VelocitySettings& settings_;
     SolveScratch& scratch_;
+    bool is_unconverged_ = false;
 };
 
 class SweepMethod {
@@ -373,7 +375,8 @@ VelocityResult solve_island(const IslandView& island, const VelocitySettings& se
             if (!is_blended) {
                 refine_velocities(island, settings, scratch);
             }
-            return {};
+            return {.unconverged = direct.is_unconverged(),
+                    .out_of_work = scratch.system.is_out_of_work()};
         }
     }
     SweepMethod sweeps(island, settings, scratch);
