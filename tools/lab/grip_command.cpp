@@ -69,6 +69,7 @@ GripVariant variant_of(const GripOptions& options) {
     variant.order = search_order_of(options.search);
     variant.palm = options.palm == "ray" ? GripSearch::ray_only : GripSearch::smallest_sync;
     variant.fingers = finger_method_of(options.fingers);
+    variant.fit = options.fit;
     return variant;
 }
 

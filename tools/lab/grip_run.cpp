@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <map>
+#include <sstream>
 #include <limits>
 #include <numbers>
 
@@ -11,6 +14,7 @@
 #include "systems/hand/constrain_palms.hpp"
 #include "systems/hand/pose_thumb.hpp"
 #include "systems/hand/shared/finger_chain.hpp"
+#include "systems/hand/shared/hand_fit.hpp"
 #include "systems/hand/sweep_fingers.hpp"
 #include "systems/rigs/authored_hand.hpp"
 
@@ -37,6 +41,31 @@ double resting_opposition(const FingerRig& finger, const ThumbTuning& tuning) {
                : 0.0;
 }
 
+void read_fit_tuning(FitTuning& t) {
+    const char* const text = std::getenv("FIT");
+    if (text == nullptr) {
+        return;
+    }
+    std::istringstream in(text);
+    std::string word;
+    const std::map<std::string, double*> names = {{"turn_arm_m", &t.turn_arm_m},
+        {"close", &t.close}, {"alike", &t.alike}, {"alike_free", &t.alike_free}, {"couple", &t.couple},
+        {"rest", &t.rest}, {"oppose", &t.oppose}, {"tip", &t.tip}, {"first", &t.first}, {"thumb_close", &t.thumb_close}, {"touch", &t.touch}, {"contact", &t.contact},
+        {"limit", &t.limit}, {"style", &t.style}, {"max_apart_rad", &t.max_apart_rad},
+        {"max_fold_rad", &t.max_fold_rad}, {"max_height_m", &t.max_height_m},
+        {"max_angle_rad", &t.max_angle_rad}, {"height_weight", &t.height_weight}, {"clear_m", &t.clear_m}};
+    while (std::getline(in, word, ',')) {
+        const auto at = word.find('=');
+        const std::string name = word.substr(0, at);
+        const double value = std::stod(word.substr(at + 1));
+        if (name == "rounds") {
+            t.rounds = static_cast<int>(value);
+        } else {
+            *names.at(name) = value;
+        }
+    }
+}
+
 // The columns of one hand, and the scratch memory of its stages.
 class OneHand {
   public:
@@ -60,10 +89,32 @@ class OneHand {
             const double lift_before_m = offset_.rows().front().lift_m;
             timed(us.palm_us, [&] { constrain(k_at_once_s, tuning, variant); });
             timed(us.fingers_us, [&] { close(k_at_once_s, tuning, variant); });
-            if (!variant.sync || offset_.rows().front().lift_m == lift_before_m) {
+            if (variant.fit || !variant.sync ||
+                offset_.rows().front().lift_m == lift_before_m) {
                 break;
             }
         }
+        if (variant.fit && surface_.rows().front().triangle != GripSurface::k_none) {
+            timed(us.fit_us, [&] { fit(tuning); });
+        }
+    }
+
+    void fit(const Tuning& tuning) {
+        FitTuning fit_tuning;
+        read_fit_tuning(fit_tuning);
+        FingerPose& pose = fingers_.rows().front();
+        HandPose first = {palm_.rows().front().pose_ws, pose.shown};
+        HandFitGoal goal;
+        for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
+            goal.touches[f] = traces_.front()[f].contact_link >= 0 &&
+                              traces_.front()[f].fallback != ChainFallback::rest_pose;
+            goal.is_clear[f] = traces_.front()[f].depth_m < 0.003;
+        }
+        const HandFit fitted = fit_hand(surroundings_.front(), surface_.rows().front(), first, goal,
+                                        tuning.palm, fit_tuning);
+        palm_.rows().front().pose_ws = fitted.pose.wrist_bs;
+        pose.shown = fitted.pose.fingers;
+        pose.target = fitted.pose.fingers;
     }
 
     // Runs one frame with the previous frame's results.

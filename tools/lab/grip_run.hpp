@@ -23,13 +23,15 @@ struct GripVariant {
     // The talk's fingers include its palm fit: three limits and no depenetration of knuckles and
     // heel. The palm is lifted only for the runtime's own fingers.
     FingerMethod fingers = FingerMethod::sweep;
+    bool fit = false;  // one fit of wrist and fingers after the closing
 };
 
 struct GripTimes {  // microseconds of thread CPU time
     double search_us = 0.0;
     double palm_us = 0.0;
     double fingers_us = 0.0;
-    double total_us() const { return search_us + palm_us + fingers_us; }
+    double fit_us = 0.0;
+    double total_us() const { return search_us + palm_us + fingers_us + fit_us; }
 };
 
 struct PosedHand {

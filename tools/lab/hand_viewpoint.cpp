@@ -107,12 +107,17 @@ HandView hand_bounds(std::span<const HandCapsule> capsules) {
 }
 
 HandView choose_hand_view(std::span<const HandCapsule> capsules, const Quat& wrist,
-                          std::span<const Triangle> around, double distance_m) {
+                          std::span<const Triangle> around, double distance_m,
+                          const HandView* other) {
+    constexpr double k_max_cosine = 0.342;  // of 70 degrees
     HandView view = hand_bounds(capsules);
     const Vec3 back = wrist * Vec3::UnitY();
     double best = -1.0;
     for (int i = 0; i < k_directions; ++i) {
         const Vec3 towards = spiral_direction(i);
+        if (other != nullptr && towards.dot(other->towards) > k_max_cosine) {
+            continue;
+        }
         double seen = 0.0;
         double all = 0.0;
         for (std::size_t k = 0; k < capsules.size(); ++k) {

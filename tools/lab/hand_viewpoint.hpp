@@ -33,9 +33,11 @@ std::vector<Triangle> triangles_near(std::span<const Mesh> meshes, const Vec3& p
 
 // Of evenly spread directions, the one from which most of the fingers is visible at `distance_m`,
 // in front of both the triangles and the hand itself. Prefers views from beside the hand, which
-// show gaps and penetrating fingers.
+// show gaps and penetrating fingers. With `other`, only directions at least 70 degrees from that
+// view's.
 HandView choose_hand_view(std::span<const HandCapsule> capsules, const Quat& wrist,
-                          std::span<const Triangle> around, double distance_m);
+                          std::span<const Triangle> around, double distance_m,
+                          const HandView* other = nullptr);
 // Only the bounding sphere.
 HandView hand_bounds(std::span<const HandCapsule> capsules);
 

@@ -8,6 +8,7 @@
 
 #include "engine/io/gltf.hpp"
 #include "game/commands/progress.hpp"
+#include "game/render/hand_figures.hpp"
 #include "game/render/level_meshes.hpp"
 #include "game/render/primitives.hpp"
 #include "game/render/renderer.hpp"
@@ -102,6 +103,52 @@ void add_capsules(const DrawnHand& hand, Renderer& renderer, RenderFrame& frame)
     }
 }
 
+// Draws one hand at a time on the stage.
+class Artist {
+  public:
+    Artist(const Studio& stage, const HandsPictureOptions& options, Renderer& renderer)
+        : stage_(stage), options_(options), renderer_(renderer) {
+        if (options.style == "skin") {
+            figures_.emplace(builtin_hand_models(), renderer);
+        }
+    }
+
+    // Returns the view, which differs from `other`.
+    HandView draw(const DrawnHand& hand, const HandView* other, Image& picture) {
+        const HandView bounds = hand_bounds(hand.capsules);
+        const double distance_m = 1.02 * bounds.radius_m / std::sin(0.5 * k_fov_rad);
+        const HandView view = choose_hand_view(
+            hand.capsules, hand.wrist.rotation,
+            triangles_near(stage_.meshes, bounds.center, distance_m), distance_m, other);
+        RenderFrame frame = make_frame(view, distance_m);
+        frame.instances = stage_.instances;
+        if (figures_) {
+            add_figure(hand, frame);
+        } else {
+            add_capsules(hand, renderer_, frame);
+        }
+        renderer_.draw(frame, picture);
+        return view;
+    }
+
+  private:
+    void add_figure(const DrawnHand& hand, RenderFrame& frame) {
+        const HandSide side = options_.hand == "left" ? HandSide::left : HandSide::right;
+        const HandRig& rig = figures_->rig(side);
+        std::array<FingerAngles, k_finger_count> fingers;
+        for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+            fingers[f] = hand.angles[static_cast<std::size_t>(rig.fingers[f].name)];
+        }
+        figures_->begin();
+        figures_->add(side, hand.wrist, fingers, renderer_, frame);
+    }
+
+    const Studio& stage_;
+    const HandsPictureOptions& options_;
+    Renderer& renderer_;
+    std::optional<HandFigures> figures_;
+};
+
 void copy_into(const Image& picture, int column, int row, Image& sheet) {
     for (int y = 0; y < picture.height_px; ++y) {
         const auto from = picture.rgba.begin() + std::ptrdiff_t{4} * y * picture.width_px;
@@ -136,27 +183,23 @@ int hands_picture_command(const HandsPictureOptions& options) {
         return refuse({options.out.string(), "", "expected a machine that can draw: " + why_not});
     }
     const Studio stage = build_stage(std::move(level.value()), *renderer);
+    const int views = options.views;
     const int columns = std::min(options.columns, static_cast<int>(hands.size()));
     const int rows = (static_cast<int>(hands.size()) + columns - 1) / columns;
-    Image sheet{columns * options.width_px, rows * options.height_px, {}};
+    Image sheet{columns * views * options.width_px, rows * options.height_px, {}};
     sheet.rgba.assign(std::size_t{4} * static_cast<std::size_t>(sheet.width_px) *
                           static_cast<std::size_t>(sheet.height_px),
                       255);
+    Artist artist(stage, options, *renderer);
     Progress progress("pictures");
     Image picture;
     for (std::size_t i = 0; i < hands.size(); ++i) {
-        const double radius_m = 1.02 * hand_bounds(hands[i].capsules).radius_m;
-        const double distance_m = radius_m / std::sin(0.5 * k_fov_rad);
-        const HandView view = choose_hand_view(
-            hands[i].capsules, hands[i].wrist.rotation,
-            triangles_near(stage.meshes, hand_bounds(hands[i].capsules).center, distance_m),
-            distance_m);
-        RenderFrame frame = make_frame(view, distance_m);
-        frame.instances = stage.instances;
-        add_capsules(hands[i], *renderer, frame);
-        renderer->draw(frame, picture);
         const int place = static_cast<int>(i);
-        copy_into(picture, place % columns, place / columns, sheet);
+        HandView last;
+        for (int view = 0; view < views; ++view) {
+            last = artist.draw(hands[i], view > 0 ? &last : nullptr, picture);
+            copy_into(picture, place % columns * views + view, place / columns, sheet);
+        }
         std::printf("%lld%c", static_cast<long long>(hands[i].id),
                     (place + 1) % columns == 0 || i + 1 == hands.size() ? '\n' : ' ');
         progress.show(static_cast<double>(i + 1) / static_cast<double>(hands.size()));

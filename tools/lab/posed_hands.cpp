@@ -8,9 +8,10 @@
 namespace handhold::lab {
 namespace {
 
+constexpr std::array<std::string_view, 6> k_names = {"thumb", "index",  "middle",
+                                                     "ring",  "little", "palm"};
+
 HandCapsule read_capsule(const JsonValue& json) {
-    constexpr std::array<std::string_view, 6> k_names = {"thumb", "index",  "middle",
-                                                         "ring",  "little", "palm"};
     HandCapsule capsule;
     capsule.finger = json["finger"].text();
     if (std::find(k_names.begin(), k_names.end(), capsule.finger) == k_names.end()) {
@@ -23,12 +24,34 @@ HandCapsule read_capsule(const JsonValue& json) {
     return capsule;
 }
 
+void read_angles(const JsonValue& json, std::array<FingerAngles, k_finger_count>& angles) {
+    const std::string name = json["name"].text();
+    const auto place = static_cast<std::size_t>(
+        std::find(k_names.begin(), k_names.end(), name) - k_names.begin());
+    if (place >= k_finger_count) {
+        json["name"].refuse("thumb, index, middle, ring or little");
+        return;
+    }
+    std::size_t link = 0;
+    for (const JsonValue& curl : json["curl_rad"].items()) {
+        if (link < k_max_links) {
+            angles[place].curl_rad[link++] = curl.number();
+        }
+    }
+    angles[place].opposition_rad = json["opposition_rad"].number();
+}
+
 DrawnHand read_hand(const JsonValue& json) {
     DrawnHand hand;
     hand.id = json["id"].integer(0, INT32_MAX);
     hand.wrist = {json["wrist"]["position_m"].vector(), json["wrist"]["rotation_xyzw"].rotation()};
     for (const JsonValue& capsule : json["capsules"].items()) {
         hand.capsules.push_back(read_capsule(capsule));
+    }
+    if (json["fingers"].exists()) {
+        for (const JsonValue& finger : json["fingers"].items()) {
+            read_angles(finger, hand.angles);
+        }
     }
     return hand;
 }

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string_view>
 #include <vector>
 
+#include "components/hand_rig.hpp"
 #include "engine/io/result.hpp"
 #include "tools/lab/hand_viewpoint.hpp"
 
@@ -14,6 +16,8 @@ struct DrawnHand {
     std::int64_t id = 0;
     Pose wrist;  // as shown
     std::vector<HandCapsule> capsules;
+    // Joint angles by FingerName, for the game's hand; as far as the line has them.
+    std::array<FingerAngles, k_finger_count> angles;
 };
 
 // Skips blank lines. Errors name the line and the JSON pointer.

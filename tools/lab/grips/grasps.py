@@ -60,7 +60,8 @@ class Grasp:
     def _finger(value, where):
         return {"name": named(member(value, "name", where), FINGERS, f"{where}: name"),
                 "discs": number(value.get("discs"), f"{where}: discs"), "visited": number(value.get("visited"), f"{where}: visited"),
-                "walked": number(value.get("walked"), f"{where}: walked"), "fallback": str(value.get("fallback", "none"))}
+                "walked": number(value.get("walked"), f"{where}: walked"), "fallback": str(value.get("fallback", "none")),
+                "curl_rad": [number(curl, f"{where}: curl_rad") for curl in value.get("curl_rad") or ()]}
 
     def is_finite(self):
         wrist = self.position_m + self.rotation_xyzw

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from . import style
 from .capsules import clearance
 from .grasps import FINGERS
 
@@ -81,12 +82,16 @@ class Measured:
     """One file's grasps with their measurements.
 
     gaps_mm: (grasps, PARTS). each: one dictionary per grasp. used: gripped and finite. near: by the placements' kinds, {id: kind}; None:
-    not known. reached: (grasps, 5), fingers that the reference brings to contact; None: not evaluated."""
+    not known. reached: (grasps, 5), fingers that the reference brings to contact; None: not evaluated. style: one row per grasp
+    (style.rows_of)."""
 
     def __init__(self, surface, grasps, capsules, kinds=None, reached=None):
         self.grasps = grasps
         self.gaps_mm = part_gaps_mm(surface, grasps, capsules)
         self.each = [score_grasp(grasp, row) for grasp, row in zip(grasps, self.gaps_mm)]
+        self.style = style.rows_of(surface, grasps, capsules, self.gaps_mm)
+        for one, row in zip(self.each, self.style):
+            one["classes"] = [name for name in style.CLASSES if row[name]]
         self.used = np.array([one["gripped"] and one["finite"] for one in self.each])
         self.near = None if kinds is None else np.array([kinds.get(grasp.id) == "near" for grasp in grasps])
         self.reached = reached
@@ -113,6 +118,7 @@ def figures(measured):
         **search_figures(gripped),
         "us": {stage: spread([grasp.us.get(stage, math.nan) for grasp in gripped]) for stage in ("search", "palm", "fingers", "total")},
     }
+    result["style"] = style.figures(measured)
     known = [one for one in measured if one.near is not None]
     if known:
         result["sync_mm_near"] = spread([grasp.sync_mm for one in known for grasp, near in zip(one.grasps, one.near) if near and grasp.gripped])

@@ -1,0 +1,137 @@
+"""What a player sees wrong in a grasp that does not penetrate: classes of design/hands.md's table, with confidence bounds.
+
+Each class is a flag per grasp. Bounds are percentiles of a bootstrap that draws whole files (one mesh with one seed) with replacement,
+because grasps of one mesh resemble each other (Efron, Tibshirani, An introduction to the bootstrap, 1993, chapter 8)."""
+import math
+
+import numpy as np
+
+from .grasps import FINGERS
+
+DRAWS = 1000
+TOUCH_MM, OFF_MM, TIP_OFF_MM, DEEP_MM = 2.0, 10.0, 20.0, 3.0
+STRAIGHT_DEG, CURLED_DEG, FOLDED_DEG, APART_DEG, ASTRAY_DEG, TURNED_DEG = 20.0, 60.0, 165.0, 100.0, 40.0, 45.0
+FAR_MM = 60.0
+FOUR = slice(1, 5)
+# class: (title, goal in percent)
+CLASSES = {
+    "finger_off": ("a finger more than 10 mm off while another touches", 3.0),
+    "finger_astray": ("of these, bent by 40 degrees more or less than its neighbours", 1.0),
+    "neighbours_apart": ("neighbouring fingers' bends differ by more than 100 degrees", 2.0),
+    "finger_folded": ("a finger bent by more than 165 degrees", 1.5),
+    "thumb_base_only": ("thumb touches by its base only", 2.0),
+    "one_straight": ("one straight finger, the others curled", 1.0),
+    "hand_turned": ("hand turned by more than 45 degrees", 0.3),
+    "palm_far": ("palm moved by more than 60 mm", 0.3),
+    "palm_deep": ("palm deeper than 3 mm", 1.5),
+    "none_touches": ("no finger touches", 0.3),
+    "one_touches": ("one finger touches", 0.3),
+}
+
+
+def bends_deg(grasps):
+    """(grasps, FINGERS): total bend of each digit; NaN if the hand has no such digit."""
+    bends = np.full((len(grasps), len(FINGERS)), np.nan)
+    for row, grasp in enumerate(grasps):
+        for finger in grasp.fingers:
+            if finger["curl_rad"]:
+                bends[row, FINGERS.index(finger["name"])] = math.degrees(sum(finger["curl_rad"]))
+    return bends
+
+
+def thumb_tip_gaps_mm(surface, grasps, capsules):
+    """Gap of the end of each thumb's last link; NaN without one."""
+    gaps = np.full(len(grasps), np.nan)
+    if not len(capsules.grasp):
+        return gaps
+    rows = np.nonzero((capsules.part == "thumb") & np.isfinite(capsules.b).all(1))[0]
+    # A thumb's links are listed from its base, so its last row stays.
+    last = dict(zip(capsules.grasp[rows].tolist(), rows.tolist()))
+    if last:
+        number, row = np.array(list(last)), np.array(list(last.values()))
+        gaps[number] = 1e3 * (surface.distance(capsules.b[row]) - capsules.radius[row])
+    return gaps
+
+
+def apart(bends):
+    """Largest difference of neighbouring fingers' bends, thumbs left out; 0 without neighbours."""
+    return np.nan_to_num(np.abs(np.diff(bends[:, FOUR], axis=1)), nan=0.0).max(1)
+
+
+def astray(off, bend):
+    """Fingers off the surface whose bend differs by more than ASTRAY_DEG from the mean of their neighbours'."""
+    padded = np.pad(bend, ((0, 0), (1, 1)), constant_values=np.nan)
+    beside = np.stack([padded[:, :-2], padded[:, 2:]])
+    known = np.isfinite(beside)
+    mean = np.where(known, beside, 0.0).sum(0) / np.maximum(known.sum(0), 1)
+    return (off & known.any(0) & (np.abs(bend - mean) > ASTRAY_DEG)).any(1)
+
+
+def flags(gaps, tips, bends, sync_mm, sync_deg):
+    """{class: (grasps,) flags}. gaps: as scoring.part_gaps_mm."""
+    four, bend = gaps[:, FOUR], bends[:, FOUR]
+    near = np.abs(four) < TOUCH_MM
+    touching = near | (four < 0.0)
+    off = np.isfinite(four) & (four > OFF_MM)
+    straight, curled = bend < STRAIGHT_DEG, bend > CURLED_DEG
+    there = np.isfinite(bend).sum(1)
+    return {
+        "finger_off": off.any(1) & touching.any(1),
+        "finger_astray": astray(off, bend) & touching.any(1),
+        "neighbours_apart": apart(bends) > APART_DEG,
+        "finger_folded": (bend > FOLDED_DEG).any(1),
+        "thumb_base_only": (np.abs(gaps[:, 0]) < TOUCH_MM) & (tips > TIP_OFF_MM),
+        "one_straight": (straight.sum(1) == 1) & (curled.sum(1) == there - 1) & (there > 2),
+        "hand_turned": sync_deg > TURNED_DEG,
+        "palm_far": sync_mm > FAR_MM,
+        "palm_deep": np.isfinite(gaps[:, 5]) & (gaps[:, 5] < -DEEP_MM),
+        "none_touches": touching.sum(1) == 0,
+        "one_touches": touching.sum(1) == 1,
+    }
+
+
+def bounded(of, files):
+    """Value of `of` over all files with its 95 % bounds. of: figure of a list of arrays, one per file."""
+    value = of(files)
+    if len(files) < 2:
+        return {"value": value, "low": math.nan, "high": math.nan}
+    rng = np.random.default_rng(1)
+    draws = [of([files[i] for i in rng.integers(0, len(files), len(files))]) for _ in range(DRAWS)]
+    low, high = np.nanpercentile(draws, (2.5, 97.5))
+    return {"value": value, "low": float(low), "high": float(high)}
+
+
+def mean_of(files):
+    """Mean of all values of several arrays."""
+    count = sum(len(one) for one in files)
+    return sum(float(np.sum(one)) for one in files) / count if count else math.nan
+
+
+def p95_of(files):
+    values = np.concatenate(files)
+    return float(np.percentile(values, 95)) if len(values) else math.nan
+
+
+def figures(measured):
+    """Shares of every class, of grasps in any class, and palm sync, each with bounds. measured: scoring.Measured, one per file."""
+    used = [one.style[one.used] for one in measured if one.used.any()]
+    if not used:
+        return {}
+    names = used[0].dtype.names
+    result = {name: bounded(mean_of, [one[name] for one in used]) for name in CLASSES}
+    result["any_class"] = bounded(mean_of, [np.any([one[name] for name in CLASSES], axis=0) for one in used])
+    result["sync_mean_mm"] = bounded(mean_of, [one["sync_mm"] for one in used])
+    result["sync_p95_mm"] = bounded(p95_of, [one["sync_mm"] for one in used])
+    assert set(CLASSES) < set(names)
+    return result
+
+
+def rows_of(surface, grasps, capsules, gaps):
+    """Structured array, one row per grasp: every class and sync_mm."""
+    sync_mm, sync_deg = (np.array([getattr(grasp, key) for grasp in grasps], float) for key in ("sync_mm", "sync_deg"))
+    classes = flags(gaps, thumb_tip_gaps_mm(surface, grasps, capsules), bends_deg(grasps), sync_mm, sync_deg)
+    rows = np.zeros(len(grasps), [(name, bool) for name in CLASSES] + [("sync_mm", float)])
+    for name, flag in classes.items():
+        rows[name] = flag
+    rows["sync_mm"] = sync_mm
+    return rows
