@@ -5,9 +5,9 @@
 #include "components/tracking.hpp"
 #include "engine/math/math.hpp"
 
-// Arms and chest. No device tracks them: they are estimated from the head and the shown hands, for
-// display only, and never move the player. Torso axes (_ts): -Z where the chest faces, +Y the play
-// space's up, even if the chest leans.
+// Arms and chest. No device tracks them: they are estimated from the head and the shown hands. They
+// are for display only and never move the player. Torso axes (_ts): -Z is the horizontal direction
+// in which the chest faces; +Y is the play space's up, even if the chest leans.
 namespace handhold {
 
 // A player's size. Written by calibrate_players, or by the host that adds the player.
@@ -15,30 +15,31 @@ struct BodyMeasures {
     static constexpr double k_min_m = 0.05;
     static constexpr double k_max_m = 5.0;
 
-    double eye_height_m = 1.62;  // standing; all lengths in [k_min_m, k_max_m]
+    double eye_height_m = 1.62;  // standing; all lengths are in [k_min_m, k_max_m]
     double shoulder_width_m = 0.38;
     double upper_arm_m = 0.30;
-    double forearm_m = 0.28;  // to the wrist
+    double forearm_m = 0.28;  // from elbow to wrist
 };
 
 // State of estimate_arms between frames.
 struct ArmMemory {
     struct Arm {
-        Vec3 axis_ts = -Vec3::UnitY();  // unit: from the shoulder to the hand
-        Vec3 bend_ts = Vec3::UnitZ();   // unit, perpendicular to axis_ts: towards the elbow
-        Vec3 hand_ts = Vec3::Zero();    // from the shoulder's rest position
-        Vec3 elbow_ts = Vec3::Zero();   // from the shoulder
+        Vec3 axis_ts = -Vec3::UnitY();  // unit; from the shoulder to the hand
+        Vec3 bend_ts = Vec3::UnitZ();   // unit, perpendicular to axis_ts; towards the elbow
+        Vec3 hand_ts = Vec3::Zero();    // hand relative to the shoulder's rest position
+        Vec3 elbow_ts = Vec3::Zero();   // elbow relative to the shoulder
         Pose hand_ps;                   // shown hand at the end of the last frame
     };
-    bool known = false;                  // false: the next frame re-initialises this state
-    Vec3 look_ps = -Vec3::UnitZ();       // unit, level: where the head looks, low-pass filtered
-    Vec3 facing_ps = -Vec3::UnitZ();     // unit, level: where the chest faces
+    bool known = false;  // false: the next frame re-initialises this state
+    // Horizontal unit vector: the head's look direction, low-pass filtered.
+    Vec3 look_ps = -Vec3::UnitZ();
+    Vec3 facing_ps = -Vec3::UnitZ();     // horizontal unit vector: where the chest faces
     Pose head_ps;                        // at the end of the last frame
     std::array<Arm, k_hand_count> arms;  // by HandSide
 };
 
-// Start of the clavicles at the base of the neck, as a share of the distance from the chest's
-// middle to the shoulder.
+// Position of a clavicle's inner end (at the base of the neck) on the line from the chest's centre
+// to the shoulder: 0 is the centre, 1 the shoulder.
 inline constexpr double k_clavicle_from = 0.12;
 
 // Estimated chest, shoulders and elbow directions. Written by estimate_arms.
@@ -47,20 +48,20 @@ struct ArmEstimate {
         Pose hand_ps;  // shown hand
         Vec3 shoulder_ps = Vec3::Zero();
         Vec3 bend_ps = Vec3::UnitZ();  // unit, perpendicular to the line from shoulder to hand
-        double stretch = 1.0;          // >= 1: scale of both bones that lets them reach the hand
+        double stretch = 1.0;  // >= 1; scale of upper arm and forearm so that they reach the hand
     };
-    Pose chest_ps;                       // midway between the resting shoulders; -Z ahead, +Y up
-    Vec3 facing_ps = -Vec3::UnitZ();     // unit, level: where the chest faces
+    Pose chest_ps;  // midway between the shoulders' rest positions; -Z ahead, +Y up
+    Vec3 facing_ps = -Vec3::UnitZ();     // horizontal unit vector: where the chest faces
     std::array<Arm, k_hand_count> arms;  // by HandSide
 };
 
-// The arms' joints. Bones lie along their frame's -Z; +Y is the side to which the elbow points.
-// Written by pose_arms.
+// World poses of the arms' joints. Each bone lies along its frame's -Z; +Y points to the elbow's
+// side. Written by pose_arms.
 struct ArmPose {
     struct Arm {
-        Pose clavicle_ws;  // from the base of the neck
-        Pose upper_ws;     // from the shoulder
-        Pose forearm_ws;   // from the elbow
+        Pose clavicle_ws;  // origin: base of the neck
+        Pose upper_ws;     // origin: shoulder
+        Pose forearm_ws;   // origin: elbow
         Pose hand_ws;      // equals PalmPose exactly
     };
     Pose chest_ws;

@@ -19,17 +19,16 @@ inline constexpr std::size_t k_max_authored_grips = 4;  // per body
 struct AuthoredHand {
     bool is_there = false;  // false: the grip has no pose for this hand
     Pose wrist_bs;          // in the body's frame
-    // By FingerName. Fingers without an authored pose close on the surface as usual.
+    // Indexed by FingerName. False: the finger has no authored pose and closes on the surface.
     std::array<bool, k_finger_count> is_posed = {};
     std::array<FingerAngles, k_finger_count> fingers;
 };
 
 struct AuthoredGrip {
     std::array<AuthoredHand, k_hand_count> hands;  // by HandSide
-    // A hand that closes in several snap zones takes the grip of highest priority.
+    // A hand that closes inside several snap zones takes the grip with the highest priority.
     std::int32_t priority = 0;
-    // Snap zone: maximum distance and rotation between the closing hand's palm and its authored
-    // pose.
+    // Snap zone: maximum distance and rotation of the closing hand's palm from its authored pose.
     double snap_radius_m = 0.08;
     double snap_angle_rad = 1.0471975511965976;
 };
@@ -40,14 +39,15 @@ struct AuthoredGrips {
     std::uint8_t count = 0;
 };
 
-// The authored grip that a hand is in. Only such hands have this component, and it applies only
-// while the hand's Grab is on `body`. Written by update_grabs; read by anchor_grabs,
-// gather_surroundings and publish_pose.
+// The authored grip that a hand currently uses. Only hands in an authored grip have this component.
+// It applies only while the hand's Grab is on `body`. Written by update_grabs; read by
+// anchor_grabs, gather_surroundings and publish_pose.
 struct AuthoredHold {
     Entity body = k_no_entity;
-    std::uint8_t grip = 0;         // into AuthoredGrips::grips
-    AuthoredHand hand;             // copy of the pose for this hand's side
-    double leave_angle_rad = 0.0;  // a hand free to turn on its grip leaves it beyond this rotation
+    std::uint8_t grip = 0;  // index into AuthoredGrips::grips
+    AuthoredHand hand;      // copy of the pose for this hand's side
+    // Maximum rotation of a hand that may turn in its grip; beyond it the hand leaves the grip.
+    double leave_angle_rad = 0.0;
 };
 
 }  // namespace handhold

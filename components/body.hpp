@@ -9,12 +9,12 @@
 #include "engine/math/math.hpp"
 
 // Rigid bodies: walls, ships, rocks, everything except players. A body's frame has its origin at
-// the centre of mass and principal axes.
+// the centre of mass; its axes are the principal axes.
 namespace handhold {
 
 enum class BodyKind : std::uint8_t {
     fixed,      // never moves
-    kinematic,  // follows a mover; contacts and constraints do not move it
+    kinematic,  // moved by a Mover, PathMover or LegMover; contacts and constraints do not move it
     free,       // moved by its velocity and by constraints
 };
 
@@ -24,10 +24,10 @@ struct RigidBody {
     double mass_kg = 0.0;              // > 0 for free bodies; unused otherwise
     Vec3 inertia_kgm2 = Vec3::Zero();  // principal moments, > 0 for free bodies
     double restitution = 0.0;          // [0, 1]; a contact uses the larger of both bodies' values
-    double friction = 0.4;             // Coulomb coefficient; a contact uses the geometric mean
+    double friction = 0.4;  // Coulomb coefficient; a contact uses the geometric mean of both values
 };
 
-// Current pose. Written by animate_movers and predict_bodies, then finish_positions.
+// Current pose. Written first by animate_movers and predict_bodies, later by finish_positions.
 struct BodyPose {
     Pose pose_ws;
 };
@@ -42,22 +42,22 @@ struct BodyVelocity {
     Vec3 angular_radps = Vec3::Zero();
 };
 
-// The body's shape, in the body's frame. A body without a collider has no contacts and no hand
-// finds it; its joints and existing grips still act.
+// The body's shape, in the body's frame. A body without a collider has no contacts and cannot be
+// gripped. Its joints and existing grips still act.
 struct Collider {
     ShapeId shape;
 };
 
-// Start pose of the next frame's sweep: the last pose without a forbidden overlap. For players, the
-// centre of the head. Written by update_velocities.
+// Start pose of the next frame's sweep: the last pose in which the body penetrated nothing. For
+// players, the pose of the head's collider. Written by update_velocities.
 struct LastValidPose {
     Pose pose_ws;
     bool known = true;  // false for a player whose head has not been tracked yet
 };
 
-// A kinematic body's constant twist from its pose at time 0: a straight line, a spin, or, if the
-// velocity turns with the body, a circle or a helix. Evaluated in closed form, so that no error
-// accumulates. Read by animate_movers.
+// Moves a kinematic body with constant linear and angular velocity from its pose at time 0. The
+// path is a straight line, or a circle or helix if the velocity turns with the body. The pose is
+// computed in closed form, so that no error accumulates. Read by animate_movers.
 struct Mover {
     Pose start_ws;
     Vec3 velocity_ws_mps = Vec3::Zero();  // at time 0
@@ -65,14 +65,13 @@ struct Mover {
     bool turns_with_body = false;  // true: the velocity is constant in the body's frame
 };
 
-// A kinematic body that follows a closed path. Read by animate_movers, which also moves the body's
-// legs.
+// Moves a kinematic body along a closed path. Read by animate_movers.
 struct PathMover {
     PosePath path;
 };
 
-// A kinematic body that is one bone of a crawling leg: a capsule or box centred on the bone, its
-// length along Y. Read by animate_movers.
+// Moves a kinematic body as one bone of a crawling leg. The body is a capsule or box that is
+// centred on the bone and has its length along Y. Read by animate_movers.
 struct LegMover {
     Entity torso = k_no_entity;  // needs a PathMover; without one the bone does not move
     CrawlerLeg leg;

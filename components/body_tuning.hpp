@@ -9,16 +9,16 @@
 namespace handhold {
 
 inline constexpr double k_scale_eye_m = 1.6;
-// True if a hand, head or chest moved farther in one frame than it can in play space: it was
-// repositioned, so its history does not apply.
+// True if a hand, head or chest moved farther in one frame than a person can move it. The part was
+// then repositioned (for example re-centred), and its history does not apply.
 inline bool is_jump(double distance_m, double dt_s) {
     constexpr double k_jump_m = 0.15;
     constexpr double k_jump_speed_mps = 20.0;
     return distance_m > k_jump_m + k_jump_speed_mps * dt_s;
 }
 
-// Chest, shoulders and elbows. Fitted on motion capture. Subjects and scores:
-// docs/decisions/0034-chest-and-elbow-estimate.md.
+// Chest, shoulders and elbows. The defaults are fitted to motion capture;
+// docs/decisions/0034-chest-and-elbow-estimate.md lists subjects and scores.
 struct ArmTuning {
     double head_lag_s = 0.3;
     double hand_share = 0.15;

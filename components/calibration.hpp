@@ -4,8 +4,8 @@
 
 namespace handhold {
 
-// Range of an accepted T-pose or A-pose: height of the eyes above the floor, and distance from
-// wrist to wrist with level arms.
+// Accepted measures of a T-pose or A-pose: height of the eyes above the floor, and arm span
+// (distance between the wrists with the arms held level).
 struct TPoseRange {
     static constexpr double k_min_eyes_m = 0.3;
     static constexpr double k_max_eyes_m = 2.6;
@@ -15,11 +15,12 @@ struct TPoseRange {
 
 // Progress of a held T-pose or A-pose. Written by calibrate_players.
 struct Calibration {
-    bool done = false;      // true: measured since the last request
-    double held_s = 0.0;    // [0, CalibrationTuning::hold_s]
+    // True: the player was measured; stays true until PlayerCommands::calibrate ends.
+    bool done = false;
+    double held_s = 0.0;    // time for which the pose has been held; [0, CalibrationTuning::hold_s]
     double eyes_s_m = 0.0;  // time integral of the eyes' height over held_s
     double span_s_m = 0.0;  // time integral of the arm span over held_s
-    // Hands at the beginning of the pose.
+    // Positions of the hands when the pose began.
     Vec3 left_ps = Vec3::Zero();
     Vec3 right_ps = Vec3::Zero();
 };

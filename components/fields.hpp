@@ -13,9 +13,8 @@
 // they change.
 namespace handhold {
 
-// Number of values of an enum used in a component; valid values are [0, k_value_count). Snapshots
-// are checked against it. Users of visit_fields do not compile for an enum without a
-// specialisation.
+// Number of values of an enum that components use; valid values are [0, k_value_count). Loading a
+// snapshot checks this range. Code that visits an enum without a specialisation does not compile.
 template <typename Enum>
 inline constexpr std::uint32_t k_value_count = 0;
 template <>

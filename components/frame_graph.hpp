@@ -13,14 +13,15 @@
 
 namespace handhold {
 
-// Moves one island's bodies until its constraint rows are met; contract as solve_positions.
+// Moves one island's bodies until its constraint rows are met. Same contract as solve_positions.
 using PositionSolver = NewtonResult (*)(const IslandView&, const NewtonSettings&, SolveScratch&);
 
-// Groups of free bodies connected by joints, by row of the RigidBody column. Empty if there are no
-// joints.
+// Groups of free bodies that joints connect. Both arrays are indexed by element of the RigidBody
+// column, and are empty if there are no joints.
 struct JointGroups {
-    std::vector<std::uint32_t> of_body;  // representative body of the group, equal for its members
-    // By representative: joints connect the group to something that a hand cannot move.
+    // Index of the group's representative, the same for all its members.
+    std::vector<std::uint32_t> of_body;
+    // Valid at representatives: 1 if joints connect the group to something that a hand cannot move.
     std::vector<std::uint8_t> anchored;
 
     bool is_anchored(std::size_t body_row) const {
@@ -31,13 +32,13 @@ struct JointGroups {
     }
 };
 
-// Data passed between the physics stages within one frame. Not state: rebuilt every frame, kept
-// only so that warm frames allocate nothing.
+// Data passed between the physics stages within one frame. Not state: it is rebuilt every frame. It
+// persists only so that its memory is reused.
 struct FrameGraph {
-    // One element per body or player, sorted by persistent id; `proxies`, `entities`, `phase` and
-    // graph.bodies share the index. A body without a collider has shape k_no_shape and touches
-    // nothing.
-    std::vector<ColliderProxy> proxies;  // written by place_colliders; solve_phases moves them
+    // One element per body or player, sorted by persistent id. `proxies`, `entities`, `phase` and
+    // graph.bodies share this index. The proxy of a body without a collider has shape k_no_shape
+    // and touches nothing.
+    std::vector<ColliderProxy> proxies;  // written by place_colliders, moved by solve_phases
     std::vector<Entity> entities;
     struct Identified {
         PersistentId id;
@@ -46,16 +47,20 @@ struct FrameGraph {
     std::vector<Identified> by_id;  // scratch of place_colliders
     struct PhaseBody {
         Pose reached_ws;  // pose after the reach phase
-        // Players: 1/kappa, the share of the inverse mass used in the forward phase; in [0, 1].
+        // Players: 1/kappa, the factor on the player's inverse mass in the forward phase; from 0 to
+        // 1. It is 0 if the player holds only light objects, so that the objects do not move the
+        //    player.
         double forward_share = 0.0;
         bool held = false;  // held by a hand, or connected by joints to a held body
-        // Players: a hand grips something fixed, driven or heavy, or two players grip each other.
+        // Players: a hand grips a fixed, kinematic or heavy body or another player, or another
+        // player grips this one.
         bool grips_surface = false;
-        bool pushed = false;  // the backward or contradiction phase ran on its island
-        Vec3 velocity_before_mps = Vec3::Zero();  // players: before the velocity solve
-        double push_back_m = 0.0;  // players: displacement of the origin by contacts this frame
+        bool pushed = false;  // the backward or contradiction phase ran on the body's island
+        Vec3 velocity_before_mps = Vec3::Zero();  // players: velocity before the velocity solve
+        double push_back_m = 0.0;  // players: how far contacts moved the origin in this frame
     };
-    // graph.bodies may have one more element at the end: the world, if a joint connects to it.
+    // graph.bodies has one more element at the end, the world, if a joint connects a body to the
+    // world.
     std::vector<PhaseBody> phase;
     JointGroups joint_groups;  // written by group_joints
 
@@ -63,37 +68,39 @@ struct FrameGraph {
     std::vector<IgnoredPair> ignored;    // written by find_contacts
     ConstraintGraph graph;  // written by build_constraints, solve_phases, update_velocities
 
-    // Called by solve_phases for every island and phase. The measuring tools replace it to compare
+    // solve_phases calls this for every island and phase. Measuring tools replace it to compare
     // methods.
     PositionSolver position_solver = &solve_positions;
 
     // Scratch.
     std::vector<ContactPoint> fresh_contacts;
-    std::vector<std::uint32_t> body_of_row;   // by row of RigidBody: index into graph.bodies
-    std::vector<RowBlock> hand_blocks;        // written by build_constraints, by row of Grab
-    std::vector<std::uint32_t> island_order;  // largest first
+    // By element of the RigidBody column: index into graph.bodies.
+    std::vector<std::uint32_t> body_of_row;
+    // Written by build_constraints, in the order of the Grab column.
+    std::vector<RowBlock> hand_blocks;
+    std::vector<std::uint32_t> island_order;  // islands, largest first
     std::vector<NewtonResult> island_results;
-    // A penetrating body that finish_positions may restore to its last valid pose; its state after
-    // the phases.
+    // A penetrating body that finish_positions may restore to its last valid pose, with its state
+    // after the phases.
     struct PenetratingBody {
         std::uint32_t body = 0;
-        // Index into the islands of the phases; islands are rebuilt afterwards. Past the end: no
-        // constraint row involved the body.
+        // Index into the islands as solve_phases built them (the islands are rebuilt afterwards).
+        // Equal to the number of islands if no constraint row involved the body.
         std::uint32_t island = 0;
-        double error_m = 0.0;  // largest error of its constraint rows, except hand rows
+        double error_m = 0.0;  // largest error of the body's constraint rows, except hand rows
         Pose pose_ws;
         Vec3 velocity_mps = Vec3::Zero();
         Vec3 spin_radps = Vec3::Zero();
     };
-    std::vector<PenetratingBody> penetrating_bodies;  // by island
+    std::vector<PenetratingBody> penetrating_bodies;  // sorted by island
     MissedOverlaps hidden_overlaps;  // written by finish_positions; read by update_velocities
-    // Largest errors, by island. After a solve that met all its blocks: an upper bound. Otherwise
-    // none until computed on demand.
+    // Largest errors, by island. After a solve that met all its constraint rows: an upper bound.
+    // Otherwise none until something asks for the errors.
     std::vector<std::optional<IslandErrors>> island_errors;
     std::vector<VelocityResult> velocity_results;  // by island
     std::vector<SolveScratch> island_scratch;
-    std::vector<double> overlap_m;             // by body
-    std::vector<std::uint32_t> overlaps_with;  // by body: the other body; itself if none
+    std::vector<double> overlap_m;             // by body: depth
+    std::vector<std::uint32_t> overlaps_with;  // by body: the body that it overlaps; itself if none
 };
 
 }  // namespace handhold

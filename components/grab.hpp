@@ -6,7 +6,7 @@
 #include "engine/ecs/entity.hpp"
 #include "engine/math/math.hpp"
 
-// What hands hold. Hands are entities of their own, two per player. A grab begins in update_grabs.
+// What hands hold. Each hand is an entity; a player has two. A grab begins in update_grabs.
 namespace handhold {
 
 struct HandOwner {
@@ -15,21 +15,21 @@ struct HandOwner {
 };
 
 // Pose of the hand in the controller's frame: hand = controller * hand_in_controller. A hand
-// without this component uses HandTuning, mirrored for the left hand. Written by whoever creates
-// the hand (for example from a controller profile); read by read_tracking.
+// without this component uses HandTuning's pose, mirrored for the left hand. Written by the host
+// that creates the hand (for example from a controller profile); read by read_tracking.
 struct ControllerToHand {
     Pose hand_in_controller;
 };
 
-// Values as in frames.csv.
+// The values are those written to frames.csv.
 enum class GripKind : std::uint8_t {
     none = 0,
-    // A point on a fixed, driven or heavy body: three constraint rows, the hand may turn.
+    // A point on a fixed, kinematic or heavy body: three constraint rows; the hand may turn.
     surface = 1,
-    // A free body: six constraint rows; three if joints connect it to something fixed.
+    // A free body: six constraint rows, or three if joints connect the body to something fixed.
     held = 2,
-    // Shown and reported only: the hand is in an authored grip (AuthoredHold). Its Grab has kind
-    // surface or held.
+    // The hand is in an authored grip (AuthoredHold). Used for display and reports only: the hand's
+    // Grab itself has kind surface or held.
     authored = 3,
     // Another player's head: three constraint rows; both players move in proportion to their
     // inverse masses.
@@ -38,31 +38,32 @@ enum class GripKind : std::uint8_t {
 
 enum class GrabPhase : std::uint8_t {
     none,
-    fresh,  // began in this frame; anchor_grabs has not set the anchor yet
+    fresh,  // the grab began in this frame; anchor_grabs has not set the anchor yet
     holding,
-    // Let go in this frame: the constraint continues with the release velocity until the end of the
-    // frame.
+    // The hand lets go in this frame. The constraint continues with the release velocity until the
+    // end of the frame.
     releasing,
 };
 
 // Written by update_grabs (kind, phase, body, hit), anchor_grabs (anchor, target, two_handed) and
-// finish_positions (error). _bs is the gripped body's frame; for another player, the head's.
+// finish_positions (error). _bs is the gripped body's frame; if `body` is another player, the frame
+// of their head.
 struct Grab {
     GripKind kind = GripKind::none;
     GrabPhase phase = GrabPhase::none;
     Entity body = k_no_entity;
     Vec3 hit_bs = Vec3::Zero();          // where the palm ray hit the surface
     Vec3 hit_normal_bs = Vec3::UnitY();  // unit, out of the solid
-    Pose anchor_bs;                      // tracked hand at the instant of the grab: no jump
-    Pose target_ps;                      // goal of the hand constraint at the end of the frame
+    Pose anchor_bs;  // tracked hand at the instant of the grab, so that the hand does not jump
+    Pose target_ps;  // target of the hand constraint at the end of the frame
     Vec3 target_velocity_ps_mps = Vec3::Zero();
     Vec3 target_spin_ps_radps = Vec3::Zero();
     double since_s = 0.0;  // time at which the hand closed; see is_first_hand
-    double error_m = 0.0;  // distance of hand and anchor at the end of the frame
-    // Held by both hands of the player, which drive it together: the first hand's point, the line
-    // between the hands, and the twist about that line.
+    double error_m = 0.0;  // distance between hand and anchor at the end of the frame
+    // Both hands of the player hold the body and drive it together: the first hand's point, the
+    // line between the hands, and the twist about that line.
     bool two_handed = false;
-    // Held, and connected by joints to something fixed: the hand may turn on it as on a surface.
+    // Joints connect the held body to something fixed; the hand may turn on it as on a surface.
     bool jointed = false;
 };
 

@@ -10,9 +10,9 @@
 #include "components/tracking.hpp"
 #include "engine/math/math.hpp"
 
-// Hands as data. Hand space (_hs) is the wrist's frame with OpenXR's axes, in metres: -Z points to
-// the fingers, +Y out of the back of the hand. A rig is an asset: built once, constant while frames
-// run.
+// Hand rigs. Hand space (_hs) is the wrist's frame with OpenXR's axes, in metres: -Z points to the
+// fingers, +Y out of the back of the hand. A rig is an asset: it is built once and does not change
+// while frames run.
 namespace handhold {
 
 enum class FingerName : std::uint8_t { thumb, index, middle, ring, little };
@@ -28,11 +28,12 @@ struct FingerRig {
     Pose base_hs;                  // frame of the first hinge at curl 0 and opposition 0
     std::array<double, k_max_links> length_m = {};
     std::array<double, k_max_links> radius_m = {};   // radius of the link's capsule
-    std::array<double, k_max_links> lower_rad = {};  // curl limit: fully open
-    // Curl limit: fully curled. A closing finger moves all hinges from lower to upper together.
+    std::array<double, k_max_links> lower_rad = {};  // minimum curl: fully open
+    // Maximum curl: fully closed. A closing finger moves all hinges from lower_rad to upper_rad
+    // together.
     std::array<double, k_max_links> upper_rad = {};
-    std::array<double, k_max_links> rest_rad = {};  // rest pose: nothing is touched
-    // The thumb's disc turns about this unit axis through the first hinge by the opposition angle.
+    std::array<double, k_max_links> rest_rad = {};  // curl in the rest pose
+    // Unit axis through the first hinge. The opposition angle turns the thumb's disc about it.
     // Other fingers have a fixed disc and an opposition range of 0.
     Vec3 opposition_axis_hs = -Vec3::UnitZ();
     double lower_opposition_rad = 0.0;
@@ -50,17 +51,17 @@ struct PalmCapsule {
 // joint_in_link.
 struct RigJoint {
     static constexpr std::int32_t k_palm = -1;
-    std::string name;          // WebXR's: "wrist", "index-finger-phalanx-proximal", ...
-    std::int32_t finger = -1;  // into HandRig::fingers, or k_palm
+    std::string name;          // WebXR name: "wrist", "index-finger-phalanx-proximal", ...
+    std::int32_t finger = -1;  // index into HandRig::fingers, or k_palm
     std::uint32_t link = 0;    // link of that finger
     Pose joint_in_link;        // in the link's hinge frame, or in hand space for the palm
 };
 
 struct HandRig {
     HandSide side = HandSide::right;
-    std::vector<FingerRig> fingers;  // 2 to 5, each name at most once
+    std::vector<FingerRig> fingers;  // 2 to 5 fingers, each name at most once
     std::vector<PalmCapsule> palm;
-    Vec3 palm_center_hs = Vec3(0.0, -0.014, -0.08);  // point on the skin
+    Vec3 palm_center_hs = Vec3(0.0, -0.014, -0.08);  // a point on the palm's skin
     Vec3 palm_normal_hs = -Vec3::UnitY();            // unit, out of the palm
     std::vector<RigJoint> joints;                    // empty: no skin
 };

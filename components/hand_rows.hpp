@@ -3,13 +3,13 @@
 #include "components/grab.hpp"
 #include "engine/ecs/column.hpp"
 
-// Finds a player's hands in the columns, and relations between two hands of one player. "Row" here
+// Finds a player's hands in the columns, and tells how two hands of one player grip. "Row" here
 // means the index of an element in a column.
 namespace handhold {
 
-// Returns the row of a hand of `player`, searching circularly from row `from`; the column's size if
-// the player has none. A player's hands usually lie in adjacent rows, so a good `from` finds the
-// hand in one or two steps.
+// Returns the row of a hand of `player`, or the column's size if the player has no hand. Searches
+// from row `from` and wraps around at the end. A player's hands usually lie in adjacent rows, so
+// that a good `from` needs one or two steps.
 inline std::size_t find_hand_row(const Column<HandOwner>& owner, Entity player, std::size_t from) {
     const std::size_t count = owner.size();
     for (std::size_t step = 0; step < count; ++step) {
@@ -21,7 +21,8 @@ inline std::size_t find_hand_row(const Column<HandOwner>& owner, Entity player, 
     return count;
 }
 
-// Returns the row in `grab` of the other hand of the player who owns `row`; grab.size() if none.
+// `row` is the row of a hand in `grab`. Returns the row of the same player's other hand;
+// grab.size() if none.
 inline std::size_t find_other_hand(const Column<HandOwner>& owner, const Column<Grab>& grab,
                                    std::size_t row) {
     const std::size_t own = owner.find_row(grab.owners()[row]);
@@ -38,22 +39,22 @@ inline std::size_t find_other_hand(const Column<HandOwner>& owner, const Column<
     return found == Column<Grab>::k_npos ? grab.size() : found;
 }
 
-// True if two hands of one player hold the same free body without joints to the world, which they
-// can turn freely.
+// True if two hands of one player hold the same free body, and no joints connect it to something
+// fixed.
 inline bool share_free_body(const Grab& a, const Grab& b) {
     return a.kind == GripKind::held && b.kind == GripKind::held && a.body == b.body && !a.jointed &&
            !b.jointed;
 }
 
-// True if two hands of one player grip together: both on fixed surfaces, or both on the same body.
-// Such hands share a position error that cannot be met by both. A hand left alone by the other gets
-// a new anchor.
+// True if two hands of one player grip together: both on surfaces, or both on the same body. If
+// their targets contradict each other, the position error is shared between them. When one hand
+// lets go, the other gets a new anchor.
 inline bool share_hold(const Grab& a, const Grab& b) {
     const bool both_fixed = a.kind == GripKind::surface && b.kind == GripKind::surface;
     return both_fixed || (a.kind != GripKind::none && a.kind == b.kind && a.body == b.body);
 }
 
-// True if the hand at `row` is the first of two hands on one body: the hand that has held longer;
+// True if the hand at `row` is the first of two hands on one body: the hand that closed earlier, or
 // the left hand if both closed at the same time.
 inline bool is_first_hand(const Column<HandOwner>& owner, const Column<Grab>& grab, std::size_t row,
                           std::size_t other) {

@@ -11,22 +11,24 @@
 
 namespace handhold {
 
-// Input of the hand stages: one hand and the surfaces near it, in the frame of the gripped body
-// (_bs). A hand on a moving body is therefore solved exactly as on a body at rest. Not state:
+// Input of the hand stages: one hand and the surfaces near it, in the gripped body's frame (_bs). A
+// hand on a moving body is therefore solved exactly like a hand on a body at rest. Not state:
 // gather_surroundings rewrites it every frame.
 struct HandSurroundings {
     Entity hand = k_no_entity;
-    Entity body = k_no_entity;  // gripped body; null: nothing to fit to, shown as tracked
+    Entity body = k_no_entity;  // gripped body; null: there is no surface to fit the hand to
     const HandRig* rig = nullptr;
     Pose body_ws;
-    // Tracked wrist, or the wrist its grip dictates; in world space if the hand is empty.
+    // Wrist of a gripping hand: its anchor, with the tracked rotation if the hand may turn on its
+    // grip. For an empty hand: the tracked wrist, in world space.
     Pose wrist_bs;
-    std::vector<PlacedMesh> meshes;  // the gripped body's mesh first, then meshes nearby
-    // Hash of the body, the meshes and their poses rounded to 0.1 mm: nothing around the hand has
-    // moved while it is unchanged. 0: the hand is empty.
+    std::vector<PlacedMesh> meshes;  // the gripped body's mesh, then other meshes near the hand
+    // Hash of the body, the meshes and their poses rounded to 0.1 mm. While the hash is unchanged,
+    // nothing around the hand has moved. 0: no body.
     std::uint64_t signature = 0;
-    bool is_gripping = false;                // also true if it grips a head, which is no body
-    const AuthoredHand* authored = nullptr;  // its pose in an authored grip; null: not in one
+    bool is_gripping = false;  // also true for a grip on a head, which has no mesh
+    // The hand's pose in its authored grip; null: not in an authored grip.
+    const AuthoredHand* authored = nullptr;
 };
 
 // Scratch memory of search_grip; keeps its capacity between calls.
@@ -40,17 +42,17 @@ struct GripSearchScratch {
     struct Candidate {
         std::uint32_t triangle = k_no_triangle;  // index into the search mesh
         Vec3 point = Vec3::Zero();               // on that triangle, under the palm
-        double cost_m = 0.0;                     // PalmCost in closed form
+        double cost_m = 0.0;                     // closed-form cost (PalmCost)
     };
     std::vector<Node> open;
     std::vector<Candidate> found;
-    std::vector<Candidate> remaining;  // the part of `found` that may still be listed
+    std::vector<Candidate> remaining;  // candidates of `found` that may still be listed
     std::vector<std::uint32_t> seen;
     ChainPatch patch;
 };
 
-// Search and fit counters of one digit in one frame, for the measuring tools and the pictures. Not
-// state. Fields as in ChainFit.
+// Counters of one digit's searches and fits in one frame, for measuring tools and pictures. Not
+// state. The fields are explained at ChainFit.
 struct FingerTrace {
     std::uint32_t discs = 0;
     std::uint32_t pops = 0;

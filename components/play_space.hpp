@@ -7,15 +7,15 @@
 #include "engine/ecs/column.hpp"
 #include "engine/math/math.hpp"
 
-// Small geometry of head and hands that more than one stage needs.
+// Geometry of head and hands that several stages use.
 namespace handhold {
 
-// The palm's ray of a hand in the world: from behind the palm through it, along its inward normal
-// (the hand's -Y).
+// A hand's palm ray in the world. It starts behind the palm and passes through it along the hand's
+// -Y, out of the palm.
 struct PalmRay {
     Vec3 from_ws;
     Vec3 to_ws;
-    Vec3 palm_ws;  // the palm's skin
+    Vec3 palm_ws;  // point on the palm's skin
 };
 inline PalmRay palm_ray(const Pose& hand_ws, HandSide side, const HandTuning& tuning) {
     Vec3 palm = tuning.palm_center_m;
@@ -26,14 +26,14 @@ inline PalmRay palm_ray(const Pose& hand_ws, HandSide side, const HandTuning& tu
     return {from_ws, from_ws + tuning.ray_length_m * inward_ws, palm_ws};
 }
 
-// Where what a hand holds on to is: a body, or a player's head.
+// World pose of what a hand grips: a body, or the head of a player.
 inline Pose gripped_pose_ws(const Column<BodyPose>& body_pose, const Column<PlayerOrigin>& origin,
                             const Column<HeadTracking>& head, Entity gripped) {
     const BodyPose* const body = body_pose.find(gripped);
     return body != nullptr ? body->pose_ws : origin.at(gripped).pose_ws * head.at(gripped).pose_ps;
 }
 
-// The centre of the head's collider.
+// Centre of the head's sphere collider.
 inline Vec3 head_center_ps(const HeadTracking& head, const HeadTuning& tuning) {
     return transform_point(head.pose_ps, tuning.center_m);
 }

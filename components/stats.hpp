@@ -37,59 +37,63 @@ enum class Stage : std::uint8_t {
     count
 };
 
-// A fallback: the runtime could not do what was requested and did the next best. Counted by event.
+// A fallback: the runtime could not do what was requested and did something else instead. Each
+// event is counted.
 enum class Fallback : std::uint8_t {
     // Input.
     sample_out_of_order,  // a sample older than the previous one: ignored
     sample_not_finite,    // one device's pose in a sample is not finite: ignored
     tracking_lost,        // a device is silent or invalid: its pose is frozen
-    hand_out_of_reach,    // farther from its head than HandTuning::max_arm_m: sample ignored
+    hand_out_of_reach,    // hand farther from its head than HandTuning::max_arm_m: sample ignored
     head_recentred,       // head moved more than TrackingTuning::max_jump_m: the player stays put
     // Grabs.
-    grab_no_surface,  // a hand closed with no surface in reach
-    grip_stretched,   // farther from its anchor than HandTuning::max_stretch_m: let go
-    grip_lost,        // tracking returned with the hand open: let go without a throw
-    grip_body_gone,   // the gripped body was destroyed: let go
-    grip_reanchored,  // tracking returned or the other hand let go: anchor set to where the hand is
-    two_hand_grip_ended,  // one of two hands let go: no throw
-    hands_too_close,      // two hands at one point of a free body: only the first hand drives it
+    grab_no_surface,      // a hand closed with no surface in reach
+    grip_stretched,       // hand farther from its anchor than HandTuning::max_stretch_m: let go
+    grip_lost,            // tracking returned with the hand open: let go without a throw
+    grip_body_gone,       // the gripped body was destroyed: let go
+    grip_reanchored,      // tracking returned or the other hand let go: anchor moved to the hand
+    two_hand_grip_ended,  // one of two hands let go: the body is not thrown
+    hands_too_close,      // both hands too close on one free body: only the first hand drives it
     // Physics.
     contact_rounds_exhausted,  // new contacts appeared in every allowed round
     contacts_contradict,       // hand rows were dropped so that contacts could be met
     contacts_unresolved,       // contacts still overlap at the end of the frame
-    restored_last_valid_pose,  // penetrating bodies moved back to their last valid pose; per island
-    active_set_not_converged,  // a solve ended before the set of pushing contacts was known
-    hands_load_stepped,        // a solve ran out of iterations, then converged by load stepping
-    load_stepping_failed,      // load stepping failed too: the first result is kept
-    friction_wedged,           // contacts with unbounded or energy-gaining friction slip freely
-    friction_not_converged,    // stick or slip not decided within SolverTuning::friction_passes
+    // An island's penetrating bodies were restored to their last valid pose.
+    restored_last_valid_pose,
+    // A solve ended before its active set (pushing contacts and limits) converged.
+    active_set_not_converged,
+    hands_load_stepped,    // a solve ran out of iterations, then converged by load stepping
+    load_stepping_failed,  // load stepping failed too: the first result is kept
+    friction_wedged,       // friction would be unbounded or gain energy: those contacts slip freely
+    friction_not_converged,  // stick or slip still changed after SolverTuning::friction_passes
     release_speed_clamped,
     object_speed_clamped,
     head_ignores_full,
     // Fingers and palms.
-    finger_full_search,   // the seeded searches missed the surface: all triangles in reach tested
-    finger_depenetrated,  // penetrated when straight or closing: moved to a clear sample pose
-    finger_opened,        // still penetrated and was opened step by step
+    finger_full_search,   // the seeded searches did not suffice: all triangles in reach were tested
+    finger_depenetrated,  // the closed finger penetrated: moved to a sample pose
+    finger_opened,        // the finger still penetrated: opened step by step
     finger_no_contact,    // a digit of a gripping hand touches nothing: rest pose
     palm_lifted,          // the palm was raised because its fingers penetrate
     body_no_surface,      // the gripped body has no grip mesh: hand shown as tracked
     palm_no_surface,      // no surface near a gripping palm: hand shown as tracked
     // Authored grips.
-    authored_grip_occupied,    // another hand is in the grip: next best grip or surface
-    authored_grip_blocked,     // an obstacle is between hand and grip: next best grip or surface
+    authored_grip_occupied,  // another hand is in the grip: the next best grip or surface is used
+    // An obstacle is between hand and grip: the next best grip or surface is used.
+    authored_grip_blocked,
     authored_grip_abandoned,   // the hand turned too far: it continues as a surface grip
     authored_finger_rejected,  // the authored pose penetrates: the finger is fitted to the surface
     // Distance grab.
     pull_refused_fixed,  // the body cannot move or has joints
     pull_refused_heavy,  // the body is heavier than PullTuning::max_mass_kg
     pull_refused_held,   // the body is held, or pulled by another hand
-    pull_lost,           // the body is gone, too far or held, or the hand is lost: it flies on
+    pull_lost,  // body gone, too far or held, or hand not tracked: the pull ends, the body flies on
     count
 };
 
-// Momentum given by all constraint impulses of one frame, by receiver: linear in kg m/s, angular
-// about the world's origin in kg m^2/s. The receivers sum to zero. `virtual_player` receives the
-// momentum that the forward phase discards.
+// Sums of all constraint impulses of one frame, by receiver: linear in kg m/s, angular about the
+// world's origin in kg m^2/s. The receivers' sum is zero. `virtual_player` receives the momentum
+// that the forward phase discards.
 struct MomentumLedger {
     enum Receiver : std::uint8_t { objects, players, virtual_player, statics, receiver_count };
     std::array<Vec3, receiver_count> linear_kgmps{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(),
@@ -100,7 +104,8 @@ struct MomentumLedger {
 
 struct StageStats {
     std::array<std::uint64_t, static_cast<std::size_t>(Fallback::count)> fallbacks{};
-    std::array<double, static_cast<std::size_t>(Stage::count)> stage_us{};  // times, this frame
+    // By Stage: time in this frame.
+    std::array<double, static_cast<std::size_t>(Stage::count)> stage_us{};
 
     std::uint64_t grab_onsets = 0;
     std::uint64_t grabs_gripped = 0;
@@ -108,17 +113,17 @@ struct StageStats {
     std::uint64_t islands_pushed = 0;  // islands that ran the backward phase
     std::uint64_t contacts = 0;
     std::uint64_t contact_rounds = 0;     // narrowphase passes inside solve_phases
-    std::uint64_t newton_iterations = 0;  // over all islands and phases
-    double residual_m = 0.0;              // worst contact overlap at the end of the frame
-    double joint_error_m = 0.0;           // worst joint: point distance or slider limit violation
-    double joint_error_rad = 0.0;         // worst joint: direction or angle limit violation
-    double hand_error_m = 0.0;            // largest distance between a hand and its anchor
+    std::uint64_t newton_iterations = 0;  // sum over all islands and phases
+    double residual_m = 0.0;              // deepest contact overlap at the end of the frame
+    double joint_error_m = 0.0;  // largest distance of a joint's points, or slider limit violation
+    double joint_error_rad = 0.0;  // largest direction or angle limit error of a joint
+    double hand_error_m = 0.0;     // largest distance between a hand and its anchor
     MomentumLedger ledger;
 
     void count(Fallback reason) { ++fallbacks[static_cast<std::size_t>(reason)]; }
 };
 
-// Names as in reports, e.g. "find_contacts", "grip_stretched".
+// The names used in reports, e.g. "find_contacts" and "grip_stretched".
 const char* name_of(Stage stage);
 const char* name_of(Fallback reason);
 

@@ -6,8 +6,8 @@
 #include "engine/math/math.hpp"
 #include "engine/solver/newton/settings.hpp"
 
-// Every tunable number. Each is declared here with its default, and described once, with unit and
-// range, in visit_tuning, which tuning files, the report and the inspector use.
+// Every tunable number with its default. visit_tuning describes each number once, with unit and
+// range. Tuning files, the report and the inspector use these descriptions.
 namespace handhold {
 
 struct TrackingTuning {
@@ -27,7 +27,8 @@ struct HandTuning {
     double max_arm_m = 2.0;
 };
 
-// Distance grab: a hand that closes on nothing pulls the free body its palm points at.
+// Distance grab: a hand that closes without gripping anything pulls the free body at which its palm
+// points.
 struct PullTuning {
     double reach_m = 0.0;  // 0: off
     double radius_m = 0.05;
@@ -36,7 +37,7 @@ struct PullTuning {
     double speed_mps = 2.5;
 };
 
-// How a surface is chosen for a gripping palm, and how the palm is held to it.
+// How a surface is chosen for a gripping palm, and how the palm is fitted to it.
 struct PalmTuning {
     double min_height_m = 0.001;
     double max_height_m = 0.015;
@@ -164,8 +165,8 @@ struct TuningInfo {
     const char* what;  // meaning and effect, one sentence that stands alone
 };
 
-// Calls visit(info, field) for every number. Fields are double, std::int32_t, Vec3 (the range holds
-// for each component) or SupportFollow.
+// Calls visit(info, field) for every number. A field is a double, a std::int32_t, a Vec3 (the range
+// applies to each component) or a SupportFollow.
 template <typename TuningType, typename Visit>
 void visit_tuning(TuningType& t, Visit&& visit) {
     const auto see = [&visit](const char* name, auto& field, const char* unit, double low,

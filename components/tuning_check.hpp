@@ -4,8 +4,9 @@
 
 namespace handhold {
 
-// Throws PreconditionError, with the number's name and value, unless every number lies in the range
-// of visit_tuning (NaN never does) and phases.kappa_heavy_kg is above kappa_light_kg.
+// Throws PreconditionError if a number is NaN or outside its range in visit_tuning, or if
+// phases.kappa_heavy_kg is not above phases.kappa_light_kg. The message has the number's name and
+// value.
 void check_tuning(const Tuning& tuning);
 
 }  // namespace handhold

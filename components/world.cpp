@@ -33,7 +33,7 @@ void check_name_is_unique(const World& world, std::string_view name) {
     HH_CHECK(is_null(find_by_id(world, id)), "the name is used already", id.value);
 }
 
-// Precondition: the name is free.
+// Precondition: no entity has this name.
 Entity add_named(World& world, std::string_view name) {
     sync_index(world);
     const PersistentId id = persistent_id_from_name(name);
@@ -45,7 +45,7 @@ Entity add_named(World& world, std::string_view name) {
 
 bool is_in(double value, double low, double high) { return value >= low && value <= high; }
 
-// The first coordinate beyond `limit`, or NaN; else 0.
+// Returns the first coordinate that is NaN or outside [-limit, limit]; 0 if there is none.
 double beyond(const Vec3& v, double limit) {
     for (const double x : v) {
         if (!is_in(x, -limit, limit)) {
@@ -56,7 +56,7 @@ double beyond(const Vec3& v, double limit) {
 }
 
 bool is_within(const Vec3& v, double limit) {
-    return beyond(v, limit) == 0.0;  // false for NaN
+    return beyond(v, limit) == 0.0;  // also false if a coordinate is NaN
 }
 
 bool is_in_world(const Pose& pose) {
@@ -258,7 +258,8 @@ bool destroy(World& world, Entity entity) {
     }
     const std::span<const Entity> listed = world.joints_by_body.of(entity);
     std::vector<Entity> joints(listed.begin(), listed.end());
-    // From the last row to the first: the slots that become free do not depend on the cache.
+    // Destroys joints from the last row to the first, so that the order in which slots become free
+    // does not depend on the cache.
     std::ranges::sort(joints, std::ranges::greater(),
                       [&world](Entity joint) { return world.joint.find_row(joint); });
     for (const Entity joint : joints) {

@@ -27,22 +27,23 @@ struct FrameClock {
     double t_s = 0.0;         // end of the last frame, s
 };
 
-// The whole simulation state: one column per component. Nothing outside it survives a frame.
+// The whole simulation state: one column per component. No other state is kept from frame to frame.
 struct World {
     EntityPool entities;
     FrameClock clock;
-    Vec3 reference_velocity_mps = Vec3::Zero();  // the scene's, world
-    Column<PersistentId> persistent_id;          // every entity
+    // Velocity of the scene in the world; see ReferenceVelocity.
+    Vec3 reference_velocity_mps = Vec3::Zero();
+    Column<PersistentId> persistent_id;  // every entity
 
     Column<RigidBody> body;
-    Column<BodyPose> body_pose;            // every body
-    Column<BodyStart> body_start;          // every body
-    Column<BodyVelocity> body_velocity;    // every body
-    Column<Collider> collider;             // bodies with a shape; players: the sphere of the head
-    Column<Mover> mover;                   // kinematic bodies with a constant twist
-    Column<PathMover> path_mover;          // kinematic bodies on closed paths
-    Column<LegMover> leg_mover;            // kinematic bones of legs of path movers
-    Column<LastValidPose> last_valid;      // free bodies and players
+    Column<BodyPose> body_pose;          // every body
+    Column<BodyStart> body_start;        // every body
+    Column<BodyVelocity> body_velocity;  // every body
+    Column<Collider> collider;         // bodies with a shape, and players (the sphere of the head)
+    Column<Mover> mover;               // kinematic bodies with constant velocities
+    Column<PathMover> path_mover;      // kinematic bodies on closed paths
+    Column<LegMover> leg_mover;        // kinematic bones of crawling legs
+    Column<LastValidPose> last_valid;  // free bodies and players
     Column<AuthoredGrips> authored_grips;  // bodies with authored grips
 
     Column<Joint> joint;
@@ -57,7 +58,7 @@ struct World {
     Column<HeadTracking> head_tracking;
     Column<HeadIgnores> head_ignores;
     Column<RenderPose> render_pose;
-    Column<BodyMeasures> body_measures;  // this and the next seven: every player
+    Column<BodyMeasures> body_measures;  // this column and the next seven: every player
     Column<Calibration> calibration;
     Column<ArmMemory> arm_memory;
     Column<ArmEstimate> arm_estimate;
@@ -74,18 +75,17 @@ struct World {
     Column<PalmOffset> palm_offset;
     Column<PalmPose> palm_pose;
     Column<FingerPose> finger_pose;
-    Column<ControllerToHand>
-        controller_to_hand;  // only hands with their own controller-to-hand joint; else Tuning's
+    // Only hands with a controller-to-hand pose of their own; other hands use HandTuning.
+    Column<ControllerToHand> controller_to_hand;
     Column<AuthoredHold> authored_hold;  // only hands in an authored grip
     Column<HandPull> hand_pull;          // only hands that pull a body from a distance
 
-    // Caches over persistent_id and joint, kept by the functions below. Not state.
+    // Caches of persistent_id and joint, maintained by the functions below. Not state.
     EntityById entity_by_id;
     JointsByBody joints_by_body;
 };
 
-// Calls visit(name, column) for every column. The only list of columns: hashing, destroying and
-// snapshots use it.
+// Calls visit(name, column) for every column. Hashing, snapshots and destroy use this list.
 template <typename WorldType, typename Visit>
 void visit_columns(WorldType& world, Visit&& visit) {
     visit("persistent_id", world.persistent_id);
@@ -131,17 +131,17 @@ void visit_columns(WorldType& world, Visit&& visit) {
     visit("hand_pull", world.hand_pull);
 }
 
-// Largest numbers that the add_ functions take. With them no frame computes a number that a
-// snapshot refuses.
+// Limits of the numbers that add_body, add_joint and add_player accept. Within these limits, no
+// frame computes a number that a snapshot refuses.
 namespace world_limits {
-constexpr double k_max_coordinate_m = 1e9;  // of each axis
+constexpr double k_max_coordinate_m = 1e9;  // limit of each axis
 constexpr double k_max_speed_mps = 1e6;
 constexpr double k_max_spin_radps = 1e4;
 constexpr double k_min_mass_kg = 1e-12;
 constexpr double k_max_mass_kg = 1e15;
 constexpr double k_min_inertia_kgm2 = 1e-24;
 constexpr double k_max_inertia_kgm2 = 1e18;
-constexpr double k_max_friction = 1e6;          // of bodies
+constexpr double k_max_friction = 1e6;          // RigidBody::friction
 constexpr double k_max_joint_coordinate = 1e9;  // rad or m
 constexpr double k_max_joint_strength = 1e15;   // N or N m
 }  // namespace world_limits
@@ -153,24 +153,24 @@ struct BodyDescription {
     BodyVelocity velocity;
     ShapeId shape;
 };
-// Adds a body, with a collider unless its shape is k_no_shape. Throws PreconditionError, and adds
-// nothing, for a duplicate name or a number outside world_limits; restitution must lie in [0, 1],
-// and a free body needs mass and inertia.
+// Adds a body. The body gets a collider unless its shape is k_no_shape. Throws PreconditionError,
+// and adds nothing, for: a duplicate name; a number outside world_limits; a restitution outside [0,
+// 1]; a free body without mass or inertia.
 Entity add_body(World& world, const BodyDescription& description);
-// Also throws for a shape that the library lacks, and for a free body with a mesh. Without a
-// library the first frame throws.
+// Also throws for a shape that is not in the library, and for a free body whose shape is a mesh.
+// The overload without a library cannot check this; the first frame throws instead.
 Entity add_body(World& world, const BodyDescription& description, const ShapeLibrary& shapes);
 
 struct JointDescription {
     std::string_view name;  // unique in the world
     Joint joint;
 };
-// Adds a joint between two bodies, or the world and a body. Its bodies never change. Throws
-// PreconditionError, and adds nothing, for a duplicate name, a missing body, a lower limit above
-// the upper, a negative friction, detent or latch, or a number outside world_limits.
+// Adds a joint between two bodies, or between the world and a body. A joint's bodies never change.
+// Throws PreconditionError, and adds nothing, for: a duplicate name; a missing body; a lower limit
+// above the upper one; negative friction, detent or latch numbers; a number outside world_limits.
 Entity add_joint(World& world, const JointDescription& description);
-// A copy of `joint` with both frames set so that they coincide at `frame_ws` with the bodies at
-// their current poses.
+// Returns a copy of `joint` whose two frames coincide at `frame_ws` when the bodies are at their
+// current poses.
 Joint joint_at(const World& world, Joint joint, const Pose& frame_ws);
 
 struct PlayerDescription {
@@ -178,27 +178,29 @@ struct PlayerDescription {
     PlayerBody body;
     Pose origin_ws;
     Vec3 velocity_mps = Vec3::Zero();
-    ShapeId head_shape;  // a sphere; k_no_shape: the head touches nothing
+    // Shape of the head's collider: a sphere; k_no_shape: the head touches nothing.
+    ShapeId head_shape;
     BodyMeasures measures = {};
 };
 struct PlayerEntities {
     Entity player;
     Entity hands[k_hand_count];  // by HandSide
 };
-// Adds a player and two hands. Throws as add_body, and for body measures outside their range.
+// Adds a player and their two hands. Throws like add_body, and for body measures outside their
+// range.
 PlayerEntities add_player(World& world, const PlayerDescription& description);
-// Also throws for a head shape that is not a sphere of the library.
+// Also throws if head_shape is not a sphere in the library.
 PlayerEntities add_player(World& world, const PlayerDescription& description,
                           const ShapeLibrary& shapes);
 
-// Removes the entity from every column, together with a player's hands and a body's joints. False
-// for a stale handle. The cost does not depend on how many other bodies and joints there are.
+// Removes the entity from every column, together with a player's hands and a body's joints. Returns
+// false for a stale handle. The cost does not depend on the number of other entities.
 bool destroy(World& world, Entity entity);
 
-// Rebuilds the caches if columns were filled by other means, such as a restored snapshot.
+// Rebuilds the caches if the columns were filled in another way, for example from a snapshot.
 void sync_index(World& world);
 
-// k_no_entity if no entity has the id. Constant cost.
+// Returns k_no_entity if no entity has the id. Constant cost.
 Entity find_by_id(const World& world, PersistentId id);
 
 }  // namespace handhold

@@ -45,8 +45,8 @@ void EntityById::add(PersistentId id, Entity entity) {
     ++size_;
 }
 
-// Knuth, The Art of Computer Programming 3, 6.4, algorithm R: later slots of the run move up if
-// they may.
+// Knuth, The Art of Computer Programming, volume 3, section 6.4, algorithm R: moves later ids of
+// the probe sequence into the freed slot where probing still finds them.
 void EntityById::remove(PersistentId id) {
     if (slots_.empty() || slots_[place_of(id.value)].id == 0) {
         return;

@@ -10,13 +10,13 @@
 
 namespace handhold {
 
-// A cache over a World's columns, not state: find_by_id, add_body, add_joint and destroy cost the
-// same however many entities there are. Open addressing with linear probing.
+// Finds entities by persistent id in constant time: a hash table with open addressing and linear
+// probing. A cache of World::persistent_id, not state.
 class EntityById {
   public:
-    // Null if no entity has the id.
+    // Returns null if no entity has the id.
     Entity find(PersistentId id) const;
-    // Precondition: the id is not there.
+    // Precondition: the id is not in the table.
     void add(PersistentId id, Entity entity);
     void remove(PersistentId id);
     std::size_t size() const { return size_; }
@@ -27,27 +27,28 @@ class EntityById {
         std::uint64_t id = 0;  // 0: free
         Entity entity;
     };
+    // Slot at which probing for the id starts.
     std::size_t home_of(std::uint64_t id) const;
-    std::size_t place_of(
-        std::uint64_t id) const;  // of the id, or of the free slot that ends its run
+    // Slot of the id; if it is not in the table, the free slot at which probing ends.
+    std::size_t place_of(std::uint64_t id) const;
     void grow();
 
-    std::vector<Slot> slots_;  // a power of two, at most half full
+    std::vector<Slot> slots_;  // size: a power of two; at most half full
     std::size_t size_ = 0;
 };
 
-// The joints of each body. Also a cache.
+// Lists the joints of each body. A cache of World::joint, not state.
 class JointsByBody {
   public:
-    // `a` may be null, the world.
+    // `a` is null for a joint to the world.
     void add(Entity joint, Entity a, Entity b);
     void remove(Entity joint, Entity a, Entity b);
     std::span<const Entity> of(Entity body) const;
-    std::size_t size() const { return size_; }  // joints
+    std::size_t size() const { return size_; }  // number of joints
     void clear();
 
   private:
-    std::vector<std::vector<Entity>> by_slot_;  // joints by a body's slot
+    std::vector<std::vector<Entity>> by_slot_;  // by Entity::slot of the body: its joints
     std::size_t size_ = 0;
 };
 

@@ -1,6 +1,6 @@
-// Model and constants are regressions on motion capture of head, hands, chest and elbows
-// (docs/decisions/, 34 and 43). The model follows the talk's rows 19 to 22 and adds the line
-// between the hands to the chest's facing.
+// The model and its constants were fitted to motion capture of head, hands, chest and elbows
+// (docs/decisions/, 34 and 43). The model follows rows 19 to 22 of the talk. In addition, the chest
+// turns perpendicular to the line between the hands.
 #include "systems/arm/estimate_arms.hpp"
 
 #include <algorithm>
@@ -15,12 +15,13 @@ namespace {
 
 double cross_y(const Vec3& a, const Vec3& b) { return a.z() * b.x() - a.x() * b.z(); }
 
-// A level vector turned about +Y by the angle whose cosine and sine are given.
+// Turns a level vector about +Y by the angle with the given cosine and sine.
 Vec3 turn_level(const Vec3& v, double cosine, double sine) {
     return {cosine * v.x() + sine * v.z(), 0.0, cosine * v.z() - sine * v.x()};
 }
 
-// Turns a play-space vector into axes whose -Z is the level direction `facing`, and back.
+// to_facing converts a play-space vector to axes whose -Z is the level direction `facing`;
+// from_facing converts back.
 Vec3 to_facing(const Vec3& facing, const Vec3& v) {
     return {facing.x() * v.z() - facing.z() * v.x(), v.y(),
             -(facing.x() * v.x() + facing.z() * v.z())};
@@ -36,7 +37,8 @@ Vec3 level_unit(const Vec3& v) {
     return {v.x() * by, 0.0, v.z() * by};
 }
 
-// Rotation about +Y that turns -Z to the level direction; half-angle formulas, no trigonometry.
+// Rotation about +Y that turns -Z to the level direction `facing`. Uses half-angle formulas instead
+// of trigonometry.
 Quat level_rotation(const Vec3& facing) {
     const double cosine = -facing.z();
     const double sine = -facing.x();
@@ -46,10 +48,12 @@ Quat level_rotation(const Vec3& facing) {
     return unit_quat(std::abs(sine), 0.0, std::copysign(1.0 - cosine, sine), 0.0);
 }
 
-// Reach of the clavicle by the hand's distance in arm lengths; piecewise linear.
+// Largest displacement of the shoulder by the clavicle, as a piecewise linear function of the
+// hand's distance from the shoulder in arm lengths.
 double clavicle_reach_m(double distance) {
     struct Knot {
-        double distance, reach_m, rise_m;  // rise_m: slope to the next knot, per arm length
+        // rise_m: slope from this knot to the next, per arm length
+        double distance, reach_m, rise_m;
     };
     constexpr std::array<Knot, 4> k_curve = {{{1.05, 0.032, (0.070 - 0.032) / (1.2 - 1.05)},
                                               {0.85, 0.018, (0.032 - 0.018) / (1.05 - 0.85)},
@@ -63,7 +67,7 @@ double clavicle_reach_m(double distance) {
     return k_curve.back().reach_m;
 }
 
-constexpr double k_near_cosine = 0.95;  // above it share_of_line replaces trigonometry
+constexpr double k_near_cosine = 0.95;  // for larger cosines, share_of_line replaces trigonometry
 
 bool has_jumped(const Vec3& before, const Vec3& now, double dt_s) {
     return is_jump((now - before).norm(), dt_s);
@@ -76,11 +80,11 @@ struct Player {
     const BodyMeasures& measures;
 };
 
-// Values of a time step that all players share.
+// Values of one time step that are the same for all players.
 struct Step {
     double dt_s = 0.0;
     double look_share = 0.0;  // filter gain for the head's direction
-    double limit_sine = 0.0;  // of ArmTuning::chest_limit_rad
+    double limit_sine = 0.0;  // sine and cosine of ArmTuning::chest_limit_rad
     double limit_cosine = 1.0;
     const ArmTuning& tuning;
 };
@@ -93,10 +97,10 @@ Step step_of(double dt_s, const ArmTuning& tuning) {
 // Inputs of one arm's estimate.
 struct ArmStep {
     HandSide side = HandSide::left;
-    bool reset = false;  // ignore the memory
+    bool reset = false;  // true: ignore ArmMemory
     double upper_m = 0.0;
     double arm_m = 0.0;
-    const Vec3& facing_ps;  // torso space: level
+    const Vec3& facing_ps;  // level; -Z of the torso axes
     Vec3 rest_ps = Vec3::Zero();
     const Vec3& hand_ps;
     const Mat3& hand_axes_ps;
@@ -127,7 +131,8 @@ void estimate_arm(const Step& step, const ArmStep& arm, ArmMemory::Arm& memory,
     if (fresh) {
         memory.bend_ts = wanted_ts;
     } else {
-        // A pole near the axis determines no direction: the filter slows down there.
+        // A pole nearly parallel to the axis determines no direction, so the filter slows down
+        // there.
         const double clear = smooth_step(length / std::max(pole_ts.norm(), 1e-9), 0.0, 0.5);
         memory.bend_ts = turn_bend(
             axis_ts, before_ts, wanted_ts,
@@ -191,9 +196,9 @@ Pose between(const Pose& a, const Pose& b, double share) {
             unit_quat(mixed[3], mixed[0], mixed[1], mixed[2])};
 }
 
-// Subdivides frames much longer than k_step_s and interpolates head and hands linearly between the
-// frames. The state then evolves nearly equally at any frame rate down to 10 Hz. k_round_up places
-// the thresholds between step counts away from usual frame rates.
+// Divides frames much longer than k_step_s into steps, with head and hands interpolated linearly.
+// The state then evolves nearly equally at any frame rate down to 10 Hz. k_round_up keeps the frame
+// lengths at which the number of steps changes away from usual frame rates.
 void estimate_player(const Player& now, const Step& frame, ArmMemory& memory, ArmEstimate& out) {
     constexpr double k_step_s = 1.0 / 90.0;
     constexpr double k_max_steps = 9.0;
@@ -231,14 +236,14 @@ void estimate_player(const Player& now, const Step& frame, ArmMemory& memory, Ar
     }
 }
 
-// Writes the palms' poses in play space.
+// Writes the palms' poses to the estimates, in play space.
 void take_hands(const EstimateArmsIo& io) {
     Entity player = k_no_entity;
     const Pose* origin_ws = nullptr;
     ArmEstimate* estimate = nullptr;
     for (std::size_t row = 0; row < io.owner.size(); ++row) {
         const HandOwner& owner = io.owner.rows()[row];
-        if (owner.player != player) {  // a player's hands are usually neighbours
+        if (owner.player != player) {  // a player's hands are usually in adjacent rows
             player = owner.player;
             origin_ws = &io.origin.at(player).pose_ws;
             estimate = &io.estimate.at(player);
@@ -277,7 +282,8 @@ Vec3 follow_look(const Vec3& look_ps, const Vec3& now_ps, double share) {
 Vec3 turn_at_most(const Vec3& facing_ps, const Vec3& now_ps, double most_rad) {
     const double sine_now = cross_y(facing_ps, now_ps);
     const double cosine_now = facing_ps.dot(now_ps);
-    // Most frames turn by less; sin x > 0.9 x for x < 0.7 shows it without trigonometry.
+    // In most frames the angle is below the limit. sin x > 0.9 x for x < 0.7 shows this without
+    // trigonometry.
     if (cosine_now > 0.75 && std::abs(sine_now) <= 0.9 * most_rad) {
         return now_ps;
     }
@@ -297,7 +303,7 @@ Quat chest_lean(const Vec3& head_up_ps, double share) {
 Vec3 chest_facing(const Vec3& look_ps, const Quat& lean_ps,
                   const std::array<HandReach, k_hand_count>& hands_ps, const TurnLimit& limit,
                   const ArmTuning& tuning) {
-    // Hands in the leaning frame of the look direction: x right, z back.
+    // Hands in the leaning chest's axes, turned to the look direction: x right, z back.
     const Mat3 lean = lean_ps.toRotationMatrix();
     std::array<Vec3, k_hand_count> hand;
     for (std::size_t side = 0; side < k_hand_count; ++side) {
@@ -356,7 +362,8 @@ Vec3 reachable_bend(const ElbowCircle& circle, const Vec3& bend_ts, HandSide sid
     Vec3 cone_ts = tuning.elbow_cone;
     cone_ts.x() *= side == HandSide::right ? 1.0 : -1.0;
     const double upper2 = circle.middle_ts.squaredNorm() + circle.radius_m * circle.radius_m;
-    // Required displacement of the elbow along the cone's axis, from the circle's middle.
+    // Minimum displacement of the elbow from the circle's middle along the cone's axis that keeps
+    // the upper arm inside the cone.
     const double needs = std::sqrt(upper2 * cone_ts.squaredNorm()) * tuning.elbow_cone_cosine -
                          circle.middle_ts.dot(cone_ts);
     if (circle.radius_m * bend_ts.dot(cone_ts) >= needs) {
@@ -367,7 +374,8 @@ Vec3 reachable_bend(const ElbowCircle& circle, const Vec3& bend_ts, HandSide sid
     if (length < 1e-6) {
         return bend_ts;
     }
-    // Turns from the cone's direction towards `bend_ts` until the cone is reached.
+    // Starts at the direction deepest inside the cone and turns towards `bend_ts` until the cone's
+    // boundary.
     const Vec3 best = aside / length;
     const double cosine = std::clamp(needs / std::max(circle.radius_m * length, 1e-9), -1.0, 1.0);
     const Vec3 square = circle.axis_ts.cross(best);
@@ -377,13 +385,14 @@ Vec3 reachable_bend(const ElbowCircle& circle, const Vec3& bend_ts, HandSide sid
 
 Vec3 carry_bend(const ArmMemory::Arm& arm, const Vec3& axis_ts, const ArmTuning& tuning) {
     const double cosine = arm.axis_ts.dot(axis_ts);
-    // Shortest rotation between the axes, simplified for a vector perpendicular to the first.
+    // Shortest rotation from the old axis to the new one, simplified for a vector perpendicular to
+    // the old axis.
     const Vec3 carried = cosine > -0.5
                              ? Vec3(arm.bend_ts - (arm.axis_ts + axis_ts) *
                                                       (axis_ts.dot(arm.bend_ts) / (1.0 + cosine)))
                              : Vec3(rotation_between(arm.axis_ts, axis_ts) * arm.bend_ts);
-    // Distance of the elbow from the line, divided by the upper arm. If it is small, the elbow's
-    // position does not determine its direction.
+    // Distance of the elbow from the old line, divided by the length of the upper arm. If it is
+    // small, the elbow's position does not determine its direction.
     const double by_upper = 1.0 / std::max(arm.elbow_ts.norm(), 1e-9);
     const double bent = arm.elbow_ts.dot(arm.bend_ts) * by_upper;
     const double stays = tuning.elbow_inertia * smooth_step(bent, 0.3, 0.8);

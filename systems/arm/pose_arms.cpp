@@ -8,7 +8,7 @@
 namespace handhold {
 namespace {
 
-// Frame at `from` with -Z towards `to` and +Y as close to `up` as possible.
+// Returns the frame at `from` with -Z towards `to` and +Y as close to `up` as possible.
 Pose bone(const Vec3& from, const Vec3& to, const Vec3& up) {
     const Vec3 along = to - from;
     const double length = along.norm();
@@ -25,8 +25,8 @@ Pose bone(const Vec3& from, const Vec3& to, const Vec3& up) {
     return {from, rotation_from_axes(x, back.cross(x), back)};
 }
 
-// Rotation of a bone in the arm's plane. `frame` has -Z towards the hand and +Y on the elbow's
-// side; the bone points along (ahead, aside) in its (-Z, +Y) plane.
+// Returns the rotation of a bone in the arm's plane. `frame` has -Z towards the hand and +Y on the
+// elbow's side. The bone points `ahead` along -Z and `aside` along +Y of that frame.
 Quat in_plane(const Quat& frame, double ahead, double aside) {
     // Half-angle formula: cos(a / 2) : sin(a / 2) = length + ahead : aside.
     const double cosine = std::sqrt(ahead * ahead + aside * aside) + ahead;
@@ -40,7 +40,7 @@ Quat in_plane(const Quat& frame, double ahead, double aside) {
 // Inputs that both arms of a player share.
 struct Arms {
     const PlayerOrigin* origin;
-    Mat3 to_ws;  // from play space
+    Mat3 to_ws;  // rotation from play space to the world
     Vec3 chest_up_ws;
     const BodyMeasures* measures;
     const ArmEstimate* estimate;
@@ -74,8 +74,8 @@ void pose_arm(const Arms& arms, const ArmEstimate::Arm& estimate, const Pose& pa
     const Vec3 axis = distance > 0.0 ? Vec3(reach * (1.0 / distance)) : Vec3(Vec3::Zero());
     const Vec3 elbow_ws = shoulder_ws + elbow.along_m * axis + elbow.aside_m * bend_ws;
     const double rest_m = distance - elbow.along_m;
-    // A bone that points almost backwards along the line has a half angle near 90 degrees, where
-    // `in_plane` is singular.
+    // `in_plane` is singular for a bone that points backwards along the line from shoulder to hand:
+    // the half angle is 90 degrees.
     if (!(elbow.along_m > 0.01 * upper_m && rest_m > 0.01 * forearm_m)) {
         out.upper_ws = bone(shoulder_ws, elbow_ws, bend_ws);
         out.forearm_ws = bone(elbow_ws, hand_ws, bend_ws);
@@ -93,7 +93,7 @@ void pose_arms(const PoseArmsIo& io) {
     Arms arms{};
     for (std::size_t row = 0; row < io.owner.size(); ++row) {
         const HandOwner& owner = io.owner.rows()[row];
-        if (owner.player != player) {  // a player's hands are usually neighbours
+        if (owner.player != player) {  // a player's hands are usually in adjacent rows
             player = owner.player;
             arms = arms_of(io, player);
         }

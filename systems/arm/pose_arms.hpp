@@ -14,12 +14,12 @@ struct PoseArmsIo {
     const Column<HandOwner>& owner;        // in
     const Column<PalmPose>& palm;          // in
     const Column<ArmEstimate>& estimate;   // in
-    Column<ArmPose>& arms;                 // out: of players who have hands
+    Column<ArmPose>& arms;                 // out: for players who have hands
 };
 
 // Stage 13. Poses the arms' joints in the world by two-bone IK from the estimated shoulder to the
-// palm. The hand's joint equals the palm's pose exactly: both bones stretch if the arm is too
-// short.
+// palm. The hand's joint equals the palm's pose exactly; if the arm is too short, both bones
+// stretch (ArmEstimate::Arm::stretch).
 void pose_arms(const PoseArmsIo& io);
 
 }  // namespace handhold

@@ -8,19 +8,21 @@
 namespace handhold {
 namespace {
 
-// Body proportions: shoulder width / arm span, and arm span / eye height (docs/decisions/, 40).
+// Body proportions (docs/decisions/, 40): shoulder width / arm span, and arm span / eye height.
 constexpr double k_shoulder_share = 0.25;
 constexpr double k_span_share = 0.95;
-// Shoulder joints below the eyes / arm span.
+// Distance of the shoulder joints below the eyes / arm span.
 constexpr double k_shoulder_drop_share = 0.145;
-// Eyes lower than this share of what the span predicts: the player sits.
+// If the eyes are lower than this share of the eye height that the span predicts, the player is
+// seated.
 constexpr double k_seated_share = 0.87;
 
-// Arm span of wrists that are `level_m` apart and `below_m` under the eyes. With span S, shoulders
-// k_shoulder_share S apart and k_shoulder_drop_share S under the eyes, arms of length
-// a = (1 - k_shoulder_share) S / 2 and half distance x = level_m / 2:
+// Arm span of a player whose wrists are `level_m` apart horizontally and `below_m` below the eyes.
+// Let S be the span. The shoulders are k_shoulder_share S apart and k_shoulder_drop_share S below
+// the eyes. An arm has the length a = (1 - k_shoulder_share) S / 2. With x half of level_m, S
+// solves
 //   (x - k_shoulder_share S / 2)^2 + (below_m - k_shoulder_drop_share S)^2 = a^2.
-// Hands at shoulder height or above give S = level_m.
+// If the hands are at shoulder height or above, S = level_m.
 double span_of_pose(double level_m, double below_m) {
     if (below_m <= k_shoulder_drop_share * level_m) {
         return level_m;
@@ -30,17 +32,18 @@ double span_of_pose(double level_m, double below_m) {
     constexpr double k_square = k_arm * k_arm - k_half_shoulder * k_half_shoulder -
                                 k_shoulder_drop_share * k_shoulder_drop_share;
     const double half_m = 0.5 * level_m;
-    const double linear = k_half_shoulder * half_m + k_shoulder_drop_share * below_m;  // halved
+    // Half the linear coefficient.
+    const double linear = k_half_shoulder * half_m + k_shoulder_drop_share * below_m;
     const double constant = half_m * half_m + below_m * below_m;
     return (std::sqrt(linear * linear + k_square * constant) - linear) / k_square;
 }
 
-// The ratio of arm span to eye height that people have, with a margin. Who sits has lower eyes, and
-// cannot lower the arms.
+// True if the ratio of arm span to eye height is human, with a margin. A seated player's eyes are
+// lower, so the upper bound applies only to lowered arms, which a seated player cannot hold.
 bool is_plausible(double span_m, double eyes_m, bool are_arms_level) {
     constexpr double k_shortest_span = 0.80;
     constexpr double k_longest_span = 1.12;
-    constexpr double k_lowest_seat = 0.45;  // eyes on the floor / eyes standing
+    constexpr double k_lowest_seat = 0.45;  // eye height sitting on the floor / eye height standing
     const double standing_m = span_m / k_span_share;
     return span_m >= k_shortest_span * eyes_m && eyes_m >= k_lowest_seat * standing_m &&
            (are_arms_level || span_m <= k_longest_span * eyes_m);
@@ -82,11 +85,12 @@ void hold(double dt_s, const HeadTracking& head, const std::array<Vec3, k_hand_c
 }  // namespace
 
 std::optional<TPose> read_t_pose(const Vec3& head_ps, const Vec3& left_ps, const Vec3& right_ps) {
-    constexpr double k_level = 0.12;   // of the span: one hand above the other
-    constexpr double k_middle = 0.15;  // the head off the middle
-    constexpr double k_highest = 0.02;
-    constexpr double k_lowest = 0.47;      // the hands below the eyes: arms 60 degrees down
-    constexpr double k_level_arms = 0.30;  // arms count as level down to this
+    constexpr double k_level = 0.12;  // largest height difference of the hands / span
+    // Largest distance of the head from the middle between the hands / span.
+    constexpr double k_middle = 0.15;
+    constexpr double k_highest = 0.02;  // highest hands, below the eyes / span
+    constexpr double k_lowest = 0.47;   // lowest hands, below the eyes / span: arms 60 degrees down
+    constexpr double k_level_arms = 0.30;  // lowest hands of level arms, below the eyes / span
     const Vec3 line = right_ps - left_ps;
     const Vec3 level(line.x(), 0.0, line.z());
     const Vec3 middle = 0.5 * (left_ps + right_ps);

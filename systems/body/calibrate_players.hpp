@@ -22,24 +22,25 @@ struct CalibratePlayersIo {
     Column<BodyMeasures>& measures;          // in/out
 };
 
-// Stage 1a. Measures players who ask for it and hold a T-pose or an A-pose (arms up to 60 degrees
-// down) still for CalibrationTuning::hold_s: eye height, and arms and shoulders from the distance
-// of the wrists. Seated players get the eye height that their arm span predicts. Measures once per
-// request. Changes nothing without the pose.
+// Stage 1a. Measures players who request it (PlayerCommands::calibrate) and hold a T-pose or an
+// A-pose (arms up to 60 degrees down) still for CalibrationTuning::hold_s. Measures the eye height,
+// and arms and shoulders from the distance of the wrists. Seated players get the eye height that
+// their arm span predicts. Measures once per request. Without the pose, nothing changes.
 void calibrate_players(const CalibratePlayersIo& io, const CalibrationTuning& tuning);
 
-// What a T-pose or an A-pose measures.
+// Measures of a T-pose or an A-pose.
 struct TPose {
-    double eyes_m = 0.0;  // above the floor
-    double span_m = 0.0;  // from wrist to wrist with level arms
+    double eyes_m = 0.0;  // height of the eyes above the floor
+    double span_m = 0.0;  // arm span: distance between the wrists with the arms held level
 };
-// Nothing if the pose is another one: hands at equal heights between the eyes and 0.47 spans below,
-// the head in the middle between them, and arms as long as people of that height have.
+// Returns none unless the player is in a T- or A-pose: hands at nearly equal heights, from just
+// below the eyes to 0.47 spans below them; head midway between the hands; arm span plausible for
+// the eye height. Positions are relative to the tracked floor.
 std::optional<TPose> read_t_pose(const Vec3& head_ps, const Vec3& left_ps, const Vec3& right_ps);
 
-// The body of this pose, with people's proportions.
+// Body measures from a pose, with average human proportions.
 BodyMeasures measures_of(const TPose& pose);
-// The body of an eye height alone.
+// Body measures from an eye height alone.
 BodyMeasures measures_of_eye_height(double eye_height_m);
 
 }  // namespace handhold

@@ -12,7 +12,7 @@ namespace {
 
 double length_of(const BodyClip& clip) { return clip.keys.empty() ? 0.0 : clip.keys.back().at; }
 
-// A zero turn returns the pose unchanged, bit for bit.
+// Turns a pose by a rotation vector. For a zero vector, returns the pose unchanged, bit for bit.
 Pose turned(const Pose& pose, const Vec3& turn) {
     if (turn == Vec3::Zero()) {
         return pose;
@@ -20,12 +20,12 @@ Pose turned(const Pose& pose, const Vec3& turn) {
     return {pose.position, (pose.rotation * rotation_from_vector(turn)).normalized()};
 }
 
-// Moves a bone with its parent, from the parent's pose `above` to `above_now`.
+// Moves a bone with its parent, whose pose changes from `above` to `above_now`.
 Pose carried(const Pose& bone, const Pose& above, const Pose& above_now) {
     return above_now * (inverse(above) * bone);
 }
 
-// The part of a turn that a knee allows: about its hinge, and not beyond straight.
+// Returns the part of a turn that a knee allows: about its hinge, and not beyond the straight leg.
 Vec3 knee_turn(const Pose& thigh_ws, const Pose& shin_ws, const Vec3& turn) {
     const Vec3 down = thigh_ws.rotation.conjugate() * (shin_ws.rotation * -Vec3::UnitY());
     const double bent = std::max(0.0, arc_tangent2(down.z(), -down.y()));
@@ -91,9 +91,9 @@ void add_look(const BodyClips& clips, const Quat& head_ps, const Vec3& facing, d
     const Vec3 ahead_ps = head_ps * -Vec3::UnitZ();
     const double left = facing.z() * ahead_ps.x() - facing.x() * ahead_ps.z();
     const double ahead = facing.x() * ahead_ps.x() + facing.z() * ahead_ps.z();
-    // Level part of the look direction: straight up has no side.
+    // Length of the horizontal part of the look direction: looking straight up has no yaw.
     const double level = std::sqrt(left * left + ahead * ahead);
-    // Straight behind is neither left nor right: the lean fades out.
+    // Straight behind is neither left nor right, so the clip fades out towards it.
     constexpr double k_fade_from_rad = 0.75 * k_pi;
     const double yaw_rad = arc_tangent2(left, ahead);
     const double fade = 1.0 - smooth_step(std::abs(yaw_rad), k_fade_from_rad, k_pi);

@@ -14,15 +14,15 @@
 namespace handhold {
 
 struct LayerClaviclesIo {
-    const BodyClips& clips;                // in: clavicle
+    const BodyClips& clips;                // in: the clavicle clip
     const Column<BodyMeasures>& measures;  // in
-    Column<ArmEstimate>& estimate;         // in/out: shoulders, bends, stretch
+    Column<ArmEstimate>& estimate;         // in/out: shoulders, elbow directions, stretch
 };
 
-// Between estimate_arms and pose_arms. Turns each clavicle about the base of the neck by its clip,
-// from the height and the distance of the hand relative to the shoulder. The arm then reaches its
-// hand from the moved shoulder; the hand keeps its pose. Without the clip, or with weight 0,
-// nothing changes.
+// Runs between estimate_arms and pose_arms. Turns each clavicle about the base of the neck by the
+// clavicle clip, according to the hand's elevation and distance from the shoulder. The arm then
+// reaches its hand from the moved shoulder; the hand keeps its pose. Without the clip, or with
+// weight 0, nothing changes.
 void layer_clavicles(const LayerClaviclesIo& io, const AdditiveTuning& additive,
                      const ArmTuning& arm);
 
@@ -34,15 +34,15 @@ struct LayerAdditivesIo {
     const Column<ReferenceVelocity>& reference;  // in
     const Column<HandOwner>& owner;              // in
     const Column<Grab>& grab;                    // in
-    const Column<ArmEstimate>& estimate;         // in: where the chest faces
+    const Column<ArmEstimate>& estimate;         // in: facing_ps
     Column<BodyClipState>& state;                // in/out
-    Column<SpinePose>& pose;                     // in/out: all but the chest
+    Column<SpinePose>& pose;                     // in/out: all bones except the chest
 };
 
-// Stage 15. Talk row 24: turns spine and legs, bone by bone from the top, by the clips: idle, the
-// push-off after the last hand has let go, and the direction in which the head looks. Bones keep
-// their lengths and knees bend only backwards. The simulated chain (SpineMemory) is not affected.
-// Without clips, or with all weights 0, no pose changes.
+// Stage 15, talk row 24. Adds the turns of the clips to spine and legs, bone by bone from the top.
+// The clips are the idle motion, the push-off after the last hand has let go, and those driven by
+// the look direction. Bones keep their lengths, and knees bend only backwards. The simulated chain
+// (SpineMemory) is not affected. Without clips, or with all weights 0, no pose changes.
 void layer_additives(const LayerAdditivesIo& io, const AdditiveTuning& tuning);
 
 }  // namespace handhold

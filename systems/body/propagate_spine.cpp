@@ -1,6 +1,7 @@
 // Source: dynamic follow-the-leader, Mueller, Kim and Chentanez 2012 ("Fast simulation of
-// inextensible hair and fur"). From the top down, each joint's length correction is added to its
-// velocity, and a share of it (SpineTuning::hand_back) is subtracted from its parent's.
+// inextensible hair and fur"). Works from the top down. The correction that restores a link's
+// length is added to the velocity of the link's lower joint; a share of it (SpineTuning::hand_back)
+// is subtracted from the velocity of the parent's joint.
 #include "systems/body/propagate_spine.hpp"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ namespace {
 
 constexpr double k_longest_s = 0.5;
 
-// Angle of a link at rest, as its limit measures it.
+// Angle of a link at rest, measured like the angle that its joint limit bounds.
 double rest_angle(const SpineLink& link) {
     return link.kind == SpineLinkKind::shin ? arc_tangent2(link.rest.z(), -link.rest.y()) : 0.0;
 }
@@ -66,8 +67,8 @@ void rest_at(const Quat& chest, double scale, double t_s, SpineMemory& memory) {
     memory.before_m = memory.offset_m;
 }
 
-// Propagates a turn of the chest: each link keeps its heading at first and follows the link above
-// with a lag.
+// Passes a turn of the chest down the spine: each link first keeps its heading, then follows the
+// link above with a lag.
 void pass_twist(const Quat& from, const Quat& to, const SpineTuning& tuning, SpineMemory& memory) {
     const Quat turn = from.conjugate() * to;
     double passed = 2.0 * arc_tangent2(turn.w() < 0.0 ? -turn.y() : turn.y(), std::abs(turn.w()));
@@ -76,15 +77,15 @@ void pass_twist(const Quat& from, const Quat& to, const SpineTuning& tuning, Spi
         const double wanted = twist - passed;
         const double now =
             std::clamp((1.0 - share) * wanted, -tuning.twist_limit_rad, tuning.twist_limit_rad);
-        passed = now - wanted;  // this link's turn in the world; the next link lags behind it
+        passed = now - wanted;  // this link's turn in the world, which the next link follows
         twist = now;
     }
 }
 
 // Values of a tick that do not depend on the player.
 struct TickShares {
-    double back;                      // share of the return to rest
-    double drag;                      // factor on velocities
+    double back;                      // share of the return to rest per tick
+    double drag;                      // factor on velocities per tick
     std::array<JointRange, 3> range;  // by SpineLinkKind
 };
 TickShares tick_shares(const SpineTuning& tuning) {
@@ -105,15 +106,17 @@ void slow_down(double drag, double speed_max_mps, BodyLinkVectors& velocity_mps)
     }
 }
 
-// The contact of a link's leg; null for the spine and for legs without contact.
+// Returns the contact of the leg to which a link belongs; null for the spine and for a leg without
+// contact.
 const LegContact* contact_of(const SpineMemory& memory, std::size_t i) {
     const LegContact* const contact =
         i < k_spine_links ? nullptr : &memory.contacts[(i - k_spine_links) / 2];
     return contact != nullptr && contact->touches ? contact : nullptr;
 }
 
-// Turns a link's direction, in its parent's frame, until its lower end is outside the surface. The
-// end's speed is limited, so that a leg that starts inside a wall comes out without a jump.
+// Turns a link's direction, in its parent's frame, until the link's lower end is outside the
+// surface. The speed of the lower end is limited, so that a leg that starts inside a wall moves out
+// without a jump.
 Vec3 before_surface(const Vec3& towards, const Vec3& base_m, const SpineLink& link, double scale,
                     const SpineFrame& above, const LegContact& contact) {
     constexpr double k_out_mps = 3.0;
@@ -124,8 +127,8 @@ Vec3 before_surface(const Vec3& towards, const Vec3& base_m, const SpineLink& li
                            k_out_mps * k_spine_tick_s / length_m);
 }
 
-// The part of a velocity correction that would push a joint off the surface faster than it already
-// moves off.
+// Returns the part of a velocity correction that would move a joint away from the surface faster
+// than the joint already does.
 Vec3 rebound_mps(const Vec3& normal, const Vec3& velocity_mps, const Vec3& correction_mps) {
     const double before = normal.dot(velocity_mps);
     const double after = before + normal.dot(correction_mps);
@@ -135,7 +138,7 @@ Vec3 rebound_mps(const Vec3& normal, const Vec3& velocity_mps, const Vec3& corre
 struct Ticked {
     Quat chest;
     Vec3 moved_m;  // chest displacement since the last tick
-    Vec3 ahead_m;  // chest displacement left until the frame's end
+    Vec3 ahead_m;  // chest displacement from this tick to the frame's end
 };
 
 void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemory& memory) {
@@ -166,8 +169,8 @@ void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemor
                                  ? clamp_to_hinge(returned, range, memory.angle_rad[i])
                                  : clamp_to_cone(returned, link.rest, range, memory.angle_rad[i]);
         memory.offset_m[i] = base + above.axes * ((scale * link.length_m) * allowed);
-        // The correction contains the return to rest, so the velocity overshoots the rest pose; the
-        // parent's share (hand_back) damps that.
+        // The correction includes the return to rest, so the velocity overshoots the rest pose.
+        // Subtracting a share from the parent's velocity (hand_back) damps this.
         Vec3 correction_mps = (memory.offset_m[i] - predicted) * k_ticks_per_s;
         if (contact != nullptr) {
             correction_mps -=
@@ -175,7 +178,8 @@ void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemor
         }
         memory.velocity_mps[i] += correction_mps;
         if (link.parent != k_chest_link) {
-            const double share = link.kind == SpineLinkKind::thigh ? 0.5 : 1.0;  // two thighs
+            // The pelvis has two thighs; each contributes half.
+            const double share = link.kind == SpineLinkKind::thigh ? 0.5 : 1.0;
             memory.velocity_mps[link.parent] -= (share * tuning.hand_back) * correction_mps;
         }
         if (link.kind != SpineLinkKind::shin) {  // shins have no child link
@@ -215,8 +219,8 @@ void play(const Motion& motion, double scale, const SpineTuning& tuning, SpineMe
     memory.rate_span_s = span_s;
 }
 
-// True if this leg queries surfaces in this frame: 15 times a second of the world clock, with a
-// phase per player and leg.
+// True if this leg queries surfaces in this frame: 15 times per second of the world clock, with a
+// phase that differs between players and legs.
 bool queries_now(const PropagateSpineIo& io, std::uint64_t player, std::size_t side) {
     constexpr double k_queries_per_s = 15.0;
     constexpr std::uint64_t k_phases = 8;
@@ -226,14 +230,15 @@ bool queries_now(const PropagateSpineIo& io, std::uint64_t player, std::size_t s
            std::floor((io.t_s - io.dt_s) * k_queries_per_s + phase);
 }
 
-// First surface on the line from the head to the sole of the last tick's leg. The ray starts in the
-// head because the head is outside all surfaces; the hips may be inside one.
+// Finds the first surface on the line from the head to the sole, with the leg as at the last tick.
+// The ray starts in the head because the head is outside all solids; the hips may be inside one.
 LegContact find_surface_below(const PropagateSpineIo& io, Entity player, const Pose& chest_ps,
                               const Vec3& ankle_m, double scale) {
     constexpr double k_ahead_m = 0.2;  // margin for motion until the next query
     const double sole_m = 0.11 * scale;
     const Pose& origin_ws = io.origin.at(player).pose_ws;
-    // Well inside the head's collider: the eyes are at its rim, which may touch a surface.
+    // A point well inside the head's collider. The eyes are near its surface, which may touch other
+    // surfaces.
     const Vec3 in_head_m(0.0, 0.0, 0.08);
     const Vec3 head_ps = transform_point(io.head->at(player).pose_ps, in_head_m);
     const Vec3 path = chest_ps.position + ankle_m - head_ps;
@@ -255,7 +260,7 @@ LegContact find_surface_below(const PropagateSpineIo& io, Entity player, const P
     return {true, normal_ps, surface_m, surface_m - sole_m * normal_ps.dot(along)};
 }
 
-// True for a contact that coincides with the tracked floor, above which a folded leg stays anyway.
+// True if the contact coincides with the tracked floor. A folded leg stays above that floor anyway.
 bool is_tracked_floor(const LegContact& contact, const TrackedFloor& floor) {
     constexpr double k_level_cosine = 0.9;
     constexpr double k_near_m = 0.15;
@@ -270,7 +275,8 @@ void touch_surfaces(const PropagateSpineIo& io, Entity player, const Motion& mot
     }
     const double scale = floor.scale;
     const double pelvis_m =
-        (floor.chest_m + memory.offset_m[k_spine_links - 1].y()) / scale;  // before folding
+        // Height of the pelvis before folding.
+        (floor.chest_m + memory.offset_m[k_spine_links - 1].y()) / scale;
     const std::uint64_t id = io.persistent_id->at(player).value;
     for (std::size_t side = 0; side < k_hand_count; ++side) {
         LegContact& contact = memory.contacts[side];
@@ -308,7 +314,8 @@ void propagate_spine(const PropagateSpineIo& io, const SpineTuning& tuning) {
             memory.rate_mps = relative;
             memory.rate_span_s = io.dt_s;
         } else {
-            // The reference changed: relative velocities shift, absolute ones do not.
+            // Velocities are relative to the reference velocity. When it changes, they are shifted
+            // so that the absolute velocities stay the same.
             const Vec3 shift = to_ps * (memory.reference_ws_mps - reference_ws);
             for (Vec3& velocity : memory.velocity_mps) {
                 velocity += shift;

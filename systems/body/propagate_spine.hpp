@@ -20,24 +20,27 @@ struct PropagateSpineIo {
     const Column<ArmEstimate>& estimate;         // in: the chest
     Column<SpineMemory>& memory;                 // in/out
     Column<SpinePose>& pose;                     // out
-    // For contacts of the legs: `collision` and the two columns below it, or none of them.
-    const CollisionWorld* collision = nullptr;            // in
-    const Column<HeadTracking>* head = nullptr;           // in: rays start here; the floor's shift
-    const Column<PersistentId>* persistent_id = nullptr;  // in: legs ignore their own player
+    // For contacts of the legs. Set `collision` and the two columns below it, or none of the three.
+    const CollisionWorld* collision = nullptr;  // in
+    // In: rays start in the head; shift_m is the floor's height.
+    const Column<HeadTracking>* head = nullptr;
+    // In: so that legs ignore their own player.
+    const Column<PersistentId>* persistent_id = nullptr;
 };
 
-// Stage 14. Simulates spine and legs of every player: motion travels down from the chest, link by
-// link. The chain advances in ticks at multiples of 1/120 s of the world clock, independent of the
-// frame rate; frames interpolate between the last two ticks.
+// Stage 14. Simulates spine and legs of every player as a chain of links: motion travels down from
+// the chest, link by link. The chain advances in ticks at multiples of 1/120 s of the world clock,
+// independent of the frame rate. Frames interpolate between the last two ticks.
 //
-// Only velocities relative to the reference velocity and the chest's own motion in play space move
-// the chain. Turning the play space or teleporting a player carries the chain along. If the chest
-// jumps, the chain restarts from rest. At most 0.5 s of a frame is simulated.
+// Two motions move the chain: the player's velocity relative to the reference velocity
+// (ReferenceVelocity), and the chest's motion in play space. When the play space turns or a player
+// is teleported, the chain moves along rigidly. If the chest jumps, the chain restarts from rest.
+// At most 0.5 s of a frame is simulated.
 //
 // Contacts: knees and soles stay on the head's side of the first surface between head and sole, and
-// slide along it, within their joint limits. They apply no force. Each leg queries surfaces 15
-// times a second; in between the surface keeps its place relative to the reference. Clips are added
-// later and ignore surfaces.
+// slide along that surface, within the joint limits. They apply no force to it. Each leg queries
+// surfaces 15 times a second; between queries the surface moves with the reference velocity. Clips
+// are added later and ignore surfaces.
 //
 // Crouching: the chain hangs straight in SpineMemory; pose_spine folds it above the tracked floor.
 void propagate_spine(const PropagateSpineIo& io, const SpineTuning& tuning);

@@ -14,7 +14,7 @@
 namespace handhold {
 
 struct PublishPoseIo {
-    const FrameGraph& frame;                    // in: push-back
+    const FrameGraph& frame;                    // in: phase (push_back_m)
     const Column<PersistentId>& persistent_id;  // in
     const Column<PlayerOrigin>& origin;         // in
     const Column<HeadTracking>& head;           // in
@@ -27,8 +27,8 @@ struct PublishPoseIo {
     Column<RenderPose>& render;                 // out
 };
 
-// Stage 16. Writes what a host draws of head and hands: world poses, and hands fitted to what they
-// hold.
+// Stage 16. Writes the world poses of head and hands that a host draws. Gripping hands are fitted
+// to the gripped surface.
 void publish_pose(const PublishPoseIo& io, const Tuning& tuning);
 
 }  // namespace handhold

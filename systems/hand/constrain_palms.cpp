@@ -9,11 +9,12 @@
 namespace handhold {
 namespace {
 
-// A lift is reset once the tracked wrist has moved or turned farther than this since it was set.
+// The lift is reset once the tracked wrist has moved or turned farther than this since the lift was
+// set.
 constexpr double k_lift_reset_m = 0.01;
 constexpr double k_lift_reset_rad = 0.17;
 
-// True if search_grip already fitted the palm for this wrist; it never includes a lift.
+// True if search_grip already fitted the palm for this wrist pose. That fit has no lift.
 bool has_current_fit(const HandSurroundings& hand, const GripSurface& surface, double lift_m) {
     return surface.has_fitted_wrist && lift_m == 0.0 &&
            surface.surroundings_signature == hand.signature &&
@@ -62,7 +63,8 @@ void set_target(const HandSurroundings& hand, const GripSurface& surface, const 
 }
 
 // Moves the shown offset towards its target by at most rate_mps * dt_s. Translation and rotation
-// advance by the same share; rotation counts tilt_cost_m_per_rad metres per radian.
+// advance by the same share of what remains. A radian of rotation counts as tilt_cost_m_per_rad
+// metres.
 void follow_target(double dt_s, const PalmTuning& tuning, PalmOffset& offset) {
     const Vec3 remaining_m = offset.target_m - offset.shown_m;
     const Vec3 turn_rad = offset.target_turn_rad - offset.shown_turn_rad;

@@ -17,20 +17,21 @@ struct ConstrainPalmsIo {
     Column<PalmPose>& palm;                   // out: shown wrist, world space
 };
 
-// Holds each gripping palm within its limits over the surface. Talk rows 16 and 18.
+// Keeps each gripping palm within its height and tilt limits over the gripped surface. Talk rows 16
+// and 18.
 //
-// The limits are PalmTuning::min_height_m, max_height_m and max_angle_rad, and no penetration of
-// the palm's capsules. The target is the smallest wrist correction that meets them
-// (shared/palm_fit.hpp), solved again whenever the hand moves, so that a hand can roll over an edge
-// while it grips. The target jumps at edges; the shown offset follows it at PalmTuning::rate_mps.
-// Only the shown hand moves, never the player.
+// The limits are PalmTuning::min_height_m, max_height_m and max_angle_rad; also, the palm's
+// capsules must not penetrate. The target is the smallest wrist correction that meets these limits
+// (shared/palm_fit.hpp). It is solved again whenever the hand moves, so that a gripping hand can
+// roll over an edge. The target jumps at edges; the shown offset follows the target at
+// PalmTuning::rate_mps. Only the shown hand moves, never the player.
 //
-// The target of a hand in an authored grip is the authored wrist, at the same rate. Talk row 10.
+// The target of a hand in an authored grip is the authored wrist pose. Talk row 10.
 //
-// Idempotent: the target of a hand tracked at its own target stays within 0.1 mm, except a lifted
-// hand, whose lift is added to the tracked pose.
+// Idempotent: if a hand is tracked exactly at its target, the target moves by at most 0.1 mm.
+// Exception: a lift is always added to the tracked pose.
 //
-// Fallbacks counted: none. search_grip counts hands without a surface, which are shown as tracked.
+// Counts no fallbacks. A hand without a surface is shown as tracked; search_grip counts it.
 void constrain_palms(const ConstrainPalmsIo& io, const Tuning& tuning);
 
 }  // namespace handhold

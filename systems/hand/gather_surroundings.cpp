@@ -9,7 +9,7 @@
 namespace handhold {
 namespace {
 
-constexpr double k_hand_length_m = 0.25;  // bodies within this of the palm are near
+constexpr double k_hand_length_m = 0.25;  // bodies closer to the palm than this are gathered
 
 class Gatherer {
   public:
@@ -50,14 +50,15 @@ class Gatherer {
             HashStream stream;
             add_to_signature(stream, grab.body, out.meshes.back());
             add_nearby_meshes(out, stream);
-            out.signature = stream.value() | 1U;  // 0 means empty
+            out.signature = stream.value() | 1U;  // never 0, which means that there is no body
         } else if (io_.meshes != nullptr && io_.body_pose.contains(grab.body)) {
             stats_.count(Fallback::body_no_surface);
         }
     }
 
   private:
-    // The hand turns freely on its anchor; an object held in one hand turns with the hand.
+    // True if the hand may turn on its anchor. False for a free object held in one hand: it turns
+    // with the hand.
     static bool may_turn_on_grip(const Grab& grab) {
         return grab.kind != GripKind::held || grab.jointed || grab.two_handed;
     }
@@ -69,7 +70,8 @@ class Gatherer {
         return is_known ? &io_.meshes->at(collider->shape) : nullptr;
     }
 
-    // Hashes the body and its pose, rounded so that rounding errors do not change the signature.
+    // Adds the body and its pose to the hash. The pose is rounded, so that tiny numerical
+    // differences do not change the signature.
     void add_to_signature(HashStream& stream, Entity body, const PlacedMesh& placed) const {
         constexpr double k_steps_per_m = 1e4;
         constexpr double k_max_steps = 1e15;

@@ -18,9 +18,9 @@
 namespace handhold {
 
 struct GatherSurroundingsIo {
-    // In. Null: hands are not fitted to surfaces.
+    // In: grip meshes by shape. Null: hands are not fitted to surfaces.
     const GripMeshLibrary* meshes = nullptr;
-    const std::array<HandRig, k_hand_count>& rigs;  // in: by HandSide; hand space, metres
+    const std::array<HandRig, k_hand_count>& rigs;  // in: by HandSide
     const FrameGraph& frame;                        // in: entities
     const Column<PersistentId>& persistent_id;      // in
     const Column<HandOwner>& owner;                 // in
@@ -30,17 +30,19 @@ struct GatherSurroundingsIo {
     const Column<HeadTracking>& head;               // in: pose_ps, for hands on a player's head
     const Column<BodyPose>& body_pose;              // in: pose_ws, end of the frame
     const Column<Collider>& collider;               // in: shape, the key into `meshes`
-    // In. HandSurroundings::authored points into it, so it must not change until hands are posed.
+    // In. HandSurroundings::authored points into this column, so it must not change before the hand
+    // stages have run.
     const Column<AuthoredHold>& authored_hold;
-    std::vector<HandSurroundings>& surroundings;  // out: one per row of `owner`, in its order
+    // Out: one per element of `owner`, in the same order.
+    std::vector<HandSurroundings>& surroundings;
 };
 
-// Collects, for each hand, its wrist pose and the surfaces near it, in the gripped body's frame.
-// First of the hand stages; the others read only its output and their own columns.
+// Collects each hand's wrist pose and the surfaces near the hand, in the gripped body's frame. This
+// is the first hand stage; the later ones read its output and their own columns.
 //
-// The wrist of a gripping hand is its anchor. It keeps the tracked rotation, except on an object
-// that turns with the hand. A body is near if its mesh's bounding box comes within 0.25 m of the
-// palm. Heads have no grip mesh: a hand on one is shown as tracked.
+// The wrist of a gripping hand is at its anchor. Its rotation is the tracked one, unless the
+// gripped object turns with the hand. A body is near if its mesh's bounding box is within 0.25 m of
+// the palm. Heads have no grip mesh: a hand that grips a head is shown as tracked.
 //
 // Fallbacks counted: body_no_surface.
 void gather_surroundings(const GatherSurroundingsIo& io, StageStats& stats);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double k_max_tip_gap_m = 0.05;
 
-// Gap between the tip's end and the nearest surface, at most k_max_tip_gap_m.
+// Gap between the fingertip and the nearest surface, at most k_max_tip_gap_m.
 double tip_gap_m(const Capsule& tip, std::span<const PlacedMesh> meshes) {
     double gap_m = k_max_tip_gap_m;
     for (const PlacedMesh& placed : meshes) {
@@ -34,9 +34,9 @@ struct ThumbFit {
     ChainFit fit;
 };
 
-// Fits one thumb at a time. A new grip starts a search over all oppositions, a few per frame. After
-// that the fit is carried along; if it penetrates or touches nothing, one other opposition is
-// evaluated at a time, with a back-off.
+// Fits one thumb at a time. A new grip starts a search over all opposition angles, a few per frame.
+// Afterwards the last fit is updated every frame. While that fit penetrates or touches nothing,
+// other opposition angles are evaluated one at a time, with a back-off.
 class ThumbPoser {
   public:
     ThumbPoser(const PoseThumbIo& io, const Tuning& tuning, SearchOrder order, StageStats& stats)
@@ -88,7 +88,7 @@ class ThumbPoser {
     }
 
   private:
-    // An opposition's own step and its two neighbours.
+    // An opposition step and its two neighbours.
     static constexpr std::uint32_t k_neighbour_steps = 3;
 
     static std::optional<FingerAngles> authored_angles(const HandSurroundings& hand,
@@ -96,7 +96,7 @@ class ThumbPoser {
         return hand.authored != nullptr ? posed_angles(thumb, *hand.authored) : std::nullopt;
     }
 
-    // Takes the thumb's authored pose unless it penetrates. Returns whether it did.
+    // Takes the thumb's authored pose unless it penetrates. Returns true if it was taken.
     bool take_authored_pose(const HandSurroundings& hand, const FingerRig& thumb, FingerPose& pose,
                             std::size_t f) {
         const auto posed = authored_angles(hand, thumb);
@@ -120,8 +120,8 @@ class ThumbPoser {
         return true;
     }
 
-    // Waits while fingers are queued for their first fit, so that the thumb closes last. At most 4
-    // frames: on a fast hand the queue never empties.
+    // Returns true if the thumb must wait because fingers are queued for their first fit: the thumb
+    // closes last. Waits at most 4 frames, because the queue of a fast hand never empties.
     static bool defer_to_fingers(const HandSurroundings& hand, std::size_t thumb,
                                  FingerPose& pose) {
         constexpr std::uint32_t k_max_frames = 4;
@@ -137,7 +137,8 @@ class ThumbPoser {
         return is_deferred;
     }
 
-    // Touches and does not penetrate. Otherwise another opposition may be better.
+    // True if the thumb touches a surface and does not penetrate. Otherwise another opposition may
+    // be better.
     bool is_good_fit(const ChainFit& fit) const {
         return fit.depth_m <= settings_.open_depth_m && fit.fallback != ChainFallback::rest_pose &&
                !is_bent_clear(fit);
@@ -179,7 +180,7 @@ class ThumbPoser {
                share * (thumb.upper_opposition_rad - thumb.lower_opposition_rad);
     }
 
-    // The step nearest to an opposition angle.
+    // Returns the step nearest to an opposition angle.
     std::uint32_t step_at(const FingerRig& thumb, double opposition_rad) const {
         const double range_rad = thumb.upper_opposition_rad - thumb.lower_opposition_rad;
         if (!(range_rad > 0.0)) {
@@ -194,8 +195,8 @@ class ThumbPoser {
         return static_cast<std::uint32_t>(std::max(1, tuning_.thumb.opposition_steps));
     }
 
-    // Fits the thumb for this frame. Keeps its opposition while it touches there without
-    // penetrating, and while the back-off after a failed refit lasts.
+    // Fits the thumb for this frame. Keeps the opposition angle while the thumb touches without
+    // penetrating, and during the back-off after a failed refit.
     ThumbFit fit_thumb(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
                        bool was_pending, FingerPose& pose) {
         FingerBackoff& backoff = pose.backoff[f];
@@ -228,8 +229,8 @@ class ThumbPoser {
             backoff.failures = backoff.retry_in_m <= 0.0 ? 0 : backoff.failures;
             return kept;
         }
-        // The thumb is next if the fingers used this frame's refit, or if it was next already and
-        // candidate evaluation used the frame.
+        // The thumb gets the next refit if a finger used this frame's, or if it was pending already
+        // and a candidate evaluation used this frame.
         pose.thumb_refit_pending =
             is_retry_due(backoff) && !has_budget && (pose.finger_refit_this_frame || was_pending);
         if (!is_retry_due(backoff) || !has_budget) {
@@ -238,8 +239,8 @@ class ThumbPoser {
         return refit_if_better(hand, thumb, f, kept, pose);
     }
 
-    // Evaluates one other opposition, and changes to it if it is better. The next call tries the
-    // next nearest.
+    // Evaluates one other opposition step, and changes to it if it is better. The next call
+    // evaluates the next nearest step.
     ThumbFit refit_if_better(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
                              const ThumbFit& kept, FingerPose& pose) {
         const bool is_penetrating = kept.fit.depth_m > settings_.open_depth_m;
@@ -248,7 +249,7 @@ class ThumbPoser {
         FingerBackoff& backoff = pose.backoff[f];
         const bool slow_hand = is_slow(pose);
         if (slow_hand && backoff.was_fast_hand) {
-            backoff.failures = 0;  // evaluate every option again with a slow hand's settings
+            backoff.failures = 0;  // evaluates every step again with a slow hand's settings
         }
         const std::uint32_t kept_step = step_at(thumb, kept.opposition_rad);
         const std::uint32_t step = nearest_step(kept_step, backoff.failures % option_count);
@@ -266,16 +267,18 @@ class ThumbPoser {
             return kept;
         }
         if (!is_good_fit(refitted.fit) && step != kept_step) {
-            backoff.failures = 1;  // the new step's neighbours come next
+            backoff.failures = 1;  // the neighbours of the new step come next
             backoff.travel_since_m = travel_since_m;
         }
         begin_transition(refitted.fit.angle_rad, f, pose);
         pose.lookahead[f] = {};
-        refitted.fit.is_turn_limited = true;  // hinges that nothing stopped close on next frame
+        // Marks the fit as not converged: hinges that nothing stopped close further in the next
+        // frame.
+        refitted.fit.is_turn_limited = true;
         return refitted;
     }
 
-    // The `rank`th nearest step to `step`, counted from 0, which is `step` itself.
+    // Returns the step that is the `rank`th nearest to `step`; rank 0 is `step` itself.
     std::uint32_t nearest_step(std::uint32_t step, std::uint32_t rank) const {
         const std::uint32_t last = steps() - 1;
         step = std::min(step, last);
@@ -304,8 +307,9 @@ class ThumbPoser {
         pose.thumb_search.start_step = step_at(thumb, from_rad);
     }
 
-    // Evaluates the next few oppositions of the running search, nearest to its start first. A thumb
-    // that was posed before ends the search after its neighbouring steps if one of them is clear.
+    // Evaluates the next few opposition steps of the running search, the one nearest to its start
+    // first. If the thumb was fitted before, the search ends after the neighbouring steps if the
+    // best fit is clear.
     ThumbFit continue_search(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
                              FingerPose& pose) {
         constexpr double k_verify_travel_m = 1e-3;
@@ -323,7 +327,8 @@ class ThumbPoser {
         search.needs_depenetration = best.fit.needs_depenetration;
         search.is_running = !is_done(search, best);
         if (!std::isinf(io_.dt_s)) {
-            // The next frame fits the best once more, which also depenetrates it.
+            // Marks the fit as not converged. The next frame refits the thumb at the best
+            // opposition, this time with depenetration.
             best.fit.is_turn_limited = true;
             pose.backoff[f].travel_since_m = k_verify_travel_m;
             return best;
@@ -333,7 +338,7 @@ class ThumbPoser {
             add_visits(best.fit, depenetrated.fit);
             best = depenetrated;
         }
-        // Counts as one option: every opposition was evaluated.
+        // Counts as one attempt with one option, because every opposition was evaluated.
         record_attempt(pose.backoff[f], !is_good_fit(best.fit), false);
         return best;
     }
@@ -362,7 +367,7 @@ class ThumbPoser {
                    : static_cast<std::uint32_t>(std::max(1, tuning_.thumb.evaluations_per_frame));
     }
 
-    // Keeps the cheaper fit with the search counters of both.
+    // Keeps the fit of lower cost and adds up the search counters of both fits.
     static void keep_better(ThumbFit candidate, ThumbFit& best) {
         if (candidate.cost_m < best.cost_m) {
             std::swap(candidate, best);
@@ -389,7 +394,7 @@ class ThumbPoser {
         return closed;
     }
 
-    // As fit_at_opposition, with its cost (see pose_thumb.hpp).
+    // Like fit_at_opposition, and computes the fit's cost (equation in pose_thumb.hpp).
     ThumbFit evaluate_opposition(const HandSurroundings& hand, const FingerRig& thumb,
                                  double opposition_rad, std::uint32_t last_triangle) const {
         ThumbFit candidate = fit_at_opposition(hand, thumb, opposition_rad, last_triangle);

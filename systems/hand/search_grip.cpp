@@ -12,13 +12,14 @@
 namespace handhold {
 namespace {
 
-// A search ends after so many pops without a cheaper triangle.
+// A search ends after this many pops in a row without a cheaper triangle.
 constexpr std::uint32_t k_max_idle_pops = 24;
-constexpr std::uint32_t k_follow_max_idle_pops = 6;  // while following last frame's surface
-constexpr double k_full_search_interval_m = 0.006;   // travel between full searches
+// The same limit while following last frame's surface.
+constexpr std::uint32_t k_follow_max_idle_pops = 6;
+constexpr double k_full_search_interval_m = 0.006;  // travel between full searches
 constexpr std::uint32_t k_max_stationary_refine_frames = 24;
 
-// The surface nearest to a palm in an authored grip: a seed for its closing fingers.
+// The surface nearest to a palm in an authored grip. It seeds the searches of the closing fingers.
 GripSurface authored_grip_surface(const HandSurroundings& hand, double dt_s,
                                   const PalmTuning& tuning) {
     const PalmFitter fitter(hand, hand.authored->wrist_bs, dt_s, tuning);
@@ -29,7 +30,8 @@ GripSurface authored_grip_surface(const HandSurroundings& hand, double dt_s,
         surface = fitter.surface_at({near->triangle, near->point, 0.0});
     }
     surface.wrist_bs = hand.authored->wrist_bs;
-    surface.surroundings_signature = 0;  // invalid key: forces a search once the grip is left
+    // Invalid key: forces a search once the hand leaves the grip.
+    surface.surroundings_signature = 0;
     return surface;
 }
 
@@ -40,8 +42,8 @@ std::optional<TriangleHit> cast_palm_ray(const PalmFitter& fitter, const HandTun
         palm.center - (tuning.ray_length_m - tuning.ray_back_m) * palm.up);
 }
 
-// Searches one hand's surface for one frame. `last` is its result of the last frame, whose triangle
-// is k_none or of this mesh.
+// Finds one hand's surface for one frame. `last` is the hand's result of the last frame; its
+// triangle is k_none or belongs to the gripped body's mesh.
 class GripSearcher {
   public:
     GripSearcher(const HandSurroundings& hand, double dt_s, const Tuning& tuning,
@@ -59,7 +61,7 @@ class GripSearcher {
     GripSurface run() {
         const bool is_known = last_.triangle != GripSurface::k_none;
         const double full_search_in_m = last_.full_search_in_m - travel_m_;
-        // If following fails, the interval restarts, so that the new normal is kept just as long.
+        // If following the last surface fails, the full search below restarts the interval.
         double next_full_search_in_m = k_full_search_interval_m;
         if (is_known && full_search_in_m > 0.0 && !fitter_.is_unbudgeted()) {
             search_.run(k_follow_max_idle_pops);
@@ -92,7 +94,7 @@ class GripSearcher {
         search_.run(k_max_idle_pops);
     }
 
-    // Stays on last frame's surface. None if candidates must be evaluated.
+    // Stays on last frame's surface. Returns none if candidates must be evaluated.
     std::optional<GripSurface> follow_last() {
         std::optional<GripSurface> surface;
         if (last_.evaluated_this_frame && !fitter_.is_unbudgeted()) {
@@ -107,8 +109,8 @@ class GripSearcher {
         return surface;
     }
 
-    // `remaining_m` less this frame's travel. Elapsed time counts as travel, so that a hand at rest
-    // is checked again too.
+    // Returns `remaining_m` minus this frame's travel. Elapsed time counts as travel, so that a
+    // hand at rest is checked again too.
     double travel_left_m(double remaining_m) const {
         constexpr double k_travel_per_time_mps = 0.045;
         constexpr double k_unbudgeted_travel_m = 5e-4;
@@ -117,7 +119,8 @@ class GripSearcher {
         return remaining_m - std::max(travel_m_, min_travel_m);
     }
 
-    // Refines the fit on last frame's surface. None if the surface is gone or lost its clearance.
+    // Refines the fit on last frame's surface. Returns none if the surface is out of reach or has
+    // lost its clearance.
     std::optional<GripSurface> refine_last() {
         const auto near = fitter_.candidate_near_last(search_, last_);
         if (!near) {
@@ -133,8 +136,8 @@ class GripSearcher {
         return surface;
     }
 
-    // Last frame evaluated candidates, so this frame's budget belongs to the digits. None if the
-    // surface is gone or lost its clearance.
+    // Used if the last frame evaluated candidates: leaves this frame's budget to the digits.
+    // Returns none if the surface is out of reach or has lost its clearance.
     std::optional<GripSurface> skip_after_evaluation() {
         constexpr double k_due_next_frame_m = 1e-9;
         std::optional<GripSurface> surface = refine_last();
@@ -153,8 +156,8 @@ class GripSearcher {
         return surface;
     }
 
-    // Keeps the chosen candidate until its recheck is due: evaluation is expensive and its result
-    // rarely changes nearby. None if the recheck is due.
+    // Keeps the chosen candidate until its recheck is due: evaluation is expensive, and its result
+    // rarely changes nearby. Returns none if the recheck is due.
     std::optional<GripSurface> reuse_candidate() {
         const double remaining_m = travel_left_m(last_.candidate_recheck_in_m);
         std::optional<GripSurface> surface;
@@ -167,8 +170,8 @@ class GripSearcher {
         return surface;
     }
 
-    // Keeps a surface with clearance that is still the cheapest in closed form. None if the
-    // clearance must be checked.
+    // Keeps a surface with clearance while it still has the lowest closed-form cost. Returns none
+    // if its clearance must be checked.
     std::optional<GripSurface> reuse_clearance() {
         const double remaining_m = travel_left_m(last_.clearance_recheck_in_m);
         const auto cheapest = search_.cheapest_excluding({});
@@ -193,7 +196,8 @@ class GripSearcher {
     SurfaceSearch search_;
 };
 
-// Last frame's surface; empty if it was on another body or its triangle no longer exists.
+// Returns last frame's surface; a default one if it was on another body or its triangle no longer
+// exists.
 GripSurface valid_last_surface(const HandSurroundings& hand, const GripSurface& surface) {
     const std::size_t triangles = hand.meshes.front().mesh->search.triangles.size();
     return surface.body == hand.body && surface.triangle < triangles ? surface : GripSurface{};
@@ -237,7 +241,7 @@ void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats
             surface.evaluated_this_frame = false;
             continue;
         }
-        // Frames of candidate evaluation do not count: the best candidate is refined only
+        // Frames of a running candidate search do not count: the best candidate is refined
         // afterwards.
         const std::uint32_t refined = surface.evaluated_count > 0 ? 0 : 1;
         const std::uint32_t refine_frames =

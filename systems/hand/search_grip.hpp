@@ -13,34 +13,36 @@ namespace handhold {
 
 // How a palm's surface is chosen.
 enum class GripSearch : std::uint8_t {
-    smallest_sync,  // the surface that moves the palm least
-    ray_only,       // the surface that the palm ray hits; for comparison
+    smallest_sync,  // the surface of lowest full cost, see search_grip
+    ray_only,       // the surface that the palm ray hits; for comparisons
 };
 
 struct SearchGripIo {
-    double dt_s = 0.0;  // in: length of the frame; infinity: no budget, evaluate all candidates
+    double dt_s = 0.0;  // in: length of the frame; infinity: all candidates are evaluated at once
     std::span<const HandSurroundings> hands;  // in: body frame (_bs)
-    Column<GripSurface>& surface;             // in/out: last frame's result seeds the search; _bs
+    // In/out: last frame's result, then this frame's; body frame (_bs).
+    Column<GripSurface>& surface;
     GripSearchScratch& scratch;
 };
 
-// Chooses the surface under each gripping palm: the one that needs the least palm movement
-// ("sync"). Talk rows 2, 11, 17.
+// Chooses the surface under each gripping palm: the one for which the palm must move least from its
+// tracked pose ("sync") to fit. Talk rows 2, 11, 17.
 //
-// 1. Search (shared/surface_search.hpp): best first over triangle neighbours, within
-//    PalmTuning::reach_m, seeded at the palm ray's hit, the nearest triangle and last frame's
-//    triangle. The cost in closed form is the palm translation into the height limits plus
-//    PalmTuning::tilt_cost_m_per_rad times the rotation into the tilt limit.
-// 2. Evaluation (shared/surface_candidates.hpp): candidates are fitted in the order of that cost
-//    until none can be cheaper. The full cost is the movement of the fitted, depenetrated palm,
-//    plus the remaining penetration of palm and fingers. Fingers without clearance are evaluated
-//    once more as part of the palm's collision shape.
+// 1. Search (shared/surface_search.hpp): a best-first search over neighbouring triangles within
+//    PalmTuning::reach_m. Its seeds are the palm ray's hit, the nearest triangle and last frame's
+//    triangle. A triangle's closed-form cost is the palm's translation into the height limits plus
+//    PalmTuning::tilt_cost_m_per_rad times its rotation into the tilt limit.
+// 2. Evaluation (shared/surface_candidates.hpp): the palm is fitted to candidates in the order of
+//    their closed-form costs, until no other candidate can be better. The full cost is the movement
+//    of the fitted, depenetrated palm plus weighted penetration of palm and fingers. If fingers
+//    have no clearance, the candidate is evaluated again with them as part of the palm's collision
+//    shape.
 //
-// Work is spread over frames: PalmTuning::evaluations_per_frame in every second frame. A chosen
-// surface is followed for a few millimetres of travel before the next full search. A hand whose
-// wrist and surroundings are unchanged keeps its result.
+// The work is spread over frames: PalmTuning::evaluations_per_frame evaluations in every second
+// frame. A chosen surface is followed for a few millimetres of travel before the next full search.
+// If a hand's wrist and surroundings are unchanged, its result is kept.
 //
-// A palm in an authored grip gets the nearest triangle without a search. Talk row 10.
+// A palm in an authored grip gets the nearest triangle, without a search. Talk row 10.
 //
 // Fallbacks counted: palm_no_surface (GripSurface::triangle is k_none).
 void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats,

@@ -18,7 +18,7 @@ bool is_cached(const FingerPose& pose, const HandSurroundings& hand, double trav
            travel_m < reuse_travel_m;
 }
 
-// Sets the fingers of an empty hand to the rest pose, or to a fist.
+// Sets the fingers of a hand without a surface to the rest pose, or to a fist.
 void rest_fingers(const HandRig& rig, bool is_fist, FingerPose& pose) {
     for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
         const FingerRig& finger = rig.fingers[f];
@@ -51,10 +51,11 @@ void count_fallback(ChainFallback fallback, StageStats& stats) {
 
 using FingerSet = std::array<bool, k_finger_count>;
 
-// Fits the fingers of one hand at a time. Digits fall into three groups per frame:
-// - queued: without a usable fit; closed from scratch, refits_per_frame of them at a time;
-// - kept: carried along from the last fit (refit_last), which is cheap;
-// - one kept finger that penetrates, and whose back-off is over, is refitted from scratch.
+// Fits the fingers of one hand at a time. In each frame, the fingers fall into three groups:
+// - queued: have no usable fit; are closed from scratch, refits_per_frame of them per frame;
+// - kept: their last fit is updated (refit_last), which is cheap;
+// - refitted: one of the kept fingers that needs a refit and whose back-off is over is closed from
+//   scratch.
 class FingerFitter {
   public:
     FingerFitter(const SweepFingersIo& io, const Tuning& tuning, SearchOrder order,
@@ -89,8 +90,8 @@ class FingerFitter {
         if (pose.solved_signature != hand.signature) {
             expire_caches(pose);
         }
-        // A hand still moving into its authored grip is solved every frame, even if it travels less
-        // than reuse_travel_m: a pose that penetrates now can be clear in the grip.
+        // A hand that still moves into its authored grip is solved every frame, even if it travels
+        // less than reuse_travel_m: an authored pose that penetrates now can be clear later.
         pose.converged = hand.authored == nullptr || is_at_target(offset);
         const double depth_m = fit_fingers(hand_index, wrist_bs, travel_m, pose);
         pose.solved = true;
@@ -101,7 +102,7 @@ class FingerFitter {
     }
 
   private:
-    // Something near the hand has moved, which counts as travel of the hand.
+    // Called when something near the hand has moved. This counts as travel of the hand.
     static void expire_caches(FingerPose& pose) {
         constexpr double k_equivalent_travel_m = 1e-3;
         pose.thumb_converged = false;
@@ -111,7 +112,7 @@ class FingerFitter {
         pose.lookahead = {};
     }
 
-    // Without a surface to check against, fingers take their authored poses unchecked.
+    // Fingers of a hand without a surface take their authored poses without a penetration check.
     static void pose_unverified(const HandSurroundings& hand, FingerPose& pose) {
         for (std::size_t f = 0; hand.authored != nullptr && f < hand.rig->fingers.size(); ++f) {
             const auto posed = posed_angles(hand.rig->fingers[f], *hand.authored);
@@ -121,7 +122,7 @@ class FingerFitter {
         }
     }
 
-    // Takes the finger's authored pose unless it penetrates. Returns whether it did.
+    // Takes the finger's authored pose unless it penetrates. Returns true if it was taken.
     bool take_authored_pose(const HandSurroundings& hand, std::size_t f, const HingeChain& chain,
                             FingerPose& pose) {
         const auto posed = hand.authored != nullptr
@@ -141,8 +142,8 @@ class FingerFitter {
         return true;
     }
 
-    // Fits all fingers for this frame, within its budget (see the class). Returns the largest
-    // penetration, not counting fingers whose refit is due.
+    // Fits all fingers for this frame, within the budget that the class comment describes. Returns
+    // the largest penetration depth, not counting fingers whose refit is due.
     double fit_fingers(std::size_t hand_index, const Pose& wrist_bs, double travel_since_solve_m,
                        FingerPose& pose) {
         const HandSurroundings& hand = io_.hands[hand_index];
@@ -195,8 +196,8 @@ class FingerFitter {
         return depth_m;
     }
 
-    // Queues fingers that must be closed from scratch, or counts another frame of waiting. Returns
-    // the fingers to fit: all but thumbs and fingers in an authored pose.
+    // Queues fingers that must be closed from scratch; increments the waiting time of queued ones.
+    // Returns the fingers to fit: all except thumbs and fingers in an authored pose.
     FingerSet update_queue(const HandSurroundings& hand, const Pose& wrist_bs, bool reuses_fit,
                            FingerPose& pose) {
         FingerSet needs_fit = {};
@@ -213,7 +214,8 @@ class FingerFitter {
         return needs_fit;
     }
 
-    // Closes queued fingers from scratch, the longest waiting first, while the budget lasts.
+    // Closes queued fingers from scratch, those that have waited longest first, while the budget
+    // lasts.
     FingerSet refit_queued(const HandSurroundings& hand, const Pose& wrist_bs,
                            std::size_t& refits_left, FingerPose& pose) {
         FingerSet is_refitted = {};
@@ -233,7 +235,8 @@ class FingerFitter {
         return is_refitted;
     }
 
-    // Frames that a finger has waited in the queue; 0 for thumbs, which pose_thumb queues.
+    // Returns the number of frames that a finger has waited in the queue; 0 for thumbs, which
+    // pose_thumb queues.
     static std::uint32_t queued_frames_of(const HandSurroundings& hand, std::size_t f,
                                           const FingerPose& pose) {
         const bool is_finger =
@@ -241,20 +244,20 @@ class FingerFitter {
         return is_finger ? pose.backoff[f].queued_frames : 0;
     }
 
-    // Deep enough for another fit to be worth the visible change.
+    // True if the fit penetrates so deeply that another fit is worth the visible change.
     bool is_penetrating(const ChainFit& fit) const {
         return fit.depth_m > settings_.search_depth_m;
     }
 
-    // At a clear sample pose with nothing ahead to close on. A slow hand may bring the finger back
-    // to the surface.
+    // True if the finger was moved to a clear sample pose, touches nothing, and has no surface
+    // ahead. While the hand is slow, a refit may bring such a finger back to the surface.
     static bool is_idle_bent_clear(const ChainFit& fit, std::size_t f, const FingerPose& pose) {
         const FingerLookahead& lookahead = pose.lookahead[f];
         return !touches(fit) && pose.backoff[f].failures > 0 &&
                !(lookahead.is_known && lookahead.has_surface_ahead);
     }
 
-    // A slow hand refits more readily: on a fast one the new fit would not last.
+    // A slow hand refits more readily, because the new fit of a fast hand would not last.
     bool needs_refit(const ChainFit& fit, std::size_t f, const FingerPose& pose) const {
         return is_slow(pose) ? is_penetrating(fit) || is_idle_bent_clear(fit, f, pose)
                              : fit.depth_m > tuning_.finger.fast_refit_depth_m;
@@ -266,8 +269,9 @@ class FingerFitter {
                    : static_cast<std::size_t>(std::max(1, tuning_.finger.refits_per_frame));
     }
 
-    // The one finger that may query its look-ahead again in this frame: the due finger with the
-    // oldest result. None (k_finger_count) if candidates were evaluated in this frame.
+    // Returns the one finger that may renew its look-ahead in this frame: among those that are due,
+    // the one with the oldest result. k_finger_count: none, for example because candidates were
+    // evaluated in this frame.
     std::size_t next_lookahead(const HandSurroundings& hand, const FingerSet& is_kept,
                                const FingerPose& pose) const {
         std::size_t next = k_finger_count;
@@ -281,7 +285,7 @@ class FingerFitter {
         return io_.surface.at(hand.hand).evaluated_this_frame ? k_finger_count : next;
     }
 
-    // Carries the finger's last fit along to the present wrist.
+    // Updates the finger's last fit to the current wrist pose.
     ChainFit refit_last(const HandSurroundings& hand, const Pose& wrist_bs, std::size_t f,
                         bool may_query_lookahead, FingerPose& pose) {
         ChainRefitSettings refit;
@@ -294,8 +298,7 @@ class FingerFitter {
         return fit;
     }
 
-    // Closes a penetrating or idle finger from scratch, and changes to that fit if it is clearly
-    // better.
+    // Closes a finger from scratch, and changes to that fit if it is clearly better.
     void refit_if_better(const HandSurroundings& hand, const Pose& wrist_bs, std::size_t f,
                          FingerPose& pose) {
         const bool slow_hand = is_slow(pose);
@@ -307,11 +310,13 @@ class FingerFitter {
             (is_penetrating(fits_[f]) || touches(refitted))) {
             begin_transition(refitted.angle_rad, f, pose);
             fits_[f] = refitted;
-            fits_[f].is_turn_limited = true;  // hinges that nothing stopped close on next frame
+            // Marks the fit as not converged: hinges that nothing stopped close further in the next
+            // frame.
+            fits_[f].is_turn_limited = true;
         }
     }
 
-    // Makes the fit the finger's target. Returns its penetration; 0 if a refit is due.
+    // Makes the fit the finger's target. Returns the fit's penetration depth; 0 if a refit is due.
     double take_fit(std::size_t hand_index, std::size_t f, FingerPose& pose) {
         const ChainFit& fit = fits_[f];
         pose.target[f].curl_rad = fit.angle_rad;
@@ -355,7 +360,7 @@ class FingerFitter {
     const Tuning& tuning_;
     ChainFitSettings settings_;
     StageStats& stats_;
-    std::array<ChainFit, k_finger_count> fits_;  // of the present hand
+    std::array<ChainFit, k_finger_count> fits_;  // of the current hand
 };
 
 }  // namespace

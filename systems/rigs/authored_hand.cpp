@@ -5,8 +5,9 @@
 namespace handhold {
 namespace {
 
-// A mirror across the plane normal to an axis is minus a half turn about that axis. The two minus
-// signs cancel, so a rotation R becomes turn(body axis) R turn(hand's x).
+// Mirroring across the plane perpendicular to an axis is the negated half turn about that axis. A
+// rotation R is mirrored on both sides, so the signs cancel: it becomes half_turn(body axis) * R *
+// half_turn(hand's x axis).
 Quat half_turn(int axis) {
     Quat turn(0.0, 0.0, 0.0, 0.0);
     turn.coeffs()[axis] = 1.0;
@@ -19,7 +20,7 @@ AuthoredHand mirror_authored_hand(const AuthoredHand& hand, int body_axis) {
     AuthoredHand mirrored = hand;
     mirrored.wrist_bs.position[body_axis] = -hand.wrist_bs.position[body_axis];
     const Quat turned = half_turn(body_axis) * hand.wrist_bs.rotation * half_turn(0);
-    // The sign that makes mirroring twice return the same quaternion.
+    // Negated, so that mirroring twice returns the same quaternion.
     mirrored.wrist_bs.rotation = Quat(-turned.w(), -turned.x(), -turned.y(), -turned.z());
     return mirrored;
 }

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::array k_sides = {HandSide::left, HandSide::right};
 
-// Finds bones by the map and by names.
+// Finds bones by the map, by names and by shape.
 class BoneFinder {
   public:
     BoneFinder(const SkinnedMesh& figure, const BodyMap& map)
@@ -67,7 +67,8 @@ class BoneFinder {
         return map_.find(body_joint_text(name)) != map_.end();
     }
 
-    // What a joint's name says; nothing for parts of bones and for joints that the map names.
+    // Returns the bone that a joint's name indicates; none for twist and helper joints and for
+    // joints that are in the map.
     std::optional<BodyNameGuess> guess_of(std::size_t joint) const {
         const std::string& name = figure_.joints[joint].name;
         for (const auto& [bone, mapped] : map_) {
@@ -79,8 +80,9 @@ class BoneFinder {
         return guess && !guess->is_part ? guess : std::nullopt;
     }
 
-    // Lower is better: clearer names, joints that deform, joints with others below them, then the
-    // joint nearest to the root, then the one with most joints below it.
+    // Ranks joints whose names indicate the same bone; lower is better. In this order: clear names,
+    // joints that deform the skin, joints with joints below them, joints near the root, joints with
+    // many joints below them.
     using Rank = std::tuple<int, bool, bool, std::size_t, std::ptrdiff_t>;
     Rank rank_of(std::size_t joint, int doubt) const {
         return {doubt, is_spare_name(figure_.joints[joint].name), tree_.size(joint) == 0,
@@ -103,14 +105,15 @@ class BoneFinder {
         }
     }
 
-    // Robots have a joint for each axis of a shoulder and a hip: the limb begins at the last.
+    // Robots have one joint per axis of a shoulder or hip. Their limb begins at the last of these
+    // joints.
     void use_last_joints(HandSide side) {
         auto& upper = bones_.at({BodyBone::upper_arm, side});
         const auto& forearm = bones_.limb(side, BodyBone::forearm);
         if (!upper && forearm) {
             upper = last_above({BodyBone::clavicle, side}, *forearm);
         }
-        // Meshes are called hands too: the joint is below the forearm.
+        // Meshes may be named "hand" too. The hand's joint is the one below the forearm.
         if (forearm && !is_mapped({BodyBone::hand, side})) {
             if (const auto hand = first_below({BodyBone::hand, side}, *forearm)) {
                 bones_.at({BodyBone::hand, side}) = hand;
@@ -129,7 +132,8 @@ class BoneFinder {
             clavicle.reset();
         }
     }
-    // True for a joint that splits the bone from `upper` to `lower`: it lies well inside its line.
+    // True if `joint` splits the bone from `upper` to `lower`: it lies on the line between them,
+    // well away from `upper`.
     bool is_on_bone(std::size_t joint, std::size_t upper, std::size_t lower) const {
         constexpr double k_inside = 0.1;
         constexpr double k_aside = 0.1;
@@ -138,7 +142,8 @@ class BoneFinder {
         const double along = at.dot(bone) / bone.squaredNorm();
         return along > k_inside && (at - along * bone).norm() < k_aside * at.norm();
     }
-    // Compared with the length of the upper arm.
+    // True if `joint` and `upper` coincide: their distance is at most 0.3 % of the upper arm's
+    // length.
     bool are_in_one_place(std::size_t joint, std::size_t upper, std::size_t forearm) const {
         constexpr double k_share = 0.003;
         const Vec3& shoulder = place_of(figure_, upper);
@@ -146,7 +151,7 @@ class BoneFinder {
         return (place_of(figure_, joint) - shoulder).norm() <= k_share * arm_m;
     }
 
-    // The joint of this name that is nearest above `joint`.
+    // Returns the nearest joint above `joint` whose name indicates the bone `name`.
     std::optional<std::size_t> last_above(const BodyJointName& name, std::size_t joint) const {
         std::optional<std::size_t> last;
         const std::vector<std::size_t> path = tree_.path_to(joint);
@@ -159,7 +164,7 @@ class BoneFinder {
         return last;
     }
 
-    // The best joint of this name below `joint`.
+    // Returns the best joint below `joint` whose name indicates the bone `name`.
     std::optional<std::size_t> first_below(const BodyJointName& name, std::size_t joint) const {
         std::optional<std::size_t> first;
         Rank best;
@@ -168,7 +173,8 @@ class BoneFinder {
             if (!guess || guess->name != name || !is_below(figure_, i, joint)) {
                 continue;
             }
-            // Hands may be leaves: the nearest counts.
+            // Hands may have no joints below them, so this is no disadvantage here. The joint
+            // nearest to the root is preferred.
             const Rank rank = {guess->doubt, false, false, tree_.depth(i),
                                -static_cast<std::ptrdiff_t>(tree_.size(i))};
             if (!first || rank < best) {
@@ -179,7 +185,8 @@ class BoneFinder {
         return first;
     }
 
-    // "Shoulder" beside a scapula, "Leg" above a knee.
+    // Assigns joints by the second meaning of their name (BodyNameGuess::other): "Shoulder" is the
+    // upper arm if there is a scapula too, "Leg" the thigh if there is a knee.
     void find_second_meanings() {
         std::vector<bool> is_used(figure_.joints.size(), false);
         const auto mark = [&](const SideBones& side) {
@@ -219,7 +226,8 @@ class BoneFinder {
             missing += std::string(missing.empty() ? "" : ", ") + "pelvis (or left_thigh and " +
                        "right_thigh)";
         }
-        for (const BodyBone bone : {BodyBone::thigh, BodyBone::shin}) {  // both or none
+        // If one leg has the bone, the other leg must have it too.
+        for (const BodyBone bone : {BodyBone::thigh, BodyBone::shin}) {
             const bool is_left = bones.limb(HandSide::left, bone).has_value();
             if (is_left != bones.limb(HandSide::right, bone).has_value()) {
                 need({bone, is_left ? HandSide::right : HandSide::left});
@@ -231,7 +239,7 @@ class BoneFinder {
         const std::string shared = find_shared_joint(bones);
         return shared.empty() ? find_implausible_bone(figure_, bones).value_or("") : shared;
     }
-    // A joint that is taken for two bones.
+    // Describes a joint that was found for two bones; empty if there is none.
     std::string find_shared_joint(BodyBones& bones) const {
         std::map<std::size_t, std::string> users;
         for (std::size_t bone = 0; bone < k_body_bone_count; ++bone) {

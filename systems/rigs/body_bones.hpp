@@ -6,11 +6,12 @@
 
 #include "systems/rigs/body_rig_fit.hpp"
 
-// The first step of fit_body_rig: which joint is which bone.
+// First step of fit_body_rig: finds the joint of each bone.
 namespace handhold {
 
 using SideBones = std::array<std::optional<std::size_t>, k_body_bone_count>;
-// Joints of bones, as indices into SkinnedMesh::joints.
+// The joint of each bone, as an index into SkinnedMesh::joints. `middle` holds trunk, neck and
+// head.
 struct BodyBones {
     SideBones middle;
     std::array<SideBones, k_hand_count> sides;
@@ -27,18 +28,19 @@ struct BodyBones {
     }
 };
 
-// Takes what the map says, then what names say, then fills what is missing by shape
-// (fill_bones_by_shape). If the result is not plausible, tries the shape without the names. Refuses
-// as fit_body_rig does.
+// Finds the bones: first by the map, then by the joints' names, then by shape
+// (fill_bones_by_shape). If the result is not plausible, repeats this without the names. Errors: as
+// fit_body_rig.
 Result<BodyBones> find_body_bones(const SkinnedMesh& figure, const BodyMap& map);
 
-// Finds the missing bones from the hierarchy and the joints' places: feet end lowest, hands end
-// farthest to the sides, the head is above the arms, and elbows and knees halve their limbs.
-// Changes no bone that is known. Leaves out what it cannot tell.
+// Finds the missing bones from the joints' hierarchy and positions: feet are lowest, hands farthest
+// to the sides, the head above the arms, and elbows and knees in the middle of their limbs. Changes
+// no known bone. Leaves a bone empty if it cannot be determined.
 void fill_bones_by_shape(const SkinnedMesh& figure, BodyBones& bones);
 
-// The implausible proportions of a figure posed by these bones, with the names of its
-// joints; nothing if it is a plausible body. Requires head, upper arms, forearms and hands.
+// Describes the first implausible proportion of a figure with these bones, with the names of the
+// joints. Returns none if all proportions are plausible. Precondition: `bones` has head, upper
+// arms, forearms and hands.
 std::optional<std::string> find_implausible_bone(const SkinnedMesh& figure, const BodyBones& bones);
 
 inline const Vec3& place_of(const SkinnedMesh& figure, std::size_t joint) {
@@ -53,12 +55,13 @@ class JointTree {
 
     const std::vector<std::size_t>& children(std::size_t joint) const { return children_[joint]; }
     std::size_t depth(std::size_t joint) const { return depth_[joint]; }
-    // Joints below this one.
+    // Number of joints below this one.
     std::size_t size(std::size_t joint) const { return size_[joint]; }
-    // Sum of the weights with which vertices follow this joint alone, and it and all below it.
+    // Sum of all vertices' skin weights on this joint (skin), and on this joint and all joints
+    // below it (skin_below).
     double skin(std::size_t joint) const { return skin_[joint]; }
     double skin_below(std::size_t joint) const { return skin_below_[joint]; }
-    // From the root to the joint, both included.
+    // Joints from the root to this joint, including both.
     std::vector<std::size_t> path_to(std::size_t joint) const;
 
   private:

@@ -1,4 +1,5 @@
-// Bones of figures whose joints' names say nothing, from the hierarchy and the joints' places.
+// Finds bones from the joints' hierarchy and positions, for figures whose joint names do not
+// determine them.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,7 +9,7 @@
 namespace handhold {
 namespace {
 
-using JointPath = std::vector<std::size_t>;  // joints from above to below
+using JointPath = std::vector<std::size_t>;  // joints from the root's side down the hierarchy
 
 struct LimbKind {
     BodyBone upper, lower, end;
@@ -42,8 +43,9 @@ class ShapeFinder {
     double distance(std::size_t a, std::size_t b) const { return (place(a) - place(b)).norm(); }
     bool is_leaf(std::size_t joint) const { return tree_.children(joint).empty(); }
 
-    // The direction to the figure's left and the middle of its joints. Known limbs tell it, else
-    // the level direction in which joints spread most, and which way the feet point.
+    // Finds the direction to the figure's left, the middle of its joints, and its height. Left
+    // follows from known limbs. Without any, it is along the horizontal direction in which the
+    // joints spread most; the direction of the feet decides its sign.
     bool find_axes() {
         double low = std::numeric_limits<double>::max();
         double high = -low;
@@ -87,7 +89,7 @@ class ShapeFinder {
         }
         return Vec3::Zero();
     }
-    // The main axis of the joints' level covariance [xx xz; xz zz].
+    // Principal axis of the joints' horizontal covariance [xx xz; xz zz].
     Vec3 widest_direction() const {
         double xx = 0.0;
         double xz = 0.0;
@@ -107,8 +109,8 @@ class ShapeFinder {
         sin_cos(angle, sine, cosine);
         return {cosine, 0.0, sine};
     }
-    // From the lowest leaves' parents to what they carry; +Z, where glTF's assets face, if the feet
-    // do not tell.
+    // Horizontal direction in which the feet point: from the foot's joint to the mean of the skin
+    // that it carries. If that is unclear, +Z, in which glTF assets face.
     Vec3 toes_direction() const {
         const std::array<JointPath, 2> legs = limb_paths(k_leg_limb);
         Vec3 ahead = Vec3::Zero();
@@ -133,8 +135,8 @@ class ShapeFinder {
         return ahead.norm() > 5e-3 * height_m_ ? ahead : Vec3(Vec3::UnitZ());
     }
 
-    // Paths of both limbs from below the joint that they share to their ends. By side; empty where
-    // it finds none.
+    // Paths of both limbs, by HandSide: from the first joint below their common ancestor to their
+    // last joint. Empty if they are not found.
     std::array<JointPath, 2> limb_paths(const LimbKind& kind) const {
         std::array<std::optional<std::size_t>, 2> ends;
         for (std::size_t at = 0; at < 2; ++at) {
@@ -157,10 +159,11 @@ class ShapeFinder {
         }
         return paths;
     }
-    // The leaf that lies farthest out, or lowest, on that side: below the limb's known joints if
-    // there are any.
+    // The joint without children that lies farthest out (arms) or lowest (legs) on that side. If
+    // joints of the limb are known, only joints below them count.
     std::optional<std::size_t> end_of(const LimbKind& kind, HandSide side) const {
-        constexpr double k_middle_share = 0.01;  // of the height: nearer is the middle
+        // Joints closer to the middle than this share of the height belong to no side.
+        constexpr double k_middle_share = 0.01;
         std::optional<std::size_t> known;
         for (const BodyBone bone : {kind.end, kind.lower, kind.upper}) {
             if (!known && bones_.limb(side, bone)) {
@@ -175,7 +178,7 @@ class ShapeFinder {
                 (known && i != *known && !is_below(figure_, i, *known))) {
                 continue;
             }
-            // Feet: of those at one height, the end of the longest path.
+            // Legs: among joints at about the same height, prefers the deepest in the hierarchy.
             const double out =
                 kind.end == BodyBone::hand
                     ? to_side * aside(i)
@@ -190,7 +193,7 @@ class ShapeFinder {
 
     // The first joint of a leg's path that is near the ground.
     std::size_t foot_on(const JointPath& path) const {
-        constexpr double k_near_ground = 0.2;  // of the hip's height
+        constexpr double k_near_ground = 0.2;  // share of the hip's height
         const double hip_m = height(path.front()) - lowest_m_;
         for (const std::size_t joint : path) {
             if (height(joint) - lowest_m_ < k_near_ground * hip_m) {
@@ -199,7 +202,7 @@ class ShapeFinder {
         }
         return path.back();
     }
-    // The first joint of an arm's path below which fingers fan out.
+    // The first joint of an arm's path that has at least two fingers: children with children.
     std::optional<std::size_t> palm_on(const JointPath& path) const {
         for (const std::size_t joint : path) {
             const auto& children = tree_.children(joint);
@@ -212,8 +215,8 @@ class ShapeFinder {
         return std::nullopt;
     }
 
-    // Chooses the three joints on the path: known ones stay, the middle joint halves the limb as
-    // evenly as can be, little is left behind the end.
+    // Chooses the limb's three joints on the path so that limb_cost is least. Known joints are
+    // kept.
     void fill_limb(const LimbKind& kind, HandSide side, const JointPath& path) {
         const auto known = [&](BodyBone bone) { return bones_.limb(side, bone); };
         if (path.empty() || (known(kind.upper) && known(kind.lower) && known(kind.end))) {
@@ -223,8 +226,8 @@ class ShapeFinder {
         if (!end) {
             end = kind.end == BodyBone::foot ? foot_on(path) : palm_on(path);
         }
-        // Clavicle, arm, hand and an end: longer paths without fingers do not tell where the hand
-        // is.
+        // The longest path without fingers on which the hand can be recognised: clavicle, upper
+        // arm, forearm, hand and one more joint.
         constexpr std::size_t k_longest = 5;
         if (!end && !known(kind.upper) && !known(kind.lower) && path.size() > k_longest) {
             return;
@@ -260,8 +263,11 @@ class ShapeFinder {
             bones_.at({BodyBone::clavicle, side}) = path.front();
         }
     }
+    // Low if upper and lower part have equal lengths, and little of the path lies before the limb
+    // or beyond its end.
     double limb_cost(const std::array<std::size_t, 3>& limb, const JointPath& path) const {
-        constexpr double k_usual_rest = 0.3;  // behind the end, of the limb's length
+        // Usual length of the path beyond the limb's end / limb's length.
+        constexpr double k_usual_rest = 0.3;
         const double upper_m = distance(limb[0], limb[1]);
         const double lower_m = distance(limb[1], limb[2]);
         const double limb_m = upper_m + lower_m;
@@ -274,7 +280,7 @@ class ShapeFinder {
                0.5 * before;
     }
 
-    // From the joint that both arms share upwards.
+    // Finds head and neck on the path that leads up from the common ancestor of both arms.
     void fill_head() {
         if (bones_.of_middle(BodyBone::head) && bones_.of_middle(BodyBone::neck)) {
             return;
@@ -292,7 +298,8 @@ class ShapeFinder {
             neck = path.front();
         }
     }
-    // Joints from below the one that the arms share to the highest leaf that is no arm's.
+    // Joints from the first one below the arms' common ancestor to the highest joint without
+    // children, arms excluded.
     JointPath head_path() const {
         const auto& left = bones_.limb(HandSide::left, BodyBone::upper_arm);
         const auto& right = bones_.limb(HandSide::right, BodyBone::upper_arm);
@@ -329,9 +336,9 @@ class ShapeFinder {
         path.erase(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(shared));
         return path;
     }
-    // Up the path while the next joint carries more skin than its siblings together and at least
-    // half as much as the joint below it. Without skin, the joint before the last, which only marks
-    // the end.
+    // Goes up the path while the next joint, with all joints below it, carries enough skin: more
+    // than its siblings together, and more than half as much as the current joint alone. Without
+    // skin: the last but one joint, since the last one only marks the end.
     std::size_t head_on(const JointPath& path) const {
         if (!(tree_.skin_below(path.front()) > 0.0)) {
             return path.size() > 2 ? path[path.size() - 2] : path.back();

@@ -5,7 +5,8 @@
 namespace handhold {
 namespace {
 
-// The elements around `at` in a list sorted by `key`, and the interpolation share between them.
+// Indices of the elements before and after `at` in a list sorted by `key`, and the interpolation
+// share between them.
 struct Place {
     std::size_t before = 0;
     std::size_t after = 0;

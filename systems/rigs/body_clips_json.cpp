@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, k_body_clip_count> k_clip_names = {
 constexpr double k_max_turn_deg = 90.0;
 constexpr std::size_t k_max_keys = 1000;
 
-// The first two clips go by seconds, the others by degrees.
+// In a file, the keys of the first two clips are in seconds, those of the others in degrees.
 bool is_timed(std::size_t clip) { return clip <= static_cast<std::size_t>(BodyClipName::push_off); }
 
 ClipKey read_key(const JsonValue& value, std::size_t clip) {

@@ -8,8 +8,9 @@
 
 namespace handhold {
 
-// Reads clips as docs/reference/body_clips.md has them. Refused, with JSON pointer: unknown names,
-// keys that do not rise, angles beyond the limits. `file` is for messages.
+// Reads clips in the format of docs/reference/body_clips.md. Errors, with the JSON pointer: unknown
+// names, keys whose `at` does not increase, values outside their limits. `file` is used in
+// messages.
 Result<BodyClips> parse_body_clips(std::string_view text, const std::string& file);
 
 }  // namespace handhold

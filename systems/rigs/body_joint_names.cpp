@@ -1,5 +1,5 @@
-// Sources: joint names of 3ds Max Biped, Mixamo, Unity and VRM, Unreal, Valve, Meta, Rigify,
-// AdvancedSkeleton, DAZ, MakeHuman, Character Creator, CATS and MMD, as their exporters write them.
+// Sources: joint names in files exported from 3ds Max Biped, Mixamo, Unity and VRM, Unreal, Valve,
+// Meta, Rigify, AdvancedSkeleton, DAZ, MakeHuman, Character Creator, CATS and MMD.
 #include "systems/rigs/body_joint_names.hpp"
 
 #include <algorithm>
@@ -26,18 +26,18 @@ constexpr std::array<NamedBone, k_body_bone_count> k_bones = {{{BodyBone::trunk,
                                                                {BodyBone::shin, "shin"},
                                                                {BodyBone::foot, "foot"}}};
 
-// A text that names a bone if a joint's name contains it.
+// A text that indicates a bone if a joint's name contains the text.
 struct Word {
     const char* text;
     BodyBone bone;
     int doubt;
-    bool is_last;    // the name has to end with it
-    BodyBone other;  // what it means where `bone` is another joint; the same: nothing else
+    bool is_last;    // true: the name must end with the text
+    BodyBone other;  // BodyNameGuess::other; equal to `bone`: no second meaning
 };
 constexpr Word sure(const char* text, BodyBone bone) { return {text, bone, 0, false, bone}; }
 constexpr Word likely(const char* text, BodyBone bone) { return {text, bone, 1, false, bone}; }
 
-// Earlier words win over later ones.
+// If a name contains several of these texts, the first one in the list counts.
 constexpr std::array k_limb_words = {
     sure("forearm", BodyBone::forearm),
     sure("lowerarm", BodyBone::forearm),
@@ -81,7 +81,7 @@ constexpr std::array k_middle_words = {
     sure("lowerbody", BodyBone::trunk), sure("hip", BodyBone::trunk),
     sure("neck", BodyBone::neck),       Word{"head", BodyBone::head, 0, true, BodyBone::head},
 };
-// MMD. A name is one of these, after its side.
+// Joint names of MMD models. A name without its side is exactly one of these texts.
 constexpr std::array k_japanese_limbs = {
     sure("肩", BodyBone::clavicle),  sure("腕", BodyBone::upper_arm),
     sure("ひじ", BodyBone::forearm), sure("肘", BodyBone::forearm),
@@ -101,18 +101,18 @@ constexpr std::array k_japanese_twists = {
     sure("手捩れ", BodyBone::forearm),
 };
 
-// Thumbs, fingers and toes, even inside a word.
+// A name that contains one of these texts, even inside a word, is a thumb, a finger or a toe.
 constexpr std::array<const char*, 9> k_digits = {"thumb",  "index", "middle", "ring",  "pinky",
                                                  "finger", "toe",   "指",     "つま先"};
-// Joints with these words are not bones of the body, whatever else their names contain.
+// A joint whose name contains one of these words is not a bone of the body.
 constexpr std::array<const char*, 24> k_others = {
     "little", "end",      "nub",  "tip",     "ik",     "fk",     "ikfk", "pole",
     "target", "helper",   "ctrl", "control", "mch",    "vis",    "wgt",  "tweak",
     "goal",   "effector", "null", "socket",  "attach", "weapon", "prop", "forehead"};
-// Words that say nothing about the bone.
+// Words to ignore, because they do not tell the bone.
 constexpr std::array<const char*, 11> k_fillers = {"joint", "jnt", "bone", "bn", "link", "bend",
                                                    "def",   "org", "m",    "c",  "jt"};
-// Joints with these words move with the bone that they name, but are not its first joint.
+// A joint whose name contains one of these words is BodyNameGuess::is_part.
 constexpr std::array<const char*, 3> k_parts = {"part", "share", "corrective"};
 
 template <std::size_t N>
@@ -138,7 +138,7 @@ bool begins_word(std::string_view name, std::size_t i) {
     return is_upper(c) && (is_lower(before) || ends_capitals);
 }
 
-// Words of a name in lower case, without namespaces ("mixamorig:", "Armature|").
+// Splits a name into words, in lower case and without namespaces ("mixamorig:", "Armature|").
 std::vector<std::string> cut_words(std::string_view name) {
     const std::size_t space = name.find_last_of(":|");
     if (space != std::string_view::npos) {
@@ -161,7 +161,8 @@ std::vector<std::string> cut_words(std::string_view name) {
     return words;
 }
 
-// Removes `text` from the front of `word` if something else follows it.
+// Removes `text` from the front of `word`, unless nothing would be left. Returns true if it was
+// removed.
 bool remove_prefix(std::string& word, std::string_view text) {
     if (word.size() > text.size() && word.starts_with(text)) {
         word.erase(0, text.size());
@@ -170,7 +171,7 @@ bool remove_prefix(std::string& word, std::string_view text) {
     return false;
 }
 
-// The side that a word says, removed from it.
+// Returns the side that a word indicates, and removes that side from the word.
 std::optional<HandSide> take_side(std::string& word) {
     constexpr std::array<const char*, 4> k_left = {"l", "left", "lf", "lft"};
     constexpr std::array<const char*, 4> k_right = {"r", "right", "rt", "rgt"};
@@ -229,8 +230,8 @@ bool has_digit(const std::string& words) {
 
 struct CutName {
     std::optional<HandSide> side;
-    std::string latin;     // what is left of the Latin words, joined
-    std::string japanese;  // likewise
+    std::string latin;     // the words in Latin script, joined, without side, digits and k_fillers
+    std::string japanese;  // the other words, joined, without side and digits
     bool is_part = false;
     bool is_other = false;
 };
@@ -267,7 +268,7 @@ std::optional<BodyNameGuess> parse_japanese(const CutName& cut) {
         return twist;
     }
     auto guess = find_whole(k_japanese_limbs, cut.japanese);
-    if (guess && !cut.latin.empty()) {  // "左足D", "左肩P" double the joint without the letter
+    if (guess && !cut.latin.empty()) {  // "左足D" duplicates "左足"
         guess->is_part = true;
     }
     return guess;

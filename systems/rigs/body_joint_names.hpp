@@ -6,10 +6,10 @@
 
 #include "systems/rigs/body_rig.hpp"
 
-// What the names of joints say about a body.
+// Guesses the bone of a body from a joint's name.
 namespace handhold {
 
-// A bone of a body. `side` is meaningful for limbs only.
+// A bone of a body. `side` has a meaning only for limbs.
 struct BodyJointName {
     BodyBone bone = BodyBone::trunk;  // trunk: the pelvis
     HandSide side = HandSide::left;
@@ -18,29 +18,30 @@ struct BodyJointName {
 
 struct BodyNameGuess {
     BodyJointName name;
-    // 0: the name says this bone ("UpperArm"). 1: it does unless another joint's name says so more
-    // clearly ("Arm", "Shoulder").
+    // 0: the name clearly means this bone ("UpperArm"). 1: it probably does, unless another joint's
+    // name is clearer ("Arm", "Shoulder").
     int doubt = 0;
-    // What the name means if `name` is another joint: with a scapula, "Shoulder" is the upper arm;
-    // with a knee, "Leg" is the thigh. Equal to `name` if it has one meaning.
+    // The bone that the joint is if another joint of the figure already is the bone `name`:
+    // "Shoulder" is the upper arm if there is a scapula too, "Leg" the thigh if there is a knee.
+    // Equal to `name` if the joint's name has only one meaning.
     BodyJointName other;
-    // The joint moves with this bone but is not its first joint: a twist or helper joint.
+    // True: a twist or helper joint, which moves with the bone but is not the bone's first joint.
     bool is_part = false;
 };
 
-// Reads the words of a joint's name: "Bip01 L UpperArm", "mixamorig:LeftArm", "DEF-upper_arm.L",
-// "lShldrBend", "左腕" and "leftElbowPitchLink" are upper arms or elbows. Case, separators,
-// namespaces and numbers do not count. Returns nothing for fingers, toes, faces, IK targets, end
-// joints and names without a bone.
+// Guesses the bone from the words of a joint's name. For example, "Bip01 L UpperArm",
+// "mixamorig:LeftArm", "DEF-upper_arm.L", "lShldrBend" and "左腕" are upper arms, and
+// "leftElbowPitchLink" is a forearm. Ignores case, separators, namespaces and numbers. Returns none
+// for fingers, toes, faces, IK targets, end joints and names that mean no bone.
 std::optional<BodyNameGuess> parse_body_joint_name(std::string_view name);
 
 // True for thumbs, fingers and toes.
 bool is_digit_name(std::string_view name);
 
-// True for joints that repeat a deforming joint of the same name (Rigify's "ORG-").
+// True for the name of a joint that duplicates a deforming joint (Rigify's "ORG-" joints).
 bool is_spare_name(std::string_view name);
 
-// "left_upper_arm", "pelvis": the keys of a map file.
+// The bone's key in a BodyMap file, such as "left_upper_arm" or "pelvis".
 std::string body_joint_text(const BodyJointName& joint);
 
 }  // namespace handhold

@@ -1,5 +1,5 @@
-// Refuses figures whose bones cannot be those of a body: a wrong joint taken for a bone shows in
-// the proportions.
+// Checks the proportions of a figure. If a wrong joint was taken for a bone, the proportions are
+// not those of a body.
 #include <cmath>
 #include <cstdio>
 
@@ -8,17 +8,19 @@
 namespace handhold {
 namespace {
 
-// Bounds are twice as wide as those of people, of cartoon figures and of robots that were measured.
+// The bounds are twice as wide as the range that was measured on people, cartoon figures and
+// robots.
 struct RatioBound {
     double low, high;
 };
-constexpr RatioBound k_shoulder_bound = {0.35, 2.0};   // width / trunk length
-constexpr RatioBound k_arm_bound = {0.6, 3.5};         // upper arm and forearm / trunk
+constexpr RatioBound k_shoulder_bound = {0.35, 2.0};   // shoulder width / trunk length
+constexpr RatioBound k_arm_bound = {0.6, 3.5};         // (upper arm + forearm) / trunk length
 constexpr RatioBound k_arm_parts_bound = {0.35, 2.9};  // upper arm / forearm
-constexpr RatioBound k_leg_bound = {0.4, 4.5};         // thigh and shin / trunk
+constexpr RatioBound k_leg_bound = {0.4, 4.5};         // (thigh + shin) / trunk length
 constexpr RatioBound k_leg_parts_bound = {0.35, 2.9};  // thigh / shin
-constexpr double k_max_mirror_error = 0.45;  // largest difference of both sides, of the trunk
-constexpr double k_max_side_ratio = 1.3;     // largest ratio of both sides' lengths
+// Largest distance of a joint from the other side's mirror image / trunk length.
+constexpr double k_max_mirror_error = 0.45;
+constexpr double k_max_side_ratio = 1.3;  // largest ratio of the left and right bones' lengths
 
 std::string two_digits(double value) {
     char text[32];
@@ -57,7 +59,7 @@ class Plausibility {
     Vec3 middle(BodyBone bone) const {
         return 0.5 * (at(HandSide::left, bone) + at(HandSide::right, bone));
     }
-    // "left_hand \"lHand\"".
+    // Bone and joint name for messages, such as: left_hand "lHand".
     std::string quoted(HandSide side, BodyBone bone) const {
         const auto& joint = bones_.limb(side, bone);
         return body_joint_text({bone, side}) +
@@ -136,7 +138,7 @@ class Plausibility {
         check_ratio(ratio, {1.0 / k_max_side_ratio, k_max_side_ratio},
                     both(bone) + " with lengths in ratio");
     }
-    // The right joint against the mirror image of the left one.
+    // Compares the right joint with the mirror image of the left one.
     void check_mirrored(BodyBone bone) {
         const Vec3 left = at(HandSide::left, bone) - pelvis_;
         const Vec3 mirrored = left - 2.0 * right_ * right_.dot(left);

@@ -12,7 +12,7 @@ struct PlacedBone {
     double length_m = 0.0;
 };
 
-// Ends of the trunk's links from the pelvis up.
+// End points of the trunk's links, from the pelvis up.
 std::array<Vec3, k_spine_links + 1> trunk_points(const SpinePose& spine) {
     std::array<Vec3, k_spine_links + 1> points;
     points[0] = spine.pelvis_ws.position;
@@ -31,7 +31,8 @@ double trunk_length(const SpinePose& spine) {
     return length;
 }
 
-// The forearm with the carrier's share of the hand's twist, relative to the twist in the file.
+// Turns the forearm by the carrier's share of the hand's twist. The twist counts from that in the
+// file.
 Pose twisted(const BodyRig::Carrier& carrier, const ArmPose::Arm& arm) {
     const double twist_rad =
         followed_twist(arm.forearm_ws.rotation, arm.hand_ws.rotation) - carrier.twist_rad;
@@ -84,8 +85,8 @@ PlacedBone place_bone(const BodyRig::Carrier& carrier, const RenderPose& render)
     return place_leg(render.spine.legs[index_of(carrier.side)], carrier.bone);
 }
 
-// The neck between its lower end, which follows the chest, and its upper end, which follows the
-// head.
+// Places the neck between its lower end, which follows the chest, and its upper end, which follows
+// the head.
 PlacedBone place_neck(const Vec3& from_ws, const Vec3& to_ws, const Quat& chest, const Quat& head) {
     const Vec3 along = to_ws - from_ws;
     const double length = along.norm();
@@ -97,7 +98,7 @@ PlacedBone place_neck(const Vec3& from_ws, const Vec3& to_ws, const Quat& chest,
     return {{from_ws, (onto * between).normalized()}, length};
 }
 
-// Thickness of the player relative to the rig.
+// Thickness of the player's body parts / thickness of the rig's.
 struct Girth {
     double legs = 1.0;
     double trunk = 1.0;
@@ -108,8 +109,8 @@ struct Girth {
     }
 };
 
-// Map from the file's frame to the world: into the bone's rest frame, scaled there, to the bone's
-// world frame.
+// Map from the file's frame to the world: transforms into the bone's rest frame, scales there, then
+// transforms to the bone's world frame.
 Affine stretch_onto(const BodyRig::Carrier& carrier, const PlacedBone& placed, const Girth& girth) {
     Vec3 scale = Vec3::Constant(girth.of(carrier.bone));
     if (carrier.length_m > 0.0 && placed.length_m > 0.0) {
@@ -131,7 +132,7 @@ bool is_identity(const Pose& pose) {
 double followed_twist(const Quat& forearm, const Quat& hand) {
     constexpr double k_wholly_rad = 2.0 / 3.0 * k_pi;
     const Quat turn = forearm.conjugate() * hand;
-    // Cosine and sine of half the twist, times the cosine of half the wrist's bend.
+    // Cosine and sine of half the twist, both times the cosine of half the wrist's bend.
     const double cosine = std::abs(turn.w());
     const double sine = turn.w() < 0.0 ? -turn.z() : turn.z();
     const double twist_rad = 2.0 * arc_tangent2(sine, cosine);
@@ -149,7 +150,8 @@ Pose trunk_at(const SpinePose& spine, double along) {
     const double share = link - static_cast<double>(below);
     Pose at;
     at.position = points[below] + share * (points[below + 1] - points[below]);
-    // Knots of the rotation: the links' middles, with pelvis and chest at the ends.
+    // The rotation is interpolated between these knots: the links' middles, with pelvis and chest
+    // at the ends.
     std::array<double, k_spine_links + 2> knots;
     std::array<Quat, k_spine_links + 2> turns;
     knots.front() = 0.0;

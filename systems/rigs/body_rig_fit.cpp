@@ -12,24 +12,24 @@ namespace {
 
 constexpr double k_shortest_trunk_m = 1e-6;
 constexpr double k_shortest = 1e-3;  // shortest bone / trunk length
-// The trunk begins this share of its length above the hips.
+// Height of the trunk's lower end above the hips / distance from hips to shoulders.
 constexpr double k_hips_below = 0.06;
 
-// Axes and trunk of the upright figure.
+// Axes and trunk of the figure in the file.
 struct Stance {
-    Quat axes_ms = Quat::Identity();   // +Y up, -Z where the figure faces
+    Quat axes_ms = Quat::Identity();   // +Y up, -Z in the direction that the figure faces
     Vec3 pelvis_ms = Vec3::Zero();     // lower end of the trunk
-    Vec3 shoulders_ms = Vec3::Zero();  // upper end
+    Vec3 shoulders_ms = Vec3::Zero();  // upper end of the trunk
     Vec3 up_ms = Vec3::UnitY();
     double trunk_m = 0.0;
 };
 
-// `aside`, or `other` if the bone is nearly parallel to `aside`.
+// Returns `aside`, or `other` if the bone is nearly parallel to `aside`.
 const Vec3& choose_aside(const Vec3& along, const Vec3& aside, const Vec3& other) {
     constexpr double k_nearly = 0.98;
     return std::abs(along.normalized().dot(aside)) < k_nearly ? aside : other;
 }
-// Rotation with +Y along the bone and +Z as close to `back` as possible.
+// Returns the rotation with +Y along the bone and +Z as close to `back` as possible.
 Quat along_y(const Vec3& along, const Vec3& back) {
     Mat3 axes;
     axes.col(1) = along.normalized();
@@ -83,7 +83,8 @@ class BodyFitter {
         return place(*bones_.limb(side, bone));
     }
     Vec3 back() const { return stance_.axes_ms * Vec3::UnitZ(); }
-    // +Y along the bone; +Z to the back, or to where the back turns if the bone points backwards.
+    // Returns the rotation with +Y along the bone and +Z to the figure's back. For a bone along the
+    // back direction, +Z points down or up instead.
     Quat upright_along(const Vec3& along) const {
         const Vec3 bent = along.dot(back()) > 0.0 ? Vec3(-stance_.up_ms) : stance_.up_ms;
         return along_y(along, choose_aside(along, back(), bent));
@@ -184,7 +185,7 @@ class BodyFitter {
         }
     }
 
-    // Towards the mean of the hand's child joints; along the forearm if it has none.
+    // Direction from the hand to the mean of its child joints; along the forearm if there are none.
     Vec3 hand_direction(HandSide side) const {
         const std::size_t hand = *bones_.limb(side, BodyBone::hand);
         Vec3 sum = Vec3::Zero();
@@ -251,8 +252,8 @@ class BodyFitter {
                     stance_.trunk_m});
     }
 
-    // The limb that a joint's name says. Some rigs keep twist joints and duplicates beside the limb
-    // instead of below it.
+    // Returns the carrier of the limb in a joint's name. Some rigs keep twist joints and duplicates
+    // beside the limb instead of below it.
     std::optional<std::size_t> part_carrier(std::size_t joint) {
         const auto guess = parse_body_joint_name(figure_.joints[joint].name);
         if (!guess || !is_limb(guess->name.bone)) {
@@ -265,7 +266,8 @@ class BodyFitter {
         return carry_along(joint, carrier_of_[*bone]);
     }
 
-    // Carrier of a joint below a bone: on a forearm, with the share of twist at the joint's place.
+    // Returns the carrier of a joint below a bone. On a forearm it is a new carrier with the share
+    // of twist at the joint's position.
     std::size_t carry_along(std::size_t joint, std::size_t above) {
         constexpr double k_at_elbow = 0.02;
         BodyRig::Carrier carrier = rig_.carriers[above];
@@ -290,8 +292,8 @@ class BodyFitter {
             eyes > 0 ? Vec3(sum / eyes) : eyes_from_skin();
     }
 
-    // Height of the eyes above the lowest vertex; estimated from the pelvis for figures without
-    // legs.
+    // Sets the eye height: above the lowest vertex, or for figures without legs estimated from the
+    // pelvis. Returns false if the head is not above the pelvis.
     bool find_eye_height() {
         constexpr double k_share_above_pelvis = 0.43;
         const auto above = [&](const Vec3& point) {
@@ -317,7 +319,7 @@ class BodyFitter {
                low.ends_with("eye_r") || low.ends_with("eye.l") || low.ends_with("eye.r");
     }
 
-    // The middle of the head's front.
+    // Returns the middle of the front of the head's skin.
     Vec3 eyes_from_skin() const {
         Vec3 low = Vec3::Constant(1e30);
         Vec3 high = Vec3::Constant(-1e30);
@@ -337,7 +339,8 @@ class BodyFitter {
         return rig_.head_joint_ms + stance_.axes_ms * eyes;
     }
 
-    // Exactly the identity if only rounding to float is left.
+    // Returns the joint's pose in the bone's frame; exactly the identity if it differs only by
+    // float rounding.
     Pose in_bone(const Pose& bone_ms, const Pose& joint_ms) const {
         const Pose pose = inverse(bone_ms) * joint_ms;
         const bool is_there =
@@ -349,7 +352,8 @@ class BodyFitter {
     const BodyBones& bones_;
     Stance stance_;
     BodyRig rig_;
-    std::vector<std::size_t> carrier_of_;  // by joint; k_none for joints that are not bones
+    // Index of each joint's carrier; k_none if the joint is not a bone.
+    std::vector<std::size_t> carrier_of_;
     double shortest_m_ = 0.0;
     std::string wrong_;
 };

@@ -1,4 +1,5 @@
-// Dimensions follow an adult's hand: middle finger bones 44, 27 and 18 mm, knuckles 20 mm apart.
+// The dimensions are those of an adult's hand. For example, the middle finger's bones are 44, 27
+// and 18 mm long, and the knuckles are 20 mm apart.
 #include "systems/rigs/builtin_hand_rig.hpp"
 
 #include <span>
@@ -21,10 +22,10 @@ Links scaled(const Links& values, double scale) {
 // Dimensions of a finger of the right hand.
 struct FingerFigures {
     FingerName name;
-    const char* joints;          // prefix of its joints' names
+    const char* joints;          // prefix of the joints' names
     std::array<double, 3> base;  // mm
-    double spread_deg;           // towards the thumb
-    Links length, radius;        // mm
+    double spread_deg;     // angle of the finger from straight ahead, positive towards the thumb
+    Links length, radius;  // mm
 };
 constexpr std::array<FingerFigures, 4> k_fingers = {{{FingerName::index,
                                                       "index-finger",
@@ -54,7 +55,7 @@ constexpr std::array<FingerFigures, 4> k_fingers = {{{FingerName::index,
 constexpr std::array<double, 3> k_thumb_base = {-24.0, -6.0, -26.0};  // mm
 constexpr Links k_thumb_length = {46.0, 34.0, 25.0};                  // mm
 constexpr Links k_thumb_radius = {10.0, 9.2, 8.4};                    // mm
-// Angle of the first link from the opposition axis, at curl 0.
+// Angle between the thumb's first link and the opposition axis at curl 0.
 constexpr double k_thumb_away_deg = 52.0;
 
 Vec3 from_mm(const std::array<double, 3>& mm) { return k_mm * Vec3(mm[0], mm[1], mm[2]); }
@@ -76,23 +77,26 @@ FingerRig make_thumb() {
     thumb.length_m = scaled(k_thumb_length, k_mm);
     thumb.radius_m = scaled(k_thumb_radius, k_mm);
     set_hand_limits(HandSide::right, thumb);
-    // The thumb's plane contains the axis: a curl turns the links from one side of it to the other.
-    const Vec3 axis = -thumb.opposition_axis_hs;  // to the fingers, on a right hand
+    // The thumb's disc contains the opposition axis: a curl turns the links from one side of the
+    // axis to the other.
+    const Vec3 axis = -thumb.opposition_axis_hs;  // towards the fingers, on a right hand
     double away_sine = 0.0;
     double away_cosine = 1.0;
     sin_cos(k_thumb_away_deg * k_degree, away_sine, away_cosine);
-    const Vec3 beside = (-Vec3::UnitX() + axis * axis.x()).normalized();  // across the axis
+    // Towards the thumb's side, perpendicular to the axis.
+    const Vec3 beside = (-Vec3::UnitX() + axis * axis.x()).normalized();
     const Vec3 out = rotation_about(thumb.opposition_axis_hs, k_thumb_below_rad) * beside;
     Mat3 axes;
     axes.col(2) = -(away_cosine * axis + away_sine * out);  // +Z: back along the link
-    axes.col(1) = away_cosine * out - away_sine * axis;     // +Y: away from where it curls to
+    // +Y: opposite to the direction in which the thumb curls
+    axes.col(1) = away_cosine * out - away_sine * axis;
     axes.col(0) = axes.col(1).cross(axes.col(2));
     thumb.base_hs = {from_mm(k_thumb_base), Quat(axes).normalized()};
     return thumb;
 }
 
-// All capsules are flush with the palm's centre, 14 mm below the wrist, so that a flat hand lies on
-// a flat wall.
+// The undersides of all capsules are 14 mm below the wrist, like the palm's centre, so that a flat
+// hand lies flat on a wall.
 std::vector<PalmCapsule> make_palm() {
     const auto capsule = [](const std::array<double, 3>& a, const std::array<double, 3>& b,
                             double radius_mm) {
@@ -103,12 +107,13 @@ std::vector<PalmCapsule> make_palm() {
             capsule({-4.0, -1.0, -16.0}, {-9.0, -0.5, -82.0}, 11.5),
             capsule({5.0, -1.5, -16.0}, {11.0, -1.0, -78.0}, 11.5),
             capsule({13.0, -2.5, -18.0}, {28.5, -3.5, -70.0}, 10.5),
-            capsule({-13.0, -3.0, -12.0}, {14.0, -3.0, -12.0}, 11.5),    // heel
-            capsule({21.0, -4.0, -26.0}, {25.0, -4.0, -56.0}, 10.5),     // edge below the little
+            capsule({-13.0, -3.0, -12.0}, {14.0, -3.0, -12.0}, 11.5),  // heel
+            // Edge of the hand below the little finger.
+            capsule({21.0, -4.0, -26.0}, {25.0, -4.0, -56.0}, 10.5),
             capsule({-20.0, -4.5, -28.0}, {-24.0, -4.0, -52.0}, 11.0)};  // ball of the thumb
 }
 
-// Joint frames are the hinges' frames; the tip is at the end of the last link.
+// A joint's frame is its hinge's frame; the tip joint is at the end of the last link.
 void add_finger_joints(const std::string& prefix, std::span<const char* const> names,
                        std::int32_t place, HandRig& rig) {
     const FingerRig& finger = rig.fingers[static_cast<std::size_t>(place)];

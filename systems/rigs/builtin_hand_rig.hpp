@@ -4,9 +4,9 @@
 
 namespace handhold {
 
-// The built-in robot hand: five fingers in the order of FingerName, adult size (0.18 m from the
-// wrist to the middle finger's skin), joints with WebXR's names. The left hand is the exact mirror
-// image of the right one.
+// The built-in robot hand. It has five fingers in the order of FingerName, and joints with WebXR
+// names. It has adult size: 0.18 m from the wrist to the end of the middle finger's skin. The left
+// hand is the exact mirror image of the right one.
 HandRig builtin_hand_rig(HandSide side);
 
 }  // namespace handhold

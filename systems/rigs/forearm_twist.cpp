@@ -20,7 +20,8 @@ double weight_of(const SkinWeights& weights, std::size_t joint) {
     return sum;
 }
 
-// Finds the joint at the elbow. Returns false if other joints along the forearm carry skin too.
+// Finds the forearm's joint at the elbow. Returns false if other joints along the forearm carry
+// skin too, or if none does.
 bool find_single_joint(const SkinnedMesh& figure, const BodyRig& rig, HandSide side,
                        std::size_t& joint) {
     bool is_found = false;
@@ -43,7 +44,7 @@ bool find_single_joint(const SkinnedMesh& figure, const BodyRig& rig, HandSide s
     return is_found;
 }
 
-// True if no vertex is shared between the joint and another one.
+// True if no vertex follows both this joint and another one.
 bool is_rigid(const SkinnedMesh& figure, std::size_t joint) {
     constexpr double k_all = 0.999;
     return std::none_of(figure.weights.begin(), figure.weights.end(),
@@ -53,10 +54,10 @@ bool is_rigid(const SkinnedMesh& figure, std::size_t joint) {
                         });
 }
 
-// The elbow's joint, then the added joints, from elbow to wrist.
+// Indices of the elbow's joint and of the added joints, from elbow to wrist.
 using TwistJoints = std::array<std::uint16_t, k_forearm_twists + 1>;
 
-// Merges all slots of the joint into one and returns it.
+// Adds up the joint's weights in one slot of the vertex and returns that slot.
 std::size_t gather_weight(std::size_t joint, SkinWeights& weights) {
     const auto sum = static_cast<float>(weight_of(weights, joint));
     std::size_t slot = weights.joint.size();
@@ -70,8 +71,8 @@ std::size_t gather_weight(std::size_t joint, SkinWeights& weights) {
     return slot;
 }
 
-// Distributes a vertex's weight on the elbow's joint to the two joints between which it lies, or to
-// the nearer one if three other joints use the remaining slots.
+// Distributes a vertex's weight on the elbow's joint to the two joints between which the vertex
+// lies. If the vertex has no free slot for the second joint, the nearer one gets all of it.
 void share_out(const TwistJoints& joints, double along, SkinWeights& weights) {
     const double place = std::clamp(along, 0.0, 1.0) * static_cast<double>(k_forearm_twists);
     const auto below = std::min(static_cast<std::size_t>(place), k_forearm_twists - 1);

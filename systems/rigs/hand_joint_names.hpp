@@ -15,13 +15,13 @@ struct HandJointName {
     HandBone bone = HandBone::proximal;
 };
 
-// Reads finger and bone from a joint's name: "index-finger-phalanx-proximal",
+// Reads finger and bone from a joint's name, such as "index-finger-phalanx-proximal",
 // "XR_HAND_JOINT_LITTLE_TIP_EXT" or "PinkyDistal_L". Ignores case and surrounding text. Returns
-// nothing if the name is not a finger's joint.
+// none if the name is not that of a finger's joint.
 std::optional<HandJointName> parse_hand_joint_name(std::string_view name);
 bool is_wrist_name(std::string_view name);
 
-// WebXR's name: "pinky-finger-phalanx-proximal".
+// The joint's WebXR name, such as "pinky-finger-phalanx-proximal".
 std::string hand_joint_text(HandJointName joint);
 
 }  // namespace handhold

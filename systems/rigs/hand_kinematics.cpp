@@ -31,7 +31,8 @@ FingerAngles angles_of_links(const FingerRig& finger, std::span<const Quat> rota
     Quat at = finger.base_hs.rotation;
     const bool turns = finger.lower_opposition_rad < finger.upper_opposition_rad;
     if (turns && !rotations_hs.empty()) {
-        // A curl keeps the hinge axis: its turn about the opposition axis is the opposition angle.
+        // A curl does not change the hinge axis, so the hinge axis' turn about the opposition axis
+        // is the opposition angle.
         const Vec3& axis = finger.opposition_axis_hs;
         const Vec3 from = at * Vec3::UnitX();
         const Vec3 to = rotations_hs[0] * Vec3::UnitX();
@@ -75,7 +76,7 @@ HandRig mirror_hand_rig(const HandRig& rig) {
     mirrored.side = rig.side == HandSide::left ? HandSide::right : HandSide::left;
     for (FingerRig& finger : mirrored.fingers) {
         finger.base_hs = mirror_hand_pose(finger.base_hs);
-        // A mirror reverses the sense of a rotation: the axis is mirrored and negated.
+        // Mirroring reverses the sense of a rotation, so the axis is mirrored and then negated.
         finger.opposition_axis_hs.y() *= -1.0;
         finger.opposition_axis_hs.z() *= -1.0;
     }

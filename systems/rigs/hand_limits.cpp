@@ -13,7 +13,8 @@ constexpr CurlLimits k_two_bones = {{-10.0, 0.0, 0.0}, {115.0, 110.0, 0.0}, {20.
 constexpr CurlLimits k_thumb = {{-10.0, -10.0, -10.0}, {28.0, 50.0, 65.0}, {10.0, 12.0, 10.0}};
 constexpr double k_opposition_lower_deg = -85.0;
 constexpr double k_opposition_upper_deg = 70.0;
-constexpr double k_opposition_lean = 0.25;  // sideways per unit forward
+// Sideways component of the opposition axis / forward component.
+constexpr double k_opposition_lean = 0.25;
 
 }  // namespace
 

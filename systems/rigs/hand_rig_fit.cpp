@@ -10,7 +10,7 @@
 namespace handhold {
 namespace {
 
-// Attaches a finger's joints to its links such that the bind angles reproduce the file's poses.
+// Attaches a finger's joints to its links, so that the bind angles reproduce the poses in the file.
 void add_finger_joints(const SkinnedMesh& skin, const FingerBones& bones, const Pose& to_hand,
                        HandRigFit& fit) {
     const std::size_t place = fit.rig.fingers.size() - 1;
@@ -28,7 +28,7 @@ void add_finger_joints(const SkinnedMesh& skin, const FingerBones& bones, const 
     add(bones.tip, static_cast<std::uint32_t>(bones.hinges.size()) - 1);
 }
 
-// Attaches other joints below a finger's joint (a nail, a twist joint) to the same link.
+// Attaches other joints below a finger's joint (such as a nail or a twist joint) to the same link.
 void carry_other_joints(const SkinnedMesh& skin, HandRigFit& fit) {
     std::vector<RigJoint>& joints = fit.rig.joints;
     for (std::size_t i = 0; i < joints.size(); ++i) {
@@ -54,7 +54,7 @@ const std::vector<double>* find_numbers(const SkinJoint& joint, const char* key)
     return found == joint.numbers.end() ? nullptr : &found->second;
 }
 
-// Reads the palm's numbers from the file. Returns false if they are invalid.
+// Takes the palm's sizes from the file, if it has them. Returns false if they are invalid.
 bool take_palm(const SkinJoint& wrist, HandRig& rig) {
     constexpr double k_max_m = 1.0;
     const auto is_good = [](double number) { return std::abs(number) <= k_max_m; };
@@ -81,7 +81,7 @@ bool take_palm(const SkinJoint& wrist, HandRig& rig) {
     return true;
 }
 
-// Reads a link's number from the file. Returns false if it is invalid.
+// Takes a link's size from the file, if it has one. Returns false if it is invalid.
 bool take_link(const SkinJoint& joint, const char* key, double low, double high, double& value) {
     const auto* numbers = find_numbers(joint, key);
     if (numbers == nullptr) {
@@ -94,7 +94,7 @@ bool take_link(const SkinJoint& joint, const char* key, double low, double high,
     return true;
 }
 
-// Replaces measured sizes by the file's own numbers. Returns an error if they are invalid.
+// Replaces measured sizes by those in the file. Returns an error if they are invalid.
 std::optional<FileError> take_own_numbers(const SkinnedMesh& skin, const HandBones& bones,
                                           HandRig& rig) {
     const auto refuse = [&](std::size_t joint) {
@@ -134,7 +134,7 @@ Result<HandRigFit> fit_hand_rig(const SkinnedMesh& skin, HandSide side) {
     fit.hand_ms = hand.value();
     fit.rig.side = side;
     const Pose to_hand = inverse(fit.hand_ms);
-    for (const SkinJoint& joint : skin.joints) {  // first all on the palm
+    for (const SkinJoint& joint : skin.joints) {  // attaches all joints to the palm first
         fit.rig.joints.push_back({joint.name, RigJoint::k_palm, 0, to_hand * joint.bind_ms});
     }
     for (const FingerBones& finger : bones.value().fingers) {

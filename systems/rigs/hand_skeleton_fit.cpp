@@ -15,8 +15,8 @@ namespace {
 constexpr double k_min_bone_m = 0.004;
 constexpr double k_min_hand_m = 0.05;  // from the wrist to the farthest tip
 constexpr double k_max_hand_m = 1.0;
-// Weight of the usual hinge axis beside the bones' directions: a bent finger determines its plane,
-// a straight one does not.
+// Weight w of the usual hinge axis in fit_hinge_axis. The usual axis is needed because a straight
+// finger does not determine its disc.
 constexpr double k_prior_weight = 0.3;
 
 using JointsByBone = std::map<HandBone, std::size_t>;
@@ -26,7 +26,7 @@ std::optional<std::size_t> find(const JointsByBone& joints, HandBone bone) {
     return found == joints.end() ? std::nullopt : std::optional(found->second);
 }
 
-// Adds the names of missing joints to `missing`.
+// Collects a finger's joints. Adds the names of missing joints to `missing`.
 FingerBones collect_finger(FingerName name, const JointsByBone& joints, std::string& missing) {
     FingerBones finger;
     finger.name = name;
@@ -60,7 +60,7 @@ FingerBones collect_finger(FingerName name, const JointsByBone& joints, std::str
     return finger;
 }
 
-// True if there is a phalanx or a tip; a metacarpal alone is part of the palm.
+// True if there is a phalanx or a tip. A metacarpal alone belongs to the palm.
 bool is_finger(const JointsByBone& joints) {
     return std::any_of(joints.begin(), joints.end(),
                        [](const auto& joint) { return joint.first != HandBone::metacarpal; });
@@ -70,7 +70,7 @@ Vec3 bind_position(const SkinnedMesh& skin, std::size_t joint) {
     return skin.joints[joint].bind_ms.position;
 }
 
-// First hinges of the fingers. The thumb's is used only if there is a single other finger.
+// First hinges of the fingers. Includes the thumb's only if there is just one other finger.
 template <typename Fingers, typename PlaceOf>
 std::vector<Vec3> knuckles_of(const Fingers& fingers, const PlaceOf& place_of) {
     std::vector<Vec3> knuckles;
@@ -89,8 +89,7 @@ std::vector<Vec3> knuckles_of(const Fingers& fingers, const PlaceOf& place_of) {
 }
 
 // Axes from the wrist and the knuckles of a right (to_right = 1) or left (-1) hand: +Z back along
-// the palm, +Y out of the back of the hand. Nothing where the knuckles lie on a line with the
-// wrist.
+// the palm, +Y out of the back of the hand. Returns none if wrist and knuckles lie on one line.
 std::optional<Quat> palm_axes(const Vec3& wrist, const std::vector<Vec3>& knuckles,
                               double to_right) {
     Vec3 middle = Vec3::Zero();
@@ -109,8 +108,8 @@ std::optional<Quat> palm_axes(const Vec3& wrist, const std::vector<Vec3>& knuckl
     return Quat(axes).normalized();
 }
 
-// Axes of hand space: palm axes of this hand, turned as hand space is turned against the palm axes
-// of the built-in hand with the same fingers. Ignores the joints' own axes.
+// Axes of hand space in the file's frame. The rotation between hand space and palm_axes is taken
+// from the built-in hand with the same fingers. Ignores the axes of the joints.
 std::optional<Quat> hand_axes(const SkinnedMesh& skin, const HandBones& bones, HandSide side) {
     const double to_right = side == HandSide::right ? 1.0 : -1.0;
     const auto found = palm_axes(bind_position(skin, bones.wrist),
@@ -134,8 +133,8 @@ std::optional<Quat> hand_axes(const SkinnedMesh& skin, const HandBones& bones, H
                           : std::nullopt;
 }
 
-// Bend of fingers and thumb towards the palm's side (-Y), summed in shares of their lengths.
-// Negative if the axes were made for the wrong side.
+// How far fingers and thumb bend towards the palm's side (-Y): a sum of offsets / lengths. Negative
+// if the axes were made for the wrong side.
 double reach_to_palm(const SkinnedMesh& skin, const HandBones& bones, const Pose& hand) {
     constexpr double k_thumb_weight = 2.0;
     double reach = 0.0;
@@ -160,9 +159,10 @@ double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) {
     return arc_tangent2(axis.dot(from.cross(to)), from.dot(to));
 }
 
-// The axis about which a straight finger curls to the palm: level, across its first bone. A thumb
-// has the built-in thumb's axis, carried to its first bone by a turn about the opposition axis,
-// then by the shortest rotation.
+// The axis about which a straight finger curls towards the palm: parallel to the palm and
+// perpendicular to the finger's first bone. For a thumb: the built-in thumb's axis. A turn about
+// the opposition axis and then the shortest rotation move the built-in thumb's first bone onto this
+// one.
 Vec3 usual_hinge_axis(FingerName name, const Vec3& first_bone, HandSide side) {
     if (name == FingerName::thumb) {
         const HandRig usual = builtin_hand_rig(side);
@@ -175,13 +175,14 @@ Vec3 usual_hinge_axis(FingerName name, const Vec3& first_bone, HandSide side) {
             rotation_about(axis, angle_about(axis, across(bone), across(first_bone)));
         return rotation_between(opposed * bone, first_bone) * (opposed * (rest * Vec3::UnitX()));
     }
-    constexpr double k_upright = 0.2;  // a bone normal to the palm determines no axis
+    constexpr double k_upright = 0.2;  // a bone nearly perpendicular to the palm determines no axis
     const Vec3 axis = first_bone.cross(Vec3::UnitY());
     return axis.norm() > k_upright ? Vec3(axis.normalized()) : Vec3(Vec3::UnitX());
 }
 
-// Minimises sum_i (h . b_i)^2 + w |h - p|^2 with unit bones b_i, the usual axis p and
-// w = k_prior_weight: (sum_i b_i b_i^T + w I) h = w p.
+// Finds the hinge axis h that minimises sum_i (h . b_i)^2 + w |h - p|^2. Here b_i are the bones'
+// unit directions, p is the usual axis, and w = k_prior_weight. Solves
+//   (sum_i b_i b_i^T + w I) h = w p.
 Vec3 fit_hinge_axis(const std::vector<Vec3>& points_hs, const Vec3& usual_axis) {
     Mat3 system = k_prior_weight * Mat3::Identity();
     for (std::size_t i = 0; i + 1 < points_hs.size(); ++i) {
@@ -272,7 +273,8 @@ FingerRig fit_finger(const FingerBones& bones, const std::vector<Vec3>& joints_h
     const bool is_thumb = finger.name == FingerName::thumb;
     const Vec3 hinge = fit_hinge_axis(
         joints_hs, usual_hinge_axis(bones.name, (joints_hs[1] - joints_hs[0]).normalized(), side));
-    // Projects the joints into the finger's plane through their mean.
+    // Projects the joints onto the plane through their mean that is perpendicular to the hinge
+    // axis.
     Vec3 middle = Vec3::Zero();
     for (const Vec3& joint : joints_hs) {
         middle += joint / static_cast<double>(joints_hs.size());
@@ -302,7 +304,8 @@ FingerRig fit_finger(const FingerBones& bones, const std::vector<Vec3>& joints_h
         before = bone.normalized();
     }
     if (is_thumb) {
-        // Angle about the opposition axis, from the thumb's side of the hand to the palm's side.
+        // Angle of the first bone about the opposition axis, from the thumb's side of the hand to
+        // the palm's side.
         const Vec3& axis = finger.opposition_axis_hs;
         const auto across = [&](const Vec3& v) { return Vec3(v - axis * axis.dot(v)); };
         const Vec3 beside = side == HandSide::right ? Vec3(-Vec3::UnitX()) : Vec3(Vec3::UnitX());

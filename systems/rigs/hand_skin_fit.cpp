@@ -1,5 +1,5 @@
-// Measures a hand's thickness from its skin. Uses medians and percentiles, so that outliers (a
-// nail, a cuff, a seam) have no effect.
+// Measures a hand's thickness from its skin. Uses medians and percentiles, so that outliers (nails,
+// cuffs, seams) have little effect.
 #include <algorithm>
 #include <cmath>
 
@@ -11,14 +11,16 @@ namespace {
 
 constexpr double k_min_radius_m = 0.003;
 constexpr double k_max_radius_m = 0.03;
-// Skin of the palm within this distance of a capsule's line counts for the capsule.
+// Skin of the palm belongs to a capsule if it is within this distance of the capsule's axis, seen
+// along Y.
 constexpr double k_half_width_m = 0.011;
-// Largest radius of a thumb's first link / radius of the next link.
+// Largest radius of a thumb's first link / radius of its second link.
 constexpr double k_max_ball = 1.3;
-// Distance of the palm's centre from the wrist / mean distance of the knuckles.
+// Distance of the palm's centre from the wrist / distance of the knuckles' mean from the wrist.
 constexpr double k_palm_center_share = 0.88;
 
-// Precondition: 0 <= share <= 1. Returns `fallback` if there are no values.
+// Returns the percentile `share` (from 0 to 1) of the values; `fallback` if there are none.
+// Reorders the values.
 double percentile(std::vector<double>& values, double share, double fallback) {
     if (values.empty()) {
         return fallback;
@@ -39,7 +41,7 @@ struct SkinPart {
     std::uint32_t link = 0;
 };
 
-// The link, or the palm, with the largest sum of weights of a vertex.
+// Returns the link (or the palm) on which a vertex has the largest sum of weights.
 SkinPart part_of(const SkinWeights& weights, const HandRig& rig) {
     SkinPart best;
     float most = -1.0F;
@@ -60,13 +62,13 @@ SkinPart part_of(const SkinWeights& weights, const HandRig& rig) {
     return best;
 }
 
-// Radius: median distance of the skin from the bone's middle part. The last link ends one radius
-// before the skin.
+// Measures the links of a finger. A link's radius is the median distance of the skin from the
+// middle part of the bone. The last link ends one radius before the end of the skin.
 void fit_finger_skin(const std::vector<Vec3>& positions_hs, const std::vector<SkinPart>& parts,
                      std::int32_t place, const FingerAngles& bind, FingerRig& finger) {
     const std::array<Pose, k_max_links> frames = finger_link_frames(finger, bind);
     std::array<std::vector<double>, k_max_links> distances_m;
-    std::vector<double> ends_m;  // along the last link
+    std::vector<double> ends_m;  // positions of the skin along the last link
     for (std::size_t i = 0; i < positions_hs.size(); ++i) {
         if (parts[i].finger != place) {
             continue;
@@ -86,8 +88,8 @@ void fit_finger_skin(const std::vector<Vec3>& positions_hs, const std::vector<Sk
         finger.radius_m[link] = clamp_radius(percentile(distances_m[link], 0.5, before_m));
         before_m = finger.radius_m[link];
     }
-    if (finger.name ==
-        FingerName::thumb) {  // its first link lies in the ball of the thumb, which is not round
+    // A thumb's first link lies in the ball of the thumb, which is not round.
+    if (finger.name == FingerName::thumb) {
         finger.radius_m[0] = std::min(finger.radius_m[0], k_max_ball * finger.radius_m[1]);
     }
     const std::size_t last = finger.link_count - 1;
@@ -95,9 +97,9 @@ void fit_finger_skin(const std::vector<Vec3>& positions_hs, const std::vector<Sk
     finger.length_m[last] = std::max(end_m - finger.radius_m[last], 0.25 * finger.length_m[last]);
 }
 
-// Vertices of the palm by side.
+// Vertices of the palm's front and of its back.
 struct PalmSkin {
-    std::vector<Vec3> palmar, dorsal;  // hand space; facing -Y and +Y
+    std::vector<Vec3> palmar, dorsal;  // hand space; normals towards -Y and +Y
 };
 
 PalmSkin collect_palm(const SkinnedMesh& skin, const std::vector<Vec3>& positions_hs,
@@ -105,7 +107,8 @@ PalmSkin collect_palm(const SkinnedMesh& skin, const std::vector<Vec3>& position
     constexpr double k_facing = 0.4;
     PalmSkin palm;
     for (std::size_t i = 0; i < positions_hs.size(); ++i) {
-        // Skips the ball of the thumb, which follows the thumb: a flat hand then lies flat.
+        // Skips the ball of the thumb, whose skin follows the thumb, so that a flat hand lies flat
+        // on a surface.
         if (parts[i].finger != RigJoint::k_palm) {
             continue;
         }
@@ -119,8 +122,8 @@ PalmSkin collect_palm(const SkinnedMesh& skin, const std::vector<Vec3>& position
     return palm;
 }
 
-// Median height of the skin near the line from a to b, seen along Y, between the shares `from` and
-// `to` of its length.
+// Returns the median height (Y) of the skin near the line from a to b, seen along Y. Only skin
+// between the shares `from` and `to` of the line's length counts.
 double height_along(const std::vector<Vec3>& skin, const Vec3& a, const Vec3& b, double from,
                     double to, double fallback) {
     const Vec3 line(b.x() - a.x(), 0.0, b.z() - a.z());
@@ -135,8 +138,8 @@ double height_along(const std::vector<Vec3>& skin, const Vec3& a, const Vec3& b,
     return percentile(heights, 0.5, fallback);
 }
 
-// A capsule along the line from a to b, flush with the palm's skin and as thick as the hand. The
-// heights of a and b are used only if there is no skin.
+// Returns a capsule along the line from a to b that is flush with the palm's skin and as thick as
+// the hand. The Y of a and b, plus or minus spare_m, is used only if there is no skin.
 PalmCapsule flush_capsule(const PalmSkin& skin, const Vec3& a, const Vec3& b, double spare_m) {
     const auto skin_at = [&](const std::vector<Vec3>& side, double from, double to, double spare) {
         return height_along(side, a, b, from, to,
@@ -147,7 +150,7 @@ PalmCapsule flush_capsule(const PalmSkin& skin, const Vec3& a, const Vec3& b, do
     const double above =
         0.5 * (skin_at(skin.dorsal, -0.1, 0.5, spare_m) + skin_at(skin.dorsal, 0.5, 1.1, spare_m));
     PalmCapsule capsule{a, b, clamp_radius(0.5 * (above - 0.5 * (below_a + below_b)))};
-    // The medians are the heights at a quarter and three quarters of the length.
+    // below_a and below_b are the heights at one and at three quarters of the length.
     const double rise = below_b - below_a;
     capsule.a_hs.y() = below_a - 0.5 * rise + capsule.radius_m;
     capsule.b_hs.y() = below_b + 0.5 * rise + capsule.radius_m;
@@ -184,7 +187,7 @@ void fit_palm_capsules(const PalmSkin& skin, HandRig& rig) {
     }
 }
 
-// Height of the lowest surface at (x, z); `fallback` if there is none.
+// Returns the height of the lowest triangle at (x, z); `fallback` if there is none.
 double lowest_height(const SkinnedMesh& skin, const std::vector<Vec3>& positions_hs, double x,
                      double z, double fallback) {
     double lowest = fallback;

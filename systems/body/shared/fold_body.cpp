@@ -6,22 +6,24 @@
 namespace handhold {
 namespace {
 
-// Share of the trunk's lean that each link has reached, from the top down.
+// Lean of each link / lean of the trunk, from the top down.
 constexpr std::array<double, k_spine_links> k_lean_share = {0.5, 0.85, 1.0};
-// The pelvis settles at this height; it starts to leave the straight trunk one width above it.
+// Lowest height of the pelvis. The trunk starts to fold when the pelvis of the straight trunk is
+// less than k_seat_width_m above this height.
 constexpr double k_seat_m = 0.20;
 constexpr double k_seat_width_m = 0.12;
 constexpr double k_max_lean_rad = 2.0;
 
-// Ankle height of a flat foot.
+// Height of the ankle above a flat sole.
 constexpr double k_ankle_m = 0.085;
-// Legs start to fold when hip and ankle are this close, and fold fully within the width below it.
+// Legs start to fold when the hip is this high above the ankle, and are fully folded at a height
+// lower by the width.
 constexpr double k_fold_from_m = 0.76;
 constexpr double k_fold_width_m = 0.10;
 constexpr double k_squat_shin_rad = 0.87;  // a squatting shin leans forward by at most this
 constexpr double k_toes_kneeling_rad = -1.3;
 
-// Maximum of x and `floor` with a parabola of width `width` to either side of the corner: the
+// Maximum of x and `floor`. A parabola replaces the corner, `width` to either side, so that the
 // slope is continuous.
 double smooth_max(double x, double floor, double width) {
     const double over = x - floor + width;
@@ -31,8 +33,9 @@ double smooth_max(double x, double floor, double width) {
     return over >= 2.0 * width ? x : floor + over * over / (4.0 * width);
 }
 
-// Vertical drop of the trunk whose links lean by k_lean_share times `lean_rad` against the chest:
-// sum of L_i (up_y cos a_i - up_z sin a_i), a_i = share_i * lean.
+// Height of the chest above the pelvis if link i, of length L_i, leans by a_i = k_lean_share[i] *
+// lean_rad relative to the chest: the sum of L_i (up_y cos a_i - up_z sin a_i). (up_y, up_z): the
+// floor's normal in the chest's axes.
 double trunk_drop_m(double up_y, double up_z, double lean_rad) {
     double drop_m = 0.0;
     for (std::size_t i = 0; i < k_spine_links; ++i) {
@@ -57,7 +60,7 @@ double hip_to_ankle_m(double pelvis_m, double up_y, double ankle_m) {
 
 TrunkFold fold_trunk(double chest_m, const Vec3& up_cs) {
     constexpr int k_halvings = 30;
-    // A chest that leans back counts as upright here; its lean is added below.
+    // A chest that leans back counts as upright here; back_rad accounts for its lean below.
     const double up_z = std::max(up_cs.z(), 0.0);
     const double up_y = std::max(up_cs.y(), 0.2);
     const double straight_m = chest_m - trunk_drop_m(up_y, up_z, 0.0);
@@ -82,12 +85,13 @@ TrunkFold fold_trunk(double chest_m, const Vec3& up_cs) {
     return fold;
 }
 
-// With hip-to-ankle height E, thigh angle t forward of the vertical and shin angle s back of it:
-// E = k_thigh_m cos t + k_shin_m cos s. A kneeling leg has t = s; a squatting shin leans less, so
-// that the feet stay flat below the body. `kneel` blends the two.
+// E = k_thigh_m cos t + k_shin_m cos s, where E is the height of the hip above the ankle, t the
+// thigh's angle forward of the vertical, and s the shin's backward angle. A kneeling leg has t = s.
+// The shin of a squatting leg leans less, so that the feet stay flat below the body. `kneel` blends
+// between squatting and kneeling.
 LegFold fold_legs(double pelvis_m, const Vec3& up_pelvis, double lean_rad) {
     const double kneel = smooth_step(lean_rad, 1.35, 1.85);
-    // Toes pass below the ankle between the two: the ankle makes way.
+    // Between squatting and kneeling the toes pass below the ankle, so the ankle is raised.
     const double ankle_m = k_ankle_m + 0.36 * kneel * (1.0 - kneel) * 0.25;
     const double height_m = hip_to_ankle_m(pelvis_m, up_pelvis.y(), ankle_m);
     const double fold = smooth_step(k_fold_from_m - height_m, 0.0, k_fold_width_m);

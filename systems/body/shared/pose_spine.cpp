@@ -9,15 +9,16 @@
 namespace handhold {
 namespace {
 
-// The chain from the chest, in world axes.
+// The chain's positions relative to the chest, in world axes.
 struct PlacedChain {
     SpineChain frames;
-    BodyLinkVectors base_m;   // upper ends
-    BodyLinkVectors end_m;    // lower ends
-    BodyLinkVectors towards;  // unit: directions in the parents' frames
+    BodyLinkVectors base_m;   // upper ends of the links
+    BodyLinkVectors end_m;    // lower ends of the links
+    BodyLinkVectors towards;  // unit directions of the links in their parents' frames
 };
 
-// The hanging chain, interpolated between the last two ticks, with the bones' lengths.
+// Computes the hanging chain: interpolates between the last two ticks and restores the lengths of
+// the bones.
 void hang(const SpineMemory& memory, const Mat3& to_ws, double scale, PlacedChain& out) {
     const double share = memory.since_tick_s / k_spine_tick_s;
     for (std::size_t i = 0; i < k_body_links; ++i) {
@@ -40,12 +41,12 @@ void hang(const SpineMemory& memory, const Mat3& to_ws, double scale, PlacedChai
 // Folds a hanging chain above the tracked floor, from the top down.
 class BodyFolder {
   public:
-    // up_ws: the floor's normal.
+    // `up_ws`: the floor's normal.
     BodyFolder(const SpineMemory& memory, const TrackedFloor& floor, const Vec3& up_ws,
                PlacedChain& chain)
         : memory_(memory), floor_(floor), up_ws_(up_ws), chain_(chain) {}
 
-    // Returns the turns of the toes that belong to it.
+    // Folds the chain. Returns the turns of the toes (LegFold::toes_rad), by HandSide.
     std::array<double, k_hand_count> fold() {
         const TrunkFold trunk =
             fold_trunk(floor_.chest_m / floor_.scale, in_frame(chain_.frames.chest));
@@ -67,7 +68,8 @@ class BodyFolder {
         return (floor_.chest_m + up_ws_.dot(from_chest_m)) / floor_.scale;
     }
 
-    // A leg that swings lower than the fold assumes is folded as if the pelvis were lower by that.
+    // Folds one leg. If the ankle ends below its clearance, because the leg swings, folds again as
+    // if the pelvis were lower by the missing height.
     double fold_leg(std::size_t thigh, double lean_rad) {
         constexpr int k_corrections = 6;
         const SpineFrame& pelvis = chain_.frames.links[k_spine_links - 1];
@@ -89,15 +91,15 @@ class BodyFolder {
                 break;
             }
             lower_m += missing_m;
-            if (i + 3 >= k_corrections) {  // folded as far as knees go: lifts the leg at the hip
+            if (i + 3 >= k_corrections) {  // the knee cannot fold further: lifts the thigh instead
                 knee_clearance_m = height_m(chain_.end_m[thigh]) + missing_m;
             }
         }
         return fold.toes_rad;
     }
 
-    // Places a link whose parent's frame is turned about X first. With a clearance, raises the link
-    // until its lower end keeps it.
+    // Places a link after turning its parent's frame about X. With a clearance, raises the link
+    // until its lower end is at least that high above the floor.
     void place(std::size_t i, double turn_rad, std::optional<double> clearance_m) {
         const SpineLink& link = spine_links()[i];
         const SpineFrame& parent = frame_above_link(chain_.frames, link);

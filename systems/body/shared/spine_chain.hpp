@@ -7,7 +7,7 @@
 #include "engine/math/scalar_rotation.hpp"
 #include "systems/body/shared/fold_body.hpp"
 
-// Geometry of the chain of spine and legs: its links at rest and forward kinematics.
+// Geometry of the chain of spine and legs: rest directions of the links, and forward kinematics.
 namespace handhold {
 
 inline constexpr double k_spine_tick_s = 1.0 / 120.0;
@@ -15,25 +15,26 @@ inline constexpr double k_spine_tick_s = 1.0 / 120.0;
 inline constexpr std::size_t k_chest_link = k_body_links;  // SpineLink::parent of the first link
 enum class SpineLinkKind { spine, thigh, shin };
 
-// A link in the frame of its parent link. Lengths of a player whose eyes are at k_scale_eye_m.
+// A link in the frame of its parent link. Lengths are for a player with an eye height of
+// k_scale_eye_m.
 struct SpineLink {
     SpineLinkKind kind;
     std::size_t parent;
     double length_m;
-    Vec3 base_m;  // upper end, from the parent's lower end
-    Vec3 rest;    // unit: direction at rest
+    Vec3 base_m;  // upper end, relative to the parent's lower end
+    Vec3 rest;    // unit direction at rest
 };
-// By link. At rest hips and knees are slightly bent, as in zero-G.
+// Indexed by link. At rest, hips and knees are slightly bent, as in zero-G.
 const std::array<SpineLink, k_body_links>& spine_links();
 
-// A frame as quaternion and as matrix: both are used often.
+// A rotation as quaternion and as matrix, because both are used often.
 struct SpineFrame {
     Quat rotation;
     Mat3 axes;
 };
 inline SpineFrame frame_at(const Quat& rotation) { return {rotation, rotation.toRotationMatrix()}; }
 
-// Frames of the chest and of all links at one time, in play-space or world axes.
+// Rotations of the chest and of all links at one time, in play-space or world axes.
 struct SpineChain {
     SpineFrame chest;
     std::array<SpineFrame, k_body_links> links;
@@ -42,13 +43,13 @@ inline const SpineFrame& frame_above_link(const SpineChain& chain, const SpineLi
     return link.parent == k_chest_link ? chain.chest : chain.links[link.parent];
 }
 
-// Upper end of a link, from the chest. `above`: frame of its parent; offset_m: lower ends of the
-// links above, from the chest.
+// Returns the upper end of a link relative to the chest. `above`: rotation of its parent.
+// `offset_m`: lower ends of the links above, relative to the chest.
 Vec3 link_base(const SpineFrame& above, const BodyLinkVectors& offset_m, const SpineLink& link,
                double scale);
 
-// Rotation of a link that points along the unit vector `towards` in its parent's frame: the
-// shortest rotation from -Y, then a twist about the link.
+// Returns the rotation of a link that points along the unit vector `towards` in its parent's frame:
+// the shortest rotation from -Y, then a twist about the link. `above`: rotation of the parent.
 Quat link_frame(const Quat& above, const Vec3& towards, double twist_rad);
 
 inline double link_twist_rad(const SpineMemory& memory, std::size_t link) {

@@ -7,12 +7,12 @@
 namespace handhold {
 namespace {
 
-// Travel credited per second, so that back-offs also expire for a hand at rest.
+// Travel added per second of elapsed time, so that back-offs also expire for a hand at rest.
 constexpr double k_travel_per_time_mps = 0.1;
-constexpr double k_max_travel_m = 1.0;  // bound of all stored travel values
+constexpr double k_max_travel_m = 1.0;  // upper bound of all stored travel values
 constexpr double k_lookahead_interval_m = 0.004;
 
-// Seeds are in the mesh's frame.
+// seed_under_palm and seed_near_finger return a point in the mesh's frame.
 GraphPoint seed_under_palm(const PlacedMesh& placed, const GripSurface& surface) {
     const SurfaceGraph& graph = placed.mesh->search;
     if (surface.triangle >= graph.triangles.size()) {
@@ -138,7 +138,8 @@ void record_attempt(FingerBackoff& backoff, bool has_failed, bool is_fast,
     constexpr std::uint32_t k_max_failures = 1000;
     backoff.failures = has_failed ? backoff.failures + 1 : 0;
     if (backoff.failures > k_max_failures) {
-        // Bounds the count but keeps failures % option_count, which selects the next option.
+        // Reduces the count without changing failures % option_count, which selects the next
+        // option.
         backoff.failures -=
             option_count * ((backoff.failures - k_max_doublings - 1) / option_count);
     }
@@ -175,8 +176,9 @@ std::optional<bool> has_surface_ahead(const FingerLookahead& lookahead, bool may
 
 void update_lookahead(ChainFit& fit, FingerLookahead& lookahead) {
     if (fit.has_look_ahead) {
-        // A finger of a hand at rest may see a surface from one pose and not from the next. Waiting
-        // until the hand moves (or ten seconds) stops it from oscillating between the two.
+        // A finger of a hand at rest may have a surface ahead in one pose and none in the next. To
+        // keep it from oscillating between these poses, the next query waits until the hand moves,
+        // or for ten seconds.
         const bool is_lost =
             lookahead.is_known && lookahead.has_surface_ahead && !fit.has_surface_ahead;
         const bool is_still = lookahead.travel_since_m <= 0.0;

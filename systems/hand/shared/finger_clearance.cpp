@@ -10,8 +10,8 @@
 namespace handhold {
 namespace {
 
-// Curls as shares of the range from open to closed: of the first hinge, and of the others. Straight
-// comes first, because most fingers have clearance there.
+// Curl of the first hinge and of the other hinges, as shares of the range from open to closed. The
+// straight pose comes first, because most fingers have clearance in it.
 struct SamplePose {
     double first;
     double others;
@@ -46,7 +46,8 @@ ChainAngles sample_curl(const SamplePose& sample, const ChainAngles& open_rad,
     return angle_rad;
 }
 
-// The largest curl of any sample pose, per hinge: bounds the region to gather.
+// Returns, per hinge, the largest curl of any sample pose. Bounds the region in which triangles are
+// gathered.
 ChainAngles max_sample_curl(const HingeChain& chain) {
     constexpr SamplePose k_largest = [] {
         SamplePose largest = {0.0, 0.0};
@@ -67,7 +68,7 @@ struct BestSample {
     bool has_clearance() const { return penetration_m <= k_finger_penetration_tolerance_m; }
 };
 
-// The straight pose alone: usually clear, and it needs few triangles.
+// Evaluates the straight pose alone. It is usually clear and needs few triangles.
 void evaluate_straight(const HandSurroundings& hand, const HingeChain& chain,
                        std::uint32_t opposition, ChainPatch& patch, BestSample& best) {
     const double straight_m = posed_depth_m(chain, chain.open_rad, hand.meshes, patch);
@@ -76,7 +77,8 @@ void evaluate_straight(const HandSurroundings& hand, const HingeChain& chain,
     }
 }
 
-// The other sample poses, at the opposition of the best so far. Stops at the first with clearance.
+// Evaluates the other sample poses, at the opposition of the best pose so far. Stops at the first
+// pose with clearance.
 void evaluate_samples(const HandSurroundings& hand, const HingeChain& chain, ChainPatch& patch,
                       BestSample& best) {
     patch.gather(

@@ -14,14 +14,18 @@
 namespace handhold {
 namespace {
 
-constexpr int k_min_iterations = 2;            // before a fit can be abandoned
-constexpr double k_min_arm_m = 1e-3;           // keeps rotation from being free
-constexpr double k_first_step_m = 1.0;         // "step" before the first iteration: not converged
-constexpr double k_penetration_slop_m = 5e-5;  // smaller penetrations are left
+constexpr int k_min_iterations = 2;  // iterations before a fit can be abandoned
+// Minimum of PalmTuning::rotation_arm_m: at 0 rotation would cost nothing.
+constexpr double k_min_arm_m = 1e-3;
+// Initial value of step_m, so that the fit does not count as converged.
+constexpr double k_first_step_m = 1.0;
+constexpr double k_penetration_slop_m = 5e-5;  // smaller penetrations are not corrected
 constexpr double k_query_margin_m = 0.003;     // widest gap that a query reports
-constexpr double k_max_inside_m = 0.03;        // deepest sphere centre inside a solid that is found
+// Query radius: a sphere's centre deeper inside a solid is not found.
+constexpr double k_max_inside_m = 0.03;
 
-// Shortest translation within the triangle's plane that brings the palm over the triangle.
+// Returns the shortest translation parallel to the triangle's plane that brings the palm over the
+// triangle.
 Vec3 offset_onto_triangle(const PlacedMesh& placed, std::uint32_t triangle, const Vec3& center_bs) {
     const SurfaceGraph& graph = placed.mesh->search;
     const Corners corners = corners_of(graph, triangle);
@@ -31,7 +35,7 @@ Vec3 offset_onto_triangle(const PlacedMesh& placed, std::uint32_t triangle, cons
     return placed.pose.rotation * Vec3(closest_on_triangle(in_plane, corners) - in_plane);
 }
 
-// The rotation turned by the smallest angle so that the palm's tilt against `normal` is at most
+// Turns the rotation by the smallest angle that brings the palm's tilt against `normal` to at most
 // `max_rad`.
 Quat clamp_tilt(const Quat& rotation, const HandRig& rig, const Vec3& normal, double max_rad) {
     const Vec3 up = rotation * -rig.palm_normal_hs;
@@ -43,8 +47,8 @@ Quat clamp_tilt(const Quat& rotation, const HandRig& rig, const Vec3& normal, do
     return (rotation_about(across.normalized(), angle_rad - max_rad) * rotation).normalized();
 }
 
-// The tracked wrist moved into the height limits, then into the tilt limit. Tilting about the
-// palm's centre keeps its height.
+// Moves the tracked wrist into the height limits, then into the tilt limit. Tilting about the
+// palm's centre does not change the palm's height.
 Pose clamp_to_limits(const HandSurroundings& hand, const Pose& tracked_bs,
                      const GripSurface& surface, double lift_m, const PalmTuning& tuning) {
     const HandRig& rig = *hand.rig;
@@ -74,7 +78,8 @@ struct PalmGap {
 class PalmGaps {
   public:
     void clear() { count_ = 0; }
-    // Ignored when full; places for the limits are reserved.
+    // Ignores the gap when the array is full, except for k_max_limits elements that are reserved
+    // for the limits.
     void add_contact(const PalmGap& gap) {
         if (count_ < k_max_gaps - k_max_limits) {
             gaps_[count_++] = gap;
@@ -110,12 +115,13 @@ void add_limits(const HandSurroundings& hand, const GripSurface& surface, const 
     }
 }
 
-// Queries the gaps of the palm, approximated by spheres along its capsules. A surface's outside
-// follows from its winding; on the gripped mesh, flipped if the palm is held to a backface.
+// Queries the gaps between the palm and the surfaces near it. Spheres along the palm's capsules
+// approximate the palm. A triangle's winding tells which side is outside. On the gripped mesh the
+// sides are swapped if the palm is fitted to a backface.
 class PalmSpheres {
   public:
-    // `was_clear`: nothing penetrated a moment ago, so no sphere can be deep inside a solid and a
-    // small query radius suffices.
+    // `was_clear`: the palm was clear a moment ago, so that no sphere can be deep inside a solid,
+    // and a small query radius suffices.
     PalmSpheres(const HandSurroundings& hand, const GripSurface& surface, bool was_clear)
         : hand_(hand), was_clear_(was_clear) {
         const PlacedMesh& placed = hand.meshes.front();
@@ -126,8 +132,9 @@ class PalmSpheres {
         }
     }
 
-    // Adds the gap of every sphere to its nearest surface point, if within the query radius, with
-    // the hand at `wrist`. Returns the largest penetration of the palm, at least 0.
+    // With the hand at `wrist`, adds the gap between every sphere and its nearest surface point,
+    // unless that point is outside the query radius. Returns the largest penetration of the palm,
+    // at least 0.
     double query(const Pose& wrist, PalmGaps& gaps) {
         std::size_t cache_index = 0;
         double deepest_m = 0.0;
@@ -142,7 +149,7 @@ class PalmSpheres {
         }
         return deepest_m;
     }
-    // After query(): largest penetration of the fingers that are part of the shape.
+    // Largest penetration, at the last query(), of the fingers that are part of the palm's shape.
     double finger_penetration_m() const { return finger_penetration_m_; }
 
   private:
@@ -158,7 +165,8 @@ class PalmSpheres {
         }
     }
 
-    // Skips the spheres before `first`: a link's first sphere is the previous link's last.
+    // Skips the spheres before `first`. For a finger link, `first` is 1 if the previous link's last
+    // sphere is at the same point.
     double query_capsule(const Pose& wrist, const PalmCapsule& capsule, int first,
                          std::size_t& cache_index, PalmGaps& gaps) {
         constexpr int k_spheres = 3;
@@ -185,9 +193,9 @@ class PalmSpheres {
         Vec3 center;
         double radius_m = 0.0;
     };
-    // A sphere's last query, in the mesh's frame. While the sphere has moved less than the
-    // clearance it cannot penetrate and is not queried again. A later nearest point cannot be
-    // farther than `point`, which bounds the next query.
+    // Result of a sphere's last query, in the mesh's frame. Until the sphere has moved by the
+    // clearance it cannot penetrate and is not queried again. The next query's radius is at most
+    // the distance to `point`: the nearest point cannot be farther away.
     struct CachedQuery {
         Vec3 center = Vec3::Zero();
         Vec3 point = Vec3::Zero();
@@ -195,8 +203,8 @@ class PalmSpheres {
         bool has_point = false;  // a surface was within the query radius
     };
 
-    // The sphere's gap to the nearest point of one mesh; PalmGap::turn is left to the caller.
-    // `side` is -1 if the outside is against the winding.
+    // Returns the sphere's gap to the nearest point of one mesh. The caller sets PalmGap::turn.
+    // `side` is -1 if the sides of the triangles are swapped, else 1.
     std::optional<PalmGap> gap_under(const PlacedMesh& placed, double side, const Sphere& sphere_bs,
                                      std::size_t cache_index) {
         const Sphere sphere = {inverse_transform_point(placed.pose, sphere_bs.center),
@@ -227,7 +235,8 @@ class PalmSpheres {
         return gap;
     }
 
-    // Gap to a known point. `sphere` is in the mesh's frame, its centre outside the solid.
+    // Returns the gap to a known point. `sphere` is in the mesh's frame; its centre is outside the
+    // solid.
     static PalmGap gap_over(const PlacedMesh& placed, const Sphere& sphere, const Vec3& point) {
         const Vec3 from_surface = sphere.center - point;
         const double distance_m = from_surface.norm();
@@ -235,13 +244,14 @@ class PalmSpheres {
                 distance_m - sphere.radius_m};
     }
 
-    // Gap to a query's hit, which may be inside the solid. `sphere` is in the mesh's frame.
+    // Returns the gap to the nearest point `near`. The sphere's centre may be inside the solid.
+    // `sphere` is in the mesh's frame.
     static PalmGap gap_at(const PlacedMesh& placed, double side, const TriangleHit& near,
                           const Sphere& sphere) {
         const Vec3 outward = side * placed.mesh->contact.normals[near.triangle];
         const double height_m = outward.dot(sphere.center - near.point);
-        // Beyond an edge, a centre outside the solid can be slightly below one triangle's plane. It
-        // counts as inside only if it is clearly below.
+        // Near an edge, a centre outside the solid can be slightly below the plane of one triangle.
+        // So a centre counts as inside only if it is clearly below the plane.
         constexpr double k_min_inside_ratio = 0.5;
         constexpr double k_on_surface_m = 1e-9;
         const bool is_inside = height_m < -k_min_inside_ratio * near.distance_m;
@@ -253,13 +263,16 @@ class PalmSpheres {
                 (is_inside ? -near.distance_m : near.distance_m) - sphere.radius_m};
     }
 
-    static constexpr std::size_t k_max_cached_queries = 96;  // spheres beyond are always queried
+    // Further spheres are queried every time.
+    static constexpr std::size_t k_max_cached_queries = 96;
 
     const HandSurroundings& hand_;
     bool was_clear_;
     double side_ = 1.0;
-    std::array<PalmCapsule, k_finger_count * k_max_links> links_;  // of fingers in a sample pose
-    std::array<bool, k_finger_count* k_max_links> is_first_ = {};  // first link of its finger
+    // Links of the fingers in a sample pose.
+    std::array<PalmCapsule, k_finger_count * k_max_links> links_;
+    // True: the first link of its finger.
+    std::array<bool, k_finger_count* k_max_links> is_first_ = {};
     std::size_t link_count_ = 0;
     double finger_penetration_m_ = 0.0;
     std::array<CachedQuery, k_max_cached_queries> query_cache_;
@@ -270,11 +283,11 @@ struct PalmMove {
     Vec3 turn_rad = Vec3::Zero();  // rotation vector, about the palm's centre
 };
 
-// The smallest total move m = (t, r) from the palm within its limits that opens all gaps,
-// linearised at `moved`:
+// Finds the smallest move m = (t, r) that makes all gaps non-negative. m counts from the pose that
+// clamp_to_limits gave; the gaps are linearised at the move `moved`:
 //   minimise |t|^2 + (arm_m |r|)^2   subject to   J_i m >= J_i moved - gap_i
-// where J_i = (along_i, turn_i). Solved by projected Gauss-Seidel on the multipliers. If the gaps
-// contradict each other, the result is a compromise.
+// where J_i = (along_i, turn_i). Solved by projected Gauss-Seidel on the multipliers. If the
+// inequalities contradict each other, the result is a compromise.
 PalmMove smallest_correction(std::span<const PalmGap> gaps, const PalmMove& moved, double arm_m) {
     constexpr int k_max_sweeps = 24;
     constexpr double k_converged_m = 1e-8;
@@ -315,8 +328,9 @@ double size_of(const PalmMove& move, double arm_m) {
     return move.translation_m.norm() + arm_m * move.turn_rad.norm();
 }
 
-// True if further iterations are pointless: clear and either uncorrected or no longer moving, or
-// penetrating and stuck. A clear palm with a correction goes on because less may suffice.
+// True if further iterations would not improve the fit. A penetrating palm has converged when it no
+// longer moves. A clear palm has converged when it no longer moves or started without a correction;
+// otherwise a smaller correction may suffice.
 bool is_converged(double deepest_m, double step_m, bool is_corrected) {
     constexpr double k_stuck_m = 2e-5;
     constexpr double k_converged_m = 2e-4;
@@ -329,8 +343,8 @@ PalmMove move_between(const Pose& from, const Pose& to, const Vec3& center_hs) {
             rotation_to_vector((to.rotation * from.rotation.conjugate()).normalized())};
 }
 
-// True if the hand was clear at `last` and cannot penetrate deeply now: it travelled (and is
-// lifted) less than its clearance recheck distance, the surroundings are unchanged, and the same
+// True if the palm was clear at `last` and cannot penetrate deeply now: travel and lift together
+// are less than its clearance recheck distance, the surroundings are unchanged, and the same
 // fingers are part of its shape.
 bool is_still_clear(const HandSurroundings& hand, const GripSurface& surface,
                     const GripSurface& last, double lift_m) {
@@ -375,7 +389,8 @@ PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, doubl
         if (i >= k_min_iterations && smallest_m > settings.max_penetration_m) {
             break;
         }
-        add_limits(hand, surface, wrist, lift_m, tuning, arm_m, gaps);  // last, so that they hold
+        // The limits are added last: the solver corrects them last, so that they hold.
+        add_limits(hand, surface, wrist, lift_m, tuning, arm_m, gaps);
         const PalmMove before = moved;
         moved = smallest_correction(gaps.all(), moved, arm_m);
         wrist = moved_by(moved, held, center_hs);
@@ -387,7 +402,7 @@ PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, doubl
         moved = move_between(held, wrist, center_hs);
         step_m = size_of(
             {moved.translation_m - before.translation_m, moved.turn_rad - before.turn_rad}, arm_m);
-        // The step stays within the region that the last query covered.
+        // A step this short stays within the region that the last query covered.
         if (!settings.verifies_last_step && i + 1 == settings.max_iterations &&
             step_m <= k_query_margin_m) {
             return {wrist, best.penetration_m, best.finger_penetration_m, false};

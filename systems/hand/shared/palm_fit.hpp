@@ -6,41 +6,43 @@
 #include "components/hand_surroundings.hpp"
 #include "components/tuning.hpp"
 
-// The palm's limits over a surface, and its depenetration: search_grip evaluates candidates with
-// it, constrain_palms uses it for the target. Talk row 16.
+// Fits a palm to a surface: applies its height and tilt limits and depenetrates it. search_grip
+// uses it to evaluate candidates, constrain_palms to find the target. Talk row 16.
 namespace handhold {
 
 struct PalmFit {
-    Pose wrist_bs;                      // within the limits, and depenetrated as far as possible
-    double penetration_m = 0.0;         // remaining penetration of the palm; at least 0
-    double finger_penetration_m = 0.0;  // of the fingers that are part of its collision shape
-    bool is_converged = true;           // false: more iterations would move the wrist
+    Pose wrist_bs;  // fitted wrist: within the limits, and depenetrated as far as possible
+    double penetration_m = 0.0;  // remaining penetration of the palm; at least 0
+    // Remaining penetration of the fingers in the palm's collision shape.
+    double finger_penetration_m = 0.0;
+    bool is_converged = true;  // false: more iterations would move the wrist
 };
 
 struct PalmFitSettings {
-    // Warm start: a surface of the same hand from the last frame, or of this frame without its
-    // lift. Starts with the correction that was found for it. Null: cold start.
+    // Warm start: starts with the correction that was found for this surface of the same hand, from
+    // the last frame or from this frame before the lift. Null: cold start.
     const GripSurface* last = nullptr;
     int max_iterations = 6;
-    // After 2 iterations, abandons a fit that penetrates deeper than this.
+    // A fit that penetrates deeper than this after 2 iterations is abandoned.
     double max_penetration_m = std::numeric_limits<double>::infinity();
-    // False: skips the query after the last step if the step is short. The depths are then those
-    // before the step, and the fit counts as not converged.
+    // False: does not query penetrations after the last step if that step is short. The depths in
+    // the result are then those before the step, and is_converged is false.
     bool verifies_last_step = true;
 };
 
-// The smallest correction of the tracked wrist that holds the palm over `surface` within its limits
-// and without penetration:
+// Finds the smallest correction of the tracked wrist that brings the palm within its limits over
+// `surface`, without penetration:
 //
-// 1. Limits: along the normal into [min_height_m, max_height_m] + lift_m, then tilted about the
-//    palm's centre to at most max_angle_rad.
-// 2. Depenetration, if capsules of the palm penetrate: repeated linearised solves for
+// 1. Limits: moves the palm along the normal into [min_height_m, max_height_m] + lift_m, then tilts
+//    it about its centre to at most max_angle_rad.
+// 2. Depenetration, if capsules of the palm penetrate: repeatedly solves the linearised problem
 //      minimise |t|^2 + (arm |r|)^2   subject to   gap_i + a_i . t + b_i . r >= 0
-//    where t, r are translation and rotation vector about the palm's centre, arm is
-//    PalmTuning::rotation_arm_m, and the gaps are those of the palm's spheres and of the limits.
+//    where t is the translation and r the rotation vector about the palm's centre, and arm is
+//    PalmTuning::rotation_arm_m. gap_i is the distance of one of the palm's spheres from a surface,
+//    or the margin to one of the limits; a_i and b_i are its derivatives by t and r.
 //
-// Fingers with a sample pose in `surface` are part of the palm's collision shape. Precondition: the
-// hand has meshes, and `surface` is on the first one.
+// Fingers with a sample pose in surface.finger_samples are part of the palm's collision shape.
+// Precondition: the hand has meshes, and `surface` is on the first mesh.
 PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, double lift_m,
                  const PalmTuning& tuning, const PalmFitSettings& settings = {});
 

@@ -10,27 +10,28 @@
 namespace handhold {
 namespace {
 
-constexpr int k_refine_iterations = 1;  // a followed palm converges over several frames
-constexpr double k_crossing_m = 1e-6;   // surfaces this close are crossed at once
+// Few, because a followed palm converges over several frames.
+constexpr int k_refine_iterations = 1;
+constexpr double k_crossing_m = 1e-6;  // surfaces closer together than this count as one crossing
 
 PalmFrame palm_in(const Pose& frame, const HandRig& rig, const Pose& wrist_bs) {
     const Pose wrist = inverse(frame) * wrist_bs;
     return {transform_point(wrist, rig.palm_center_hs), wrist.rotation * -rig.palm_normal_hs};
 }
 
-// Area-weighted mean normal, within the radius of the point, of the triangles that face `outward`;
-// unit.
+// Returns the area-weighted mean normal, as a unit vector, of the triangles within `radius_m` of
+// the point that face `outward`.
 Vec3 mean_normal(const GripMesh& mesh, const Vec3& point, const Vec3& triangle_normal,
                  const Vec3& outward, double radius_m) {
-    // Caps the weight of a triangle that reaches far outside the sphere.
+    // Limits the weight of a triangle that extends far outside the sphere.
     const double max_area_m2 = 2.0 * std::numbers::pi * radius_m * radius_m;
     const Vec3 sum = mesh.contact_bvh.areas_in_sphere(point, radius_m, outward, max_area_m2);
     const double length = sum.norm();
     return length > 1e-12 ? Vec3(sum / length) : triangle_normal;
 }
 
-// Sign of a path's crossing of the surface at a point: 1 if it enters, -1 if it leaves, 0 if both
-// (between two touching bodies, through a two-sided sheet, along an edge).
+// Returns 1 if a path in `direction` enters a solid at this surface point, and -1 if it leaves one.
+// Returns 0 if it does both: between two touching solids, through a two-sided sheet, along an edge.
 int crossing_sign(const GripMesh& mesh, const Vec3& point, const Vec3& direction) {
     bool enters = false;
     bool leaves = false;
@@ -58,7 +59,8 @@ GripSurface PalmFitter::surface_at(const Candidate& candidate) const {
     const GripMesh& mesh = *placed_.mesh;
     const auto on_contact = mesh.contact_bvh.closest_point(candidate.point, tuning_.reach_m);
     const Vec3 point = on_contact ? on_contact->point : candidate.point;
-    // The mean normal includes only triangles that are wound like this one.
+    // The mean normal includes only triangles that, like this one, face the palm (side 1) or face
+    // away from it (side -1).
     const Vec3 winding_normal = mesh.search.normals[candidate.triangle];
     const double side = winding_normal.dot(palm_.up) < 0.0 ? -1.0 : 1.0;
     GripSurface surface;

@@ -7,15 +7,17 @@
 namespace handhold {
 namespace {
 
-constexpr int k_evaluation_iterations =
-    2;  // fit_palm iterations per candidate; the best is refined
+// fit_palm iterations per candidate. Few, because the best candidate is refined later.
+constexpr int k_evaluation_iterations = 2;
 // A first candidate with a larger sync may lie on a surface that the palm has crossed.
 constexpr double k_max_direct_sync_m = 0.05;
-constexpr double k_good_enough_cost_m = 0.02;  // with clearance: other candidates are not listed
-constexpr double k_inside_cost_m = 0.05;       // backface inside a solid
-constexpr double k_enters_solid_cost_m = 0.3;  // equals 25 mm of palm penetration
-constexpr double k_penetration_cost = 12.0;    // per metre of palm penetration
-constexpr double k_finger_cost = 9.0;          // per metre of finger penetration
+// A cheaper surface with clearance is accepted: no candidates are listed.
+constexpr double k_good_enough_cost_m = 0.02;
+constexpr double k_inside_cost_m = 0.05;  // penalty for a backface inside a solid
+// Penalty for a path into a solid; as much as 25 mm of palm penetration.
+constexpr double k_enters_solid_cost_m = 0.3;
+constexpr double k_penetration_cost = 12.0;  // per metre of palm penetration
+constexpr double k_finger_cost = 9.0;        // per metre of finger penetration
 
 }  // namespace
 
@@ -69,7 +71,8 @@ void SurfaceCandidates::save_progress(GripSurface& surface) const {
     }
 }
 
-// Restores the progress of earlier frames for the hand's present pose. The best so far is `last`.
+// Restores the progress of earlier frames for the hand's current pose. `last` is the best surface
+// so far.
 void SurfaceCandidates::restore_progress(const Candidate& near, const GripSurface& last) {
     best_.surface = fitter_.refine_unchecked(near, last);
     best_.surface.cost_m = last.cost_m;
@@ -86,7 +89,7 @@ void SurfaceCandidates::restore_progress(const Candidate& near, const GripSurfac
 }
 
 // Evaluates the surface of `last` as the first candidate. Reuses its fit unless fingers were part
-// of it.
+// of the palm's shape.
 void SurfaceCandidates::evaluate_last_surface(const Candidate& near, const GripSurface& last) {
     candidates_[evaluated_count_++] = near;
     const bool is_palm_only = last.finger_samples == FingerSamplePoses{} && last.has_fitted_wrist;
@@ -95,7 +98,7 @@ void SurfaceCandidates::evaluate_last_surface(const Candidate& near, const GripS
     --budget_left_;
 }
 
-// Returns false if this frame's budget is used up.
+// Takes one evaluation from this frame's budget. Returns false if the budget is used up.
 bool SurfaceCandidates::spend_budget() {
     if (budget_left_ == 0) {
         return false;
@@ -133,8 +136,8 @@ bool SurfaceCandidates::evaluate_others(const GripSurface& last) {
     }
 }
 
-// The next listed candidate, or before listing the cheapest remaining one, that may be cheaper than
-// the best. Candidates skipped on the way count as evaluated.
+// Returns the next candidate that may be better than the best one: from the list, or before the
+// list is made, the cheapest triangle visited. Candidates that it skips count as evaluated.
 std::optional<SurfaceCandidates::Candidate> SurfaceCandidates::next_candidate() {
     if (is_listed()) {
         while (evaluated_count_ < candidate_count_ &&
@@ -157,13 +160,13 @@ std::optional<SurfaceCandidates::Candidate> SurfaceCandidates::next_candidate() 
     return std::nullopt;
 }
 
-// Backfaces are excluded, unless the palm may have crossed the first candidate's surface. Otherwise
-// a palm would be moved behind a wall only because its fingers have clearance there.
+// Excludes backfaces, because a palm should not move behind a wall only because its fingers have
+// clearance there. Exception: the palm may have crossed the first candidate's surface.
 bool SurfaceCandidates::is_eligible(const Candidate& candidate) const {
     return !fitter_.is_backface(candidate) || (allows_backfaces_ && !fitter_.is_inside(candidate));
 }
 
-// Lists the candidates around the palm that may be cheaper than the best.
+// Lists the candidates around the palm that may be better than the best one so far.
 void SurfaceCandidates::list_candidates() {
     seed_from_surroundings();
     const std::size_t count =
@@ -178,7 +181,8 @@ void SurfaceCandidates::list_candidates() {
     }
 }
 
-// Searches from the triangles nearest to six points around the palm, without an idle limit.
+// Searches from the triangles nearest to six points around the palm. Does not stop early when it
+// finds no cheaper triangle.
 void SurfaceCandidates::seed_from_surroundings() {
     const double distance_m = 0.5 * tuning_.reach_m;
     for (int axis = 0; axis < 3; ++axis) {
@@ -191,9 +195,9 @@ void SurfaceCandidates::seed_from_surroundings() {
     searcher_.run(SurfaceSearch::k_max_pops);
 }
 
-// Evaluates one candidate. Fingers are checked only if the palm alone is cheaper than the best,
-// since they can only add cost. If they have no clearance, the candidate becomes pending: it is
-// evaluated again with those fingers as part of the palm.
+// Evaluates one candidate. Checks the fingers only if the cost of the palm alone is below the best
+// cost, since fingers can only add cost. Fingers without clearance become pending: the candidate is
+// evaluated again with these fingers as part of the palm's shape.
 void SurfaceCandidates::evaluate(const Candidate& candidate, FittedPalm held) {
     const double placement_m = placement_cost_m(candidate, held);
     add_crossing_depth(placement_m, held);
@@ -214,8 +218,8 @@ void SurfaceCandidates::evaluate(const Candidate& candidate, FittedPalm held) {
     keep_better(result);
 }
 
-// Evaluates the last candidate again with its pending fingers as part of the palm. Its other
-// fingers had clearance there and are not checked again.
+// Evaluates the last candidate again with the pending fingers as part of the palm's shape. The
+// other fingers had clearance there and are not checked again.
 void SurfaceCandidates::evaluate_with_pending_fingers(const GripSurface& last) {
     const Candidate& candidate = candidates_[evaluated_count_ - 1];
     PalmFitSettings from_last = fit_settings();
@@ -235,16 +239,16 @@ void SurfaceCandidates::evaluate_with_pending_fingers(const GripSurface& last) {
     pending_finger_samples_ = {};
 }
 
-// Adds the depth of surfaces that cross the palm's capsules: the spheres of fit_palm miss thin
-// walls, rods and rims between them. Skipped if the candidate is already more expensive than the
-// best.
+// Raises held.penetration_m to the depth of surfaces that cross the palm's capsules. The spheres
+// that fit_palm uses miss thin walls, rods and rims between them. Skipped if the candidate already
+// costs more than the best one.
 void SurfaceCandidates::add_crossing_depth(double placement_m, FittedPalm& held) const {
     if (is_cheaper(scored(held, placement_m, held.finger_penetration_m).surface.cost_m)) {
         held.penetration_m = std::max(held.penetration_m, fitter_.crossing_depth_m(held));
     }
 }
 
-// A fit is abandoned early if its penetration alone costs more than the best.
+// A fit is abandoned early if its penetration alone costs more than the best candidate.
 PalmFitSettings SurfaceCandidates::fit_settings() const {
     PalmFitSettings fit_settings;
     if (!fitter_.is_unbudgeted()) {
@@ -256,7 +260,8 @@ PalmFitSettings SurfaceCandidates::fit_settings() const {
     return fit_settings;
 }
 
-// Cost of the place independent of the fingers. A lower bound if that already exceeds the best.
+// Returns the penalty `placement` of the class comment. Only a lower bound if the candidate already
+// costs more than the best one.
 double SurfaceCandidates::placement_cost_m(const Candidate& candidate,
                                            const FittedPalm& held) const {
     double cost_m = 0.0;

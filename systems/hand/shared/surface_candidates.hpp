@@ -12,17 +12,18 @@
 
 namespace handhold {
 
-// Travel of the hand after which clearance, or the choice among candidates, is checked again.
+// Travel of the hand after which the clearance and the choice among candidates are checked again.
 inline constexpr double k_recheck_interval_m = 0.016;
 
-// Evaluates candidate surfaces for one palm, a few per frame: the evaluation stage of search_grip.
+// Evaluates candidate surfaces for one palm, a few per frame. This is step 2 of search_grip.
 //
-// The chosen candidate has the smallest full cost:
+// Chooses the candidate with the smallest full cost:
 //   cost = sync + placement
 //        + (without clearance) 12 * palm penetration + 9 * finger penetration
-// sync is the movement of the fitted, depenetrated palm (FittedPalm::sync_m). placement penalises
-// backfaces and palms inside a solid. Candidates are evaluated in the order of their closed-form
-// costs (cost_of), which rarely exceed the full costs, until none can be cheaper than the best.
+// sync is the movement of the fitted, depenetrated palm (FittedPalm::sync_m). placement is a
+// penalty for backfaces and for palms inside a solid. Candidates are evaluated in the order of
+// their closed-form costs (cost_of), which rarely exceed the full costs. The evaluation ends when
+// the next closed-form cost is not below the best full cost.
 //
 // Keeps references to its constructor arguments; `patch` is scratch.
 class SurfaceCandidates {
@@ -30,10 +31,10 @@ class SurfaceCandidates {
     SurfaceCandidates(PalmFitter& fitter, SurfaceSearch& searcher, const PalmTuning& tuning,
                       ChainPatch& patch);
 
-    // Runs one frame's share; call once. Resumes the search stored in `last`, or starts one with
-    // the surface of `last` as its first candidate. Returns the best surface so far with the
-    // search's progress; its triangle is k_none if there is none. Precondition: last.triangle is
-    // k_none or a triangle of this mesh.
+    // Runs one frame's share of the search; call once. Resumes the search whose progress is stored
+    // in `last`, or starts a new one with the surface of `last` as the first candidate. Returns the
+    // best surface so far, with the search's progress. Its triangle is k_none if no surface was
+    // found. Precondition: last.triangle is k_none or a triangle of this mesh.
     GripSurface run(const GripSurface& last);
 
   private:
@@ -74,11 +75,11 @@ class SurfaceCandidates {
     const PalmTuning& tuning_;
     ChainPatch& patch_;
 
-    // [0, evaluated_count_): evaluated or skipped. [evaluated_count_, candidate_count_): listed,
-    // cheapest first.
+    // [0, evaluated_count_): evaluated or skipped. [evaluated_count_, candidate_count_): still to
+    // be evaluated, cheapest first.
     std::array<Candidate, GripSurface::k_max_candidates> candidates_;
     std::size_t evaluated_count_ = 0;
-    std::size_t candidate_count_ = 0;  // 0: not listed yet
+    std::size_t candidate_count_ = 0;  // 0: the candidates are not listed yet
     Evaluated best_;
     bool has_best_ = false;
     bool evaluated_this_frame_ = false;

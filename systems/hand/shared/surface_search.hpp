@@ -11,8 +11,8 @@
 #include "engine/geometry/surface_graph.hpp"
 #include "engine/geometry/triangle_set.hpp"
 
-// Best-first search over the triangles around a palm, ordered by the cost of holding the palm to
-// them: the search stage of search_grip. Everything is in the mesh's frame. Talk rows 11, 17.
+// Step 1 of search_grip: a best-first search over the triangles around a palm, in the order of the
+// cost of fitting the palm to them. All positions are in the mesh's frame. Talk rows 11, 17.
 namespace handhold {
 
 struct PalmFrame {
@@ -25,11 +25,12 @@ struct PalmCost {
     Vec3 point = Vec3::Zero();  // on the triangle, under the palm
 };
 
-// Cost of holding the palm to one triangle, in closed form:
+// Cost of fitting the palm to one triangle, in closed form:
 //   cost = |c' - c| + tilt_cost_m_per_rad * max(0, angle - max_angle_rad) + backface cost
-// c is the palm's centre; c' is the nearest place over the triangle within the height limits; angle
-// is between the palm's up and the triangle's normal, flipped to the palm's side. Tilting turns
-// about the palm's centre, which keeps its height. Precondition: the graph has the triangle.
+// c is the palm's centre, and c' the nearest point over the triangle within the height limits.
+// angle is between palm.up and the triangle's normal, which is negated for a backface. Tilting
+// turns about the palm's centre and does not change its height. Precondition: the graph has the
+// triangle.
 PalmCost cost_of(const SurfaceGraph& graph, std::uint32_t triangle, const PalmFrame& palm,
                  const PalmTuning& tuning);
 
@@ -38,28 +39,31 @@ PalmCost cost_of(const SurfaceGraph& graph, std::uint32_t triangle, const PalmFr
 bool is_duplicate_place(const Vec3& point, const Vec3& normal, const Vec3& other,
                         const Vec3& other_normal);
 
-// Best-first search over triangle neighbours from the seeds, within PalmTuning::reach_m. Keeps
-// references to its constructor arguments; owns the scratch while it lives.
+// Visits triangles best first, from the seeds to their neighbours, within PalmTuning::reach_m.
+// Keeps references to its constructor arguments. No one else may use `scratch` during its lifetime.
 class SurfaceSearch {
   public:
     using Candidate = GripSearchScratch::Candidate;
-    static constexpr std::uint32_t k_max_pops = 300;  // over all calls of run
+    static constexpr std::uint32_t k_max_pops = 300;  // in all calls of run together
 
     SurfaceSearch(const SurfaceGraph& graph, const PalmFrame& palm, const PalmTuning& tuning,
                   GripSearchScratch& scratch);
 
     // Ignores triangles that the graph does not have.
     void add_seed(std::uint32_t triangle);
-    // Continues until `max_idle_pops` pops in a row found nothing cheaper. Can be called again.
+    // Continues until `max_idle_pops` pops in a row have found no cheaper triangle. Can be called
+    // again.
     void run(std::uint32_t max_idle_pops);
 
-    // The cheapest triangle visited that is no duplicate place of any in `excluded`.
+    // Returns the cheapest visited triangle that is not a duplicate place of any in `excluded`.
     std::optional<Candidate> cheapest_excluding(std::span<const Candidate> excluded) const;
-    // Appends cheapest_excluding() to the first `count` candidates, repeatedly, while it costs less
-    // than max_cost_m and fits. Returns the new count. Precondition: count <= candidates.size().
+    // Appends the result of cheapest_excluding() to the first `count` candidates. Repeats this
+    // while the result costs less than max_cost_m and `candidates` has space. Returns the new
+    // count. Precondition: count <= candidates.size().
     std::size_t append_cheapest_excluding(std::span<Candidate> candidates, std::size_t count,
                                           double max_cost_m) const;
-    // The cheapest triangle visited that is a duplicate place of `other` on `other_triangle`.
+    // Returns the cheapest visited triangle that is a duplicate place of the point `other` on
+    // `other_triangle`.
     std::optional<Candidate> cheapest_near(const Vec3& other, std::uint32_t other_triangle) const;
 
   private:
