@@ -38,8 +38,8 @@ const char* name_of(Stage stage) {
             return "constrain_palms";
         case Stage::sweep_fingers:
             return "sweep_fingers";
-        case Stage::pose_thumb:
-            return "pose_thumb";
+        case Stage::fit_hands:
+            return "fit_hands";
         case Stage::estimate_arms:
             return "estimate_arms";
         case Stage::pose_arms:
@@ -114,8 +114,8 @@ const char* name_of(Fallback reason) {
             return "finger_opened";
         case Fallback::finger_no_contact:
             return "finger_no_contact";
-        case Fallback::palm_lifted:
-            return "palm_lifted";
+        case Fallback::hand_penetrates:
+            return "hand_penetrates";
         case Fallback::body_no_surface:
             return "body_no_surface";
         case Fallback::palm_no_surface:

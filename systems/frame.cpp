@@ -13,8 +13,8 @@
 #include "systems/body/publish_body.hpp"
 #include "systems/body/publish_pose.hpp"
 #include "systems/hand/constrain_palms.hpp"
+#include "systems/hand/fit_hands.hpp"
 #include "systems/hand/gather_surroundings.hpp"
-#include "systems/hand/pose_thumb.hpp"
 #include "systems/hand/search_grip.hpp"
 #include "systems/hand/sweep_fingers.hpp"
 #include "systems/input/read_tracking.hpp"
@@ -236,26 +236,24 @@ void search_grip(const FrameContext& f) {
 
 void constrain_palms(const FrameContext& f) {
     const StageTimer timer(Stage::constrain_palms, f.stats);
-    World& w = f.w;
-    handhold::constrain_palms(
-        {f.dt_s(), f.hands().surroundings, w.grip_surface, w.palm_offset, w.palm_pose}, f.tuning);
+    handhold::constrain_palms({f.hands().surroundings, f.w.grip_surface, f.w.palm_offset},
+                              f.tuning);
 }
 
 void sweep_fingers(const FrameContext& f) {
     const StageTimer timer(Stage::sweep_fingers, f.stats);
     World& w = f.w;
-    handhold::sweep_fingers(
-        {f.dt_s(), f.hands().surroundings, w.hand_tracking, w.grip_surface, w.palm_pose,
-         w.palm_offset, w.finger_pose, f.hands().traces, f.hands().fit},
-        f.tuning, f.stats);
+    handhold::sweep_fingers({f.hands().surroundings, w.grip_surface, w.palm_offset, w.finger_pose,
+                             f.hands().traces, f.hands().fit},
+                            f.tuning, f.stats);
 }
 
-void pose_thumb(const FrameContext& f) {
-    const StageTimer timer(Stage::pose_thumb, f.stats);
+void fit_hands(const FrameContext& f) {
+    const StageTimer timer(Stage::fit_hands, f.stats);
     World& w = f.w;
-    handhold::pose_thumb({f.dt_s(), f.hands().surroundings, w.hand_tracking, w.grip_surface,
-                          w.palm_offset, w.finger_pose, f.hands().traces, f.hands().fit},
-                         f.tuning, f.stats);
+    handhold::fit_hands({f.dt_s(), f.hands().surroundings, w.hand_tracking, w.grip_surface,
+                         w.palm_offset, w.finger_pose, w.palm_pose},
+                        f.tuning, f.stats);
 }
 
 // --- Shown body ----------------------------------------------------------------------------------
@@ -357,7 +355,7 @@ void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const F
     search_grip(f);
     constrain_palms(f);
     sweep_fingers(f);
-    pose_thumb(f);
+    fit_hands(f);
 
     // Shown body: arms, spine and legs between head and hands.
     estimate_arms(f);

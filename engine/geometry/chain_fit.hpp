@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,14 +34,6 @@ struct ChainFitSettings {
     double open_step_rad = 0.0;   // opening step of each hinge
     std::int32_t open_steps = 0;  // maximum number of opening steps
     SearchOrder order = SearchOrder::best_first;
-    // Picks the clear sample pose nearest to this one. None: the one nearest to rest_rad. If no
-    // clear sample pose touches anything, a clear rest pose comes first in either case.
-    std::optional<ChainAngles> near_rad;
-    // Closes a clear sample pose that touches nothing until it touches.
-    bool recloses_to_touch = true;
-    // False: skips the graph search, uses all cuts, and keeps an open pose that already penetrates.
-    // Cheaper.
-    bool searches = true;
     bool depenetrates = true;  // false: leaves a penetrating fit as it is
 };
 
@@ -68,10 +59,6 @@ struct ChainFit {
     // axis.
     double depth_m = 0.0;
     ChainFallback fallback = ChainFallback::none;
-    // Refit only (chain_refit.hpp): max_turn_rad stopped it before it converged.
-    bool is_turn_limited = false;
-    bool has_look_ahead = false;     // refit only: nothing was near, so the whole range was queried
-    bool has_surface_ahead = false;  // result of that query
     // Only with ChainFitSettings::depenetrates off: the fit would have been depenetrated.
     bool needs_depenetration = false;
     std::uint32_t discs = 0;   // planes searched

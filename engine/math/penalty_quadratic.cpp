@@ -1,14 +1,17 @@
 #include "engine/math/penalty_quadratic.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "engine/core/check.hpp"
 
 namespace handhold {
 namespace {
 
 constexpr int k_max_steps = 24;
 constexpr int k_max_line_steps = 16;
-constexpr double k_converged = 1e-12;  // relative length of the last step
+constexpr double k_converged = 1e-10;  // relative length of the last step
 
 // Replaces the lower triangle of `matrix` by its Cholesky factor L and `vector` by the solution of
 // L L^T x = vector.
@@ -16,8 +19,7 @@ void solve_positive_definite(UnknownsSquare& matrix, Unknowns& vector, std::size
     const auto n = static_cast<Eigen::Index>(count);
     constexpr double k_min_pivot = 1e-30;
     for (Eigen::Index j = 0; j < n; ++j) {
-        const double pivot =
-            matrix(j, j) - matrix.row(j).head(j).squaredNorm();
+        const double pivot = matrix(j, j) - matrix.row(j).head(j).squaredNorm();
         matrix(j, j) = std::sqrt(std::max(pivot, k_min_pivot));
         for (Eigen::Index i = j + 1; i < n; ++i) {
             matrix(i, j) =
@@ -35,31 +37,30 @@ void solve_positive_definite(UnknownsSquare& matrix, Unknowns& vector, std::size
     }
 }
 
-// Step length in [0, 1] that minimises the function from x along `step`: the zero of its slope,
-// which rises with the length and is linear between the rows' changes. Found by Newton's method
-// between bounds.
-double best_length(const UnknownsSquare& hessian, const Unknowns& gradient,
-                   std::span<const PenaltyRow> rows, const Unknowns& x, const Unknowns& step,
-                   std::size_t count) {
-    const auto n = static_cast<Eigen::Index>(count);
-    Unknowns turned = Unknowns::Zero();
-    for (Eigen::Index i = 0; i < n; ++i) {
-        turned[i] = hessian.row(i).head(n).dot(step.head(n));
-    }
-    const double slope_at_zero = turned.head(n).dot(x.head(n)) + gradient.head(n).dot(step.head(n));
-    const double curvature = turned.head(n).dot(step.head(n));
+// One row along a step: value + length * along.
+struct RowOnLine {
+    double value;
+    double along;
+    double weight;
+};
+
+// Step length in [0, 1] that minimises the function whose slope along the step is
+//   slope + length * curvature + the rows' parts.
+// The slope rises with the length and is linear between the rows' changes: Newton's method between
+// bounds finds its zero.
+double best_length(double slope_at_zero, double curvature, std::span<const RowOnLine> rows) {
+    constexpr double k_same = 1e-9;
     double low = 0.0;
     double high = 1.0;
     double length = 1.0;
     for (int i = 0; i < k_max_line_steps; ++i) {
         double slope = slope_at_zero + length * curvature;
         double change = curvature;
-        for (const PenaltyRow& row : rows) {
-            const double along = row.slope.head(n).dot(step.head(n));
-            const double gap = row.value + row.slope.head(n).dot(x.head(n)) + length * along;
-            if (gap < 0.0) {
-                slope += row.weight * gap * along;
-                change += row.weight * along * along;
+        for (const RowOnLine& row : rows) {
+            const double value = row.value + length * row.along;
+            if (value < 0.0) {
+                slope += row.weight * value * row.along;
+                change += row.weight * row.along * row.along;
             }
         }
         if (length == 1.0 && slope <= 0.0) {
@@ -71,7 +72,7 @@ double best_length(const UnknownsSquare& hessian, const Unknowns& gradient,
         }
         const double next = length - slope / change;
         const double kept = next > low && next < high ? next : 0.5 * (low + high);
-        if (std::abs(kept - length) < 1e-9) {
+        if (std::abs(kept - length) < k_same) {
             return kept;
         }
         length = kept;
@@ -83,29 +84,43 @@ double best_length(const UnknownsSquare& hessian, const Unknowns& gradient,
 
 Unknowns minimise_penalised(const UnknownsSquare& hessian, const Unknowns& gradient,
                             std::span<const PenaltyRow> rows, std::size_t count) {
+    HH_CHECK(count <= k_max_unknowns && rows.size() <= k_max_penalty_rows, "a small problem",
+             count);
     const auto n = static_cast<Eigen::Index>(count);
+    std::array<RowOnLine, k_max_penalty_rows> line;  // NOLINT(*-member-init): filled as far as used
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        line[i] = {rows[i].value, 0.0, rows[i].weight};
+    }
     Unknowns x = Unknowns::Zero();
     for (int i = 0; i < k_max_steps; ++i) {
         UnknownsSquare matrix = hessian;
-        Unknowns step = Unknowns::Zero();
-        for (Eigen::Index k = 0; k < n; ++k) {
-            step[k] = -gradient[k] - hessian.row(k).head(n).dot(x.head(n));
-        }
-        for (const PenaltyRow& row : rows) {
-            const double gap = row.value + row.slope.head(n).dot(x.head(n));
-            if (gap >= 0.0) {
+        const Unknowns turned = hessian.lazyProduct(x);
+        Unknowns step = -gradient - turned;
+        for (std::size_t r = 0; r < rows.size(); ++r) {
+            const auto& [slope, value, weight] = rows[r];
+            if (line[r].value >= 0.0) {
                 continue;
             }
-            step.head(n) -= row.weight * gap * row.slope.head(n);
+            step -= weight * line[r].value * slope;
             for (Eigen::Index k = 0; k < n; ++k) {
-                matrix.row(k).head(k + 1) +=
-                    row.weight * row.slope[k] * row.slope.head(k + 1).transpose();
+                if (slope[k] != 0.0) {
+                    matrix.row(k).head(k + 1) += weight * slope[k] * slope.head(k + 1).transpose();
+                }
             }
         }
+        step.tail(static_cast<Eigen::Index>(k_max_unknowns) - n).setZero();
         solve_positive_definite(matrix, step, count);
-        const double length = best_length(hessian, gradient, rows, x, step, count);
-        x.head(n) += length * step.head(n);
-        if (length * step.head(n).norm() <= k_converged * (1.0 + x.head(n).norm())) {
+        for (std::size_t r = 0; r < rows.size(); ++r) {
+            line[r].along = rows[r].slope.dot(step);
+        }
+        const Unknowns bent = hessian.lazyProduct(step);
+        const double length = best_length(turned.dot(step) + gradient.dot(step), bent.dot(step),
+                                          {line.data(), rows.size()});
+        x += length * step;
+        for (std::size_t r = 0; r < rows.size(); ++r) {
+            line[r].value += length * line[r].along;
+        }
+        if (length * step.norm() <= k_converged * (1.0 + x.norm())) {
             break;
         }
     }

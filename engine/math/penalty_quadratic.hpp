@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <span>
 
@@ -11,6 +10,7 @@
 namespace handhold {
 
 inline constexpr std::size_t k_max_unknowns = 22;
+inline constexpr std::size_t k_max_penalty_rows = 320;
 
 using Unknowns = Eigen::Matrix<double, static_cast<int>(k_max_unknowns), 1>;
 using UnknownsSquare = Eigen::Matrix<double, static_cast<int>(k_max_unknowns),
@@ -27,8 +27,9 @@ struct PenaltyRow {
 // stay 0. Newton's method on the violated rows with an exact line search, which ends after finitely
 // many steps because the function is convex and piecewise quadratic (Madsen, Nielsen, A finite
 // smoothing algorithm for linear l1 estimation, 1993, use the same argument). Deterministic, does
-// not allocate. Preconditions: H is symmetric and positive definite, everything is finite,
-// count <= k_max_unknowns.
+// not allocate. Preconditions: H is symmetric and positive definite, everything is finite, slopes
+// and gradient are 0 beyond the first `count` unknowns, count <= k_max_unknowns,
+// rows.size() <= k_max_penalty_rows.
 Unknowns minimise_penalised(const UnknownsSquare& hessian, const Unknowns& gradient,
                             std::span<const PenaltyRow> rows, std::size_t count);
 

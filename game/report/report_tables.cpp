@@ -121,9 +121,9 @@ const char* meaning_of(Fallback reason) {
         case Fallback::finger_opened:
             return "A finger still penetrated something and was opened by a step.";
         case Fallback::finger_no_contact:
-            return "A finger or thumb of a gripping hand met nothing; it rests in the air.";
-        case Fallback::palm_lifted:
-            return "Fingers did not fit; the shown hand was lifted off its surface.";
+            return "A finger or thumb of a gripping hand met nothing; it goes with the others.";
+        case Fallback::hand_penetrates:
+            return "A hand did not fit; it is shown more than 3 mm inside a surface.";
         case Fallback::body_no_surface:
             return "A gripped body has no surface for hands; the hand is shown as tracked.";
         case Fallback::palm_no_surface:

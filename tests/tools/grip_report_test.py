@@ -88,7 +88,7 @@ def load_script():
 class Placements(unittest.TestCase):
     def test_baselines_close_the_first_of_the_same_hands(self):
         with tempfile.TemporaryDirectory() as folder:
-            case = load_script().Case("primitives/box_20", None, argparse.Namespace(count=24, baseline_count=6), folder)
+            case = load_script().Case("primitives/box_20", None, argparse.Namespace(count=24, baseline_count=6, seeds="report"), folder)
             drawn = []
             for count in (12, 3):
                 case._write_placements("left", count)
@@ -105,7 +105,7 @@ class Refusals(unittest.TestCase):
             glb.write_triangles(mesh, *primitives.make("box", 0.02))
             lab.write_text(f"#!/bin/sh\nprintf '{said}' >&2\nexit 2\n")
             lab.chmod(0o700)
-            return grip_report.run_case(name, mesh, argparse.Namespace(lab=lab, count=4, baseline_count=4, reference_count=0, warm_frames=0, variants=["handhold"]))
+            return grip_report.run_case(name, mesh, argparse.Namespace(lab=lab, count=4, baseline_count=4, reference_count=0, warm_frames=0, seeds="report", variants=["handhold"]))
 
     def test_broken_mesh_may_be_refused_with_one_line(self):
         result = self.run_case("nasty/nan", "mesh.glb: expected finite positions\\n")

@@ -54,7 +54,8 @@ Result<HandRig> load_rig(const GripOptions& options) {
 FingerMethod finger_method_of(const std::string& name) {
     return name == "talk"      ? FingerMethod::talk
            : name == "spheres" ? FingerMethod::spheres
-                               : FingerMethod::sweep;
+           : name == "closing" ? FingerMethod::closing
+                               : FingerMethod::fit;
 }
 
 SearchOrder search_order_of(const std::string& name) {
@@ -69,7 +70,6 @@ GripVariant variant_of(const GripOptions& options) {
     variant.order = search_order_of(options.search);
     variant.palm = options.palm == "ray" ? GripSearch::ray_only : GripSearch::smallest_sync;
     variant.fingers = finger_method_of(options.fingers);
-    variant.fit = options.fit;
     return variant;
 }
 

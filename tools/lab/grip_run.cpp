@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <map>
-#include <sstream>
 #include <limits>
 #include <numbers>
 
@@ -12,9 +9,8 @@
 #include "components/tracking.hpp"
 #include "engine/core/profile.hpp"
 #include "systems/hand/constrain_palms.hpp"
-#include "systems/hand/pose_thumb.hpp"
+#include "systems/hand/fit_hands.hpp"
 #include "systems/hand/shared/finger_chain.hpp"
-#include "systems/hand/shared/hand_fit.hpp"
 #include "systems/hand/sweep_fingers.hpp"
 #include "systems/rigs/authored_hand.hpp"
 
@@ -41,31 +37,6 @@ double resting_opposition(const FingerRig& finger, const ThumbTuning& tuning) {
                : 0.0;
 }
 
-void read_fit_tuning(FitTuning& t) {
-    const char* const text = std::getenv("FIT");
-    if (text == nullptr) {
-        return;
-    }
-    std::istringstream in(text);
-    std::string word;
-    const std::map<std::string, double*> names = {{"turn_arm_m", &t.turn_arm_m},
-        {"close", &t.close}, {"alike", &t.alike}, {"alike_free", &t.alike_free}, {"couple", &t.couple},
-        {"rest", &t.rest}, {"oppose", &t.oppose}, {"tip", &t.tip}, {"first", &t.first}, {"thumb_close", &t.thumb_close}, {"touch", &t.touch}, {"contact", &t.contact},
-        {"limit", &t.limit}, {"style", &t.style}, {"max_apart_rad", &t.max_apart_rad},
-        {"max_fold_rad", &t.max_fold_rad}, {"max_height_m", &t.max_height_m},
-        {"max_angle_rad", &t.max_angle_rad}, {"height_weight", &t.height_weight}, {"clear_m", &t.clear_m}};
-    while (std::getline(in, word, ',')) {
-        const auto at = word.find('=');
-        const std::string name = word.substr(0, at);
-        const double value = std::stod(word.substr(at + 1));
-        if (name == "rounds") {
-            t.rounds = static_cast<int>(value);
-        } else {
-            *names.at(name) = value;
-        }
-    }
-}
-
 // The columns of one hand, and the scratch memory of its stages.
 class OneHand {
   public:
@@ -85,36 +56,9 @@ class OneHand {
 
     void run(const Tuning& tuning, const GripVariant& variant, GripTimes& us) {
         timed(us.search_us, [&] { search(k_at_once_s, tuning, variant); });
-        for (std::int32_t lifts = 0;; ++lifts) {
-            const double lift_before_m = offset_.rows().front().lift_m;
-            timed(us.palm_us, [&] { constrain(k_at_once_s, tuning, variant); });
-            timed(us.fingers_us, [&] { close(k_at_once_s, tuning, variant); });
-            if (variant.fit || !variant.sync ||
-                offset_.rows().front().lift_m == lift_before_m) {
-                break;
-            }
-        }
-        if (variant.fit && surface_.rows().front().triangle != GripSurface::k_none) {
-            timed(us.fit_us, [&] { fit(tuning); });
-        }
-    }
-
-    void fit(const Tuning& tuning) {
-        FitTuning fit_tuning;
-        read_fit_tuning(fit_tuning);
-        FingerPose& pose = fingers_.rows().front();
-        HandPose first = {palm_.rows().front().pose_ws, pose.shown};
-        HandFitGoal goal;
-        for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
-            goal.touches[f] = traces_.front()[f].contact_link >= 0 &&
-                              traces_.front()[f].fallback != ChainFallback::rest_pose;
-            goal.is_clear[f] = traces_.front()[f].depth_m < 0.003;
-        }
-        const HandFit fitted = fit_hand(surroundings_.front(), surface_.rows().front(), first, goal,
-                                        tuning.palm, fit_tuning);
-        palm_.rows().front().pose_ws = fitted.pose.wrist_bs;
-        pose.shown = fitted.pose.fingers;
-        pose.target = fitted.pose.fingers;
+        timed(us.palm_us, [&] { constrain(tuning, variant); });
+        timed(us.fingers_us, [&] { close(tuning, variant); });
+        timed(us.fit_us, [&] { fit(k_at_once_s, tuning, variant); });
     }
 
     // Runs one frame with the previous frame's results.
@@ -124,8 +68,9 @@ class OneHand {
         double us = 0.0;
         timed(us, [&] {
             search(k_frame_s, tuning, variant);
-            constrain(k_frame_s, tuning, variant);
-            close(k_frame_s, tuning, variant);
+            constrain(tuning, variant);
+            close(tuning, variant);
+            fit(k_frame_s, tuning, variant);
         });
         return us;
     }
@@ -148,31 +93,55 @@ class OneHand {
     void search(double dt_s, const Tuning& tuning, const GripVariant& variant) {
         search_grip({dt_s, surroundings_, surface_, search_scratch_}, tuning, stats_, variant.palm);
     }
-    void close(double dt_s, const Tuning& tuning, const GripVariant& variant) {
-        if (variant.fingers == FingerMethod::sweep ||
-            surface_.rows().front().triangle == GripSurface::k_none) {
-            sweep(dt_s, tuning, variant);
-            thumb(dt_s, tuning, variant);
+    static bool is_fitted(const GripVariant& variant) {
+        return variant.fingers == FingerMethod::fit && variant.sync;
+    }
+    bool has_surface() const { return surface_.rows().front().triangle != GripSurface::k_none; }
+
+    void constrain(const Tuning& tuning, const GripVariant& variant) {
+        constrain_palms({surroundings_, surface_, offset_}, tuning);
+        PalmOffset& offset = offset_.rows().front();
+        if (!variant.sync) {
+            offset.held_m = Vec3::Zero();
+            offset.held_turn_rad = Vec3::Zero();
+        }
+        palm_.rows().front().pose_ws = held_wrist_bs(surroundings_.front(), offset);
+    }
+    void close(const Tuning& tuning, const GripVariant& variant) {
+        const bool is_baseline =
+            variant.fingers == FingerMethod::talk || variant.fingers == FingerMethod::spheres;
+        if (!is_baseline || !has_surface()) {
+            sweep_fingers({surroundings_, surface_, offset_, fingers_, traces_, fit_scratch_},
+                          tuning, stats_, variant.order);
             return;
         }
         for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
             close_baseline(f, tuning, variant);
         }
     }
-    // Shows the target pose at once: transitions are not compared.
+    // Other methods than the runtime's show the palm as held and the fingers as closed.
+    void fit(double dt_s, const Tuning& tuning, const GripVariant& variant) {
+        FingerPose& pose = fingers_.rows().front();
+        if (is_fitted(variant) || !has_surface()) {
+            fit_hands({dt_s, surroundings_, tracking_, surface_, offset_, fingers_, palm_}, tuning,
+                      stats_);
+        } else {
+            pose.shown = pose.closed;
+            pose.target = pose.closed;
+        }
+    }
     void close_baseline(std::size_t f, const Tuning& tuning, const GripVariant& variant) {
         const FingerRig& finger = rig_.fingers[f];
-        FingerAngles& shown = fingers_.rows().front().shown[f];
-        shown.opposition_rad = resting_opposition(finger, tuning.thumb);
-        const HingeChain chain = finger_chain(finger, shown.opposition_rad, wrist());
+        FingerAngles& angles = fingers_.rows().front().closed[f];
+        angles.opposition_rad = resting_opposition(finger, tuning.thumb);
+        const HingeChain chain = finger_chain(finger, angles.opposition_rad, wrist());
         const GripSurface& seed_under_palm = surface();
         const ClosedFinger closed =
             variant.fingers == FingerMethod::talk
                 ? close_by_talk(chain, mesh_, {seed_under_palm.triangle, seed_under_palm.point_bs},
                                 variant.order, fit_scratch_)
                 : close_by_spheres(chain, mesh_);
-        shown.curl_rad = closed.angle_rad;
-        fingers_.rows().front().target[f] = shown;
+        angles.curl_rad = closed.angle_rad;
         const bool touches = closed.contact_link != DiscClosure::k_none;
         traces_.front()[f] = {closed.discs,
                               closed.pops,
@@ -181,25 +150,6 @@ class OneHand {
                               touches ? ChainFallback::none : ChainFallback::rest_pose,
                               0.0};
     }
-    void sweep(double dt_s, const Tuning& tuning, const GripVariant& variant) {
-        sweep_fingers({dt_s, surroundings_, tracking_, surface_, palm_, offset_, fingers_, traces_,
-                       fit_scratch_},
-                      tuning, stats_, variant.order);
-    }
-    void thumb(double dt_s, const Tuning& tuning, const GripVariant& variant) {
-        pose_thumb(
-            {dt_s, surroundings_, tracking_, surface_, offset_, fingers_, traces_, fit_scratch_},
-            tuning, stats_, variant.order);
-    }
-    void constrain(double dt_s, const Tuning& tuning, const GripVariant& variant) {
-        constrain_palms({dt_s, surroundings_, surface_, offset_, palm_}, tuning);
-        if (!variant.sync) {
-            const Pose tracked = surroundings_.front().wrist_bs;
-            offset_.rows().front() = {};
-            palm_.rows().front().pose_ws = tracked;
-        }
-    }
-
     const GripMesh& mesh_;
     const HandRig rig_;
     EntityPool entities_;

@@ -21,9 +21,8 @@ struct GripVariant {
     SearchOrder order = SearchOrder::best_first;
     GripSearch palm = GripSearch::smallest_sync;
     // The talk's fingers include its palm fit: three limits and no depenetration of knuckles and
-    // heel. The palm is lifted only for the runtime's own fingers.
-    FingerMethod fingers = FingerMethod::sweep;
-    bool fit = false;  // one fit of wrist and fingers after the closing
+    // heel. Only the runtime's own method fits the wrist together with the fingers.
+    FingerMethod fingers = FingerMethod::fit;
 };
 
 struct GripTimes {  // microseconds of thread CPU time
@@ -49,7 +48,7 @@ struct PosedHand {
 };
 
 // Poses a hand that closes at `wrist` (in the mesh's frame) without cached results. Runs the
-// frame's stages in order, shows targets at once, and repeats while fingers lift the palm.
+// frame's stages in order and shows targets at once.
 PosedHand pose_cold_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
                          const Tuning& tuning, const GripVariant& variant);
 
@@ -60,7 +59,7 @@ struct HandSlide {
 };
 
 // Costs of a hand that reuses its last solution: microseconds of thread CPU time per frame, from
-// search_grip to pose_thumb.
+// search_grip to fit_hands.
 struct WarmHand {
     std::vector<double> slide_us;
     std::vector<double> stand_us;

@@ -64,8 +64,7 @@ void add_grip_options(CLI::App& grip, lab::GripOptions& options) {
     grip.add_option("--fingers", options.fingers,
                     "How fingers close: the runtime's sweep; the talk taken literally, including "
                     "its palm; or spheres on the bones in 50 steps")
-        ->check(one_of({"sweep", "talk", "spheres"}));
-    grip.add_flag("--fit", options.fit, "Fits wrist and fingers together after the closing");
+        ->check(one_of({"fit", "closing", "talk", "spheres"}));
     grip.add_option("--grip-edge-mm", options.grip_edge_mm, "Edge length of the search detail")
         ->check(number_in(1.0, 1000.0));
     grip.add_option("--rig-json", options.rig_json, "Also write the rig");
@@ -88,7 +87,7 @@ void add_hands_picture_options(CLI::App& picture, lab::HandsPictureOptions& opti
         ->delimiter(',');
     picture.add_option("--count", options.count, "Number of hands without --ids")
         ->check(CLI::Range(1, 400));
-    picture.add_option("--style", options.style, "What is drawn: capsules or the game's hand")
+    picture.add_option("--style", options.style, "Draws capsules or the game's hand")
         ->check(CLI::IsMember({"capsules", "skin"}));
     picture.add_option("--hand", options.hand, "Side of the game's hand")
         ->check(CLI::IsMember({"left", "right"}));

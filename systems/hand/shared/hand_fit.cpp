@@ -3,261 +3,311 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <span>
 
-#include "engine/collision/closest_point.hpp"
 #include "engine/math/penalty_quadratic.hpp"
-#include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold {
 namespace {
 
-constexpr double k_lever_m = 0.05;
-constexpr std::size_t k_max_spheres = 128;
-constexpr std::size_t k_max_rows = 320;
-constexpr double k_margin_m = 0.02;
-constexpr double k_inside_m = 0.03;
+// Weights relative to the wrist's translation; see hand_fit.hpp. Chosen on the choosing seeds of
+// tools/lab/grip_report.
+constexpr double k_arm_m = 0.08;
+constexpr double k_lever_m = 0.05;  // l
+constexpr double k_close = 0.004;
+constexpr double k_touch = 0.2;
+constexpr double k_tip = 0.02;
+constexpr double k_first = 0.002;
+constexpr double k_first_opposition = 0.02;
+constexpr double k_rest = 2e-5;  // keeps every angle determined
+constexpr double k_rest_of_free_thumb = 0.002;
+constexpr double k_alike = 0.001;
+constexpr double k_alike_if_free = 0.002;  // if one of the two touches nothing
+constexpr double k_couple = 0.001;
+constexpr double k_coupling = 2.0 / 3.0;
+// Stiffness of the inequalities.
+constexpr double k_contact = 2000.0;
+constexpr double k_joint_limit = 500.0;
+constexpr double k_palm_limit = 20.0;
+constexpr double k_bend_limit = 0.3;
+constexpr double k_max_apart_rad = 1.6;
+constexpr double k_max_bend_rad = 2.85;
+constexpr double k_clear_m = 3e-4;  // gap that contacts aim for
+// Largest step of one round: gaps are linearised.
+constexpr double k_max_move_m = 0.02;
+constexpr double k_max_turn_rad = 0.3;
+constexpr double k_max_flex_rad = 0.4;
 
-// Where a hand's parameters lie among the unknowns.
-struct Layout {
-    std::array<int, k_finger_count> first = {};
-    std::array<int, k_finger_count> opposition = {};  // -1: none
-    std::size_t count = 6;
+constexpr double k_lever2 = k_lever_m * k_lever_m;
+
+// Which unknown is which: 0 to 2 translation, 3 to 5 rotation vector about the palm's centre, then
+// each finger's hinges, followed by its opposition angle if it has one.
+class Layout {
+  public:
     explicit Layout(const HandRig& rig) {
         for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
             const FingerRig& finger = rig.fingers[f];
-            first[f] = static_cast<int>(count);
-            count += finger.link_count;
-            opposition[f] = -1;
-            if (finger.upper_opposition_rad > finger.lower_opposition_rad) {
-                opposition[f] = static_cast<int>(count++);
+            first_[f] = static_cast<int>(count_);
+            count_ += finger.link_count;
+            opposition_[f] = -1;
+            if (finger.lower_opposition_rad < finger.upper_opposition_rad) {
+                opposition_[f] = static_cast<int>(count_++);
             }
         }
     }
+    int hinge(std::size_t finger, std::size_t link) const {
+        return first_[finger] + static_cast<int>(link);
+    }
+    int opposition(std::size_t finger) const { return opposition_[finger]; }  // -1: none
+    std::size_t count() const { return count_; }
+    int end() const { return static_cast<int>(count_); }
+
+  private:
+    std::array<int, k_finger_count> first_ = {};
+    std::array<int, k_finger_count> opposition_ = {};
+    std::size_t count_ = 6;
 };
 
-struct FitSphere {
-    int finger = -1;
-    std::size_t link = 0;
-    double along_m = 0.0;           // on the link
-    Vec3 center_hs = Vec3::Zero();  // palm only
-    double radius_m = 0.0;
-    bool is_refined = false;
-    // Query state.
-    Vec3 center = Vec3::Zero();
-    Vec3 away = Vec3::Zero();
-    double gap_m = 1.0;
-    double distance_m = 0.0;  // signed
-    bool has_gap = false;
-    bool is_known = false;
-};
+Unknowns unit(int place, double value = 1.0) {
+    Unknowns slope = Unknowns::Zero();
+    slope[place] = value;
+    return slope;
+}
+
+bool is_thumb(const FingerRig& finger) { return finger.name == FingerName::thumb; }
 
 class Fitter {
   public:
     Fitter(const HandSurroundings& hand, const GripSurface& surface, const HandFitGoal& goal,
-           const PalmTuning& palm, const FitTuning& tuning, const HandPose& first)
-        : hand_(hand), rig_(*hand.rig), surface_(surface), goal_(goal), palm_(palm),
-          tuning_(tuning), layout_(rig_), first_(first), pose_(first) {
-        const PlacedMesh& placed = hand.meshes.front();
-        const Vec3 wound = placed.pose.rotation * placed.mesh->search.normals[surface.triangle];
-        side_ = wound.dot(surface.normal_bs) < 0.0 ? -1.0 : 1.0;
-        add_spheres();
-    }
+           const PalmTuning& tuning)
+        : hand_(hand),
+          rig_(*hand.rig),
+          surface_(surface),
+          goal_(goal),
+          tuning_(tuning),
+          layout_(rig_),
+          pose_(goal.first),
+          spheres_(hand, surface, goal.is_clear) {}
 
     HandFit run() {
-        place();
-        query(true);
-        HandFit best = {pose_, penetration_m(), merit()};
-        for (int round = 0; round < tuning_.rounds; ++round) {
+        constexpr double k_gain = 1e-6;  // smallest relative gain that counts
+        constexpr double k_gain_m2 = 1e-12;
+        double cost = evaluate();
+        HandFit best = described();
+        best.is_converged = true;
+        for (std::int32_t round = 0; round < goal_.rounds; ++round) {
             step();
-            place();
-            query(false);
-            const double now = merit();
-            if (now < best.merit) {
-                best = {pose_, penetration_m(), now};
+            const double before = cost;
+            const double now = evaluate();
+            const bool is_gain = now < cost - k_gain * cost - k_gain_m2;
+            if (is_gain) {
+                best = described();
+                cost = now;
             }
+            best.is_converged = !(cost < before);
         }
         return best;
     }
 
   private:
-    void add_spheres() {
-        for (const PalmCapsule& capsule : rig_.palm) {
-            for (int i = 0; i < 3; ++i) {
-                FitSphere sphere;
-                sphere.center_hs = capsule.a_hs + 0.5 * i * (capsule.b_hs - capsule.a_hs);
-                sphere.radius_m = capsule.radius_m;
-                spheres_[sphere_count_++] = sphere;
-            }
-            FitSphere refined;
-            refined.link = static_cast<std::size_t>(&capsule - rig_.palm.data());
-            refined.radius_m = capsule.radius_m;
-            refined.is_refined = true;
-            spheres_[sphere_count_++] = refined;
-        }
-        constexpr double k_spacing_m = 0.012;
+    HandFit described() const {
+        HandFit fit;
+        fit.pose = pose_;
+        fit.penetration_m = spheres_.penetration_m();
         for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
-            const FingerRig& finger = rig_.fingers[f];
-            for (std::size_t link = 0; link < finger.link_count; ++link) {
-                const double length_m = finger.length_m[link];
-                const int pieces = std::clamp(static_cast<int>(length_m / k_spacing_m + 0.99), 1, 6);
-                for (int i = link == 0 ? 0 : 1; i <= pieces && sphere_count_ + 1 < k_max_spheres;
-                     ++i) {
-                    FitSphere sphere;
-                    sphere.finger = static_cast<int>(f);
-                    sphere.link = link;
-                    sphere.along_m = length_m * i / pieces;
-                    sphere.radius_m = finger.radius_m[link];
-                    spheres_[sphere_count_++] = sphere;
-                }
-                FitSphere sphere;
-                sphere.finger = static_cast<int>(f);
-                sphere.link = link;
-                sphere.radius_m = finger.radius_m[link];
-                sphere.is_refined = true;
-                spheres_[sphere_count_++] = sphere;
-            }
+            fit.gap_m[f] = spheres_.gap_m(f);
         }
+        return fit;
     }
 
-    void place() {
+    // Builds the problem at the present pose and returns its cost there.
+    double evaluate() {
         center_ = transform_point(pose_.wrist_bs, rig_.palm_center_hs);
+        frames_ = link_frames(rig_, pose_);
+        spheres_.query(pose_, frames_);
+        row_count_ = 0;
+        hessian_.setZero();
+        gradient_.setZero();
+        cost_ = 0.0;
+        add_wrist();
         for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
-            const auto frames = finger_link_frames(rig_.fingers[f], pose_.fingers[f]);
-            for (std::size_t link = 0; link < rig_.fingers[f].link_count; ++link) {
-                frames_[f][link] = pose_.wrist_bs * frames[link];
+            add_hinges(f);
+            add_opposition(f);
+            add_attraction(f);
+        }
+        add_neighbours();
+        add_contacts();
+        add_palm_limits();
+        double cost = cost_;
+        for (std::size_t i = 0; i < row_count_; ++i) {
+            const double violation = std::min(0.0, rows_[i].value);
+            cost += 0.5 * rows_[i].weight * violation * violation;
+        }
+        return cost;
+    }
+
+    void add_wrist() {
+        const Vec3 moved = center_ - transform_point(hand_.wrist_bs, rig_.palm_center_hs);
+        const Vec3 turned = rotation_to_vector(
+            (pose_.wrist_bs.rotation * hand_.wrist_bs.rotation.conjugate()).normalized());
+        for (int i = 0; i < 3; ++i) {
+            add_square(1.0, moved[i], unit(i));
+            add_square(k_arm_m * k_arm_m, turned[i], unit(3 + i));
+        }
+    }
+
+    void add_hinges(std::size_t f) {
+        const FingerRig& finger = rig_.fingers[f];
+        const FingerAngles& angles = pose_.fingers[f];
+        const bool is_free_thumb = is_thumb(finger) && !goal_.touches[f];
+        double beyond_m = 0.0;
+        for (std::size_t i = finger.link_count; i-- > 0;) {
+            beyond_m += finger.length_m[i];
+            const int place = layout_.hinge(f, i);
+            const double angle_rad = angles.curl_rad[i];
+            if (goal_.touches[f]) {
+                const double close = is_thumb(finger) ? 0.0 : k_close;
+                add_square(close * beyond_m * beyond_m, angle_rad - finger.upper_rad[i],
+                           unit(place));
+                add_square(k_first * k_lever2, angle_rad - goal_.closed[f].curl_rad[i],
+                           unit(place));
             }
+            add_square((is_free_thumb ? k_rest_of_free_thumb : k_rest) * k_lever2,
+                       angle_rad - finger.rest_rad[i], unit(place));
+            add_row(unit(place), angle_rad - finger.lower_rad[i], k_joint_limit * k_lever2);
+            add_row(unit(place, -1.0), finger.upper_rad[i] - angle_rad, k_joint_limit * k_lever2);
+        }
+        if (is_thumb(finger)) {
+            return;
+        }
+        add_row(bend_slope(f, -1.0), k_max_bend_rad - bend_rad(f), k_bend_limit * k_lever2);
+        if (finger.link_count == 3) {
+            add_square(k_couple * k_lever2, angles.curl_rad[2] - k_coupling * angles.curl_rad[1],
+                       unit(layout_.hinge(f, 2)) + unit(layout_.hinge(f, 1), -k_coupling));
         }
     }
 
-    Vec3 center_of(const FitSphere& sphere) const {
-        if (sphere.finger < 0) {
-            return transform_point(pose_.wrist_bs, sphere.center_hs);
+    void add_opposition(std::size_t f) {
+        const FingerRig& finger = rig_.fingers[f];
+        const int place = layout_.opposition(f);
+        if (place < 0) {
+            return;
         }
-        return transform_point(frames_[static_cast<std::size_t>(sphere.finger)][sphere.link],
-                               Vec3(0.0, 0.0, -sphere.along_m));
+        const double angle_rad = pose_.fingers[f].opposition_rad;
+        add_square(k_first_opposition * k_lever2, angle_rad - goal_.closed[f].opposition_rad,
+                   unit(place));
+        add_row(unit(place), angle_rad - finger.lower_opposition_rad, k_joint_limit * k_lever2);
+        add_row(unit(place, -1.0), finger.upper_opposition_rad - angle_rad,
+                k_joint_limit * k_lever2);
     }
 
-    void query(bool is_first) {
-        std::size_t nearest = 0;  // of the present link
-        for (std::size_t i = 0; i < sphere_count_; ++i) {
-            FitSphere& sphere = spheres_[i];
-            if (sphere.is_refined) {
-                refine(spheres_[nearest], sphere, is_first);
-                nearest = i + 1;
+    // Draws a digit's nearest sphere to the surface, and a thumb's tip. Knuckles do not count.
+    void add_attraction(std::size_t f) {
+        const HandSphere* nearest = nullptr;
+        for (const HandSphere& sphere : spheres_.all()) {
+            if (sphere.finger != static_cast<std::int32_t>(f) || !sphere.has_gap) {
                 continue;
             }
-            query_sphere(sphere, is_first);
-            if (nearest < i && sphere.has_gap &&
-                (!spheres_[nearest].has_gap || sphere.gap_m < spheres_[nearest].gap_m)) {
-                nearest = i;
+            const bool is_knuckle = sphere.link == 0 && sphere.center_ls.isZero();
+            if (!is_knuckle && (nearest == nullptr || sphere.gap_m < nearest->gap_m)) {
+                nearest = &sphere;
+            }
+            if (sphere.is_tip && is_thumb(rig_.fingers[f]) && sphere.gap_m > 0.0) {
+                add_square(k_tip, sphere.gap_m, slope_of(sphere));
             }
         }
+        if (nearest != nullptr && nearest->gap_m > 0.0) {
+            add_square(k_touch, nearest->gap_m, slope_of(*nearest));
+        }
     }
 
-    // Queries the link where its axis is nearest to the surface point of its nearest sphere.
-    void refine(const FitSphere& nearest, FitSphere& sphere, bool is_first) {
-        sphere.has_gap = false;
-        sphere.is_known = false;
-        constexpr double k_near_m = 0.004;
-        if (!nearest.has_gap || nearest.gap_m > k_near_m || nearest.finger != sphere.finger) {
-            return;
-        }
-        const Vec3 point = nearest.center - nearest.away * nearest.distance_m;
-        if (sphere.finger < 0) {
-            const PalmCapsule& capsule = rig_.palm[sphere.link];
-            const Vec3 point_hs = inverse_transform_point(pose_.wrist_bs, point);
-            sphere.center_hs = closest_on_segment(point_hs, capsule.a_hs, capsule.b_hs);
-            sphere.center = nearest.center;
-            sphere.distance_m = nearest.distance_m;
-            sphere.is_known = true;
-            query_sphere(sphere, false);
-            return;
-        }
-        const auto f = static_cast<std::size_t>(sphere.finger);
-        const double along_m = std::clamp(-inverse_transform_point(frames_[f][sphere.link], point).z(),
-                                          0.0, rig_.fingers[f].length_m[sphere.link]);
-        if (nearest.link == sphere.link && std::abs(along_m - nearest.along_m) < 0.001) {
-            return;
-        }
-        sphere.along_m = along_m;
-        sphere.center = nearest.center;
-        sphere.distance_m = nearest.distance_m;
-        sphere.is_known = true;
-        query_sphere(sphere, false);
-    }
-
-    void query_sphere(FitSphere& sphere, bool is_first) {
-        const Vec3 center = center_of(sphere);
-        const Vec3 before = sphere.center;
-        const double distance_before_m = sphere.distance_m;
-        const bool was_known = sphere.is_known && !is_first;
-        sphere.center = center;
-        sphere.has_gap = false;
-        sphere.is_known = true;
-        double smallest_m = std::numeric_limits<double>::infinity();
-        for (std::size_t m = 0; m < hand_.meshes.size(); ++m) {
-            const PlacedMesh& placed = hand_.meshes[m];
-            const double radius_m = std::max(sphere.radius_m + k_margin_m, k_inside_m);
-            const Vec3 local = inverse_transform_point(placed.pose, center);
-            const auto near = placed.mesh->contact_bvh.closest_point(local, radius_m);
-            if (!near) {
-                if (m == 0) {
-                    sphere.distance_m = radius_m;
-                }
+    // Neighbours are fingers next to each other in the rig, thumbs left out.
+    void add_neighbours() {
+        std::size_t before = k_finger_count;
+        for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
+            if (is_thumb(rig_.fingers[f])) {
                 continue;
             }
-            double sign = 1.0;
-            Vec3 outward = placed.mesh->contact.normals[near->triangle];
-            outward = placed.pose.rotation * Vec3((m == 0 ? side_ : 1.0) * outward);
-            const Vec3 point = transform_point(placed.pose, near->point);
-            const Vec3 offset = center - point;
-            const bool is_below = outward.dot(offset) < -0.5 * near->distance_m;
-            if (m == 0 && was_known) {
-                sign = distance_before_m < 0.0 ? -1.0 : 1.0;
-                const double moved_m = (center - before).norm();
-                if (moved_m > 0.999 * std::abs(distance_before_m)) {
-                    const auto hit = placed.mesh->contact_bvh.cast_ray(
-                        inverse_transform_point(placed.pose, before), local);
-                    sign = hit ? -sign : sign;
-                }
-            } else if (sphere.finger < 0 || !goal_.is_clear[static_cast<std::size_t>(sphere.finger)]) {
-                sign = is_below ? -1.0 : 1.0;
+            if (before < k_finger_count) {
+                add_neighbour(before, f);
             }
-            const double signed_m = sign * near->distance_m;
-            if (m == 0) {
-                sphere.distance_m = signed_m;
-            }
-            const double gap_m = signed_m - sphere.radius_m;
-            if (gap_m < smallest_m) {
-                smallest_m = gap_m;
-                sphere.gap_m = gap_m;
-                sphere.has_gap = true;
-                sphere.away = near->distance_m > 1e-9 ? Vec3(sign / near->distance_m * offset) : outward;
-            }
+            before = f;
         }
     }
 
-    // Change of a point on a digit (or the palm) per unit of every unknown, projected on `along`.
-    Unknowns slope_at(const Vec3& point, int finger, std::size_t link, const Vec3& along) const {
+    void add_neighbour(std::size_t a, std::size_t b) {
+        const double weight = goal_.touches[a] && goal_.touches[b] ? k_alike : k_alike_if_free;
+        const std::size_t links = std::min(rig_.fingers[a].link_count, rig_.fingers[b].link_count);
+        for (std::size_t i = 0; i < links; ++i) {
+            add_square(weight * k_lever2,
+                       pose_.fingers[b].curl_rad[i] - pose_.fingers[a].curl_rad[i],
+                       unit(layout_.hinge(b, i)) + unit(layout_.hinge(a, i), -1.0));
+        }
+        const Unknowns apart = bend_slope(b, 1.0) + bend_slope(a, -1.0);
+        const double apart_rad = bend_rad(b) - bend_rad(a);
+        add_row(apart, k_max_apart_rad + apart_rad, k_bend_limit * k_lever2);
+        add_row(-apart, k_max_apart_rad - apart_rad, k_bend_limit * k_lever2);
+    }
+
+    double bend_rad(std::size_t f) const {
+        double sum_rad = 0.0;
+        for (std::size_t i = 0; i < rig_.fingers[f].link_count; ++i) {
+            sum_rad += pose_.fingers[f].curl_rad[i];
+        }
+        return sum_rad;
+    }
+    Unknowns bend_slope(std::size_t f, double sign) const {
         Unknowns slope = Unknowns::Zero();
-        slope.head<3>() = along;
-        slope.segment<3>(3) = (point - center_).cross(along);
-        if (finger < 0) {
+        for (std::size_t i = 0; i < rig_.fingers[f].link_count; ++i) {
+            slope[layout_.hinge(f, i)] = sign;
+        }
+        return slope;
+    }
+
+    void add_contacts() {
+        for (const HandSphere& sphere : spheres_.all()) {
+            if (sphere.has_gap) {
+                add_row(slope_of(sphere), sphere.gap_m - k_clear_m, k_contact);
+            }
+        }
+    }
+
+    void add_palm_limits() {
+        const Vec3& normal = surface_.normal_bs;
+        const double height_m = (center_ - surface_.point_bs).dot(normal);
+        Unknowns slope = Unknowns::Zero();
+        slope.head<3>() = normal;
+        add_row(slope, height_m - tuning_.min_height_m, k_palm_limit);
+        add_row(-slope, std::max(tuning_.min_height_m, tuning_.max_height_m) - height_m,
+                k_palm_limit);
+        const Vec3 up = pose_.wrist_bs.rotation * -rig_.palm_normal_hs;
+        const Vec3 across = up.cross(normal);
+        if (across.norm() > 1e-9) {
+            Unknowns turn = Unknowns::Zero();
+            turn.segment<3>(3) = across.normalized();
+            add_row(turn, tuning_.max_angle_rad - arc_tangent2(across.norm(), up.dot(normal)),
+                    k_palm_limit * k_arm_m * k_arm_m);
+        }
+    }
+
+    // Change of a sphere's gap per unit of every unknown.
+    Unknowns slope_of(const HandSphere& sphere) const {
+        Unknowns slope = Unknowns::Zero();
+        slope.head<3>() = sphere.away;
+        slope.segment<3>(3) = (sphere.center - center_).cross(sphere.away);
+        if (sphere.finger == HandSphere::k_palm) {
             return slope;
         }
-        const auto f = static_cast<std::size_t>(finger);
-        for (std::size_t i = 0; i <= link; ++i) {
+        const auto f = static_cast<std::size_t>(sphere.finger);
+        for (std::size_t i = 0; i <= sphere.link; ++i) {
             const Pose& frame = frames_[f][i];
             const Vec3 axis = frame.rotation * -Vec3::UnitX();
-            slope[layout_.first[f] + static_cast<int>(i)] =
-                axis.cross(point - frame.position).dot(along);
+            slope[layout_.hinge(f, i)] =
+                axis.cross(sphere.center - frame.position).dot(sphere.away);
         }
-        if (layout_.opposition[f] >= 0) {
+        if (layout_.opposition(f) >= 0) {
             const Vec3 axis = pose_.wrist_bs.rotation * rig_.fingers[f].opposition_axis_hs;
-            slope[layout_.opposition[f]] =
-                axis.cross(point - frames_[f][0].position).dot(along);
+            slope[layout_.opposition(f)] =
+                axis.cross(sphere.center - frames_[f][0].position).dot(sphere.away);
         }
         return slope;
     }
@@ -268,267 +318,73 @@ class Fitter {
         }
     }
 
+    // Adds weight / 2 * (value + slope . x)^2.
     void add_square(double weight, double value, const Unknowns& slope) {
-        for (int i = 0; i < static_cast<int>(layout_.count); ++i) {
+        for (int i = 0; i < layout_.end(); ++i) {
             if (slope[i] != 0.0) {
                 hessian_.row(i) += weight * slope[i] * slope.transpose();
             }
         }
         gradient_ += weight * value * slope;
-        energy_ += 0.5 * weight * value * value;
+        cost_ += 0.5 * weight * value * value;
     }
 
-    Unknowns unit(int place, double value = 1.0) const {
-        Unknowns slope = Unknowns::Zero();
-        slope[place] = value;
-        return slope;
-    }
-
-    double bend(std::size_t f) const {
-        double sum = 0.0;
-        for (std::size_t i = 0; i < rig_.fingers[f].link_count; ++i) {
-            sum += pose_.fingers[f].curl_rad[i];
-        }
-        return sum;
-    }
-    void bend_slope(std::size_t f, double sign, Unknowns& slope) const {
-        for (std::size_t i = 0; i < rig_.fingers[f].link_count; ++i) {
-            slope[layout_.first[f] + static_cast<int>(i)] = sign;
-        }
-    }
-
-    void build() {
-        row_count_ = 0;
-        energy_ = 0.0;
-        hessian_.setZero();
-        gradient_.setZero();
-        const Vec3 moved = center_ - transform_point(hand_.wrist_bs, rig_.palm_center_hs);
-        const Vec3 turned = rotation_to_vector(
-            (pose_.wrist_bs.rotation * hand_.wrist_bs.rotation.conjugate()).normalized());
-        const double arm2 = tuning_.turn_arm_m * tuning_.turn_arm_m;
-        for (int i = 0; i < 3; ++i) {
-            hessian_(i, i) += 1.0;
-            gradient_[i] += moved[i];
-            hessian_(3 + i, 3 + i) += arm2;
-            gradient_[3 + i] += arm2 * turned[i];
-        }
-        energy_ += 0.5 * moved.squaredNorm() + 0.5 * arm2 * turned.squaredNorm();
-        for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
-            build_finger(f);
-        }
-        build_neighbours();
-        build_contacts();
-        build_palm_limits();
-        build_trust_region();
-    }
-
-    void build_trust_region() {
-        constexpr double k_max_flex_rad = 0.4;
-        const double weight = tuning_.limit * k_lever_m * k_lever_m;
-        for (int i = 6; i < static_cast<int>(layout_.count); ++i) {
-            add_row(unit(i), k_max_flex_rad, weight);
-            add_row(unit(i, -1.0), k_max_flex_rad, weight);
-        }
-    }
-
-    void build_finger(std::size_t f) {
-        const FingerRig& finger = rig_.fingers[f];
-        const FingerAngles& angles = pose_.fingers[f];
-        const double lever2 = k_lever_m * k_lever_m;
-        double beyond_m = 0.0;
-        for (std::size_t i = finger.link_count; i-- > 0;) {
-            beyond_m += finger.length_m[i];
-            const int place = layout_.first[f] + static_cast<int>(i);
-            const double angle = angles.curl_rad[i];
-            const bool is_thumb = finger.name == FingerName::thumb;
-            if (goal_.touches[f]) {
-                const double close = is_thumb ? tuning_.thumb_close : tuning_.close;
-                add_square(close * beyond_m * beyond_m, angle - finger.upper_rad[i], unit(place));
-                add_square(tuning_.first * lever2, angle - first_.fingers[f].curl_rad[i],
-                           unit(place));
-            }
-            const double rest = is_thumb && !goal_.touches[f] ? tuning_.alike_free : tuning_.rest;
-            add_square(rest * lever2, angle - finger.rest_rad[i], unit(place));
-            add_row(unit(place), angle - finger.lower_rad[i], tuning_.limit * lever2);
-            add_row(unit(place, -1.0), finger.upper_rad[i] - angle, tuning_.limit * lever2);
-        }
-        if (finger.link_count == 3 && finger.name != FingerName::thumb) {
-            Unknowns slope = unit(layout_.first[f] + 2);
-            slope[layout_.first[f] + 1] = -2.0 / 3.0;
-            add_square(tuning_.couple * lever2, angles.curl_rad[2] - 2.0 / 3.0 * angles.curl_rad[1],
-                       slope);
-        }
-        if (finger.name != FingerName::thumb) {
-            Unknowns slope = Unknowns::Zero();
-            bend_slope(f, -1.0, slope);
-            add_row(slope, tuning_.max_fold_rad - bend(f), tuning_.style * lever2);
-        }
-        if (const int place = layout_.opposition[f]; place >= 0) {
-            add_square(tuning_.oppose * lever2,
-                       angles.opposition_rad - first_.fingers[f].opposition_rad, unit(place));
-            add_row(unit(place), angles.opposition_rad - finger.lower_opposition_rad,
-                    tuning_.limit * lever2);
-            add_row(unit(place, -1.0), finger.upper_opposition_rad - angles.opposition_rad,
-                    tuning_.limit * lever2);
-        }
-    }
-
-    // Fingers in the order of the rig; thumbs have no neighbour.
-    void build_neighbours() {
-        const double lever2 = k_lever_m * k_lever_m;
-        int before = -1;
-        for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
-            if (rig_.fingers[f].name == FingerName::thumb) {
-                continue;
-            }
-            if (before >= 0) {
-                const auto b = static_cast<std::size_t>(before);
-                const bool is_free = !goal_.touches[f] || !goal_.touches[b];
-                const double weight = is_free ? tuning_.alike_free : tuning_.alike;
-                const std::size_t links =
-                    std::min(rig_.fingers[f].link_count, rig_.fingers[b].link_count);
-                for (std::size_t i = 0; i < links; ++i) {
-                    Unknowns slope = unit(layout_.first[f] + static_cast<int>(i));
-                    slope[layout_.first[b] + static_cast<int>(i)] = -1.0;
-                    add_square(weight * lever2,
-                               pose_.fingers[f].curl_rad[i] - pose_.fingers[b].curl_rad[i], slope);
-                }
-                Unknowns slope = Unknowns::Zero();
-                bend_slope(f, 1.0, slope);
-                bend_slope(b, -1.0, slope);
-                const double apart = bend(f) - bend(b);
-                add_row(slope, tuning_.max_apart_rad + apart, tuning_.style * lever2);
-                add_row(-slope, tuning_.max_apart_rad - apart, tuning_.style * lever2);
-            }
-            before = static_cast<int>(f);
-        }
-    }
-
-    // The digit's nearest sphere that is not touching is drawn to the surface.
-    void build_attraction() {
-        for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
-            const FitSphere* nearest = nullptr;
-            for (std::size_t i = 0; i < sphere_count_; ++i) {
-                const FitSphere& sphere = spheres_[i];
-                if (sphere.finger == static_cast<int>(f) && sphere.has_gap &&
-                    (sphere.link > 0 || sphere.along_m > 0.0) &&
-                    (nearest == nullptr || sphere.gap_m < nearest->gap_m)) {
-                    nearest = &sphere;
-                }
-            }
-            if (nearest != nullptr && nearest->gap_m > 0.0) {
-                add_square(tuning_.touch, nearest->gap_m,
-                           slope_at(nearest->center, nearest->finger, nearest->link, nearest->away));
-            }
-        }
-    }
-
-    void build_contacts() {
-        build_attraction();
-        for (std::size_t i = 0; i < sphere_count_; ++i) {
-            const FitSphere& sphere = spheres_[i];
-            if (!sphere.has_gap) {
-                continue;
-            }
-            const Unknowns slope =
-                slope_at(sphere.center, sphere.finger, sphere.link, sphere.away);
-            add_row(slope, sphere.gap_m - tuning_.clear_m, tuning_.contact);
-            if (sphere.finger >= 0 && !sphere.is_refined) {
-                const FingerRig& finger = rig_.fingers[static_cast<std::size_t>(sphere.finger)];
-                const bool is_tip = finger.name == FingerName::thumb &&
-                                    sphere.link + 1 == finger.link_count &&
-                                    sphere.along_m == finger.length_m[sphere.link];
-                if (is_tip && sphere.gap_m > 0.0) {
-                    add_square(tuning_.tip, sphere.gap_m, slope);
-                }
-            }
-        }
-    }
-
-    void build_palm_limits() {
-        const Vec3& normal = surface_.normal_bs;
-        const double height_m = (center_ - surface_.point_bs).dot(normal);
-        Unknowns slope = Unknowns::Zero();
-        slope.head<3>() = normal;
-        add_row(slope, height_m - palm_.min_height_m, tuning_.height_weight);
-        add_row(-slope, std::max(palm_.min_height_m, tuning_.max_height_m) - height_m,
-                tuning_.height_weight);
-        const Vec3 up = pose_.wrist_bs.rotation * -rig_.palm_normal_hs;
-        const Vec3 across = up.cross(normal);
-        if (across.norm() > 1e-9) {
-            const double angle_rad = arc_tangent2(across.norm(), up.dot(normal));
-            Unknowns turn = Unknowns::Zero();
-            turn.segment<3>(3) = across.normalized();
-            add_row(turn, tuning_.max_angle_rad - angle_rad,
-                    tuning_.height_weight * tuning_.turn_arm_m * tuning_.turn_arm_m);
-        }
-    }
-
-    double merit() {
-        build();
-        double sum = energy_;
-        for (std::size_t i = 0; i < row_count_; ++i) {
-            const double violation = std::min(0.0, rows_[i].value);
-            sum += 0.5 * rows_[i].weight * violation * violation;
-        }
-        return sum;
-    }
-
-    double penetration_m() const {
-        double depth_m = 0.0;
-        for (std::size_t i = 0; i < sphere_count_; ++i) {
-            depth_m = std::max(depth_m, spheres_[i].has_gap ? -spheres_[i].gap_m : 0.0);
-        }
-        return depth_m;
-    }
-
-    // Precondition: merit() was called at this pose.
+    // Moves by the solution of the problem that evaluate() built.
     void step() {
-        build();
-        fix_unknowns();
-        Unknowns change =
-            minimise_penalised(hessian_, gradient_, {rows_.data(), row_count_}, layout_.count);
-        constexpr double k_max_move_m = 0.02;
-        constexpr double k_max_turn_rad = 0.3;
-        constexpr double k_max_flex_rad = 0.4;
-        double scale = 1.0;
-        scale = std::min(scale, k_max_move_m / std::max(k_max_move_m, change.head<3>().norm()));
-        scale = std::min(scale,
-                         k_max_turn_rad / std::max(k_max_turn_rad, change.segment<3>(3).norm()));
-        change *= scale;
-        for (int i = 6; i < static_cast<int>(layout_.count); ++i) {
-            change[i] = std::clamp(change[i], -k_max_flex_rad, k_max_flex_rad);
+        for (int i = 6; i < layout_.end(); ++i) {
+            add_row(unit(i), k_max_flex_rad, k_joint_limit * k_lever2);
+            add_row(unit(i, -1.0), k_max_flex_rad, k_joint_limit * k_lever2);
         }
+        hold_fixed_unknowns();
+        Unknowns change =
+            minimise_penalised(hessian_, gradient_, {rows_.data(), row_count_}, layout_.count());
+        const double move_m = change.head<3>().norm();
+        const double turn_rad = change.segment<3>(3).norm();
+        change *= std::min(k_max_move_m / std::max(k_max_move_m, move_m),
+                           k_max_turn_rad / std::max(k_max_turn_rad, turn_rad));
         apply(change);
     }
 
-    void fix_unknowns() {
-        constexpr double k_fixed = 1e6;
+    void hold_fixed_unknowns() {
+        constexpr double k_held = 1e6;
+        const auto hold = [&](int place) { hessian_(place, place) += k_held; };
+        for (int i = 0; goal_.is_wrist_fixed && i < 6; ++i) {
+            hold(i);
+        }
         for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
             for (std::size_t i = 0; goal_.is_fixed[f] && i < rig_.fingers[f].link_count; ++i) {
-                const int place = layout_.first[f] + static_cast<int>(i);
-                hessian_(place, place) += k_fixed;
+                hold(layout_.hinge(f, i));
+            }
+            if (goal_.is_fixed[f] && layout_.opposition(f) >= 0) {
+                hold(layout_.opposition(f));
             }
         }
     }
 
     void apply(const Unknowns& change) {
-        Pose& wrist = pose_.wrist_bs;
-        const Vec3 center = center_ + change.head<3>();
-        wrist.rotation =
-            (rotation_from_vector(change.segment<3>(3)) * wrist.rotation).normalized();
-        wrist.position = center - wrist.rotation * rig_.palm_center_hs;
+        if (!goal_.is_wrist_fixed) {
+            Pose& wrist = pose_.wrist_bs;
+            wrist.rotation =
+                (rotation_from_vector(change.segment<3>(3)) * wrist.rotation).normalized();
+            wrist.position = center_ + change.head<3>() - wrist.rotation * rig_.palm_center_hs;
+        }
         for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
-            const FingerRig& finger = rig_.fingers[f];
-            for (std::size_t i = 0; i < finger.link_count; ++i) {
-                double& angle = pose_.fingers[f].curl_rad[i];
-                angle = std::clamp(angle + change[layout_.first[f] + static_cast<int>(i)],
-                                   finger.lower_rad[i], finger.upper_rad[i]);
+            if (goal_.is_fixed[f]) {
+                continue;
             }
-            if (const int place = layout_.opposition[f]; place >= 0) {
-                double& angle = pose_.fingers[f].opposition_rad;
-                angle = std::clamp(angle + change[place], finger.lower_opposition_rad,
-                                   finger.upper_opposition_rad);
+            const FingerRig& finger = rig_.fingers[f];
+            FingerAngles& angles = pose_.fingers[f];
+            for (std::size_t i = 0; i < finger.link_count; ++i) {
+                const double flex_rad =
+                    std::clamp(change[layout_.hinge(f, i)], -k_max_flex_rad, k_max_flex_rad);
+                angles.curl_rad[i] = std::clamp(angles.curl_rad[i] + flex_rad, finger.lower_rad[i],
+                                                finger.upper_rad[i]);
+            }
+            if (const int place = layout_.opposition(f); place >= 0) {
+                const double turn_rad = std::clamp(change[place], -k_max_flex_rad, k_max_flex_rad);
+                angles.opposition_rad =
+                    std::clamp(angles.opposition_rad + turn_rad, finger.lower_opposition_rad,
+                               finger.upper_opposition_rad);
             }
         }
     }
@@ -537,29 +393,25 @@ class Fitter {
     const HandRig& rig_;
     const GripSurface& surface_;
     const HandFitGoal& goal_;
-    const PalmTuning& palm_;
-    const FitTuning& tuning_;
-    Layout layout_;
-    const HandPose& first_;
+    const PalmTuning& tuning_;
+    const Layout layout_;
     HandPose pose_;
-    double side_ = 1.0;
-    Vec3 center_ = Vec3::Zero();
-    std::array<std::array<Pose, k_max_links>, k_finger_count> frames_;
-    std::array<FitSphere, k_max_spheres> spheres_;
-    std::size_t sphere_count_ = 0;
-    std::array<PenaltyRow, k_max_rows> rows_;
-    std::size_t row_count_ = 0;
+    HandSpheres spheres_;
+    Vec3 center_ = Vec3::Zero();  // of the palm at pose_
+    HandLinkFrames frames_;
+    // The problem at pose_.
     UnknownsSquare hessian_ = UnknownsSquare::Zero();
     Unknowns gradient_ = Unknowns::Zero();
-    double energy_ = 0.0;
+    double cost_ = 0.0;  // of the squares
+    std::array<PenaltyRow, k_max_penalty_rows> rows_;
+    std::size_t row_count_ = 0;
 };
 
 }  // namespace
 
-HandFit fit_hand(const HandSurroundings& hand, const GripSurface& surface, const HandPose& first,
-                 const HandFitGoal& goal, const PalmTuning& palm, const FitTuning& tuning) {
-    Fitter fitter(hand, surface, goal, palm, tuning, first);
-    return fitter.run();
+HandFit fit_hand(const HandSurroundings& hand, const GripSurface& surface, const HandFitGoal& goal,
+                 const PalmTuning& tuning) {
+    return Fitter(hand, surface, goal, tuning).run();
 }
 
 }  // namespace handhold

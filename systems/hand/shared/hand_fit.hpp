@@ -1,58 +1,57 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
+#include <cstdint>
 
 #include "components/hand.hpp"
 #include "components/hand_surroundings.hpp"
 #include "components/tuning.hpp"
+#include "systems/hand/shared/hand_spheres.hpp"
 
+// One fit of wrist, fingers and thumb to the surfaces around a hand: the stage behind fit_hands.
+//
+//   minimise   |p - p0|^2 + (arm |r|)^2             palm's centre p and rotation vector r from the
+//                                                   tracked wrist (p0, 0)
+//            + close  sum (lever (q - q_closed))^2  digits that touch something stay closed
+//            + touch  sum gap^2                     each digit's smallest positive gap
+//            + tip    gap^2                         of the thumb's tip
+//            + first  sum (l (q - q_first))^2       angles q near those of the closing
+//            + alike  sum (l (q_f - q_f+1))^2       neighbouring fingers bend alike: a finger that
+//                                                   reaches nothing goes with its neighbours
+//            + couple sum (l (q_3 - 2/3 q_2))^2     the last hinge bends 2/3 as far as the one
+//            before
+//   subject to every capsule's gap >= 0, joint limits, the palm's limits on height and tilt, total
+//   bends up to 163 degrees, neighbours' total bends within 92 degrees of each other
+//
+// lever is the length beyond a hinge, l = 5 cm. The inequalities are penalties, stiffer in this
+// order: bends, palm, joints, gaps; what cannot be met is shared. Each round queries the gaps
+// (hand_spheres.hpp), linearises and solves (engine/math/penalty_quadratic.hpp). Sources: Santello,
+// Flanders, Soechting, Postural hand synergies for tool use, 1998 (fingers bend alike); Rijpkema,
+// Girard, Computer animation of knowledge-based human grasping, 1991 (2/3).
 namespace handhold {
 
-// Weights are in units of w_sync, angles are multiplied by levers: everything is in square metres.
-struct FitTuning {
-    double turn_arm_m = 0.08;
-    double close = 0.0005;
-    double alike = 0.0015;
-    double alike_free = 0.02;
-    double couple = 0.001;
-    double rest = 0.00002;
-    double oppose = 0.02;
-    double tip = 0.02;
-    double touch = 0.05;
-    double first = 0.005;
-    double thumb_close = 0.0;
-    double last = 0.0;
-    double contact = 2000.0;
-    double limit = 500.0;
-    double style = 0.3;
-    double max_apart_rad = 1.6;
-    double max_fold_rad = 2.85;
-    double max_height_m = 0.015;
-    double max_angle_rad = 0.44;
-    double height_weight = 20.0;
-    double clear_m = 0.0003;
-    int rounds = 6;
-};
-
-struct HandPose {
-    Pose wrist_bs;
-    std::array<FingerAngles, k_finger_count> fingers;
-};
-
 struct HandFitGoal {
-    std::array<bool, k_finger_count> touches = {};  // the closing found a contact
-    std::array<bool, k_finger_count> is_clear = {};  // the first pose is outside
-    std::array<bool, k_finger_count> is_fixed = {};  // authored
+    HandPose first;  // where the rounds start; from the closing, or last frame's fit
+    // Angles from the closing, which stated the digits' contacts.
+    std::array<FingerAngles, k_finger_count> closed;
+    std::array<bool, k_finger_count> touches = {};   // the closing found a contact
+    std::array<bool, k_finger_count> is_clear = {};  // HandSpheres: `first` is outside solids
+    std::array<bool, k_finger_count> is_fixed = {};  // the angles are kept, as in authored poses
+    bool is_wrist_fixed = false;                     // the wrist is kept
+    std::int32_t rounds = 0;                         // at most
 };
 
 struct HandFit {
-    HandPose pose;
-    double penetration_m = 0.0;
-    double merit = 0.0;
+    HandPose pose;               // of the cheapest round; `first` if none was cheaper
+    double penetration_m = 0.0;  // of the deepest sphere; at least 0
+    // By finger: smallest gap, below 0 if penetrating; infinity: nothing within reach.
+    std::array<double, k_finger_count> gap_m = {};
+    bool is_converged = false;  // the last round gained nothing
 };
 
-HandFit fit_hand(const HandSurroundings& hand, const GripSurface& surface, const HandPose& first,
-                 const HandFitGoal& goal, const PalmTuning& palm, const FitTuning& tuning);
+// Deterministic, does not allocate. Never costs more than `goal.first`. Precondition: the hand has
+// meshes, and `surface` is on the first one.
+HandFit fit_hand(const HandSurroundings& hand, const GripSurface& surface, const HandFitGoal& goal,
+                 const PalmTuning& tuning);
 
 }  // namespace handhold

@@ -130,7 +130,7 @@ FittedPalm PalmFitter::fit_uncached(const Candidate& candidate,
     held.is_warm_started = settings.last != nullptr;
     held.surface = surface_at(candidate);
     held.surface.finger_samples = finger_samples;
-    const PalmFit fit = fit_palm(hand_, held.surface, 0.0, tuning_, settings);
+    const PalmFit fit = fit_palm(hand_, held.surface, tuning_, settings);
     held.surface.fitted_wrist_bs = fit.wrist_bs;
     held.surface.has_fitted_wrist = true;
     held.surface.is_converged = fit.is_converged;

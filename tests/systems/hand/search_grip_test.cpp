@@ -72,7 +72,7 @@ TEST(SearchGrip, NeverHoldsPalmInsideASolid) {
     for (const double deep_m : {0.01, 0.02, 0.03, 0.04}) {
         FittedHand hand(mesh, wrist_with_palm_at(rig, {0.013, -deep_m, 0.007}, Vec3::UnitY()));
         hand.search();
-        hand.constrain(test::k_unbudgeted_s);
+        hand.constrain();
         EXPECT_GE(hand.palm_center_bs().y(), hand.tuning.palm.min_height_m - 1e-9) << deep_m;
         EXPECT_GT(hand.palm_up_bs().y(), 0.9) << deep_m;
     }
@@ -164,7 +164,7 @@ TEST(SearchGrip, RarelyHoldsPalmInsideWallsOfNarrowHole) {
         const Pose wrist = random_wrist_before_wall(rig, k_hole_x_m, k_hole_z_m, 0.06, random);
         FittedHand hand(mesh, wrist);
         hand.search();
-        hand.constrain(test::k_unbudgeted_s);
+        hand.constrain();
         const Vec3 center = hand.palm_center_bs();
         inside += is_in_frame(center) ? 1 : 0;
     }
@@ -244,8 +244,7 @@ TEST(SearchGrip, ChoosesSurfaceWithFingerClearance) {
     const auto near = scene.mesh.search_bvh.closest_point({0.0, 0.0, 0.0}, 0.1);
     ASSERT_TRUE(near);
     under.triangle = near->triangle;
-    const Pose fitted_wrist_bs =
-        fit_palm(hand.hands.front(), under, 0.0, hand.tuning.palm).wrist_bs;
+    const Pose fitted_wrist_bs = fit_palm(hand.hands.front(), under, hand.tuning.palm).wrist_bs;
     ASSERT_GT(find_finger_clearance(hand.hands.front(), fitted_wrist_bs, scene.patch).penetration_m,
               0.005);
     hand.search();
@@ -316,7 +315,7 @@ TEST(SearchGrip, MovesPalmUntilFingersAreClear) {
     GripSurface palm_alone;
     palm_alone.triangle = floor.search_bvh.closest_point({0.013, 0.0, 0.007}, 0.1)->triangle;
     const Pose alone_bs =
-        fit_palm(unbudgeted.hands.front(), palm_alone, 0.0, unbudgeted.tuning.palm).wrist_bs;
+        fit_palm(unbudgeted.hands.front(), palm_alone, unbudgeted.tuning.palm).wrist_bs;
     ASSERT_GT(find_finger_clearance(unbudgeted.hands.front(), alone_bs, patch).penetration_m,
               0.003);
     unbudgeted.search();
@@ -366,11 +365,11 @@ TEST(SearchGrip, BudgetedSearchReachesUnbudgetedResult) {
                   budget >= k_sufficient_budget)
             << budget;
         for (int frame = 0; frame < 60; ++frame) {
-            hand.constrain(test::k_unbudgeted_s);
+            hand.constrain();
             hand.search(k_dt_s);
         }
         const GripSurface found = hand.surface.at(k_right);
-        hand.constrain(test::k_unbudgeted_s);
+        hand.constrain();
         EXPECT_LT((hand.shown_bs().position - found.fitted_wrist_bs.position).norm(), 1e-9);
         EXPECT_EQ(found.evaluated_count, 0U);
         EXPECT_LE(scene.penetration_m(hand), k_finger_penetration_tolerance_m);

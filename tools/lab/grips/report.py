@@ -5,10 +5,23 @@ import math
 from pages import svg
 from pages.goals import STYLE, figure, goals_html, limit_goal, percent, table_html, text, triple
 
-from . import scoring
+from . import scoring, style
 
 
 MOST_TIP_MM = 0.05
+
+
+def style_goals(whole):
+    """A goal for every class of style.py and for palm sync, with 95 % bounds."""
+    def bounded(title, name, limit, unit, scale):
+        found = figure(whole, "style", name)
+        value, low, high = (scale * figure(found, key) if isinstance(found, dict) else math.nan for key in ("value", "low", "high"))
+        goal = limit_goal(title, value, limit, unit)
+        if math.isfinite(value) and math.isfinite(low):
+            goal.measured += f" [{low:.1f} {high:.1f}]"
+        return goal
+    classes = [bounded(title, name, limit, "%", 100.0) for name, (title, limit) in style.CLASSES.items()]
+    return classes + [bounded("palm sync: mean", "sync_mean_mm", 9, "mm", 1.0), bounded("palm sync: 95th percentile", "sync_p95_mm", 35, "mm", 1.0)]
 
 
 def goals(whole, flat, nasty, warm, worst_tip_mm):
@@ -35,6 +48,7 @@ def goals(whole, flat, nasty, warm, worst_tip_mm):
         limit_goal("target poses that jump over 10 degrees, sliding", percent(figure(warm, "jumps")), 1, "%"),
         limit_goal("hands with non-finite numbers", float(figure(whole, "not_finite")), 0, ""),
         limit_goal("the same, broken meshes", float(figure(nasty, "not_finite")), 0, ""),
+        *style_goals(whole),
         limit_goal("tip of a closed chain, distance from the oracle's: worst", worst_tip_mm, MOST_TIP_MM, "mm"),
     ]
 

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "components/hand.hpp"
+#include "components/hand_surroundings.hpp"
+
+// A hand as spheres along its capsules, and their gaps to the surfaces around it.
+namespace handhold {
+
+// A wrist and all digits. `wrist_bs` is in the frame of HandSurroundings::meshes.
+struct HandPose {
+    Pose wrist_bs;
+    std::array<FingerAngles, k_finger_count> fingers;  // by index into HandRig::fingers
+};
+
+// Frames of all links in the frame of the wrist's parent: hinge at the origin, -Z along the link.
+using HandLinkFrames = std::array<std::array<Pose, k_max_links>, k_finger_count>;
+HandLinkFrames link_frames(const HandRig& rig, const HandPose& pose);
+
+struct HandSphere {
+    static constexpr std::int32_t k_palm = -1;
+    std::int32_t finger = k_palm;  // into HandRig::fingers
+    std::size_t link = 0;          // of that finger, or index into HandRig::palm
+    double radius_m = 0.0;
+    Vec3 center_ls = Vec3::Zero();  // in the link's frame, or in hand space for the palm
+    // An extra sphere where the capsule's axis is nearest to the surface. Without it, an edge could
+    // penetrate between two spheres.
+    bool is_extra = false;
+    bool is_tip = false;  // at the end of the last link
+
+    // Written by HandSpheres::query.
+    Vec3 center = Vec3::Zero();
+    Vec3 away = Vec3::Zero();  // unit, from the nearest surface point to the centre, out of solids
+    double gap_m = 0.0;        // below 0: penetration depth
+    bool has_gap = false;      // a surface is within k_sphere_reach_m of the sphere
+    // Signed distance of the centre to the gripped mesh, at most the query radius.
+    double signed_m = 0.0;
+};
+
+// Gaps up to this are reported.
+inline constexpr double k_sphere_reach_m = 0.02;
+
+class HandSpheres {
+  public:
+    static constexpr std::size_t k_max_count = 128;
+
+    // `is_clear`: by finger, the first queried pose is known to be outside every solid, whatever
+    // the meshes' windings say. Keeps a reference to `hand`. Precondition: the hand has meshes.
+    HandSpheres(const HandSurroundings& hand, const GripSurface& surface,
+                const std::array<bool, k_finger_count>& is_clear);
+
+    // Computes all gaps at a pose. At the first call, a centre is inside a solid if it is below the
+    // plane of its nearest triangle. Later a centre changes sides only if its path since the last
+    // call crosses a surface of the gripped mesh: windings of open or broken meshes cannot flip a
+    // finger through a wall.
+    void query(const HandPose& pose, const HandLinkFrames& frames);
+
+    std::span<const HandSphere> all() const { return {spheres_.data(), count_}; }
+    double penetration_m() const;            // of the deepest sphere; at least 0
+    double gap_m(std::size_t finger) const;  // smallest of a digit; infinity: none in reach
+
+  private:
+    void add(const HandSphere& sphere);
+    Vec3 center_of(const HandSphere& sphere, const HandPose& pose,
+                   const HandLinkFrames& frames) const;
+    void query_sphere(HandSphere& sphere, const Vec3& center, bool is_first);
+    void query_extra(const HandSphere& nearest, HandSphere& extra, const HandPose& pose,
+                     const HandLinkFrames& frames);
+    double side_of_gripped(const HandSphere& sphere, const Vec3& center, bool is_below,
+                           bool is_first) const;
+
+    const HandSurroundings& hand_;
+    std::array<bool, k_finger_count> is_clear_;
+    double winding_ = 1.0;  // -1: the gripped mesh's outside is against its winding
+    bool is_queried_ = false;
+    std::array<HandSphere, k_max_count> spheres_;
+    std::size_t count_ = 0;
+};
+
+}  // namespace handhold
