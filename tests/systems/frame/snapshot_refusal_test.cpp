@@ -77,11 +77,11 @@ TEST_F(SnapshotRefuses, AnyDamagedByte) {
 }
 
 TEST_F(SnapshotRefuses, AnotherFormatVersion) {
-    for (const std::uint32_t version : {1U, 3U}) {  // earlier field names; a later build
+    for (const std::uint32_t version : {2U, 4U}) {  // earlier field names; a later build
         SnapshotBytes other(bytes_);
         other.put(8, version);
         expect_refused(other,
-                       "byte 8: expected format version 2, found " + std::to_string(version));
+                       "byte 8: expected format version 3, found " + std::to_string(version));
     }
 }
 
