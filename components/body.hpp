@@ -65,6 +65,28 @@ struct Mover {
     bool turns_with_body = false;  // true: the velocity is constant in the body's frame
 };
 
+// A kinematic body that a host moves: it reaches the pose at the end of the next frame and then
+// stays there. Written by move_kinematic; read by animate_movers. A body with a mover has none.
+struct MoveTarget {
+    Pose pose_ws;
+};
+
+// Share of the world's gravity that a free body feels, [-1e3, 1e3]. A body without one feels all.
+// Written by the host.
+struct GravityScale {
+    static constexpr double k_max = 1e3;
+
+    double scale = 1.0;
+};
+
+// Contacts of bodies and players' heads: two touch only if each one's layers meet the other's mask.
+// Hands grip a body if its layers meet their player's GrabLayers. Without one: layer 1, all masks.
+// Written by the host.
+struct CollisionFilter {
+    std::uint32_t layers = 1;
+    std::uint32_t mask = ~0U;
+};
+
 // Moves a kinematic body along a closed path. Read by animate_movers.
 struct PathMover {
     PosePath path;

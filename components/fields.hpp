@@ -115,6 +115,38 @@ void visit_fields(const JointLatch& c, V&& visit) {
     visit("handle_at", c.handle_at);
 }
 template <typename V>
+void visit_fields(const MoveTarget& c, V&& visit) {
+    visit("pose_ws", c.pose_ws);
+}
+template <typename V>
+void visit_fields(const GravityScale& c, V&& visit) {
+    visit("scale", c.scale);
+}
+template <typename V>
+void visit_fields(const CollisionFilter& c, V&& visit) {
+    visit("layers", c.layers);
+    visit("mask", c.mask);
+}
+template <typename V>
+void visit_fields(const GrabRule& c, V&& visit) {
+    visit("left", c.left);
+    visit("right", c.right);
+    visit("two_hands", c.two_hands);
+    visit("priority", c.priority);
+}
+template <typename V>
+void visit_fields(const GrabLayers& c, V&& visit) {
+    visit("layers", c.layers);
+}
+template <typename V>
+void visit_fields(const GrabOrder& c, V&& visit) {
+    visit("body", c.body);
+}
+template <typename V>
+void visit_fields(const HandRigChoice& c, V&& visit) {
+    visit("index", c.index);
+}
+template <typename V>
 void visit_fields(const Joint& c, V&& visit) {
     visit("kind", c.kind);
     visit("a", c.a);
@@ -210,8 +242,20 @@ void visit_fields(const HeadTracking& c, V&& visit) {
     visit("start_ps", c.start_ps);
     visit("sample_ps", c.sample_ps);
     visit("sample_t_s", c.sample_t_s);
+    visit("before_ps", c.before_ps);
+    visit("before_t_s", c.before_t_s);
     visit("state", c.state);
     visit("shift_m", c.shift_m);
+    visit("shift_turn", c.shift_turn);
+}
+template <typename V>
+void visit_fields(const EarlySample& c, V&& visit) {
+    visit("t_s", c.t_s);
+    visit("head_ps", c.head_ps);
+    visit("controllers_ps", c.controllers_ps);
+    visit("head_tracked", c.head_tracked);
+    visit("tracked", c.tracked);
+    visit("grab", c.grab);
 }
 template <typename V>
 void visit_fields(const HeadIgnores& c, V&& visit) {
@@ -356,6 +400,9 @@ void visit_fields(const HandTracking& c, V&& visit) {
     visit("sample_t_s", c.sample_t_s);
     visit("state", c.state);
     visit("resumed", c.resumed);
+    visit("interrupted", c.interrupted);
+    visit("reading_ps", c.reading_ps);
+    visit("reading_t_s", c.reading_t_s);
     visit("edge", c.edge);
     visit("edge_t_s", c.edge_t_s);
     visit("edge_ps", c.edge_ps);
@@ -390,6 +437,14 @@ void visit_fields(const Grab& c, V&& visit) {
     visit("target_spin_ps_radps", c.target_spin_ps_radps);
     visit("since_s", c.since_s);
     visit("error_m", c.error_m);
+    visit("slip_hs", c.slip_hs);
+}
+template <typename V>
+void visit_fields(const HandSight& c, V&& visit) {
+    visit("outside_bs", c.outside_bs);
+    visit("frame", c.frame);
+    visit("is_known", c.is_known);
+    visit("is_clear", c.is_clear);
 }
 template <typename V>
 void visit_fields(const GripSurface& c, V&& visit) {

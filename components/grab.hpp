@@ -65,6 +65,42 @@ struct Grab {
     bool two_handed = false;
     // Joints connect the held body to something fixed; the hand may turn on it as on a surface.
     bool jointed = false;
+    // Displacement of the hand by tracking errors: the hand's first anchor in the frame of the
+    // present one. Identity: none. A held free body returns by it (move_into_hand).
+    Pose slip_hs;
+};
+inline bool has_slipped(const Grab& grab) {
+    return grab.slip_hs.position != Vec3::Zero() || grab.slip_hs.rotation.vec() != Vec3::Zero();
+}
+
+// Where the palm was last known to be outside of walls. A hand grips only what is visible from
+// there or from the head. Written by update_grabs.
+struct HandSight {
+    Vec3 outside_bs = Vec3::Zero();  // in `frame`
+    Entity frame = k_no_entity;      // body that the player last gripped; null: the world
+    bool is_known = false;           // false: the palm counts as outside
+    bool is_clear = true;            // no wall between that point, or the head, and the palm
+};
+
+// Which hands may grip a body. A body without one may be gripped by any hand. Written by the host.
+struct GrabRule {
+    bool left = true;
+    bool right = true;
+    bool two_hands = false;  // only by both hands of one player at once
+    // Of the bodies in reach of a closing hand, one of highest priority is gripped; 0: none set.
+    std::int32_t priority = 0;
+};
+
+// Layers of the bodies that a player's hands grip. A player without one grips all. Written by the
+// host.
+struct GrabLayers {
+    std::uint32_t layers = ~0U;
+};
+
+// A host's order to a hand: grip `body` (a body, or another player's head) wherever the hand is, or
+// let go without a throw if it is null. Carried out and removed by update_grabs in the next frame.
+struct GrabOrder {
+    Entity body = k_no_entity;
 };
 
 // Distance grab: the free body that a closed, empty hand pulls towards itself. Only pulling hands

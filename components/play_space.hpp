@@ -10,30 +10,30 @@
 // Geometry of head and hands that several stages use.
 namespace handhold {
 
-// A hand's palm ray in the world. It starts behind the palm and passes through it along the hand's
-// -Y, out of the palm.
+// The palm ray of a hand: it starts behind the palm and passes through it along the palm's outward
+// normal, the hand's -Y.
 struct PalmRay {
     Vec3 from_ws;
     Vec3 to_ws;
-    Vec3 palm_ws;  // point on the palm's skin
+    Vec3 palm_ws;  // HandTuning::palm_center_m, on the skin
 };
 inline PalmRay palm_ray(const Pose& hand_ws, HandSide side, const HandTuning& tuning) {
     Vec3 palm = tuning.palm_center_m;
     palm.x() *= side == HandSide::right ? 1.0 : -1.0;
-    const Vec3 inward_ws = hand_ws.rotation * -Vec3::UnitY();
+    const Vec3 outward_ws = hand_ws.rotation * -Vec3::UnitY();
     const Vec3 palm_ws = transform_point(hand_ws, palm);
-    const Vec3 from_ws = palm_ws - tuning.ray_back_m * inward_ws;
-    return {from_ws, from_ws + tuning.ray_length_m * inward_ws, palm_ws};
+    const Vec3 from_ws = palm_ws - tuning.ray_back_m * outward_ws;
+    return {from_ws, from_ws + tuning.ray_length_m * outward_ws, palm_ws};
 }
 
-// World pose of what a hand grips: a body, or the head of a player.
+// Pose of what a hand grips: a body, or another player's head.
 inline Pose gripped_pose_ws(const Column<BodyPose>& body_pose, const Column<PlayerOrigin>& origin,
                             const Column<HeadTracking>& head, Entity gripped) {
     const BodyPose* const body = body_pose.find(gripped);
     return body != nullptr ? body->pose_ws : origin.at(gripped).pose_ws * head.at(gripped).pose_ps;
 }
 
-// Centre of the head's sphere collider.
+// Centre of the head's collider.
 inline Vec3 head_center_ps(const HeadTracking& head, const HeadTuning& tuning) {
     return transform_point(head.pose_ps, tuning.center_m);
 }

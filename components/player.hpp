@@ -6,9 +6,8 @@
 #include "engine/ecs/entity.hpp"
 #include "engine/math/math.hpp"
 
-// A player is simulated as the translation of their play space: three degrees of freedom. Head and
-// hands lie at tracked offsets from its origin. These offsets are input; the simulation never
-// changes them.
+// A player's only dynamic state is the translation of the play space: three degrees of freedom.
+// Head and hands are tracked offsets in it; no constraint acts on them.
 namespace handhold {
 
 // Written by the host that adds the player.
@@ -16,38 +15,37 @@ struct PlayerBody {
     double mass_kg = 80.0;  // > 0
 };
 
-// Pose of the play space in the world. predict_bodies and finish_positions write the position. Only
-// locomote_players writes the rotation (turn commands, and following a turning support).
+// Pose of the play space in the world. predict_bodies and finish_positions write the position;
+// locomote_players writes the rotation (turns, support_follow) and the position that a turn about a
+// hand or the head requires.
 struct PlayerOrigin {
     Pose pose_ws;
 };
-// Pose of the play space at the start of the frame. Written by predict_bodies.
+// PlayerOrigin at the start of the frame. Written by predict_bodies.
 struct PlayerStart {
     Pose pose_ws;
 };
-// Velocity of the play space, in the world. Does not include motion of the head within the play
-// space. Written by locomote_players and update_velocities.
+// Velocity of the play space, without the tracked motion of the head in it. Written by
+// locomote_players and update_velocities.
 struct PlayerVelocity {
     Vec3 linear_mps = Vec3::Zero();
 };
 
-// The velocity relative to which the player's drag, brake and release clamp act. It is the velocity
-// of the body last gripped, at the gripped point, or else the scene's
-// (World::reference_velocity_mps). Written by locomote_players.
+// Velocity relative to which drag, brake and the release clamp act: that of the body last gripped
+// at the point of the grip, else the scene's. Written by locomote_players.
 struct ReferenceVelocity {
     Vec3 linear_mps = Vec3::Zero();
-    Entity body = k_no_entity;  // the body last gripped; null: none
-    // The gripped point: a turning body's velocity is evaluated there.
-    Vec3 point_bs = Vec3::Zero();
+    Entity body = k_no_entity;     // last gripped; null: none yet
+    Vec3 point_bs = Vec3::Zero();  // where it was gripped
 };
 
-// Bodies that this player's head passes through: bodies in their hands, and released bodies that
-// have not yet left the head's collider. update_grabs adds bodies; find_contacts removes them. When
-// the list is full, its elements are overwritten in turn.
+// Bodies that do not collide with the player's head: those in the player's hands, and released ones
+// until they no longer touch the head. update_grabs adds them, find_contacts removes them. When all
+// places are used, they are overwritten in turn.
 struct HeadIgnores {
     static constexpr std::size_t k_capacity = 8;
-    std::array<Entity, k_capacity> bodies;  // null: unused element
-    std::uint32_t next = 0;                 // element to overwrite next when full
+    std::array<Entity, k_capacity> bodies;  // null: unused
+    std::uint32_t next = 0;                 // the place that is overwritten next
 };
 
 }  // namespace handhold

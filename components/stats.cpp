@@ -68,6 +68,12 @@ const char* name_of(Fallback reason) {
             return "hand_out_of_reach";
         case Fallback::head_recentred:
             return "head_recentred";
+        case Fallback::device_asleep:
+            return "device_asleep";
+        case Fallback::hand_implausible:
+            return "hand_implausible";
+        case Fallback::space_recentred:
+            return "space_recentred";
         case Fallback::grab_no_surface:
             return "grab_no_surface";
         case Fallback::grip_stretched:
@@ -82,6 +88,20 @@ const char* name_of(Fallback reason) {
             return "two_hand_grip_ended";
         case Fallback::hands_too_close:
             return "hands_too_close";
+        case Fallback::grab_refused_by_rule:
+            return "grab_refused_by_rule";
+        case Fallback::grab_needs_two_hands:
+            return "grab_needs_two_hands";
+        case Fallback::grip_needs_two_hands:
+            return "grip_needs_two_hands";
+        case Fallback::grip_ended_by_host:
+            return "grip_ended_by_host";
+        case Fallback::grip_out_of_reach:
+            return "grip_out_of_reach";
+        case Fallback::grip_speed_limited:
+            return "grip_speed_limited";
+        case Fallback::grab_out_of_sight:
+            return "grab_out_of_sight";
         case Fallback::contact_rounds_exhausted:
             return "contact_rounds_exhausted";
         case Fallback::contacts_contradict:

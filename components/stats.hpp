@@ -3,7 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
+#include "engine/ecs/entity.hpp"
 #include "engine/math/math.hpp"
 
 // Statistics of one frame: stage times, counters, and every fallback with its reason. Not state.
@@ -46,14 +49,24 @@ enum class Fallback : std::uint8_t {
     tracking_lost,        // a device is silent or invalid: its pose is frozen
     hand_out_of_reach,    // hand farther from its head than HandTuning::max_arm_m: sample ignored
     head_recentred,       // head moved more than TrackingTuning::max_jump_m: the player stays put
+    device_asleep,        // a controller at exactly (0, 0, 0): sample ignored
+    hand_implausible,     // faster than TrackingTuning::max_hand_speed_mps: sample ignored
+    space_recentred,      // head and hands jumped as one rigid body: the player stays put
     // Grabs.
-    grab_no_surface,      // a hand closed with no surface in reach
-    grip_stretched,       // hand farther from its anchor than HandTuning::max_stretch_m: let go
-    grip_lost,            // tracking returned with the hand open: let go without a throw
-    grip_body_gone,       // the gripped body was destroyed: let go
-    grip_reanchored,      // tracking returned or the other hand let go: anchor moved to the hand
-    two_hand_grip_ended,  // one of two hands let go: the body is not thrown
-    hands_too_close,      // both hands too close on one free body: only the first hand drives it
+    grab_no_surface,       // a hand closed with no surface in reach
+    grip_stretched,        // hand farther from its anchor than HandTuning::max_stretch_m: let go
+    grip_lost,             // tracking returned with the hand open: let go without a throw
+    grip_body_gone,        // the gripped body was destroyed: let go
+    grip_reanchored,       // tracking returned or the other hand let go: anchor moved to the hand
+    two_hand_grip_ended,   // one of two hands let go: the body is not thrown
+    hands_too_close,       // both hands too close on one free body: only the first hand drives it
+    grab_refused_by_rule,  // all that is in reach refuses the hand: GrabRule or GrabLayers
+    grab_needs_two_hands,  // the body is gripped by both hands or by none, and one closed
+    grip_needs_two_hands,  // one of both hands left such a body: the other lets go
+    grip_ended_by_host,    // a GrabOrder
+    grip_out_of_reach,     // after a tracking error the palm is too far from its surface: let go
+    grip_speed_limited,    // a gripping hand was faster than max_hand_speed_mps: its anchor slips
+    grab_out_of_sight,     // a wall stands between hand and surface: nothing gripped
     // Physics.
     contact_rounds_exhausted,  // new contacts appeared in every allowed round
     contacts_contradict,       // hand rows were dropped so that contacts could be met
@@ -102,6 +115,14 @@ struct MomentumLedger {
                                                     Vec3::Zero()};
 };
 
+// A hand that did not grip, or let go without its button, and why: with `reason` counted. `body`
+// may be null.
+struct HandNote {
+    Entity hand;
+    Entity body;
+    Fallback reason = Fallback::count;
+};
+
 struct StageStats {
     std::array<std::uint64_t, static_cast<std::size_t>(Fallback::count)> fallbacks{};
     // By Stage: time in this frame.
@@ -119,7 +140,19 @@ struct StageStats {
     double joint_error_rad = 0.0;  // largest direction or angle limit error of a joint
     double hand_error_m = 0.0;     // largest distance between a hand and its anchor
     MomentumLedger ledger;
+    std::vector<HandNote> hand_notes;  // in the order in which they happened
 
+    // Empties everything; keeps the memory of the notes.
+    void clear() {
+        std::vector<HandNote> notes = std::move(hand_notes);
+        *this = {};
+        notes.clear();
+        hand_notes = std::move(notes);
+    }
+    void note(Fallback reason, Entity hand, Entity body) {
+        count(reason);
+        hand_notes.push_back({hand, body, reason});
+    }
     void count(Fallback reason) { ++fallbacks[static_cast<std::size_t>(reason)]; }
 };
 

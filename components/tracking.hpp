@@ -7,17 +7,17 @@
 #include "engine/ecs/entity.hpp"
 #include "engine/math/math.hpp"
 
-// Tracking input, and the head and hand poses that read_tracking derives from it. Play space (_ps)
-// is the frame of the tracking system, shifted by HeadTracking::shift_m; its pose in the world is
-// PlayerOrigin. Poses in TrackingSample are not shifted yet.
+// Input from headset and controllers, and what read_tracking makes of it. Play space (_ps) is the
+// room that the headset tracks; PlayerOrigin is its pose in the world. Samples are given in the
+// device's own space; HeadTracking's shift brings them to play space.
 namespace handhold {
 
 enum class HandSide : std::uint8_t { left, right };
 inline constexpr std::size_t k_hand_count = 2;
 inline constexpr std::size_t index_of(HandSide side) { return static_cast<std::size_t>(side); }
 
-// One reading of one controller. If its pose is not finite, or its rotation does not have unit
-// length, the controller counts as not tracked.
+// One reading of one controller. Not tracked: a pose that is not finite, a rotation that is not of
+// unit length, or a position of exactly (0, 0, 0).
 struct ControllerSample {
     Pose controller_ps;
     bool grab = false;  // the button that closes the hand is pressed
@@ -29,24 +29,21 @@ struct TrackingSample {
     std::array<ControllerSample, k_hand_count> controllers;  // by HandSide
 };
 
-// Commands that the player gives with sticks and buttons. All zero: no command. Written by
-// read_tracking from the frame's input; read by locomote_players and calibrate_players.
+// Commands from sticks and buttons for one frame. All zero: none.
+// Written by read_tracking from the frame's input; read by locomote_players.
 struct PlayerCommands {
-    double smooth_turn = 0.0;  // [-1, 1], positive turns left
-    // Turns to the left that begin in this frame; negative: to the right.
-    std::int32_t snap_turns = 0;
-    double brake = 0.0;  // [0, 1]
-    // Components in [-1, 1]; ignored if LocomotionTuning::thruster_mps2 is 0.
-    Vec3 thrust_ps = Vec3::Zero();
-    bool calibrate = false;  // true while the player holds a T-pose to be measured
+    double smooth_turn = 0.0;       // [-1, 1], positive turns left
+    std::int32_t snap_turns = 0;    // turns to the left begun in this frame; negative to the right
+    double brake = 0.0;             // [0, 1]
+    Vec3 thrust_ps = Vec3::Zero();  // each in [-1, 1]; used only if Tuning allows thrusters
+    bool calibrate = false;         // down while the player holds a T-pose
 };
 
 // Input of one player for one frame.
 struct PlayerInput {
     Entity player;
-    // Sorted by time: the samples since the end of the last frame. If a sample after the end of
-    // this frame is known, it comes last; poses are then interpolated to the frame's end. Otherwise
-    // the last pose is held.
+    // Sorted by time: the samples since the end of the last frame and, if known, one after the end
+    // of this frame. Poses are interpolated to that one; without it the last pose is held.
     std::span<const TrackingSample> samples;
     PlayerCommands commands;
 };
@@ -54,19 +51,22 @@ struct PlayerInput {
 enum class TrackingState : std::uint8_t {
     never,    // no valid sample yet: the device does not exist
     tracked,  // the last valid sample is not older than TrackingTuning::lost_after_s
-    lost,     // the pose is frozen
+    lost,     // the pose is frozen at the last valid one
 };
 
-// A player's head. Written by read_tracking.
+// The head of a player. Written by read_tracking; read by all later stages.
 struct HeadTracking {
     Pose pose_ps;    // at the end of the frame
     Pose start_ps;   // at the start of the frame
     Pose sample_ps;  // last valid sample at or before the end of the frame
     double sample_t_s = 0.0;
+    Pose before_ps;  // the valid sample before that one
+    double before_t_s = 0.0;
     TrackingState state = TrackingState::never;
-    // Added to every tracked position. Changes when the head jumps (re-centring, a glitch), so that
-    // the head does not move.
+    // Corrects samples: pose_ps = (shift_m, shift_turn) * sample. When the samples jump
+    // (recentring, a tracking error), it changes so that the head stays where it was in the world.
     Vec3 shift_m = Vec3::Zero();
+    Quat shift_turn = Quat::Identity();  // about +Y
 };
 
 enum class GrabEdge : std::uint8_t { none, onset, release };
@@ -76,28 +76,45 @@ enum class GrabEdge : std::uint8_t { none, onset, release };
 // by read_tracking.
 struct HandTracking {
     Pose pose_ps;    // at the end of the frame
-    Pose start_ps;   // at the start of the frame
-    Pose sample_ps;  // last valid sample at or before the end of the frame
+    Pose start_ps;   // at its start
+    Pose sample_ps;  // last sample that was used
     double sample_t_s = 0.0;
     TrackingState state = TrackingState::never;
-    // The pose may have jumped: the hand is tracked now but was lost in the last frame, or two
-    // successive samples lie farther apart than TrackingTuning::max_jump_m.
+    // The pose may have jumped in this frame: the hand was lost in the last one, or came back
+    // elsewhere after samples that were ignored or missing. start_ps equals pose_ps then.
     bool resumed = false;
-    // Change of `pressed` in this frame: at most one. If the button changes more often, the next
-    // frame begins with the next edge.
+    // Samples after sample_ps were ignored or missing: the next one may lie elsewhere.
+    bool interrupted = false;
+    // Last valid sample, used or not. Newer than sample_ps if it was ignored because the hand would
+    // have moved too fast.
+    Pose reading_ps;
+    double reading_t_s = 0.0;
+    // At most one edge per frame and hand. If a button bounces faster, the next frame begins with
+    // the next edge.
     GrabEdge edge = GrabEdge::none;
     double edge_t_s = 0.0;     // time of the edge's sample, within the frame
-    Pose edge_ps;              // pose of the hand at the edge
-    bool pressed = false;      // grab button after the edge
-    bool raw_pressed = false;  // grab button in the last sample
-    // Velocities of the hand in play space at its last release: least-squares slopes over the
-    // samples of the last TrackingTuning::release_window_s seconds.
+    Pose edge_ps;              // the hand at that time
+    bool pressed = false;      // after the edge
+    bool raw_pressed = false;  // in the last sample
+    // At a release: velocity of the hand in play space over TrackingTuning::release_window_s.
     Vec3 release_velocity_ps_mps = Vec3::Zero();
     Vec3 release_spin_ps_radps = Vec3::Zero();
 };
 
-// Ring buffer of the hand's last samples. Release velocities are measured from it, so that they do
-// not depend on the frame rate. Written by read_tracking.
+// A player's sample of after the last frame's end, for hosts that give each sample once: it comes
+// before the next frame's samples. Only players with such a sample have this component. Written and
+// read by the C interface.
+struct EarlySample {
+    double t_s = 0.0;
+    Pose head_ps;
+    std::array<Pose, k_hand_count> controllers_ps;  // by HandSide
+    bool head_tracked = false;                      // false: the pose says nothing
+    std::array<bool, k_hand_count> tracked = {};    // by HandSide
+    std::array<bool, k_hand_count> grab = {};       // by HandSide
+};
+
+// The hand's last samples in a ring, for velocities that do not depend on the frame rate. Written
+// by read_tracking.
 struct HandHistory {
     static constexpr std::size_t k_capacity = 32;
     struct Entry {
@@ -105,7 +122,7 @@ struct HandHistory {
         Pose hand_ps;
     };
     std::array<Entry, k_capacity> entries;
-    std::uint32_t next = 0;   // index that the next sample is written to
+    std::uint32_t next = 0;   // index of the next sample
     std::uint32_t count = 0;  // at most k_capacity
 };
 

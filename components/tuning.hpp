@@ -14,6 +14,7 @@ struct TrackingTuning {
     double lost_after_s = 0.25;
     double max_jump_m = 2.0;
     double release_window_s = 0.06;
+    double max_hand_speed_mps = 8.0;
 };
 
 struct HandTuning {
@@ -25,6 +26,7 @@ struct HandTuning {
     double reach_m = 0.10;
     double max_stretch_m = 0.3;
     double max_arm_m = 2.0;
+    double return_speed_mps = 2.0;
 };
 
 // Distance grab: a hand that closes without gripping anything pulls the free body at which its palm
@@ -174,6 +176,9 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "player stays in place.");
     see("tracking.release_window_s", t.tracking.release_window_s, "s", 0.01, 0.5,
         "Time before a release over which the hand's throwing velocity is measured.");
+    see("tracking.max_hand_speed_mps", t.tracking.max_hand_speed_mps, "m/s", 0.5, 1e6,
+        "Hand speed above which a sample is ignored until later samples confirm it; a gripping "
+        "hand moves its player no faster.");
     see("hand.controller_offset_m", t.hand.controller_offset_m, "m", -0.5, 0.5,
         "Wrist position in the controller's frame for the right hand; x is mirrored for the left.");
     see("hand.controller_pitch_rad", t.hand.controller_pitch_rad, "rad", -3.2, 3.2,
@@ -191,6 +196,8 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "Distance between a hand and its anchor above which the hand lets go.");
     see("hand.max_arm_m", t.hand.max_arm_m, "m", 0.5, 1000.0,
         "Distance from the head above which a hand sample is ignored as a tracking error.");
+    see("hand.return_speed_mps", t.hand.return_speed_mps, "m/s", 0.0, 100.0,
+        "Speed at which a held body comes back to its hand after a tracking error.");
     see("palm.min_height_m", t.palm.min_height_m, "m", -0.05, 0.1,
         "Minimum height of a gripping palm's centre above its surface.");
     see("palm.max_height_m", t.palm.max_height_m, "m", -0.05, 0.2,
@@ -329,7 +336,8 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "Constraint error above which Newton steps include geometric stiffness (forces turning "
         "with their levers).");
     see("solver.load_stepping_from_m", t.solver.load_stepping_from_m, "m", 0.0, 1e6,
-        "Error reduction above which an unconverged solve is repeated by load stepping the hands.");
+        "A solve that runs out of iterations after reducing the hands' error by more than this is "
+        "repeated by load stepping: the hands' targets move in steps.");
     see("solver.friction_passes", t.solver.friction_passes, "", 1.0, 100.0,
         "Maximum number of velocity solves to decide which contacts stick and which slip.");
     visit_body_tuning(t, see);

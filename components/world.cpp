@@ -40,6 +40,14 @@ Entity add_named(World& world, std::string_view name) {
     const Entity entity = world.entities.create();
     world.persistent_id.add(entity, id);
     world.entity_by_id.add(id, entity);
+    // Names outlive their entities, because a snapshot may bring them back. Now and then those of
+    // entities that are gone are dropped.
+    if (world.name_of_id.size() > 2 * world.persistent_id.size() + 64) {
+        std::erase_if(world.name_of_id, [&world](const auto& named) {
+            return is_null(world.entity_by_id.find({named.first}));
+        });
+    }
+    world.name_of_id.insert_or_assign(id.value, std::string(name));
     return entity;
 }
 
@@ -102,7 +110,7 @@ void check_body(const World& world, const BodyDescription& description, const ch
 }
 
 const Shape& known_shape(ShapeId shape, const ShapeLibrary& shapes, const char* caller) {
-    if (shape.index >= shapes.size()) {
+    if (!shapes.has(shape)) {
         fail_precondition(caller, "no shape with this id", std::to_string(shape.index));
     }
     return shapes.at(shape);
@@ -226,6 +234,7 @@ PlayerEntities add_player(World& world, const PlayerDescription& description) {
         world.hand_tracking.add(hand);
         world.hand_history.add(hand);
         world.grab.add(hand);
+        world.hand_sight.add(hand);
         world.grip_surface.add(hand);
         world.palm_offset.add(hand);
         world.palm_pose.add(hand);
@@ -273,6 +282,16 @@ bool destroy(World& world, Entity entity) {
     }
     visit_columns(world, [entity](const char*, auto& column) { column.remove(entity); });
     return world.entities.destroy(entity);
+}
+
+Entity find_by_name(const World& world, std::string_view name) {
+    return find_by_id(world, persistent_id_from_name(name));
+}
+
+std::string_view name_of(const World& world, Entity entity) {
+    const PersistentId* const id = world.persistent_id.find(entity);
+    const auto found = id != nullptr ? world.name_of_id.find(id->value) : world.name_of_id.end();
+    return found != world.name_of_id.end() ? std::string_view(found->second) : std::string_view();
 }
 
 Entity find_by_id(const World& world, PersistentId id) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
+#include <unordered_map>
 
 #include "components/arm.hpp"
 #include "components/authored_grip.hpp"
@@ -33,17 +35,22 @@ struct World {
     FrameClock clock;
     // Velocity of the scene in the world; see ReferenceVelocity.
     Vec3 reference_velocity_mps = Vec3::Zero();
+    Vec3 gravity_mps2 = Vec3::Zero();    // of free bodies, in the world; players float
     Column<PersistentId> persistent_id;  // every entity
 
     Column<RigidBody> body;
-    Column<BodyPose> body_pose;          // every body
-    Column<BodyStart> body_start;        // every body
-    Column<BodyVelocity> body_velocity;  // every body
-    Column<Collider> collider;         // bodies with a shape, and players (the sphere of the head)
-    Column<Mover> mover;               // kinematic bodies with constant velocities
-    Column<PathMover> path_mover;      // kinematic bodies on closed paths
-    Column<LegMover> leg_mover;        // kinematic bones of crawling legs
-    Column<LastValidPose> last_valid;  // free bodies and players
+    Column<BodyPose> body_pose;            // every body
+    Column<BodyStart> body_start;          // every body
+    Column<BodyVelocity> body_velocity;    // every body
+    Column<Collider> collider;             // bodies with a shape; players: the sphere of the head
+    Column<Mover> mover;                   // kinematic bodies with constant velocities
+    Column<PathMover> path_mover;          // kinematic bodies on closed paths
+    Column<LegMover> leg_mover;            // kinematic bones of crawling legs
+    Column<MoveTarget> move_target;        // kinematic bodies that a host moves
+    Column<GravityScale> gravity_scale;    // bodies whose scale is not 1
+    Column<CollisionFilter> filter;        // bodies and players with layers of their own
+    Column<GrabRule> grab_rule;            // bodies that not every hand may grip
+    Column<LastValidPose> last_valid;      // free bodies and players
     Column<AuthoredGrips> authored_grips;  // bodies with authored grips
 
     Column<Joint> joint;
@@ -71,6 +78,7 @@ struct World {
     Column<HandTracking> hand_tracking;
     Column<HandHistory> hand_history;
     Column<Grab> grab;
+    Column<HandSight> hand_sight;
     Column<GripSurface> grip_surface;
     Column<PalmOffset> palm_offset;
     Column<PalmPose> palm_pose;
@@ -79,10 +87,15 @@ struct World {
     Column<ControllerToHand> controller_to_hand;
     Column<AuthoredHold> authored_hold;  // only hands in an authored grip
     Column<HandPull> hand_pull;          // only hands that pull a body from a distance
+    Column<EarlySample> early_sample;    // only players with a sample of after the last frame
+    Column<GrabLayers> grab_layers;      // only players whose hands do not grip everything
+    Column<GrabOrder> grab_order;        // only hands with an order for the next frame
+    Column<HandRigChoice> hand_rig;      // only hands with a rig of their own
 
     // Caches of persistent_id and joint, maintained by the functions below. Not state.
     EntityById entity_by_id;
     JointsByBody joints_by_body;
+    std::unordered_map<std::uint64_t, std::string> name_of_id;  // by persistent id
 };
 
 // Calls visit(name, column) for every column. Hashing, snapshots and destroy use this list.
@@ -97,6 +110,10 @@ void visit_columns(WorldType& world, Visit&& visit) {
     visit("mover", world.mover);
     visit("path_mover", world.path_mover);
     visit("leg_mover", world.leg_mover);
+    visit("move_target", world.move_target);
+    visit("gravity_scale", world.gravity_scale);
+    visit("filter", world.filter);
+    visit("grab_rule", world.grab_rule);
     visit("last_valid", world.last_valid);
     visit("authored_grips", world.authored_grips);
     visit("joint", world.joint);
@@ -122,6 +139,7 @@ void visit_columns(WorldType& world, Visit&& visit) {
     visit("hand_tracking", world.hand_tracking);
     visit("hand_history", world.hand_history);
     visit("grab", world.grab);
+    visit("hand_sight", world.hand_sight);
     visit("grip_surface", world.grip_surface);
     visit("palm_offset", world.palm_offset);
     visit("palm_pose", world.palm_pose);
@@ -129,6 +147,10 @@ void visit_columns(WorldType& world, Visit&& visit) {
     visit("controller_to_hand", world.controller_to_hand);
     visit("authored_hold", world.authored_hold);
     visit("hand_pull", world.hand_pull);
+    visit("early_sample", world.early_sample);
+    visit("grab_layers", world.grab_layers);
+    visit("grab_order", world.grab_order);
+    visit("hand_rig", world.hand_rig);
 }
 
 // Limits of the numbers that add_body, add_joint and add_player accept. Within these limits, no
@@ -137,6 +159,7 @@ namespace world_limits {
 constexpr double k_max_coordinate_m = 1e9;  // limit of each axis
 constexpr double k_max_speed_mps = 1e6;
 constexpr double k_max_spin_radps = 1e4;
+constexpr double k_max_gravity_mps2 = 1e4;  // of each axis
 constexpr double k_min_mass_kg = 1e-12;
 constexpr double k_max_mass_kg = 1e15;
 constexpr double k_min_inertia_kgm2 = 1e-24;
@@ -202,5 +225,9 @@ void sync_index(World& world);
 
 // Returns k_no_entity if no entity has the id. Constant cost.
 Entity find_by_id(const World& world, PersistentId id);
+Entity find_by_name(const World& world, std::string_view name);
+// The name that the entity was added with; empty for a stale handle, and for an entity that came
+// with a snapshot and was never added here. Valid until an entity is added or destroyed.
+std::string_view name_of(const World& world, Entity entity);
 
 }  // namespace handhold

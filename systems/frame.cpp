@@ -1,9 +1,5 @@
 #include "systems/frame.hpp"
 
-#include <cmath>
-
-#include "components/tuning_check.hpp"
-#include "engine/core/check.hpp"
 #include "engine/core/profile.hpp"
 #include "systems/arm/estimate_arms.hpp"
 #include "systems/arm/pose_arms.hpp"
@@ -12,11 +8,13 @@
 #include "systems/body/propagate_spine.hpp"
 #include "systems/body/publish_body.hpp"
 #include "systems/body/publish_pose.hpp"
+#include "systems/frame_check.hpp"
 #include "systems/hand/constrain_palms.hpp"
 #include "systems/hand/fit_hands.hpp"
 #include "systems/hand/gather_surroundings.hpp"
 #include "systems/hand/search_grip.hpp"
 #include "systems/hand/sweep_fingers.hpp"
+#include "systems/input/read_paused_tracking.hpp"
 #include "systems/input/read_tracking.hpp"
 #include "systems/locomotion/anchor_grabs.hpp"
 #include "systems/locomotion/locomote_players.hpp"
@@ -37,9 +35,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_min_dt_s = 1e-6;
-constexpr double k_max_dt_s = 10.0;
-
 // Adds a scope's time to its stage, and marks the scope as a zone in traces.
 class StageTimer {
   public:
@@ -57,7 +52,7 @@ class StageTimer {
     std::int64_t begin_ns_;
 };
 
-// What every stage is bound from: below, one function per stage selects the columns it gets.
+// Everything that stages may need. Below, one function per stage selects the columns that it gets.
 struct FrameContext {
     World& w;
     FrameCaches& caches;
@@ -103,18 +98,21 @@ void place_colliders(const FrameContext& f, Stage needed_by) {
     World& w = f.w;
     handhold::place_colliders(
         {w.persistent_id, w.collider, w.body, w.body_pose, w.body_start, w.player_origin,
-         w.player_start, w.head_tracking, w.last_valid, f.collision(), f.graph()},
+         w.player_start, w.head_tracking, w.last_valid, f.collision(), f.graph(), &w.filter},
         f.tuning.head);
 }
 
 void update_grabs(const FrameContext& f) {
     const StageTimer timer(Stage::update_grabs, f.stats);
     World& w = f.w;
-    handhold::update_grabs(
-        {f.collision(), w.persistent_id, w.hand_owner, w.hand_tracking, w.player_origin,
-         w.head_tracking, w.body, w.body_pose, f.graph().joint_groups, w.authored_grips,
-         w.hand_pull, w.grab, w.authored_hold, w.head_ignores},
-        f.tuning, f.stats);
+    handhold::update_grabs({f.collision(),    w.persistent_id, w.hand_owner,
+                            w.hand_tracking,  w.player_origin, w.head_tracking,
+                            w.body,           w.body_pose,     f.graph().joint_groups,
+                            w.authored_grips, w.hand_pull,     w.reference_velocity,
+                            w.hand_sight,     w.grab,          w.authored_hold,
+                            w.head_ignores,   &w.grab_rule,    &w.grab_layers,
+                            &w.filter,        &w.grab_order,   f.start_s()},
+                           f.tuning, f.stats);
 }
 
 void locomote_players(const FrameContext& f) {
@@ -131,7 +129,7 @@ void pull_bodies(const FrameContext& f) {
     const StageTimer timer(Stage::locomote_players, f.stats);
     World& w = f.w;
     handhold::pull_bodies({f.dt_s(), f.collision(), w.persistent_id, w.hand_owner, w.hand_tracking,
-                           w.grab, w.player, w.player_origin, w.body, w.body_pose,
+                           w.grab, w.hand_sight, w.player, w.player_origin, w.body, w.body_pose,
                            f.graph().joint_groups, w.hand_pull, w.body_velocity, w.player_velocity},
                           f.tuning, f.stats);
 }
@@ -142,14 +140,15 @@ void animate_movers(const FrameContext& f) {
     const StageTimer timer(Stage::animate_movers, f.stats);
     World& w = f.w;
     handhold::animate_movers({f.end_s(), w.mover, w.path_mover, w.leg_mover, w.body_pose,
-                              w.body_start, w.body_velocity});
+                              w.body_start, w.body_velocity, &w.move_target, f.dt_s()});
 }
 
 void predict_bodies(const FrameContext& f) {
     const StageTimer timer(Stage::predict_bodies, f.stats);
     World& w = f.w;
     handhold::predict_bodies({f.dt_s(), w.body, w.player_velocity, w.body_pose, w.body_start,
-                              w.body_velocity, w.player_origin, w.player_start});
+                              w.body_velocity, w.player_origin, w.player_start, w.gravity_mps2,
+                              &w.gravity_scale});
 }
 
 void anchor_grabs(const FrameContext& f) {
@@ -223,7 +222,7 @@ void gather_surroundings(const FrameContext& f) {
     handhold::gather_surroundings(
         {f.caches.meshes_for_hands, f.caches.hand_rigs, f.graph(), w.persistent_id, w.hand_owner,
          w.hand_tracking, w.grab, w.player_origin, w.head_tracking, w.body_pose, w.collider,
-         w.authored_hold, f.hands().surroundings},
+         w.authored_hold, f.hands().surroundings, &w.hand_rig, f.caches.more_hand_rigs},
         f.stats);
     f.hands().traces.assign(f.hands().surroundings.size(), {});
 }
@@ -316,14 +315,8 @@ void publish_body(const FrameContext& f) {
 
 void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
                 StageStats& stats) {
-    HH_CHECK(input.dt_s >= k_min_dt_s && input.dt_s <= k_max_dt_s,
-             "dt_s must lie between 1e-6 and 10", input.dt_s);
-    for (const double axis_mps : world.reference_velocity_mps) {
-        HH_CHECK(std::abs(axis_mps) <= world_limits::k_max_speed_mps,
-                 "reference_velocity_mps is out of range", axis_mps);
-    }
-    check_tuning(tuning);
-    stats = {};
+    check_frame(world, caches, tuning, input);
+    stats.clear();
     const FrameContext f{world, caches, tuning, input, stats};
 
     // Input and intent: what players do.
@@ -370,6 +363,40 @@ void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const F
 
     ++world.clock.frame;
     world.clock.t_s += input.dt_s;
+}
+
+void step_pose_only(World& world, FrameCaches& caches, const Tuning& tuning,
+                    const FrameInput& input, StageStats& stats) {
+    check_frame(world, caches, tuning, input);
+    stats.clear();
+    const FrameContext f{world, caches, tuning, input, stats};
+    {
+        const StageTimer timer(Stage::read_tracking, stats);
+        read_paused_tracking({input.players,
+                              world.hand_owner,
+                              world.controller_to_hand,
+                              world.head_tracking,
+                              world.hand_tracking,
+                              world.hand_history,
+                              {default_controller_to_hand(HandSide::left, tuning.hand),
+                               default_controller_to_hand(HandSide::right, tuning.hand)}});
+    }
+    place_colliders(f, Stage::find_contacts);
+
+    gather_surroundings(f);
+    search_grip(f);
+    constrain_palms(f);
+    sweep_fingers(f);
+    fit_hands(f);
+
+    estimate_arms(f);
+    layer_clavicles(f);
+    pose_arms(f);
+    propagate_spine(f);
+    layer_additives(f);
+
+    publish_pose(f);
+    publish_body(f);
 }
 
 }  // namespace handhold

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include "components/frame_graph.hpp"
 #include "components/hand_scratch.hpp"
@@ -23,32 +24,43 @@ struct FrameInput {
     std::span<const PlayerInput> players;  // any subset of the world's players
 };
 
-// What a frame keeps outside the world: caches, and the assets they are built from. Caches may be
-// dropped before any frame; that changes no bit of the next.
+// Data that frames keep outside the world: caches, and the assets that they are built from. Caches
+// may be dropped before any frame; no bit of a result changes.
 struct FrameCaches {
     // `shapes` must outlive the caches and contain every shape of the world's colliders.
-    // `grip_meshes`, to which hands are fitted, must outlive them too. Without it, or for a shape
-    // it lacks, hands are shown as tracked.
-    explicit FrameCaches(const ShapeLibrary& shapes, const GripMeshLibrary* grip_meshes = nullptr)
-        : collision(shapes), meshes_for_hands(grip_meshes) {}
+    // `grip_meshes` has the meshes that hands are fitted to, and must outlive the caches too. Hands
+    // are shown as tracked without it, and on shapes that it lacks.
+    explicit FrameCaches(const ShapeLibrary& library, const GripMeshLibrary* grip_meshes = nullptr)
+        : shapes(&library), collision(library), meshes_for_hands(grip_meshes) {}
 
+    const ShapeLibrary* shapes;
     CollisionWorld collision;
     FrameGraph graph;
     const GripMeshLibrary* meshes_for_hands = nullptr;
     // Assets. Set them again whenever new caches are made.
     std::array<HandRig, k_hand_count> hand_rigs = {builtin_hand_rig(HandSide::left),
                                                    builtin_hand_rig(HandSide::right)};
-    BodyClips body_clips;  // empty: no additive clips
+    std::vector<HandRig> more_hand_rigs;  // for hands with a HandRigChoice
+    BodyClips body_clips;                 // empty: no additive clips
     HandScratch hands;
 };
 
-// Steps one frame: a straight line of stage calls, in frame.cpp. `stats` is cleared first. Throws
-// PreconditionError if dt_s is out of range; no player input makes it fail.
+// Steps one frame: a straight line of stage calls, in frame.cpp. `stats` is cleared first. No
+// player input makes it fail. Throws PreconditionError, before it changes anything, if dt_s or a
+// number of `tuning` or of the world is out of range, or a collider's shape is not in the caches'
+// library or is a mesh on a free body.
 void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
                 StageStats& stats);
 
-// Hash of all columns by persistent id: independent of slots, creation order, thread count, build
-// and compiler.
+// Shows players while the world stands still, as in a menu: heads, hands and bodies follow each
+// player's last sample for dt_s, and the clock, bodies, joints, grips and players' origins stay.
+// The next step_frame goes on where the last one ended. Throws as step_frame.
+void step_pose_only(World& world, FrameCaches& caches, const Tuning& tuning,
+                    const FrameInput& input, StageStats& stats);
+
+// Hash of all columns, the clock, the reference velocity and, unless it is zero, gravity.
+// Identifies rows by persistent id, so it is independent of slots, creation order, thread count,
+// build and compiler.
 std::uint64_t hash_state(const World& world);
 
 }  // namespace handhold

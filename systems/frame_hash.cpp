@@ -78,6 +78,11 @@ std::uint64_t hash_state(const World& world) {
     for (int axis = 0; axis < 3; ++axis) {
         stream.add(world.reference_velocity_mps[axis]);
     }
+    if (world.gravity_mps2 != Vec3::Zero()) {  // a world without gravity keeps its older hash
+        for (int axis = 0; axis < 3; ++axis) {
+            stream.add(world.gravity_mps2[axis]);
+        }
+    }
     return stream.value();
 }
 

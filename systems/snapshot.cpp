@@ -117,6 +117,7 @@ std::optional<FileError> restore_snapshot(std::span<const std::byte> bytes,
         return FileError{"snapshot", breach->place, breach->expected};
     }
     sync_index(restored);
+    restored.name_of_id = std::move(world.name_of_id);
     world = std::move(restored);
     return std::nullopt;
 }

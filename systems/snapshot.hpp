@@ -47,7 +47,8 @@ void save_snapshot(const World& world, const SnapshotAssets& assets, std::vector
 [[nodiscard]] std::optional<FileError> restore_snapshot(std::span<const std::byte> bytes,
                                                         const SnapshotAssets& assets, World& world);
 
-// The same with a file. Saving is atomic: the file is replaced completely or not at all.
+// save_snapshot and restore_snapshot with a file. Saving is atomic: the file is replaced completely
+// or not at all.
 [[nodiscard]] std::optional<FileError> save_snapshot_file(const std::filesystem::path& path,
                                                           const World& world,
                                                           const SnapshotAssets& assets);
@@ -57,12 +58,12 @@ void save_snapshot(const World& world, const SnapshotAssets& assets, std::vector
 
 struct WorldDiffSettings {
     std::size_t limit = 20;  // maximum number of differences listed
-    std::span<const std::string>
-        names;  // names of entities for the messages; others are shown by id
+    // Names of entities for the messages; entities without a name are shown by id.
+    std::span<const std::string> names;
 };
 // Lists the fields in which two worlds differ, bit for bit, by persistent id, in the order of the
-// columns and of a's rows: "head_tracking[player].pose_ps.position.x: a 0.1, b 0.2",
-// "grab[0x5d...1]: only in a". As in hash_state, slots and row order are ignored; shape ids are
+// columns and of the rows of `a`: "head_tracking[player].pose_ps.position.x: a 0.1, b 0.2",
+// "grab[0x5d...1]: only in a". As in hash_state, slots and row order are ignored; but shape ids are
 // compared.
 std::vector<std::string> diff_worlds(const World& a, const World& b,
                                      const WorldDiffSettings& settings = {});

@@ -76,7 +76,11 @@ SnapshotAssets::SnapshotAssets(const ShapeLibrary& shapes, std::string_view scen
     stream.add(hash_text(scene));
     ShapeHasher hasher(stream);
     for (std::uint32_t i = 0; i < shapes.size(); ++i) {
-        hasher.add_shape(shapes.at({i}));
+        if (shapes.has({i})) {
+            hasher.add_shape(shapes.at({i}));
+        } else {
+            stream.add(std::uint64_t{0});  // ids stay apart
+        }
     }
     hash_ = stream.value();
 }

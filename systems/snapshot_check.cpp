@@ -12,7 +12,7 @@
 namespace handhold {
 namespace {
 
-// Latest time: beyond it adding a frame's length is lost to rounding.
+// Latest clock time. Beyond it, rounding would swallow part of a frame's length.
 constexpr double k_max_time_s = 1e9;
 
 constexpr double k_min_bone_ratio = 0.01;
@@ -72,6 +72,9 @@ class BreachFinder {
         if (!(std::abs(w_.clock.t_s) <= k_max_time_s)) {
             breach_ = WorldBreach{"clock.t_s", "expected a time within 1e9 s"};
         }
+        if (!(w_.gravity_mps2.cwiseAbs().maxCoeff() <= world_limits::k_max_gravity_mps2)) {
+            breach_ = WorldBreach{"gravity_mps2", "expected at most 1e4 m/s^2 per axis"};
+        }
     }
 
     void check_ids() {
@@ -117,6 +120,14 @@ class BreachFinder {
         require("mover", w_.mover, "body", w_.body);
         require("path_mover", w_.path_mover, "body", w_.body);
         require("leg_mover", w_.leg_mover, "body", w_.body);
+        require("move_target", w_.move_target, "body", w_.body);
+        require("gravity_scale", w_.gravity_scale, "body", w_.body);
+        require("grab_rule", w_.grab_rule, "body", w_.body);
+        for (std::size_t row = 0; row < w_.gravity_scale.size(); ++row) {
+            check(std::abs(w_.gravity_scale.rows()[row].scale) <= GravityScale::k_max,
+                  "gravity_scale", w_.gravity_scale.owners()[row], ".scale",
+                  "a number within 1000");
+        }
         for (std::size_t row = 0; row < w_.path_mover.size(); ++row) {
             const PosePath& path = w_.path_mover.rows()[row].path;
             check(path.count >= 2 && path.count <= k_max_path_keys && is_duration(path.period_s),
@@ -260,8 +271,13 @@ class BreachFinder {
         require_both("hand_owner", w_.hand_owner, "hand_tracking", w_.hand_tracking);
         require_both("hand_owner", w_.hand_owner, "hand_history", w_.hand_history);
         require_both("hand_owner", w_.hand_owner, "grab", w_.grab);
+        require_both("hand_owner", w_.hand_owner, "hand_sight", w_.hand_sight);
         require_both("hand_owner", w_.hand_owner, "palm_pose", w_.palm_pose);
         require("controller_to_hand", w_.controller_to_hand, "hand_owner", w_.hand_owner);
+        require("grab_order", w_.grab_order, "grab", w_.grab);
+        require("hand_rig", w_.hand_rig, "hand_owner", w_.hand_owner);
+        require("grab_layers", w_.grab_layers, "player", w_.player);
+        require("early_sample", w_.early_sample, "player", w_.player);
         check_retries();
         Column<std::array<std::uint8_t, k_hand_count>> has_hand;
         for (const Entity player : w_.player.owners()) {
@@ -311,7 +327,7 @@ class BreachFinder {
             const RigidBody* const body = w_.body.find(owner);
             check(body != nullptr || w_.player.contains(owner), "collider", owner, "",
                   "a body or a player");
-            check(shape.index < shapes_.size(), "collider", owner, ".shape", "a shape that exists");
+            check(shapes_.has(shape), "collider", owner, ".shape", "a shape that exists");
             if (breach_) {
                 return;
             }

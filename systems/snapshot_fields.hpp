@@ -26,10 +26,10 @@ struct FieldVisitor {
     void leave() {}
     // How many elements of an array to walk.
     static std::size_t count_walked(std::size_t size) { return size; }
-    // True: the visitor handles the value as a whole, and its axes are not walked.
+    // True: the visitor handles the value as a whole; its axes are not walked.
     static bool takes_whole(const Vec3& /*v*/) { return false; }
     static bool takes_whole(const Quat& /*q*/) { return false; }
-    // Called after the axes.
+    // Called after the four axes of a rotation were walked.
     void finish(const Quat& /*q*/) {}
 };
 
@@ -141,6 +141,9 @@ void walk_globals(const World& world, Visitor& visitor) {
     visitor.leave();
     visitor.enter("reference_velocity_mps");
     walk_field(world.reference_velocity_mps, visitor);
+    visitor.leave();
+    visitor.enter("gravity_mps2");
+    walk_field(world.gravity_mps2, visitor);
     visitor.leave();
 }
 

@@ -17,7 +17,7 @@ constexpr double k_unit_tolerance = 1e-3;  // as in is_valid(Pose)
 
 // --- Saving --------------------------------------------------------------------------------------
 
-// Calls put(number) for a leaf's value as unsigned numbers of the same size.
+// Passes a leaf's value to put(), as one or two unsigned numbers of the same size in bytes.
 template <typename T, typename Put>
 void encode_leaf(const T& value, Put&& put) {
     if constexpr (std::is_same_v<T, Entity>) {
@@ -108,7 +108,8 @@ class ByteReader : public PathVisitor {
     }
     const std::optional<FileError>& error() const { return error_; }
 
-    // The walk's signature is const, but it fills rows of the world under construction.
+    // The walk passes const references, but to rows of the world under construction, which are
+    // filled here.
     template <typename T>
     void leaf(const T& place) {
         T& value = const_cast<T&>(place);  // NOLINT(cppcoreguidelines-pro-type-const-cast)
@@ -155,7 +156,7 @@ class ByteReader : public PathVisitor {
         at_ += sizeof(T);
         return value;
     }
-    // A count of elements that take at least `bytes_each` bytes each.
+    // Reads a count of elements that take at least `bytes_each` bytes each.
     std::uint32_t count_of(std::size_t bytes_each, const char* what) {
         const auto count = number<std::uint32_t>();
         if (count > left() / bytes_each) {
@@ -181,8 +182,8 @@ class ByteReader : public PathVisitor {
         }
         return value;
     }
-    // Null, alive and stale handles are valid; handles of entities that never existed are not:
-    // after 2^32 - 1 reuses of one slot such a handle could match a future entity.
+    // Handles that are null, alive or stale are valid. A handle of an entity that never existed is
+    // not: it could match a future entity, once its slot was reused often enough.
     Entity read_handle() {
         const auto slot = number<std::uint32_t>();
         const auto generation = number<std::uint32_t>();

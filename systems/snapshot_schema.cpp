@@ -12,7 +12,7 @@ class SchemaWriter : public PathVisitor {
   public:
     explicit SchemaWriter(std::string& text) : text_(text) {}
 
-    // Walks one element for all; its line states the array's size.
+    // Walks only one element of an array; its line states the array's size.
     std::size_t count_walked(std::size_t size) {
         array_size_ = size;
         return 1;
@@ -66,8 +66,8 @@ std::string write_schema() {
     return text;
 }
 
-// Removes and returns the first line; "the end" if nothing is left. Shortened, and without control
-// characters.
+// Removes the first line and returns it in quotes, shortened and without control characters.
+// Returns "the end" if nothing is left.
 std::string take_shown_line(std::string_view& text) {
     if (text.empty()) {
         return "the end";

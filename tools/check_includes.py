@@ -17,6 +17,13 @@ ALLOWED_FOLDERS = {
     "tests": {"tests", "tools", "game", "systems", "components", "engine"},
     "tools": {"tools", "game", "systems", "components", "engine"},
 }
+# Folder of game/ -> folders of game/ whose headers it must not include.
+REFUSED_GAME_FOLDERS = {
+    "climber": {"commands"},
+    "render": {"view"},
+    "session": {"desktop"},
+    "view": {"commands"},
+}
 # The product, in which each library is included in one place and our headers are named from the root. Tests and tools may use any library
 # as an oracle.
 PRODUCT_FOLDERS = {"engine", "components", "systems", "game"}
@@ -98,6 +105,12 @@ def may_include_system(file: str, path: str) -> bool:
     return not file.startswith("systems/rigs/") and target_folder == f"{area}/shared"
 
 
+def game_folder(path: str) -> str:
+    """The folder within game/ of a file; empty for other files."""
+    parts = path.split("/")
+    return parts[1] if parts[0] == "game" and len(parts) > 2 else ""
+
+
 def include_rules(file: str, mark: str, path: str) -> Iterator[str]:
     """The rules that the include of `path` in `file` breaks."""
     folder = file.split("/")[0]
@@ -118,6 +131,8 @@ def include_rules(file: str, mark: str, path: str) -> Iterator[str]:
     if folder == target == "systems" and not may_include_system(file, path):
         yield (f'"{path}": a system includes its own header, its area\'s shared/ and rigs/, and no other system;'
                " only systems/frame, systems/snapshot and systems/host do")
+    if game_folder(path) in REFUSED_GAME_FOLDERS.get(game_folder(file), set()):
+        yield f'"{path}": game/{game_folder(file)} does not include game/{game_folder(path)}'
 
 
 def code_rules(file: str, line: str) -> Iterator[str]:

@@ -8,7 +8,7 @@ A page names the region of a program that its fence shows:
     hands.grip(wall);
     ```
 
-The program, which the build compiles and ctest runs, marks that region with the same comment before and after it:
+The program, which the build compiles and ctest runs, marks that region with the same comment before and after it (in C: /* [grip] */):
 
     // [grip]
     hands.grip(wall);
@@ -29,7 +29,7 @@ from typing import NamedTuple
 
 NOT_OURS = {"build", "out", ".git"}
 SAMPLE = re.compile(r"<!-- sample: (\S+)#([\w-]+) -->")
-MARKER = re.compile(r"\s*// \[([\w-]+)\]\s*")
+MARKER = re.compile(r"\s*(?://|/\*) \[([\w-]+)\](?: \*/)?\s*")
 FENCE = re.compile(r"(`{3,})\s*(\w*).*")
 CPP = {"cpp", "c", "cc", "cxx", "hpp"}
 
@@ -59,7 +59,7 @@ def fences_of(lines: list[str]) -> list[Fence]:
 
 def region_of(root: Path, file: str, name: str) -> list[str]:
     """The lines that a page must show. Raises BadSample."""
-    if not re.fullmatch(r"tests/samples/[\w-]+\.cpp", file):
+    if not re.fullmatch(r"tests/samples/[\w-]+\.(cpp|c)", file):
         raise BadSample(f"{file} is not a program in tests/samples/")
     if not (root / file).is_file():
         raise BadSample(f"{file} does not exist")

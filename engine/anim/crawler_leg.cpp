@@ -9,7 +9,7 @@ namespace {
 // Smoother step: 0 to 1, with zero velocity and acceleration at both ends.
 double smoother_step(double s) { return s * s * s * (10.0 + s * (6.0 * s - 15.0)); }
 
-// 0 at both ends with zero velocity and acceleration; 1 in the middle.
+// 0 at both ends, with zero velocity and acceleration there; 1 in the middle.
 double arch(double s) {
     const double product = 4.0 * s * (1.0 - s);
     return product * product * product;

@@ -14,8 +14,8 @@ struct TwoBones {
     Vec3 end = Vec3::Zero();  // the target, or the nearest reachable point to it
 };
 // Places two bones of given lengths from `root` towards `target`, with the middle joint towards
-// `pole` (not parallel to root - target). A target out of reach is clamped along its line, 1e-3 of
-// the total length short of fully straight or folded.
+// `pole` (not parallel to root - target). If the target is out of reach, the end is on the line to
+// it, 1e-3 of the total length short of fully straight or folded.
 TwoBones place_two_bones(const Vec3& root, const Vec3& target, double upper_m, double lower_m,
                          const Vec3& pole);
 
@@ -35,8 +35,8 @@ struct CrawlerGait {
     double lift_m = 0.2;    // height of the swing along the torso's +Y
 };
 
-// Foot position of a leg whose torso follows `torso`. During stance the foot stands below the
-// torso's pose at mid-stance. Position, velocity and acceleration are continuous.
+// Foot position of a leg whose torso follows `torso`. During stance the foot stays where foot_bs is
+// in the torso's pose at mid-stance. Position, velocity and acceleration are continuous.
 Vec3 crawler_foot(const PosePath& torso, const CrawlerGait& gait, const CrawlerLeg& leg,
                   double t_s);
 TwoBones crawler_bones(const PosePath& torso, const CrawlerGait& gait, const CrawlerLeg& leg,

@@ -4,9 +4,9 @@
 
 namespace handhold {
 
-// Turns a unit bone away from a surface. Returns the unit direction nearest to `towards` with
-// normal . direction >= min_out, raised by at most max_lift above normal . towards. Returns
-// `normal` if no direction reaches that far. `towards` and `normal` are unit vectors.
+// Turns a bone away from a surface. Returns the unit direction nearest to `towards` with normal .
+// direction >= min_out, but raises normal . direction by at most max_lift. Returns `normal` if no
+// direction reaches that far. `towards` and `normal` are unit vectors.
 Vec3 deflect_outward(const Vec3& towards, const Vec3& normal, double min_out, double max_lift);
 
 }  // namespace handhold

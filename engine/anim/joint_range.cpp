@@ -20,7 +20,7 @@ Vec3 clamp_to_cone(const Vec3& towards, const Vec3& rest, const JointRange& rang
     const Vec3 aside = towards - along * rest;
     const double length = aside.norm();
     const double wanted = arc_tangent2(length, along);
-    // An angle from `rest` has no lower limit to approach.
+    // The angle from `rest` approaches only its upper limit.
     angle_rad = std::min(wanted, approach_limit(range, angle_rad, std::max(wanted, angle_rad)));
     if (angle_rad >= wanted) {
         return towards;

@@ -5,23 +5,24 @@
 // Joint limits that are approached gradually.
 namespace handhold {
 
-// Per tick, the angle covers at most `share` of its remaining distance to a limit. An abrupt stop
-// would whip the links below, and differently for each moment within the tick at which it occurs.
+// In one tick, the angle covers at most `share` of its remaining distance to a limit. An abrupt
+// stop would whip the links below, and the result would depend on the moment of the stop within the
+// tick.
 struct JointRange {
     double low_rad = 0.0;
     double high_rad = 0.0;
     double share = 1.0;  // (0, 1]
 };
 
-// Directions are in the parent link's frame. `angle_rad`: in: the last tick's angle; out: this
-// tick's.
+// Directions are in the parent link's frame. `angle_rad` is read as the last tick's angle and set
+// to this tick's.
 
-// Cone about `rest`; the angle is measured from `rest`. `towards`, `rest` and the result are unit
+// Cone about `rest`. The angle is measured from `rest`. `towards`, `rest` and the result are unit
 // vectors.
 Vec3 clamp_to_cone(const Vec3& towards, const Vec3& rest, const JointRange& range,
                    double& angle_rad);
 
-// Hinge about X; the angle is measured from -Y towards +Z. The result is perpendicular to X.
+// Hinge about X. The angle is measured from -Y towards +Z. The result is perpendicular to X.
 Vec3 clamp_to_hinge(const Vec3& towards, const JointRange& range, double& angle_rad);
 
 }  // namespace handhold

@@ -8,7 +8,7 @@
 namespace handhold {
 namespace {
 
-// Position and quaternion as one array: the spline treats all seven components alike.
+// Position and quaternion as one array, because the spline treats all seven components alike.
 using PoseArray = std::array<double, 7>;
 
 PoseArray to_array(const Pose& pose) {
@@ -76,7 +76,7 @@ class PeriodicSpline {
 
   private:
     static void check_turn(double cosine, std::size_t key) {
-        // The cosine is that of half the angle between the rotations.
+        // `cosine` is that of half the angle between the rotations.
         double sine = 0.0;
         double min_cosine = 1.0;
         sin_cos(0.5 * k_max_path_turn_rad, sine, min_cosine);
@@ -103,7 +103,8 @@ Vec4 rate_of(const PathKey& key) {
             key.quaternion_rate[3]};
 }
 
-// Cubic Hermite segment from a (rate ra) to b (rate rb) over step_s, at fraction s.
+// Cubic Hermite segment from value a with rate ra to value b with rate rb. It takes step_s; s is
+// the fraction of it.
 template <typename Vector>
 struct Cubic {
     Vector value;

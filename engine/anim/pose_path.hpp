@@ -34,11 +34,11 @@ struct PosePathState {
     Vec3 angular_velocity_radps = Vec3::Zero();
 };
 
-// Maximum rotation between neighbouring poses. Beyond it the interpolated quaternion strays too far
-// from the unit sphere.
+// Largest rotation between neighbouring poses. Beyond it, the interpolated quaternion's length
+// differs too much from 1.
 inline constexpr double k_max_path_turn_rad = 2.1;
 
-// Path through poses[i] at time i * period_s / count, back at poses[0] after one period. Throws
+// Path through poses[i] at time i * period_s / count. Returns to poses[0] after one period. Throws
 // PreconditionError for fewer than 2 or more than k_max_path_keys poses, an invalid pose, a period
 // <= 0, or neighbours (including last and first) that differ by more than k_max_path_turn_rad.
 PosePath make_pose_path(std::span<const Pose> poses, double period_s);

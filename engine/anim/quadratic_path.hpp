@@ -4,13 +4,13 @@
 
 namespace handhold {
 
-// Motion within one frame, interpolated quadratically through the positions at both ends of the
-// last frame and at the current one. A constant acceleration therefore looks the same at any frame
-// rate. Never overshoots an end.
+// Quadratic motion within one frame, through the positions at the start of the last frame and at
+// the start and end of this one. So a constant acceleration looks the same at any frame rate. Never
+// overshoots an end.
 class QuadraticPath {
   public:
-    // `moved_m` in the last span_s seconds; before that, at before_mps for before_s seconds. Times
-    // > 0.
+    // The position moves by `moved_m` in this frame, which takes span_s seconds. In the last frame
+    // it moved at `before_mps` for before_s seconds. Times > 0.
     QuadraticPath(const Vec3& moved_m, double span_s, const Vec3& before_mps, double before_s)
         : span_s_(span_s), rate_mps_(moved_m / span_s) {
         const Vec3 change = rate_mps_ - before_mps;

@@ -10,20 +10,20 @@
 // Linear blend skinning.
 namespace handhold {
 
-// Joints that move a vertex.
+// The joints that move a vertex, and their weights.
 struct SkinWeights {
     std::array<std::uint16_t, 4> joint = {};
     std::array<float, 4> weight = {};  // >= 0; sum is 1
 };
 
-// Joint with the largest weight; the first one of equal weights.
+// The joint with the largest weight; of several with equal weights, the first.
 std::uint16_t heaviest_joint(const SkinWeights& weights);
 
 struct SkinVerticesInput {
     std::span<const Vec3> positions;
     std::span<const Vec3> normals;         // per vertex, unit
     std::span<const SkinWeights> weights;  // per vertex; joint indices < carry.size()
-    std::span<const Affine> carry;         // per joint: from its bind pose to its current pose
+    std::span<const Affine> carry;  // per joint: transform from its bind pose to its current pose
 };
 
 // Moves each vertex by the weighted mean of its joints' transforms. Resizes the outputs to the

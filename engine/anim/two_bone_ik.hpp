@@ -13,10 +13,13 @@ struct MiddleJoint {
     double aside_m = 0.0;  // >= 0
 };
 
-// Places the middle joint `upper_m` from the root and, if the tip at `distance_m` can be reached,
-// `lower_m` from the tip. Too far: on the line, both bones stretched by the same factor. Nearer
-// than the difference of the bones: on the line, `upper_m` from the root. Tip on the root: straight
-// to the side. Lengths > 0. Law of cosines, closed form; continuous in all arguments.
+// Places the middle joint at `upper_m` from the root. If the tip, at `distance_m`, can be reached,
+// the joint is at `lower_m` from the tip.
+// - Tip too far: the joint is on the line to it, and both bones are stretched by the same factor.
+// - Tip nearer than the difference of the bones: the joint is on the line, `upper_m` from the root.
+// - Tip at the root: the joint is straight to the side.
+//
+// Lengths are > 0. Closed form (law of cosines), continuous in all arguments.
 inline MiddleJoint middle_joint(double distance_m, double upper_m, double lower_m) {
     const double total = upper_m + lower_m;
     if (distance_m >= total) {
@@ -25,7 +28,7 @@ inline MiddleJoint middle_joint(double distance_m, double upper_m, double lower_
     if (distance_m < 1e-9) {
         return {0.0, upper_m};
     }
-    // (u - l)(u + l) instead of u^2 - l^2: exact for bones of equal length at any distance.
+    // Computes (u - l)(u + l) instead of u^2 - l^2, which is exact for bones of equal length.
     const double along = std::clamp(0.5 * (distance_m + (upper_m - lower_m) * total / distance_m),
                                     -upper_m, upper_m);
     return {along, std::sqrt((upper_m - along) * (upper_m + along))};
@@ -36,7 +39,7 @@ struct TwoBoneIk {
     double lower_m = 0.0;  // > 0
     Vec3 root = Vec3::Zero();
     Vec3 tip = Vec3::Zero();
-    // Unit, perpendicular to tip - root: side towards which the joint bends.
+    // Unit, perpendicular to tip - root. The joint bends towards this side.
     Vec3 bend = Vec3::UnitY();
 };
 

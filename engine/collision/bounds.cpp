@@ -62,9 +62,9 @@ ShapeExtent part_extent(const PlacedShape& part) {
 }
 
 Bounds swept_bounds(const ShapeExtent& extent, const Pose& from, const Pose& to) {
-    // A point on an arc of radius R and angle phi strays from its chord by at most the sagitta, R
-    // phi^2 / 8. Twice that is added, because a sweep interpolates in the other body's frame, where
-    // the motion is another arc.
+    // A point that moves along an arc of radius R and angle phi stays within R phi^2 / 8 (the
+    // sagitta) of the chord. The box grows by twice the sagitta, because a sweep interpolates in
+    // the other body's frame, where the point moves along another arc.
     const double angle_rad = rotation_to_vector(from.rotation.conjugate() * to.rotation).norm();
     const Bounds box = transformed(extent.box, from).joined(transformed(extent.box, to));
     return box.grown(extent.radius_m * angle_rad * angle_rad / 4.0 + k_rounding_m);

@@ -2,12 +2,12 @@
 
 #include "engine/collision/shape_library.hpp"
 
-// Axis-aligned bounding boxes, and swept bounds: a box around a shape over its whole motion of a
-// frame.
+// Axis-aligned bounding boxes, and swept bounds: boxes around everything that a shape passes
+// through in one frame.
 namespace handhold {
 
-// Added to swept bounds so that rounding never hides a contact. Far above double rounding at 100
-// km.
+// Margin added to swept bounds so that rounding errors never hide a contact. Rounding errors of
+// doubles are much smaller, even 100 km from the origin.
 constexpr double k_rounding_m = 1e-6;
 
 struct Bounds {
@@ -44,18 +44,18 @@ inline Bounds intersection(const Bounds& a, const Bounds& b) {
 // Bounds, in the parent frame of `pose`, of a box that is given in the frame of `pose`.
 Bounds transformed(const Bounds& bounds, const Pose& pose);
 
-// The part of a shape that bounds need. Computed once per shape, because a mesh's takes a pass over
-// its vertices.
+// Size of a shape, as needed to compute bounds. Stored per shape, because computing it for a mesh
+// visits every vertex.
 struct ShapeExtent {
     Bounds box;             // in the shape's frame
     double radius_m = 0.0;  // bounding sphere about the shape's origin
 };
 ShapeExtent shape_extent(const Shape& shape);
-// The same for a part of a compound: in the compound's frame, about the compound's origin.
+// Extent of a part of a compound: `box` is in the compound's frame, `radius_m` about its origin.
 ShapeExtent part_extent(const PlacedShape& part);
 
-// Contains every point of the shape on its motion from one pose to the other (position linear,
-// rotation along the shorter arc).
+// Box that contains every point of the shape on its motion from one pose to the other. The position
+// moves linearly, the rotation along the shorter arc.
 Bounds swept_bounds(const ShapeExtent& extent, const Pose& from, const Pose& to);
 
 }  // namespace handhold

@@ -15,7 +15,7 @@ btDbvtVolume to_volume(const Bounds& bounds) {
 
 bool has_shape(const ColliderProxy& proxy) { return proxy.shape != k_no_shape; }
 
-// True if the bodies correspond one to one to the proxies that have a shape.
+// True if `bodies` are exactly the proxies that have a shape, in the same order.
 bool matches(std::span<const BroadphaseBody> bodies, std::span<const ColliderProxy> proxies) {
     std::size_t next = 0;
     for (const ColliderProxy& proxy : proxies) {
@@ -26,10 +26,10 @@ bool matches(std::span<const BroadphaseBody> bodies, std::span<const ColliderPro
     return next == bodies.size();
 }
 
-// Overlaps nothing and widens no node above it: each low is above each high. The centres differ,
-// and lie far from every body's: Bullet descends by the distance of centres, so parked leaves form
-// a balanced subtree of their own. With equal centres they form a list, and parking n bodies costs
-// n^2.
+// Box of an unused leaf. It overlaps nothing and enlarges no ancestor's box, because its low corner
+// is above its high corner. Every number gives another centre, far from all bodies: Bullet inserts
+// by the distance of centres, so unused leaves form a balanced subtree. Leaves with equal centres
+// would form a list, and parking n bodies would cost n^2.
 btDbvtVolume empty_volume(std::uint64_t number) {
     constexpr double k_half = 1e30;
     Vec3 centre;
@@ -117,8 +117,7 @@ void Broadphase::set_isolated(std::size_t body, const Bounds& box_ws) {
     bodies_[body].isolation_ws = box_ws;
 }
 
-// Results are sorted, because the tree's shape, and with it the traversal order, depends on
-// history.
+// The result is sorted, because the order of traversal depends on the tree's history.
 std::span<const std::size_t> Broadphase::find(const Bounds& box, BroadphaseScratch& scratch) const {
     struct Collector final : btDbvt::ICollide {
         explicit Collector(std::vector<std::size_t>& list) : found(list) {}

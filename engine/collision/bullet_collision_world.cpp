@@ -1,16 +1,9 @@
-// Implementation of CollisionWorld. Bullet provides the candidates (btDbvt over swept bounds, a
-// quantised tree over each mesh's triangles), tests rays against triangles and, in
-// bullet_separation and bullet_manifold, measures distances and clips faces. docs/decisions/, 10
-// lists what is implemented here instead, and why.
+// Implementation of CollisionWorld. Bullet finds the candidates (btDbvt over swept bounds, a
+// quantised tree over each mesh's triangles) and tests rays against triangles. bullet_separation
+// and bullet_manifold use Bullet to measure distances and to clip faces. docs/decisions/, 10 lists
+// what is implemented here instead, and why.
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <cstdlib>
-#include <map>
-#include <mutex>
-#include <new>
-
-#include <LinearMath/btAlignedAllocator.h>
 
 #include "engine/collision/bullet_world.hpp"
 #include "engine/core/check.hpp"
@@ -19,27 +12,9 @@
 namespace handhold {
 namespace {
 
-std::atomic<std::uint64_t> g_allocations{0};
-
-void* counted_allocate(std::size_t size) {
-    g_allocations.fetch_add(1, std::memory_order_relaxed);
-    void* const memory = std::malloc(size);
-    if (memory == nullptr) {
-        throw std::bad_alloc();  // Bullet writes to it unseen
-    }
-    return memory;
-}
-
 constexpr std::size_t k_usual_contacts = 16;  // initial capacity per body
 
-// Memory allocated before the hook may be freed through it: Bullet's default allocator is malloc
-// too.
-void hook_allocator() {
-    static std::once_flag once;
-    std::call_once(once, [] { btAlignedAllocSetCustom(&counted_allocate, &std::free); });
-}
-
-// Per thread: several threads process pairs of one world at the same time.
+// One per thread, because several threads process pairs of one world at the same time.
 PairScratch& pair_scratch() {
     thread_local PairScratch scratch;
     return scratch;
@@ -49,9 +24,8 @@ Corners moved(const Corners& corners, const Vec3& by) {
     return {corners[0] + by, corners[1] + by, corners[2] + by};
 }
 
-// A box around a's swept bounds, larger than necessary, in which the resting mesh b has no
-// triangles. While a stays in this box, the pair needs no narrowphase. nullopt if b moves or no
-// such box is found.
+// A box, larger than a's swept bounds, in which the resting mesh b has no triangles. While a stays
+// in this box, the pair needs no narrowphase. nullopt if b moves or no such box is found.
 std::optional<Bounds> find_clear_box(const BroadphaseBody& a, const ColliderProxy& b,
                                      const ScaledTriangles& triangles, double margin_m) {
     constexpr std::array k_slacks_m = {k_isolation_reach_m, 0.2 * k_isolation_reach_m};
@@ -70,23 +44,43 @@ std::optional<Bounds> find_clear_box(const BroadphaseBody& a, const ColliderProx
 
 }  // namespace
 
-CollisionWorld::Impl::Impl(const ShapeLibrary& library) : shapes(library) {
-    std::map<const Mesh*, std::shared_ptr<const TriangleTree>> trees;
-    for (std::uint32_t i = 0; i < library.size(); ++i) {
-        const Shape& shape = library.at({i});
-        CollisionShape made;
-        if (shape.kind == ShapeKind::mesh) {
-            std::shared_ptr<const TriangleTree>& tree = trees[shape.mesh.get()];
-            if (tree == nullptr) {
-                tree = std::make_shared<const TriangleTree>(*shape.mesh);
-            }
-            made.triangles.emplace(tree, shape.scale);
-        } else {
-            made.parts = make_parts(shape);
-        }
-        cache.push_back(std::move(made));
-        extents.push_back(shape_extent(shape));
+std::shared_ptr<const TriangleTree> CollisionWorld::Impl::tree_of(
+    const std::shared_ptr<const Mesh>& mesh) {
+    std::weak_ptr<const TriangleTree>& known = trees[mesh.get()];
+    std::shared_ptr<const TriangleTree> tree = known.lock();
+    if (tree == nullptr) {
+        tree = std::make_shared<const TriangleTree>(*mesh);
+        known = tree;
     }
+    return tree;
+}
+
+void CollisionWorld::Impl::update_shapes() {
+    if (shapes_revision == shapes.revision()) {
+        return;
+    }
+    cache.resize(shapes.size());
+    extents.resize(shapes.size());
+    // Removed ones first: a new mesh may lie where an old one was, and must not find its tree.
+    for (std::uint32_t i = 0; i < shapes.size(); ++i) {
+        if (shapes.revision_of({i}) > shapes_revision) {
+            cache[i] = {};
+        }
+    }
+    std::erase_if(trees, [](const auto& known) { return known.second.expired(); });
+    for (std::uint32_t i = 0; i < shapes.size(); ++i) {
+        if (shapes.revision_of({i}) <= shapes_revision || !shapes.has({i})) {
+            continue;
+        }
+        const Shape& shape = shapes.at({i});
+        if (shape.kind == ShapeKind::mesh) {
+            cache[i].triangles.emplace(tree_of(shape.mesh), shape.scale);
+        } else {
+            cache[i].parts = make_parts(shape);
+        }
+        extents[i] = shape_extent(shape);
+    }
+    shapes_revision = shapes.revision();
 }
 
 void CollisionWorld::Impl::check(std::span<const ColliderProxy> proxies) const {
@@ -96,7 +90,7 @@ void CollisionWorld::Impl::check(std::span<const ColliderProxy> proxies) const {
         if (proxy.shape == k_no_shape) {
             continue;
         }
-        HH_CHECK(proxy.shape.index < cache.size(), "no shape with this id", proxy.shape.index);
+        HH_CHECK(shapes.has(proxy.shape), "no shape with this id", proxy.shape.index);
         HH_CHECK(!proxy.free || !cache[proxy.shape.index].triangles, "a mesh cannot be free",
                  proxy.id);
     }
@@ -155,14 +149,24 @@ void CollisionWorld::Impl::find_contacts_of(const BodyPairs& body, const Contact
     }
 }
 
-CollisionWorld::CollisionWorld(const ShapeLibrary& shapes) {
-    hook_allocator();
-    impl_ = std::make_unique<Impl>(shapes);
-}
+CollisionWorld::CollisionWorld(const ShapeLibrary& shapes)
+    : impl_(std::make_unique<Impl>(shapes)) {}
 
 CollisionWorld::~CollisionWorld() = default;
 
+std::shared_ptr<const TriangleTree> build_triangle_tree(const Mesh& mesh) {
+    return std::make_shared<const TriangleTree>(mesh);
+}
+
+void CollisionWorld::offer_tree(const std::shared_ptr<const Mesh>& mesh,
+                                const std::shared_ptr<const TriangleTree>& tree) {
+    impl_->trees[mesh.get()] = tree;
+}
+
+void CollisionWorld::update_shapes() { impl_->update_shapes(); }
+
 void CollisionWorld::set_proxies(std::span<const ColliderProxy> proxies) {
+    impl_->update_shapes();
     impl_->check(proxies);
     impl_->broadphase.set_proxies(proxies, impl_->extents);
 }
@@ -189,8 +193,8 @@ void CollisionWorld::find_contacts(const ContactLimits& limits,
     }
     auto find = [&](std::size_t i) {
         world.found[i].clear();
-        world.found[i].reserve(
-            k_usual_contacts);  // so that a body's first contacts allocate nothing
+        // Without this, a body's first contacts would allocate.
+        world.found[i].reserve(k_usual_contacts);
         world.find_contacts_of(world.body_pairs[i], limits, world.found[i]);
     };
     parallel_for(world.body_pairs.size(), find);
@@ -200,7 +204,5 @@ void CollisionWorld::find_contacts(const ContactLimits& limits,
         contacts.insert(contacts.end(), world.found[i].begin(), world.found[i].end());
     }
 }
-
-std::uint64_t collision_allocation_count() { return g_allocations.load(std::memory_order_relaxed); }
 
 }  // namespace handhold

@@ -17,7 +17,7 @@
 namespace handhold {
 namespace {
 
-// Distance by which clipping planes are moved outwards: Bullet drops an edge that lies in a
+// Clipping planes are moved outwards by this distance, because Bullet drops an edge that lies in a
 // clipping plane.
 constexpr double k_inside_m = 1e-9;
 
@@ -34,8 +34,8 @@ btFace make_face(const Loop& corners, const Vec3& normal, double offset_m) {
     return face;
 }
 
-// Bit k of corner index i selects the positive side of axis k. Built here because Bullet's hull
-// builder snaps corners to a grid.
+// Bit k of a corner's index is set if the corner is on the positive side of axis k. Bullet's hull
+// builder is not used, because it snaps corners to a grid.
 void make_box_faces(const Vec3& half, double grown_m, btConvexPolyhedron& faces) {
     const Vec3 reach = half + Vec3::Constant(grown_m);
     for (unsigned i = 0; i < 8; ++i) {
@@ -54,9 +54,9 @@ void make_box_faces(const Vec3& half, double grown_m, btConvexPolyhedron& faces)
     }
 }
 
-// Cylinder ends as polygons with this many corners on the rim. Between two corners the polygon lies
-// up to 2 % of the radius inside the rim. The deepest point is added separately, so only the spread
-// of contacts is affected.
+// Number of corners of the polygons that stand for a cylinder's ends. Between two corners the
+// polygon lies up to 2 % of the radius inside the rim. This affects only the spread of the
+// contacts, because the deepest point is added separately.
 constexpr int k_rim_corners = 16;
 
 void make_end_faces(const Barrel& barrel, double grown_m, btConvexPolyhedron& faces) {
@@ -78,7 +78,7 @@ void make_end_faces(const Barrel& barrel, double grown_m, btConvexPolyhedron& fa
     faces.m_faces.push_back(make_face(bottom, -Vec3::UnitY(), barrel.half_height_m));
 }
 
-// Scaling about an inner point moves every face outwards by at least grown_m.
+// Moves every face outwards by at least grown_m, by scaling about the origin, which is inside.
 void make_hull_faces(const ConvexHull& hull, double grown_m, btConvexPolyhedron& faces) {
     // Distance from the origin to the nearest face.
     double inradius_m = std::numeric_limits<double>::infinity();
@@ -138,8 +138,8 @@ void make_faces(const Shape& shape, double grown_m, btConvexPolyhedron& faces) {
     }
 }
 
-// A hull's origin may lie outside it, but a core must contain its origin: the core's frame is at
-// the centroid.
+// The core (the shape without its radius) must contain its frame's origin. A hull need not contain
+// its own origin, so a hull's core frame is at the centroid.
 Pose core_frame(const Shape& shape) {
     if (shape.kind != ShapeKind::hull) {
         return {};

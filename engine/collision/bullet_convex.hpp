@@ -14,9 +14,9 @@
 #include "engine/collision/closest_point.hpp"
 #include "engine/collision/shape_library.hpp"
 
-// Convex shapes in Bullet's representation. All values of one call share "near space" (suffix _ns):
-// b's axes with the origin at a's position, so that precision does not depend on the distance from
-// the world's origin. Only memory outlives a call.
+// Convex shapes in Bullet's representation. All values of one call are in "near space" (suffix
+// _ns): b's axes with the origin at a's position. So precision does not depend on the distance from
+// the world's origin. Between calls only allocated memory is kept.
 namespace handhold {
 
 // The curved side of a cylinder.
@@ -28,9 +28,10 @@ struct Barrel {
 // A placed convex shape: a core (point, segment, triangle, polyhedron or cylinder) inflated by
 // radius_m.
 struct Convex {
-    const btConvexShape* shape = nullptr;       // its Bullet margin equals radius_m
-    const btConvexPolyhedron* faces = nullptr;  // null: sphere, capsule; cylinder: its two ends
-    // `faces` with side planes moved outwards by a nanometre, for clipping.
+    const btConvexShape* shape = nullptr;  // its Bullet margin equals radius_m
+    // Null for spheres and capsules; of a cylinder only its two ends.
+    const btConvexPolyhedron* faces = nullptr;
+    // `faces` with the side planes moved outwards by a nanometre, for clipping.
     const btConvexPolyhedron* prisms = nullptr;
     btTransform pose_ns = btTransform::getIdentity();
     double radius_m = 0.0;
@@ -43,25 +44,24 @@ struct Convex {
     Vec3 face_normal(int face) const;
     // Index of the face whose normal is nearest to `direction`. Requires `faces`.
     int facing(const Vec3& direction) const;
-    // Local y, unit.
+    // The local y axis, a unit vector.
     Vec3 axis() const { return from_bullet(pose_ns.getBasis().getColumn(1)); }
-    // The segment of a round core that supports `direction`. Sphere: the centre twice. Capsule: the
-    // ends of its core. Cylinder: the line on its curved side farthest along `direction`. Undefined
-    // for other shapes.
+    // Round cores only: the core's farthest points along `direction`, as a segment. Sphere: the
+    // centre twice. Capsule: the whole core. Cylinder: the line on its curved side that is farthest
+    // along `direction`. Undefined for other shapes.
     std::array<Vec3, 2> side_line(const Vec3& direction) const;
 };
 
-// A convex shape, prepared once. Its frame's origin lies inside it.
+// A convex shape, prepared once for many poses. The origin of its frame lies inside it.
 class ConvexShape {
   public:
     // `shape` is neither a mesh nor a compound; a hull must contain its origin.
     explicit ConvexShape(const Shape& shape);
     Convex at(const Pose& pose_ns) const;
-    // Spheres only: changes the radius without an allocation.
+    // Spheres only. Does not allocate.
     void set_sphere_radius(double radius_m);
-    double core_reach_m() const {
-        return core_reach_m_;
-    }  // from the centre to the core's farthest point
+    // Distance from the centre to the core's farthest point.
+    double core_reach_m() const { return core_reach_m_; }
     double thinnest_half_m() const { return thinnest_half_m_; }
     double bounding_radius_m() const { return core_reach_m_ + radius_m_; }
 
@@ -82,10 +82,10 @@ class ConvexPart {
     Convex at(const Pose& body_ns) const { return shape_.at(placed(body_ns)); }
     Pose placed(const Pose& body) const { return centred_ ? body : body * pose_bs_; }
     const ConvexShape& shape() const { return shape_; }
-    // Spheres only: changes the radius without an allocation.
+    // Spheres only. Does not allocate.
     void set_sphere_radius(double radius_m);
-    // Distance from the body's origin within which the core lies: the lever arm of the body's
-    // rotation.
+    // Upper bound of the distance between the body's origin and any point of the core: the lever
+    // arm of the body's rotation.
     double arm_m() const { return pose_bs_.position.norm() + shape_.core_reach_m(); }
     // In the body's frame, about the body's origin.
     const ShapeExtent& extent() const { return extent_; }
@@ -97,7 +97,7 @@ class ConvexPart {
     ShapeExtent extent_;
 };
 
-// The convex parts of a shape: one, or those of a compound. Not for meshes.
+// The parts of a compound, or one part for another convex shape. Not for meshes.
 std::vector<ConvexPart> make_parts(const Shape& shape);
 
 // Reuses one Bullet shape for many triangles. The returned Convex is valid until the next place().

@@ -1,4 +1,4 @@
-// Face-face contacts come from Bullet's polygon clipping. Added here: two points for nearly
+// Face-face contacts come from Bullet's polygon clipping. This file adds two points for nearly
 // parallel edges (Bullet gives one, and its perturbed manifolds are off by up to 0.7 mm), and the
 // curved sides of cylinders.
 #include "engine/collision/bullet_manifold.hpp"
@@ -21,8 +21,8 @@ constexpr double k_face_cosine = 0.996;
 constexpr double k_edge_sine = 0.09;
 constexpr double k_no_limit_m = 1e30;
 
-// Calls visit(from, to) for every edge of the core. For a round core: for the line on its side that
-// supports `direction`.
+// Calls visit(from, to) for every edge of the core. A round core has one: the line on its side that
+// is farthest along `direction`.
 template <typename Visit>
 void visit_edges(const Convex& convex, const Vec3& direction, const Visit& visit) {
     if (convex.faces == nullptr || convex.barrel != nullptr) {
@@ -46,9 +46,9 @@ double facing_cosine(const Convex& convex, const Vec3& direction) {
                                    : convex.face_normal(convex.facing(direction)).dot(direction);
 }
 
-// The supporting feature along `direction`: a face, else a segment if it is within 30 degrees of
-// perpendicular to `direction`, else a point. A point is given twice, because Bullet cannot clip a
-// polygon with one corner.
+// Finds the core's farthest feature along `direction`: a face, else a segment if it is within 30
+// degrees of perpendicular to `direction`, else a point. Writes a point twice, because Bullet
+// cannot clip a polygon with one corner.
 void supporting_feature(const Convex& convex, const Vec3& direction,
                         btAlignedObjectArray<btVector3>& polygon) {
     polygon.resizeNoInitialize(0);
@@ -77,7 +77,7 @@ struct Pair {
     ClipScratch& scratch;
     std::vector<NearContact>& contacts;
 
-    // Takes points of the cores and adds the radii.
+    // `core_a` and `core_b` are points of the cores; the radii are added here.
     void add(const Vec3& core_a, const Vec3& core_b) const {
         const double separation = normal.dot(core_a - core_b) - a.radius_m - b.radius_m;
         if (separation < margin_m) {
@@ -87,8 +87,8 @@ struct Pair {
     }
 };
 
-// Clips the supporting feature of `body` against the face of `ground` and calls visit(point, foot)
-// for each corner left; `foot` is its projection onto the face. `up` points from ground to body.
+// Clips the supporting feature of `body` against the face of `ground`. Calls visit(point, foot) for
+// each remaining corner; `foot` is its projection onto the face. `up` points from ground to body.
 template <typename Visit>
 void clip(const Convex& ground, const Convex& body, const Vec3& up, ClipScratch& scratch,
           const Visit& visit) {
@@ -126,8 +126,8 @@ bool add_faces(const Pair& pair) {
     return false;
 }
 
-// The edge at the support vertex that is most nearly perpendicular to `direction`; nullopt if none
-// is within k_edge_sine.
+// The edge at the support vertex that is most nearly perpendicular to `direction`. nullopt if the
+// sine of each edge's deviation is above k_edge_sine.
 std::optional<std::array<Vec3, 2>> supporting_edge(const Convex& convex, const Vec3& direction) {
     const Vec3 outermost = convex.support(direction);
     std::optional<std::array<Vec3, 2>> best;
@@ -144,7 +144,7 @@ std::optional<std::array<Vec3, 2>> supporting_edge(const Convex& convex, const V
     return best;
 }
 
-// Two nearly parallel edges touch at both ends of their common part.
+// Adds a contact at each end of the common part of two nearly parallel edges.
 void add_edges(const Pair& pair) {
     const auto edge_a = supporting_edge(pair.a, -pair.normal);
     const auto edge_b = supporting_edge(pair.b, pair.normal);

@@ -1,4 +1,4 @@
-// Pair finding: which pairs may touch, and which cached results still hold.
+// Finds the pairs of colliders that may touch, and the cached results that are still valid.
 #include <algorithm>
 
 #include "engine/collision/bullet_world.hpp"
@@ -8,7 +8,7 @@ namespace {
 
 PairCache::Version version_of(const BroadphaseBody& body) { return {body.proxy.id, body.stamp}; }
 
-// With more changed bodies than this, a tree query is faster than testing each of them.
+// If more bodies than this have changed, one tree query is faster than testing each of them.
 constexpr std::size_t k_max_linear_changes = 128;
 
 }  // namespace
@@ -16,6 +16,9 @@ constexpr std::size_t k_max_linear_changes = 128;
 bool CollisionWorld::Impl::is_pair(const BroadphaseBody& a, const BroadphaseBody& b) const {
     if (b.proxy.free && a.proxy.id >= b.proxy.id) {
         return false;  // two free bodies form one pair, found from the lower id
+    }
+    if ((a.proxy.layers & b.proxy.mask) == 0 || (b.proxy.layers & a.proxy.mask) == 0) {
+        return false;
     }
     const auto [low, high] = std::minmax(a.proxy.id, b.proxy.id);
     return !std::binary_search(ignored.begin(), ignored.end(), IgnoredPair{low, high});
@@ -118,7 +121,8 @@ void CollisionWorld::Impl::cache_isolation(const BodyPairs& body, double margin_
     broadphase.set_isolated(body.body, box_ws);
 }
 
-// Two free bodies: the lower id is responsible for the pair.
+// True if b may reach into `box_ws`, the box around a, and the pair is found from a. A pair of free
+// bodies is found from the lower id.
 bool CollisionWorld::Impl::may_enter(const Bounds& box_ws, const BroadphaseBody& a,
                                      const BroadphaseBody& b) const {
     if (b.proxy.free) {

@@ -1,6 +1,7 @@
-// GJK and EPA run on the cores, without margins: results are exact to rounding on boxes and
-// triangles, and a radius can be added exactly. Bullet lacks two parts that are added here: a check
-// that its answer is optimal, and a normal for cores that intersect without volume.
+// GJK and EPA run on the cores (shapes without their radii), without margins. Results are exact to
+// rounding on boxes and triangles, and a radius can be added exactly. Bullet lacks two parts that
+// are added here: a check that its answer is optimal, and a normal for cores whose intersection has
+// no volume.
 #include "engine/collision/bullet_separation.hpp"
 
 #include <algorithm>
@@ -13,8 +14,8 @@ namespace {
 
 constexpr double k_face_gain_m = 1e-9;
 
-// Exit direction for cores whose intersection has no volume (a plane or a line). Any direction
-// perpendicular to both cores has depth 0; this choice is deterministic.
+// Direction of separation for cores whose intersection has no volume (a plane or a line). Along any
+// direction perpendicular to both cores the depth is 0; this function always chooses the same.
 Vec3 flat_exit_direction(const Convex& a, const Convex& b) {
     if (b.corners_ns != nullptr) {
         const Vec3 normal = b.face_normal(0);
@@ -50,9 +51,9 @@ void snap_to_faces(const Convex& convex, double side, CoreSeparation& result) {
     }
 }
 
-// Compares the result with the exits through all faces. EPA returns a wrong depth and normal if its
-// first simplex is flat (two aligned cubes: 0.7 mm across an edge instead of 1 mm through a face).
-// `side`: +1 for the faces of b, -1 for those of a, whose normals point the other way.
+// Replaces `best` if moving out through a face is shorter. EPA returns a wrong depth and normal if
+// its first simplex is flat (two aligned cubes: 0.7 mm across an edge instead of 1 mm through a
+// face). `side`: +1 for the faces of b, -1 for those of a, whose normals point the other way.
 void compare_faces(const Convex& a, const Convex& b, double side, CoreSeparation& best) {
     const Convex& owner = side > 0.0 ? b : a;
     const int count = owner.faces != nullptr ? owner.faces->m_faces.size() : 0;
@@ -96,16 +97,16 @@ bool run(Query search, const Convex& a, const Convex& b, const btVector3& guess,
     return any;
 }
 
-// Another start direction for a search that stopped early: another octant for each attempt.
+// Start direction for repeating a search that stopped early. Each attempt uses another octant.
 btVector3 other_guess(int attempt) {
     return {(attempt & 1) != 0 ? 0.9 : -0.8, (attempt & 2) != 0 ? 0.7 : -1.0,
             (attempt & 4) != 0 ? 1.0 : -0.6};
 }
 
-// Runs GJK or EPA until the answer is optimal: no point of either core lies between the planes
-// through the two points, perpendicular to the normal. Bullet stops early in about 1 of 5000 pairs,
-// with errors up to 30 cm; then the search restarts in another direction and the best answer is
-// kept. False if the cores touch (search `apart`) or the intersection has no volume.
+// Runs GJK or EPA until the answer is optimal: the depth along its normal equals its separation.
+// Bullet stops early in about 1 of 5000 pairs, with errors up to 30 cm. The search then restarts in
+// another direction, and the best answer is kept. False if the cores touch (Query::apart) or if
+// their intersection has no volume (Query::depth_and_exit).
 bool search_until_optimal(Query search, const Convex& a, const Convex& b, btVector3 guess,
                           CoreSeparation& best) {
     constexpr int k_attempts = 8;
@@ -114,7 +115,7 @@ bool search_until_optimal(Query search, const Convex& a, const Convex& b, btVect
         CoreSeparation result;
         if (run(search, a, b, guess, result)) {
             const double along_m = depth_along(a, b, result.normal);
-            // Noise of a normal from nearly coincident points.
+            // Rounding error of a normal that is computed from nearly coincident points.
             const double noise_m = 1e-9 + 1e-14 / std::max(std::abs(result.separation_m), 1e-13);
             if (std::abs(along_m - result.separation_m) < noise_m) {
                 best = result;
@@ -137,9 +138,8 @@ bool search_until_optimal(Query search, const Convex& a, const Convex& b, btVect
 
 CoreSeparation separate(const Convex& a, const Convex& b) {
     const Vec3 fallback = flat_exit_direction(a, b);
-    const btVector3 guess =
-        -(to_bullet(fallback) *
-          a.pose_ns.getBasis());  // also EPA's answer for an intersection without volume
+    // `guess` is also EPA's answer if the intersection has no volume.
+    const btVector3 guess = -(to_bullet(fallback) * a.pose_ns.getBasis());
     CoreSeparation result;
     if (search_until_optimal(Query::apart, a, b, guess, result) && result.separation_m > 0.0) {
         return result;

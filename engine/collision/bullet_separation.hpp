@@ -2,17 +2,17 @@
 
 #include "engine/collision/bullet_convex.hpp"
 
-// Signed distance of two convex cores, by Bullet's GJK and EPA.
+// Signed distance of two convex cores (shapes without their radii), by Bullet's GJK and EPA. All
+// values are in near space (suffix _ns): b's axes with the origin at a's position.
 namespace handhold {
 
-// Signed distance of two cores; radii are not included.
 struct CoreSeparation {
-    // Unit, from b towards a: along the shortest connection, or along the shortest exit from b if
-    // the cores overlap.
+    // Unit vector from b towards a, along the shortest connection. If the cores overlap: the
+    // direction of the shortest translation of a that separates them.
     Vec3 normal = Vec3::UnitY();
-    // Negative: penetration depth, the shortest translation that separates the cores.
+    // Negative: penetration depth, the length of the shortest translation that separates the cores.
     double separation_m = 0.0;
-    Vec3 point_a_ns = Vec3::Zero();  // closest (or deepest) pair of points
+    Vec3 point_a_ns = Vec3::Zero();  // closest pair of points; deepest if the cores overlap
     Vec3 point_b_ns = Vec3::Zero();
     bool overlap = false;
 };

@@ -1,6 +1,7 @@
-// Bullet's btContinuousConvexCollision advances in the same way, but stops a millimetre early,
-// misses some impacts of fast rotating shapes (1 of 600 capsules), supports only rotation about the
-// shape's own centre, and counts iterations in a global, which is a data race.
+// Bullet's btContinuousConvexCollision advances in the same way, but is not used: it stops a
+// millimetre early, misses some impacts of fast rotating shapes (1 of 600 capsules) and supports
+// only rotation about the shape's own centre. It also counts iterations in a global, which is a
+// data race.
 #include "engine/collision/bullet_sweep.hpp"
 
 #include <algorithm>
@@ -10,13 +11,14 @@ namespace handhold {
 namespace {
 
 constexpr double k_sweep_touch_m = 1e-6;
-// Grazing rotations converge slowly. At this limit the touch is reported early, never late.
+// Limit of steps; rotations that nearly graze the other shape converge slowly. At the limit the
+// sweep reports a touch that is too early, never too late.
 constexpr int k_steps = 128;
-// Share of the queried gap below which a new direction is searched.
+// A new separating direction is computed when the gap is below this share of the last computed gap.
 constexpr double k_reuse_ratio = 0.5;
 
-// Advances a's bounding sphere up to the triangle, in cheap steps that ignore rotation. Rejects
-// most triangles. nullopt if the sphere never reaches it before `limit`.
+// Advances a's bounding sphere towards the triangle, in cheap steps that ignore rotation. Rejects
+// most triangles: nullopt if the sphere does not reach the triangle before `limit`.
 std::optional<double> skip_free_travel(const RelativeMotion& motion, const Corners& corners_ns,
                                        double reach_m, double limit) {
     constexpr int k_cheap_steps = 8;
@@ -52,8 +54,7 @@ RelativeMotion::RelativeMotion(const Pose& from_ns, const Pose& to_ns)
     : from_(from_ns),
       to_(to_ns),
       move_(to_ns.position - from_ns.position),
-      // Computed in a's frame, where interpolation rotates about a fixed axis; that axis is the
-      // same at every fraction.
+      // Computed in a's frame, where the rotation's axis is the same at every fraction.
       turn_(from_ns.rotation * rotation_to_vector(from_ns.rotation.conjugate() * to_ns.rotation)) {}
 
 Pose RelativeMotion::at(double fraction) const {
@@ -84,8 +85,8 @@ std::optional<Approach> begin_approach(const ConvexPart& a, const RelativeMotion
 ApproachState advance(const ConvexPart& a, const RelativeMotion& motion, const Convex& b,
                       double limit, Approach& approach) {
     const Convex placed = a.at(motion.at(approach.fraction));
-    // Any separating direction gives a safe step. The last one is reused until half of its gap is
-    // consumed, because a new separation query costs ten times as much.
+    // Every separating direction gives a safe step. The last direction is reused until half of its
+    // gap is consumed, because a new separation query costs ten times as much.
     double gap = approach.gap_m > 0.0 ? gap_along(placed, b, approach.impact.normal) : 0.0;
     if (!(gap > std::max(k_reuse_ratio * approach.gap_m, 10.0 * k_sweep_touch_m))) {
         const CoreSeparation separation = separate(placed, b);
@@ -101,8 +102,8 @@ ApproachState advance(const ConvexPart& a, const RelativeMotion& motion, const C
     if (++approach.steps == k_steps) {
         return ApproachState::touches;
     }
-    // |omega x normal| arm bounds the rotation's contribution to the closing speed for every
-    // orientation on the way.
+    // |omega x normal| arm bounds the rotation's contribution to the closing speed, for every
+    // orientation that a passes through.
     const Vec3& normal = approach.impact.normal;
     const double turning_m = motion.turn_rad().cross(normal).norm() * a.arm_m();
     const double closing_m = turning_m - motion.move().dot(normal);

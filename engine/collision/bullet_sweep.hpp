@@ -5,24 +5,24 @@
 
 #include "engine/collision/bullet_separation.hpp"
 
-// Time of impact of a moving convex shape with a resting one, by conservative advancement.
-// Source: Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996.
+// Time of impact of a moving convex shape with a resting one, by conservative advancement. All
+// values are in near space (suffix _ns): b's axes with the origin at a's position. Source: Mirtich,
+// Impulse-based Dynamic Simulation of Rigid Body Systems, 1996.
 namespace handhold {
 
-// Motion of a relative to b over a frame, in near space: position linear, rotation along the
-// shorter arc.
+// Motion of a relative to b over a frame, in near space. The position moves linearly, the rotation
+// along the shorter arc.
 class RelativeMotion {
   public:
     RelativeMotion(const Pose& from_ns, const Pose& to_ns);
 
     Pose at(double fraction) const;
     const Vec3& from_ns() const { return from_.position; }
-    const Vec3& move() const { return move_; }  // displacement of a's origin over the whole motion
-    const Vec3& turn_rad() const {
-        return turn_;
-        // Rotation vector over the whole motion, in near space.
-    }
-    // Velocity (per whole motion) of the material point of a that is at `point_ns` at `fraction`.
+    const Vec3& move() const { return move_; }  // displacement of a's origin
+    // Rotation vector of the whole motion.
+    const Vec3& turn_rad() const { return turn_; }
+    // Velocity of a's material point that is at `point_ns` at `fraction`, in metres per whole
+    // motion.
     Vec3 velocity_at(const Vec3& point_ns, double fraction) const;
 
   private:
@@ -39,25 +39,25 @@ struct Impact {
     std::uint32_t part = 0;          // index of a's part; written by the caller
 };
 
-// State of one conservative advancement: how far a part is known to move without touching a resting
-// shape.
+// State of a conservative advancement: the fraction of the motion for which a part is known not to
+// touch a resting shape.
 struct Approach {
     double fraction = 0.0;
-    Impact impact;       // from the last separation query; at a touch, the contact
+    Impact impact;       // at the last separation query; after `touches`: the contact
     double gap_m = 0.0;  // separation at that query
     int steps = 0;
 };
 enum class ApproachState : std::uint8_t { continues, touches, misses };
-// begin_approach is a cheap first step; advance moves on to a fraction that no point of a can
-// overshoot. Callers advance whichever of many shapes is nearest. nullopt: never touches before
-// `limit`, a fraction of the motion.
+// begin_approach takes cheap first steps that ignore rotation; nullopt if a does not touch b before
+// `limit`, a fraction of the motion. advance moves to a later fraction, up to which a cannot touch
+// b. A caller with many shapes always advances the one with the smallest fraction.
 std::optional<Approach> begin_approach(const ConvexPart& a, const RelativeMotion& motion,
                                        const Convex& b, double limit);
 ApproachState advance(const ConvexPart& a, const RelativeMotion& motion, const Convex& b,
                       double limit, Approach& approach);
 
-// First fraction of the motion at which part a comes within a micrometre of b; nullopt if that does
-// not happen before `limit`. If they touch at the start: fraction 0.
+// First fraction of the motion at which part a comes within a micrometre of b; 0 if they touch at
+// the start. nullopt if there is no touch before `limit`.
 std::optional<Impact> time_of_impact(const ConvexPart& a, const RelativeMotion& motion,
                                      const Convex& b, double limit);
 

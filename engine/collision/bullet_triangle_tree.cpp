@@ -11,14 +11,14 @@
 namespace handhold {
 namespace {
 
-// True if the segment enters the box; conservative by rounding.
+// True if the segment enters the box. Rounding may make it true for a near miss.
 bool segment_meets(const Bounds& box, const Vec3& from, const Vec3& inverse_displacement) {
     constexpr double k_rounding = 1e-12;
     double enter = 0.0;
     double leave = 1.0;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
         if (!std::isfinite(inverse_displacement[axis])) {
-            continue;  // parallel to the slab: the traversal has tested this axis already
+            continue;  // parallel to this axis: the traversal has tested the axis already
         }
         const double near = (box.low[axis] - from[axis]) * inverse_displacement[axis];
         const double far = (box.high[axis] - from[axis]) * inverse_displacement[axis];

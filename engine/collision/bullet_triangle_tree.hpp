@@ -14,12 +14,12 @@
 
 class btBvhTriangleMeshShape;
 
-// Triangles of a mesh by box or ray, through Bullet's quantised BVH. The tree is Bullet's, the
-// traversal is not: Bullet counts traversal steps in a global, which is a data race. This traversal
-// writes nothing.
+// Finds the triangles of a mesh in a box or on a ray, through Bullet's quantised BVH. Bullet builds
+// the tree. The traversal is written here and writes nothing: Bullet's counts its steps in a
+// global, which is a data race.
 namespace handhold {
 
-// BVH of one mesh at its own scale. Refers to the mesh, which must outlive it.
+// BVH of one unscaled mesh. Refers to the mesh, which must outlive it.
 class TriangleTree {
   public:
     explicit TriangleTree(const Mesh& mesh);
@@ -33,8 +33,9 @@ class TriangleTree {
         std::array<unsigned short, 3> high;
     };
 
-    // Calls visit(triangle index) for at least every triangle whose bounds overlap `box` and whose
-    // ancestors' boxes all pass enters(box). The order is fixed and keeps neighbours together.
+    // Calls visit(triangle index) for the triangles whose bounds overlap `box`, and possibly for
+    // some that nearly do. Skips the subtrees of nodes for which enters(node's box) is false. The
+    // order is fixed; neighbouring triangles follow each other.
     template <typename Enters, typename Visit>
     void walk(const Bounds& box, const Enters& enters, const Visit& visit) const {
         const int count = nodes_->isLeafNode() ? 1 : nodes_->getEscapeIndex();
@@ -77,14 +78,14 @@ class TriangleTree {
     Vec3 step_;
 };
 
-// A tree's triangles scaled along the mesh's axes, so that many bodies share one tree. Only the
-// triangles that a query finds are scaled.
+// The triangles of a tree, scaled along the mesh's axes. Bodies with different scales share one
+// tree; only triangles that a query finds are scaled.
 class ScaledTriangles {
   public:
     // Scale factors are > 0.
     ScaledTriangles(std::shared_ptr<const TriangleTree> tree, const Vec3& scale);
 
-    // Calls visit(corners) for at least every triangle whose bounds overlap the box.
+    // Calls visit(corners) for the triangles whose bounds overlap the box, and possibly for others.
     template <typename Visit>
     void visit_box(const Bounds& box, const Visit& visit) const {
         tree_->walk(
@@ -93,7 +94,7 @@ class ScaledTriangles {
     }
     // False only if no triangle's bounds overlap the box.
     bool may_meet(const Bounds& box) const;
-    // First triangle hit on the segment, from either side.
+    // First triangle that the segment hits, from either side.
     std::optional<LocalRayHit> cast_ray(const Vec3& from, const Vec3& to) const;
     // Nearest point within max_distance_m; nullopt if none.
     std::optional<LocalSurfacePoint> closest_point(const Vec3& point, double max_distance_m) const;

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
 #include "engine/collision/bullet_broadphase.hpp"
 #include "engine/collision/bullet_triangle_tree.hpp"
 #include "engine/collision/pair_cache.hpp"
@@ -14,19 +19,22 @@ struct CollisionShape {
     std::vector<ConvexPart> parts;             // all other shapes
 };
 
-// A free body and its potential partners: a range of Impl::pairs.
+// A free body and the colliders that it may touch: the range [first, last) of Impl::pairs.
 struct BodyPairs {
     std::size_t body = 0;
     std::size_t first = 0;
     std::size_t last = 0;
-    bool is_isolated = false;  // inside its isolation box: only the partners listed need a test
+    bool is_isolated = false;  // inside its isolation box: only the pairs listed need a test
 };
 
-// Largest distance around a body's bounds at which an empty region is cached.
+// Isolation boxes are larger than a body's bounds with margin by at most this, on each side.
 constexpr double k_isolation_reach_m = 0.3;
 
 struct CollisionWorld::Impl {
-    explicit Impl(const ShapeLibrary& library);
+    explicit Impl(const ShapeLibrary& library) : shapes(library) { update_shapes(); }
+
+    void update_shapes();
+    std::shared_ptr<const TriangleTree> tree_of(const std::shared_ptr<const Mesh>& mesh);
 
     void check(std::span<const ColliderProxy> proxies) const;
     bool is_pair(const BroadphaseBody& a, const BroadphaseBody& b) const;
@@ -34,7 +42,7 @@ struct CollisionWorld::Impl {
     void find_pairs(double margin_m);
     // Fills changed_bodies.
     void find_changed_bodies();
-    // If no partner of the body is near: caches a box around it that no partner reaches into.
+    // If no partner of the body is near, caches a box around the body that no partner reaches into.
     void cache_isolation(const BodyPairs& body, double margin_m);
     bool may_enter(const Bounds& box_ws, const BroadphaseBody& a, const BroadphaseBody& b) const;
     // Appends the pair's contacts. Returns a box around a's swept bounds that b does not reach
@@ -51,16 +59,19 @@ struct CollisionWorld::Impl {
     const ShapeLibrary& shapes;
     std::vector<CollisionShape> cache;  // by shape index
     std::vector<ShapeExtent> extents;   // by shape index
+    std::uint64_t shapes_revision = 0;  // of the library, when `cache` was brought up to date
+    // Shapes of one mesh share its tree. The mesh itself is kept alive by its shapes.
+    std::map<const Mesh*, std::weak_ptr<const TriangleTree>> trees;
     Broadphase broadphase;
     std::vector<IgnoredPair> ignored;
     // Scratch of find_contacts.
     BroadphaseScratch broadphase_scratch;
-    std::vector<std::size_t>
-        changed_bodies;                 // bodies changed since the oldest cached isolation box
-    std::vector<BodyPairs> body_pairs;  // ascending by id of a
-    std::vector<std::size_t> pairs;     // indices of the bodies b
-    std::vector<std::vector<ContactPoint>>
-        found;  // one list per body_pairs entry: threads share the work
+    // Bodies that changed after the oldest cached isolation box was computed.
+    std::vector<std::size_t> changed_bodies;
+    std::vector<BodyPairs> body_pairs;  // one per free body, ascending by id
+    std::vector<std::size_t> pairs;     // indices of the other bodies into broadphase.bodies()
+    // One list per entry of body_pairs, so that threads can work in parallel.
+    std::vector<std::vector<ContactPoint>> found;
     struct PairResult {
         std::optional<PairCache::Result> cached;
         std::size_t count = 0;  // number of contacts

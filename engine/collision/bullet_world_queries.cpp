@@ -1,5 +1,5 @@
-// Ray, sphere and point queries against all colliders. The world is only read; each thread has its
-// own scratch.
+// Ray, sphere and point queries against all colliders. They only read the world, and each thread
+// has its own scratch memory.
 #include <algorithm>
 #include <limits>
 
@@ -10,7 +10,7 @@
 namespace handhold {
 namespace {
 
-// Scratch per thread, not per call, so that queries allocate nothing once a thread is warm.
+// Scratch memory per thread, not per call: queries allocate nothing after a thread's first ones.
 struct QueryScratch {
     BroadphaseScratch near;
     ConvexPart sphere{Shape{}, Pose{}};  // for cast_sphere
@@ -76,7 +76,7 @@ std::optional<RayHit> CollisionWorld::cast_sphere(double radius_m, const Vec3& f
     std::optional<RayHit> best;
     const auto cast = [&](const ColliderProxy& proxy) {
         const CollisionShape& shape = impl_->cache[proxy.shape.index];
-        // Near space lies about it here.
+        // Near space here: the collider's axes, with the origin at the sphere's start.
         const Vec3 from = inverse_transform_point(proxy.to_ws, from_ws);
         const Vec3 along = inverse_transform_point(proxy.to_ws, to_ws) - from;
         const RelativeMotion motion({}, {along, Quat::Identity()});

@@ -30,9 +30,9 @@ Vec3 closest_on_segment(const Vec3& point, const Vec3& from, const Vec3& to) {
 }
 
 Vec3 closest_on_triangle(const Vec3& point, const Corners& corners) {
-    // If the projection is inside all three edges, the projection is the answer; else the nearest
-    // point of the edges. Slower than classifying Voronoi regions, but nothing is divided by the
-    // area of a sliver to decide the region.
+    // Returns the projection onto the plane if it is inside all three edges, else the nearest point
+    // of the edges. This is slower than classifying Voronoi regions, but the choice never divides
+    // by the area of a sliver.
     const Vec3 area = area_vector(corners);
     const double squared_area = area.squaredNorm();
     bool inside = squared_area > 0.0;

@@ -12,14 +12,14 @@ namespace handhold {
 
 using Corners = std::array<Vec3, 3>;  // of a triangle
 
-// Twice the area times the unit normal. Zero for a degenerate triangle, whose area is within
-// rounding of zero.
+// Twice the area times the unit normal. Zero if the area is within rounding of zero (degenerate
+// triangle).
 Vec3 area_vector(const Corners& corners);
 
 Vec3 closest_on_segment(const Vec3& point, const Vec3& from, const Vec3& to);
 // Valid for any triangle, including degenerate ones.
 Vec3 closest_on_triangle(const Vec3& point, const Corners& corners);
-// One point on each segment. Parallel segments: one of the equally near pairs.
+// The closest points, one on each segment. Parallel segments: one of the equally near pairs.
 std::pair<Vec3, Vec3> closest_between_segments(const std::array<Vec3, 2>& a,
                                                const std::array<Vec3, 2>& b);
 

@@ -21,15 +21,19 @@ struct ColliderProxy {
     // Current pose. Contacts are computed here, or at the first impact on the motion from from_ws.
     Pose to_ws;
     bool free = false;  // two non-free colliders never make contacts
+    // Two colliders make contacts only if each one's layers meet the other's mask. Queries find
+    // colliders of all layers.
+    std::uint32_t layers = 1;
+    std::uint32_t mask = ~0U;
 };
 // Bitwise equal.
 inline bool same_pose(const Pose& x, const Pose& y) {
     return x.position == y.position && x.rotation.coeffs() == y.rotation.coeffs();
 }
-// True if replacing one by the other cannot change a contact.
+// True if replacing one proxy by the other cannot change a contact.
 inline bool same_proxy(const ColliderProxy& a, const ColliderProxy& b) {
-    return a.id == b.id && a.shape == b.shape && a.free == b.free &&
-           same_pose(a.from_ws, b.from_ws) && same_pose(a.to_ws, b.to_ws);
+    return a.id == b.id && a.shape == b.shape && a.free == b.free && a.layers == b.layers &&
+           a.mask == b.mask && same_pose(a.from_ws, b.from_ws) && same_pose(a.to_ws, b.to_ws);
 }
 
 // A pair of colliders that makes no contacts, e.g. two bodies connected by a joint.
@@ -39,17 +43,17 @@ struct IgnoredPair {
     friend auto operator<=>(const IgnoredPair&, const IgnoredPair&) = default;
 };
 
-// A contact point of two colliders. Bodies that move rigidly update it by separation = normal_ws .
-// (point_a_ws - point_b_ws); negative: penetration.
+// A contact point of two colliders. When the bodies have moved rigidly, its separation is normal_ws
+// . (point_a_ws - point_b_ws); negative: penetration.
 struct ContactPoint {
     std::uint64_t id_a = 0;  // always a free collider
-    // The normal is stored in this body's frame. Two free colliders: id_a < id_b.
+    // Two free colliders: id_a < id_b.
     std::uint64_t id_b = 0;
     Vec3 point_a_bs = Vec3::Zero();    // on a's surface, in a's frame
     Vec3 point_b_bs = Vec3::Zero();    // on b's surface, in b's frame
     Vec3 normal_b_bs = Vec3::UnitY();  // unit, from b towards a, in b's frame
     double separation_m = 0.0;         // with both colliders at to_ws
-    // Rank within the pair, ordered by position: the same for equal input.
+    // Rank within the pair, in order of position: equal input gives equal ranks.
     std::uint32_t feature = 0;
 };
 
@@ -76,16 +80,29 @@ struct SurfacePoint {
     double distance_m = 0.0;  // 0 inside a solid; point_ws is on the surface there too
 };
 
-// The collision state of a set of proxies. A cache, not simulation state: a new world given the
-// same proxies gives bitwise the same answers. The const queries are thread-safe; no other member
-// may run beside any call.
+// The BVH of a mesh. Keeps a reference to the mesh, which must outlive it. Any thread.
+class TriangleTree;
+std::shared_ptr<const TriangleTree> build_triangle_tree(const Mesh& mesh);
+
+// The collision state of a set of proxies. A cache, not simulation state: a new world with the same
+// proxies gives bitwise the same answers. The const queries are thread-safe. No other member may be
+// called while any call is running.
 class CollisionWorld {
   public:
-    // Builds the BVH of every mesh. `shapes` must outlive the world and not change.
+    // Builds the BVH of every mesh. `shapes` must outlive the world.
     explicit CollisionWorld(const ShapeLibrary& shapes);
     ~CollisionWorld();
     CollisionWorld(const CollisionWorld&) = delete;
     CollisionWorld& operator=(const CollisionWorld&) = delete;
+
+    // Builds what shapes that were added since the last call need, and drops what removed ones
+    // needed. set_proxies calls it too; a host that calls it first chooses when a mesh's BVH is
+    // built. Costs nothing if the library is unchanged, else a look at each id.
+    void update_shapes();
+    // Offers a mesh's BVH that was built elsewhere, for instance on a loading thread. The next
+    // update_shapes uses it if it still exists by then.
+    void offer_tree(const std::shared_ptr<const Mesh>& mesh,
+                    const std::shared_ptr<const TriangleTree>& tree);
 
     // Replaces all proxies. They must be sorted by unique id, and meshes must not be free
     // (PreconditionError). A proxy with an invalid pose (is_valid) is ignored until its poses are
@@ -95,39 +112,41 @@ class CollisionWorld {
     // Replaces the ignored pairs. `pairs` must be sorted.
     void set_ignored_pairs(std::span<const IgnoredPair> pairs);
 
-    // Computes the contacts of all pairs with at least one free collider. Replaces `contacts`;
-    // sorted by (id_a, id_b, feature). The result does not depend on earlier calls (cached pairs
-    // are bitwise equal to recomputed ones) or on the number of threads of parallel_for, over which
-    // the bodies are distributed.
+    // Computes the contacts of all pairs with at least one free collider. Replaces `contacts`,
+    // sorted by (id_a, id_b, feature). The result does not depend on earlier calls: cached pairs
+    // are bitwise equal to recomputed ones. Nor does it depend on the number of threads of
+    // parallel_for, over which the bodies are distributed.
     //
     // Sweeps: a pair whose relative displacement is below limits.sweep_m is evaluated at to_ws.
     // Otherwise a's motion relative to b is swept from from_ws to to_ws, and the contacts are those
-    // at the first impact of any of the parts. An impact is ignored if, by the end of the motion, a
-    // would be deeper by less than a tenth of sweep_m or of the thinner body's smallest half
-    // extent: a body that slides along a floor still reaches the wall.
+    // at the first impact of any part. An impact is ignored if the rest of the motion adds little
+    // penetration: less than a tenth of sweep_m and of the thinner body's smallest half extent. So
+    // a body that slides along a floor still reaches the wall.
     //
-    // Meshes: surfaces are two-sided; winding is ignored. Normals face a's centre, unless a's
-    // centre crossed the mesh between from_ws and to_ws (relative to b): then they face the side it
-    // came from, and depth is measured to that side. Each part of a compound has its own centre.
+    // Meshes: surfaces are two-sided; winding is ignored. Normals face a's centre. But if a's
+    // centre crossed the mesh between from_ws and to_ws (relative to b), normals face the side that
+    // a came from, and depths are measured to that side. Each part of a compound has its own
+    // centre.
     //
-    // Separations are exact for disjoint bodies and along the shortest exit for overlapping ones.
-    // Contacts that share a normal are reduced to the corners of their outline, at most 8, and the
-    // deepest.
+    // Separations are exact for disjoint bodies, and along the shortest exit for overlapping ones.
+    // Of contacts with the same normal only the deepest and at most 8 corners of their outline are
+    // kept.
     void find_contacts(const ContactLimits& limits, std::vector<ContactPoint>& contacts);
 
-    // First surface hit on the segment, from outside or inside. Colliders are at to_ws. Ids in
-    // `skip` are passed through.
+    // First surface that the segment hits, from outside or inside. Colliders are at their end poses
+    // (ColliderProxy::to_ws). Ignores the ids in `skip`.
     std::optional<RayHit> cast_ray(const Vec3& from_ws, const Vec3& to_ws,
                                    std::span<const std::uint64_t> skip = {}) const;
-    // First impact of a sphere moving along a segment. distance_m is that of its centre from the
-    // start; 0 if it touches at the start.
+    // First impact of a sphere moving along a segment. distance_m: how far the sphere's centre has
+    // moved; 0 if the sphere touches something at the start.
     std::optional<RayHit> cast_sphere(double radius_m, const Vec3& from_ws, const Vec3& to_ws,
                                       std::span<const std::uint64_t> skip = {}) const;
-    // Nearest surface point within max_distance_m. Exact on triangles (double precision, closed
-    // form).
+    // Nearest surface point within max_distance_m. Exact on triangles (closed form in double
+    // precision).
     std::optional<SurfacePoint> closest_point(const Vec3& point_ws, double max_distance_m,
                                               std::span<const std::uint64_t> skip = {}) const;
-    // The same for the collider `id` alone, at any distance; nullopt if there is no such collider.
+    // Nearest surface point of the collider `id`, at any distance. nullopt if no collider has this
+    // id.
     std::optional<SurfacePoint> closest_point_on(std::uint64_t id, const Vec3& point_ws) const;
 
     // Longest path in the broadphase's tree: what placing or removing one collider may cost.
@@ -137,9 +156,5 @@ class CollisionWorld {
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
-
-// Number of allocations by the collision library since the process began, for tests. Its allocator
-// is hooked when the first world is created.
-std::uint64_t collision_allocation_count();
 
 }  // namespace handhold

@@ -1,6 +1,6 @@
-// Not Bullet's persistent manifold: it keeps four points, chosen by order of arrival, and merges
-// points within its breaking threshold (2 cm). The corners of a face that rests on many triangles
-// would be lost.
+// Bullet's persistent manifold is not used: it keeps four points, chosen by order of arrival, and
+// merges points within its breaking threshold (2 cm). The corners of a face that rests on many
+// triangles would be lost.
 #include "engine/collision/contact_outline.hpp"
 
 #include <algorithm>
@@ -23,7 +23,8 @@ bool position_less(const NearContact& a, const NearContact& b) {
 
 constexpr double k_same_normal_cosine = 1.0 - 1e-7;
 
-// Signed distance of `point` to the left of the line from `from` to `to`, seen against the normal.
+// Signed distance of `point` from the line through `from` and `to`. Positive: to the left of the
+// line, if the normal points at the viewer.
 double height_over_line(const NearContact& from, const NearContact& to, const NearContact& point) {
     const Vec3 line = to.point_b_ns - from.point_b_ns;
     const double length = line.norm();
@@ -36,8 +37,9 @@ double distance_between(const NearContact& a, const NearContact& b) {
     return (a.point_b_ns - b.point_b_ns).norm();
 }
 
-// Gift wrapping step: the next outline corner counter-clockwise after `from`. No point lies to the
-// right of the line to it; of collinear points the farthest is taken.
+// Gift wrapping step: the next corner of the outline after `from`, counter-clockwise. No contact
+// lies to the right of the line from `from` to this corner. Of collinear contacts, returns the
+// farthest.
 const NearContact& next_corner(std::span<const NearContact> group, const NearContact& from) {
     const NearContact* best = &from;
     for (const NearContact& other : group) {
@@ -53,8 +55,8 @@ const NearContact& next_corner(std::span<const NearContact> group, const NearCon
     return *best;
 }
 
-// Removes the flattest corner until 8 are left. Ties go to the first, so that every other corner of
-// a regular polygon is removed.
+// Removes the flattest corner until 8 are left. Of equally flat corners, removes the first: a
+// regular polygon loses every other corner.
 void limit_corners(std::vector<NearContact>& outline, std::size_t first) {
     constexpr std::size_t k_max_group = 8;
     constexpr double k_equal_m = 1e-9;
@@ -109,8 +111,8 @@ void add_outline(std::span<const NearContact> group, std::vector<NearContact>& r
 void reduce_contacts(std::vector<NearContact>& contacts, std::vector<NearContact>& scratch) {
     std::sort(contacts.begin(), contacts.end(), position_less);
     scratch.clear();
-    // Each group is formed around the first remaining normal. The input is sorted by position, so
-    // the result does not depend on the order of insertion.
+    // Each group is the contacts whose normals are near that of the first contact left. The input
+    // is sorted by position, so the result does not depend on the order of insertion.
     std::span<NearContact> remaining = contacts;
     while (!remaining.empty()) {
         const Vec3 normal = remaining.front().normal_ns;

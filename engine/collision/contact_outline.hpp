@@ -5,7 +5,7 @@
 
 #include "engine/math/math.hpp"
 
-// Contact reduction: keeps the contacts of one pair that bound all others.
+// Contact reduction: of the contacts of one pair, keeps the outermost ones.
 namespace handhold {
 
 inline constexpr double k_same_place_m = 1e-6;  // points nearer than this are merged
@@ -19,10 +19,10 @@ struct NearContact {
     std::uint32_t part = 0;          // index of a's part, for a compound
 };
 
-// Sorts contacts by position, merges duplicates, and reduces each group with (nearly) equal normals
-// to the corners of its outline, at most 8, and the deepest point. The others would be redundant
-// constraint rows: a rigid body that satisfies the corners satisfies them too. `scratch`: its
-// content is lost, its memory is reused.
+// Sorts contacts by position and merges duplicates. Of each group with (nearly) equal normals,
+// keeps the deepest and at most 8 corners of the outline. The removed contacts would be redundant
+// constraint rows: a rigid body that satisfies the corners satisfies them too. `scratch`: memory
+// for reuse; its content is overwritten.
 void reduce_contacts(std::vector<NearContact>& contacts, std::vector<NearContact>& scratch);
 
 }  // namespace handhold

@@ -1,6 +1,6 @@
-// Sources: polyhedron: Blow and Binstock, How to Find the Inertia Tensor, 2004. Principal axes:
-// Jacobi rotations, 1846, in plain arithmetic, because Eigen's closed form calls the C library's
-// trigonometry, which differs between platforms, and body poses are part of the state.
+// Sources: polyhedra: Blow and Binstock, How to Find the Inertia Tensor, 2004. Principal axes:
+// Jacobi rotations, 1846. Eigen's closed form is not used: it calls the C library's trigonometry,
+// which differs between platforms, and body poses are part of the state.
 #include "engine/collision/mass_properties.hpp"
 
 #include <array>
@@ -11,12 +11,12 @@
 namespace handhold {
 namespace {
 
-// Inertia tensor of a second-moment (covariance) matrix C: I = tr(C) 1 - C.
+// Inertia tensor from the matrix C of second moments (covariance): I = tr(C) 1 - C.
 Mat3 inertia_of_covariance(const Mat3& covariance) {
     return covariance.trace() * Mat3::Identity() - covariance;
 }
 
-// Parallel axis term of 1 kg at `offset` (Steiner).
+// Inertia tensor of 1 kg at `offset` (the term of Steiner's parallel axis theorem).
 Mat3 offset_inertia(const Vec3& offset) {
     return inertia_of_covariance(offset * offset.transpose());
 }
@@ -135,7 +135,7 @@ Mat3 eigenvectors(Mat3 matrix) {
     return axes;
 }
 
-// Reorders and flips the axes to be nearest to the identity; greedy, largest entry first.
+// Reorders and flips the axes so that they are close to the identity. Greedy, largest entry first.
 Mat3 nearest_to_identity(const Mat3& axes) {
     Mat3 left = axes.cwiseAbs();
     Mat3 result = Mat3::Identity();

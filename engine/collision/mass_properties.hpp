@@ -5,7 +5,7 @@
 // Volume, centre of mass and inertia of solids.
 namespace handhold {
 
-// For uniform density, or for a compound's own masses if it has any.
+// The density is uniform, except that the parts of a compound may have their own masses.
 struct MassProperties {
     double volume_m3 = 0.0;
     Vec3 centre_m = Vec3::Zero();  // centre of mass, in the shape's frame
@@ -13,12 +13,12 @@ struct MassProperties {
     Mat3 inertia_per_kg_m2 = Mat3::Zero();
 };
 
-// Exact: closed forms, and for a hull a sum over its faces. The overlap of a compound's parts
-// counts twice. Throws PreconditionError for meshes, which have no inside.
+// Exact: closed forms, or for a hull a sum over its faces. Volume in which parts of a compound
+// overlap counts once per part. Throws PreconditionError for meshes, which have no inside.
 MassProperties mass_properties(const Shape& shape);
 
-// The frame at the centre of mass along principal axes, given in the shape's frame. The order and
-// signs of the axes are chosen for the smallest rotation from the shape's own.
+// Frame at the centre of mass along the principal axes, in the shape's frame. The order and the
+// signs of the axes keep the rotation from the shape's axes small.
 Pose principal_frame(const MassProperties& properties);
 
 }  // namespace handhold

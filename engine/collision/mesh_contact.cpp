@@ -1,6 +1,7 @@
-// Internal edges are detected by the normal cone of the surface: no body can touch a point along a
-// normal above which the surface next to the point rises. No adjacency is needed, so cracks between
-// parts, T-junctions and mixed winding need no preprocessing.
+// Contact normals at internal edges are found with the normal cone of the surface. If the surface
+// next to a point rises above the plane through this point with a given normal, no body can touch
+// the point along this normal. No adjacency is needed, so cracks between parts, T-junctions and
+// mixed winding need no preprocessing.
 #include "engine/collision/mesh_contact.hpp"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 namespace handhold {
 namespace {
 
-constexpr double k_parts_meet_m = 1e-5;  // tolerance for parts that are modelled to meet
+constexpr double k_parts_meet_m = 1e-5;  // triangles this near to a point count as touching it
 constexpr double k_rise_sine = 1e-6;     // tolerance of the normal cone: 6e-5 degrees
 constexpr double k_face_sine = 1e-6;     // normals within this of a face normal are snapped to it
 
@@ -48,7 +49,7 @@ bool crosses(const NearTriangle& triangle, const Vec3& from, const Vec3& to) {
     return (closest_on_triangle(through, triangle.corners_ns) - through).norm() <= k_parts_meet_m;
 }
 
-// Cheap rejection: a's bounding sphere plus margin misses the triangle.
+// Fast rejection: true if a's bounding sphere plus margin misses the triangle.
 bool is_far(const MeshContactIo& io, const NearTriangle& triangle) {
     const double reach_m = io.core_reach_m + io.a.radius_m + io.margin_m;
     const Vec3 centre = io.a.centre_ns();
@@ -72,9 +73,10 @@ void add_triangle_contacts(const MeshContactIo& io, const NearTriangle& triangle
     if (is_face) {
         separation.normal = cosine > 0.0 ? triangle.normal : Vec3(-triangle.normal);
     } else if (!in_normal_cone(io.triangles, separation.point_b_ns, separation.normal)) {
-        // At an internal edge the neighbouring triangle is nearer and makes the contact. A core
-        // that penetrates across the edge may have no such neighbour: then this triangle's face
-        // makes it.
+        // At an internal edge the neighbouring triangle is nearer and produces the contact, so this
+        // triangle produces none. But if a's core (the shape without its radius) overlaps this
+        // triangle, there may be no such neighbour: then this triangle's face produces the
+        // contacts.
         if (separation.overlap) {
             add_face_manifold(io.a, b, outward_normal(triangle, io.centre_from_ns), io.margin_m,
                               io.scratch, io.contacts);
@@ -95,9 +97,9 @@ bool in_normal_cone(const NearTriangles& triangles, const Vec3& point, const Vec
 void add_mesh_contacts(const MeshContactIo& io) {
     const Vec3& from = io.centre_from_ns;
     const Vec3 to = io.a.centre_ns();
-    // Changing sides of a plane is not enough: a body that slides over the edge of a step changes
-    // sides of the step's front plane without touching it. Only a centre that crossed the surface
-    // itself is on the wrong side.
+    // A change of side is not enough: a body that slides over the edge of a step changes sides of
+    // the step's front plane without touching it. A centre is on the wrong side only if it crossed
+    // the surface itself.
     const bool crossed =
         std::any_of(io.triangles.all().begin(), io.triangles.all().end(),
                     [&](const NearTriangle& triangle) { return crosses(triangle, from, to); });

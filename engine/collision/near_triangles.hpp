@@ -12,18 +12,17 @@ namespace handhold {
 // A triangle near a body, in near space: b's axes with the origin at a's position.
 struct NearTriangle {
     Corners corners_ns;
-    Vec3 normal = Vec3::UnitY();  // unit; either side, because winding is mixed in real levels
+    Vec3 normal = Vec3::UnitY();  // unit; on either side, because levels have mixed winding
     Bounds box_ns;
 };
 
-// The triangles of a mesh near one convex shape, in a hierarchy of boxes: each box covers a run of
-// eight entries of the level below, so that a point query tests few. Neighbouring triangles should
-// be added consecutively, as TriangleTree yields them; other orders are only slower.
+// The triangles of a mesh near one convex shape, in a hierarchy of boxes. Each box covers eight
+// consecutive entries of the level below, so that a point query tests few boxes. Add neighbouring
+// triangles one after another, in TriangleTree's order; any other order is slower.
 class NearTriangles {
   public:
     void clear();
-    // Degenerate triangles are skipped: they have no normal, and their neighbours share their
-    // edges.
+    // Skips degenerate triangles: they have no normal, and their neighbours cover their edges.
     void add(const Corners& corners_ns);
     // Call after the last add and before any_at.
     void build();
@@ -42,8 +41,8 @@ class NearTriangles {
     static constexpr std::size_t k_run = 8;
 
     std::size_t top_count() const { return boxes_.size() - levels_.back(); }
-    // Tests entries [first, last) of a level. Level 0: the triangles; level l: the boxes from index
-    // levels_[l-1].
+    // Tests the entries [first, last) of a level. Level 0 holds the triangles. Level l > 0 holds
+    // the boxes that start at index levels_[l-1].
     template <typename Test>
     bool any_in(std::size_t level, std::size_t first, std::size_t last, const Bounds& here,
                 const Test& test) const {

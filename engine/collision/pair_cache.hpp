@@ -10,10 +10,10 @@
 
 namespace handhold {
 
-// Results of the last pass over all pairs. A pair is reused if neither collider changed (common
-// between the passes of one frame), or if a is still inside a box that b does not reach into.
-// Reused results are bitwise equal to recomputed ones. Pairs must be queried in ascending (id of a,
-// id of b).
+// Caches the results of the last pass over all pairs. A pair's result is reused if neither collider
+// changed (common between the passes of one frame), or if a is still inside a box that b does not
+// reach into. Reused results are bitwise equal to recomputed ones. Pairs must be queried in
+// ascending (id of a, id of b).
 class PairCache {
   public:
     // A collider and the change counter at its last change.
@@ -21,16 +21,15 @@ class PairCache {
         std::uint64_t id = 0;
         std::uint64_t stamp = 0;
     };
-    // A pair's contacts, and a box that b does not reach into while b is unchanged, if one is
-    // known.
+    // A pair's contacts, and, if known, a box that b does not reach into while b is unchanged.
     struct Result {
         std::span<const ContactPoint> contacts;
         std::optional<Bounds> clear_ws;
     };
 
     void begin(const ContactLimits& limits);
-    // nullopt if the pair must be recomputed; otherwise valid until the next begin(). `reach_ws`:
-    // a's swept bounds plus margin.
+    // The cached result, valid until the next begin(); nullopt if the pair must be recomputed.
+    // `reach_ws`: a's swept bounds plus margin.
     std::optional<Result> recall(const Version& a, const Version& b, const Bounds& reach_ws);
     // Records the pair's result for the next pass.
     void record(const Version& a, const Version& b, const Result& result);

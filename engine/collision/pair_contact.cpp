@@ -9,14 +9,13 @@
 namespace handhold {
 namespace {
 
-// A part of b in near space.
 Convex place_b(const PairIo& io, const ConvexPart& part) {
     return part.at({-io.to_bs.position, Quat::Identity()});
 }
 
-// Grazing tolerance: an impact is ignored if it leads to less penetration than this by the end of
-// the motion; the contacts at the end resolve that much. Small against both bodies, yet large
-// enough that a body sliding over a floor reaches the wall.
+// Grazing tolerance: an impact is ignored if less penetration than this follows by the end of the
+// motion. The contacts at the end resolve that penetration. The tolerance is small compared with
+// both bodies, yet large enough that a body sliding over a floor reaches the wall.
 double grazing_tolerance_m(const PairIo& io, const ConvexPart& a, const ConvexPart* b) {
     double tolerance_m = std::min(io.limits.sweep_m, a.shape().thinnest_half_m());
     if (b != nullptr) {
@@ -37,14 +36,14 @@ void keep_earlier(const std::optional<Impact>& impact, std::optional<Impact>& fi
     }
 }
 
-// Order of the heap: the smallest fraction on top.
+// Heap order: the smallest fraction is on top.
 bool touches_later(const TriangleApproach& x, const TriangleApproach& y) {
     return x.approach.fraction != y.approach.fraction ? x.approach.fraction > y.approach.fraction
                                                       : x.triangle > y.triangle;
 }
 
-// At an internal edge replaces the tilted normal by the face's: the edge must not stop a body that
-// slides over it.
+// At an internal edge, replaces the tilted normal by the face's, so that the edge does not stop a
+// body that slides over it.
 void straighten(const NearTriangles& triangles, const NearTriangle& triangle, const Vec3& from,
                 Impact& impact) {
     if (!in_normal_cone(triangles, impact.point_b_ns, impact.normal)) {
@@ -53,7 +52,7 @@ void straighten(const NearTriangles& triangles, const NearTriangle& triangle, co
     }
 }
 
-// Always advances the triangle with the smallest fraction, so no triangle is advanced beyond the
+// Always advances the triangle with the smallest fraction, so that none is advanced beyond the
 // first impact.
 std::optional<Impact> first_impact_on_mesh(const PairIo& io, const ConvexPart& a,
                                            const NearTriangles& triangles,
@@ -102,8 +101,8 @@ double reach_m(std::span<const ConvexPart> parts) {
     return reach;
 }
 
-// First impact of any part of a with any part of b. nullopt if the displacement is too small to
-// sweep.
+// First impact of any part of a with any part of b. nullopt if there is none or the displacement is
+// too small to sweep.
 std::optional<Impact> first_impact(const PairIo& io, const RelativeMotion& motion) {
     const double displacement_m = motion.move().norm() + motion.turn_rad().norm() * reach_m(io.a);
     if (displacement_m <= io.limits.sweep_m) {
@@ -162,9 +161,8 @@ void add_contacts_at(const PairIo& io, const Pose& pose_ns, const Pose& from_ns)
     }
 }
 
-// After a touch a may rotate on, as a rolling ball does, so other points than those that touched
-// become the deepest. For each contact plane found at `touch_ns`, adds the deepest point at
-// `to_ns`.
+// After the touch a may rotate on, as a rolling ball does, and points that did not touch become the
+// deepest. For each contact plane found at `touch_ns`, adds a's deepest point at `to_ns`.
 void add_deepest_at_end(const PairIo& io, const Pose& touch_ns, const Pose& to_ns) {
     std::vector<NearContact>& contacts = io.scratch.contacts;
     const auto depth_at_end = [&](const NearContact& contact) {
@@ -218,7 +216,7 @@ void find_pair_contacts(const PairIo& io) {
         contact.point_a_bs = inverse_transform_point(pose_ns, near.point_a_ns);
         contact.point_b_bs = near.point_b_ns + io.to_bs.position;
         contact.normal_b_bs = near.normal_ns;
-        // The contact plane stays where it was found; the separation is that at to_ns.
+        // The contact plane is that of the touch, but the separation is evaluated at to_ns.
         contact.separation_m =
             near.normal_ns.dot(transform_point(to_ns, contact.point_a_bs) - near.point_b_ns);
         if (contact.separation_m < io.limits.margin_m) {

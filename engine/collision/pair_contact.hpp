@@ -11,13 +11,13 @@
 // motion relative to b.
 namespace handhold {
 
-// Conservative advancement of one part towards one triangle.
+// State of a sweep of one part towards one triangle (conservative advancement).
 struct TriangleApproach {
     Approach approach;
     std::uint32_t triangle = 0;
 };
 
-// Scratch, reused from pair to pair. The content means nothing between calls.
+// Scratch memory, reused from pair to pair. Its content is not used between calls.
 struct PairScratch {
     TriangleShape triangle;
     ClipScratch clip;
@@ -32,8 +32,8 @@ struct PairIo {
     std::span<const ConvexPart> b;  // empty if b is a mesh
     Pose from_bs;                   // a's last valid pose in the frame of b's last valid pose
     Pose to_bs;                     // a's current pose in the frame of b's current pose
-    // Mesh b only, one entry per part of a: all triangles within the margin of the part's motion,
-    // relative to to_bs.position.
+    // Only if b is a mesh: one entry per part of a, with all triangles within the margin of that
+    // part's motion. Positions are relative to to_bs.position.
     std::span<const NearTriangles> triangles;
     const ContactLimits& limits;
     std::vector<ContactPoint>& contacts;  // appended to; ids are left 0

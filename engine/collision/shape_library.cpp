@@ -14,7 +14,7 @@ namespace {
 constexpr double k_min_size_m = 1e-3;
 constexpr double k_max_size_m = 1e4;
 
-// NaN is outside too.
+// False for NaN too.
 bool is_size(double size_m) { return size_m >= k_min_size_m && size_m <= k_max_size_m; }
 
 constexpr double k_min_scale = 1e-3;
@@ -47,8 +47,8 @@ double farthest_m(const PlacedShape& part) {
     }
 }
 
-// True if the shape's frame is at its centre of mass along principal axes, within rounding and a
-// file's digits.
+// True if the shape's frame is at its centre of mass along principal axes. The tolerance allows for
+// rounding and for the digits of numbers in files.
 bool is_centred(const MassProperties& properties, double reach_m) {
     constexpr double k_rounding = 1e-6;
     const Mat3& inertia = properties.inertia_per_kg_m2;
@@ -60,9 +60,30 @@ bool is_centred(const MassProperties& properties, double reach_m) {
 }  // namespace
 
 ShapeId ShapeLibrary::add(Shape shape) {
+    ++revision_;
+    if (!free_.empty()) {
+        const ShapeId id{free_.back()};
+        free_.pop_back();
+        shapes_[id.index] = std::move(shape);
+        slots_[id.index] = {revision_, false};
+        return id;
+    }
     const ShapeId id{static_cast<std::uint32_t>(shapes_.size())};
     shapes_.push_back(std::move(shape));
+    slots_.push_back({revision_, false});
     return id;
+}
+
+void ShapeLibrary::remove(ShapeId id) {
+    HH_CHECK(has(id), "no shape with this id", id.index);
+    shapes_[id.index] = {};
+    slots_[id.index] = {++revision_, true};
+    removed_.push_back(id.index);
+}
+
+void ShapeLibrary::recycle_removed() {
+    free_.insert(free_.end(), removed_.begin(), removed_.end());
+    removed_.clear();
 }
 
 ShapeId ShapeLibrary::add_box(const Vec3& half_m) {
@@ -177,7 +198,7 @@ CentredShape ShapeLibrary::add_centred(ShapeId id) {
 }
 
 const Shape& ShapeLibrary::at(ShapeId id) const {
-    HH_CHECK(id.index < shapes_.size(), "no shape with this id", id.index);
+    HH_CHECK(has(id), "no shape with this id", id.index);
     return shapes_[id.index];
 }
 

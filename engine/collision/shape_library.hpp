@@ -46,19 +46,20 @@ struct PlacedShape {
 struct CompoundChild {
     ShapeId shape;  // neither mesh nor compound
     Pose pose;      // in the compound's frame
-    // Mass of this part; only ratios count. 0 for all parts: by volume.
+    // Mass of this part. Only ratios count. If all parts have 0, masses are proportional to
+    // volumes.
     double mass_kg = 0.0;
 };
 
-// A shape recentred on its centre of mass. `frame` is its new frame in the old one: a body whose
-// old frame was at `pose` is now at pose * frame.
+// A shape whose frame is at its centre of mass. `frame` is this frame in the shape's old frame: a
+// body whose old frame was at `pose` is now at pose * frame.
 struct CentredShape {
     ShapeId shape;
     Pose frame;
 };
 
-// The shapes of a scene: an asset, built before the first frame and immutable while frames run. Ids
-// count up from 0. Invalid arguments throw PreconditionError.
+// The shapes of a scene: an asset, immutable while a frame runs. Shapes may come and go between
+// frames. Ids count up from 0. Invalid arguments throw PreconditionError.
 class ShapeLibrary {
   public:
     // All sizes are in metres, in [1e-3, 1e4].
@@ -70,35 +71,57 @@ class ShapeLibrary {
     // k_max_hull_corners corners; convex_hull.hpp describes the loss.
     ShapeId add_hull(std::span<const Vec3> points);
     ShapeId add_hull(const ConvexHull& hull);
-    // 1 to k_max_parts convex shapes that move as one; they may overlap. Masses are all 0 or all >
-    // 0.
+    // 1 to k_max_parts convex shapes that move as one body; they may overlap. Either all masses are
+    // 0 or all are > 0.
     ShapeId add_compound(std::span<const CompoundChild> children);
     // A mesh of 1 to 2^21 triangles, with indices in range and finite positions. Scale factors are
-    // in [1e-3, 1e3]. Shapes of one mesh share it and its BVH, whatever their scale.
+    // in [1e-3, 1e3]. All shapes of a mesh share the mesh and its BVH, even at different scales.
     ShapeId add_mesh(std::shared_ptr<const Mesh> mesh, const Vec3& scale = Vec3::Ones());
-    // The same solid with its frame at the centre of mass, along principal axes. Returns `id` if
-    // the shape is centred already. Not for meshes.
+    // Adds the same solid with its frame at the centre of mass, along principal axes. Returns `id`
+    // if the shape is already centred. Not for meshes.
     CentredShape add_centred(ShapeId id);
 
+    // Frees the shape's memory. Precondition: no collider has the shape. Compounds keep their own
+    // copies of their parts.
+    void remove(ShapeId id);
+    // Lets the add functions reuse the ids of removed shapes, last removed first. Call it after a
+    // frame has run without them: caches compare colliders by id.
+    void recycle_removed();
+
+    // Throws for a removed shape.
     const Shape& at(ShapeId id) const;
+    bool has(ShapeId id) const { return id.index < shapes_.size() && !slots_[id.index].removed; }
+    // Ids are below this number; some may be removed.
     std::size_t size() const { return shapes_.size(); }
 
+    // Number of changes so far, and the change at which the shape was added or removed: caches
+    // rebuild what is newer than they are.
+    std::uint64_t revision() const { return revision_; }
+    std::uint64_t revision_of(ShapeId id) const { return slots_[id.index].revision; }
+
   private:
+    struct Slot {
+        std::uint64_t revision = 0;
+        bool removed = false;
+    };
     ShapeId add(Shape shape);
     ShapeId add_round(ShapeKind kind, double radius_m, double half_height_m);
     std::vector<Shape> shapes_;
+    std::vector<Slot> slots_;             // parallel to shapes_
+    std::vector<std::uint32_t> removed_;  // not reusable yet
+    std::vector<std::uint32_t> free_;     // reusable
+    std::uint64_t revision_ = 0;
 };
 
 constexpr std::size_t k_max_parts = 64;  // parts of a compound
-constexpr std::size_t k_max_triangles =
-    std::size_t{1}  // Triangles of a mesh: the limit of the BVH's index.
-    << 21U;
+// Largest number of triangles of a mesh: the limit of the BVH's index.
+constexpr std::size_t k_max_triangles = std::size_t{1} << 21U;
 
-// True if add_hull accepts it: smallest width and largest extent in [1e-3, 1e4] m.
+// True if add_hull accepts `hull`: its smallest width and its largest extent are in [1e-3, 1e4] m.
 bool is_solid(const ConvexHull& hull);
 
-// Radius of the sphere about the shape's origin that contains it, metres. The smallest, except for
-// compounds with cylinders.
+// Radius of the smallest sphere about the shape's origin that contains the shape, metres. Larger
+// than the smallest for compounds with cylinders.
 double bounding_radius(const Shape& shape);
 // Half the smallest extent, metres; a compound's is that of its thinnest part. Bodies this thin may
 // tunnel. Meshes: 0.

@@ -10,7 +10,8 @@
 namespace handhold {
 namespace {
 
-// Relative tolerance by which faces are extended past their edges.
+// Faces are extended past their edges by this relative tolerance, so that no ray slips between
+// them.
 constexpr double k_edge_tolerance = 1e-12;
 
 struct Ray {
@@ -20,8 +21,8 @@ struct Ray {
     Vec3 at(double fraction) const { return from + fraction * along; }
 };
 
-// The interval in which the line through a ray is inside a convex shape, built from candidate
-// intersections.
+// The interval in which a ray's line is inside a convex shape. Built by offering it all
+// intersections with the surface.
 struct Passage {
     double enter = std::numeric_limits<double>::infinity();  // fraction of the ray
     double leave = -std::numeric_limits<double>::infinity();
@@ -184,10 +185,10 @@ Passage find_passage(const PlacedShape& part, const Ray& ray) {
     return passage;
 }
 
-// First surface of the union of the parts. From inside, the interval is extended while some part
-// contains its end.
+// First surface of the union of the parts. For a ray that starts inside: the point at which it
+// leaves the union. The exit moves on while another part contains it.
 std::optional<LocalRayHit> cast_on_parts(std::span<const PlacedShape> parts, const Ray& ray) {
-    constexpr double k_seam = 1e-12;  // tolerance for parts that are placed to touch
+    constexpr double k_seam = 1e-12;  // relative gap between parts that count as touching
     std::optional<LocalRayHit> first;
     std::optional<LocalRayHit> exit;
     double inside_until = 0.0;
@@ -304,8 +305,8 @@ bool is_inside(const PlacedShape& part, const Vec3& point) {
     return near.distance_m == 0.0 && (near.point - point).norm() > k_on_surface_m;
 }
 
-// If parts contain the point: the part with the nearest exit that is not inside another part; else
-// the nearest part.
+// If no part contains the point: the nearest surface point. Else: the nearest exit from one of
+// these parts that is not inside another part.
 LocalSurfacePoint closest_on_parts(std::span<const PlacedShape> parts, const Vec3& point) {
     using Rank = std::tuple<bool, bool, double>;  // compared lexicographically, the lowest wins
     constexpr double k_far = std::numeric_limits<double>::infinity();
@@ -350,7 +351,7 @@ LocalSurfacePoint closest_on_shape(const Shape& shape, const Vec3& point) {
 }
 
 LocalSurfacePoint closest_on_triangle_surface(const Corners& corners, const Vec3& point) {
-    // Nearer than this the direction to the point is rounding noise.
+    // At smaller distances the direction to the point is rounding noise.
     constexpr double k_on_surface_m = 1e-9;
     const Vec3 surface = closest_on_triangle(point, corners);
     const Vec3 along = point - surface;

@@ -13,9 +13,9 @@ struct LocalRayHit {
     Vec3 normal = Vec3::UnitY();  // unit surface normal, of either side
 };
 // First surface point on the segment; if `from` is inside, the exit point. A compound is the union
-// of its parts: surfaces inside another part are skipped. Not for meshes. Closed forms, because
-// Bullet's casts miss surfaces hit from inside and are up to 1.3 mm off on round shapes
-// (btSubsimplexConvexCast).
+// of its parts: surfaces inside another part are skipped. Not for meshes. Bullet's casts are not
+// used: they miss surfaces hit from inside, and btSubsimplexConvexCast is up to 1.3 mm off on round
+// shapes.
 std::optional<LocalRayHit> cast_ray_on_shape(const Shape& shape, const Vec3& from, const Vec3& to);
 struct LocalSurfacePoint {
     Vec3 point = Vec3::Zero();  // on the surface, also for a query point inside
@@ -23,10 +23,11 @@ struct LocalSurfacePoint {
     Vec3 normal = Vec3::UnitY();
     double distance_m = 0.0;  // 0 inside
 };
-// Inside overlapping parts of a compound: the nearest surface point of one part that is inside no
-// other part. A nearer point may exist where part surfaces intersect. Not for meshes.
+// Nearest surface point. If the query point is inside overlapping parts of a compound: the nearest
+// surface point of one part that is inside no other part. A nearer point may exist where part
+// surfaces intersect. Not for meshes.
 LocalSurfacePoint closest_on_shape(const Shape& shape, const Vec3& point);
-// For a query point on the triangle the normal is the triangle's own.
+// If the query point is on the triangle, the normal is the triangle's own.
 LocalSurfacePoint closest_on_triangle_surface(const Corners& corners, const Vec3& point);
 
 }  // namespace handhold

@@ -3,22 +3,21 @@
 #include <stdexcept>
 #include <string>
 
-// Reports violated API preconditions: a programming error, never bad user input.
+// Reports violated preconditions of the API: programming errors, never bad user input.
 namespace handhold {
 
 class PreconditionError : public std::logic_error {
     using std::logic_error::logic_error;
 };
 
-// Throws PreconditionError: "column.at: no row for this entity (value 7)".
-[[noreturn]] inline void fail_precondition(const char* function, const char* what,
-                                           const std::string& value) {
-    throw PreconditionError(std::string(function) + ": " + what + " (value " + value + ")");
-}
+// Throws PreconditionError: "column.at: no row for this entity (value 7)". Defined in a source, so
+// that headers compile without exceptions.
+[[noreturn]] void fail_precondition(const char* function, const char* what,
+                                    const std::string& value);
 
 }  // namespace handhold
 
-// Checks a precondition. A macro because of __func__: Clang 14 has no std::source_location.
+// Checks a precondition. It is a macro because of __func__: Clang 14 has no std::source_location.
 #define HH_CHECK(condition, what, value)                                          \
     do {                                                                          \
         if (!(condition)) [[unlikely]] {                                          \

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
-// Hashes that are equal on every compiler, build and machine. They identify entities and compare
-// states.
+// Hashes that are equal on every compiler, build and machine. They are used to identify entities
+// and to compare states.
 namespace handhold {
 
 // Mixes 64 bits so that every input bit flips about half of the output bits (SplitMix64 finaliser,
@@ -29,8 +29,8 @@ constexpr std::uint64_t hash_text(std::string_view text) {
     return hash;
 }
 
-// Order-dependent hash of a sequence of plain values. Compares bits: -0.0 and 0.0 differ, and so
-// may two NaNs.
+// Order-dependent hash of a sequence of plain values. It uses their bits: -0.0 and 0.0 differ, and
+// two NaNs may differ.
 class HashStream {
   public:
     void add(std::uint64_t value) { state_ = mix64(state_ ^ mix64(value + 0x9e3779b97f4a7c15ULL)); }

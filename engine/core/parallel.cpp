@@ -16,11 +16,13 @@
 namespace handhold {
 namespace {
 
-// Threads persist between calls. With a count of one no thread exists and TBB is never touched.
+// The threads persist between calls. If `count` is one, there are no threads and TBB is not used.
 struct Workers {
     std::optional<tbb::global_control> limit;  // allows more threads than cores
     std::optional<tbb::task_arena> arena;
     int count = 1;
+    ParallelBackend backend = nullptr;
+    void* backend_context = nullptr;
 };
 
 Workers& workers() {
@@ -28,8 +30,8 @@ Workers& workers() {
     return instance;
 }
 
-// True inside a task. Nested calls run serially: a waiting thread could otherwise start another
-// outer task in the middle of its own.
+// True inside a task. Nested calls run serially: while waiting, a thread could otherwise start
+// another outer task in the middle of its own.
 thread_local bool t_in_task = false;
 
 class InTask {
@@ -40,13 +42,25 @@ class InTask {
     InTask& operator=(const InTask&) = delete;
 };
 
-// The work of one call. Each runner claims the next index, so the first (largest) tasks start first
-// and no fixed partition can turn out unbalanced.
+// The work of one call. Each runner claims the next index, so the first (largest) tasks start
+// first. Unlike with a fixed partition, no runner is left with too much work.
 struct Job {
     const std::size_t count;
     void* const context;
     const IndexedTask task;
     std::atomic<std::size_t> next = 0;
+};
+
+// A task in the hands of a ParallelBackend.
+struct LentTask {
+    void* const context;
+    const IndexedTask task;
+
+    static void run(void* lent, std::size_t index) {
+        const InTask in_task;
+        const LentTask& self = *static_cast<const LentTask*>(lent);
+        self.task(self.context, index);
+    }
 };
 
 void run_claimed(Job& job) {
@@ -86,10 +100,21 @@ void set_thread_count(int count) {
     }
 }
 
+void set_parallel_backend(ParallelBackend backend, void* context) {
+    HH_CHECK(!t_in_task, "called from inside a task", 0);
+    workers().backend = backend;
+    workers().backend_context = context;
+}
+
 int thread_count() { return workers().count; }
 
 void parallel_for(std::size_t count, void* context, IndexedTask task) {
     Workers& state = workers();
+    if (count >= 2 && state.backend != nullptr && !t_in_task) {
+        LentTask lent{context, task};
+        state.backend(state.backend_context, count, &LentTask::run, &lent);
+        return;
+    }
     if (count < 2 || state.count == 1 || t_in_task) {
         run_serial(count, context, task);
         return;

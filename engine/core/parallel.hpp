@@ -12,10 +12,17 @@ void set_thread_count(int count);
 int thread_count();
 
 using IndexedTask = void (*)(void* context, std::size_t index);
+// A host's job system: calls task(task_context, i) once for every i in [0, count) and returns when
+// all are done.
+using ParallelBackend = void (*)(void* context, std::size_t count, IndexedTask task,
+                                 void* task_context);
+// Replaces the threads of this file; null: back to them. Call between frames only.
+void set_parallel_backend(ParallelBackend backend, void* context);
+
 // Calls task(context, i) once for every i in [0, count) and returns when all are done. Indices
-// start in ascending order: put the largest work first. Runs serially, in order and without
-// allocation on the calling thread for one thread, one index, or a call from inside a task. Tasks
-// must not throw.
+// start in ascending order: put the largest work first. If there is one thread or one index, or
+// inside a task, all indices run in order on the calling thread, without allocation. Tasks must not
+// throw.
 void parallel_for(std::size_t count, void* context, IndexedTask task);
 
 template <typename F>

@@ -25,14 +25,14 @@ struct ZoneRecord {
     std::int64_t end_ns;
 };
 
-// Zones of one thread. The mutex is locked for every zone, but only starting and writing a trace
-// contend for it.
+// Zones of one thread. The mutex is locked for every zone, but it is contended only while a trace
+// is started or written.
 struct ThreadZones {
     std::mutex mutex;
     int tid = 0;
     std::vector<ZoneRecord> zones;
     std::uint64_t dropped = 0;
-    std::size_t max_zones = 0;  // of the current trace
+    std::size_t max_zones = 0;  // limit of the current trace
     std::int64_t trace_begin_ns = 0;
 };
 
@@ -105,7 +105,8 @@ void append_microseconds(std::string& json, std::int64_t duration_ns) {
     json += text;
 }
 
-// Sorts parents before their children: for zones that begin together, viewers nest in file order.
+// Sorts parents before their children: if zones begin at the same time, viewers nest them in file
+// order.
 std::vector<ZoneRecord> sorted_by_begin(std::vector<ZoneRecord> zones) {
     std::stable_sort(zones.begin(), zones.end(), [](const ZoneRecord& a, const ZoneRecord& b) {
         return a.begin_ns != b.begin_ns ? a.begin_ns < b.begin_ns : a.end_ns > b.end_ns;
@@ -164,7 +165,7 @@ void start_trace(std::size_t max_zones) {
     Trace& all = trace();
     const std::lock_guard lock(all.mutex);
     all.is_on = false;
-    // Zones of ended threads are kept until here.
+    // Removes the zones of threads that have ended.
     std::erase_if(all.threads, [](const auto& thread) { return thread.use_count() == 1; });
     all.max_zones = max_zones;
     all.begin_ns = now_ns();

@@ -9,25 +9,25 @@
 
 // Zones: named time spans on one thread, for traces in Perfetto and chrome://tracing. A zone costs
 // a call and a branch at each end, plus two clock reads (about 60 ns each) while tracing. Any
-// thread may open zones at any time, also while a trace is started, stopped or written.
+// thread may open zones at any time, even while a trace is started, stopped or written.
 namespace handhold {
 
 // Nanoseconds of a steady clock.
 std::int64_t now_ns();
 
-// Clock for stage times. Default: the wall clock. A tool that measures on a busy machine may select
-// the calling thread's CPU time (a system call, about 0.3 us). Set it between frames.
+// Clock of stage times. Default: the wall clock. A tool that measures on a busy machine may select
+// the calling thread's CPU time (a system call, about 0.3 us). Set it only between frames.
 enum class StageClock : std::uint8_t { wall, thread_cpu };
 void set_stage_clock(StageClock clock);
 std::int64_t stage_now_ns();
 
-// Discards earlier zones and records all zones that begin and end before stop_trace: up to
-// `max_zones` per thread (24 bytes each). Further zones are only counted as dropped.
+// Discards earlier zones. Records all zones that begin and end before stop_trace, up to `max_zones`
+// per thread (24 bytes each). Further zones are only counted as dropped.
 void start_trace(std::size_t max_zones = 1U << 20U);
 void stop_trace();
 bool is_tracing();
-// Writes the recorded zones as Chrome trace JSON: complete events, one tid per thread, the number
-// of dropped zones in otherData.dropped_zones. Writes and fails as write_file_atomically.
+// Writes the recorded zones as Chrome trace JSON: complete events, with one tid per thread.
+// otherData.dropped_zones is the number of dropped zones. Errors: those of write_file_atomically.
 [[nodiscard]] std::optional<FileError> write_trace(const std::string& path);
 
 class Zone {

@@ -2,12 +2,12 @@
 
 #ifdef HH_THREAD_SANITIZER
 
-// From the sanitizer's run-time library.
+// Defined in the sanitizer's run-time library.
 extern "C" void __tsan_release(void* address);
 extern "C" void __tsan_acquire(void* address);
 
-// Suppresses reports about the task library's own objects, never about code inside a task. The
-// patterns match the innermost function, or functions from which no task is called.
+// Suppresses reports about TBB's own objects, never about code inside a task. The patterns match
+// the innermost function, or functions from which no task is called.
 extern "C" const char* __tsan_default_suppressions() {
     return "called_from_lib:libtbb.so\n"
            "race_top:tbb::detail\n"

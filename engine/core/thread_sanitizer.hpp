@@ -8,14 +8,14 @@
 #endif
 #endif
 
-// For parallel.cpp. The distribution's TBB is not instrumented: the thread sanitizer sees memory
-// accesses in its headers and our tasks, but not their ordering. These two functions declare the
-// ordering; they are empty in other builds.
+// Used by parallel.cpp. The distribution's TBB is not instrumented: the thread sanitizer sees
+// memory accesses in TBB's headers and in our tasks, but not their ordering. These two functions
+// declare the ordering. They are empty in other builds.
 namespace handhold {
 
 #ifdef HH_THREAD_SANITIZER
-// Everything this thread did before happens before what others do after acquire_memory with the
-// same address.
+// What this thread did before release_memory happens before what other threads do after
+// acquire_memory with the same address.
 void release_memory(const void* address);
 void acquire_memory(const void* address);
 #else

@@ -5,8 +5,8 @@
 
 namespace handhold {
 
-// How far long work has come, in units of its own, for a progress bar: whoever works adds to it,
-// any thread may read it. One for the process.
+// Progress of long work, for a progress bar. The code that works adds to it, in units of its
+// choice; any thread may read it. There is one meter per process.
 struct WorkMeter {
     std::atomic<std::uint64_t> planned = 0;
     std::atomic<std::uint64_t> done = 0;

@@ -13,8 +13,8 @@
 
 namespace handhold {
 
-// One component of many entities: densely packed elements ("rows" in this API), their owners, and a
-// sparse map from an entity's slot to its row. Removing moves the last row into the gap; equal
+// One component of many entities: packed elements ("rows" in this API), their owners, and a sparse
+// map from an entity's slot to its row. Removing a row moves the last row into the gap. Equal
 // histories give equal orders. References and row numbers are valid until the next add or remove.
 template <typename T>
 class Column {
@@ -23,9 +23,9 @@ class Column {
   public:
     using Row = T;
 
-    // Returns the new row. Throws PreconditionError for a null entity, for an entity that has a row
-    // already, and if the slot still has the row of a destroyed predecessor: code that destroys an
-    // entity has to remove its rows.
+    // Returns the new row. Throws PreconditionError if the entity is null, if it already has a row,
+    // or if its slot still has the row of a destroyed entity: code that destroys an entity must
+    // remove its rows.
     T& add(Entity entity, T value = {}) {
         HH_CHECK(!is_null(entity), "the entity is null", entity.slot);
         if (entity.slot >= row_of_slot_.size()) {
@@ -65,7 +65,7 @@ class Column {
     }
 
     static constexpr std::size_t k_npos = std::numeric_limits<std::size_t>::max();
-    // The entity's row number; k_npos for null and stale handles and for entities without a row.
+    // The entity's row number. k_npos for null and stale handles, and for entities without a row.
     std::size_t find_row(Entity entity) const {
         if (entity.slot >= row_of_slot_.size()) {
             return k_npos;
@@ -105,9 +105,9 @@ class Column {
     std::span<const T> rows() const { return rows_; }
     std::span<const Entity> owners() const { return owners_; }
 
-    // Block b holds the rows [b * k_block_rows, ...). True only if its owners have equal
-    // generations and consecutive slots, so that the first owner determines all. May be false for
-    // such a block after removals.
+    // Block b holds the rows [b * k_block_rows, ...). is_run is true only if the block's owners
+    // have equal generations and consecutive slots, so that the first owner determines all. It may
+    // be false for such a block after removals.
     static constexpr std::size_t k_block_rows = 256;
     bool is_run(std::size_t block) const { return is_run_[block] != 0; }
 

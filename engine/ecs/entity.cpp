@@ -34,7 +34,7 @@ Entity EntityPool::create() {
     const std::uint32_t slot = free_slots_.back();
     free_slots_.pop_back();
     alive_[slot] = 1;
-    // Skips 0 on wrap-around: null must stay null.
+    // Skips 0 when the generation wraps around, because generation 0 means null.
     if (++generations_[slot] == 0) {
         generations_[slot] = 1;
     }

@@ -9,10 +9,10 @@
 
 namespace handhold {
 
-// First row of `other` from which its owners equal those of the driver's rows [begin, begin +
-// length), where that range is a block or the last part of one; k_npos if there is none. Exact: two
-// runs (Column::is_run) are equal if their first owners are; other blocks are compared owner by
-// owner.
+// Looks in `other` for the owners of the driver's rows [begin, begin + length), in the same order
+// and without gaps. Returns the first of their rows, or k_npos. The range is a block or the last
+// part of one. The result is exact: two runs (Column::is_run) are equal if their first owners are;
+// other blocks are compared owner by owner.
 template <typename Driver, typename Other>
 std::size_t find_equal_block(const Driver& driver, std::size_t begin, std::size_t length,
                              const Other& other) {
@@ -35,9 +35,9 @@ std::size_t find_equal_block(const Driver& driver, std::size_t begin, std::size_
 // the order of the driver's rows. Columns may be const. No column may gain or lose rows during the
 // call.
 //
-// Columns filled together have equal orders. A block of the driver's rows whose owners appear in
-// the same sequence in every other column is walked as plain arrays. In other blocks every entity
-// is looked up. Orders are compared on each call, never cached.
+// Columns that are filled together have equal orders. If the owners of a block of the driver's rows
+// appear in the same sequence in every other column, the block is walked as plain arrays. Otherwise
+// every entity is looked up. Orders are compared on each call, never cached.
 template <typename Driver, typename Visit, typename... Others>
 void join(Driver& driver, Visit&& visit, Others&... others) {
     const std::size_t count = driver.size();

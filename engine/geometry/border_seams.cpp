@@ -17,13 +17,13 @@ namespace {
 using Triangle = std::array<std::uint32_t, 3>;
 
 constexpr double k_widest_seam_m = 1e-3;
-// An edge shorter than both other edges by this factor does not limit the seam width: in jittered
-// meshes, degenerate triangles have edges as short as the jitter.
+// An edge that is shorter than both other edges by this factor does not limit the seam's width.
+// Jittered meshes have degenerate triangles with edges as short as the jitter.
 constexpr double k_needle = 8.0;
 
 struct Borders {
     std::vector<HalfEdge> edges;    // edges with one triangle
-    std::vector<double> reaches_m;  // per vertex, merge distance; -1 off the borders
+    std::vector<double> reaches_m;  // per vertex: merge distance; -1 for vertices off the borders
 };
 
 double size_of(const std::vector<Vec3>& positions) {
@@ -45,7 +45,7 @@ double widest_seam(const SurfaceGraph& graph, const WeldLimits& limits) {
     return std::max(limits.seam_m, by_size);
 }
 
-// Seam limit per vertex: seam_per_edge times its shortest incident edge, needle edges excluded.
+// Largest seam width per vertex: seam_per_edge times its shortest edge, without needle edges.
 std::vector<double> fineness(const SurfaceGraph& graph, const WeldLimits& limits, double max_m) {
     std::vector<double> result(graph.positions.size(), max_m);
     for (const Triangle& triangle : graph.triangles) {
@@ -114,7 +114,7 @@ std::vector<SeamCut> find_cuts(const SurfaceGraph& graph, const Borders& borders
             const Vec3& from = graph.positions[triangle[side]];
             const Vec3 edge_m = graph.positions[triangle[(side + 1) % 3]] - from;
             const double along = (graph.positions[v] - from).dot(edge_m) / edge_m.squaredNorm();
-            // Nearer to an end the vertices would have been merged.
+            // Vertices nearer than this to an end of the edge are merged with the end instead.
             const double end_share = reach / edge_m.norm();
             if (along > end_share && along < 1.0 - end_share) {
                 cuts.push_back({edge.id / 3, side, along, v});
@@ -128,8 +128,8 @@ std::vector<SeamCut> find_cuts(const SurfaceGraph& graph, const Borders& borders
     return cuts;
 }
 
-// A piece of a split triangle. rest_of[i]: the original side of which edge i is the unsplit rest,
-// or k_no_side.
+// A piece of a split triangle. rest_of[i]: number of the original side of which edge i is the part
+// that later cuts may split; k_no_side if edge i is not such a part.
 struct Piece {
     Triangle corners;
     std::array<std::uint32_t, 3> rest_of;
@@ -141,7 +141,7 @@ Vec3 area_of(const SurfaceGraph& graph, const Triangle& corners) {
         {graph.positions[corners[0]], graph.positions[corners[1]], graph.positions[corners[2]]});
 }
 
-// Splits the piece that holds the rest of the cut's side. Cuts of one side must come in ascending
+// Splits the piece with the uncut part of side `cut.side`. Cuts of one side must come in ascending
 // order. Returns false and changes nothing if a new piece would be flipped or degenerate.
 bool cut_piece(const SurfaceGraph& graph, const Vec3& area, const SeamCut& cut,
                std::vector<Piece>& pieces) {

@@ -8,7 +8,7 @@
 
 // Closes seams between open borders that coincide within WeldLimits. Nearby border vertices are
 // merged, and a border edge is split at another border's vertex that lies on it (a T-junction).
-// Both functions change only positions, triangles and source_triangle, and count in the report.
+// Both functions change only positions, triangles, source_triangle and the report's counts.
 namespace handhold {
 
 // Merges nearby vertices of open borders into their centroid. May leave degenerate or duplicate

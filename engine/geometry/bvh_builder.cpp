@@ -9,11 +9,13 @@
 namespace handhold {
 namespace {
 
-constexpr std::uint32_t k_leaf = 4;            // maximum and minimum size before a set is split
-constexpr std::uint32_t k_planned_depth = 30;  // deeper sets are halved: bounds the query stack
-constexpr double k_padding = 0x1p-22;          // per mesh size: four float roundings
+// Largest leaf, in triangles. A set of at most two leaves is split into a full leaf and the rest.
+constexpr std::uint32_t k_leaf = 4;
+// Deeper sets are split in halves, which limits the query stack.
+constexpr std::uint32_t k_planned_depth = 30;
+constexpr double k_padding = 0x1p-22;  // of boxes, per size of the mesh: four float roundings
 
-// Cost of testing triangles: four cost as much as one.
+// Cost of testing triangles: their number of groups of four, because four are tested at once.
 std::uint32_t fours_of(std::uint32_t triangles) { return (triangles + k_leaf - 1) / k_leaf; }
 
 }  // namespace
@@ -79,7 +81,7 @@ void BvhBuilder::gather() {
     }
 }
 
-// An axis along which all middles are one has bins that mean nothing.
+// If all boxes have the same middle along an axis, their bin along this axis means nothing.
 Int4 BvhBuilder::bins_of(const Item& item, const Box& middles) {
     const Float4 width = middles.high - middles.low;
     const Float4 safe = width > splat4(0.0F) ? width : splat4(1.0F);
@@ -93,7 +95,7 @@ Int4 BvhBuilder::bins_of(const Item& item, const Box& middles) {
 BvhBuilder::Split BvhBuilder::best_split_along(std::size_t axis, const Bins& bins,
                                                std::uint32_t all) {
     const auto& [boxes, counts] = bins;
-    std::array<double, k_bins> upper_cost = {};  // of this bin and all above
+    std::array<double, k_bins> upper_cost = {};  // cost of this bin and all above it
     Box upper = Box::none();
     std::uint32_t upper_count = 0;
     for (std::size_t bin = k_bins - 1; bin > 0; --bin) {
@@ -145,7 +147,7 @@ BvhBuilder::Split BvhBuilder::best_split(const Work& work, const Box& middles) c
     return best;
 }
 
-// Partitions the items; returns the first item of the upper side.
+// Partitions the items and returns the index of the upper side's first item.
 std::uint32_t BvhBuilder::part(const Work& work, const Split& split, const Box& middles) {
     const auto first = items_.begin() + work.first;
     const auto last = items_.begin() + work.last;
@@ -155,8 +157,8 @@ std::uint32_t BvhBuilder::part(const Work& work, const Split& split, const Box& 
         });
         return static_cast<std::uint32_t>(middle - items_.begin());
     }
-    // Two leaves, one of them full; or no useful split, or the tree is too deep: split in halves by
-    // position and index.
+    // There is no useful split, the tree is too deep, or two leaves suffice. Splits by position and
+    // index: into halves, or into a full leaf and the rest.
     std::size_t widest = 0;
     for (std::size_t axis = 1; axis < 3; ++axis) {
         if (middles.high[axis] - middles.low[axis] > middles.high[widest] - middles.low[widest]) {
@@ -180,7 +182,7 @@ void BvhBuilder::make_leaf(const Work& work) {
     pairs_[work.pair].count = work.last - work.first;
 }
 
-// Each leaf has four slots; unused ones repeat its last triangle.
+// Stores the leaves' triangles. Each leaf has four slots; unused slots repeat its last triangle.
 void BvhBuilder::fill_leaves() {
     std::vector<std::uint32_t> leaves;
     for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
@@ -206,7 +208,7 @@ void BvhBuilder::fill_leaves() {
     }
 }
 
-// Copies corners in leaf order, for locality.
+// Copies a triangle's corners in leaf order, so that they are near in memory.
 std::array<std::uint32_t, 3> BvhBuilder::copy_corners(std::uint32_t triangle) {
     constexpr std::uint32_t k_not_copied = std::numeric_limits<std::uint32_t>::max();
     copied_.resize(positions_.size(), k_not_copied);
@@ -223,8 +225,8 @@ std::array<std::uint32_t, 3> BvhBuilder::copy_corners(std::uint32_t triangle) {
 }
 
 void BvhBuilder::add_four(std::uint32_t first_slot) {
-    // In units of the longest edge squared. Below it the normal's rounding error is worse than a
-    // float's.
+    // Smallest area, in units of the longest edge squared. In thinner triangles the normal's
+    // rounding error exceeds that of a float.
     constexpr double k_least_area = 1e-8;
     Triangles4 four;
     for (std::uint32_t i = 0; i < k_leaf; ++i) {
@@ -276,7 +278,8 @@ void BvhBuilder::divide() {
     }
 }
 
-// Replaces a binary node by up to four descendants in tree order, opening the largest boxes first.
+// The up to four descendants that replace a binary node's children, in tree order. Opens the
+// largest boxes first.
 std::vector<std::uint32_t> BvhBuilder::four_below(std::uint32_t pair) const {
     std::vector<std::uint32_t> below = {pair};
     while (below.size() < 4) {

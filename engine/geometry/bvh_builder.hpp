@@ -12,9 +12,9 @@
 namespace handhold {
 
 // Builds a TriangleBvh top-down. Each binary split is the cheapest of k_bins planes along each axis
-// by the surface area heuristic. Binary nodes are then collapsed to four children, largest area
-// first. The order of triangles within a set has no effect, so the tree is the same on every
-// compiler and library.
+// by the surface area heuristic. Binary nodes are then collapsed to nodes with four children,
+// largest area first. The order of a set's triangles has no effect, so the tree is the same on
+// every compiler and library.
 class BvhBuilder {
   public:
     BvhBuilder(TriangleBvh& bvh, std::span<const Vec3> positions,
@@ -23,14 +23,14 @@ class BvhBuilder {
 
   private:
     struct Box {
-        Float4 low;  // x, y, z; the fourth lane means nothing
+        Float4 low;  // x, y, z; the fourth lane is no part of the box
         Float4 high;
         static Box none();
         void join(const Box& other);
         double half_area() const;
         Float4 middle() const { return splat4(0.5F) * (low + high); }
     };
-    // The number of the triangle is kept in the fourth lane of `box.low`: 32 bytes in place of 48.
+    // The triangle's number is stored in the fourth lane of `box.low`: 32 bytes instead of 48.
     struct Item {
         Box box;
         std::uint32_t triangle() const {
@@ -53,7 +53,8 @@ class BvhBuilder {
     struct Split {
         std::size_t axis = 0;
         std::uint32_t bin = 0;  // first bin of the upper side
-        double cost = 0.0;      // number of fours times half the box area, summed
+        // Sum over both sides of: groups of four triangles times half the box's area.
+        double cost = 0.0;
         bool found = false;
     };
     static constexpr std::size_t k_bins = 16;
@@ -64,7 +65,8 @@ class BvhBuilder {
         std::array<Box, k_bins> boxes;
         std::array<std::uint32_t, k_bins> counts;
     };
-    static Int4 bins_of(const Item& item, const Box& middles);  // by axis
+    // The bin of the item's middle along each axis.
+    static Int4 bins_of(const Item& item, const Box& middles);
     Split best_split(const Work& work, const Box& middles) const;
     static Split best_split_along(std::size_t axis, const Bins& bins, std::uint32_t all);
     std::uint32_t part(const Work& work, const Split& split, const Box& middles);
@@ -81,7 +83,7 @@ class BvhBuilder {
     float padding_ = 0.0F;
     std::vector<Item> items_;
     std::vector<Pair> pairs_;            // root first
-    std::vector<std::uint32_t> copied_;  // per position, its index in the tree
+    std::vector<std::uint32_t> copied_;  // per position: its index in the tree's positions
 };
 
 }  // namespace handhold

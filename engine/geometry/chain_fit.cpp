@@ -7,7 +7,7 @@
 namespace handhold {
 namespace {
 
-// The plane's disc in the mesh's frame.
+// The disc (disc_trace.hpp) of cutting plane `plane`, in the mesh's frame.
 Disc disc_of(const HingeChain& chain, const Pose& mesh, const ChainFitSettings& settings,
              std::size_t plane) {
     const Pose base = inverse(mesh) * chain.base;
@@ -25,7 +25,8 @@ bool has_start(const ChainSeed& seed) {
     return seed[0].triangle != k_no_triangle || seed[1].triangle != k_no_triangle;
 }
 
-// Closes the chain over the cuts that the graph searches find, or over all cuts.
+// Closes the chain over the cuts that the graph searches find; if these do not suffice, over all
+// cuts.
 class ChainFitter {
   public:
     ChainFitter(const HingeChain& chain, std::span<const PlacedMesh> meshes,
@@ -67,7 +68,8 @@ class ChainFitter {
         std::ptrdiff_t end = 0;
     };
 
-    // Uses the cuts found by search. If they do not suffice, uses all cuts in reach.
+    // Closes over the cuts found by the graph searches. If they do not suffice, uses all cuts in
+    // reach.
     void close_from_open(const ChainSeed& seed) {
         bool is_complete = false;
         if (has_start(seed)) {
@@ -82,7 +84,7 @@ class ChainFitter {
 
     // Gathers the triangles in reach and cuts them with the planes.
     void gather() {
-        // Enough for one chain except on very dense meshes; there the vectors grow once.
+        // Enough for one chain. On very dense meshes the vectors grow once.
         constexpr std::size_t k_usual_segments = 2048;
         scratch_.cuts.reserve(k_usual_segments);
         scratch_.segments.reserve(k_usual_segments);
@@ -105,7 +107,7 @@ class ChainFitter {
         }
     }
 
-    // True if every plane that cuts the first mesh was found by its search.
+    // True if the searches found a cut in every plane that cuts the first mesh.
     bool search_cuts(const ChainSeed& seed) {
         scratch_.segments.clear();
         bool is_complete = true;
@@ -122,8 +124,8 @@ class ChainFitter {
         return is_complete;
     }
 
-    // Finds the first mesh's cut with one plane. Later planes start where the first search found
-    // the surface: they are only millimetres away.
+    // Finds the first mesh's cut with one plane. The next plane's search starts at the point found
+    // here, because the planes are only millimetres apart.
     bool search_cut(std::size_t plane, ChainSeed& start, GraphPoint& contact_start) {
         const GripMesh& mesh = *meshes_.front().mesh;
         const Disc disc = disc_of(chain_, meshes_.front().pose, settings_, plane);
@@ -142,7 +144,7 @@ class ChainFitter {
         return true;
     }
 
-    // Moves from the search detail to the contact detail and walks the cut there.
+    // Finds on the contact detail the cut that was found on the search detail, and follows it.
     void walk_contact(const GripMesh& mesh, const Disc& disc, const CrossingSearch& found,
                       GraphPoint& contact_start) {
         if (contact_start.triangle == k_no_triangle) {
@@ -169,7 +171,7 @@ class ChainFitter {
         set_angles(closure.angle_rad);
     }
 
-    // A chain that penetrates there counts as touching.
+    // Makes this pose the fit. If it penetrates, its deepest link counts as touching.
     void stay_at(const Angles& angle_rad, const ChainDepth& depth) {
         fit_.angle_rad = angle_rad;
         fit_.depth_m = depth.depth_m;
@@ -194,7 +196,8 @@ class ChainFitter {
         }
     }
 
-    // Candidates for a chain that penetrates where closing left it.
+    // Best sample poses for a chain that penetrates after closing. A clear pose penetrates less
+    // than a given depth.
     struct SamplePoses {
         std::optional<Angles> touching;           // clear and touching, nearest to rest_rad
         std::optional<Angles> clear;              // clear, nearest to rest_rad
@@ -202,10 +205,10 @@ class ChainFitter {
         double min_m = 0.0;                       // depth of least_penetrating
     };
 
-    // A chain that penetrates when straight, or that closed onto a surface it only grazes, may be
-    // clear when the first hinge or the others are bent. Prefers a clear pose that touches. If a
-    // clear pose touches nothing, closes it again until it does. If no pose is clear, takes the one
-    // that penetrates least.
+    // Replaces a penetrating pose by a sample pose. Other poses may be clear if the chain
+    // penetrates when straight, or closed onto a surface that it only grazes. Prefers a clear pose
+    // that touches. If a clear pose touches nothing, closes it again until it does. If no pose is
+    // clear, takes the one that penetrates least.
     void depenetrate() {
         const double clear_m = std::min(settings_.open_depth_m, fit_.depth_m);
         const Angles penetrating_rad = fit_.angle_rad;
@@ -235,8 +238,7 @@ class ChainFitter {
                 const double depth_m = depths.depth_m(angle_rad, std::max(poses.min_m, clear_m));
                 if (depth_m <= clear_m && depth_m < fit_.depth_m) {
                     keep_if_nearer(angle_rad, poses.clear);
-                    // The open pose touched before it closed, and closing made it penetrate: not a
-                    // candidate.
+                    // The open pose is no candidate, because closing it led to the penetration.
                     const bool is_straight = angle_rad == chain_.open_rad;
                     if (depth_m > 0.0 && !is_straight) {
                         keep_if_nearer(angle_rad, poses.touching);
@@ -282,8 +284,8 @@ class ChainFitter {
         return chain_depth(chain_, angle_rad, scratch_.patch);
     }
 
-    // Opens the hinges up to the deepest link step by step while that reduces the penetration. A
-    // pose that becomes clear is closed again until it just touches.
+    // Opens the hinges up to the deepest link step by step while this reduces the penetration. If
+    // the chain becomes clear, closes it again until it just touches.
     void open() {
         Angles angle_rad = fit_.angle_rad;
         ChainDepth depth = depth_of(angle_rad);
@@ -294,7 +296,7 @@ class ChainFitter {
                 angle_rad[i] = std::max(angle_rad[i] - settings_.open_step_rad, chain_.open_rad[i]);
             }
             if (angle_rad == before_rad) {
-                break;  // all of these hinges are fully open
+                break;  // all hinges up to the deepest link are fully open
             }
             depth = depth_of(angle_rad);
             if (depth.depth_m < fit_.depth_m) {
@@ -340,8 +342,9 @@ class ChainFitter {
         fit_.fallback = ChainFallback::rest_pose;
     }
 
-    static constexpr int k_pose_samples = 5;  // per axis: first hinge, other hinges
-    // Upper bound on the distance between the two details.
+    // Values per variable: first hinge; other hinges together.
+    static constexpr int k_pose_samples = 5;
+    // Upper bound on the distance between the search detail and the contact detail.
     static constexpr double k_detail_apart_m = 0.02;
 
     const HingeChain& chain_;
@@ -349,8 +352,8 @@ class ChainFitter {
     std::span<const PlacedMesh> meshes_;
     const ChainFitSettings& settings_;
     ChainFitScratch& scratch_;
-    // By plane, ranges in scratch_.cuts: number of cuts of the first mesh, and the other meshes'
-    // cuts.
+    // Per plane: the number of the first mesh's cuts, and the range of the other meshes' cuts in
+    // scratch_.cuts.
     std::array<std::size_t, k_disc_planes> own_cuts_ = {};
     std::array<CutRange, k_disc_planes> other_cuts_ = {};
     ChainFit fit_;

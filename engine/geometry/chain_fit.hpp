@@ -16,21 +16,22 @@
 // Three parallel planes cut the meshes: the chain's own and one on each side of it, where the
 // capsules' cross-sections are thinner. A graph search finds the cut in each plane
 // (disc_trace.hpp), and the chain closes against all cuts at once (disc_contact.hpp). The result is
-// then checked in 3D against every triangle in reach (chain_patch.hpp) and depenetrated: the planes
-// miss geometry between them and surfaces that the graph does not connect to the seed.
-// All positions of one call are in one frame. Sources: talk rows 12 to 15.
+// then checked in 3D against every triangle in reach (chain_patch.hpp) and depenetrated, because
+// the planes miss two kinds of surfaces: those between the planes, and those that the graph does
+// not connect to the seed. All positions of one call are in one frame. Sources: talk rows 12 to 15.
 namespace handhold {
 
 // Start points of the graph search, on the first mesh's search detail and in that mesh's frame. A
-// point without a triangle is ignored. With no start point at all, every cut is used.
+// point without a triangle is ignored. If no point has a triangle, all cuts are used.
 using ChainSeed = std::array<GraphPoint, 2>;
 
-// Lengths and angles have no defaults of their own: 0 switches a step off or tolerates nothing. The
-// runtime takes them from the tuning.
+// Lengths and angles default to 0, which turns a step off or allows no penetration. The runtime
+// sets them from the tuning.
 struct ChainFitSettings {
-    double plane_offset = 0.0;    // outer planes' offset from the middle one, in mean link radii
-    double search_depth_m = 0.0;  // a deeper fit uses all cuts, then the sample poses
-    double open_depth_m = 0.0;    // sample poses up to this depth count as clear; deeper fits open
+    double plane_offset = 0.0;  // outer planes' offset from the middle one, in mean link radii
+    // If the fit penetrates deeper: all cuts are used, then sample poses.
+    double search_depth_m = 0.0;
+    double open_depth_m = 0.0;    // up to this depth a sample pose is clear; a deeper fit is opened
     double open_step_rad = 0.0;   // opening step of each hinge
     std::int32_t open_steps = 0;  // maximum number of opening steps
     SearchOrder order = SearchOrder::best_first;
@@ -39,12 +40,12 @@ struct ChainFitSettings {
 
 enum class ChainFallback : std::uint8_t {
     none,
-    all_cuts,   // the graph search's cuts did not suffice: used every cut in reach
-    rest_pose,  // nothing to touch
-    // The closed chain penetrated: uses the sample pose that is clear or penetrates least. It may
-    // touch nothing.
+    all_cuts,   // the cuts that the graph search found did not suffice: used all cuts in reach
+    rest_pose,  // there was nothing to touch
+    // The closed chain penetrated: used a clear sample pose, or the one that penetrates least. It
+    // may touch nothing.
     sample_pose,
-    opened,  // still penetrating after that: opened stepwise
+    opened,  // the sample pose penetrated too: opened step by step
 };
 
 struct ChainFit {
@@ -52,11 +53,11 @@ struct ChainFit {
     // Last link that touches; after depenetration, the deepest link. k_none if nothing is touched,
     // and always for the rest pose.
     std::int32_t contact_link = DiscClosure::k_none;
-    // Triangle of the first mesh's search detail where the middle plane's search ended: the seed of
-    // the next fit.
+    // Where the search of plane 0 ended: a triangle of the first mesh's search detail. Seed of the
+    // next fit.
     std::uint32_t contact_triangle = k_no_triangle;
-    // Penetration of the deepest link, >= 0. Includes the chain beyond a surface that crosses its
-    // axis.
+    // Penetration of the deepest link, >= 0. If a surface crosses a link's axis, the chain beyond
+    // the crossing counts as penetrating.
     double depth_m = 0.0;
     ChainFallback fallback = ChainFallback::none;
     // Only with ChainFitSettings::depenetrates off: the fit would have been depenetrated.
@@ -75,7 +76,7 @@ struct ChainFitScratch {
     std::vector<DiscSegment> segments;
 };
 
-// Never fails: if no pose is clear, returns the one that penetrates least. `meshes` may be empty.
+// If no pose is clear, returns the one that penetrates least. `meshes` may be empty.
 ChainFit fit_chain(const HingeChain& chain, std::span<const PlacedMesh> meshes,
                    const ChainSeed& seed, const ChainFitSettings& settings,
                    ChainFitScratch& scratch);

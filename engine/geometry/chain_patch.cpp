@@ -11,7 +11,7 @@
 namespace handhold {
 namespace {
 
-constexpr std::size_t k_usual_fours = 1024;  // exceeded only on dense meshes
+constexpr std::size_t k_usual_fours = 1024;  // groups of four triangles; more only on dense meshes
 
 }  // namespace
 
@@ -39,8 +39,8 @@ class ChainPatch::PenetrationSearch {
         update_limits();
     }
 
-    // Adds the triangles of a four that may be nearer than the nearest found so far. `number` is
-    // the first one's place.
+    // Adds those of four triangles that may be nearer than the nearest found so far. `number`:
+    // index of the first of the four.
     void add_candidates(const ReachedTriangles4& four, const Int4& is_wanted,
                         std::uint32_t number) {
         Int4 is_near = is_wanted & is_in_box(four);
@@ -63,7 +63,7 @@ class ChainPatch::PenetrationSearch {
     // True if fewer than four more candidates fit.
     bool is_full() const { return count_ + 4 > candidates_.size(); }
 
-    // Removes and returns the candidate with the smallest bound; none if empty.
+    // Removes and returns the candidate with the smallest bound; nullopt if there is none.
     std::optional<std::uint32_t> pop_nearest() {
         if (count_ == 0) {
             return std::nullopt;
@@ -106,21 +106,22 @@ class ChainPatch::PenetrationSearch {
         std::uint32_t number;
     };
 
-    // Bounding boxes reject most triangles.
+    // True for triangles whose bounding box overlaps the search limits. Rejects most triangles.
     Int4 is_in_box(const ReachedTriangles4& four) const {
         const Int4 is_far = (four.low[0] > high_[0]) | (four.low[1] > high_[1]) |
                             (four.high[0] < low_[0]) | (four.high[1] < low_[1]) |
                             (four.low[2] > max_m_) | (four.high[2] < -max_m_);
         return ~is_far;
     }
-    // Rejects triangles whose plane lies farther than max_m_ from the axis.
+    // True for triangles whose plane is farther than max_m_ from the axis.
     Int4 is_off_plane(const ReachedTriangles4& four) const {
         const Float4 begin = four.line[0] * begin_[0] + four.line[1] * begin_[1] - four.line[2];
         const Float4 end = four.line[0] * end_[0] + four.line[1] * end_[1] - four.line[2];
         return (lower(begin, end) > max_m_) | (higher(begin, end) < -max_m_);
     }
 
-    // Rotates the corners into the axis's frame: origin at its first end, +X along it.
+    // Rotates the corners into the axis's frame: the origin is the axis's first end, +X points
+    // along it.
     Corners4 to_axis_frame(const ReachedTriangles4& four) const {
         Corners4 corner;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -132,7 +133,7 @@ class ChainPatch::PenetrationSearch {
         }
         return corner;
     }
-    // Lower bound on the squared distance: distance to the triangle's bounding box.
+    // Lower bound on the squared distance: that of the triangle's bounding box from the axis.
     Float4 bounds_squared(const Corners4& corner) const {
         const Float4 zero = {};
         const auto beyond = [&](std::size_t axis, const Float4& upper) -> Float4 {
@@ -237,7 +238,7 @@ void ChainPatch::gather(const ChainReach& reach, std::span<const PlacedMesh> mes
 }
 
 void ChainPatch::gather_mesh(const ChainReach& reach, const PlacedMesh& placed) {
-    // Rounding of the query itself, for coordinates below 4 m.
+    // Rounding error of the query in floats, for coordinates below 4 m.
     constexpr double k_float_rounding_m = 1e-6;
     constexpr std::array<Int4, 5> k_first = {Int4{0, 0, 0, 0}, Int4{-1, 0, 0, 0},
                                              Int4{-1, -1, 0, 0}, Int4{-1, -1, -1, 0},

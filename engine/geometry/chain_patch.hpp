@@ -14,8 +14,8 @@
 #include "engine/math/float4.hpp"
 #include "engine/math/math.hpp"
 
-// Triangles within one chain's reach, gathered once. Cuts and depth queries then scan this short
-// list instead of a tree.
+// The triangles within one chain's reach, gathered once. Cuts and depth queries then scan this
+// short list instead of searching a tree.
 namespace handhold {
 
 // A mesh and its pose in the chain's frame.
@@ -27,32 +27,32 @@ struct PlacedMesh {
 // Penetration of a capsule into the surfaces.
 struct CapsulePenetration {
     double depth_m = 0.0;    // radius minus the axis's distance to the surface, >= 0
-    double nearest_m = 0.0;  // that distance, at most the radius
-    // Smallest fraction of the axis at which a surface crosses it; none: no surface does.
+    double nearest_m = 0.0;  // distance of the axis to the surface, at most the radius
+    // Smallest fraction of the axis at which a surface crosses it; nullopt if no surface does.
     std::optional<double> crossed_at;
-    // Nearest point on the axis, and the in-plane part of the unit direction from the surface to
-    // it. Zero if a surface crosses the axis.
+    // Point on the axis nearest to the surface; zero if a surface crosses the axis.
     Vec2 nearest_ds = Vec2::Zero();
+    // In-plane part of the unit direction from the surface to that point; zero if a surface crosses
+    // the axis.
     Vec2 away_ds = Vec2::Zero();
 };
 
-// Works in disc space (_ds, disc_contact.hpp) with a third axis across the plane: the base's -Z, -Y
-// and -X. Memory is reused between gatherings. Float tests reject most triangles; the rest are
-// transformed in doubles once, on first use.
+// Works in disc space (_ds, disc_contact.hpp): the base's -Z and -Y axes, and as third axis -X,
+// across the plane. Memory is reused between gatherings. Float tests reject most triangles. The
+// others are transformed in doubles, on first use.
 class ChainPatch {
   public:
-    // Gathers every triangle of the meshes' contact detail that reaches into `reach`, and a few
-    // more.
+    // Gathers the triangles of the meshes' contact detail that reach into `reach`, and possibly
+    // others.
     void gather(const ChainReach& reach, std::span<const PlacedMesh> meshes);
 
-    // Cuts the gathered triangles with the plane at `offset_m` and appends the segments, labelled
-    // `plane`; the first mesh's come first. Computed in floats, as is the reach's boundary. Returns
-    // the number of segments from the first mesh. Precondition: |offset_m| <= half width of the
-    // reach.
+    // Cuts the gathered triangles with the plane at `offset_m`. Appends the segments, labelled
+    // `plane`, those of the first mesh first, and returns the number of those. Computed in floats,
+    // as is the reach's boundary. Precondition: |offset_m| <= half width of the reach.
     std::size_t cut(double offset_m, std::uint32_t plane, std::vector<DiscSegment>& segments);
 
-    // For a capsule whose axis lies in the plane and inside box `box` of the gathered reach. If the
-    // reach has no boxes, the axis may lie anywhere in it.
+    // Penetration of a capsule whose axis lies in the chain's plane and inside box `box` of the
+    // gathered reach. If the reach has no boxes, the axis may lie anywhere in it.
     CapsulePenetration find_penetration(const std::array<Vec2, 2>& middle_ds, double radius_m,
                                         std::size_t box);
 
@@ -70,7 +70,9 @@ class ChainPatch {
         Frame(const GripMesh& mesh, const Pose& base, std::size_t first);
         Triangle triangle(std::uint32_t slot) const;
         std::uint32_t number(std::uint32_t slot) const;  // triangle index in the mesh
-        std::size_t first() const { return first_; }     // index of this mesh's first four
+        std::size_t first() const {
+            return first_;
+        }  // index into fours_ of this mesh's first entry
 
       private:
         Vec3 turned(const Vec3& direction) const;
@@ -86,9 +88,9 @@ class ChainPatch {
     class PenetrationSearch;
 
     void gather_mesh(const ChainReach& reach, const PlacedMesh& placed);
-    const Triangle& exact(std::uint32_t place);  // place = 4 * index of the four + lane
+    const Triangle& exact(std::uint32_t place);  // place = 4 * index into fours_ + lane
 
-    // The triangles of one four that reach into one box.
+    // Those of four triangles that reach into one box.
     struct Boxed {
         Int4 is_near = {};
         std::uint32_t four = 0;
@@ -96,7 +98,7 @@ class ChainPatch {
 
     static constexpr std::uint32_t k_not_placed = ~0U;
 
-    // Fours in mesh order, then tree order.
+    // Groups of four triangles, in the order of meshes, then of their trees.
     std::vector<ReachedTriangles4> fours_;
     std::vector<Int4> is_near_;  // lanes that reach into any box
     std::vector<std::uint32_t> first_slot_;

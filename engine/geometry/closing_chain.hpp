@@ -12,13 +12,13 @@
 // are therefore in metres per full closing.
 namespace handhold {
 
-// Hinges and the last link's end, in disc space.
+// Positions and velocities of the hinges and of the last link's end, in disc space.
 struct ChainMotion {
     std::array<Vec2, k_max_disc_links + 1> point;
     std::array<Vec2, k_max_disc_links + 1> velocity_m;  // per full closing
 };
 
-// Link positions while the hinges before `first_free_hinge` are frozen at their angles.
+// A closing chain whose hinges before `first_free_hinge` are frozen at their angles.
 class ClosingChain {
   public:
     ClosingChain(const DiscChain& chain, double at) : chain_(chain) {

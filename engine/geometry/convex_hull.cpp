@@ -13,7 +13,7 @@ bool corner_less(const Vec3& a, const Vec3& b) {
     return std::tuple(a.x(), a.y(), a.z()) < std::tuple(b.x(), b.y(), b.z());
 }
 
-// Sorted and unique: the result does not depend on the input order.
+// Sorts the points and removes duplicates, so that the result does not depend on the input's order.
 std::vector<Vec3> sorted(std::span<const Vec3> points) {
     std::vector<Vec3> result(points.begin(), points.end());
     std::sort(result.begin(), result.end(), corner_less);

@@ -18,20 +18,20 @@ struct HullFace {
     double offset_m = 0.0;            // no corner satisfies normal . x > offset_m
 };
 
-// Watertight: each edge occurs once in each direction.
+// A closed polyhedron: each edge occurs once in each direction.
 struct ConvexHull {
     std::vector<Vec3> corners;  // sorted by x, y, z
     std::vector<HullFace> faces;
     double width_m = 0.0;    // smallest extent in any direction
-    double omitted_m = 0.0;  // no input point is farther outside than this
+    double omitted_m = 0.0;  // largest distance of an input point outside the hull
 };
 
 constexpr std::size_t k_max_hull_corners = 64;  // so at most 124 faces
 
-// The result does not depend on the points' order. Points within 1e-6 of the hull's size add no
-// corner, and corners that near to one plane share a face. Beyond k_max_hull_corners the farthest
-// points are taken first; omitted_m says what is cut off. nullopt if the points are coplanar within
-// 1e-6 of their size, or if one is not finite.
+// The result does not depend on the points' order. A point within 1e-6 of the hull's size of the
+// hull adds no corner. Corners within the same distance of one plane share a face. At most
+// k_max_hull_corners points are taken, farthest first; omitted_m tells how much is cut off. nullopt
+// if the points are coplanar within 1e-6 of their size, or if one is not finite.
 std::optional<ConvexHull> make_convex_hull(std::span<const Vec3> points);
 
 // The polyhedron transformed by `pose`.

@@ -13,14 +13,14 @@
 namespace handhold {
 namespace {
 
-constexpr double k_disc_touch_m = 2e-5;  // touching at or below this separation
-// Separation an advance aims for: below k_disc_touch_m, so that an approaching pair touches on
-// arrival.
+constexpr double k_disc_touch_m = 2e-5;  // a pair with at most this separation touches
+// Separation that an advance aims for. It is below k_disc_touch_m, so that an approaching pair
+// touches at the end of the advance.
 constexpr double k_aim_m = 1e-5;
-// Separation at which a pair that moved out of an overlap may touch again.
+// A pair that moved out of an overlap may touch again once its separation has reached this value.
 constexpr double k_disc_clear_m = 1e-4;
-// Larger separations use the closed form. Smaller ones use Box2D, whose error is at most 5e-7 m and
-// which decides what touches.
+// Larger separations are computed in closed form. Smaller ones come from Box2D, whose error is at
+// most 5e-7 m, and decide what touches.
 constexpr double k_closed_form_above_m = 3e-5;
 constexpr int k_max_rounds = 20000;  // guard; a few dozen are usual
 constexpr double k_leave_step = 1.0 / 64.0;
@@ -44,8 +44,8 @@ struct DiscBox {
     }
 };
 
-// Earliest time at which a point can have approached by `clearance_m` (d), given its approach speed
-// v and a bound a on the rate at which that speed changes: the positive root t of v t + a t^2 / 2 =
+// Earliest time at which a point can have approached by d = `clearance_m`. v is its approach speed,
+// a an upper bound on the rate at which v changes. Returns the positive root t of v t + a t^2 / 2 =
 // d. The form for v > 0 avoids cancellation.
 double time_to_cross(double clearance_m, double speed_m, double acceleration_m) {
     const double root = std::sqrt(speed_m * speed_m + 2.0 * acceleration_m * clearance_m);
@@ -100,7 +100,7 @@ class ChainCloser {
   private:
     using Pair = DiscScratch::Pair;
 
-    // Computes the links' largest radii and the bounds of each four segments.
+    // Computes the links' largest radii and the bounds of each group of four segments.
     void prepare_segments() {
         for (std::size_t link = 0; link < chain_.link_count; ++link) {
             for (std::size_t plane = 0; plane < k_disc_planes; ++plane) {
@@ -128,9 +128,9 @@ class ChainCloser {
                                    segments_[pair.segment]);
     }
 
-    // Lower bound on the pair's contact time (conservative advancement). `gap.away` is a separating
-    // axis with the segment behind it. The pair cannot touch before one of the link's ends has
-    // covered its distance along that axis.
+    // Lower bound on the pair's contact time (conservative advancement). The line through
+    // gap.on_segment, perpendicular to `gap.away`, separates the link from the segment. The pair
+    // cannot touch before an end of the link has covered its distance from that line.
     double next_touch(const Pair& pair, const DiscGap& gap, double clearance_m,
                       const ChainMotion& motion, double at) const {
         double step = std::numeric_limits<double>::infinity();
@@ -144,7 +144,8 @@ class ChainCloser {
         return at + step;
     }
 
-    // Proceeds in intervals of the closing fraction; bounds of the swept links reject most pairs.
+    // The first contact at or after closing fraction `from`. Proceeds in intervals of the fraction;
+    // in each, bounds of the swept links reject most pairs.
     std::optional<Touch> first_touch(double from) {
         constexpr double k_interval = 1.0 / 8.0;
         pairs_.clear();
@@ -171,7 +172,7 @@ class ChainCloser {
     // Regions swept by the links in one interval.
     struct LinkSweeps {
         std::array<DiscBox, k_max_disc_links> box;
-        // Sagitta: excess of the arcs beyond the box.
+        // Sagitta: distance by which the links' arcs leave the box.
         std::array<double, k_max_disc_links> bulge_m = {};
     };
     LinkSweeps sweep_links(const ChainMotion& before, const ChainMotion& after,
@@ -192,8 +193,8 @@ class ChainCloser {
         return sweeps.box[link].is_within(reach_m, {segment.a_ds, segment.b_ds});
     }
 
-    // Adds the pairs that come near for the first time in this interval. Other pairs, which are
-    // most, cost one test against their four's bounds.
+    // Adds the pairs that come near for the first time in this interval. Most pairs do not; they
+    // cost one test per four segments.
     void add_near(const LinkSweeps& sweeps, double at, bool is_later) {
         constexpr double k_float_rounding_m = 1e-5;  // for coordinates below 50 m
         for (std::size_t link = links_.first_free_hinge(); link < chain_.link_count; ++link) {
@@ -214,7 +215,7 @@ class ChainCloser {
         }
     }
 
-    // Rejects segments that lie entirely beyond one side.
+    // Bounds of a swept link, each number in all lanes. may_meet is false for segments outside.
     struct Limits {
         std::array<Float4, 2> low;
         std::array<Float4, 2> high;
@@ -240,8 +241,8 @@ class ChainCloser {
         }
     }
 
-    // Moves the pairs that may touch before `end` to the front and returns their number. The others
-    // are postponed to `end`.
+    // Moves the pairs that may touch before `end` to the front and returns their number. The other
+    // pairs are postponed to `end`.
     std::size_t partition_near(const LinkSweeps& sweeps, double end) {
         std::size_t near = 0;
         for (Pair& pair : pairs_) {
@@ -256,7 +257,8 @@ class ChainCloser {
         return near;
     }
 
-    // Moves the pairs from `first` on to the front as well.
+    // Also moves the pairs from index `first` on to the front. Returns the new number of pairs
+    // there.
     std::size_t bring_to_front(std::size_t near, std::size_t first) {
         for (std::size_t i = first; i < pairs_.size(); ++i) {
             std::swap(pairs_[near++], pairs_[i]);
@@ -264,8 +266,9 @@ class ChainCloser {
         return near;
     }
 
-    // Advances to the earliest pair, and evaluates with it all pairs due shortly after: they share
-    // one evaluation of the links' motion. Of simultaneous contacts the first link's wins.
+    // Advances to the earliest time at which a pair may touch. Also evaluates the pairs that are
+    // due shortly after, because they can share the links' motion. Of simultaneous contacts,
+    // returns that of the first link.
     std::optional<Touch> first_touch_of(std::size_t near, double from, double end) {
         constexpr double k_simultaneous = 0.01;
         const std::span<Pair> pairs = std::span(pairs_).first(near);
@@ -283,8 +286,8 @@ class ChainCloser {
                 const bool is_early = pair.next > at;
                 if (pair.next <= at + k_simultaneous && !(is_early && pair.leaving) &&
                     touches(pair, motion, at)) {
-                    // A pair that stops moving apart was shallower one step ago and had no contact
-                    // since.
+                    // A pair that had moved apart gets deeper again: it touches at the last step,
+                    // when it was shallower.
                     const Touch touch = {pair.leaving ? std::max(at - k_leave_step, from) : at,
                                          pair.link, pair.segment};
                     first = first && !(touch < *first) ? *first : touch;
@@ -297,7 +300,7 @@ class ChainCloser {
         return std::nullopt;
     }
 
-    // Uses GJK near contact and the closed form elsewhere.
+    // Uses GJK near contact and the closed form for larger separations.
     double separation_m(const Pair& pair, const DiscGap& gap, const ChainMotion& motion) {
         const double clearance_m = gap.distance_m - radius_m(pair);
         if (clearance_m > k_closed_form_above_m) {

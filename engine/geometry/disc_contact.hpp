@@ -25,7 +25,7 @@ struct DiscSegment {
     Vec2 a_ds = Vec2::Zero();
     Vec2 b_ds = Vec2::Zero();
     std::uint32_t plane = 0;     // < k_disc_planes
-    std::uint32_t triangle = 0;  // label chosen by the caller
+    std::uint32_t triangle = 0;  // set by the caller; not used here
 };
 
 // Link i lies between hinge i and the next one. While the chain closes, every hinge i turns from
@@ -33,8 +33,8 @@ struct DiscSegment {
 struct DiscChain {
     std::uint32_t link_count = 3;  // 1 to k_max_disc_links
     std::array<double, k_max_disc_links> length_m = {};
-    // Half thickness of each link in each plane. A plane off a round link's axis cuts it thinner.
-    // Negative: the plane misses the link.
+    // Half thickness of each link in each plane. A plane beside the axis of a round link cuts a
+    // thinner section. Negative: the plane misses the link.
     std::array<std::array<double, k_max_disc_links>, k_disc_planes> radius_m = {};
     std::array<double, k_max_disc_links> open_rad = {};
     std::array<double, k_max_disc_links> closed_rad = {};
@@ -45,7 +45,7 @@ struct DiscClosure {
     std::array<double, k_max_disc_links> angle_rad = {};
     std::int32_t contact_link = k_none;  // the last link that touches
     std::uint32_t touching = 0;          // bit i: link i touches
-    std::uint32_t segment = 0;           // segment of the last contact, if there is one
+    std::uint32_t segment = 0;           // segment of the last contact; valid if a link touches
     std::uint32_t distances = 0;         // number of GJK distance queries
 };
 
@@ -62,24 +62,25 @@ struct DiscScratch {
         double separation_m = 0.0;
         std::uint32_t link = 0;
         std::uint32_t segment = 0;
-        // Overlapped when first queried and is moving apart: ignored until it is clear.
+        // The pair overlapped when first queried and is moving apart. It is ignored until it is
+        // clear.
         bool leaving = false;
         bool seen = false;
     };
-    // Bounds of four segments, by axis.
+    // Bounding boxes of four segments: [axis][segment].
     struct Bounds4 {
         std::array<Float4, 2> low = {};
         std::array<Float4, 2> high = {};
     };
-    std::vector<Pair> pairs;            // pairs whose swept bounds came near
-    std::vector<std::uint32_t> paired;  // per segment, bit i: link i is in `pairs`
-    std::vector<Bounds4> bounds;        // per four segments; the last segment is repeated
+    std::vector<Pair> pairs;            // pairs whose swept bounds came near each other
+    std::vector<std::uint32_t> paired;  // per segment; bit i: the pair with link i is in `pairs`
+    std::vector<Bounds4> bounds;        // one per four segments; the last segment is repeated
 };
 
-// Closes the chain from `sweep.from` to at most `sweep.to`. The first link that touches stops its
-// own hinge and all hinges before it. The links beyond go on closing until they touch or the sweep
-// ends. A link that overlaps a segment at the start and moves out of it is ignored until it is
-// clear. Misses no contact and finds each within 0.05 mm. Does not allocate once the scratch has
+// Closes the chain from `sweep.from` to at most `sweep.to`. A link that touches stops its own hinge
+// and all hinges before it. The links beyond it go on closing until they touch or the sweep ends. A
+// link that overlaps a segment at the start and moves out of it is ignored until it is clear.
+// Misses no contact and finds each within 0.05 mm. Does not allocate once the scratch memory has
 // grown.
 DiscClosure close_chain(const DiscChain& chain, std::span<const DiscSegment> segments,
                         const DiscSweep& sweep, DiscScratch& scratch);

@@ -2,10 +2,10 @@
 
 #include "engine/geometry/disc_contact.hpp"
 
-// The only file that names Box2D. Its GJK uses floats with tolerances for bodies of about one unit,
-// so the segments are passed in centimetres. b2TimeOfImpact is not used: it calls libm's sinf,
-// whose last bits differ between processors, and the resulting angles are state. close_chain
-// advances with the engine's own rotations instead.
+// The only file that includes Box2D. Its GJK uses floats, with tolerances for bodies of about one
+// unit, so segments are passed in centimetres. b2TimeOfImpact is not used: it calls libm's sinf,
+// whose last bits differ between processors, and the resulting angles are part of the state.
+// close_chain advances with the engine's own rotations instead.
 namespace handhold {
 namespace {
 
@@ -24,7 +24,7 @@ b2DistanceProxy proxy_of(const b2Vec2* ends) {
 }  // namespace
 
 double disc_distance(const Vec2& a0, const Vec2& a1, const Vec2& b0, const Vec2& b1) {
-    // Relative to a0: floats are finest near zero.
+    // Coordinates are relative to a0, because floats are most precise near zero.
     const std::array<b2Vec2, 2> a = {b2Vec2(0.0F, 0.0F), to_box2d(a1 - a0)};
     const std::array<b2Vec2, 2> b = {to_box2d(b0 - a0), to_box2d(b1 - a0)};
     b2DistanceInput input;

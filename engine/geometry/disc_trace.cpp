@@ -10,7 +10,7 @@
 namespace handhold {
 namespace {
 
-// The search does not cross edges farther than this outside the disc.
+// The search does not cross edges that are more than this distance outside the disc's radius.
 constexpr double k_prune_m = 0.03;
 constexpr double k_straight_m = 2.5e-4;  // simplification tolerance
 
@@ -49,8 +49,8 @@ std::optional<Cut> cut_triangle(const SurfaceGraph& graph, const Disc& disc,
     for (std::uint32_t i = 0; i < 3; ++i) {
         const std::uint32_t j = (i + 1) % 3;
         if ((heights[i] >= 0.0) != (heights[j] >= 0.0)) {
-            // Always computed in the same direction: neighbours get bitwise the same point on their
-            // edge.
+            // Always computed from the lower to the higher vertex, so that neighbours get bitwise
+            // the same point on their common edge.
             const bool forward = corners[i] < corners[j];
             const std::uint32_t a = forward ? i : j;
             const std::uint32_t b = forward ? j : i;
@@ -145,7 +145,8 @@ class CrossingSearcher {
     std::uint32_t pushed_ = 0;
 };
 
-// Breadth-first over everything within the disc's reach; keeps the first hit.
+// Breadth-first search over everything in the disc's reach. Does not stop at the first hit, but
+// returns it.
 CrossingSearch flood(const SurfaceGraph& graph, const Disc& disc,
                      std::span<const GraphPoint> starts, TraceScratch& scratch) {
     CrossingSearch found;
@@ -179,8 +180,8 @@ CrossingSearch flood(const SurfaceGraph& graph, const Disc& disc,
     return found;
 }
 
-// Follows a cut from `start` over its cut edge `side` and appends the points beyond the first edge.
-// Returns true if the cut closed.
+// Follows a cut from triangle `start` over its cut edge `side`. Appends a point for each further
+// edge that the cut crosses. run() returns true if the cut is a closed loop.
 class CutWalk {
   public:
     CutWalk(const SurfaceGraph& graph, const Disc& disc, TraceScratch& scratch)
@@ -196,7 +197,7 @@ class CutWalk {
             }
             const std::optional<Cut> cut = cut_triangle(graph_, disc_, at);
             if (!cut) {
-                break;  // both other corners lie on one side: the cut ends here
+                break;  // the other two corners lie on one side: the cut ends here
             }
             const std::size_t in = graph_.neighbours[at][cut->edge[0]] == from ? 0 : 1;
             const std::size_t out = 1 - in;
@@ -237,7 +238,8 @@ bool is_straight(const std::vector<Vec2>& line, std::size_t first, std::size_t l
     return true;
 }
 
-// `line_triangle[i]` belongs to the piece from point i to point i + 1.
+// Appends the line's segments, simplified. `line_triangle[i]` is the triangle of the piece from
+// point i to point i + 1.
 void add_line(const Disc& disc, const TraceScratch& scratch, std::vector<DiscSegment>& segments) {
     constexpr std::size_t k_max_merged = 16;  // bounds the cost: is_straight rechecks every point
     std::size_t first = 0;
@@ -268,7 +270,8 @@ std::uint32_t walk_crossing(const SurfaceGraph& graph, const Disc& disc, std::ui
     if (!cut) {
         return 0;
     }
-    // Order: one direction reversed, the start's own piece, then the other direction.
+    // Order of the points: the walk in one direction, reversed; the start triangle's piece; the
+    // walk in the other direction.
     scratch.line.clear();
     scratch.line_triangle.clear();
     scratch.line.reserve(k_max_steps + 4);
@@ -282,7 +285,8 @@ std::uint32_t walk_crossing(const SurfaceGraph& graph, const Disc& disc, std::ui
     scratch.line.push_back(to_disc(disc, cut->point[1]));
     scratch.line_triangle.push_back(triangle);
     if (!is_closed) {
-        // The piece from point i to i + 1 belongs to the triangle in which point i + 1 was found.
+        // In the second walk a piece belongs to the triangle of its end point, so its triangles are
+        // stored one index earlier.
         scratch.line_triangle.pop_back();
         walk.run(triangle, *cut, 1);
         scratch.line_triangle.push_back(triangle);

@@ -12,7 +12,7 @@
 // Sources: talk rows 11 to 13; A* after Hart, Nilsson and Raphael 1968.
 namespace handhold {
 
-// In the surface's frame.
+// In the surface's frame. Disc space has its origin at `center`.
 struct Disc {
     Vec3 center = Vec3::Zero();
     Vec3 x_axis = Vec3::UnitX();  // unit: disc space's +X
@@ -28,8 +28,8 @@ inline Vec2 to_disc(const Disc& disc, const Vec3& point) {
 }
 
 struct GraphPoint {
-    std::uint32_t triangle = k_no_triangle;  // none: no point
-    Vec3 point = Vec3::Zero();               // on it
+    std::uint32_t triangle = k_no_triangle;  // k_no_triangle: no point
+    Vec3 point = Vec3::Zero();               // on the triangle
 };
 
 enum class SearchOrder : std::uint8_t {
@@ -39,12 +39,12 @@ enum class SearchOrder : std::uint8_t {
 };
 
 struct CrossingSearch {
-    std::uint32_t triangle = k_no_triangle;  // first triangle found whose cut reaches into the disc
-    Vec3 point = Vec3::Zero();               // on that cut, where the search entered
+    std::uint32_t triangle = k_no_triangle;  // the first found whose cut reaches into the disc
+    Vec3 point = Vec3::Zero();               // on the triangle's cut, where the search entered
     std::uint32_t pops = 0;                  // triangles visited
 };
 
-// Keeps its memory between calls.
+// Working memory, reused between calls.
 struct TraceScratch {
     struct Node {
         double cost_m = 0.0;  // path so far plus estimate of the rest
@@ -54,7 +54,8 @@ struct TraceScratch {
         Vec3 point = Vec3::Zero();
     };
     std::vector<Node> open;
-    std::vector<std::uint32_t> seen;  // visited triangles, hashed; by index for a flood
+    // Visited triangles: a hash set; for a flood, one entry per triangle.
+    std::vector<std::uint32_t> seen;
     std::vector<Vec2> line;
     std::vector<std::uint32_t> line_triangle;
 };
@@ -64,20 +65,20 @@ inline constexpr std::uint32_t k_max_starts = 16;
 inline constexpr std::uint32_t k_max_steps = 512;
 
 // Searches over neighbours, from all `starts` at once, for a triangle whose cut reaches into the
-// disc. A node's path length is measured over the closest points of the edges crossed since its own
+// disc. Path lengths are measured over the closest points of the edges crossed since the node's
 // start. The estimate of the rest is twice the distance from the triangle to the plane. Gives up
-// after k_max_pops visits in total, or when every open node lies more than 30 mm outside the disc's
-// radius. A flood finds the same triangle as breadth_first but visits the rest as well, and its
-// visited set is as large as the surface. Preconditions: at most k_max_starts; each start's
-// triangle belongs to the graph or is none.
+// after k_max_pops visits in total, or if every open node lies more than 30 mm outside the disc's
+// radius. A flood finds the same triangle as breadth_first but visits all others too, and its
+// visited set is as large as the surface. Preconditions: at most k_max_starts starts; each start's
+// triangle belongs to the graph or is k_no_triangle.
 CrossingSearch find_crossing(const SurfaceGraph& graph, const Disc& disc,
                              std::span<const GraphPoint> starts, SearchOrder order,
                              TraceScratch& scratch);
 
-// Walks along the cut both ways from a triangle that the disc cuts, until the cut leaves the disc,
-// ends or closes. Appends its pieces within the disc to `segments`, simplified within 0.25 mm.
-// Returns the number of triangles walked. A corner on the plane counts as on the normal's side, so
-// that every cut triangle has two cut edges.
+// Starts at a triangle that the disc cuts and walks along the cut in both directions, until the cut
+// leaves the disc, ends or closes. Appends its pieces within the disc to `segments`, simplified
+// within 0.25 mm. Returns the number of triangles walked. A corner on the plane counts as on the
+// normal's side, so that every cut triangle has two cut edges.
 std::uint32_t walk_crossing(const SurfaceGraph& graph, const Disc& disc, std::uint32_t triangle,
                             TraceScratch& scratch, std::vector<DiscSegment>& segments);
 
@@ -85,8 +86,7 @@ std::uint32_t walk_crossing(const SurfaceGraph& graph, const Disc& disc, std::ui
 // segment is shortened to its part near the centre.
 void add_segment(const DiscSegment& segment, double radius_m, std::vector<DiscSegment>& segments);
 
-// The same for a segment already known to come near (the float test may round), without testing
-// again.
+// add_segment without the test, for a segment that passed a float test: rounding might reject it.
 void add_near_part(const DiscSegment& segment, double radius_m, std::vector<DiscSegment>& segments);
 
 }  // namespace handhold

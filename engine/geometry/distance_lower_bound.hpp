@@ -14,9 +14,9 @@ namespace handhold {
 // Lower bounds on the squared distances of boxes and triangles from a point, in floats.
 class DistanceLowerBound {
   public:
-    // `point` is relative to the tree's origin; no coordinate of the tree exceeds `reach_m`.
+    // `point` is relative to the tree's origin. No coordinate of the tree may exceed `reach_m`.
     DistanceLowerBound(const Vec3& point, double reach_m) {
-        constexpr double k_rounding = 0x1p-20;  // at least ten roundings
+        constexpr double k_rounding = 0x1p-20;  // 2^-20 allows for ten float roundings of 2^-24
         for (std::size_t i = 0; i < 3; ++i) {
             point_[i] = splat4(point[static_cast<Eigen::Index>(i)]);
         }
@@ -60,8 +60,8 @@ class DistanceLowerBound {
         return lower(sum, k_max_float);
     }
 
-    // Tight bound, equal to the distance up to rounding. More expensive: for the remaining
-    // candidates.
+    // Tight bound: equal to the distance up to rounding. More expensive, so it is used for the
+    // remaining candidates.
     Float4 squared_tight(const Triangles4& four) const {
         const Float4 zero = {};
         std::array<Vectors4, 3> corner;
@@ -84,8 +84,8 @@ class DistanceLowerBound {
         return lower(is_over ? clear * clear : min_squared, k_max_float);
     }
 
-    // Largest squared lower bound that an item nearer than sqrt(`squared`) can have. Infinite input
-    // is clamped to the largest float.
+    // Largest squared lower bound of an item that is nearer than sqrt(`squared`). Infinite input is
+    // clamped to the largest float.
     static float limit(double squared) {
         return static_cast<float>(std::min(squared * k_slack, static_cast<double>(k_max_float[0])));
     }

@@ -11,7 +11,7 @@ constexpr double k_same_angle_rad = 1e-6;
 
 // A half-edge of a non-manifold edge, with the angle of its triangle about the edge.
 struct FaceLeaf {
-    // In [0, 2 pi), from the first triangle, counter-clockwise seen against the edge's direction.
+    // In [0, 2 pi), from the first triangle; counter-clockwise if the edge points at the viewer.
     double angle_rad = 0.0;
     const HalfEdge* half = nullptr;
 };
@@ -36,7 +36,8 @@ std::vector<FaceLeaf> sorted_about_edge(std::span<const HalfEdge> edge,
     std::sort(leaves.begin(), leaves.end(), [](const FaceLeaf& a, const FaceLeaf& b) {
         return std::tuple(a.angle_rad, a.half->id) < std::tuple(b.angle_rad, b.half->id);
     });
-    // Coplanar triangles count as one angle. Backward half-edges come first among them.
+    // Triangles at nearly the same angle count as one angle; among them, backward half-edges come
+    // first.
     for (std::size_t first = 0; first < leaves.size();) {
         std::size_t last = first + 1;
         while (last < leaves.size() &&
@@ -55,8 +56,9 @@ std::vector<FaceLeaf> sorted_about_edge(std::span<const HalfEdge> edge,
     return leaves;
 }
 
-// A forward half-edge faces greater angles and a backward one smaller angles. They are matched like
-// opening and closing brackets, once around the edge and on to the start. Removes the matched
+// The outer side of a forward half-edge's triangle faces greater angles, that of a backward
+// half-edge's triangle smaller angles. So forward and backward half-edges are matched like opening
+// and closing brackets. The second round matches pairs across angle 0. Removes the matched
 // half-edges from `leaves`.
 void pair_opposed(std::vector<FaceLeaf>& leaves, std::vector<EdgePair>& pairs) {
     std::vector<std::size_t> open;
@@ -83,9 +85,9 @@ void pair_opposed(std::vector<FaceLeaf>& leaves, std::vector<EdgePair>& pairs) {
     leaves.resize(kept);
 }
 
-// Pairs the flattest first: those whose dihedral angle is nearest to pi.
+// Pairs the flattest first: those with a dihedral angle nearest to pi. Removes them from `leaves`.
 void pair_flattest(std::vector<FaceLeaf>& leaves, std::vector<EdgePair>& pairs) {
-    // More leaves than this are paired arbitrarily; real surfaces have fewer.
+    // If there are more half-edges than this, pairs them arbitrarily. Real surfaces have fewer.
     constexpr std::size_t k_max_exhaustive = 32;
     while (leaves.size() >= 2) {
         std::size_t best_a = 0;
@@ -111,7 +113,7 @@ void pair_flattest(std::vector<FaceLeaf>& leaves, std::vector<EdgePair>& pairs) 
 
 std::vector<HalfEdge> sorted_half_edges(std::size_t vertex_count,
                                         std::span<const std::array<std::uint32_t, 3>> triangles) {
-    // Bucket sort by low vertex, then sort each small bucket.
+    // Bucket sort by low vertex, then a sort of each small bucket.
     std::vector<std::uint32_t> ends(vertex_count + 1, 0);
     const auto low_of = [](const std::array<std::uint32_t, 3>& t, std::size_t i) {
         return std::min(t[i], t[(i + 1) % 3]);

@@ -14,13 +14,13 @@ namespace handhold {
 struct HalfEdge {
     std::uint32_t low = 0;    // vertex
     std::uint32_t high = 0;   // vertex, > low
-    std::uint32_t third = 0;  // the triangle's vertex off the edge
+    std::uint32_t third = 0;  // the triangle's vertex that is not on the edge
     std::uint32_t id = 0;
     bool forward = false;  // runs from low to high
 };
 
-// All half-edges sorted by edge, then third vertex, then id; half-edges of one edge are adjacent.
-// Precondition: each triangle has three distinct corners.
+// All half-edges, sorted by edge, then by third vertex, then by id: half-edges of one edge follow
+// each other. Precondition: each triangle has three distinct corners.
 std::vector<HalfEdge> sorted_half_edges(std::size_t vertex_count,
                                         std::span<const std::array<std::uint32_t, 3>> triangles);
 
@@ -41,15 +41,15 @@ void for_each_edge(std::span<const HalfEdge> sorted, const Visit& visit) {
 struct EdgePair {
     std::uint32_t a = 0;  // half-edge ids
     std::uint32_t b = 0;
-    bool opposed = true;  // opposite directions: the triangles are wound alike
+    bool opposed = true;  // opposite directions: the triangles have the same winding
 };
 
-// Pairs the half-edges of one edge and appends the pairs. Two half-edges are neighbours. Of more
-// than two, opposed half-edges that bound the same open wedge on their outer sides are paired
-// first. So surfaces visible from one point stay connected, also where two solids touch at an edge,
-// and each side of a two-sided sheet keeps to itself. The rest are paired flattest first; an odd
-// one out is a border. `positions` are the vertices' positions. Precondition: triangles are not
-// degenerate.
+// Pairs the half-edges of one edge and appends the pairs. Two half-edges form one pair. If there
+// are more, opposed half-edges are paired first if their triangles' outer sides bound the same open
+// wedge. So surfaces visible from one point stay connected, even where two solids touch at an edge,
+// and the two sides of a two-sided sheet stay separate. The other half-edges are paired flattest
+// first; a half-edge without a partner is a border. `positions` are the vertices' positions.
+// Precondition: no triangle is degenerate.
 void pair_half_edges(std::span<const HalfEdge> edge, std::span<const Vec3> positions,
                      std::vector<EdgePair>& pairs);
 

@@ -11,7 +11,8 @@
 namespace handhold {
 namespace {
 
-// Keeps the triangles for which keep(t) is true, in order, and counts the others.
+// Keeps the triangles for which keep(t) is true, in order. Adds the number of the others to
+// `dropped`.
 template <typename Keep>
 void filter(SurfaceGraph& graph, std::uint32_t& dropped, const Keep& keep) {
     std::size_t kept = 0;
@@ -48,7 +49,8 @@ void drop_duplicates(SurfaceGraph& graph) {
     std::vector<bool> duplicate(graph.triangles.size(), false);
     for_each_edge(sorted_half_edges(graph.positions.size(), graph.triangles),
                   [&](std::span<const HalfEdge> edge) {
-                      // Half-edges with the same third vertex are adjacent, in order of id.
+                      // The span is sorted by third vertex, then id: half-edges of triangles with
+                      // the same corners follow each other.
                       std::array<bool, 2> seen = {};
                       for (std::size_t i = 0; i < edge.size(); ++i) {
                           if (i == 0 || edge[i].third != edge[i - 1].third) {

@@ -15,7 +15,8 @@ Vec3 area_of(const SurfaceGraph& graph, std::size_t t) {
     return area_vector({graph.positions[a], graph.positions[b], graph.positions[c]});
 }
 
-// Swaps the last two corners, so that the first stays; neighbours move with their edges.
+// Swaps a triangle's last two corners, so that its first corner stays. Its neighbours move with
+// their edges.
 void flip(SurfaceGraph& graph, std::size_t t) {
     std::swap(graph.triangles[t][1], graph.triangles[t][2]);
     std::swap(graph.neighbours[t][0], graph.neighbours[t][2]);
@@ -29,7 +30,8 @@ bool has_directed_edge(const std::array<std::uint32_t, 3>& triangle, std::uint32
            (triangle[1] == from && triangle[2] == to) || (triangle[2] == from && triangle[0] == to);
 }
 
-// The neighbour over each edge of exactly two triangles; k_no_triangle elsewhere.
+// Each triangle's neighbours over edges that exactly two triangles share; k_no_triangle over other
+// edges.
 std::vector<std::array<std::uint32_t, 3>> sheet_neighbours(const SurfaceGraph& graph) {
     std::vector<std::array<std::uint32_t, 3>> sheet(graph.triangles.size(),
                                                     {k_no_triangle, k_no_triangle, k_no_triangle});
@@ -111,7 +113,7 @@ std::uint32_t orient_consistently(SurfaceGraph& graph) {
         }
         sides[seed] = Side::kept;
         sheet.assign(1, seed);
-        double balance = 0.0;  // area wound as the seed, less area wound against it
+        double balance = 0.0;  // area with the seed's winding, minus area with the opposite winding
         for (std::size_t i = 0; i < sheet.size(); ++i) {
             const std::uint32_t t = sheet[i];
             balance += (sides[t] == Side::kept ? 1.0 : -1.0) * area_of(graph, t).norm();
@@ -133,8 +135,8 @@ std::uint32_t orient_consistently(SurfaceGraph& graph) {
             }
         }
     }
-    drop_duplicates(graph);  // a flipped triangle may coincide with its former reverse side
-    link_graph(graph);       // non-manifold edges were paired by winding
+    drop_duplicates(graph);  // a flipped triangle may now equal its former reverse side
+    link_graph(graph);       // the pairs at non-manifold edges depend on the winding
     return turned;
 }
 

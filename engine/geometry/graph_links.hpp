@@ -5,7 +5,7 @@
 
 #include "engine/geometry/surface_graph.hpp"
 
-// Turns welded triangles into a surface graph: neighbours, normals, components and consistent
+// Makes a surface graph of welded triangles: neighbours, normals, components and consistent
 // winding.
 namespace handhold {
 
@@ -17,18 +17,18 @@ struct GraphComponents {
     std::vector<std::uint32_t> of_triangle;
     std::uint32_t count = 0;
 };
-// Connected components over neighbours, numbered by their first triangle.
+// Connected components over neighbours, numbered in the order of their first triangles.
 GraphComponents find_components(const SurfaceGraph& graph);
 
-// Winds the triangles of each sheet alike; a sheet is connected over edges of exactly two
-// triangles. Flips the orientation with the smaller total area, drops new duplicates and links the
-// graph again. A one-sided sheet (Moebius strip) keeps some flipped links. Returns the number of
-// triangles turned.
+// Gives all triangles of a sheet the same winding. Sheets are connected over edges that exactly two
+// triangles share. Flips the triangles of the winding with the smaller total area, drops new
+// duplicates and calls link_graph. In a one-sided sheet (Moebius strip) some neighbours keep
+// opposite windings. Returns the number of triangles flipped.
 std::uint32_t orient_consistently(SurfaceGraph& graph);
 
 // Flips all closed components (no border, consistent winding) if their signed volumes sum to less
-// than 0, as in an inside-out mesh. Outer sides then face out, and the inner wall of a hollow keeps
-// facing the hollow. Returns the number of triangles turned.
+// than 0, as in an inside-out mesh. Then outer sides face outwards, and the inner wall of a hollow
+// still faces the hollow. Returns the number of triangles flipped.
 std::uint32_t orient_outward(SurfaceGraph& graph);
 
 }  // namespace handhold

@@ -37,7 +37,7 @@ GripMesh build_grip_mesh(const Mesh& mesh, const GripMeshSettings& settings) {
     if (size_of(full) < settings.flip_below_m) {
         grip.turned += orient_outward(full);
     }
-    // The search detail is simplified from the contact detail: its limits hold against that.
+    // The search detail is simplified from the contact detail, so its limits are relative to that.
     grip.contact = std::move(full);
     if (settings.contact.deviation_m > 0.0) {
         SurfaceGraph coarse = simplify_surface(grip.contact, settings.contact);

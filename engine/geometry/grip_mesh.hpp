@@ -12,30 +12,30 @@ namespace handhold {
 
 struct GripMeshSettings {
     WeldLimits weld;
-    // Deviation of round shapes' triangles from the true surface, > 0.
+    // Largest distance of a round shape's triangles from its true surface, > 0.
     double shape_tolerance_m = 1e-4;
     // Detail for graph searches.
     DetailLimits search = {.deviation_m = 2.5e-3, .edge_m = 0.02};
-    // Detail for contact. Keeps the full mesh if the deviation is 0 or if more than contact_share
-    // of its triangles would remain.
+    // Detail for contact. If the deviation is 0, or if more than contact_share of the full mesh's
+    // triangles would remain, the full mesh is used.
     DetailLimits contact = {.deviation_m = 5e-4, .edge_m = 0.0};
     double contact_share = 0.7;
-    // Closed components of a smaller mesh are flipped if they are inside out. Larger meshes may be
-    // rooms seen from inside. 0: never.
+    // If a mesh is smaller than this, its closed components are flipped if they are inside out. A
+    // larger mesh may be a room seen from inside. 0: never flips.
     double flip_below_m = 1.0;
 };
 
-// Grip surface of one shape in the shape's frame: a coarse detail to search on and a fine one to
-// touch. Triangles of a sheet are wound alike, so neighbours' normals agree. On open sheets and
-// rooms either side may be the outer one. Derived data, never state. Immutable once built: any
-// number of threads may query it.
+// Grip surface of one shape in the shape's frame: a coarse detail for searches and a fine one for
+// contact. All triangles of a sheet have the same winding, so neighbours' normals agree. On open
+// sheets and in rooms either side may be the outer one. Derived data, never state. Immutable once
+// built, so any number of threads may query it.
 struct GripMesh {
     SurfaceGraph contact;
     TriangleBvh contact_bvh;  // over contact's triangles
     SurfaceGraph search;
     TriangleBvh search_bvh;            // over search's triangles
-    std::uint32_t turned = 0;          // triangles flipped to match their sheet or to face out
-    std::uint32_t full_triangles = 0;  // triangles at full detail
+    std::uint32_t turned = 0;          // triangles flipped to match their sheet or to face outwards
+    std::uint32_t full_triangles = 0;  // number of triangles at full detail
 };
 
 GripMesh build_grip_mesh(const Mesh& mesh, const GripMeshSettings& settings = {});

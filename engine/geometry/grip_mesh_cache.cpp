@@ -19,14 +19,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Increment on every change of the format or of the build's result for the same input.
+// Increment whenever the format changes, or the result of the build for the same input.
 constexpr std::uint64_t k_version = 2;
 constexpr std::uint64_t k_cache_magic = 0x0148534d50495248ULL;  // "HRIPMSH" and 1
 constexpr std::size_t k_header_words = 4;                       // magic, key, word count, checksum
 
 static_assert(std::endian::native == std::endian::little, "files are little-endian");
 
-// All data are 8-byte words: aligned, and all covered by the checksum.
+// All data are 8-byte words, so they are aligned and the checksum covers them all.
 class WordWriter {
   public:
     void add(std::uint64_t word) { words_.push_back(word); }
@@ -103,7 +103,7 @@ void write_graph(const SurfaceGraph& graph, WordWriter& out) {
     }
 }
 
-// False if an index is out of range. The checksum has already ruled out damage.
+// False if an index is out of range. Damaged files do not get here: the checksum excludes them.
 bool read_graph(WordReader& in, SurfaceGraph& graph) {
     visit_report(graph.report, [&](std::uint32_t& field) { field = low_of(in.take()); });
     graph.positions.resize(in.take_count(3));
@@ -129,7 +129,7 @@ bool read_graph(WordReader& in, SurfaceGraph& graph) {
                 return false;
             }
         }
-        // Bitwise as in link_graph.
+        // Bitwise equal to the normals that link_graph computes.
         graph.normals[t] =
             area_vector({graph.positions[a], graph.positions[b], graph.positions[c]}).normalized();
     }
@@ -165,7 +165,7 @@ void write_whole(const fs::path& file, const std::string& bytes) {
             fs::rename(part, file, error);
         }
     }
-    fs::remove(part, error);  // if writing or renaming failed
+    fs::remove(part, error);  // still there if writing or renaming failed
 }
 
 std::string file_name(std::uint64_t key) {
@@ -260,7 +260,8 @@ GripMesh cached_grip_mesh(const Mesh& mesh, const GripMeshSettings& settings,
 
 GripMesh cached_grip_mesh(const Shape& shape, const GripMeshSettings& settings,
                           const fs::path& directory) {
-    if (shape.kind != ShapeKind::mesh) {  // as fast to build as to read
+    // Building these takes no longer than reading a file.
+    if (shape.kind != ShapeKind::mesh) {
         return build_grip_mesh(shape, settings);
     }
     if (shape.scale == Vec3::Ones()) {

@@ -20,7 +20,8 @@ std::size_t work_of(const Shape& shape) {
     return shape.kind == ShapeKind::mesh ? shape.mesh->triangles.size() : 1000;
 }
 
-// Larger round shapes would be tessellated too coarsely to grip, or into too many triangles.
+// Round shapes above this size would be tessellated too coarsely to grip, or into too many
+// triangles.
 bool is_too_large(const Shape& shape) {
     constexpr double k_largest_m = 64.0;
     const bool may_be_round = shape.kind == ShapeKind::sphere || shape.kind == ShapeKind::capsule ||
@@ -30,9 +31,11 @@ bool is_too_large(const Shape& shape) {
 }
 
 std::vector<ShapeId> all_of(const ShapeLibrary& shapes) {
-    std::vector<ShapeId> all(shapes.size());
-    for (std::uint32_t i = 0; i < all.size(); ++i) {
-        all[i] = {i};
+    std::vector<ShapeId> all;
+    for (std::uint32_t i = 0; i < shapes.size(); ++i) {
+        if (shapes.has({i})) {
+            all.push_back({i});
+        }
     }
     return all;
 }
@@ -65,44 +68,88 @@ GripMeshLibrary::GripMeshLibrary(const ShapeLibrary& shapes, std::span<const Sha
     add(shapes, wanted, settings, cache_directory);
 }
 
+void GripMeshLibrary::use(ShapeId shape, std::uint32_t mesh) {
+    if (mesh_of_shape_[shape.index] == k_no_mesh) {
+        mesh_of_shape_[shape.index] = mesh;
+        ++meshes_[mesh].users;
+    }
+}
+
 void GripMeshLibrary::add(const ShapeLibrary& shapes, std::span<const ShapeId> wanted,
                           const GripMeshSettings& settings,
                           const std::filesystem::path& cache_directory) {
     mesh_of_shape_.resize(shapes.size(), k_no_mesh);
-    const auto first = static_cast<std::uint32_t>(meshes_.size());
-    std::vector<ShapeId> distinct;
+    struct Missing {
+        ShapeId shape;
+        std::uint32_t mesh = 0;
+    };
+    std::vector<Missing> missing;
     for (const ShapeId id : wanted) {
         if (is_too_large(shapes.at(id))) {
             continue;
         }
-        const auto [found, is_new] = mesh_of_surface_.try_emplace(
-            surface_key(shapes.at(id)), first + static_cast<std::uint32_t>(distinct.size()));
+        const auto [found, is_new] = mesh_of_surface_.try_emplace(surface_key(shapes.at(id)));
         if (is_new) {
-            distinct.push_back(id);
+            found->second = new_entry();
+            missing.push_back({id, found->second});
         }
-        mesh_of_shape_[id.index] = found->second;
+        use(id, found->second);
     }
-    meshes_.resize(first + distinct.size());
-    std::vector<std::size_t> order(distinct.size());
+    std::vector<std::size_t> order(missing.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return work_of(shapes.at(distinct[a])) > work_of(shapes.at(distinct[b]));
+        return work_of(shapes.at(missing[a].shape)) > work_of(shapes.at(missing[b].shape));
     });
     constexpr std::uint64_t k_passes = 2;  // contact and search detail
     WorkMeter& meter = work_meter();
-    for (const ShapeId id : distinct) {
-        meter.planned += k_passes * work_of(shapes.at(id));
+    for (const Missing& one : missing) {
+        meter.planned += k_passes * work_of(shapes.at(one.shape));
     }
     auto build = [&](std::size_t i) {
-        const std::size_t place = order[i];
-        GripMesh& made = meshes_[first + place];
-        made = cached_grip_mesh(shapes.at(distinct[place]), settings, cache_directory);
+        const Shape& shape = shapes.at(missing[order[i]].shape);
+        const auto made =
+            std::make_shared<const GripMesh>(cached_grip_mesh(shape, settings, cache_directory));
+        meshes_[missing[order[i]].mesh].mesh = made;
         // What was not counted on the way: triangles that are dropped, or come from the cache.
-        const std::uint64_t planned = k_passes * work_of(shapes.at(distinct[place]));
+        const std::uint64_t planned = k_passes * work_of(shape);
         meter.done += planned - std::min<std::uint64_t>(
-                                    planned, made.full_triangles + made.contact.triangles.size());
+                                    planned, made->full_triangles + made->contact.triangles.size());
     };
     parallel_for(order.size(), build);
+}
+
+std::uint32_t GripMeshLibrary::new_entry() {
+    if (unused_.empty()) {
+        meshes_.emplace_back();
+        return static_cast<std::uint32_t>(meshes_.size() - 1);
+    }
+    const std::uint32_t reused = unused_.back();
+    unused_.pop_back();
+    return reused;
+}
+
+void GripMeshLibrary::insert(const ShapeLibrary& shapes, ShapeId shape,
+                             std::shared_ptr<const GripMesh> mesh) {
+    mesh_of_shape_.resize(shapes.size(), k_no_mesh);
+    const auto [found, is_new] = mesh_of_surface_.try_emplace(surface_key(shapes.at(shape)));
+    if (is_new) {
+        found->second = new_entry();
+        meshes_[found->second].mesh = std::move(mesh);
+    }
+    use(shape, found->second);
+}
+
+void GripMeshLibrary::remove(const ShapeLibrary& shapes, ShapeId shape) {
+    if (!has(shape)) {
+        return;
+    }
+    const std::uint32_t mesh = mesh_of_shape_[shape.index];
+    mesh_of_shape_[shape.index] = k_no_mesh;
+    if (--meshes_[mesh].users == 0) {
+        meshes_[mesh] = {};
+        unused_.push_back(mesh);
+        mesh_of_surface_.erase(surface_key(shapes.at(shape)));
+    }
 }
 
 bool GripMeshLibrary::has(ShapeId shape) const {
@@ -111,13 +158,14 @@ bool GripMeshLibrary::has(ShapeId shape) const {
 
 const GripMesh& GripMeshLibrary::at(ShapeId shape) const {
     HH_CHECK(has(shape), "no grip mesh was made for this shape", shape.index);
-    return meshes_[mesh_of_shape_[shape.index]];
+    return *meshes_[mesh_of_shape_[shape.index]].mesh;
 }
 
 std::size_t GripMeshLibrary::memory_bytes() const {
     return std::accumulate(
-        meshes_.begin(), meshes_.end(), std::size_t{0},
-        [](std::size_t sum, const GripMesh& grip) { return sum + handhold::memory_bytes(grip); });
+        meshes_.begin(), meshes_.end(), std::size_t{0}, [](std::size_t sum, const Entry& entry) {
+            return entry.mesh == nullptr ? sum : sum + handhold::memory_bytes(*entry.mesh);
+        });
 }
 
 }  // namespace handhold

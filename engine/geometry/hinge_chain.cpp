@@ -23,7 +23,8 @@ ReachBox arc_box(double from_rad, double to_rad) {
         box.low = box.low.cwiseMin(Vec2(cosine, sine));
         box.high = box.high.cwiseMax(Vec2(cosine, sine));
     }
-    const double bulge = piece_rad * piece_rad / 8.0;  // sagitta: no arc is farther from its chord
+    // Sagitta: largest distance of an arc from its chord.
+    const double bulge = piece_rad * piece_rad / 8.0;
     box.low.array() -= bulge;
     box.high.array() += bulge;
     return box;

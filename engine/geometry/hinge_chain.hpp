@@ -25,7 +25,7 @@ struct HingeChain {
     std::array<double, k_max_disc_links> radius_m = {};
     ChainAngles open_rad = {};
     ChainAngles closed_rad = {};
-    ChainAngles rest_rad = {};  // pose taken where nothing is touched
+    ChainAngles rest_rad = {};  // pose of a chain that touches nothing
 };
 
 struct Capsule {
@@ -40,63 +40,65 @@ std::array<Vec2, k_max_disc_links + 1> chain_points_ds(const HingeChain& chain,
                                                        const ChainAngles& angle_rad);
 
 double max_radius_m(const HingeChain& chain);
-// Farthest point of the straight chain from the first hinge, radius included.
+// Distance of the straight chain's farthest point from the first hinge, including the radius.
 double reach_m(const HingeChain& chain);
 
 // Offset of a cutting plane from the chain's own plane, metres. Plane 0 is the chain's own; planes
 // 1 and 2 lie on either side at `plane_offset` times the mean link radius.
 double plane_offset_m(const HingeChain& chain, double plane_offset, std::size_t plane);
-// Half extent across the chain's plane of everything that the links and the cutting planes can
+// Half thickness, across the chain's plane, of the region that the links and the cutting planes can
 // meet.
 double half_width_m(const HingeChain& chain, double plane_offset);
 
-// Region swept by the chain while each hinge takes any angle in [min_rad, max_rad]: one box per
+// Region that the chain sweeps if each hinge takes all angles in [min_rad, max_rad]: one box per
 // link, grown by `extra_radius_m`. The half width is the largest link radius. Precondition:
 // min_rad[i] <= max_rad[i].
 ChainReach chain_reach(const HingeChain& chain, const ChainAngles& min_rad,
                        const ChainAngles& max_rad, double extra_radius_m = 0.0);
-// Per-hinge minimum and maximum.
+// Minimum and maximum of each hinge's angle.
 ChainAngles lowest(const ChainAngles& a, const ChainAngles& b);
 ChainAngles highest(const ChainAngles& a, const ChainAngles& b);
 
 // The chain's cross-sections in its cutting planes; closes from open_rad to closed_rad.
 DiscChain flat_chain(const HingeChain& chain, double plane_offset);
 
-// Penetration of a chain into the gathered surfaces. If a surface crosses a link's axis, the rest
-// of the chain beyond the crossing counts as penetrating: only a closed solid could tell otherwise.
+// Penetration of a chain into the gathered surfaces. If a surface crosses a link's axis, the chain
+// beyond the crossing counts as penetrating: without closed solids it cannot be known whether the
+// chain comes out again.
 struct ChainDepth {
     double depth_m = 0.0;
     std::size_t link = 0;
-    // Per queried link: distance from its axis to the nearest surface, at most the queried radius;
-    // and the length of chain beyond a surface that crosses the link's axis, 0 if none does.
+    // Per queried link: distance from its axis to the nearest surface, at most the queried radius.
     std::array<double, k_max_disc_links> nearest_m = {};
+    // Per queried link: length of the chain beyond a surface that crosses the link's axis; 0 if
+    // none does.
     std::array<double, k_max_disc_links> beyond_m = {};
-    // Per queried link: the nearest point on its axis and the in-plane part of the unit direction
-    // from the surface to it (CapsulePenetration).
+    // Per queried link: the point on its axis that is nearest to a surface, and the in-plane part
+    // of the unit direction from the surface to that point (CapsulePenetration).
     std::array<Vec2, k_max_disc_links> nearest_ds = {Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
     std::array<Vec2, k_max_disc_links> away_ds = {Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
     std::size_t end = 0;  // links from this one on were not queried
 };
 struct DepthQuery {
-    double extra_radius_m = 0.0;         // queries the chain with all radii larger by this
+    double extra_radius_m = 0.0;         // added to the radii of all links
     std::size_t first = 0;               // first link queried
     std::size_t end = k_max_disc_links;  // one past the last link queried
-    // Stops at a link at least this deep; the exact depth beyond it does not matter.
+    // The query stops at a link that is at least this deep. The depth found may then be too small.
     double sufficient_depth_m = std::numeric_limits<double>::infinity();
 };
 ChainDepth chain_depth(const HingeChain& chain, const ChainAngles& angle_rad, ChainPatch& patch,
                        const DepthQuery& query = {});
-// ChainDepth::depth_m at these angles. Gathers into `patch` what the chain can meet there. The
-// chain and the meshes are in one frame.
+// ChainDepth::depth_m at these angles. Gathers into `patch` the triangles that the chain can meet
+// there. The chain and the meshes are in one frame.
 double posed_depth_m(const HingeChain& chain, const ChainAngles& angle_rad,
                      std::span<const PlacedMesh> meshes, ChainPatch& patch);
-// Penetration of one chain in several poses. Poses that share the first hinge's angle share the
-// query of the first link.
+// Penetration of one chain in several poses. The first link is queried once for all poses with the
+// same angle of the first hinge.
 class ChainDepths {
   public:
     ChainDepths(const HingeChain& chain, ChainPatch& patch) : chain_(chain), patch_(patch) {}
 
-    // As ChainDepth::depth_m, but exact only below `sufficient_depth_m`.
+    // As ChainDepth::depth_m, but exact only if it is below `sufficient_depth_m`.
     double depth_m(const ChainAngles& angle_rad, double sufficient_depth_m);
 
   private:
@@ -113,8 +115,8 @@ class ChainDepths {
     std::size_t known_count_ = 0;
 };
 
-// Converts the result for a chain queried with extra radius to the chain's own radii, for links
-// before `end`.
+// Converts the result of a query with extra radius to the chain's own radii, for the links before
+// `end`.
 ChainDepth own_depth(const HingeChain& chain, const ChainDepth& thicker, std::size_t end);
 
 }  // namespace handhold

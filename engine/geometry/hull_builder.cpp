@@ -7,8 +7,8 @@
 namespace handhold {
 namespace {
 
-// Tolerance relative to the hull's size. Far above rounding, so that every triangle has a normal
-// and every point a side; far below anything visible.
+// Tolerance relative to the hull's size. It is far above rounding errors, so that every triangle
+// has a normal and every point is on a definite side. It is far below anything visible.
 constexpr double k_flat = 1e-6;
 
 }  // namespace
@@ -82,7 +82,8 @@ HullBuilder::Index HullBuilder::add_triangle(Index a, Index b, Index c) {
     return static_cast<Index>(triangles_.size() - 1);
 }
 
-// Lists each point with the triangle, from first_triangle on, that it is farthest outside of.
+// Appends each point to the list of the triangle that it is farthest outside of, among the
+// triangles from first_triangle on.
 void HullBuilder::assign(std::span<const Index> candidates, Index first_triangle) {
     for (const Index point : candidates) {
         Index best_triangle = k_none;
@@ -95,7 +96,7 @@ void HullBuilder::assign(std::span<const Index> candidates, Index first_triangle
             }
         }
         if (best_triangle == k_none) {
-            continue;  // inside
+            continue;  // inside the hull
         }
         Triangle& triangle = triangles_[best_triangle];
         triangle.outside.push_back(point);
@@ -142,7 +143,7 @@ void HullBuilder::forget_farthest(Triangle& triangle) const {
     }
 }
 
-// Finds all triangles that the point sees and their boundary edges.
+// Finds all triangles that the point sees, and the boundary edges of that region (the horizon).
 void HullBuilder::find_visible(Index face, const Vec3& point) {
     visible_ = {face};
     horizon_.clear();
@@ -159,7 +160,7 @@ void HullBuilder::find_visible(Index face, const Vec3& point) {
     }
 }
 
-// Sorts the horizon's edges into a loop. False if they do not form one.
+// Sorts the horizon's edges into a loop. False if they do not form one loop.
 bool HullBuilder::order_horizon() {
     for (std::size_t i = 0; i + 1 < horizon_.size(); ++i) {
         const Index to = horizon_[i].to;
@@ -174,7 +175,7 @@ bool HullBuilder::order_horizon() {
     return horizon_.size() >= 3 && horizon_.back().to == horizon_.front().from;
 }
 
-// Replaces the visible triangles by triangles from the horizon to the point.
+// Replaces the visible triangles by triangles that connect the horizon to the point.
 void HullBuilder::add_cone(Index point) {
     const auto first = static_cast<Index>(triangles_.size());
     const auto count = static_cast<Index>(horizon_.size());
@@ -198,7 +199,7 @@ void HullBuilder::add_cone(Index point) {
     }
 }
 
-// Triangles connected to the seed that lie in its plane.
+// The triangles in the seed's plane that are connected to the seed.
 std::vector<HullBuilder::Index> HullBuilder::flat_group(Index seed,
                                                         std::vector<bool>& taken) const {
     constexpr double k_same_side = 0.99;
@@ -220,7 +221,7 @@ std::vector<HullBuilder::Index> HullBuilder::flat_group(Index seed,
     return group;
 }
 
-// Boundary loop of a group of triangles; empty if it is not a single loop.
+// Boundary of a group of triangles; empty if the boundary is not a single loop.
 std::vector<HullBuilder::Index> HullBuilder::outline(const std::vector<Index>& group) const {
     std::vector<Edge> edges;
     for (const Index i : group) {
@@ -278,8 +279,8 @@ std::vector<HullFace> HullBuilder::flat_faces() const {
     return faces;
 }
 
-// Removes points in the interior of an edge, which only two faces share. The initial tetrahedron
-// may contain such points.
+// Removes corners that only two faces share: they lie inside an edge. Such a corner may come from
+// the initial tetrahedron.
 void HullBuilder::drop_edge_points(std::vector<HullFace>& faces) {
     std::map<Index, std::vector<HullFace*>> around;
     for (HullFace& face : faces) {

@@ -12,8 +12,8 @@
 
 namespace handhold {
 
-// Quickhull over triangles, merged into faces at the end. An initial tetrahedron grows by the
-// farthest outside point until none is left.
+// Quickhull over triangles, which are merged into faces at the end. An initial tetrahedron grows by
+// the farthest outside point until no point is outside.
 class HullBuilder {
   public:
     // `points`: sorted and unique.
@@ -34,10 +34,10 @@ class HullBuilder {
 
     struct Triangle {
         std::array<Index, 3> corner{};
-        std::array<Index, 3> neighbour{};  // across the edge from corner i to corner i + 1
+        std::array<Index, 3> neighbour{};  // [i]: across the edge from corner i to corner i + 1
         Plane plane;
         std::vector<Index> outside;  // points that see this triangle; each point is listed once
-        Index farthest = k_none;     // the farthest of `outside`
+        Index farthest = k_none;     // farthest point of `outside`
         double farthest_m = 0.0;
         bool gone = false;
     };
@@ -53,7 +53,7 @@ class HullBuilder {
     bool start();
     // Triangle with the farthest outside point; k_none if there is none.
     Index outermost() const;
-    // Adds the face's farthest point. False if the horizon is not one loop: the point is then
+    // Adds the face's farthest point. False if the horizon is not one loop; the point is then
     // dropped.
     bool add_point(Index face);
     void forget_farthest(Triangle& triangle) const;

@@ -9,8 +9,8 @@
 
 namespace handhold {
 
-// An indexed triangle soup in its own frame, metres. Meant to be counter-clockwise from outside,
-// but real levels have mixed winding.
+// A triangle soup with indices, in its own frame, metres. Triangles should be counter-clockwise
+// seen from outside, but levels often have mixed winding.
 struct Mesh {
     std::string name;
     std::vector<Vec3> positions;

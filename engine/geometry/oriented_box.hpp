@@ -10,7 +10,7 @@
 
 namespace handhold {
 
-// A box in any orientation; `centre` and `half_extents` are along its own axes.
+// A box in any orientation. `centre` and `half_extents` are coordinates along the box's own axes.
 struct OrientedBox {
     std::array<Vec3, 3> axis = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};  // orthonormal
     Vec3 centre = Vec3::Zero();
@@ -21,9 +21,9 @@ struct OrientedBox {
 // axes, in floats with a rounding margin.
 class OrientedBoxTest {
   public:
-    // `reach_m` bounds all coordinates of the axis-aligned boxes.
+    // No coordinate of the axis-aligned boxes may exceed `reach_m`.
     OrientedBoxTest(const OrientedBox& box, double reach_m) {
-        constexpr double k_rounding = 0x1p-20;  // sixteen times the rounding of one operation
+        constexpr double k_rounding = 0x1p-20;  // sixteen times the rounding error of one operation
         for (std::size_t i = 0; i < 3; ++i) {
             for (std::size_t along = 0; along < 3; ++along) {
                 const double part = box.axis[i][static_cast<Eigen::Index>(along)];
@@ -59,7 +59,7 @@ class OrientedBoxTest {
     }
 
   private:
-    // [axis][coordinate]; each number in all lanes.
+    // [axis of the oriented box][coordinate]; each number is in all lanes.
     std::array<std::array<Float4, 3>, 3> axis_;
     std::array<std::array<Float4, 3>, 3> steepness_;
     std::array<Float4, 3> middle_twice_;

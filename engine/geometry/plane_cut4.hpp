@@ -7,15 +7,15 @@
 #include "engine/math/float4.hpp"
 #include "engine/math/vec2.hpp"
 
-// Cuts four triangles with a plane, in floats. Rounding is equivalent to shifting the plane by a
-// few roundings of the largest coordinate.
+// Cuts four triangles with a plane, in floats. Rounding errors have the effect of a shift of the
+// plane by a few roundings of the largest coordinate.
 namespace handhold {
 
-// Cut segments by coordinate in the plane.
+// The segments in which a plane cuts four triangles: [in-plane coordinate][triangle].
 struct Segments4 {
     std::array<Float4, 2> a = {};
     std::array<Float4, 2> b = {};
-    Int4 is_near = {};  // the triangle is cut, and within the radius
+    Int4 is_near = {};  // true if the triangle is cut within the radius
 
     Vec2 end(std::size_t i, std::uint32_t lane) const {
         const auto& from = i == 0 ? a : b;
@@ -23,13 +23,13 @@ struct Segments4 {
     }
 };
 
-// The plane at `offset_m` along the third axis. Keeps cuts within `radius_m` of the origin.
+// The plane at `offset_m` along the third axis. Ignores cuts beyond `radius_m` of the origin.
 class PlaneCut4 {
   public:
     PlaneCut4(double offset_m, double radius_m)
         : offset_(splat4(offset_m)), squared_radius_(splat4(radius_m * radius_m)) {}
 
-    // Only the lanes in `is_wanted` are cut.
+    // Cuts only the triangles in `is_wanted`.
     Segments4 of(const Corners4& corner, const Int4& is_wanted) const {
         Segments4 found;
         const std::array<Int4, 3> above = {corner[0][2] >= offset_, corner[1][2] >= offset_,
@@ -38,7 +38,7 @@ class PlaneCut4 {
         if (!any_of(found.is_near)) {
             return found;
         }
-        // One corner lies alone on its side; both cut edges begin there.
+        // One corner is alone on its side of the plane. Both cut edges begin there.
         const std::array<Int4, 3> is_alone = {~(above[1] ^ above[2]), ~(above[0] ^ above[2]),
                                               ~(above[0] ^ above[1])};
         const auto beside_alone = [&](std::size_t i, std::size_t axis) -> Float4 {

@@ -5,7 +5,8 @@
 namespace handhold {
 ReachSlab::ReachSlab(const ChainReach& reach, const Pose& base, const TriangleBvh& bvh)
     : box_count_(reach.box_count) {
-    // At most ten roundings of numbers no larger than these.
+    // Relative rounding error per unit of the lengths below (BVH reach, distance, chain radius): at
+    // most ten float roundings, each at most 2^-24.
     constexpr double k_rounding = 0x1p-20;
     const Vec3 centre = base.position - bvh.origin();
     rounding_margin_m_ = k_rounding * (bvh.reach_m() + centre.norm() + reach.radius_m);

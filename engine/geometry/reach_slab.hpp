@@ -20,9 +20,10 @@ struct ReachBox {
 
 // Region that a chain's links can reach: a disc with a thickness, restricted to one box per link.
 struct ChainReach {
-    Pose base;                // at the first hinge; links along -Z at angle 0, turning towards -Y
-    double radius_m = 0;      // from the hinge, in the plane
-    double half_width_m = 0;  // across the plane
+    Pose base;  // at the first hinge; at angle 0, links point along -Z; positive angles turn them
+                // towards -Y
+    double radius_m = 0;                                // from the first hinge, in the plane
+    double half_width_m = 0;                            // across the plane
     std::array<ReachBox, k_max_disc_links> boxes = {};  // in the plane
     std::uint32_t box_count = 0;                        // 0: the whole disc
 };
@@ -32,13 +33,14 @@ struct ChainReach {
 struct ReachedTriangles4 {
     std::array<Float4, 3> low = {};
     std::array<Float4, 3> high = {};
-    // Intersection of a triangle's plane with the chain's: line[0] x + line[1] y = line[2]. All 0
-    // if the normal is unknown.
+    // The line in which a triangle's plane meets the chain's plane: line[0] x + line[1] y =
+    // line[2]. All 0 if the triangle's normal is unknown.
     std::array<Float4, 3> line = {};
     Corners4 corner = {};
 };
 
-// Per box of the reach, or one mask for the whole disc: which of four triangles may reach into it.
+// Which of four triangles may reach into each box of the reach. Without boxes, the first mask is
+// for the whole disc.
 using ReachMasks4 = std::array<Int4, k_max_disc_links>;
 
 // A chain's reach in the frame of a triangle tree.
@@ -47,17 +49,19 @@ class ReachSlab {
     // `base` is reach.base in the mesh's frame.
     ReachSlab(const ChainReach& reach, const Pose& base, const TriangleBvh& bvh);
 
-    // Encloses the reach, relative to the tree's origin.
+    // A box that contains the reach, relative to the tree's origin.
     const OrientedBox& box() const { return box_; }
 
-    // Bounds in the plane are clamped to twice the reach's radius: floats are inaccurate farther
-    // out, and nothing there is in reach.
+    // The triangles in disc space. Bounds in the plane are clamped to twice the reach's radius:
+    // floats are inaccurate farther out, and nothing there is in reach.
     ReachedTriangles4 bounds_of(const Triangles4& four, ReachMasks4& is_near) const;
 
-    double rounding_margin_m() const { return rounding_margin_m_; }  // bound on float rounding
+    double rounding_margin_m() const {
+        return rounding_margin_m_;
+    }  // upper bound on the float rounding error
 
   private:
-    // An axis-aligned box in the plane, each number repeated in all lanes.
+    // An axis-aligned box in the plane; each number is in all lanes.
     struct Extent {
         std::array<Float4, 2> low = {};
         std::array<Float4, 2> high = {};

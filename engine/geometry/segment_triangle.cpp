@@ -6,7 +6,7 @@
 namespace handhold {
 namespace {
 
-// A triangle's plane and the planes through its edges along the normal.
+// A triangle's plane, and the planes through its edges that are parallel to the normal.
 class Prism {
   public:
     Prism(const Corners& triangle, const Vec3& normal) : triangle_(triangle), normal_(normal) {
@@ -34,7 +34,8 @@ SegmentTriangle nearest_between(const std::array<Vec3, 2>& segment, const Corner
     return nearest_between(segment, triangle, area_vector(triangle));
 }
 
-// The nearest pair is a crossing, an end over the triangle's interior, or a pair with an edge.
+// The nearest points are a crossing, an end of the segment with its projection into the triangle,
+// or points of the segment and an edge.
 SegmentTriangle nearest_between(const std::array<Vec3, 2>& segment, const Corners& triangle,
                                 const Vec3& normal) {
     const double squared_normal = normal.squaredNorm();

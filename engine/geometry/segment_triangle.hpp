@@ -14,7 +14,7 @@ struct SegmentTriangle {
     double distance_m = 0.0;
 };
 SegmentTriangle nearest_between(const std::array<Vec3, 2>& segment, const Corners& triangle);
-// With a known normal of any length; zero for a degenerate triangle.
+// `normal` is the triangle's, of any length; zero for a degenerate triangle.
 SegmentTriangle nearest_between(const std::array<Vec3, 2>& segment, const Corners& triangle,
                                 const Vec3& normal);
 

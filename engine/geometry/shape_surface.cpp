@@ -8,17 +8,17 @@
 namespace handhold {
 namespace {
 
-// Sectors per turn, a multiple of four so that the axes' ends are corners.
+// Number of sectors per turn: a multiple of four, so that there are corners on the axes.
 std::uint32_t sectors(double step_rad) {
     const double rounded_up = std::ceil(2.0 * k_pi / step_rad / 4.0) * 4.0;
     return static_cast<std::uint32_t>(
         std::clamp(rounded_up, 8.0, static_cast<double>(k_max_sectors)));
 }
-// Sagitta of a chord over the angle s: r (1 - cos(s / 2)) < r s^2 / 8.
+// The sagitta of a chord over the angle s is r (1 - cos(s / 2)) < r s^2 / 8.
 std::uint32_t circle_sectors(double radius_m, double tolerance_m) {
     return sectors(std::sqrt(8.0 * tolerance_m / radius_m));
 }
-// A face of s by s deviates by less than twice that.
+// A face that spans the angle s in both directions deviates by less than twice r s^2 / 8.
 std::uint32_t sphere_sectors(double radius_m, double tolerance_m) {
     return sectors(std::sqrt(4.0 * tolerance_m / radius_m));
 }
@@ -28,7 +28,8 @@ struct ProfilePoint {
     double y_m = 0.0;
 };
 
-// Revolves a profile about y; it runs from a point on +y to a point on -y.
+// Revolves a profile about the y axis. The profile begins at a point on +y and ends at a point on
+// -y.
 Mesh turn_profile(const std::vector<ProfilePoint>& profile, std::uint32_t sector_count) {
     Mesh mesh;
     mesh.positions.emplace_back(0.0, profile.front().y_m, 0.0);
@@ -58,7 +59,7 @@ Mesh turn_profile(const std::vector<ProfilePoint>& profile, std::uint32_t sector
     return mesh;
 }
 
-// A sphere, or one split at its equator by 2 * half_height.
+// Surface of a capsule: a sphere whose halves are 2 * half_height_m apart. A sphere if that is 0.
 Mesh capsule_surface(double radius_m, double half_height_m, double tolerance_m) {
     const std::uint32_t around = sphere_sectors(radius_m, tolerance_m);
     const std::uint32_t quarter = around / 4;

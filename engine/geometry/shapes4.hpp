@@ -4,10 +4,10 @@
 
 #include "engine/math/float4.hpp"
 
-// Four boxes or triangles side by side in floats, for conservative rejection tests.
+// Four boxes or triangles in floats, one per SIMD lane, for conservative rejection tests.
 namespace handhold {
 
-// Axis-aligned boxes, by coordinate.
+// Four axis-aligned boxes: [coordinate][box].
 struct Boxes4 {
     std::array<Float4, 3> low = {};
     std::array<Float4, 3> high = {};
@@ -15,7 +15,7 @@ struct Boxes4 {
 
 struct Triangles4 {
     Corners4 corner = {};
-    std::array<Float4, 3> normal = {};  // by coordinate: unit, or zero if degenerate
+    std::array<Float4, 3> normal = {};  // [coordinate][triangle]; unit, or zero if degenerate
 };
 
 }  // namespace handhold

@@ -7,8 +7,9 @@
 namespace handhold {
 namespace {
 
-// Input of meshoptimizer. This version cannot lock vertices but keeps those where two or more open
-// edges begin. So each locked point gets two extra triangles, which the result leaves out.
+// Input of meshoptimizer. This version cannot lock vertices, but it keeps vertices at which two or
+// more open edges begin. So each locked point gets two extra triangles, which are removed from the
+// result.
 struct LibraryMesh {
     std::vector<float> points;
     std::vector<unsigned> indices;
@@ -27,7 +28,8 @@ Vec3 scattered(std::size_t i) {
 
 LibraryMesh make_library_mesh(const SimplifyInput& input) {
     LibraryMesh mesh;
-    // Floats relative to the first point; the library scales its input to a unit box.
+    // Positions are floats relative to the first point. meshoptimizer scales its input to a unit
+    // box.
     const Vec3 origin = input.positions[0];
     const auto add_point = [&](const Vec3& point) {
         for (const double coordinate : Vec3(point - origin)) {

@@ -22,16 +22,17 @@ namespace {
 using Triangle = std::array<std::uint32_t, 3>;
 
 constexpr std::size_t k_smallest_part = 8;  // smaller components are kept as they are
-// Each attempt locks what deviated before. Every fourth one also halves the error.
+// Each attempt locks the vertices around deviations of the last. Every fourth one also halves the
+// error.
 constexpr int k_max_attempts = 9;
 
-// Larger components are divided into tiles of at most k_largest_tile triangles, which are
-// simplified separately: a failed attempt is repeated for its tile only, and a tile fits into a
-// processor's cache. Vertices on the borders of tiles are locked.
+// Components of at least k_divided_from triangles are divided into tiles of at most k_largest_tile
+// triangles, which are simplified separately. A failed attempt is then repeated for one tile only,
+// and a tile fits into a processor's cache. Vertices on the borders of tiles are locked.
 constexpr std::size_t k_divided_from = 100000;
 constexpr std::size_t k_largest_tile = 16384;
 
-// One connected component, or a tile of one, with its own vertices.
+// A connected component or a tile of one, with its own list of vertices.
 struct Part {
     std::vector<Vec3> positions;
     std::vector<std::uint32_t> vertex;  // vertex index in the graph
@@ -39,8 +40,8 @@ struct Part {
     std::vector<std::uint32_t> locked;  // vertices that must stay
 };
 
-// Number of target-size equilateral triangles with the component's area; each source triangle
-// counts as one at most.
+// Number of equilateral triangles of the target size with the part's area. A source triangle counts
+// as at most one.
 std::size_t target_count(const Part& part, double edge_m) {
     if (!(edge_m > 0.0)) {
         return 0;
@@ -56,7 +57,7 @@ std::size_t target_count(const Part& part, double edge_m) {
 }
 
 // Locks vertices around deviations. add_where_apart returns false if the coarse surface is within
-// the limit.
+// the limit everywhere.
 class Locks {
   public:
     explicit Locks(const Part& part)
@@ -88,7 +89,8 @@ class Locks {
     }
 
   private:
-    static constexpr double k_around = 2.0;  // in units of the limit
+    // Radius of locking around a deviation, in units of the limit.
+    static constexpr double k_around = 2.0;
 
     void lock(std::uint32_t triangle) {
         for (const std::uint32_t corner : part_.triangles[triangle]) {
@@ -131,7 +133,7 @@ std::vector<Triangle> coarser_part(const Part& part, const DetailLimits& limits)
     return part.triangles;
 }
 
-// Splits a graph into its connected components; triangles keep their order.
+// Splits a graph into its connected components. Triangles keep their order.
 std::vector<Part> take_apart(const SurfaceGraph& graph) {
     const GraphComponents numbers = find_components(graph);
     std::vector<Part> parts(numbers.count);
@@ -158,7 +160,8 @@ std::vector<Part> take_apart(const SurfaceGraph& graph) {
     return parts;
 }
 
-// Halves a part's triangles by their middles along the widest axis until tiles are small enough.
+// Halves a part's triangles, by their centroids along the widest axis, until tiles are small
+// enough.
 class TileDivider {
   public:
     explicit TileDivider(const Part& part) : part_(part), order_(part.triangles.size()) {
@@ -284,7 +287,7 @@ SurfaceGraph simplify_surface(const SurfaceGraph& graph, const DetailLimits& lim
         }
     }
     mesh.positions = graph.positions;
-    // No welding here. Triangles that collapsed onto a line or a duplicate are dropped.
+    // Does not weld, but drops triangles that collapsed onto a line and duplicates.
     SurfaceGraph result = build_surface_graph(mesh, {0.0, 0.0, 0.0, 0.0});
     mesh = {};
     std::optional<TriangleBvh> own_bvh;

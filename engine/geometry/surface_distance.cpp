@@ -7,11 +7,11 @@
 namespace handhold {
 namespace {
 
-// Maximum nesting: bisecting a triangle of 1 km this often leaves less than 1 mm.
+// Maximum depth of subdivision. Bisecting a triangle of 1 km this often leaves less than 1 mm.
 constexpr int k_max_cuts = 40;
 
-// Smallest piece as a fraction of the limit. Distances within that margin of the limit count as
-// beyond.
+// Size of the smallest piece, as a fraction of the limit. Distances within this fraction of the
+// limit count as beyond the limit.
 constexpr double k_min_piece_share = 0.02;
 
 class Cover {
@@ -50,13 +50,13 @@ class Cover {
     const Vec3& far_point() const { return far_point_; }  // valid after covers() returned false
 
   private:
-    // Splits at the edge of the nearest triangle that the piece overhangs most. The part above
-    // that triangle stays near it; the rest finds another.
+    // Splits the piece along the edge of the nearest triangle over which it reaches farthest. The
+    // part above that triangle is near it; the other part looks for another triangle.
     bool covers_parts(const Corners& piece, int cuts) {
         const Corners near = corners_of(hint_);
         const Vec3 area = area_vector(near);
         double max_out = 0.0;
-        std::array<double, 3> beyond = {};  // corner distances over that edge
+        std::array<double, 3> beyond = {};  // distance of each corner beyond that edge
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec3 outward = (near[(k + 1) % 3] - near[k]).cross(area).normalized();
             std::array<double, 3> out = {};
@@ -72,7 +72,7 @@ class Cover {
         if (max_out > k_min_piece_share * limit_m_) {
             return covers_clipped(piece, beyond, cuts);
         }
-        // Otherwise bisects the longest edge, which keeps pieces compact.
+        // If it reaches over no edge, bisects the longest edge, which keeps pieces compact.
         std::size_t longest = 0;
         for (std::size_t i = 1; i < 3; ++i) {
             if (squared_edge(piece, i) > squared_edge(piece, longest)) {
@@ -85,9 +85,10 @@ class Cover {
         const Vec3 cut = 0.5 * (from + to);
         return covers({from, cut, apex}, cuts + 1) && covers({cut, to, apex}, cuts + 1);
     }
-    // Splits off the lone corner's part; the other part is two triangles.
+    // Splits off the part of the corner that is alone on its side of the cut. The other part is two
+    // triangles.
     bool covers_clipped(const Corners& piece, const std::array<double, 3>& beyond, int cuts) {
-        std::size_t lone = 0;  // the corner alone on its side of the cut
+        std::size_t lone = 0;  // that corner
         for (std::size_t i = 1; i < 3; ++i) {
             const bool side = beyond[i] > 0.0;
             if (side != (beyond[(i + 1) % 3] > 0.0) && side != (beyond[(i + 2) % 3] > 0.0)) {
@@ -123,7 +124,8 @@ class Cover {
     const TriangleSurface& target_;
     double limit_m_;
     double squared_limit_;
-    std::uint32_t hint_ = ~0U;  // the triangle last found near: consecutive queries are neighbours
+    // The triangle last found near: consecutive queries are near each other.
+    std::uint32_t hint_ = ~0U;
     Vec3 far_point_ = Vec3::Zero();
 };
 

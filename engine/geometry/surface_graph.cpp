@@ -68,7 +68,7 @@ SurfaceGraph build_surface_graph(const Mesh& mesh, const WeldLimits& limits) {
     copy_finite(mesh, graph);
     const std::vector<double> reaches(graph.positions.size(), limits.point_m);
     replace_corners(graph, find_representatives(graph.positions, reaches));
-    clean(graph);  // first: duplicates would hide borders
+    clean(graph);  // must come first: duplicates would hide borders
     sew_borders(graph, limits);
     clean(graph);
     cut_borders(graph, limits);

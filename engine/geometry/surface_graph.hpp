@@ -14,16 +14,16 @@ inline constexpr std::uint32_t k_no_triangle = ~0U;
 
 struct WeldLimits {
     double point_m = 1e-5;  // vertices nearer than this are merged
-    // Open borders are stitched where their vertices are as near as max(seam_m, seam_per_size *
-    // mesh size), but at most seam_per_edge times the shortest edge there.
+    // Open borders are stitched if their vertices are nearer than max(seam_m, seam_per_size * mesh
+    // size), but at most seam_per_edge times the shortest edge there.
     double seam_m = 1.5e-4;
     double seam_per_size = 1e-5;
     double seam_per_edge = 0.25;
 };
 
-// Counts of the build: kept + not_finite + degenerate + duplicate == triangles + cut_in.
+// Counts of the build. kept + not_finite + degenerate + duplicate == triangles + cut_in.
 struct SurfaceReport {
-    std::uint32_t triangles = 0;  // of the source
+    std::uint32_t triangles = 0;  // number of the source's triangles
     std::uint32_t not_finite = 0;
     std::uint32_t degenerate = 0;  // dropped: zero area, or two corners merged by welding
     std::uint32_t duplicate = 0;   // dropped: same corners in the same order as an earlier triangle
@@ -32,18 +32,18 @@ struct SurfaceReport {
     std::uint32_t sewn_vertices = 0;       // border vertices merged into another
     std::uint32_t border_edges = 0;        // edges without a neighbour in the graph
     std::uint32_t non_manifold_edges = 0;  // edges of more than two triangles
-    std::uint32_t flipped_links = 0;       // neighbours wound against each other
+    std::uint32_t flipped_links = 0;       // pairs of neighbours with opposite windings
     std::uint32_t parts = 0;               // connected components over neighbours
 };
 
-// Triangles are not degenerate. Links are mutual, and both triangles share the edge's two vertices.
-// Mixed winding is preserved: a neighbour may be wound the other way.
+// No triangle is degenerate. If triangle a is a neighbour of b, b is one of a, and they share the
+// edge's two vertices. Mixed winding is preserved: a neighbour may have the opposite winding.
 struct SurfaceGraph {
     std::vector<Vec3> positions;  // welded
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    std::vector<std::array<std::uint32_t, 3>>
-        neighbours;             // over the edge from corner i to i + 1; k_no_triangle at a border
-    std::vector<Vec3> normals;  // unit, from the triangle's winding
+    // [i]: the triangle across the edge from corner i to i + 1; k_no_triangle at a border.
+    std::vector<std::array<std::uint32_t, 3>> neighbours;
+    std::vector<Vec3> normals;                   // unit, from the triangle's winding
     std::vector<std::uint32_t> source_triangle;  // index in the source mesh, ascending
     SurfaceReport report;
 };

@@ -12,11 +12,13 @@
 namespace handhold {
 namespace {
 
-// A segment in the frame of Woop's test: sheared to run along one axis from the origin.
+// A segment in the frame of Woop's test, which shears it so that it runs along one axis from the
+// origin.
 struct ShearedRay {
     Vec3 from;
-    std::array<int, 3> axis;      // the last one has the ray's largest component
-    std::array<double, 3> shear;  // the last is the inverse of the displacement along it
+    std::array<int, 3> axis;      // axis[2]: the axis along which the displacement is largest
+    std::array<double, 3> shear;  // x, y: displacement relative to that along axis[2]; z: 1 /
+                                  // displacement along axis[2]
 };
 
 ShearedRay shear(const Vec3& from, const Vec3& displacement) {
@@ -30,8 +32,9 @@ ShearedRay shear(const Vec3& from, const Vec3& displacement) {
     return ray;
 }
 
-// Fraction of the segment at which it hits the triangle; negative if it misses. Two triangles on a
-// shared edge have edge functions equal but for the sign, so one of them is hit.
+// Fraction of the segment at which it hits the triangle; negative if it misses. Two triangles that
+// share an edge compute the same edge function with opposite signs, so the segment hits one of
+// them.
 double meet_fraction(const ShearedRay& ray, const Corners& corners) {
     std::array<std::array<double, 3>, 3> p;  // the corners in the ray's frame
     for (std::size_t i = 0; i < 3; ++i) {
@@ -48,13 +51,13 @@ double meet_fraction(const ShearedRay& ray, const Corners& corners) {
     if (!one_side || sum == 0.0) {
         return -1.0;
     }
-    // Divides first: a sliver's sum may be so small that its inverse is infinite.
+    // Divides before adding: a sliver's sum may be so small that its inverse is infinite.
     const double fraction = (u / sum) * p[0][2] + (v / sum) * p[1][2] + (w / sum) * p[2][2];
     return fraction >= 0.0 && fraction <= 1.0 ? fraction : -1.0;
 }
 
 double bounded_inverse(double x) {
-    constexpr double k_huge = 1e290;  // finite, so that its product with zero is not a NaN
+    constexpr double k_huge = 1e290;  // finite, because infinity times zero is NaN
     const double inverse = 1.0 / x;
     return std::abs(inverse) <= k_huge ? inverse : std::copysign(k_huge, inverse);
 }
@@ -71,7 +74,8 @@ class RayEntry {
         }
     }
 
-    // Entry as a fraction of the segment; infinity if it does not enter before `max_fraction`.
+    // Fraction of the segment at which it enters each box; infinity if it does not enter before
+    // `max_fraction`.
     Double4 of(const Boxes4& boxes, double max_fraction) const {
         Double4 enter = zero4();
         Double4 leave = same_four(max_fraction);
@@ -91,11 +95,11 @@ class RayEntry {
   private:
     static Double4 same_four(double value) { return Double4{value, value, value, value}; }
 
-    Double4 start_[3];    // vector types, as in double4.hpp
+    Double4 start_[3];    // C arrays of vector types, as in double4.hpp
     Double4 inverse_[3];  // NOLINT(*-avoid-c-arrays)
 };
 
-// Stack of pending nodes and leaves; within one node's children the nearest is taken first.
+// Stack of pending nodes and leaves. Of the children of one node, the nearest is on top.
 template <typename Item, typename Distance, std::size_t KMax>
 class NearestFirstStack {
   public:
@@ -107,7 +111,7 @@ class NearestFirstStack {
     bool is_empty() const { return count_ == 0; }
     Open take() { return open_[--count_]; }
 
-    // Items put from now on belong to one node.
+    // Items put after this call belong to one node and are sorted among each other.
     void begin_node() { first_ = count_; }
     void put(const Item& item, Distance distance) {
         std::size_t place = count_++;
@@ -139,7 +143,7 @@ class FacingAreas {
         : side_{splat4(side.x()), splat4(side.y()), splat4(side.z())},
           max_area_(splat4(max_area_m2)) {}
 
-    // Uses the first `count` lanes, masked by `is_wanted`.
+    // Uses the triangles in `is_wanted` among the first `count`.
     Vec3 areas_of(const Triangles4& four, const Int4& is_wanted, std::uint32_t count) const {
         const Float4 zero = {};
         std::array<Float4, 3> b;

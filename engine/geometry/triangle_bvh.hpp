@@ -14,22 +14,21 @@
 #include "engine/math/float4.hpp"
 #include "engine/math/math.hpp"
 
-// Ray, nearest-point and sphere queries on triangles. The tree only rejects; every result comes
-// from a closed form on the triangle in doubles.
-// Sources: Wald, On fast Construction of SAH-based Bounding Volume Hierarchies, 2007 (build);
-// Dammertz, Hanika, Keller, Shallow Bounding Volume Hierarchies, 2008 (four children per node);
-// Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, 2013 (no gaps at shared edges);
-// closest_point.hpp.
+// Ray, nearest-point and sphere queries on triangles. The tree only rejects triangles; every result
+// comes from a closed form in doubles. Sources: Wald, On fast Construction of SAH-based Bounding
+// Volume Hierarchies, 2007 (build); Dammertz, Hanika, Keller, Shallow Bounding Volume Hierarchies,
+// 2008 (four children per node); Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, 2013
+// (no gaps at shared edges); closest_point.hpp.
 namespace handhold {
 
 struct TriangleHit {
-    std::uint32_t triangle = 0;  // index at construction
+    std::uint32_t triangle = 0;  // its index when the tree was built
     Vec3 point = Vec3::Zero();   // on the triangle
     double distance_m = 0.0;     // from the ray's start or the query point
 };
 
-// Self-contained: copies what it needs. Queries do not allocate and may run on any number of
-// threads at once. A non-finite query hits nothing.
+// Copies all data that it needs. Queries do not allocate and may run on any number of threads at
+// once. A non-finite query hits nothing.
 class TriangleBvh {
   public:
     TriangleBvh() = default;  // empty
@@ -40,44 +39,48 @@ class TriangleBvh {
 
     // First triangle that the segment hits, from either side. No segment passes between two
     // triangles that share an edge. A triangle seen exactly edge-on is missed, but its neighbours
-    // are hit. Ties go to the lowest index.
+    // are hit. If several are equally near, returns the lowest index.
     std::optional<TriangleHit> cast_ray(const Vec3& from, const Vec3& to) const;
-    // Nearest triangle within max_distance_m (may be infinity). Ties go to the lowest index.
+    // Nearest triangle within max_distance_m (may be infinity). If several are equally near,
+    // returns the lowest index.
     std::optional<TriangleHit> closest_point(const Vec3& point, double max_distance_m) const;
-    // Calls visit(triangle) for each triangle within radius_m, in tree order (always the same).
+    // Calls visit(triangle) for each triangle within radius_m, always in the same order.
     template <typename Visit>
     void visit_in_sphere(const Vec3& center, double radius_m, Visit&& visit) const;
 
-    // Sums the area vectors of triangles within radius_m that face `side`; a few triangles slightly
-    // farther away may be included. Each vector is twice its triangle's area long, at most
-    // max_area_m2. Computed in floats, so errors scale with the mesh's size.
+    // Sums the area vectors of the triangles within radius_m that face `side`. A few triangles
+    // slightly farther away may be included. The length of a vector is twice the triangle's area,
+    // at most max_area_m2. Computed in floats, so errors scale with the mesh's size.
     Vec3 areas_in_sphere(const Vec3& center, double radius_m, const Vec3& side,
                          double max_area_m2) const;
 
     // Calls visit(first_slot, count, four) for each leaf that may overlap the box, in tree order.
-    // The box and the corners of `four` are relative to origin(). A leaf has one to four triangles,
-    // the last repeated. Includes triangles that do not overlap the box, but costs least.
+    // The box and the corners of `four` are relative to origin(). A leaf has one to four triangles;
+    // the last one is repeated. Some of the triangles do not overlap the box: this is the cheapest
+    // query, and the caller tests them.
     template <typename Visit>
     void visit_near_box(const OrientedBox& box, Visit&& visit) const;
     const Vec3& origin() const { return origin_; }
-    // Bound on all corner coordinates relative to the origin.
+    // Upper bound on the absolute values of all corner coordinates relative to origin().
     double reach_m() const { return std::max(high_.maxCoeff(), -low_.minCoeff()); }
 
-    // Index at construction and corners of a triangle in a visited leaf. Precondition: slot < 4 *
-    // leaves.
+    // A triangle of a visited leaf: its index when the tree was built, and its corners.
+    // Precondition: slot < 4 * number of leaves.
     std::uint32_t number_at(std::uint32_t slot) const { return numbers_[slot]; }
     std::array<Vec3, 3> corners_at(std::uint32_t slot) const {
         const auto& [a, b, c] = slots_[slot];
         return {positions_[a], positions_[b], positions_[c]};
     }
-    // False if certainly no triangle is within radius_m.
+    // False only if no triangle is within radius_m.
     bool may_be_near(const Vec3& point, double radius_m) const {
         const Vec3 local = point - origin_;
         const Vec3 out = (low_ - local).cwiseMax(local - high_).cwiseMax(0.0);
         return triangle_count_ > 0 && out.squaredNorm() <= radius_m * radius_m;
     }
 
-    std::size_t triangle_count() const { return triangle_count_; }  // finite triangles
+    std::size_t triangle_count() const {
+        return triangle_count_;
+    }  // without triangles that are not finite
     std::size_t memory_bytes() const;
 
   private:
@@ -99,7 +102,8 @@ class TriangleBvh {
         std::array<Child, 4> child = {k_no_child, k_no_child, k_no_child, k_no_child};
     };
     static constexpr std::size_t k_max_depth = 64;
-    static constexpr std::size_t k_max_open = 3 * k_max_depth + 1;  // three pending per node
+    // At most three pending children per level.
+    static constexpr std::size_t k_max_open = 3 * k_max_depth + 1;
 
     // Calls visit(first_slot, count) for the leaves of all nodes whose boxes pass may_meet(boxes),
     // in tree order.
@@ -112,10 +116,10 @@ class TriangleBvh {
     Vec3 high_ = Vec3::Zero();
     std::vector<Node> nodes_;  // root first
     std::vector<Vec3> positions_;
-    // In leaf order. Each leaf has four slots; unused ones repeat its last triangle.
+    // In leaf order. Each leaf has four slots; unused slots repeat its last triangle.
     std::vector<std::array<std::uint32_t, 3>> slots_;  // corner indices
-    std::vector<std::uint32_t> numbers_;               // triangle indices at construction
-    std::vector<Triangles4> fours_;                    // per leaf
+    std::vector<std::uint32_t> numbers_;  // indices of the triangles when the tree was built
+    std::vector<Triangles4> fours_;       // one per leaf
     std::size_t triangle_count_ = 0;
 };
 

@@ -9,16 +9,16 @@
 
 namespace handhold {
 
-// Hash set of visited triangles with open addressing. Its size is independent of the mesh.
+// Hash set of visited triangles with open addressing. Its size does not depend on the mesh.
 // Precondition: at most Slots / 2 insertions.
 template <std::size_t Slots>
 class TriangleSet {
   public:
-    // Uses `slots` as its memory, which is kept between searches.
+    // Uses `slots` as its memory, so that the memory can be reused for the next search.
     explicit TriangleSet(std::vector<std::uint32_t>& slots) : slots_(slots) {
         slots_.assign(Slots, k_no_triangle);
     }
-    // Returns false if already present.
+    // Returns false if the triangle is already in the set.
     bool insert(std::uint32_t triangle) {
         constexpr std::uint32_t k_golden = 2654435769U;  // Knuth's multiplicative hash
         constexpr int k_low_bits = 32 - std::countr_zero(Slots);

@@ -13,10 +13,12 @@ namespace handhold {
 namespace {
 
 constexpr std::uint32_t k_no_vertex = std::numeric_limits<std::uint32_t>::max();
-// Cell size in units of the longest reach: few points then query a neighbouring cell.
+// Cell size in units of the longest reach. It is large so that few points have to query
+// neighbouring cells.
 constexpr double k_cell_per_reach = 8.0;
 
-// Lists of points by hashed grid cell. Cells that collide share a list; callers check distances.
+// Lists of points by hashed grid cell. Cells with equal hashes share a list, so callers must check
+// distances.
 class CellLists {
   public:
     CellLists(std::size_t points, double cell_m)
@@ -30,7 +32,8 @@ class CellLists {
         next_[index] = head;
         head = index;
     }
-    // Calls visit(index) for every point in the cells that the ball touches; may repeat points.
+    // Calls visit(index) for every point in the cells that the ball touches. May visit a point
+    // twice.
     template <typename Visit>
     void near(const Vec3& point, double reach_m, const Visit& visit) const {
         const Vec3 low = point - Vec3::Constant(reach_m);
@@ -73,7 +76,7 @@ std::vector<std::uint32_t> find_representatives(std::span<const Vec3> points,
             farthest_m = std::max(farthest_m, points[i].cwiseAbs().maxCoeff());
         }
     }
-    // Limits the cell indices to integers that a double represents exactly.
+    // Keeps the cell indices small enough for a double to represent them exactly.
     const double cell_m = std::max(k_cell_per_reach * longest_m, farthest_m * 0x1p-48);
     CellLists cells(points.size(), cell_m);
     std::vector<std::uint32_t> result(points.size());

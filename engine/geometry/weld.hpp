@@ -9,10 +9,10 @@
 // Merges points within a tolerance, using a grid.
 namespace handhold {
 
-// Each point joins the nearest earlier representative within both points' reaches, or becomes a
-// representative itself. Chains of points therefore never collapse, whatever their density.
-// `reaches_m`: one per point, metres, >= 0; a negative or NaN reach joins nothing. Returns each
-// point's representative; its own index for representatives and non-finite points.
+// Each point joins the nearest earlier representative that is within both points' reaches, or
+// becomes a representative itself. So a dense chain of points does not collapse into one.
+// `reaches_m`: one per point, metres, >= 0; a point with a negative or NaN reach is not merged.
+// Returns each point's representative; for representatives and non-finite points, their own index.
 std::vector<std::uint32_t> find_representatives(std::span<const Vec3> points,
                                                 std::span<const double> reaches_m);
 

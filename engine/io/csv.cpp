@@ -10,7 +10,7 @@ namespace handhold {
 
 namespace {
 
-// A cell for an error message: it may be a megabyte long.
+// Quotes a cell for an error message. Shortens it, because a cell may be a megabyte long.
 std::string quote(std::string_view cell) {
     constexpr std::size_t k_shown_characters = 40;
     return '"' + printable(cell, k_shown_characters) + '"';

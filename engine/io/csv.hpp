@@ -13,8 +13,8 @@ namespace handhold {
 
 // A table of numbers with named columns.
 struct NumericTable {
-    std::vector<std::string> columns;  // names are not empty and unique
-    std::vector<double> cells;         // row-major, columns.size() a row
+    std::vector<std::string> columns;  // names are unique and not empty
+    std::vector<double> cells;         // row-major; columns.size() per row
 
     std::size_t row_count() const { return columns.empty() ? 0 : cells.size() / columns.size(); }
     double at(std::size_t row, std::size_t column) const {
@@ -27,9 +27,10 @@ enum class NanCells { refused, allowed };
 
 // Reads a strict CSV table. The first line holds unique, non-empty names. Every other line has as
 // many cells, each a finite decimal number in C notation without spaces, quotes or a leading plus.
-// With NanCells::allowed a cell may also be "nan". Cells are separated by commas; lines end in LF
-// or CRLF, which the last line may lack. A byte order mark is skipped. Independent of the locale,
-// one pass, one allocation for the cells. Row r of the table is line r + 2 of the file.
+// With NanCells::allowed a cell may also be "nan". Cells are separated by commas. Lines end in LF
+// or CRLF; the last line may have no end. A byte order mark is skipped. The result does not depend
+// on the locale. Takes one pass and one allocation for the cells. Row r of the table is line r + 2
+// of the file.
 Result<NumericTable> parse_csv(std::string_view text, const std::string& file,
                                NanCells nan = NanCells::refused);
 Result<NumericTable> load_csv(const std::filesystem::path& path, NanCells nan = NanCells::refused);

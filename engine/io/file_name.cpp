@@ -17,7 +17,7 @@ void append_hex(std::uint64_t value, unsigned digits, std::string& out) {
     }
 }
 
-// Bytes of the character at `i` that stay as they are; 0: its first byte is encoded.
+// Number of bytes of the character at `i` if it is kept; 0 if its first byte must be encoded.
 std::size_t kept_length(std::string_view name, std::size_t i) {
     const char c = name[i];
     const bool is_first = i == 0;
@@ -38,8 +38,8 @@ std::string file_name(std::string_view name) {
         return "%";
     }
     std::string out;
-    std::size_t last_that_fits =
-        0;  // longest prefix of whole characters that leaves room for a hash
+    // Length of the longest prefix of whole characters that leaves room for a hash.
+    std::size_t last_that_fits = 0;
     for (std::size_t i = 0; i < name.size();) {
         if (out.size() + k_hash_mark.size() + k_hash_digits <= k_max_file_name_bytes) {
             last_that_fits = out.size();

@@ -15,9 +15,9 @@ struct GlbChunks {
     std::string_view binary;  // empty if the file has no binary chunk
 };
 
-// Splits a .glb into its chunks; both views point into `bytes`. Bytes that do not begin with the
-// magic number of a .glb are taken as the JSON of a .gltf. Refuses lengths that do not fit the
-// file. `file` is for messages.
+// Splits a .glb into its chunks, which point into `bytes`. Bytes that do not begin with the magic
+// number of a .glb are taken as the JSON of a .gltf. Refuses lengths that do not fit the file.
+// `file` is used in messages.
 Result<GlbChunks> split_glb(std::string_view bytes, const std::string& file);
 
 // Joins a .glb. An empty `binary` writes no binary chunk.

@@ -18,7 +18,7 @@ namespace handhold {
 
 namespace {
 
-// Reads a model's scene into parts. The first error stops it.
+// Reads a model's scene into parts. Stops at the first error.
 class LevelReader {
   public:
     LevelReader(const gltf::Model& model, std::span<const std::string_view> buffers,
@@ -45,7 +45,7 @@ class LevelReader {
     bool read_primitive(const gltf::Primitive& primitive, const std::string& place,
                         LevelPart& part);
     bool append_positions(const Affine& frame, const std::string& place, Mesh& mesh);
-    void begin_color(const gltf::Material* material, LevelPart& part);
+    static void begin_color(const gltf::Material* material, LevelPart& part);
     void add_notes();
 
     const gltf::Model& model_;
@@ -53,8 +53,8 @@ class LevelReader {
     gltf::AccessorReader reader_;
     GltfLevel level_;
     gltf::PrimitiveData primitive_;  // scratch
-    std::vector<Affine> frames_;     // of the part that is being read, by instance
-    // Of the part that is being read: by POSITION accessor and instance, the first vertex.
+    std::vector<Affine> frames_;     // frames of the part being read, one per instance
+    // For the part being read: the first vertex of each (POSITION accessor, instance).
     std::map<std::pair<int, std::size_t>, std::uint32_t> first_vertex_;
     std::size_t vertex_count_ = 0;
     std::size_t triangle_count_ = 0;
@@ -101,7 +101,7 @@ bool LevelReader::read_part(const PlacedNode& placed) {
 bool LevelReader::read_primitive(const gltf::Primitive& primitive, const std::string& place,
                                  LevelPart& part) {
     const int positions = primitive.attributes.at("POSITION");
-    const bool may_share = !primitive.draco;  // then the accessor holds no vertices of its own
+    const bool may_share = !primitive.draco;  // the accessor of a Draco primitive holds no vertices
     const bool is_known = may_share && first_vertex_.contains({positions, 0});
     const gltf::Material* material = nullptr;
     if (!gltf::read_primitive(primitive, place, {.positions = !is_known}, reader_, model_, refusal_,

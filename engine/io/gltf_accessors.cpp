@@ -86,8 +86,8 @@ bool allows(const Rule& rule, ComponentType type) {
     return rule.allows_float;
 }
 
-// Converts `components` values of type From at each stride. Normalised integers become
-// max(n / largest, -1) (specification, 3.6.2.2).
+// Converts `count` elements of `components` values of type From. Normalised integers become max(n /
+// largest, -1) (specification, 3.6.2.2).
 template <typename From, typename To>
 void convert(const char* from, std::size_t stride, std::size_t count, std::size_t components,
              bool is_normalized, To* to) {
@@ -204,7 +204,7 @@ bool AccessorReader::read_view(int view, const std::string& place, std::string_v
                                  pointer("bufferViews", view), bytes);
 }
 
-// Specification, 3.6.2.4. The parser keeps every number below 2^32, so nothing overflows.
+// See the specification, 3.6.2.4. The parser keeps every number below 2^32, so nothing overflows.
 bool AccessorReader::find_block(int view, std::uint64_t offset, const std::string& place,
                                 Block& block) {
     if (!read_view(view, place + "/bufferView", block.bytes)) {
@@ -243,7 +243,8 @@ bool AccessorReader::read(int accessor, Elements elements, const std::string& pl
                 found.component_type,
                 found.is_normalized || elements == Elements::weights};
     if (found.view == k_none) {
-        // Zeros take no bytes in the file. A limit in proportion to the file keeps memory so.
+        // An accessor without a view is all zeros and takes no bytes in the file. This limit keeps
+        // the memory in proportion to the file.
         const std::uint64_t file_bytes = std::accumulate(
             buffers_.begin(), buffers_.end(), std::uint64_t{0},
             [](std::uint64_t sum, std::string_view bytes) { return sum + bytes.size(); });

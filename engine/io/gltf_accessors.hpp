@@ -10,25 +10,26 @@
 
 namespace handhold::gltf {
 
-// What an accessor must hold: its shape and the component types that its use allows
-// (specification, 3.6.2 and 3.7; KHR_mesh_quantization widens `vectors`).
+// Use of an accessor. It determines the number of components and the allowed component types
+// (specification, 3.6.2 and 3.7; KHR_mesh_quantization allows more for `vectors`).
 enum class Elements { vectors, quaternions, indices, joints, weights, matrices };
 std::size_t components_of(Elements elements);
 
-// Reads accessors: strided, sparse, normalised, and of views that EXT_meshopt_compression
-// compressed. Every offset, count and stride is checked against the bytes that are there before
-// memory is taken. Private to engine/io/gltf*.
+// Reads accessors, including strided, sparse and normalised ones and those of compressed views
+// (EXT_meshopt_compression). Checks every offset, count and stride against the available bytes
+// before it allocates. Private to engine/io/gltf*.
 class AccessorReader {
   public:
-    // All arguments must outlive the reader. `buffers`: by buffer of the model.
+    // All arguments must outlive the reader. `buffers`: the bytes of each of the model's buffers.
     AccessorReader(const Model& model, std::span<const std::string_view> buffers, Refusal& refusal)
         : model_(model), buffers_(buffers), refusal_(refusal), decoded_(model.views.size()) {}
 
-    // Checks that the accessor exists and may be read as `elements`. Every function that returns a
-    // bool returns false after a refusal. `place` is the pointer of the reference to the accessor.
+    // Checks that the accessor exists and may be read as `elements`. `place` is the JSON pointer of
+    // the reference to the accessor. Every function that returns a bool returns false after an
+    // error.
     bool check(int accessor, Elements elements, const std::string& place);
-    // components_of(elements) floats an element; normalised integers are divided by their largest
-    // value, weights always are.
+    // Reads components_of(elements) floats per element. Normalised integers are divided by their
+    // largest value; weights always are.
     bool read_floats(int accessor, Elements elements, const std::string& place,
                      std::vector<float>& out);
     bool read_indices(int accessor, const std::string& place, std::vector<std::uint32_t>& out);
@@ -62,7 +63,7 @@ class AccessorReader {
     const Model& model_;
     std::span<const std::string_view> buffers_;
     Refusal& refusal_;
-    std::vector<std::string> decoded_;  // by view; empty until it is needed
+    std::vector<std::string> decoded_;  // decompressed bytes by view; empty until they are needed
     std::uint64_t decoded_bytes_ = 0;
 };
 

@@ -13,7 +13,7 @@
 // Shared by the glTF writers.
 namespace handhold {
 
-// Keeps keys in the order of insertion, which is easier to read.
+// Keeps keys in the order of insertion, so that files are easier to read.
 using GltfJson = nlohmann::ordered_json;
 
 inline constexpr const char* k_emissive_strength = "KHR_materials_emissive_strength";
@@ -26,7 +26,7 @@ class GltfBufferWriter {
   public:
     int add_vertices(const std::vector<GltfVertex>& vertices, bool is_normal);
     int add_indices(const std::vector<std::uint32_t>& indices);
-    // Four joints or weights a vertex.
+    // Four joints or weights per vertex.
     int add_joints(std::span<const std::array<std::uint16_t, 4>> joints);
     int add_weights(std::span<const std::array<float, 4>> weights);
     // Column-major.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view k_data_scheme = "data:";
 
-// By character: the value of a base64 digit (RFC 4648), k_no_digit for any other.
+// The value of each character as a base64 digit (RFC 4648); k_no_digit for other characters.
 constexpr std::uint8_t k_no_digit = 64;
 constexpr std::array<std::uint8_t, 256> k_base64_values = [] {
     constexpr std::string_view k_digits =
@@ -25,7 +25,7 @@ constexpr std::array<std::uint8_t, 256> k_base64_values = [] {
     return values;
 }();
 
-// Nothing if the text is not base64.
+// nullopt if the text is not base64.
 std::optional<std::string> decode_base64(std::string_view text) {
     while (!text.empty() && text.back() == '=') {
         text.remove_suffix(1);
@@ -49,7 +49,7 @@ std::optional<std::string> decode_base64(std::string_view text) {
     return bytes;
 }
 
-// RFC 3986. Nothing if an escape is malformed.
+// Decodes percent escapes (RFC 3986). nullopt if an escape is malformed.
 std::optional<std::string> decode_percent(std::string_view uri) {
     const auto digit_of = [](char c) {
         return c >= '0' && c <= '9'   ? c - '0'
@@ -74,8 +74,8 @@ std::optional<std::string> decode_percent(std::string_view uri) {
     return text;
 }
 
-// The path that a relative URI names below `folder`. Nothing for any other URI: an absolute path,
-// a scheme, or a path that leaves the folder.
+// The path that a relative URI names below `folder`. nullopt for any other URI: an absolute path, a
+// scheme, or a path that leaves the folder.
 std::optional<std::filesystem::path> path_below(const std::filesystem::path& folder,
                                                 std::string_view uri) {
     const std::optional<std::string> text = decode_percent(uri);

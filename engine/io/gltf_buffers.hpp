@@ -16,8 +16,8 @@ class Buffers {
     // cannot be read, fewer bytes than the buffer claims, and more than k_max_file_bytes in total.
     bool load(const Model& model, const std::filesystem::path& path, Refusal& refusal);
 
-    // By buffer; empty for a fallback buffer. A view of the binary chunk points into the parsed
-    // bytes.
+    // The bytes of each buffer; empty for a fallback buffer. A buffer in the binary chunk points
+    // into the parsed bytes.
     const std::vector<std::string_view>& bytes() const { return bytes_; }
 
   private:

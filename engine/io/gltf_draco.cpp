@@ -9,7 +9,8 @@
 namespace handhold::gltf {
 namespace {
 
-// Integer n stands for n / k, at least -1 (glTF 2.0 specification, 3.6.2.2); 0 for floats.
+// Returns k for integer types: integer n stands for max(n / k, -1) (glTF 2.0 specification,
+// 3.6.2.2). Returns 0 for floats.
 float normalization_of(draco::DataType type) {
     switch (type) {
         case draco::DT_INT8:
@@ -53,8 +54,8 @@ bool read_values(const draco::PointCloud& cloud, const DracoRequest& request,
             }
             continue;
         }
-        // Through integers: a conversion to float would follow Draco's own normalisation flag,
-        // but glTF's accessor decides.
+        // Reads integers, because a conversion to float would follow Draco's own normalisation flag
+        // instead of the glTF accessor's.
         if (!attribute->ConvertValue<std::int32_t>(index, components, integers.data())) {
             return false;
         }
@@ -108,7 +109,7 @@ std::optional<DracoGeometry> decode(std::string_view bytes, std::span<const Drac
 
 bool has_draco() { return true; }
 
-// Draco reports malformed input by status, but a count it cannot allocate by an exception.
+// Draco reports malformed input by a status, but a count that it cannot allocate by an exception.
 std::optional<DracoGeometry> decode_draco(std::string_view bytes,
                                           std::span<const DracoRequest> requests,
                                           std::size_t max_count) {

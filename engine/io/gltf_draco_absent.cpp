@@ -1,4 +1,4 @@
-// Takes the place of gltf_draco.cpp if the build found no Draco.
+// Replaces gltf_draco.cpp if the build found no Draco.
 #include "engine/io/gltf_draco.hpp"
 
 namespace handhold::gltf {

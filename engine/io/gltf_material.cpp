@@ -6,7 +6,7 @@
 namespace handhold::gltf {
 namespace {
 
-constexpr double k_max_emissive = 1e6;  // keeps a nearly black colour from making it infinite
+constexpr double k_max_emissive = 1e6;  // keeps nearly black colours from giving an infinite factor
 
 // A factor that the specification limits to [0, 1].
 float clamp_factor(double value, std::size_t& clamped) {
@@ -45,8 +45,8 @@ Material parse_material(const JsonValue& value, std::size_t& clamped) {
         clamped += strength < 0.0 ? 1U : 0U;
         strength = std::max(strength, 0.0);
     }
-    // A surface here emits light of its own colour. From another emissive colour only the
-    // brightness is kept.
+    // Materials here emit light of their own colour. If the file's emissive colour is another one,
+    // only its brightness is kept.
     const float brightest = *std::max_element(material.color.begin(), material.color.end());
     if (brightest > 0.0F) {
         const double factor =

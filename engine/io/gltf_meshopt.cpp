@@ -5,9 +5,9 @@
 namespace handhold::gltf {
 namespace {
 
-// What the decoders assert, and the shortest encoding of `count` elements (glTF registry,
-// EXT_meshopt_compression, appendices A to C): 1 byte for a triangle or an index; 2 bits for 16
-// equal bytes of an attribute.
+// Checks what the decoders assert, and that `bytes` can hold `view.count` elements. Shortest
+// encodings (glTF registry, EXT_meshopt_compression, appendices A to C): 1 byte for a triangle or
+// an index; 2 bits for 16 equal bytes of an attribute.
 bool may_decode(const Meshopt& view, std::size_t bytes) {
     const bool is_index_stride = view.stride == 2 || view.stride == 4;
     switch (view.mode) {

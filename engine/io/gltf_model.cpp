@@ -14,47 +14,17 @@
 namespace handhold::gltf {
 namespace {
 
-// With these limits no sum or product of a count, a stride and an offset overflows 64 bits.
-constexpr std::int64_t k_max_index = INT32_MAX;
-constexpr std::int64_t k_max_size = UINT32_MAX;
 constexpr std::size_t k_shown_name = 60;
 
-constexpr const char* k_meshopt = "EXT_meshopt_compression";
 constexpr const char* k_draco = "KHR_draco_mesh_compression";
 constexpr const char* k_instancing = "EXT_mesh_gpu_instancing";
-
-int read_index(const JsonValue& value) {
-    return value.exists() ? static_cast<int>(value.integer(0, k_max_index)) : k_none;
-}
-
-std::uint64_t read_size(const JsonValue& value, std::int64_t low = 0) {
-    return static_cast<std::uint64_t>(value.integer(low, k_max_size));
-}
-
-std::uint64_t read_offset(const JsonValue& value) { return value.exists() ? read_size(value) : 0; }
-
-std::vector<int> read_indices(const JsonValue& array) {
-    std::vector<int> indices;
-    for (const JsonValue& index : array.optional_items()) {
-        indices.push_back(read_index(index));
-    }
-    return indices;
-}
-
-std::map<std::string, int> read_attributes(const JsonValue& object) {
-    std::map<std::string, int> attributes;
-    for (const auto& [name, value] : object.optional_members()) {
-        attributes.emplace(name, read_index(value));
-    }
-    return attributes;
-}
 
 bool read_synthetic(const JsonValue& object) {
     const JsonValue extras = object["extras"];
     return extras.is_object() && extras["synthetic"].flag_or(false);
 }
 
-// Fills a Model and keeps the first error in the JSON document.
+// Fills a Model. The JSON document keeps the first error.
 class ModelParser {
   public:
     explicit ModelParser(const JsonValue& root) : root_(root) {}
@@ -66,9 +36,7 @@ class ModelParser {
             version.refuse("version 2.x of glTF");
         }
         parse_extensions();
-        parse_buffers();
-        parse_views();
-        parse_accessors();
+        parse_data_layout(root_, model_);
         parse_meshes();
         parse_materials();
         parse_nodes();
@@ -79,9 +47,6 @@ class ModelParser {
 
   private:
     void parse_extensions();
-    void parse_buffers();
-    void parse_views();
-    void parse_accessors();
     void parse_meshes();
     void parse_materials();
     void parse_nodes();
@@ -93,11 +58,12 @@ class ModelParser {
 };
 
 bool changes_geometry(std::string_view extension) {
-    return extension == "KHR_mesh_quantization" || extension == k_meshopt ||
+    return extension == "KHR_mesh_quantization" || extension == k_meshopt_extension ||
            extension == k_instancing || (extension == k_draco && has_draco());
 }
 
-// Whether geometry is right without the extension: these change looks, lights or metadata only.
+// True if geometry is correct without the extension. The ones listed change only appearance, lights
+// or metadata.
 bool may_be_ignored(std::string_view extension) {
     constexpr std::array<std::string_view, 13> k_families = {"KHR_materials_",
                                                              "KHR_texture_",
@@ -137,137 +103,13 @@ void ModelParser::parse_extensions() {
     }
 }
 
-void ModelParser::parse_buffers() {
-    for (const JsonValue& value : root_["buffers"].optional_items()) {
-        Buffer buffer;
-        buffer.bytes = read_size(value["byteLength"], 1);
-        if (const JsonValue meshopt = extension_of(value, k_meshopt); meshopt.exists()) {
-            buffer.is_fallback = meshopt["fallback"].flag_or(false);
-        }
-        const std::size_t available = model_.buffers.empty() ? model_.binary.size() : 0;
-        if (const JsonValue uri = value["uri"]; uri.exists()) {
-            buffer.uri = uri.text();
-        } else if (!buffer.is_fallback && available == 0) {
-            uri.refuse("a URI: the file has no binary chunk for this buffer");
-        } else if (!buffer.is_fallback && buffer.bytes > available) {
-            value["byteLength"].refuse("at most the " + std::to_string(available) +
-                                       " bytes of the binary chunk");
-        }
-        model_.buffers.push_back(std::move(buffer));
-    }
-}
-
-Meshopt parse_meshopt(const JsonValue& value) {
-    Meshopt meshopt;
-    meshopt.buffer = read_index(value["buffer"]);
-    meshopt.offset = read_offset(value["byteOffset"]);
-    meshopt.bytes = read_size(value["byteLength"], 1);
-    meshopt.stride = static_cast<std::uint64_t>(value["byteStride"].integer(2, 256));
-    meshopt.count = read_size(value["count"], 1);
-    const std::string mode = value["mode"].text();
-    if (mode == "TRIANGLES") {
-        meshopt.mode = Meshopt::Mode::triangles;
-    } else if (mode == "INDICES") {
-        meshopt.mode = Meshopt::Mode::indices;
-    } else if (mode != "ATTRIBUTES") {
-        value["mode"].refuse("ATTRIBUTES, TRIANGLES or INDICES");
-    }
-    const std::string filter = value["filter"].text_or("NONE");
-    if (filter == "OCTAHEDRAL") {
-        meshopt.filter = Meshopt::Filter::octahedral;
-    } else if (filter == "QUATERNION") {
-        meshopt.filter = Meshopt::Filter::quaternion;
-    } else if (filter == "EXPONENTIAL") {
-        meshopt.filter = Meshopt::Filter::exponential;
-    } else if (filter != "NONE") {
-        value["filter"].refuse("NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL");
-    }
-    return meshopt;
-}
-
-void ModelParser::parse_views() {
-    for (const JsonValue& value : root_["bufferViews"].optional_items()) {
-        BufferView view;
-        view.buffer = static_cast<int>(value["buffer"].integer(0, k_max_index));
-        view.offset = read_offset(value["byteOffset"]);
-        view.bytes = read_size(value["byteLength"], 1);
-        if (const JsonValue stride = value["byteStride"]; stride.exists()) {
-            view.stride = static_cast<std::uint64_t>(stride.integer(4, 252));
-            if (view.stride % 4 != 0) {
-                stride.refuse("a multiple of 4");
-            }
-        }
-        if (const JsonValue meshopt = extension_of(value, k_meshopt); meshopt.exists()) {
-            view.meshopt = parse_meshopt(meshopt);
-        }
-        model_.views.push_back(std::move(view));
-    }
-}
-
-ComponentType parse_component_type(const JsonValue& value) {
-    const std::int64_t type = value.integer(5120, 5126);
-    if (type == 5124) {
-        value.refuse("5120 to 5123, 5125 or 5126");
-        return ComponentType::float32;
-    }
-    return static_cast<ComponentType>(type);
-}
-
-SparseElements parse_sparse(const JsonValue& value) {
-    SparseElements sparse;
-    sparse.count = read_size(value["count"], 1);
-    const JsonValue indices = value["indices"];
-    sparse.indices_view = static_cast<int>(indices["bufferView"].integer(0, k_max_index));
-    sparse.indices_offset = read_offset(indices["byteOffset"]);
-    sparse.indices_type = parse_component_type(indices["componentType"]);
-    const JsonValue values = value["values"];
-    sparse.values_view = static_cast<int>(values["bufferView"].integer(0, k_max_index));
-    sparse.values_offset = read_offset(values["byteOffset"]);
-    return sparse;
-}
-
-void ModelParser::parse_accessors() {
-    struct ElementType {
-        std::string_view name;
-        std::size_t components;
-    };
-    constexpr std::array<ElementType, 7> k_types = {{{"SCALAR", 1},
-                                                     {"VEC2", 2},
-                                                     {"VEC3", 3},
-                                                     {"VEC4", 4},
-                                                     {"MAT2", 4},
-                                                     {"MAT3", 9},
-                                                     {"MAT4", 16}}};
-    for (const JsonValue& value : root_["accessors"].optional_items()) {
-        Accessor accessor;
-        accessor.view = read_index(value["bufferView"]);
-        accessor.offset = read_offset(value["byteOffset"]);
-        accessor.count = read_size(value["count"], 1);
-        accessor.component_type = parse_component_type(value["componentType"]);
-        accessor.is_normalized = value["normalized"].flag_or(false);
-        const std::string type = value["type"].text();
-        const auto* const found = std::find_if(
-            k_types.begin(), k_types.end(), [&](const ElementType& t) { return t.name == type; });
-        if (found == k_types.end()) {
-            value["type"].refuse("SCALAR, VEC2 to VEC4 or MAT2 to MAT4");
-        } else {
-            accessor.components = found->components;
-            accessor.is_matrix = type.front() == 'M';
-        }
-        if (const JsonValue sparse = value["sparse"]; sparse.exists()) {
-            accessor.sparse = parse_sparse(sparse);
-        }
-        model_.accessors.push_back(std::move(accessor));
-    }
-}
-
 void ModelParser::parse_meshes() {
     std::size_t morph_targets = 0;
     for (const JsonValue& value : root_["meshes"].optional_items()) {
         Mesh mesh;
         mesh.name = value["name"].label();
         mesh.is_synthetic = read_synthetic(value);
-        std::size_t targets_of_mesh = 0;  // every primitive has the same
+        std::size_t targets_of_mesh = 0;  // all primitives of a mesh have the same number
         for (const JsonValue& item : value["primitives"].items()) {
             Primitive primitive;
             primitive.attributes = read_attributes(item["attributes"]);
@@ -324,7 +166,8 @@ Affine parse_transform(const JsonValue& node) {
     return transform;
 }
 
-// Members of other types are for other programs.
+// Reads the members that are numbers or arrays of numbers. Members of other types are for other
+// programs.
 std::map<std::string, std::vector<double>> parse_extras(const JsonValue& extras) {
     constexpr NumberRange k_any = {-std::numeric_limits<double>::max(),
                                    std::numeric_limits<double>::max()};
@@ -353,7 +196,7 @@ void ModelParser::parse_nodes() {
         node.is_synthetic = read_synthetic(value);
         node.mesh = read_index(value["mesh"]);
         node.skin = read_index(value["skin"]);
-        node.children = read_indices(value["children"]);
+        node.children = read_index_array(value["children"]);
         node.local = parse_transform(value);
         node.numbers = parse_extras(value["extras"]);
         if (const JsonValue instancing = extension_of(value, k_instancing); instancing.exists()) {
@@ -367,38 +210,18 @@ void ModelParser::parse_skins() {
     for (const JsonValue& value : root_["skins"].optional_items()) {
         value["joints"].items();  // required
         model_.skins.push_back(
-            {read_indices(value["joints"]), read_index(value["inverseBindMatrices"])});
+            {read_index_array(value["joints"]), read_index(value["inverseBindMatrices"])});
     }
 }
 
 void ModelParser::parse_scenes() {
     model_.scene = read_index(root_["scene"]);
     for (const JsonValue& value : root_["scenes"].optional_items()) {
-        model_.scenes.push_back(read_indices(value["nodes"]));
+        model_.scenes.push_back(read_index_array(value["nodes"]));
     }
 }
 
 }  // namespace
-
-std::vector<double> read_numbers(const JsonValue& array, std::size_t count) {
-    std::vector<double> numbers;
-    if (!array.exists()) {
-        return numbers;
-    }
-    for (const JsonValue& number : array.items()) {
-        numbers.push_back(number.number());
-    }
-    if (numbers.size() != count) {
-        array.refuse("an array of " + std::to_string(count) + " numbers");
-        numbers.resize(count);
-    }
-    return numbers;
-}
-
-JsonValue extension_of(const JsonValue& object, const char* name) {
-    const JsonValue extensions = object["extensions"];
-    return extensions.exists() ? extensions[name] : extensions;
-}
 
 Result<Model> parse_model(std::string_view bytes, const std::string& file) {
     const Result<GlbChunks> chunks = split_glb(bytes, file);

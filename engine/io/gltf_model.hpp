@@ -71,8 +71,8 @@ struct Accessor {
     std::optional<SparseElements> sparse;
 };
 
-// KHR_draco_mesh_compression: a view with compressed geometry and, by attribute name, the
-// attribute's unique id in it.
+// KHR_draco_mesh_compression: a view with compressed geometry, and Draco's unique id of each
+// attribute, by the attribute's name.
 struct Draco {
     int view = k_none;
     std::map<std::string, int> attributes;
@@ -97,7 +97,7 @@ struct Material {
     std::array<float, 3> color = {1.0F, 1.0F, 1.0F};
     float opacity = 1.0F;   // below 1 only if alphaMode is BLEND
     float gloss = 0.0F;     // 1 - roughness
-    float emissive = 0.0F;  // times `color`, >= 0; the brightest channel of the emissive factor
+    float emissive = 0.0F;  // in multiples of `color`, >= 0; from the brightest channel
 };
 
 struct Node {
@@ -107,7 +107,7 @@ struct Node {
     int skin = k_none;
     std::vector<int> children;
     Affine local;  // into the parent's frame
-    // Of its extras, members that are a number or an array of numbers.
+    // The members of its extras that are a number or an array of numbers.
     std::map<std::string, std::vector<double>> numbers;
     // EXT_mesh_gpu_instancing: accessors by name ("TRANSLATION", "ROTATION", "SCALE").
     std::optional<std::map<std::string, int>> instances;
@@ -129,19 +129,19 @@ struct Model {
     std::vector<std::vector<int>> scenes;  // root nodes
     int scene = k_none;
     std::string_view binary;         // the binary chunk; points into the parsed bytes
-    std::vector<std::string> notes;  // about parts that are ignored or clamped
+    std::vector<std::string> notes;  // about parts that were ignored or clamped
 };
 
-// Parses the bytes of a .gltf or .glb, which must outlive the model. Refuses a field of the wrong
+// Parses the bytes of a .gltf or .glb, which must outlive the model. Errors: a field of the wrong
 // type or out of the specification's range, a required extension that is not supported, and a
-// buffer that claims more bytes than the binary chunk has. Indices are not checked against the
-// sections they point into: whoever follows one checks it. Reads no other file. `file` is for
+// buffer that claims more bytes than the binary chunk has. Does not check indices into other
+// sections; the code that uses an index must check it. Reads no other file. `file` is used in
 // messages.
 Result<Model> parse_model(std::string_view bytes, const std::string& file);
 
 std::string pointer(const char* section, int index);  // "/nodes/3"
 
-// Whether `index` is an element of `section`.
+// True if `index` is an element of `section`.
 template <typename T>
 bool has_element(const std::vector<T>& section, int index) {
     return index >= 0 && static_cast<std::size_t>(index) < section.size();
@@ -152,14 +152,14 @@ const T& element(const std::vector<T>& section, int index) {
     return section[static_cast<std::size_t>(index)];
 }
 
-// Keeps the first refusal of a file.
+// Keeps the first error of a file.
 class Refusal {
   public:
     explicit Refusal(std::string file) : file_(std::move(file)) {}
-    // Both return false.
+    // refuse and refuse_index always return false.
     bool refuse(std::string place, std::string expected);
     bool refuse_index(std::string place, const char* what, std::size_t size, int found);
-    // Precondition: something was refused.
+    // Precondition: an error was reported.
     const FileError& error() const { return error_.value(); }
     const std::string& file() const { return file_; }
 

@@ -9,16 +9,16 @@
 namespace handhold::gltf {
 namespace {
 
-constexpr std::size_t k_max_sets = 4;  // of four joints
+constexpr std::size_t k_max_sets = 4;  // sets of four joints each
 
-// One attribute to read and where its values go.
+// An attribute to read and the destination of its values.
 struct Attribute {
     std::string name;
     Elements elements = Elements::vectors;
     std::vector<float>* values = nullptr;
 };
 
-// Reads one primitive. The first error stops it.
+// Reads one primitive. Stops at the first error.
 class PrimitiveReader {
   public:
     PrimitiveReader(const Primitive& primitive, std::string place, AccessorReader& reader,
@@ -93,7 +93,7 @@ bool PrimitiveReader::list_attributes(const Wanted& wanted) {
     return true;
 }
 
-// A primitive that is compressed optionally has uncompressed accessors too.
+// Without Draco: checks that the primitive also has uncompressed geometry.
 bool PrimitiveReader::check_fallback() {
     const int accessor = accessor_of("POSITION");
     return (has_element(model_.accessors, accessor) &&

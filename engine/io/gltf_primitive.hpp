@@ -16,9 +16,9 @@ struct PrimitiveData {
     TriangleMode mode = TriangleMode::list;
     std::size_t vertices = 0;
     std::vector<std::uint32_t> indices;  // each below `vertices`
-    std::vector<float> positions;        // 3 a vertex
-    std::vector<float> normals;          // 3 a vertex; empty if the primitive has none
-    // By set (JOINTS_0, JOINTS_1, ...), 4 a vertex; equally many of both.
+    std::vector<float> positions;        // 3 per vertex
+    std::vector<float> normals;          // 3 per vertex; empty if the primitive has none
+    // By set (JOINTS_0, JOINTS_1, ...), 4 per vertex. `joints` and `weights` have equally many.
     std::vector<std::vector<float>> joints, weights;
 };
 
@@ -29,20 +29,20 @@ struct Wanted {
     bool weights = false;  // requires JOINTS_0 and WEIGHTS_0
 };
 
-// How the primitive's indices form triangles; nothing for points and lines.
+// How the primitive's indices form triangles; nullopt for points and lines.
 std::optional<TriangleMode> triangle_mode(const Primitive& primitive);
 
-// Whether the primitive has no triangles to read: points, lines, or no positions.
+// True if the primitive has no triangles to read: points, lines, or no positions.
 bool is_skipped(const Primitive& primitive);
 
-// Reads a primitive, compressed by Draco or not. Refuses what AccessorReader refuses, attributes
-// of differing counts, indices out of range, more than k_max_level_size vertices or triangles,
-// and a count of indices that forms no triangle. Precondition: !is_skipped(primitive).
+// Reads a primitive, compressed by Draco or not. Errors: those of AccessorReader, attributes of
+// differing counts, indices out of range, more than k_max_level_size vertices or triangles, and a
+// count of indices that forms no triangle. Precondition: !is_skipped(primitive).
 bool read_primitive(const Primitive& primitive, const std::string& place, const Wanted& wanted,
                     AccessorReader& reader, const Model& model, Refusal& refusal,
                     PrimitiveData& out);
 
-// A material of the model, or nothing without one.
+// Sets `material` to the primitive's material; null if it has none.
 bool find_material(const Primitive& primitive, const std::string& place, const Model& model,
                    Refusal& refusal, const Material*& material);
 

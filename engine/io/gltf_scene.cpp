@@ -7,7 +7,8 @@
 namespace handhold::gltf {
 namespace {
 
-// Leaves `roots` without a value if the file has no scene.
+// Sets `roots` to the root nodes of the chosen scene. Leaves it without a value if there is no
+// scene.
 bool choose_roots(const Model& model, Refusal& refusal, std::optional<std::vector<int>>& roots,
                   std::string& place) {
     if (model.scenes.empty() && model.scene == k_none) {

@@ -18,17 +18,17 @@
 namespace handhold {
 
 struct SkinJoint {
-    std::string name;          // of its node; may be empty
-    std::int32_t parent = -1;  // nearest joint above it, into SkinnedMesh::joints; -1: none
+    std::string name;          // name of the joint's node; may be empty
+    std::int32_t parent = -1;  // index of the nearest joint above it; -1: none
     Pose bind_ms;              // in the file's pose, without scale
-    // Extras of its node that are numbers, or arrays of numbers.
+    // Extras of the joint's node that are numbers or arrays of numbers.
     std::map<std::string, std::vector<double>> numbers = {};
 };
 
-// In the frame of the file's scene (_ms), metres, in the pose that the file's nodes give: the bind
-// pose in nearly all files.
+// A mesh and its joints in the frame of the file's scene (_ms), metres. The pose is that of the
+// file's nodes: the bind pose in nearly all files.
 struct SkinnedMesh {
-    std::string file;  // for messages
+    std::string file;  // used in messages
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;                            // by vertex, unit
     std::vector<SkinWeights> weights;                     // by vertex
@@ -45,17 +45,19 @@ constexpr std::size_t k_max_skin_joints = 1024;
 // joints keeps the four heaviest; weights are scaled to a sum of 1. A vertex whose weights are all
 // zero follows the first joint of its skin.
 //
-// Refused, with the JSON pointer of the cause: what load_gltf_level refuses about geometry; no
-// skin or more than one; joints that are not nodes of the scene, are listed twice, or are scaled
-// unevenly or mirrored; weights that are negative or not finite.
+// Errors, with the JSON pointer of the cause: load_gltf_level's errors about geometry; no skin or
+// more than one; joints that are not nodes of the scene, are listed twice, or are scaled unevenly
+// or sheared; weights that are negative or not finite. A joint may be mirrored if its scale is
+// otherwise even: bind_ms then keeps the direction of its Y axis, and is turned about it towards
+// its Z axis.
 Result<SkinnedMesh> load_gltf_skin(const std::filesystem::path& path);
-// Reads from memory. `path` is for messages and for the folder of external buffers.
+// Reads from memory. `path` is used in messages and gives the folder of external buffers.
 Result<SkinnedMesh> parse_gltf_skin(std::string_view bytes, const std::filesystem::path& path);
 
 // Loads a whole figure: every node of the default scene becomes a joint. Meshes without a skin
-// follow their node rigidly, and there may be several skins. Otherwise as load_gltf_skin, but
-// joints may also be scaled unevenly or mirrored: bind_ms then keeps the direction of their Y axis
-// and is turned about it towards their Z axis. Also refuses more than k_max_skin_joints nodes.
+// follow their node rigidly, and there may be several skins. Joints may also be scaled unevenly or
+// sheared: bind_ms is then found as for mirrored joints. More than k_max_skin_joints nodes are an
+// error. Otherwise as load_gltf_skin.
 Result<SkinnedMesh> load_gltf_figure(const std::filesystem::path& path);
 Result<SkinnedMesh> parse_gltf_figure(std::string_view bytes, const std::filesystem::path& path);
 

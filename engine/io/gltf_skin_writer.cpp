@@ -44,7 +44,7 @@ void check_skin(std::size_t materials, const GltfSkin& skin) {
     }
 }
 
-// Node 0 is the root of the skin, node 1 its mesh; joint i is node i + 2.
+// Node 0 is the skin's root, and node 1 its mesh. Joint i is node i + 2.
 void add_nodes(const GltfSkin& skin, GltfJson& root) {
     constexpr std::size_t k_first_joint = 2;
     GltfJson nodes = GltfJson::array();

@@ -10,7 +10,7 @@
 // Writes skinned meshes as glTF 2.0. Source: Khronos glTF 2.0 specification, section 3.7.3.
 namespace handhold {
 
-// The part of a skin with one material.
+// The triangles of a skin that have one material.
 struct GltfSkinSurface {
     std::vector<GltfVertex> vertices;
     std::vector<SkinWeights> weights;  // by vertex
@@ -24,8 +24,8 @@ struct GltfSkin {
     std::vector<GltfSkinSurface> surfaces;
 };
 
-// A rigid object beside the skin: a node with one child per surface. Without surfaces it is an
-// empty node.
+// A rigid object besides the skin: a node with one child per surface. An object without surfaces is
+// an empty node.
 struct GltfObject {
     std::string name;
     Pose pose_ms;

@@ -25,10 +25,10 @@ struct GltfVertex {
 
 // One mesh with one material, and its node.
 struct GltfSurface {
-    std::string group;  // name of the parent node; consecutive surfaces of one group share it
+    std::string group;  // name of the parent node, which consecutive surfaces share
     std::string name;
     std::vector<GltfVertex> vertices;
-    std::vector<std::uint32_t> indices;  // three a triangle, counter-clockwise seen from outside
+    std::vector<std::uint32_t> indices;  // three per triangle, counter-clockwise seen from outside
     std::size_t material = 0;
 };
 

@@ -8,13 +8,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/io/json_tree.hpp"
 #include "engine/io/text_file.hpp"
 
 namespace handhold {
 
 using Json = nlohmann::json;
 
-// nlohmann's destructor allocates for nested documents; k_max_depth bounds that.
+// nlohmann's destructor allocates for nested documents; json_tree.hpp limits the depth.
 struct JsonValue::Document {  // NOLINT(bugprone-exception-escape)
     Json root;
     std::string file;
@@ -23,16 +24,11 @@ struct JsonValue::Document {  // NOLINT(bugprone-exception-escape)
 
 namespace {
 
-constexpr std::size_t k_max_depth = 64;
-constexpr std::size_t k_shown_characters = 60;
-
 std::string write_number(double value) {
     char digits[32];
     std::snprintf(digits, sizeof digits, "%.9g", value);
     return digits;
 }
-
-std::string shorten(std::string_view text) { return printable(text, k_shown_characters); }
 
 std::string describe(const Json* node) {
     if (node == nullptr) {
@@ -44,7 +40,7 @@ std::string describe(const Json* node) {
         case Json::value_t::array:
             return "an array of " + std::to_string(node->size());
         default:
-            return shorten(node->dump(-1, ' ', false, Json::error_handler_t::replace));
+            return shorten_json(node->dump(-1, ' ', false, Json::error_handler_t::replace));
     }
 }
 
@@ -60,143 +56,6 @@ std::string describe(const NumberRange& range) {
     return std::string("a number in ") + (range.above_low ? "(" : "[") + write_number(range.low) +
            ", " + write_number(range.high) + "]";
 }
-
-std::string append_key(const std::string& pointer, std::string_view key) {
-    std::string result = pointer + "/";
-    for (const char c : key) {  // RFC 6901
-        if (c == '~') {
-            result += "~0";
-        } else if (c == '/') {
-            result += "~1";
-        } else {
-            result += c;
-        }
-    }
-    return result;
-}
-
-// "line 3, column 7" of the byte at `position` (counted from 1, as the parser does).
-std::string describe_place(std::string_view text, std::size_t position) {
-    const std::string_view before = text.substr(0, position == 0 ? 0 : position - 1);
-    const auto line = std::count(before.begin(), before.end(), '\n') + 1;
-    const std::size_t last_end = before.rfind('\n');
-    const std::size_t column =
-        before.size() - (last_end == std::string_view::npos ? 0 : last_end + 1) + 1;
-    return "line " + std::to_string(line) + ", column " + std::to_string(column);
-}
-
-// Builds the tree. The library's own builder accepts duplicate keys, has no depth limit, and
-// reports no position for a number out of range.
-class TreeBuilder {
-  public:
-    TreeBuilder(Json& root, std::string_view text, std::string file)
-        : root_(root), text_(text), file_(std::move(file)) {}
-
-    bool null() { return add(Json()) != nullptr; }
-    bool boolean(bool value) { return add(Json(value)) != nullptr; }
-    bool number_integer(Json::number_integer_t value) { return add(Json(value)) != nullptr; }
-    bool number_unsigned(Json::number_unsigned_t value) { return add(Json(value)) != nullptr; }
-    bool number_float(Json::number_float_t value, const std::string& /*digits*/) {
-        return add(Json(value)) != nullptr;
-    }
-    bool string(std::string& value) { return add(Json(std::move(value))) != nullptr; }
-    // Only binary formats call this.
-    bool binary(  // NOLINT(readability-convert-member-functions-to-static)
-        Json::binary_t& /*value*/) {
-        return false;
-    }
-    bool start_object(std::size_t /*size*/) { return open(Json::object()); }
-    bool start_array(std::size_t /*size*/) { return open(Json::array()); }
-    bool end_object() { return close(); }
-    bool end_array() { return close(); }
-
-    bool key(std::string& name) {
-        if (open_.back()->contains(name)) {
-            error_ = FileError{file_, pointer(),
-                               "expected every key once, found \"" + shorten(name) + "\" twice"};
-            return false;
-        }
-        key_ = std::move(name);
-        return true;
-    }
-
-    bool parse_error(std::size_t position, const std::string& /*token*/,
-                     const Json::exception& exception) {
-        // Keeps "syntax error ..." of "[json.exception.parse_error.101] parse error at line 1,
-        // column 2: syntax error ...". describe_place gives the position of every kind of error.
-        std::string reason = exception.what();
-        const std::size_t place = reason.find(": ");
-        const std::size_t name = reason.find("] ");
-        if (place != std::string::npos) {
-            reason = reason.substr(place + 2);
-        } else if (name != std::string::npos) {
-            reason = reason.substr(name + 2);
-        }
-        error_ = FileError{file_, describe_place(text_, position),
-                           "expected JSON: " + printable(reason)};
-        return false;
-    }
-
-    const std::optional<FileError>& error() const { return error_; }
-
-  private:
-    // JSON pointer of the innermost open container.
-    std::string pointer() const {
-        std::string result;
-        for (std::size_t i = 0; i + 1 < open_.size(); ++i) {
-            if (open_[i]->is_array()) {
-                result += "/";
-                result += std::to_string(open_[i]->size() - 1);
-            } else {
-                result = append_key(result, keys_[i + 1]);
-            }
-        }
-        return result;
-    }
-
-    // Pointers in open_ stay valid: a container does not change while one of its children is open.
-    Json* add(Json value) {
-        if (open_.empty()) {
-            root_ = std::move(value);
-            return &root_;
-        }
-        Json& parent = *open_.back();
-        if (parent.is_array()) {
-            parent.push_back(std::move(value));
-            return &parent.back();
-        }
-        Json& member = parent[key_];
-        member = std::move(value);
-        return &member;
-    }
-
-    bool open(Json value) {
-        if (open_.size() >= k_max_depth) {
-            error_ =
-                FileError{file_, pointer(),
-                          "expected at most " + std::to_string(k_max_depth) + " levels of nesting"};
-            return false;
-        }
-        Json* container = add(std::move(value));
-        open_.push_back(container);
-        keys_.push_back(key_);
-        return true;
-    }
-
-    bool close() {
-        open_.pop_back();
-        keys_.pop_back();
-        return true;
-    }
-
-    Json& root_;
-    std::string_view text_;
-    std::string file_;
-    std::vector<Json*> open_;        // containers, outermost first
-    std::vector<std::string> keys_;  // by container: its key, if its parent is an object
-    std::string key_;                // of the next value
-    std::optional<FileError> error_;
-};
 
 }  // namespace
 
@@ -222,7 +81,7 @@ JsonValue JsonValue::operator[](std::string_view key) const {
     } else if (const auto found = node_->find(key); found != node_->end()) {
         member = &*found;
     }
-    return {document_, member, append_key(pointer_, key)};
+    return {document_, member, append_json_key(pointer_, key)};
 }
 
 std::vector<JsonValue> JsonValue::items() const {
@@ -254,8 +113,8 @@ std::vector<std::pair<std::string, JsonValue>> JsonValue::optional_members() con
     }
     result.reserve(node_->size());
     for (auto member = node_->begin(); member != node_->end(); ++member) {
-        result.emplace_back(member.key(),
-                            JsonValue(document_, &*member, append_key(pointer_, member.key())));
+        result.emplace_back(
+            member.key(), JsonValue(document_, &*member, append_json_key(pointer_, member.key())));
     }
     return result;
 }
@@ -278,9 +137,9 @@ void JsonValue::allow_only(std::span<const std::string_view> keys) const {
             known += (known.empty() ? "" : ", ") + std::string(key);
         }
         if (!document_->error) {
-            document_->error = FileError{
-                document_->file, append_key(pointer_, member.key()),
-                "expected one of the keys " + known + ", found \"" + shorten(member.key()) + "\""};
+            document_->error = FileError{document_->file, append_json_key(pointer_, member.key()),
+                                         "expected one of the keys " + known + ", found \"" +
+                                             shorten_json(member.key()) + "\""};
         }
         return;
     }
@@ -348,7 +207,8 @@ Quat JsonValue::rotation() const {
         refuse("a quaternion of length 1, not " + write_number(value.norm()));
         return Quat::Identity();
     }
-    // A quaternion of unit length up to rounding is kept, so that writing and reading is lossless.
+    // A quaternion of unit length up to rounding is not normalised, so that writing and reading it
+    // is lossless.
     constexpr double k_rounding = 1e-15;
     return std::abs(value.squaredNorm() - 1.0) <= k_rounding ? value : value.normalized();
 }
@@ -387,9 +247,8 @@ JsonDocument::~JsonDocument() = default;
 Result<JsonDocument> JsonDocument::parse(std::string_view text, const std::string& file) {
     JsonDocument result;
     result.document_->file = file;
-    TreeBuilder builder(result.document_->root, text, file);
-    if (!Json::sax_parse(text, &builder)) {
-        return builder.error().value_or(FileError{file, "", "expected JSON"});
+    if (const auto error = parse_json_tree(text, file, result.document_->root)) {
+        return *error;
     }
     return result;
 }

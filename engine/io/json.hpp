@@ -32,8 +32,8 @@ constexpr NumberRange k_unit_interval = {0.0, 1.0, false};
 
 class JsonDocument;
 
-// A value of a document and its JSON pointer. It does not exist if its key is absent. Valid as long
-// as the document.
+// A value of a document and its JSON pointer. A value whose key is absent does not exist. Valid as
+// long as the document.
 class JsonValue {
   public:
     bool exists() const { return node_ != nullptr; }
@@ -44,12 +44,12 @@ class JsonValue {
 
     // A member of an object.
     JsonValue operator[](std::string_view key) const;
-    // The elements of an array. For `optional_items` an absent array is empty.
+    // The elements of an array. If the array is absent, optional_items is empty; items is an error.
     std::vector<JsonValue> items() const;
     std::vector<JsonValue> optional_items() const;
     // The members of an object, sorted by key. An absent object is empty.
     std::vector<std::pair<std::string, JsonValue>> optional_members() const;
-    // Refuses every key that is not listed.
+    // Any key that is not listed is an error.
     void allow_only(std::initializer_list<std::string_view> keys) const;
     void allow_only(std::span<const std::string_view> keys) const;
 
@@ -58,19 +58,20 @@ class JsonValue {
     bool flag() const;
     std::string text() const;  // not empty
     Vec3 vector(const NumberRange& range = {}) const;
-    // In the order x, y, z, w. Its length must be within 1e-2 of 1; the result is normalised.
+    // A quaternion x, y, z, w. Its length must be within 1e-2 of 1; the result is normalised.
     Quat rotation() const;
 
-    // As above, but an absent value reads as `fallback`. A null is not absent.
+    // As above, but an absent value reads as `fallback`. A null is not an absent value.
     double number_or(double fallback, const NumberRange& range = {}) const;
     bool flag_or(bool fallback) const;
     std::string text_or(std::string fallback) const;
     Vec3 vector_or(const Vec3& fallback, const NumberRange& range = {}) const;
     Quat rotation_or(const Quat& fallback) const;
-    // For labels: never refused. Empty if the value is absent or not a text.
+    // For labels: never an error. Empty if the value is absent or not a text.
     std::string label() const;
 
-    // The value as JSON text for another parser. An object is written without the members `keys`.
+    // The value as JSON text for another parser. If it is an object, its members `keys` are left
+    // out.
     std::string dump_without(std::initializer_list<std::string_view> keys) const;
 
     const std::string& pointer() const { return pointer_; }
@@ -90,9 +91,9 @@ class JsonValue {
 // A parsed document and the first error found in it.
 class JsonDocument {
   public:
-    // Refused: malformed JSON (the error names line and column), a key twice in one object, a
-    // number out of double's range, text that is not UTF-8, more than 64 levels of nesting. `file`
-    // is for messages.
+    // Errors: malformed JSON (the message gives line and column), a key twice in one object, a
+    // number out of a double's range, text that is not UTF-8, more than 64 levels of nesting.
+    // `file` is used in messages.
     static Result<JsonDocument> parse(std::string_view text, const std::string& file);
     static Result<JsonDocument> load(const std::filesystem::path& path);
 

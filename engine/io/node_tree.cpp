@@ -22,7 +22,7 @@ std::string describe_node_range(const std::vector<FileNode>& nodes, int found) {
            std::to_string(found);
 }
 
-// Fills `parent_of`: by node, its parent, or k_no_parent for a root.
+// Sets parent_of[node] to the node's parent, or to k_no_parent for a root.
 std::optional<FileError> find_parents(const std::vector<FileNode>& nodes, const std::string& file,
                                       std::vector<int>& parent_of) {
     parent_of.assign(nodes.size(), k_no_parent);
@@ -45,8 +45,8 @@ std::optional<FileError> find_parents(const std::vector<FileNode>& nodes, const 
     return std::nullopt;
 }
 
-// Every node has at most one parent, so a node that cannot be reached from a root is in a cycle or
-// below one.
+// Finds a node that is in a cycle or below one. Every node has at most one parent, so it is a node
+// that cannot be reached from a root.
 std::optional<FileError> find_cycle(const std::vector<FileNode>& nodes, const std::string& file,
                                     const std::vector<int>& parent_of) {
     std::vector<std::size_t> reached;

@@ -12,7 +12,7 @@ std::uint8_t byte_at(std::string_view text, std::size_t i) {
     return static_cast<std::uint8_t>(text[i]);
 }
 
-// Bytes of a character by its first byte; 0: no character starts with it.
+// Length in bytes of a UTF-8 character with this first byte; 0 if no character starts with it.
 std::size_t length_from_lead(std::uint8_t lead) {
     if (lead < 0x80U) {
         return 1;
@@ -45,7 +45,8 @@ void append_escape(std::uint8_t byte, std::string& out) {
 }  // namespace
 
 std::size_t printable_length(std::string_view text) {
-    constexpr std::uint32_t k_smallest[] = {0, 0, 0x80U, 0x800U, 0x10000U};  // by length
+    // Smallest code point, by length.
+    constexpr std::uint32_t k_smallest[] = {0, 0, 0x80U, 0x800U, 0x10000U};
     if (text.empty()) {
         return 0;
     }

@@ -5,7 +5,8 @@
 namespace handhold {
 
 std::string FileError::message() const {
-    // Of a file's own text at most k_max_quoted characters: in the place, and after "found".
+    // Limits of the parts of a line. At most k_max_quoted characters come from the file: the place,
+    // and the text after "found".
     constexpr std::size_t k_max_place = 80;
     constexpr std::size_t k_max_expected = 600;
     constexpr std::string_view k_found = ", found ";

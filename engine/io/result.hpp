@@ -12,7 +12,7 @@
 
 namespace handhold {
 
-// Why a file was refused. A refused file is not loaded in part.
+// Why a file was refused. No part of a refused file is loaded.
 struct FileError {
     std::string file;
     std::string place;     // "line 12", a JSON pointer such as "/bodies/3/mass_kg", or empty if the
@@ -20,7 +20,8 @@ struct FileError {
     std::string expected;  // what the reader expected, and what it found
 
     // One line: "ship.json: /bodies/3/mass_kg: expected a number above 0, found -2". Control
-    // characters are escaped and long texts cut (printable.hpp): any field may quote a file.
+    // characters are escaped and long texts cut (printable.hpp), because any field may quote a
+    // file.
     std::string message() const;
 };
 

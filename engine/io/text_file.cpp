@@ -12,7 +12,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Opens with fopen's `mode` and writes all. Returns the reason for a failure; empty: none.
+// Writes all bytes to a file, opened with fopen's `mode`. Returns the reason for a failure; empty
+// if there is none.
 std::string write_bytes(const fs::path& path, const char* mode, std::string_view bytes) {
     const auto reason = [] {
         return "expected a writable place in an existing folder: " +
@@ -89,7 +90,8 @@ std::optional<FileError> write_file_atomically(const fs::path& path, std::string
     if (!target) {
         return target.error();
     }
-    // The random suffix keeps two processes that write the same path from sharing a temporary file.
+    // The random suffix prevents two processes that write to the same path from sharing a temporary
+    // file.
     fs::path temporary = target.value();
     temporary += ".tmp" + std::to_string(std::random_device()());
     std::string reason = write_bytes(temporary, "wbx", text);

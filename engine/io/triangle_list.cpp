@@ -8,8 +8,8 @@ namespace handhold {
 
 namespace {
 
-// Rounding leaves three collinear points a height below 1e-10 of the longest edge. The thinnest
-// triangles of real levels are orders of magnitude higher.
+// True if the triangle's height is above 1e-10 of its longest edge. Rounding gives three collinear
+// points a smaller height; the thinnest triangles of levels are orders of magnitude higher.
 bool has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     constexpr double k_min_height_ratio = 1e-10;
     const double longest2 =
@@ -17,8 +17,8 @@ bool has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     return (b - a).cross(c - a).norm() > k_min_height_ratio * longest2;
 }
 
-// Where the corners of triangle i are in the list of indices. Every second triangle of a strip is
-// reversed so that all face the same way. The hub of a fan comes last.
+// Positions of triangle i's corners in the list of indices. Every second triangle of a strip is
+// reversed so that all face the same side. The hub of a fan comes last.
 std::array<std::size_t, 3> corner_offsets(TriangleMode mode, std::size_t i) {
     switch (mode) {
         case TriangleMode::strip:

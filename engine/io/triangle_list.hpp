@@ -16,9 +16,9 @@ enum class Winding { kept, reversed };
 // their number is not a multiple of three.
 std::size_t count_triangles(TriangleMode mode, std::size_t corners);
 
-// Appends the triangles of `indices`, each plus `first`, to the mesh. Leaves out triangles without
-// area (a corner twice, or three corners on a line up to rounding) and returns their number.
-// Precondition: first + index is below the number of positions for every index.
+// Appends the triangles of `indices` to the mesh. Adds `first` to each index. Leaves out triangles
+// without area (two equal corners, or three corners on a line up to rounding) and returns their
+// number. Precondition: first + index is below the number of positions for every index.
 std::size_t append_triangles(TriangleMode mode, Winding winding,
                              std::span<const std::uint32_t> indices, std::uint32_t first,
                              Mesh& mesh);

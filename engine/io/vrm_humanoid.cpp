@@ -13,7 +13,7 @@ namespace {
 
 using Humanoid = std::map<std::string, std::string>;
 
-// The value at the end of these members, if all of them are there.
+// Follows the members `keys` from object to object. nullopt if one of them is absent.
 std::optional<JsonValue> find_member(JsonValue value, std::initializer_list<const char*> keys) {
     for (const char* const key : keys) {
         if (!value.is_object()) {
@@ -24,7 +24,7 @@ std::optional<JsonValue> find_member(JsonValue value, std::initializer_list<cons
     return value.exists() ? std::optional(value) : std::nullopt;
 }
 
-// Names by node; empty where there is none or where another node has it too.
+// The name of each node; empty if it has none or if another node has the same name.
 std::vector<std::string> node_names(const JsonValue& root) {
     std::vector<std::string> names;
     std::map<std::string, int> uses;

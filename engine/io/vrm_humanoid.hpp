@@ -9,12 +9,12 @@
 // The humanoid table of VRM files. Source: VRM 0.0 (extension VRM) and VRM 1.0 (VRMC_vrm).
 namespace handhold {
 
-// Name of a VRM bone ("leftUpperArm") -> name of its node. Empty if the file has no such table.
-// Leaves out nodes without a name and names that several nodes share. `bytes` are those of a .glb,
-// .vrm or .gltf; `file` is for messages.
+// Maps the name of a VRM bone ("leftUpperArm") to the name of its node. Empty if the file has no
+// such table. Leaves out nodes without a name and names that several nodes share. `bytes` are those
+// of a .glb, .vrm or .gltf; `file` is used in messages.
 //
-// Refused, with the JSON pointer of the cause: bytes that are no glTF; a table with other types, or
-// with nodes that do not exist.
+// Errors, with the JSON pointer of the cause: bytes that are not glTF; a table with members of
+// other types, or with nodes that do not exist.
 Result<std::map<std::string, std::string>> parse_vrm_humanoid(std::string_view bytes,
                                                               const std::string& file);
 

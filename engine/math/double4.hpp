@@ -8,7 +8,7 @@
 // Everything is inlined, so that a function compiled for AVX uses AVX.
 namespace handhold {
 
-// Fixed alignment: GCC's default is smaller without AVX, and both builds must agree.
+// The alignment is fixed, because GCC's default is smaller without AVX, and both builds must agree.
 using Double4 = double __attribute__((vector_size(32), aligned(32)));
 
 #define HH_INLINE [[gnu::always_inline]] inline
@@ -27,7 +27,7 @@ HH_INLINE double dot3(const Double4& a, const Double4& b) {
     return (product[0] + product[1]) + product[2];
 }
 
-// A 3x3 matrix by rows.
+// A 3x3 matrix, stored by rows.
 struct Rows3 {
     Double4 row[3];
 };

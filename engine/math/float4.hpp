@@ -6,14 +6,14 @@
 
 namespace handhold {
 
-// Four floats processed together. For rejection tests with a rounding margin; results use
-// double4.hpp.
+// Four floats processed together. Only for rejection tests with a rounding margin; results are
+// computed in doubles (double4.hpp).
 using Float4 = float __attribute__((vector_size(16)));
 
 // Result of comparisons: each lane is 0 or -1.
 using Int4 = std::int32_t __attribute__((vector_size(16)));
 
-// Four vectors by coordinate, and four triangles by corner.
+// Four vectors: [coordinate][vector]. Four triangles: [corner][coordinate][triangle].
 using Vectors4 = std::array<Float4, 3>;
 using Corners4 = std::array<Vectors4, 3>;
 

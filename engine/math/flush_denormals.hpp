@@ -6,9 +6,9 @@
 
 namespace handhold {
 
-// While alive, flushes denormal doubles (below 2.2e-308) to 0 on this thread. A force at one end of
-// a long rope decays by a constant factor per link down to such numbers, and each operation on them
-// costs about a hundred cycles. Has no effect on other threads, nor on processors without SSE2.
+// While alive, flushes denormal doubles (below 2.2e-308) to 0 on this thread. Each operation on
+// such numbers costs about a hundred cycles. They occur in long ropes: a force at one end decays by
+// a constant factor per link. Has no effect on other threads, nor on processors without SSE2.
 class FlushDenormals {
   public:
 #ifdef __SSE2__
@@ -27,7 +27,7 @@ class FlushDenormals {
 #ifdef __SSE2__
     static constexpr unsigned k_flush_results = 0x8000;
     static constexpr unsigned k_flush_inputs = 0x0040;
-    // A compiler barrier: no memory access is moved across it.
+    // A compiler barrier: the compiler moves no memory access across it.
     static void set(unsigned state) {
         __asm__ volatile("" ::: "memory");
         _mm_setcsr(state);

@@ -1,5 +1,5 @@
-// Sources: trigonometry_series.hpp for sine and cosine; arc tangent by the addition theorem from a
-// table, and its series.
+// Sine and cosine: see trigonometry_series.hpp. The arc tangent uses a table, the addition theorem
+// and a series.
 #include "engine/math/math.hpp"
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 namespace handhold {
 namespace {
 
-// arctan on [0, 1]. Starts at the nearest tabulated sixteenth; the remainder is below 1/32, where
-// five terms reach full precision.
+// arctan on [0, 1]. Starts at the nearest tabulated sixteenth. The remainder is below 1/32, where
+// five terms of the series reach full precision.
 double arc_tangent_unit(double x) {
     constexpr double k_steps = 16.0;
     constexpr double k_table[] = {
@@ -34,7 +34,7 @@ double arc_tangent_unit(double x) {
         0.75315128096219441,
         0.78539816339744828,
     };
-    // X >= 0, so truncating this rounds x to the nearest step.
+    // Truncation rounds x to the nearest step, because x >= 0.
     const double half_way_on = x * k_steps + 0.5;
     const int step = static_cast<int>(half_way_on);
     const double from = step * (1.0 / k_steps);
@@ -92,10 +92,10 @@ void sin_cos(double angle_rad, double& sine, double& cosine) {
 double arc_tangent2(double y, double x) {
     const double ax = std::abs(x);
     const double ay = std::abs(y);
-    if (!(ax + ay > 0.0)) {  // (0, 0), NaN
+    if (!(ax + ay > 0.0)) {  // both are 0, or one is NaN
         return 0.0;
     }
-    // Equal magnitudes, including two infinities, which have no quotient.
+    // The angle for equal magnitudes. Two infinities count as equal, because they have no quotient.
     double angle = 0.25 * k_pi;
     if (ay < ax) {
         angle = arc_tangent_unit(ay / ax);
@@ -118,7 +118,7 @@ Quat rotation_from_vector(const Vec3& vector_rad) {
 }
 
 Vec3 rotation_to_vector(const Quat& rotation) {
-    // A quaternion and its negative are the same rotation; takes the shorter way.
+    // A quaternion and its negative are the same rotation. Uses the one with the shorter vector.
     const double sign = rotation.w() < 0.0 ? -1.0 : 1.0;
     const Vec3 axis = sign * rotation.vec();
     const double sine = axis.norm();
@@ -155,8 +155,8 @@ Quat rotation_between(const Vec3& from, const Vec3& to) {
         return unit_quat(1.0 + cosine, axis.x(), axis.y(), axis.z());
     }
     // For nearly opposite directions, 1 + cosine and the axis lose digits. The half angle's cosine
-    // and sine are taken from the sum and difference, which keep theirs. The axis may be any
-    // direction perpendicular to `from`.
+    // and sine are therefore computed from the sum and the difference of the directions, which lose
+    // none. The axis may be any direction perpendicular to `from`.
     if (axis.norm() < 1e-14) {
         axis = from.cross(std::abs(from.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitY());
     }

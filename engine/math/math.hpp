@@ -5,8 +5,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-// The only file that includes Eigen. Right-handed, +Y up, -Z forward, +X right; metres, seconds,
-// radians. Never use `auto` for an Eigen expression: it would hold references to temporaries.
+// The only file of the engine that includes Eigen. Right-handed, +Y up, -Z forward, +X right;
+// metres, seconds, radians. Never use `auto` for an Eigen expression: it would hold references to
+// temporaries.
 namespace handhold {
 
 using Vec3 = Eigen::Vector3d;
@@ -82,8 +83,8 @@ inline double sine(double angle_rad) {
 // or infinite; -0.0 counts as 0.0. Returns 0 for (0, 0) and NaN. Deterministic, like sin_cos.
 double arc_tangent2(double y, double x);
 
-// Unit quaternion of the rotation about `vector`'s direction by its length (radians). The inverse
-// returns the shortest rotation vector, length in [0, pi].
+// rotation_from_vector: unit quaternion of the rotation about `vector_rad`, by its length.
+// rotation_to_vector is the inverse and returns the shortest vector, with a length in [0, pi].
 Quat rotation_from_vector(const Vec3& vector_rad);
 Vec3 rotation_to_vector(const Quat& rotation);
 // Rotation by angle_rad about the unit vector `axis`.
@@ -92,15 +93,16 @@ Quat rotation_about(const Vec3& axis, double angle_rad);
 // opposite.
 Quat rotation_between(const Vec3& from, const Vec3& to);
 
-// Rotation with -Z along `forward` and +Y as near to `up` as possible. Both may have any length but
-// 0. If they are parallel, the roll is arbitrary.
+// Rotation with -Z along `forward` and +Y as near to `up` as possible. `forward` and `up` may have
+// any length but 0. If they are parallel, the roll is arbitrary.
 Quat look_rotation(const Vec3& forward, const Vec3& up);
 
 // Interpolates two poses, t in [0, 1]: positions linearly, rotations along the shorter arc at
 // constant speed.
 Pose interpolate(const Pose& a, const Pose& b, double t);
 
-// 0 up to `from`, 1 from `to` on, 3t^2 - 2t^3 in between at fraction t; from < to.
+// 0 for x <= from, 1 for x >= to; in between 3t^2 - 2t^3, t = (x - from) / (to - from).
+// Precondition: from < to.
 double smooth_step(double x, double from, double to);
 
 }  // namespace handhold

@@ -9,7 +9,7 @@
 // by least squares, so that a solution always exists.
 namespace handhold {
 
-inline constexpr std::size_t k_max_unknowns = 22;
+inline constexpr std::size_t k_max_unknowns = 26;
 inline constexpr std::size_t k_max_penalty_rows = 320;
 
 using Unknowns = Eigen::Matrix<double, static_cast<int>(k_max_unknowns), 1>;

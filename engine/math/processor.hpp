@@ -1,7 +1,7 @@
 #pragma once
 
-// Speed-critical functions on Double4 are compiled twice: portably and for AVX2. Both give equal
-// bits; no fused multiply-add is used.
+// Speed-critical functions on Double4 are compiled twice: portably and for AVX2. Both versions give
+// equal bits, because neither uses fused multiply-add.
 namespace handhold {
 
 enum class Vectors : unsigned char { portable, avx2 };

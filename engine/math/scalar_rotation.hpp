@@ -4,9 +4,9 @@
 
 #include "engine/math/math.hpp"
 
-// Quaternion operations on scalars. Eigen loads quaternion components in pairs. If they were just
-// written singly, the load stalls until both stores reach the cache; this took a third of the time
-// in code that builds many rotations.
+// Quaternion operations on scalars. Eigen loads quaternion components in pairs. If the components
+// were just written one by one, such a load stalls until both stores reach the cache. This took a
+// third of the time in code that builds many rotations.
 namespace handhold {
 
 // A unit vector perpendicular to a unit axis.
@@ -16,7 +16,8 @@ inline Vec3 any_perpendicular(const Vec3& axis) {
 }
 
 // Converts a fraction of the angle between two unit vectors to a fraction of the line between them.
-// First term of the series in the angle: within 1e-4 rad if `cosine` >= 0.95.
+// `cosine` is that of the angle. Uses the first term of the series in the angle: the error is below
+// 1e-4 rad if `cosine` >= 0.95.
 inline double share_of_line(double share, double cosine) {
     return share * (1.0 + (1.0 - share) * (1.0 - 2.0 * share) * (1.0 - cosine) * (1.0 / 3.0));
 }
@@ -34,8 +35,8 @@ inline Quat product(const Quat& a, const Quat& b) {
             a.w() * b.z() + a.z() * b.w() + (a.x() * b.y() - a.y() * b.x())};
 }
 
-// Rotation that maps the coordinate axes onto x, y and z (orthonormal, right-handed). After
-// Shepperd 1978: divides by the largest component.
+// Rotation that maps the coordinate axes onto x, y and z (orthonormal, right-handed). Source:
+// Shepperd 1978, which divides by the largest component.
 inline Quat rotation_from_axes(const Vec3& x, const Vec3& y, const Vec3& z) {
     const double trace = x.x() + y.y() + z.z();
     if (trace > 0.0) {

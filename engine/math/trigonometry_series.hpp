@@ -2,21 +2,21 @@
 
 #include "engine/math/double4.hpp"
 
-// Series of sine and cosine and their range reduction to [-pi/4, pi/4], for scalars and Double4.
-// Reduction after Cody and Waite 1980 with pi/2 in three parts; Taylor series with remainders below
-// half a unit in the last place.
+// Series of sine and cosine, and range reduction to [-pi/4, pi/4], for scalars and Double4. The
+// reduction follows Cody and Waite 1980, with pi/2 in three parts. The Taylor series have
+// remainders below half a unit in the last place.
 namespace handhold {
 
 inline constexpr double k_two_over_pi = 0.63661977236758134308;
-// pi/2 = high + middle + low. The first two have trailing zero bits, so that their multiples up to
-// 2^20 are exact.
+// pi/2 = high + middle + low. `high` and `middle` have trailing zero bits, so that their multiples
+// up to 2^20 are exact.
 inline constexpr double k_half_pi_high = 1.57079632673412561417e+00;
 inline constexpr double k_half_pi_middle = 6.07710050630396597660e-11;
 inline constexpr double k_half_pi_low = 2.02226624879595063154e-21;
-// 1.5 * 2^52. Doubles of this size have a spacing of 1: adding it rounds to the nearest integer,
-// which then stands in the sum's low bits.
+// 1.5 * 2^52. Doubles of this size have a spacing of 1, so adding it to a number rounds to the
+// nearest integer. The low bits of the sum hold this integer.
 inline constexpr double k_last_place_one = 6755399441055744.0;
-// Larger angles have no exact reduction.
+// Largest angle that is reduced exactly.
 inline constexpr double k_largest_reduced_rad = 1e6;
 
 template <typename Number>

@@ -11,9 +11,9 @@
 
 #include "engine/math/double4.hpp"
 
-// Structure-of-arrays types: four vectors, rotations or matrices, where lane i of each member
-// belongs to item i. All items are processed alike and no number moves between lanes. Sums use
-// double4.hpp's order, so results do not depend on the processor.
+// Structure-of-arrays types: four vectors, rotations or matrices. Lane i of each member belongs to
+// item i. All items are processed alike, and no number moves between lanes. Sums use double4.hpp's
+// order, so results do not depend on the processor.
 namespace handhold {
 
 struct Wide3 {
@@ -27,8 +27,8 @@ struct WideSymmetric {
     Double4 xx, yy, zz, xy, xz, yz;
 };
 
-// Member by member: assigning the whole struct makes GCC copy through memory in pieces of other
-// sizes.
+// Assigns member by member. To assign the whole struct, GCC would copy through memory, in pieces of
+// other sizes.
 HH_INLINE void assign(const Wide3& from, Wide3& to) {
     to.x = from.x;
     to.y = from.y;
@@ -61,8 +61,8 @@ HH_INLINE void set_lane(std::size_t lane, const Quat& q, Wide4& out) {
     out.z[lane] = q.z();
     out.w[lane] = q.w();
 }
-// Scalar by scalar, like scalar_rotation.hpp: Eigen would load components in pairs and stall on
-// stores that were just made singly.
+// Reads scalars one by one, like scalar_rotation.hpp: Eigen would load components in pairs and
+// stall on stores that were just made one by one.
 HH_INLINE void get_lane(std::size_t lane, const Wide3& v, Vec3& out) {
     out.x() = v.x[lane];
     out.y() = v.y[lane];
@@ -104,7 +104,7 @@ HH_INLINE Wide3 multiply(const WideSymmetric& m, const Wide3& v) {
             (m.xz * v.x + m.yz * v.y) + m.zz * v.z};
 }
 
-// As std::max: returns `a` if one of them is NaN.
+// Like std::max, returns `a` if one argument is NaN.
 HH_INLINE Double4 larger(const Double4& a, const Double4& b) { return b > a ? b : a; }
 HH_INLINE double largest(const Double4& v) {
     const double low = v[1] > v[0] ? v[1] : v[0];
@@ -115,7 +115,7 @@ HH_INLINE double largest(const Double4& v) {
 // Comparison result: each lane is 0 or -1 (all bits set).
 using Mask4 = std::int64_t __attribute__((vector_size(32), aligned(32)));
 
-// Uses the instruction: std::sqrt would check every sign for errno.
+// Uses the SSE2 instruction, because std::sqrt would check every sign for errno.
 HH_INLINE Double4 square_root(const Double4& v) {
 #ifdef __SSE2__
     const __m128d low = _mm_sqrt_pd(__m128d{v[0], v[1]});
@@ -143,7 +143,7 @@ HH_INLINE Wide3 to_wide3(const Double4& a, const Double4& b, const Double4& c, c
     return {all.x, all.y, all.z};
 }
 
-// Transposes: row i holds x, y, z, w of lane i.
+// Transposes: row i holds x, y, z and w of lane i.
 HH_INLINE Wide4 to_rows(const Wide4& v) { return to_wide4(v.x, v.y, v.z, v.w); }
 // The fourth component is 0.
 HH_INLINE Wide4 to_rows(const Wide3& v) { return to_wide4(v.x, v.y, v.z, zero4()); }

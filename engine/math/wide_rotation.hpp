@@ -3,7 +3,7 @@
 #include "engine/math/trigonometry_series.hpp"
 #include "engine/math/wide.hpp"
 
-// Operations on four rotations; the same steps as math.cpp's for one.
+// Operations on four rotations, with the same steps as those on one rotation in math.cpp.
 namespace handhold {
 
 // Four at a time, bitwise equal to math.hpp's sin_cos.
@@ -25,7 +25,7 @@ HH_INLINE void sin_cos(const Double4& angle_rad, Double4& sine, Double4& cosine)
     cosine = is_small ? __builtin_bit_cast(Double4, of_cosine) : zero4() + 1.0;
 }
 
-// Columns: the rotated coordinate axes.
+// Rotation matrices by columns, which are the rotated coordinate axes.
 struct WideAxes {
     Wide3 x, y, z;
 };

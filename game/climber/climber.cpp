@@ -6,43 +6,26 @@
 #include "engine/core/check.hpp"
 #include "game/climber/climber_body.hpp"
 #include "game/climber/climber_plan.hpp"
+#include "game/climber/climber_steer.hpp"
 #include "game/scene/player_defaults.hpp"
 
 namespace handhold {
 namespace {
 
 constexpr double k_query_interval_s = 0.1;
-constexpr double k_missed_after_s = 0.02;  // a closed hand that still holds nothing by then failed
-constexpr double k_grip_lost_m = 0.1;   // grab error above which a hand is held back by something
-constexpr double k_both_hold_s = 0.15;  // before one of two holding hands moves on
-constexpr double k_near_waypoint_m = 0.3;
-constexpr double k_leap_clearance_m = 1.2;  // free distance that is worth a push-off
+// A closed hand that holds nothing after this time has failed to grip.
+constexpr double k_missed_after_s = 0.02;
+// Grab error above which the hand releases, because something holds it back.
+constexpr double k_grip_lost_m = 0.1;
+// Both hands hold at least this long before one of them releases.
+constexpr double k_both_hold_s = 0.15;
+constexpr double k_leap_clearance_m = 1.2;  // minimum free distance ahead for a push-off
 constexpr double k_leap_mps = 1.2;
 constexpr double k_leap_longest_s = 0.8;
 constexpr double k_leap_stretch_m = 0.62;
 constexpr std::uint32_t k_failed_queries_before_leap = 3;
-constexpr double k_adrift_s = 1.0;  // without a hold before the climber acts
+constexpr double k_adrift_s = 1.0;  // time without a hold before the climber may use jets
 constexpr double k_return_mps = 1.2;
-constexpr double k_detour_s = 2.0;
-constexpr double k_stuck_s = 12.0;  // on the way to one waypoint
-
-// The inputs and state of one frame's decision.
-struct Mind {
-    const ClimberSight& sight;
-    const ClimberTask& task;
-    ClimberMoment now;
-    ClimberState& state;
-
-    const World& world() const { return sight.scene.world; }
-    Entity player() const { return task.player.player; }
-    ClimberHand& hand(HandSide side) const { return state.hands[index_of(side)]; }
-    Vec3 wrist_ws(HandSide side) const {
-        return transform_point(now.origin_ws, hand(side).wrist_ps.position);
-    }
-    double stretch_m(HandSide side) const {
-        return (hand(side).wrist_ps.position - shoulder_ps(state, side)).norm();
-    }
-};
 
 constexpr std::array<HandSide, k_hand_count> k_sides = {HandSide::left, HandSide::right};
 HandSide other(HandSide side) { return side == HandSide::left ? HandSide::right : HandSide::left; }
@@ -54,14 +37,14 @@ std::size_t count_hands(const ClimberState& state, ClimberHandMode mode) {
 
 // --- Results of grabs ---
 
-void feel_closing(const Mind& mind, HandSide side, const Grab& grab) {
+void feel_closing(const ClimberMind& mind, HandSide side, const Grab& grab) {
     ClimberHand& hand = mind.hand(side);
     if (grab.kind == GripKind::surface) {
         hand.mode = ClimberHandMode::holding;
         hand.change_s = mind.now.t_s;
         mind.state.home = hand.hold;
-        mind.state.home.body =
-            grab.body;  // the grab may have hit something in front of the planned hold
+        // The hand may have gripped a body in front of the planned hold.
+        mind.state.home.body = grab.body;
         hand.hold.body = grab.body;
         hand.hold.wrist_bs = grab.anchor_bs;
     } else if (grab.kind == GripKind::held) {
@@ -73,7 +56,7 @@ void feel_closing(const Mind& mind, HandSide side, const Grab& grab) {
     }
 }
 
-void feel_hands(const Mind& mind) {
+void feel_hands(const ClimberMind& mind) {
     for (const HandSide side : k_sides) {
         ClimberHand& hand = mind.hand(side);
         const Grab& grab = mind.world().grab.at(mind.task.player.hands[index_of(side)]);
@@ -98,89 +81,9 @@ void feel_hands(const Mind& mind) {
     }
 }
 
-// --- Where to go ---
-
-Vec3 waypoint_ws(const Mind& mind) {
-    const std::size_t index =
-        std::min<std::size_t>(mind.state.waypoint, mind.task.waypoints.size() - 1);
-    const ClimberWaypoint& waypoint = mind.task.waypoints[index];
-    const BodyPose* const body = mind.world().body_pose.find(waypoint.body);
-    return body != nullptr ? transform_point(body->pose_ws, waypoint.point_bs) : waypoint.point_bs;
-}
-
-// Points the heading to the waypoint. False if the climber stays.
-bool head_for_waypoint(const Mind& mind) {
-    ClimberState& state = mind.state;
-    Vec3 way = waypoint_ws(mind) - mind.now.head_ws;
-    if (way.norm() < k_near_waypoint_m && !is_at_target(mind.task, state)) {
-        ++state.waypoint;
-        state.waypoint_since_s = mind.now.t_s;
-        way = waypoint_ws(mind) - mind.now.head_ws;
-    }
-    if (is_at_target(mind.task, state) && way.norm() < 2.0 * k_near_waypoint_m) {
-        return false;
-    }
-    if (mind.now.t_s < state.detour_until_s) {
-        return true;
-    }
-    if (mind.now.t_s - state.waypoint_since_s > k_stuck_s) {
-        state.waypoint_since_s = mind.now.t_s;
-        state.detour_until_s = mind.now.t_s + k_detour_s;
-        state.heading_ws = choose_heading(mind.sight, mind.player(), mind.now.head_ws, state);
-        return true;
-    }
-    state.heading_ws = way.norm() > 1e-6 ? Vec3(way.normalized()) : state.heading_ws;
-    return true;
-}
-
-void head_anywhere(const Mind& mind) {
-    ClimberState& state = mind.state;
-    state.heading_ws = choose_heading(mind.sight, mind.player(), mind.now.head_ws, state);
-    state.heading_until_s = mind.now.t_s + state.random.between(3.0, 9.0);
-    state.failed_queries = 0;
-}
-
-void look_ahead(const Mind& mind) {
-    constexpr double k_far_m = 6.0;
-    const auto way_m = free_distance_m(mind.sight, mind.player(), mind.now.head_ws,
-                                       mind.state.heading_ws, k_far_m);
-    mind.state.way_ahead_m = way_m.value_or(k_far_m);
-    mind.state.shore_ahead = way_m.has_value();
-}
-
-// The wanted velocity of the head: along the heading, slower in front of a wall, away from nearby
-// surfaces.
-Vec3 steer(const Mind& mind) {
-    ClimberState& state = mind.state;
-    bool goes_on = true;
-    look_ahead(mind);
-    if (!mind.task.waypoints.empty()) {
-        goes_on = head_for_waypoint(mind);
-        look_ahead(mind);
-    } else if (mind.now.t_s >= state.heading_until_s || state.way_ahead_m < 1.5 * k_head_clear_m) {
-        head_anywhere(mind);
-        look_ahead(mind);
-    }
-    const double room = std::clamp((state.way_ahead_m - k_head_clear_m) / 0.4, 0.0, 1.0);
-    Vec3 wanted_mps = Vec3::Zero();
-    if (goes_on) {
-        wanted_mps = (mind.task.cruise_mps * room) * state.heading_ws;
-    }
-    const std::array<std::uint64_t, 1> himself = {
-        mind.world().persistent_id.at(mind.player()).value};
-    if (const auto near =
-            mind.sight.collision.closest_point(mind.now.head_ws, k_head_clear_m, himself)) {
-        constexpr double k_push_mps = 0.5;
-        const double into = wanted_mps.dot(near->normal_ws);
-        wanted_mps -= std::min(0.0, into) * near->normal_ws;
-        wanted_mps += (k_push_mps * (1.0 - near->distance_m / k_head_clear_m)) * near->normal_ws;
-    }
-    return wanted_mps;
-}
-
 // --- Hand over hand ---
 
-bool try_reach(const Mind& mind, HandSide side, const Vec3& toward_ws) {
+bool try_reach(const ClimberMind& mind, HandSide side, const Vec3& toward_ws) {
     const bool loose_too =
         mind.task.picks_up_bodies && mind.now.carried && mind.state.random.chance(0.15);
     const auto found =
@@ -194,8 +97,8 @@ bool try_reach(const Mind& mind, HandSide side, const Vec3& toward_ws) {
     return true;
 }
 
-// Releases the hand that is farther behind, of two that hold.
-void release_trailing(const Mind& mind) {
+// Precondition: both hands hold. Releases the hand that is farther back along the heading.
+void release_trailing(const ClimberMind& mind) {
     const auto ahead_m = [&mind](HandSide side) {
         return (mind.wrist_ws(side) - mind.now.head_ws).dot(mind.state.heading_ws);
     };
@@ -209,8 +112,9 @@ void release_trailing(const Mind& mind) {
     let_go(mind.state, left_m < right_m ? HandSide::left : HandSide::right);
 }
 
-// With single_hand the climber floats for a moment between two holds.
-void hand_over(const Mind& mind) {
+// For ClimberTask::single_hand: releases the holding hand shortly before the other hand closes, so
+// the climber floats for a moment.
+void hand_over(const ClimberMind& mind) {
     constexpr double k_float_s = 0.06;
     for (const HandSide side : k_sides) {
         const ClimberHand& next = mind.hand(other(side));
@@ -222,13 +126,13 @@ void hand_over(const Mind& mind) {
     }
 }
 
-void begin_leap(const Mind& mind) {
+void begin_leap(const ClimberMind& mind) {
     mind.state.leaping = true;
     mind.state.leap_until_s = mind.now.t_s + k_leap_longest_s;
     mind.state.failed_queries = 0;
 }
 
-void go_on(const Mind& mind, const Vec3& wanted_mps) {
+void go_on(const ClimberMind& mind, const Vec3& wanted_mps) {
     ClimberState& state = mind.state;
     state.wanted_ps_mps = mind.now.origin_ws.rotation.conjugate() * wanted_mps;
     state.gaze_ws = state.heading_ws;
@@ -258,9 +162,9 @@ void go_on(const Mind& mind, const Vec3& wanted_mps) {
     }
 }
 
-// Pushes off with the holding hand: releases it once the climber is fast enough or the arm is
-// straight.
-void leap(const Mind& mind) {
+// Pushes off with the holding hand. Releases it once the climber is fast enough, the arm is nearly
+// straight, or the push has lasted too long.
+void leap(const ClimberMind& mind) {
     ClimberState& state = mind.state;
     const Vec3 heading_ps = mind.now.origin_ws.rotation.conjugate() * state.heading_ws;
     state.wanted_ps_mps = k_leap_mps * heading_ps;
@@ -283,8 +187,9 @@ void leap(const Mind& mind) {
 
 // --- Without a hold ---
 
-// Uses small jets, as a person would by hand, towards the last support or something near.
-void return_home(const Mind& mind) {
+// Thrusts with the jets towards `home`. If the head is already near it, or now and then at random,
+// first replaces `home` by a surface nearby.
+void return_home(const ClimberMind& mind) {
     ClimberState& state = mind.state;
     const double jets_mps2 = mind.sight.scene.tuning.locomotion.thruster_mps2;
     Vec3 home_ws = transform_point(body_at(mind.world(), state.home.body, mind.now, mind.now.t_s),
@@ -315,7 +220,7 @@ void return_home(const Mind& mind) {
     state.thrust_ps = mind.now.origin_ws.rotation.conjugate() * thrust;
 }
 
-void drift(const Mind& mind) {
+void drift(const ClimberMind& mind) {
     ClimberState& state = mind.state;
     state.leaping = false;
     state.wanted_ps_mps.setZero();
@@ -346,7 +251,7 @@ void drift(const Mind& mind) {
     }
 }
 
-void decide(const Mind& mind) {
+void decide(const ClimberMind& mind) {
     mind.state.thrust_ps.setZero();
     if (mind.now.carried) {
         const Vec3 wanted_mps = steer(mind);
@@ -384,15 +289,16 @@ ClimberState begin_climber(const Scene& scene, const ClimberTask& task, std::uin
 PlayerCommands climb(const ClimberSight& sight, const ClimberTask& task, double frame_end_s,
                      ClimberState& state, std::vector<TrackingSample>& samples) {
     samples.clear();
-    Mind mind{sight, task, sense(sight.scene, task, state), state};
+    ClimberMind mind{sight, task, sense(sight.scene, task, state), state};
     if (state.last.t_s > mind.now.t_s || !state.first_given) {
         samples.push_back(state.last);
         state.first_given = true;
     }
     feel_hands(mind);
-    mind.now = sense(sight.scene, task, state);  // the present hold is the support
+    // Again: feel_hands() may have changed the hold that supports the climber.
+    mind.now = sense(sight.scene, task, state);
     if (mind.now.t_s >= state.next_query_s) {
-        // Climbers of a crowd look around in different frames.
+        // The interval is random, so that the climbers of a crowd decide in different frames.
         state.next_query_s = mind.now.t_s + state.random.between(0.8, 1.2) * k_query_interval_s;
         decide(mind);
     }

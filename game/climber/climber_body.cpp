@@ -1,5 +1,5 @@
-// Reaches are minimum-jerk movements (Flash and Hogan 1985): the fraction of the way at time u in
-// [0, 1] is 10 u^3 - 15 u^4 + 6 u^5.
+// A reach is a minimum-jerk movement (Flash and Hogan 1985): at time u in [0, 1] it has covered the
+// fraction 10 u^3 - 15 u^4 + 6 u^5 of its path.
 #include "game/climber/climber_body.hpp"
 
 #include <algorithm>
@@ -14,25 +14,26 @@ namespace handhold {
 namespace {
 
 constexpr double k_acceleration_mps2 = 2.5;
-constexpr double k_braking_mps2 = 5.0;  // when catching a hold
-constexpr double k_hurry_per_s = 8.0;   // rate at which the velocity approaches the wanted one
-constexpr double k_stretch_rate_per_s = 4.0;  // an arm slows down before it is straight
-constexpr double k_turn_radps = 1.2;          // of the chest
-constexpr double k_climber_lift_m = 0.06;     // height of a moving hand above the surface
+constexpr double k_braking_mps2 = 5.0;  // deceleration, also when catching a hold
+constexpr double k_hurry_per_s = 8.0;   // rate at which the velocity approaches the wanted velocity
+// An arm may lengthen by this rate times the length that it has left.
+constexpr double k_stretch_rate_per_s = 4.0;
+constexpr double k_turn_radps = 1.2;       // rotation of the chest
+constexpr double k_climber_lift_m = 0.06;  // height of a moving hand above the surface
 constexpr double k_rest_s = 0.5;
-constexpr double k_tremor_m = 0.0005;  // amplitude
+constexpr double k_tremor_m = 0.0005;  // amplitude of the hands' tremor
 
 double outward(HandSide side) { return side == HandSide::right ? 1.0 : -1.0; }
 
 Quat chest(const ClimberState& state) { return rotation_about(Vec3::UnitY(), state.chest_yaw_rad); }
 
-// A standing person sways.
+// Position of the eyes in play space. A standing person sways slightly.
 Vec3 eyes_at(double t_s, double phase_rad) {
     return {0.02 * sine(0.4 * t_s + phase_rad), k_eye_height_m + 0.01 * sine(0.5 * t_s),
             0.02 * sine(0.3 * t_s + 2.0 * phase_rad)};
 }
 
-// Beside and before the chest, palm down, fingers forward.
+// Rest pose of a wrist: beside and in front of the chest, palm down, fingers forward.
 Pose rest_ps(const ClimberState& state, HandSide side) {
     const Quat ahead = chest(state);
     return {state.eyes_ps + ahead * Vec3(0.22 * outward(side), -0.42, -0.30), ahead};
@@ -40,8 +41,9 @@ Pose rest_ps(const ClimberState& state, HandSide side) {
 
 double minimum_jerk(double u) { return u * u * u * (10.0 + u * (-15.0 + 6.0 * u)); }
 
-// The pose on a movement that begins at the hand's start pose and velocity, follows a bow of the
-// given height, and ends at a target that may move.
+// The wrist's pose at `t_s` during a movement. It starts with the hand's start pose and velocity,
+// and ends at `to_ps`, which may move meanwhile. `bow_ps`: offset from the direct path at half
+// time.
 Pose on_the_way(const ClimberHand& hand, const Pose& to_ps, const Vec3& bow_ps, double t_s) {
     const double seconds = std::max(hand.until_s - hand.from_s, 1e-3);
     const double u = std::clamp((t_s - hand.from_s) / seconds, 0.0, 1.0);
@@ -71,7 +73,8 @@ bool pulls(const ClimberHand& hand) {
     return hand.mode == ClimberHandMode::holding || hand.mode == ClimberHandMode::closing;
 }
 
-// Accelerates and decelerates at a bounded rate, and slows down before an arm is straight.
+// Moves the head's velocity towards the wanted velocity with limited acceleration. Slows down
+// before an arm is straight.
 void pull_body(double dt_s, ClimberState& state) {
     Vec3 change = (k_hurry_per_s * dt_s) * (state.wanted_ps_mps - state.velocity_ps_mps);
     const bool brakes = state.wanted_ps_mps.norm() < state.velocity_ps_mps.norm();
@@ -96,7 +99,8 @@ void pull_body(double dt_s, ClimberState& state) {
     }
 }
 
-// The chest follows the heading unless that would straighten an arm.
+// Turns the chest towards the heading, unless a pulling arm is nearly straight. Turns the head
+// towards the gaze.
 void turn_body(double dt_s, const Quat& play_space, ClimberState& state) {
     const Vec3 ahead = play_space.conjugate() * state.heading_ws;
     constexpr double k_steep = 0.4;
@@ -110,7 +114,7 @@ void turn_body(double dt_s, const Quat& play_space, ClimberState& state) {
         const double off_rad = arc_tangent2(-in_chest.x(), -in_chest.z());
         state.chest_yaw_rad += std::clamp(off_rad, -k_turn_radps * dt_s, k_turn_radps * dt_s);
     }
-    // Necks bend at most 50 degrees, so the gaze stays near the floor's plane.
+    // The gaze's pitch is limited to 50 degrees, as a neck's is.
     Vec3 gaze = chest(state).conjugate() * (play_space.conjugate() * state.gaze_ws);
     gaze.z() = std::min(gaze.z(), -0.3);
     gaze.y() = std::clamp(gaze.y(), 1.2 * gaze.z(), -1.2 * gaze.z());
@@ -120,7 +124,7 @@ void turn_body(double dt_s, const Quat& play_space, ClimberState& state) {
     state.look_ps = look.rotation;
 }
 
-// A hold as the tracked pose of a hand there.
+// A hold in play space: the tracked wrist of a hand there, and the surface's outward normal.
 struct HoldPlace {
     Pose wrist_ps;
     Vec3 away_ps;
@@ -138,7 +142,8 @@ HoldPlace place_of(const World& world, const ClimberHold& hold, const ClimberMom
             origin_ws.rotation.conjugate() * away_ws};
 }
 
-// A climber who drifted until now arrives with the drift's velocity relative to the hold.
+// Sets the velocity of a drifting climber who catches a hold: that of the play space relative to
+// the hold.
 void catch_body(const World& world, const ClimberMoment& now, const ClimberHold& hold,
                 ClimberState& state) {
     const Vec3 point_ws =
@@ -262,7 +267,8 @@ void let_go(ClimberState& state, HandSide side) {
 double next_sample_time(const ClimberTask& task, ClimberState& state) {
     const double regular_s = static_cast<double>(state.next_sample) / task.sample_hz;
     double t_s = regular_s;
-    constexpr double k_apart_s = 1e-4;  // nearer events share the regular sample
+    // A hand that closes this near to a regular sample adds no sample.
+    constexpr double k_apart_s = 1e-4;
     for (const ClimberHand& hand : state.hands) {
         if (hand.mode == ClimberHandMode::reaching && hand.until_s > state.last.t_s + k_apart_s &&
             hand.until_s < t_s - k_apart_s) {

@@ -14,8 +14,8 @@ constexpr int k_glances = 14;  // rays in a search for holds
 constexpr double k_glance_m = 1.2;
 constexpr double k_nearest_m = 0.22;  // minimum distance of holds from the shoulder
 constexpr double k_farthest_m = 0.62;
-constexpr double k_fastest_mps = 2.2;   // faster surfaces are no holds
-constexpr double k_hold_gap_m = 0.004;  // between palm and surface
+constexpr double k_fastest_mps = 2.2;   // maximum relative speed of a hold
+constexpr double k_hold_gap_m = 0.004;  // gap between palm and surface
 constexpr double k_rail_search_m = 0.9;
 constexpr std::size_t k_queried_rails = 3;
 
@@ -25,11 +25,12 @@ std::uint64_t id_of(const ClimberSight& sight, Entity entity) {
 
 std::optional<RayHit> look(const ClimberSight& sight, Entity player, const Vec3& from_ws,
                            const Vec3& to_ws) {
-    const std::array<std::uint64_t, 1> himself = {id_of(sight, player)};
-    return sight.collision.cast_ray(from_ws, to_ws, himself);
+    const std::array<std::uint64_t, 1> own_id = {id_of(sight, player)};
+    return sight.collision.cast_ray(from_ws, to_ws, own_id);
 }
 
-// The body with this id; null for a head. There are few bodies and many entities.
+// The body with this id; null for a player's head. Searches only the bodies, because a world has
+// far fewer bodies than entities.
 Entity body_of_id(const World& world, std::uint64_t id) {
     for (const Entity body : world.body.owners()) {
         if (world.persistent_id.at(body).value == id) {
@@ -39,24 +40,24 @@ Entity body_of_id(const World& world, std::uint64_t id) {
     return k_no_entity;
 }
 
-// A point that the eyes see.
+// A point on a surface that the climber sees.
 struct Seen {
     std::uint64_t id = 0;
     Vec3 point_ws;
     Vec3 normal_ws;
-    Vec3 along_ws = Vec3::Zero();  // of the rail's axis; zero: no rail
+    Vec3 along_ws = Vec3::Zero();  // direction of the rail's axis; zero: the point is not on a rail
 };
 
-// The inputs of a search and what it derives from them.
+// The inputs of a search for holds, and values derived from them.
 struct Search {
     const ClimberSight& sight;
     const HoldSearch& ask;
     const ClimberState& state;
     Vec3 eyes_ws;
     Vec3 shoulder_ws;
-    Vec3 palm_ws;     // the hand's present place
+    Vec3 wrist_ws;
     Vec3 outward_ws;  // towards the hand's side
-    Vec3 body_mps;    // of the play space in the world
+    Vec3 body_mps;    // velocity of the play space in the world
 };
 
 Search begin_search(const ClimberSight& sight, const HoldSearch& ask, const ClimberState& state) {
@@ -74,7 +75,7 @@ Search begin_search(const ClimberSight& sight, const HoldSearch& ask, const Clim
                             : ask.now.origin_mps};
 }
 
-// A candidate hold. The value of an ideal one is about 1.
+// A candidate hold. A higher value is better; an ideal hold has about 1.
 struct HoldCandidate {
     Seen seen;
     Entity body;
@@ -87,7 +88,7 @@ bool is_loose(const Search& search, const RigidBody& body) {
            body.mass_kg < search.sight.scene.tuning.phases.heavy_body_kg;
 }
 
-// Empty if the hand cannot or should not go there.
+// Rates a point as a hold. nullopt if the hand cannot or should not grip there.
 std::optional<HoldCandidate> evaluate(const Search& search, const Seen& seen, double luck) {
     const World& world = search.sight.scene.world;
     const Entity body = body_of_id(world, seen.id);
@@ -96,7 +97,7 @@ std::optional<HoldCandidate> evaluate(const Search& search, const Seen& seen, do
         return std::nullopt;  // a head, or too light to climb on
     }
     const Vec3 relative_mps = search.body_mps - velocity_at(world, body, seen.point_ws);
-    const double reach_s = reach_time_s((seen.point_ws - search.palm_ws).norm());
+    const double reach_s = reach_time_s((seen.point_ws - search.wrist_ws).norm());
     const Vec3 shoulder_then_ws = search.shoulder_ws + reach_s * relative_mps;
     const double distance_m = (seen.point_ws - shoulder_then_ws).norm();
     if (relative_mps.norm() > k_fastest_mps || distance_m < k_nearest_m ||
@@ -148,7 +149,8 @@ void glance_about(const Search& search, Random& random, std::optional<HoldCandid
     }
 }
 
-// The best place for the hand on a rail's axis, and its distance from the ideal place.
+// The point of a rail's axis nearest to the ideal point for the hand, and the distance between
+// these two points.
 struct RailPlace {
     Vec3 axis_ws;
     Vec3 along_ws;
@@ -159,7 +161,8 @@ RailPlace place_on(const SceneRail& rail, const Pose& body_ws, const Vec3& ideal
     const Vec3 way = transform_point(body_ws, rail.end_bs) - start;
     const double length = way.norm();
     const Vec3 along = way / std::max(length, 1e-6);
-    constexpr double k_fist_m = 0.05;  // half a hand's width stays on the bar
+    // Half a hand's width: minimum distance from the ends of the bar.
+    constexpr double k_fist_m = 0.05;
     const double at = std::clamp(along.dot(ideal_ws - start), std::min(k_fist_m, 0.5 * length),
                                  std::max(length - k_fist_m, 0.5 * length));
     const Vec3 axis = start + at * along;
@@ -180,7 +183,7 @@ void query_rails(const Search& search, Random& random, std::optional<HoldCandida
         if (place.off_m > k_rail_search_m) {
             continue;
         }
-        // The nearest few, sorted by distance.
+        // Inserts the rail into the list of the nearest rails, sorted by distance.
         auto* const at = std::find_if(places.begin(), places.begin() + count,
                                       [&](const RailPlace& p) { return place.off_m < p.off_m; });
         count = std::min(count + 1, places.size());
@@ -201,8 +204,8 @@ void query_rails(const Search& search, Random& random, std::optional<HoldCandida
     }
 }
 
-// On a rail the fingers go round the bar, away from the shoulder; on a surface they point straight
-// ahead.
+// Orients the hand. On a rail the fingers go round the bar; on another surface they point along it.
+// Both ways they point away from the shoulder.
 ClimberHold make_hold(const Search& search, const HoldCandidate& chosen) {
     const Seen& seen = chosen.seen;
     const Vec3 out = seen.point_ws - search.shoulder_ws;
@@ -241,7 +244,8 @@ Vec3 choose_heading(const ClimberSight& sight, Entity player, const Vec3& from_w
     for (int i = 0; i < k_directions; ++i) {
         const Vec3 direction = state.random.direction();
         const double luck = state.random.unit();
-        // Open space does not count: nothing there would stop the climber.
+        // A direction without any surface counts as short, because nothing there would stop the
+        // climber.
         const double way_m =
             free_distance_m(sight, player, from_ws, direction, k_far_m).value_or(k_open_m);
         const double value = way_m + 1.0 * direction.dot(state.heading_ws) + 2.0 * luck;
@@ -283,8 +287,8 @@ std::optional<ClimberHold> find_shore(const ClimberSight& sight, Entity player, 
         }
     }
     if (id == 0) {
-        const std::array<std::uint64_t, 1> himself = {id_of(sight, player)};
-        const auto near = sight.collision.closest_point(from_ws, k_all_m, himself);
+        const std::array<std::uint64_t, 1> own_id = {id_of(sight, player)};
+        const auto near = sight.collision.closest_point(from_ws, k_all_m, own_id);
         if (!near) {
             return std::nullopt;
         }

@@ -5,14 +5,15 @@
 #include "game/climber/climber.hpp"
 #include "game/climber/climber_body.hpp"
 
-// Where a climber looks, and what they choose of what they see.
+// A climber's queries of the surroundings: free directions, holds, and surfaces to return to.
 namespace handhold {
 
-// The free distance for the climber's head in a direction; empty if it is more than length_m.
+// Distance from `from_ws` to the first surface in a direction; nullopt if it is more than
+// `length_m`. `player`: the climber, whose own head is ignored.
 std::optional<double> free_distance_m(const ClimberSight& sight, Entity player, const Vec3& from_ws,
                                       const Vec3& direction_ws, double length_m);
 
-// A direction for a wandering climber: free for some metres, preferably forward.
+// Chooses a random heading for a wandering climber: preferably forward, and free for some metres.
 Vec3 choose_heading(const ClimberSight& sight, Entity player, const Vec3& from_ws,
                     ClimberState& state);
 
@@ -22,18 +23,20 @@ struct HoldSearch {
     const ClimberMoment& now;
     HandSide side = HandSide::left;
     Vec3 toward_ws = Vec3::UnitZ();  // unit; holds in this direction are preferred
-    bool loose_too = false;          // also free bodies that support nothing
+    // Also considers free bodies that are too light to support the climber.
+    bool loose_too = false;
 };
 struct FoundHold {
     ClimberHold hold;
     double reach_s = 0.0;  // duration of the reach
 };
-// The best hold in reach by the time the hand arrives there: on a rail, or on any visible surface.
+// Finds the best visible hold, on a rail or another surface, that will be within reach when the
+// hand arrives. nullopt if there is none.
 std::optional<FoundHold> find_hold(const ClimberSight& sight, const HoldSearch& ask,
                                    ClimberState& state);
 
-// A place to drift to when nothing is in reach: the nearest surface in a dozen directions, else the
-// nearest within a hundred metres. Empty in an empty world.
+// A place to return to if nothing is within reach: the nearest surface in a dozen random
+// directions, else the nearest surface within 100 m. nullopt if there is none.
 std::optional<ClimberHold> find_shore(const ClimberSight& sight, Entity player, const Vec3& from_ws,
                                       Random& random);
 

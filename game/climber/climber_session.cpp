@@ -1,12 +1,8 @@
 #include "game/climber/climber_session.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "engine/core/check.hpp"
-#include "engine/io/printable.hpp"
-#include "game/commands/exit_status.hpp"
-#include "game/commands/loading.hpp"
 #include "game/scene/place_scene.hpp"
 #include "game/session/interrupt.hpp"
 #include "systems/frame.hpp"
@@ -31,7 +27,7 @@ ClimberTask task_of(const ClimbPlan& plan, const PlayerEntities& player) {
 
 Recording record_climb(Scene& scene, const ClimbPlan& plan) {
     HH_CHECK(scene.world.clock.frame == 0, "the scene has been played", plan.seconds);
-    // A recording has no sticks, so jets could not be replayed.
+    // Recordings contain no stick input, so the use of jets could not be replayed.
     scene.tuning.locomotion.thruster_mps2 = 0.0;
     const PlayerEntities player = add_scene_player(scene, {"player0", plan.origin_ws, 80.0});
     const ClimberTask task = task_of(plan, player);
@@ -59,37 +55,6 @@ Recording record_climb(Scene& scene, const ClimbPlan& plan) {
         }
     }
     return recording;
-}
-
-int climb_command(const ClimbOptions& options) {
-    const InterruptGuard interrupts;
-    Result<Scene> loaded = load_scene_with_progress(options.scene);
-    if (!loaded) {
-        return refuse(loaded.error());
-    }
-    Scene& scene = loaded.value();
-    print_notes(scene.notes);
-    ClimbPlan plan;
-    plan.seconds = options.seconds;
-    plan.seed = options.seed;
-    bool found = options.spawn.empty() && scene.spawns.empty();
-    for (const SceneSpawnPoint& spawn : scene.spawns) {
-        if (!found && (options.spawn.empty() || spawn.name == options.spawn)) {
-            plan.origin_ws = spawn.pose_ws;
-            found = true;
-        }
-    }
-    if (!found) {
-        return refuse({options.scene, "/spawns",
-                       "expected a spawn \"" + options.spawn + "\", found none of that name"});
-    }
-    const Recording recording = record_climb(scene, plan);
-    if (const auto error = save_recording(options.out, recording)) {
-        return refuse(*error);
-    }
-    std::printf("%s: %zu samples over %.2f s\n", printable(options.out).c_str(),
-                recording.samples.size(), recording.samples.back().t_s);
-    return is_interrupted() ? k_exit_interrupted : 0;
 }
 
 }  // namespace handhold

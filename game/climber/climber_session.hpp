@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "game/climber/climber.hpp"
@@ -9,11 +8,11 @@
 
 namespace handhold {
 
-// A single climber whose session is recorded.
+// The session of a single climber, to be recorded.
 struct ClimbPlan {
     Pose origin_ws;
     std::vector<ClimberWaypoint> waypoints;  // empty: wanders
-    double seconds = 20.0;  // at most; ends linger_s after the last waypoint is reached
+    double seconds = 20.0;  // maximum; the session ends linger_s after the last waypoint is reached
     double linger_s = 1.5;
     double cruise_mps = 0.6;
     bool may_leap = true;
@@ -21,22 +20,9 @@ struct ClimbPlan {
     std::uint64_t seed = 1;
 };
 
-// The climber's session as a headset would record it. The scene must be before its first frame; it
-// is stepped at 90 Hz, with a player "player0" and without jets. Playing the recording from the
-// same place at 90 Hz repeats it bit for bit.
+// Plays the climb and returns what a headset would record. Precondition: the scene has not been
+// stepped. Adds a player "player0", disables jets, and steps the scene at 90 Hz. Playing the
+// recording from the same place at 90 Hz repeats the session bit for bit.
 Recording record_climb(Scene& scene, const ClimbPlan& plan);
-
-// `handhold climb`: its command line.
-struct ClimbOptions {
-    std::string scene;
-    std::string spawn;  // empty: the scene's first
-    std::string out;    // the recording
-    double seconds = 20.0;
-    std::uint64_t seed = 1;
-};
-// Records a wandering climber. Returns the exit status: 0; k_exit_bad_file after one line on
-// standard error if a file is refused or cannot be written; k_exit_interrupted after a signal, with
-// what was recorded so far.
-int climb_command(const ClimbOptions& options);
 
 }  // namespace handhold

@@ -9,21 +9,22 @@
 namespace handhold {
 namespace {
 
-constexpr double k_apart_m = 0.8;           // preferred distance of two heads
-constexpr double k_closest_m = 0.3;         // minimum distance
-constexpr double k_view_m = 8.0;            // farther from every surface counts as outside
-constexpr std::size_t k_max_attempts = 60;  // for each player, before the distance is reduced
+constexpr double k_apart_m = 0.8;    // preferred distance between two heads
+constexpr double k_closest_m = 0.3;  // minimum distance between two heads
+// Length of a ray; a ray that hits nothing leads outside.
+constexpr double k_view_m = 8.0;
+constexpr std::size_t k_max_attempts = 60;  // per player, before the distance is reduced
 
 class Spreader {
   public:
     Spreader(const CollisionWorld& collision, std::uint64_t seed)
         : collision_(collision), random_(mix64(seed)) {}
 
-    std::vector<Vec3> heads;  // places taken
-    std::vector<Vec3> seeds;  // known free places to search from
+    std::vector<Vec3> heads;  // heads placed so far
+    std::vector<Vec3> seeds;  // heads at the scene's spawns: more start points for the search
 
-    // Adds a free place in sight of a known one, at least apart_m from every head. False if none
-    // was found.
+    // Makes one attempt to add a head at a random free point: visible from a known head, and at
+    // least `apart_m` from every placed head. False if the attempt failed.
     bool add(double apart_m) {
         const std::size_t known = heads.size() + seeds.size();
         const auto pick = static_cast<std::size_t>(random_.unit() * static_cast<double>(known));

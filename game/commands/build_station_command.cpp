@@ -14,7 +14,7 @@
 namespace handhold {
 
 int build_station_command(const BuildStationOptions& options) {
-    const InterruptGuard interrupts;  // each file is written whole
+    const InterruptGuard interrupts;  // a signal does not end the program in the middle of a file
     StationDescription description;
     if (options.description.empty()) {
         description = own_station_description();

@@ -4,10 +4,10 @@
 
 #include <CLI/CLI.hpp>
 
-// Checks of command line values that CLI11 lacks.
+// Validators of command-line values that CLI11 lacks.
 namespace handhold {
 
-// A finite number in [low, high]. CLI::Range lets NaN through.
+// A number in [low, high], not NaN. CLI::Range accepts NaN.
 inline CLI::Validator number_in(double low, double high) {
     const std::string range =
         "[" + CLI::detail::to_string(low) + ", " + CLI::detail::to_string(high) + "]";
@@ -20,7 +20,7 @@ inline CLI::Validator number_in(double low, double high) {
             "FLOAT in " + range};
 }
 
-// Digits only: strtoull takes "-1" for 2^64 - 1.
+// A whole number of digits only. (strtoull would read "-1" as 2^64 - 1.)
 inline CLI::Validator whole_number() {
     return {[](std::string& text) {
                 const bool is_whole =

@@ -16,7 +16,7 @@
 namespace handhold {
 namespace {
 
-// The body's visuals in the frame of its grips.
+// Adds the body's visuals in the frame of its grips.
 void add_object(const Scene& scene, Entity body, const Pose& body_in_file, GripScene& out) {
     for (const SceneVisual& visual : scene.visuals) {
         if (visual.body != body) {
@@ -60,8 +60,8 @@ std::optional<Pose> pose_of(const std::vector<double>& numbers) {
     return pose;
 }
 
-// A new grip as the game would fit a hand that closes there. Only the palm is authored until the
-// fingers are posed.
+// Fills `out` with a new grip, fitted as the game fits a hand that closes at options.wrist. All
+// fingers count as posed, with the fitted angles.
 std::optional<FileError> pose_new(const Scene& scene, const GripMesh& mesh,
                                   const ExportGripOptions& options, const Pose& body_in_file,
                                   const HandRig& rig, GripScene& out) {

@@ -19,7 +19,7 @@ constexpr const char* k_object_name = "object";
 constexpr const char* k_controller_name = "controller";
 constexpr std::string_view k_grip_prefix = "grip/";
 constexpr double k_max_coordinate_m = 1e3;
-// Extras of the wrist's node.
+// Names of the extras (glTF's custom properties) of the wrist's node.
 constexpr const char* k_priority_key = "grip_priority";
 constexpr const char* k_radius_key = "grip_snap_radius_m";
 constexpr const char* k_angle_key = "grip_snap_angle_deg";
@@ -33,7 +33,8 @@ struct GripName {
     HandSide side = HandSide::right;
 };
 
-// The parts of "grip/<name>/right", or of "...right.001", as some packages name copies.
+// Splits "grip/<name>/right" or "grip/<name>/left". Some packages append a suffix to the names of
+// copies (".001"), which is ignored.
 std::optional<GripName> parse_grip_name(const std::string& node) {
     const std::size_t end = node.rfind('/');
     if (!node.starts_with(k_grip_prefix) || end <= k_grip_prefix.size()) {
@@ -47,7 +48,7 @@ std::optional<GripName> parse_grip_name(const std::string& node) {
                     side == "left" ? HandSide::left : HandSide::right};
 }
 
-// Finds nodes and keeps the first error.
+// Looks up nodes by name and keeps the first error.
 class GripNodes {
   public:
     GripNodes(const std::vector<GltfNode>& nodes, std::string file)

@@ -11,30 +11,30 @@
 #include "engine/io/result.hpp"
 #include "game/scene/scene_grip.hpp"
 
-// Authored grips in an animation package: a .glb of hand, controller and object. Talk rows 9 and
-// 10.
+// Authored grips for animation software: a .glb of hand, controller and object. Talk rows 9 and 10.
 namespace handhold {
 
-// Nodes: "grip/<name>/right" (or "left") with the hand's skeleton, joints by WebXR's names;
-// "object", the held object; "controller", an empty node for the controller of that hand. Authors
-// move and turn joints, or the hand and the object as a whole.
+// The content of the file. Its nodes:
+// - "grip/<name>/right" (or "left"): the hand's skeleton, with WebXR's joint names
+// - "object": the held object
+// - "controller": an empty node at the pose of that hand's controller
+// Authors move and turn joints, or the hand and the object as a whole.
 struct GripScene {
-    SceneGrip grip;  // for this side only the wrist and which fingers are posed count
+    SceneGrip grip;  // of this side's hand, only the wrist and the set of posed fingers are used
     HandSide side = HandSide::right;
-    std::array<FingerAngles, k_finger_count>
-        fingers;  // as shown, in the order of the rig's fingers
+    std::array<FingerAngles, k_finger_count> fingers;  // shown pose, by index in HandRig::fingers
     Pose controller_in_hand;
     std::vector<GltfMaterial> materials;
     std::vector<GltfSurface> object;  // in the frame of the grip
 };
-// The bytes of a .glb with the robot's hand over the rig.
+// The bytes of the .glb. Its hand is the robot's, built for `rig`.
 std::string write_grip_glb(const GripScene& scene, const HandRig& rig);
 
-// The grip of a file's hand: the wrist relative to the node "object", and the joints' angles as
-// hinges of the rig of that side, clamped to its limits. Priority, zone, mirror and which fingers
-// close by themselves are extras of the wrist's node; without them, the defaults, and all fingers
-// are posed. Refused, with the JSON pointer: no node "object", no hand or two, a missing joint,
-// numbers that no grip has.
+// Reads the grip: the wrist relative to the node "object", and the joints' rotations as hinge
+// angles of the rig, clamped to its limits. Extras of the wrist's node hold priority, zone, mirror
+// and the set of posed fingers. Missing extras get default values: all fingers are posed. Errors
+// name the JSON pointer: no node "object", no hand or several, a missing joint, or values out of
+// range.
 Result<SceneGrip> parse_grip_glb(std::string_view bytes, const std::filesystem::path& path,
                                  const std::array<HandRig, k_hand_count>& rigs);
 

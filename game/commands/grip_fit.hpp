@@ -8,17 +8,17 @@
 
 namespace handhold {
 
-// A hand at rest on one mesh, as the runtime's stages fit it.
+// A hand that grips one mesh, as the runtime's stages fit it.
 struct FittedGrip {
     Pose wrist_bs;
-    std::array<FingerAngles, k_finger_count> fingers;  // in the order of HandRig::fingers
-    bool is_gripping = false;                          // false: no surface in reach
-    std::uint64_t penetrating_fingers =
-        0;  // posed fingers that would penetrate and were fitted instead
+    std::array<FingerAngles, k_finger_count> fingers;  // by index in HandRig::fingers
+    bool is_gripping = false;                          // false: no surface is within reach
+    // Number of posed fingers that would penetrate, so that they were fitted instead.
+    std::uint64_t penetrating_fingers = 0;
 };
 
-// Fits palm and fingers to the surface, from where the hand would close. With `authored`: the palm
-// is held to that wrist, and posed fingers keep their pose unless they penetrate.
+// Fits palm and fingers to the surface for a hand that closes at `wrist_bs`. With `authored`: uses
+// its wrist and its posed fingers, except for posed fingers that penetrate.
 FittedGrip fit_grip(const GripMesh& mesh, const HandRig& rig, const Pose& wrist_bs,
                     const Tuning& tuning, const AuthoredHand* authored = nullptr);
 

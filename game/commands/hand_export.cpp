@@ -25,7 +25,8 @@ std::size_t joint_of(const HandRig& rig, std::int32_t finger, std::uint32_t link
     return static_cast<std::size_t>(found - rig.joints.begin());
 }
 
-// The parent joint: the previous link, the finger's metacarpal, or the wrist.
+// Index of the parent joint: the previous link, the finger's metacarpal, or the wrist; -1 for the
+// wrist itself.
 std::int32_t parent_of(const HandRig& rig, std::size_t index) {
     const RigJoint& joint = rig.joints[index];
     const std::size_t wrist = joint_of(rig, RigJoint::k_palm, 0);
@@ -54,7 +55,7 @@ std::int32_t parent_of(const HandRig& rig, std::size_t index) {
 
 std::vector<double> as_numbers(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-// The numbers that hand_rig_from_skin reads (systems/rigs/hand_rig_fit.hpp).
+// Adds the numbers that hand_rig_from_skin reads (systems/rigs/hand_rig_fit.hpp).
 void add_numbers(const HandRig& rig, std::vector<SkinJoint>& joints) {
     for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
         for (std::uint32_t link = 0; link < rig.fingers[i].link_count; ++link) {

@@ -9,9 +9,9 @@
 
 namespace handhold {
 
-// The robot's hand over a rig, posed: each part on its joint, each joint below its parent. Numbers
-// that a skin lacks (radii, lengths of last links, the palm's capsules) are extras of the joints'
-// nodes. Precondition: the rig has joints.
+// The robot's hand built for a rig, in a given pose. Each part is bound to its joint, and joints
+// form a hierarchy. Values that a skin cannot express (radii, lengths of last links, the palm's
+// capsules) are extras of the joints' nodes. Precondition: the rig has joints.
 struct RobotHandSkin {
     std::vector<GltfMaterial> materials;
     GltfSkin skin;
@@ -20,12 +20,12 @@ RobotHandSkin make_robot_hand_skin(const HandRig& rig,
                                    const std::array<FingerAngles, k_finger_count>& fingers,
                                    const Pose& wrist_ms);
 
-// Such a hand in the rest pose as a .glb for animation packages. hand_rig_from_skin reads the same
+// A .glb of that hand in the rest pose, for animation software. hand_rig_from_skin gives the same
 // rig back. Precondition: the rig has joints.
 std::string export_robot_hand(const HandRig& rig);
 
-// `handhold export-hands`: robot_hand_left.glb and robot_hand_right.glb, of the built-in rig.
-// Returns the exit status: 0, or 2 after one line on standard error.
+// `handhold export-hands`: writes robot_hand_left.glb and robot_hand_right.glb for the built-in
+// rig. Returns the exit status: 0, or 2 after one line on standard error.
 int export_hands_command(const std::string& folder);
 
 }  // namespace handhold

@@ -21,7 +21,7 @@ int refuse_headset(const std::string& why_not) {
     return k_exit_no_window;
 }
 
-// At most the runtime's limit.
+// The recommended eye size times `scale`, at most the XR runtime's limit.
 EyeSize scaled(const EyeSizes& sizes, double scale) {
     const auto along = [scale](int pixels, int most) {
         return std::min(std::max(static_cast<int>(std::lround(scale * pixels)), 16), most);
@@ -30,13 +30,14 @@ EyeSize scaled(const EyeSizes& sizes, double scale) {
             along(sizes.recommended.height_px, sizes.largest.height_px)};
 }
 
-// The views of a headset with pictures.
+// What draws the eyes' pictures and shows the mirror window.
 struct Eyes {
     std::optional<PlayerView> view;
-    std::unique_ptr<Window> mirror;  // null: off, or unavailable
+    std::unique_ptr<Window> mirror;  // null: switched off, or unavailable
     EyeSize size;
 };
-// Empty, with the reason, if nothing can be drawn. A mirror that cannot be opened is only reported.
+// nullopt, with the reason in `why_not`, if nothing can be drawn. If only the mirror cannot be
+// opened, prints a message and goes on without it.
 std::optional<Eyes> open_eyes(const PlayOptions& options, const Scene& scene,
                               const PlayerModels& models, const Headset& headset,
                               std::string& why_not) {

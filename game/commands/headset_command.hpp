@@ -4,9 +4,9 @@
 
 namespace handhold {
 
-// `handhold play --xr`: as play_command, but in a headset (docs/guide/headset.md). Returns 3 after
-// one line on standard error if there is no runtime, headset or renderer, or if the runtime was
-// lost for good.
+// `handhold play --xr`: plays in a headset (docs/guide/headset.md). Exit statuses are those of
+// play_command. 3 also means that there is no XR runtime or headset, or that the XR runtime was
+// lost permanently.
 int headset_command(const PlayOptions& options);
 
 }  // namespace handhold

@@ -16,7 +16,8 @@
 namespace handhold {
 namespace {
 
-// Shows the process's work meter from a thread of its own. Nothing at all without a terminal.
+// Shows work_meter() in the terminal, from a thread of its own. Does nothing if standard error is
+// not a terminal.
 class LoadingBar {
   public:
     explicit LoadingBar(const std::string& what) {

@@ -6,8 +6,8 @@
 
 namespace handhold {
 
-// load_scene on all of the machine's threads, with a progress bar on a terminal. The number of
-// threads is afterwards as it was.
+// Calls load_scene with all of the machine's threads. Shows a progress bar if standard error is a
+// terminal. Afterwards restores the number of threads.
 Result<Scene> load_scene_with_progress(const std::string& name_or_file);
 
 }  // namespace handhold

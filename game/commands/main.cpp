@@ -14,9 +14,9 @@
 #include <handhold/version.hpp>
 
 #include "engine/io/printable.hpp"
-#include "game/climber/climber_session.hpp"
 #include "game/commands/body_export.hpp"
 #include "game/commands/build_station_command.hpp"
+#include "game/commands/climb_command.hpp"
 #include "game/commands/exit_status.hpp"
 #include "game/commands/flag_checks.hpp"
 #include "game/commands/grip_command.hpp"
@@ -51,7 +51,7 @@ void add_model_options(CLI::App& command, handhold::PlayerModelFiles& files) {
                        "controller-to-hand joint the hands then have");
 }
 
-// An option that may be given several times, with one value each.
+// Adds an option that may be repeated. The first value goes to `first`, the others to `more`.
 void first_and_more(CLI::App& command, const char* name, std::string& first,
                     std::vector<std::string>& more, const char* what) {
     command
@@ -321,7 +321,7 @@ int flush_output(int status) {
     return status != 0 ? status : handhold::k_exit_bad_file;
 }
 
-// For exceptions that no handler can catch, such as one thrown by a destructor.
+// Called for exceptions that no handler can catch, such as one thrown by a destructor.
 [[noreturn]] void end_without_handler() {
     std::fputs("handhold: out of memory, or an internal error\n", stderr);
     std::_Exit(handhold::k_exit_internal);
@@ -337,10 +337,10 @@ int report_exception(const char* what) {
 int main(int argc, char** argv) {
     std::set_terminate(end_without_handler);
 #ifdef SIGXFSZ
-    std::signal(SIGXFSZ, SIG_IGN);  // exceeding the limit on file sizes becomes a write error
+    std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is then a write error
 #endif
 #ifdef SIGPIPE
-    std::signal(SIGPIPE, SIG_IGN);  // files are written whole even if nobody reads the summary
+    std::signal(SIGPIPE, SIG_IGN);  // files are completed even if nobody reads the summary
 #endif
     try {
         return flush_output(run_program(argc, argv));

@@ -6,12 +6,12 @@
 
 namespace handhold {
 
-// Exclusive access to a folder for output. The lock is the operating system's: it ends with the
+// Exclusive access to an output folder. The operating system holds the lock: it ends with the
 // process and leaves no file.
 class OutputFolder {
   public:
-    // Makes the folder and its parents if needed. Refused: a path that is not a folder, and a
-    // folder that another OutputFolder holds.
+    // Creates the folder and its parents if needed. Fails if the path is not a folder, or if
+    // another OutputFolder has locked it.
     static Result<OutputFolder> open(const std::filesystem::path& path);
     OutputFolder(OutputFolder&& other) noexcept;
     OutputFolder& operator=(OutputFolder&& other) = delete;

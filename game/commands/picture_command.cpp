@@ -38,8 +38,8 @@ Pose eyes_at(const SceneSpawnPoint& spawn, const PictureOptions& options) {
     return spawn.pose_ws * Pose{Vec3(0.0, k_eye_height_m, 0.0), look};
 }
 
-// In front of the eyes: fingers up, with the backs of the hands to the player; or thumbs up, in
-// fists around controllers.
+// Pose of a wrist in front of the eyes. An open hand has its fingers up and its back to the player.
+// A fist around a controller has its thumb up.
 Pose wrist_before_eyes(HandSide side, bool holds_controller) {
     const double out = side == HandSide::left ? -1.0 : 1.0;
     if (holds_controller) {
@@ -73,7 +73,7 @@ void add_hands(const std::string& shape, const Pose& eyes_ws, HandFigures& figur
     }
 }
 
-// Draws and saves pictures and prints the cost.
+// Draws pictures, saves them, and prints each one's drawing time and number of triangles.
 class PictureSaver {
   public:
     PictureSaver(Renderer& renderer, std::filesystem::path folder)
@@ -99,7 +99,8 @@ class PictureSaver {
     Image image_;
 };
 
-// A right hand in the first grip, a left hand in the second.
+// Draws the body from several sides with a right hand in its first grip and a left hand in its
+// second.
 std::optional<FileError> draw_grips(const Scene& scene, const std::string& name,
                                     const RenderFrame& bare, HandFigures& figures,
                                     Renderer& renderer, PictureSaver& saver) {

@@ -8,35 +8,36 @@
 
 namespace handhold {
 
-// `handhold play`: its command line.
+// Options of `handhold play`.
 struct PlayOptions {
     std::string scene = "station";
-    std::string spawn;    // empty: the scene's first
+    std::string spawn;    // name of the spawn; empty: the scene's first
     std::string record;   // where the session is saved; empty: nowhere
     std::string picture;  // a PNG of the last picture; empty: none
     PlayerModelFiles models;
     std::string report;        // statistics and costs (.json) at the end; empty: none
     std::string status;        // a line of JSON every tenth of a second (.jsonl); empty: none
     bool xr = false;           // in a headset, with a mirror of the left eye if there is a display
-    bool xr_headless = false;  // the same without pictures, for tests
-    double eye_scale = 1.0;    // (0, 2]; factor on the recommended size of pictures
+    bool xr_headless = false;  // in a headset without pictures, for tests
+    double eye_scale = 1.0;    // (0, 2]; factor on the XR runtime's recommended picture size
     bool mirror = true;
     bool jets = false;           // the movement keys also use jets
-    bool distance_grab = false;  // a hand that closes on nothing pulls what it points at
-    double seconds = 0.0;        // 0: until the window is closed
+    bool distance_grab = false;  // a hand that closes on nothing pulls the body that it points at
+    double seconds = 0.0;        // length of the session; 0: until the window is closed
     int width_px = 1280;
     int height_px = 720;
     PlaySettings settings;
-    PlayPanels panels;  // open at the start
+    PlayPanels panels;  // panels that are open at the start
     std::string page;   // the inspector's open page, such as "Tuning"; empty: its first
     GizmoSet gizmos = k_no_gizmos;
     PlayerViewpoint viewpoint = PlayerViewpoint::eyes;
 };
 
-// Plays scenes in a window with keyboard, mouse and gamepad, in real time. If pictures take too
-// long, time slows down. Files are of the scene played last. Returns the exit status: 0; 2 after
-// one line on standard error if a file is refused or cannot be written; 3 if there is no window or
-// renderer. The last line is "state_hash 0x<16 hex digits>".
+// Plays scenes in a window with keyboard, mouse and gamepad, in real time. If drawing takes too
+// long, simulated time runs slower. Output files describe the scene that was played last. Returns
+// the exit status: 0; 2, after one line on standard error, if a file is invalid or cannot be
+// written; 3 if there is no window or renderer. The last line on standard output is "state_hash
+// 0x<16 hex digits>".
 int play_command(PlayOptions options);
 
 }  // namespace handhold

@@ -4,7 +4,7 @@
 
 namespace handhold {
 
-// A progress bar on standard error; nothing unless that is a terminal.
+// A progress bar on standard error. Does nothing if standard error is not a terminal.
 class Progress {
   public:
     explicit Progress(std::string what);

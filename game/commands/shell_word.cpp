@@ -23,7 +23,8 @@ bool is_printable(std::string_view text) {
     return true;
 }
 
-// Three octal digits end an escape whatever follows; \xN would go on.
+// Writes `text` as $'...'. Octal escapes have exactly three digits, while the shell would read any
+// hexadecimal digits that follow \xN.
 std::string ansi_c_quoted(std::string_view text) {
     std::string word = "$'";
     while (!text.empty()) {

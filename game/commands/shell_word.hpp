@@ -5,9 +5,9 @@
 
 namespace handhold {
 
-// `text` as one word of a POSIX shell's command line, for commands that a user copies from the
-// terminal. Plain words stay as they are. A word with control characters becomes $'...' (bash, zsh,
-// ksh) with the controls escaped. NUL ends the word: no argument can hold one.
+// Quotes `text` as one word of a POSIX shell's command line, for commands that a user copies from
+// the terminal. Plain words stay unchanged. A word with control characters becomes $'...', which
+// bash, zsh and ksh support. The word ends at the first NUL, because no argument can contain one.
 std::string shell_word(std::string_view text);
 
 }  // namespace handhold

@@ -12,9 +12,10 @@ const Vec3 k_shoulder_hs(0.18, -0.2, 0.05);  // right shoulder, in the head's fr
 constexpr double k_arm_m = 0.78;             // arm's length from the shoulder
 constexpr double k_clearance_m = 0.15;       // minimum distance of a pulling hand from the head
 constexpr double k_steepest_rad = 1.5;
-// distance up to which the player reaches for a surface in view
+// The player reaches for a surface in view up to this distance.
 constexpr double k_look_m = 0.85;
-constexpr double k_near_look_m = 0.08;  // radius around the line of sight
+// A surface this near to the line of sight counts as in view.
+constexpr double k_near_look_m = 0.08;
 constexpr double k_no_surface_m = 0.6;
 constexpr double k_reach_mps = 3.5;
 constexpr double k_hand_return_mps = 2.5;
@@ -39,14 +40,14 @@ Vec3 fingers_on(const Vec3& away, const Quat& head) {
 
 }  // namespace
 
-// Open hand at chest height, in view.
+// Rest pose of a hand: open, at chest height, in view.
 Pose DesktopBody::rest_ps(HandSide side, const HandTuning& tuning) const {
     const PalmTarget place{mirrored({0.2, -0.24, -0.42}, side),
                            mirrored({0.5, 0.85, 0.0}, side).normalized(), -Vec3::UnitZ()};
     return head_ps_ * hand_on(place, side, tuning);
 }
 
-// Finds the surface on or near the line of sight.
+// Finds the surface on or near the line of sight and sets aim_ps_.
 void DesktopBody::aim(const Scene& scene, const CollisionWorld& collision,
                       const PlayerEntities& player) {
     const Pose& origin_ws = scene.world.player_origin.at(player.player).pose_ws;
@@ -66,14 +67,14 @@ void DesktopBody::aim(const Scene& scene, const CollisionWorld& collision,
     }
 }
 
-// On the surface in view; without one, in front of the player.
+// Target of a reach: on the surface in view; without one, in front of the player.
 Pose DesktopBody::target_ps(HandSide side, const HandTuning& tuning) const {
     const PalmTarget ahead{transform_point(head_ps_, Vec3(0.0, 0.0, -k_no_surface_m)),
                            head_ps_.rotation * Vec3::UnitY(), head_ps_.rotation * -Vec3::UnitZ()};
     return hand_on(aim_ps_.value_or(ahead), side, tuning);
 }
 
-// Moves towards the target. Closes there, or after a time limit.
+// Moves the hand towards the target. Closes it at the target, or after k_longest_reach_s.
 void DesktopBody::reach(const Pose& target_ps, double dt_s, Hand& hand) {
     const double distance_m = (target_ps.position - hand.hand_ps.position).norm();
     const double share =
@@ -85,8 +86,8 @@ void DesktopBody::reach(const Pose& target_ps, double dt_s, Hand& hand) {
     }
 }
 
-// The hand must stay within arm's reach and away from the face, unless the movement reduces the
-// violation.
+// False if the move takes the hand out of the arm's reach or too near to the face. A move that
+// brings the hand back is allowed.
 bool DesktopBody::may_pull(const Hand& hand, HandSide side, const Vec3& move_ps) const {
     const Vec3 next_ps = hand.hand_ps.position + move_ps;
     const Vec3 shoulder_ps = transform_point(head_ps_, mirrored(k_shoulder_hs, side));
@@ -99,7 +100,8 @@ bool DesktopBody::may_pull(const Hand& hand, HandSide side, const Vec3& move_ps)
     return !out && !in;
 }
 
-// All pulling hands move together, because what they hold does not move.
+// Moves all pulling hands by the same amount, because what they hold does not move. If one hand may
+// not move, none does.
 void DesktopBody::pull(const Vec3& move_ps) {
     for (std::size_t side = 0; side < k_hand_count; ++side) {
         if (uses_[side] == Use::pulls &&
@@ -183,7 +185,7 @@ PlayerCommands DesktopBody::commands(const DesktopInput& input) const {
     commands.brake = input.brake ? 1.0 : 0.0;
     commands.smooth_turn = input.smooth_turn;
     commands.snap_turns = input.snap_turns;
-    // has an effect only if the tuning has jets
+    // Has no effect unless the tuning has jets.
     commands.thrust_ps = head_ps_.rotation * input.move;
     return commands;
 }

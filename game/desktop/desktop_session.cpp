@@ -24,7 +24,7 @@ void DesktopSession::step(const DesktopInput& input) {
     place_scene(scene_, caches_);
     const double start_s = scene_.world.clock.t_s;
     samples_.clear();
-    if (scene_.world.clock.frame == 0) {  // a recording starts with its session
+    if (scene_.world.clock.frame == 0) {  // a recording starts with a sample at the session's start
         samples_.push_back(body_.advance(scene_, caches_.collision, player_, {}, start_s, 1e-9));
     }
     samples_.push_back(
@@ -36,7 +36,8 @@ void DesktopSession::step(const DesktopInput& input) {
     }
     PlayerCommands commands = body_.commands(input);
     if (scene_.tuning.locomotion.thruster_mps2 == 0.0) {
-        commands.thrust_ps.setZero();  // has no effect without jets, but commands are state
+        // Jets are off, but commands are state and must be equal in every replay.
+        commands.thrust_ps.setZero();
     }
     used_sticks_ = used_sticks_ || input.brake || input.smooth_turn != 0.0 ||
                    input.snap_turns != 0 || !commands.thrust_ps.isZero();

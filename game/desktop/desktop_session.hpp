@@ -7,11 +7,11 @@
 
 namespace handhold {
 
-// Everything that the next frames of a session depend on, except its scene and tuning.
+// A session's complete state, except its scene and tuning.
 struct DesktopState {
-    std::vector<std::byte> world;  // a snapshot
+    std::vector<std::byte> world;  // a snapshot of the World
     DesktopBody body;
-    std::size_t recorded = 0;  // number of samples
+    std::size_t recorded = 0;  // number of samples recorded so far
     bool used_sticks = false;
 };
 
@@ -24,22 +24,25 @@ class DesktopSession {
     // Advances one frame.
     void step(const DesktopInput& input);
 
-    // Call between frames. A state can be restored to its own session, or to one with the same
-    // scene and start pose; the session then continues bit for bit.
+    // Call save() and restore() between frames. A state can be restored to the session that
+    // saved it, or to one with the same scene and start pose. The session then continues bit
+    // for bit.
     DesktopState save(const SnapshotAssets& assets) const;
     void restore(const DesktopState& state, const SnapshotAssets& assets);
 
-    // Sets the joints of controllers that differ from Tuning's. Call between frames.
+    // Sets the poses of the hands in their controllers' grip frames, by HandSide, instead of
+    // Tuning's. Call between frames.
     void set_controller_joints(const std::array<Pose, k_hand_count>& hand_in_grip);
 
     const Scene& scene() const { return scene_; }
-    Tuning& tuning() { return scene_.tuning; }  // change between frames; not part of recordings
+    // Change it between frames; recordings do not contain it.
+    Tuning& tuning() { return scene_.tuning; }
     const FrameCaches& caches() const { return caches_; }
-    const StageStats& stats() const { return stats_; }  // of the last frame
+    const StageStats& stats() const { return stats_; }  // costs and counters of the last frame
     const PlayerEntities& player() const { return player_; }
     const DesktopBody& body() const { return body_; }
-    // Records tracking from the first frame. Replayed from the same place at 90 Hz, a recording
-    // repeats every bit, except for turns, brake and jets, which recordings do not contain.
+    // Records tracking; call before the first frame. A replay from the same place at 90 Hz repeats
+    // every bit, unless the player used turns, brake or jets: recordings do not contain them.
     void record() { records_ = true; }
     const Recording& recording() const { return recording_; }
     bool used_sticks() const { return used_sticks_; }

@@ -11,7 +11,8 @@ constexpr double k_closes_at = 0.55;
 constexpr double k_opens_at = 0.35;
 constexpr double k_farther_mps = 0.4;
 
-// Zero inside the dead zone, one at the rim, in every direction, without a step.
+// Removes the dead zone: in every direction, the result grows without a step from 0 at the dead
+// zone's edge to 1 at full deflection.
 std::array<double, 2> beyond_dead_zone(const std::array<double, 2>& stick) {
     const double length = std::hypot(stick[0], stick[1]);
     if (!(length > k_dead_zone)) {
@@ -32,7 +33,7 @@ DesktopInput read_gamepad(const GamepadState& state, const PlaySettings& setting
     const std::array<double, 2> move = beyond_dead_zone(state.left_stick);
     const std::array<double, 2> look = beyond_dead_zone(state.right_stick);
     input.move = Vec3(move[0], difference(state.shoulders[1], state.shoulders[0]), move[1]);
-    // Squared: small deflections aim, large ones turn around.
+    // The speed is quadratic in the deflection: small deflections aim, large ones turn around.
     const double look_radps = settings.stick_look_radps * std::hypot(look[0], look[1]);
     input.turn_left_rad = -look_radps * dt_s * look[0];
     input.look_up_rad = -look_radps * dt_s * look[1];

@@ -15,24 +15,24 @@ struct GamepadState {
     std::array<double, 2> triggers{};     // by HandSide, each [0, 1]
     std::array<bool, 2> shoulders{};      // by HandSide
     std::array<bool, 4> pad{};            // up, down, left, right
-    bool brake = false;                   // the lowest of the four buttons
+    bool brake = false;                   // the lowest of the four face buttons
     bool hurry = false;                   // the left stick pressed
 };
 
-// State kept between readings.
+// What read_gamepad remembers between calls.
 struct GamepadMemory {
     std::array<bool, 2> grips{};
     bool turned = false;  // limits snap turns to one per press
 };
 
-// Left stick: pulls right and back; shoulders: down, up. Right stick: looks around. Triggers: each
-// hand grips above 55 % until the trigger is below 35 %. Pad: up and down move a held body away and
-// nearer, left and right turn. Sticks have a dead zone of 18 %.
+// Left stick: moves right and back; shoulder buttons: down (left) and up (right). Right stick:
+// looks around. Triggers: a hand closes above 55 % and opens below 35 %. Pad: up and down move a
+// held body away and nearer, left and right turn the player. The sticks have a dead zone of 18 %.
 DesktopInput read_gamepad(const GamepadState& state, const PlaySettings& settings, double dt_s,
                           GamepadMemory& memory);
 
-// Combines two devices: a button is held if either holds it, and motions add up to full speed at
-// most.
+// Combines the input of two devices. A button is held if it is held on either device; motions add
+// up to full speed at most.
 DesktopInput combine(const DesktopInput& a, const DesktopInput& b);
 
 }  // namespace handhold

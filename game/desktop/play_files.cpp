@@ -28,7 +28,8 @@ std::optional<FileError> check_folder(const std::filesystem::path& file) {
 std::string replay_command(const PlayOptions& options, const std::string& spawn, double hz) {
     constexpr double k_default_hz = 90.0;
     const auto option = [](const char* name, const std::string& value) {
-        // "=": a value that begins with a dash is not taken for an option.
+        // "=" joins name and value: otherwise a value that begins with a dash would be read as an
+        // option.
         return std::string(" ") + name + (value.starts_with('-') ? "=" : " ") + shell_word(value);
     };
     std::string command = "handhold run" + option("--scene", options.scene);
@@ -41,7 +42,8 @@ std::string replay_command(const PlayOptions& options, const std::string& spawn,
         std::snprintf(text.data(), text.size(), " --hz %.17g", hz);
         command += text.data();
     }
-    if (!options.models.controllers.empty()) {  // its joint is how samples became hands
+    // The profile's joint converted the samples to hand poses.
+    if (!options.models.controllers.empty()) {
         command += option("--controllers", options.models.controllers);
     }
     return command + (options.distance_grab ? " --distance-grab" : "");

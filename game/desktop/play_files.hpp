@@ -11,23 +11,24 @@
 #include "game/scene/scene.hpp"
 #include "game/session/recording.hpp"
 
-// Files of a session that is played on the desktop or in a headset: its scene and its outputs.
+// Input and output files of a session that is played on the desktop or in a headset.
 namespace handhold {
 
 struct PlayedScene {
     Scene scene;
-    SceneSpawnPoint place;  // the origin if the scene has none
+    // Where the player starts; the world's origin if the scene has no spawns.
+    SceneSpawnPoint place;
 };
 Result<PlayedScene> load_played_scene(const PlayOptions& options);
 
-// Checks the output files before playing, so no session is played that cannot be saved.
+// Checks the output files before play, so that nobody plays a session that cannot be saved.
 std::optional<FileError> check_play_files(const PlayOptions& options);
 
 struct CloseFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
 using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
-// Null if the options request none.
+// Opens the status file; null if the options request none.
 Result<OpenFile> open_status(const PlayOptions& options);
 
 // The command line that plays the recording of `options` again bit for bit, quoted for a shell.

@@ -16,15 +16,16 @@
 namespace handhold {
 namespace {
 
-constexpr double k_max_behind_s = 0.1;  // beyond this, simulated time runs slower
+// Maximum delay behind real time; beyond it, simulated time runs slower.
+constexpr double k_max_behind_s = 0.1;
 constexpr double k_status_s = 0.1;
 
 double us_since(std::int64_t begin_ns) { return 1e-3 * static_cast<double>(now_ns() - begin_ns); }
 
-// Divides real time into simulation steps. Input between two steps waits for the next one.
+// Converts real time to a number of simulation steps.
 class Clock {
   public:
-    // Number of steps that are due.
+    // The number of steps that have become due since the last call.
     int advance() {
         const std::int64_t now = now_ns();
         behind_s_ += last_ns_ != 0 ? 1e-9 * static_cast<double>(now - last_ns_) : 0.0;
@@ -40,7 +41,8 @@ class Clock {
     double behind_s_ = 0.0;
 };
 
-// Input of one poll applies to the first of several steps, except for held buttons.
+// Clears the input that applies to the first step only, if a poll is followed by several steps.
+// Buttons that are held down stay.
 void clear_momentary_input(DesktopInput& input) {
     input.turn_left_rad = input.look_up_rad = input.farther_m = 0.0;
     input.snap_turns = 0;

@@ -7,8 +7,8 @@
 #include "game/desktop/desktop_session.hpp"
 #include "game/desktop/play_settings.hpp"
 #include "game/desktop/play_tally.hpp"
+#include "game/desktop/session_history.hpp"
 #include "game/desktop/window.hpp"
-#include "game/session/session_history.hpp"
 #include "game/ui/overlay.hpp"
 #include "game/view/gizmos.hpp"
 #include "game/view/outside_camera.hpp"
@@ -32,23 +32,24 @@ struct PlayStage {
     PlaySettings& settings;
     PlayPanels& panels;
     PlayTally& tally;
-    Image& picture;                                     // the last one
+    Image& picture;                                     // the last picture drawn
     std::array<int, 2> picture_size;                    // width and height in pixels
-    GizmoSet gizmos;                                    // on at the start
+    GizmoSet gizmos;                                    // gizmos that are on at the start
     std::string page;                                   // page of the inspector; empty: its first
-    PlayerViewpoint viewpoint = PlayerViewpoint::eyes;  // at the start; not free
-    double end_s = 0.0;                                 // of the scene's clock; 0: never
+    PlayerViewpoint viewpoint = PlayerViewpoint::eyes;  // at the start; must not be `free`
+    // End of the session on the scene's clock; 0: never.
+    double end_s = 0.0;
     std::FILE* status = nullptr;  // gets a line every tenth of a second; may be null
 };
 
 // How the session ended.
 struct PlayEnd {
-    bool leaves = true;  // else `scene` is played next
-    std::string scene;   // may be the same scene
+    bool leaves = true;  // false: `scene` is played next
+    std::string scene;   // may be the scene just played
 };
 
-// Plays in real time. If a picture takes longer than a tenth of a second, simulated time runs
-// slower, so the result does not depend on the frame rate of the pictures.
+// Plays in real time with steps of constant length, so the result does not depend on the pictures'
+// frame rate. If a picture takes longer than a tenth of a second, simulated time runs slower.
 PlayEnd play(PlayStage& stage);
 
 }  // namespace handhold

@@ -39,8 +39,8 @@ const char* name_of_grip(GripKind kind) {
 
 }  // namespace
 
-// A hand change: the second hand grips while the first still holds. Flying from grip to grip is
-// none.
+// Counts grips and hand changes. In a hand change, one hand grips while the other still holds.
+// Flying from grip to grip is not a hand change.
 void PlayTally::add_grips(const World& world, const PlayerEntities& player) {
     const std::array<bool, k_hand_count> before = grips_;
     for (std::size_t side = 0; side < k_hand_count; ++side) {

@@ -10,7 +10,7 @@
 namespace handhold {
 namespace {
 
-constexpr double k_wheel_m = 0.04;  // per notch
+constexpr double k_wheel_m = 0.04;  // movement of a held body per notch
 
 constexpr std::array<std::pair<SDL_Scancode, PlayKey>, 8> k_play_keys = {{
     {SDL_SCANCODE_F1, PlayKey::help},
@@ -22,7 +22,7 @@ constexpr std::array<std::pair<SDL_Scancode, PlayKey>, 8> k_play_keys = {{
     {SDL_SCANCODE_O, PlayKey::step},
     {SDL_SCANCODE_ESCAPE, PlayKey::leave},
 }};
-// By UiKey.
+// SDL's scan codes, by UiKey.
 constexpr std::array<SDL_Scancode, static_cast<std::size_t>(UiKey::count)> k_ui_keys = {
     SDL_SCANCODE_TAB,    SDL_SCANCODE_LEFT,   SDL_SCANCODE_RIGHT,     SDL_SCANCODE_UP,
     SDL_SCANCODE_DOWN,   SDL_SCANCODE_PAGEUP, SDL_SCANCODE_PAGEDOWN,  SDL_SCANCODE_HOME,
@@ -213,13 +213,14 @@ std::unique_ptr<Window> Window::open(const std::string& title, int width_px, int
         why_not = SDL_GetError();
         return nullptr;
     };
-    // The pictures come from our own renderer. A second OpenGL context, the window's, would
+    // The game's renderer has its own OpenGL context. A second context for the window would
     // conflict with it on this thread.
     SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
     if (SDL_Init(SDL_INIT_VIDEO) != 0) {
         return failed();
     }
-    // Without a display SDL falls back to a driver without output, unless it was requested.
+    // Without a display, SDL selects a driver that shows nothing. That counts as no display, unless
+    // the user requested the driver.
     const std::string_view driver = SDL_GetCurrentVideoDriver();
     if (SDL_getenv("SDL_VIDEODRIVER") == nullptr && (driver == "offscreen" || driver == "dummy")) {
         why_not = "no display";

@@ -41,8 +41,8 @@ class Window {
 
     WindowEvents poll(const PlaySettings& settings);
     void show(const Image& picture);
-    // Held: the hidden mouse controls view and grips while the window has focus. Else it is a
-    // pointer.
+    // true: the mouse is hidden and controls view and grips while the window has focus. false: the
+    // mouse is a pointer.
     void hold_mouse(bool held);
     void set_title(const std::string& title);
 

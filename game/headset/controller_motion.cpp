@@ -12,7 +12,7 @@ double& value_of(ControlValues& values, Control control) {
     return values[static_cast<std::size_t>(control)];
 }
 
-// What stands beside `node` under that name.
+// The sibling of `node` with that name.
 const GltfNode* find_beside(std::span<const GltfNode> nodes, const GltfNode& node,
                             const std::string& name) {
     const auto found = std::ranges::find_if(nodes, [&](const GltfNode& other) {
@@ -41,7 +41,7 @@ ControlValues control_values(const HandReading& hand) {
     ControlValues values = k_controls_at_rest;
     value_of(values, Control::trigger) = hand.trigger;
     value_of(values, Control::squeeze) = hand.squeeze;
-    // A stick's corners lie on its circle (WebXR).
+    // WebXR maps the corners of a stick's range onto its circle.
     const double length = std::max(std::hypot(hand.stick[0], hand.stick[1]), 1.0);
     value_of(values, Control::stick_x) = 0.5 + 0.5 * hand.stick[0] / length;
     value_of(values, Control::stick_y) = 0.5 - 0.5 * hand.stick[1] / length;
@@ -74,7 +74,8 @@ std::vector<ControlMove> moves_of(const std::string& pointer, std::span<const Gl
     return moves;
 }
 
-// Each move is told with what is outside of it at rest; those are done last, and take it along.
+// Poses of a move assume that its ancestors are at rest. Ancestors' moves are applied last and
+// carry it along.
 Pose moved_by(std::span<const ControlMove> moves, const ControlValues& values) {
     Pose moved;
     for (const ControlMove& move : moves) {

@@ -70,7 +70,8 @@ ControllerSide read_own_side(const JsonValue& value, HandSide side,
     return made;
 }
 
-// Keys of WebXR's layouts are "left", "right", "none", or several of them joined by hyphens.
+// True if the layout `key` of a WebXR profile is for `side`. Keys are "left", "right", "none", or
+// several of them joined by hyphens.
 bool is_layout_of(std::string_view key, std::string_view side) {
     while (!key.empty()) {
         const std::size_t end = std::min(key.find('-'), key.size());
@@ -82,7 +83,8 @@ bool is_layout_of(std::string_view key, std::string_view side) {
     return false;
 }
 
-// What of ours a component's property is; none of what no reading tells: touches, a stick's click.
+// The control of a component's property. None for properties without a reading: touches, stick
+// clicks.
 std::optional<Control> webxr_control(const std::string& component, const std::string& property,
                                      bool has_stick) {
     const bool is_stick = component == "xr-standard-thumbstick";
@@ -106,7 +108,7 @@ std::optional<Control> webxr_control(const std::string& component, const std::st
          {"menu", Control::upper_button}}};
     for (const auto& [name, control] : k_buttons) {
         const bool is_menu_of_its_own =
-            component == "menu" && has_stick;  // a controller with X and Y or A and B
+            component == "menu" && has_stick;  // a controller with a stick has Y or B
         if (property == "button" && component == name && !is_menu_of_its_own) {
             return control;
         }
@@ -156,7 +158,7 @@ Pose controller_in_hand(const ControllerFit& fit) {
 }
 
 Pose handle_in_hand(HandSide side, const HandleGrip& handle, const HandTuning& tuning) {
-    // Of the right hand: its palm looks down, its thumb is on the left.
+    // Right hand: the palm faces down, the thumb is on the left.
     double sine = 0.0;
     double cosine = 1.0;
     sin_cos(handle.slant_rad, sine, cosine);

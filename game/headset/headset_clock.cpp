@@ -6,7 +6,7 @@ namespace handhold {
 namespace {
 
 constexpr double k_ns_per_s = 1e9;
-constexpr double k_steps_per_hz = 1e3;  // 11,111,111 ns are 90 Hz, not 90.0000009
+constexpr double k_steps_per_hz = 1e3;  // rounds to 1 mHz: 11,111,111 ns are 90 Hz, not 90.0000009
 
 }  // namespace
 

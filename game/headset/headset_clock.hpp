@@ -4,22 +4,21 @@
 
 namespace handhold {
 
-// The times at which a headset shows its pictures, as frames of the simulation: one for every
-// refresh of the display, however late a picture comes, all of one length. A session that was
-// recorded then plays again at `hz` bit for bit.
+// Simulation frames for a headset's display: one per refresh, all of one length, even if pictures
+// are late. A recorded session therefore replays at `hz` bit for bit.
 class HeadsetClock {
   public:
-    // Frames that are due until a picture that will be seen at display_ns; 0 where that refresh had
-    // its frame. The first call, and the first after pause(), has none due. The first
-    // period_ns > 0 decides how long a frame is. Later than k_max_frames, time goes slower.
+    // Number of frames due for a picture that is shown at display_ns; 0 if that refresh had its
+    // frame, on the first call, and on the first one after pause(). The first period_ns > 0 decides
+    // the frame length. At most k_max_frames: beyond that, simulated time lags behind.
     int advance(std::int64_t display_ns, std::int64_t period_ns);
 
-    // Until the next advance() no time passes: the runtime was away, or its clock is another.
+    // No time passes until the next advance(): the runtime was gone, or has another clock.
     void pause() { runs_ = false; }
 
     double hz() const { return hz_; }
     double dt_s() const { return 1.0 / hz_; }
-    // Of the n-th last of the frames that advance() gave, 0 being the last: when it is seen.
+    // Display time of the n-th last frame of the last advance(); 0: the last one.
     std::int64_t frame_ns(int before_last) const;
 
     static constexpr int k_max_frames = 9;
@@ -29,7 +28,7 @@ class HeadsetClock {
     bool has_hz_ = false;
     bool runs_ = false;
     std::int64_t begin_ns_ = 0;  // display time of frame 0
-    std::int64_t done_ = 0;      // frames
+    std::int64_t done_ = 0;      // number of frames counted so far
 };
 
 }  // namespace handhold

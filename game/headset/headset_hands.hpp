@@ -7,38 +7,38 @@
 #include "game/desktop/play_settings.hpp"
 #include "game/headset/headset_reading.hpp"
 
-// What a headset's runtime says, as the input of the game: the samples that recordings and the
-// emulated body of keyboard and mouse give, and what sticks and buttons ask for.
+// Converts readings of a headset's runtime to the game's input: tracking samples, as recordings and
+// the emulated body of keyboard and mouse give them, and commands from sticks and buttons.
 namespace handhold {
 
-// The wrist in OpenXR's grip frame, which lies in a controller's handle: the palm's skin is on the
-// handle as HandleGrip says, as with WebXR's profiles.
+// Wrist in OpenXR's grip frame, which lies in the controller's handle. The palm is on the handle as
+// HandleGrip says.
 Pose hand_in_grip(HandSide side, const HandTuning& tuning);
-// The wrist in OpenXR's palm frame, whose origin is the palm's centre, on its skin, and which knows
-// the hand's own axis.
+// Wrist in OpenXR's palm frame. Its origin is the palm's centre on the skin, its axes are the
+// hand's.
 Pose hand_in_palm(HandSide side, const HandTuning& tuning);
 
-// 0 for a finger in line with the hand, 1 for one whose tip has come back to point at the wrist.
+// Curl of a finger: 0 in line with the hand, 1 if it points back at the wrist.
 double finger_curl(const Vec3& wrist, const Vec3& knuckle, const Vec3& tip);
 
-// State kept from one reading to the next.
+// State between readings.
 struct HeadsetMemory {
     std::array<bool, k_hand_count> grabs{};
-    bool turned = false;  // one snap turn a push of the stick
+    bool turned = false;  // one snap turn per push of the stick
 };
 
-// A hand closes from 55 % of squeeze, trigger or curled fingers on until all are below 35 %. A
-// palm counts before a grip, and both before tracked fingers; what is not tracked has a pose of NaN
-// and keeps its button as it was: losing sight of a hand does not open it.
+// A hand closes when squeeze, trigger or finger curl exceeds 55 %, and opens when all are below 35
+// %. The palm pose is preferred to the grip pose, and both to tracked fingers. A device that is not
+// tracked gets a pose of NaN and keeps its button: losing sight of a hand does not open it.
 //
-// `own_joints`: the joint of a controller's profile, in place of the ones above and of Tuning's;
-// a grip then counts before a palm, and is itself the controller's pose.
+// `own_joints`: joints of a controller profile, which replace the ones above and Tuning's. The grip
+// pose is then preferred to the palm pose and is the controller's pose itself.
 TrackingSample read_headset(const HeadsetReading& reading, double t_s, const HandTuning& tuning,
                             HeadsetMemory& memory,
                             const std::array<Pose, k_hand_count>* own_joints = nullptr);
 
-// Right stick: turns, by steps or smoothly. Left stick and head: where the jets push. Either brake
-// brakes; both calibrate buttons together ask for calibration.
+// Right stick: snap or smooth turns. Left stick, relative to the head: thrusters. Either brake
+// button brakes; both calibrate buttons together request calibration.
 PlayerCommands read_headset_commands(const HeadsetReading& reading, TurnKind turn,
                                      HeadsetMemory& memory);
 

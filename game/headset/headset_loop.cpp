@@ -18,13 +18,13 @@ namespace {
 
 constexpr double k_between_lines_s = 0.1;
 constexpr auto k_retry_interval = std::chrono::milliseconds(500);
-constexpr int k_max_attempts = 60;
+constexpr int k_max_find_attempts = 60;
 
 double microseconds_since(std::int64_t begin_ns) {
     return 1e-3 * static_cast<double>(now_ns() - begin_ns);
 }
 
-// Left and right beside each other.
+// Copies an eye's picture into its half of `both`: left, right.
 void put_beside(const Image& eye, std::size_t which, Image& both) {
     const int width = eye.width_px;
     both.width_px = 2 * width;
@@ -88,7 +88,7 @@ class HeadsetLoop {
     bool find_again(std::string& why_not) {
         std::fprintf(stderr, "the headset's runtime is lost; looking for it\n");
         ++figures_.losses;
-        for (int i = 0; i < k_max_attempts && !ends_; ++i) {
+        for (int i = 0; i < k_max_find_attempts && !ends_; ++i) {
             headset_.reset();
             std::this_thread::sleep_for(k_retry_interval);
             look_around();
@@ -101,7 +101,7 @@ class HeadsetLoop {
         return false;
     }
 
-    // The runtime ends the session while frames go on.
+    // Frames must go on while the runtime ends the session.
     void leave() {
         constexpr int k_max_frames = 200;
         headset_->ask_to_leave();
@@ -112,7 +112,7 @@ class HeadsetLoop {
         }
     }
 
-    // Who wants to end it here.
+    // Reads the requests to end that come from this side: a signal, the mirror window.
     void look_around() {
         ends_ = ends_ || (stage_.asked_to_end != nullptr && *stage_.asked_to_end != 0);
         if (stage_.mirror == nullptr) {
@@ -125,7 +125,7 @@ class HeadsetLoop {
 
     void frame() {
         const HeadsetFrame frame = headset_->begin_frame();
-        if (frame.display_ns == 0) {  // lost: poll() says so
+        if (frame.display_ns == 0) {  // lost: the next poll() reports it
             return;
         }
         headset_->sync();
@@ -188,7 +188,7 @@ class HeadsetLoop {
         std::fflush(stage_.status);
     }
 
-    // What he is told of himself.
+    // A line about the player's own tracking and calibration.
     std::string notice() const {
         const Calibration& calibration = world().calibration.at(stage_.session.player().player);
         for (const HandSide side : {HandSide::left, HandSide::right}) {
@@ -215,7 +215,7 @@ class HeadsetLoop {
         sheet_ui_ = overlay_->end();
     }
 
-    // Where it is beside the head in the room, it is beside the head in the world.
+    // The panel has the same pose relative to the head in the world as in the room.
     std::optional<Sheet> sheet_before(const Pose& head_ws) const {
         if (!panel_.shows()) {
             return std::nullopt;
@@ -235,7 +235,7 @@ class HeadsetLoop {
         return overlay_->end();
     }
 
-    // Where the eye is beside the head in the room, it is beside the head in the world.
+    // The eye has the same pose relative to the head in the world as in the room.
     void draw(const EyePicture& eye, const UiPicture& ui) {
         const Entity player = stage_.session.player().player;
         const RenderPose& render = world().render_pose.at(player);
@@ -272,10 +272,10 @@ class HeadsetLoop {
     HeadsetClock clock_;
     HeadsetMemory memory_;
     HeadsetFigures figures_;
-    std::optional<Overlay> overlay_;  // of both eyes and the panel; none: headless
+    std::optional<Overlay> overlay_;  // for both eyes and the panel; none: headless
     HeadsetPanel panel_;
-    UiPicture sheet_ui_;  // while it shows
-    Pose head_ps_;        // as the last reading had it
+    UiPicture sheet_ui_;  // while it is shown
+    Pose head_ps_;        // in the last reading
     Image eye_image_;     // reused
     Image mirror_image_;  // the left eye's
     std::uint64_t frames_ = 0;

@@ -15,23 +15,23 @@
 
 namespace handhold {
 
-// One scene, played in a headset until somebody leaves it.
+// One scene, played in a headset until it is left.
 struct HeadsetStage {
     const PlayOptions& options;
     HeadsetSession& session;
     PlayerView* view = nullptr;  // null: headless
-    Window* mirror = nullptr;    // null: none
+    Window* mirror = nullptr;    // null: no mirror window
     EyeSize eye_size;
     PlayTally& tally;
-    Image& picture;               // both eyes beside each other, where options ask for a picture
-    std::FILE* status = nullptr;  // a line every tenth of a second; none: null
+    Image& picture;               // both eyes side by side, if options ask for a picture
+    std::FILE* status = nullptr;  // a line every 0.1 s; null: none
     const volatile std::sig_atomic_t* asked_to_end = nullptr;  // not 0: leave
-    double hz = 90.0;  // out: frames a second of the session
+    double hz = 90.0;  // out: frames per second of the session
 };
 
-// One frame of the simulation for each refresh of the display, drawn for when it will be seen. A
-// runtime that is lost is looked for again for half a minute; meanwhile no time passes. False, with
-// the reason, where it does not come back.
+// Simulates one frame per refresh of the display and draws it for its display time. If the runtime
+// is lost, it is reopened within half a minute, during which no time passes. False, with the
+// reason, if that fails.
 bool play_in_headset(HeadsetStage& stage, std::unique_ptr<Headset> headset, std::string& why_not);
 
 }  // namespace handhold

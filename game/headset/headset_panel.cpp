@@ -3,7 +3,7 @@
 namespace handhold {
 
 Pose panel_before(const Pose& head_ps) {
-    // Who looks straight up has his forehead behind him, who looks down has it ahead.
+    // Looking straight up, the forehead points backwards; looking straight down, it points ahead.
     const Vec3 look = head_ps.rotation * -Vec3::UnitZ();
     const Vec3 forehead = head_ps.rotation * Vec3::UnitY();
     Vec3 ahead = look + (look.y() > 0.0 ? -1.0 : 1.0) * std::abs(look.y()) * forehead;

@@ -8,14 +8,13 @@
 
 namespace handhold {
 
-// What a headset's runtime says of one hand at one time, in the space of its tracking. A pose that
-// is absent is not tracked. Grip and aim as OpenXR defines them: the grip's origin is the palm's
-// centre on the handle, its -Z goes along the handle to the thumb, its +X into the right hand's
-// palm and out of the left one's.
+// A runtime's reading of one hand at one time, in the space of its tracking. An absent pose is not
+// tracked. Grip and aim poses are OpenXR's: the grip's origin is the palm's centre on the handle,
+// -Z points along the handle to the thumb, +X into the right palm and out of the left one.
 struct HandReading {
     std::optional<Pose> grip_ps;
     std::optional<Pose> aim_ps;
-    std::optional<Pose> palm_ps;    // as the grip, but turned: -Z along the hand to its fingers
+    std::optional<Pose> palm_ps;    // grip pose rotated: -Z along the hand to the fingers
     std::optional<Pose> wrist_ps;   // of tracked fingers: -Z to them, +Y the back of the hand
     double curl = 0.0;              // of tracked fingers: 0 flat, 1 a fist
     double squeeze = 0.0;           // [0, 1]
@@ -30,7 +29,7 @@ struct HeadsetReading {
     std::array<HandReading, k_hand_count> hands;  // by HandSide
 };
 
-// A short shake of a controller.
+// A short vibration of a controller.
 struct HapticPulse {
     double amplitude = 0.0;   // [0, 1]
     double duration_s = 0.0;  // 0: none

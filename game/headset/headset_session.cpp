@@ -12,7 +12,7 @@ namespace {
 constexpr double k_player_kg = 80.0;
 constexpr HapticPulse k_touch_pulse{0.25, 0.015};
 constexpr HapticPulse k_grip_pulse{0.8, 0.04};
-constexpr double k_touch_radius_m = 0.02;  // of a ball in the palm
+constexpr double k_touch_radius_m = 0.02;  // of a sphere in the palm
 constexpr double k_touch_reach_m = 0.03;   // from the palm's skin
 
 }  // namespace
@@ -49,7 +49,7 @@ void HeadsetSession::step(TrackingSample sample, PlayerCommands commands, double
         }
     }
     if (scene_.tuning.locomotion.thruster_mps2 == 0.0) {
-        commands.thrust_ps.setZero();  // nobody would obey, but commands are state
+        commands.thrust_ps.setZero();  // has no effect, but commands are state
     }
     used_sticks_ = used_sticks_ || commands.brake > 0.0 || commands.smooth_turn != 0.0 ||
                    commands.snap_turns != 0 || !commands.thrust_ps.isZero();
@@ -58,8 +58,8 @@ void HeadsetSession::step(TrackingSample sample, PlayerCommands commands, double
     feel();
 }
 
-// A ball that goes out of the palm meets something at once. Colliders are where the frame left
-// them.
+// True if a sphere cast out of the palm hits something within reach. Colliders have the poses of
+// the last frame.
 bool HeadsetSession::touches(HandSide side) const {
     const RenderPose::Hand& hand =
         scene_.world.render_pose.at(player_.player).hands[index_of(side)];

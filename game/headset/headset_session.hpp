@@ -11,23 +11,23 @@
 
 namespace handhold {
 
-// A scene that one person plays with a headset, frame by frame.
+// A scene played with a headset by one player, frame by frame.
 class HeadsetSession {
   public:
     HeadsetSession(Scene scene, const Pose& origin_ws);
 
-    // A controller's own joint in place of Tuning's; before the first frame.
+    // Replaces Tuning's joint by a controller's own. Call before the first frame.
     void set_controller_joints(const std::array<Pose, k_hand_count>& hand_in_grip);
-    // Those, or nullptr.
+    // The joints set above; nullptr if none were.
     const std::array<Pose, k_hand_count>* controller_joints() const {
         return joints_ ? &*joints_ : nullptr;
     }
 
-    // One frame of dt_s: `sample` is at its end, and, before the first frame, at its beginning too.
+    // Steps one frame of dt_s. `sample` is taken at its end; in the first frame also at its start.
     void step(TrackingSample sample, PlayerCommands commands, double dt_s);
 
-    // What his controllers shake with after the last frame: a little where a palm came near enough
-    // to touch something, more where the hand gripped it.
+    // Vibration of the controllers after the last frame: weak if a palm came close to a surface,
+    // strong if the hand gripped.
     std::array<HapticPulse, k_hand_count> pulses() const { return pulses_; }
 
     const Scene& scene() const { return scene_; }
@@ -36,8 +36,8 @@ class HeadsetSession {
     const PlayerEntities& player() const { return player_; }
     double t_s() const { return scene_.world.clock.t_s; }
 
-    // Keeps what the headset says from the first frame on. Played from the same place at the same
-    // rate it repeats every bit, but for turns, brake and jets.
+    // Records the input from the first frame on. Replayed from the same place at the same rate, it
+    // gives the same state bit for bit, except for turns, brake and thrusters.
     void record() { records_ = true; }
     const Recording& recording() const { return recording_; }
     bool used_sticks() const { return used_sticks_; }

@@ -33,7 +33,7 @@ constexpr double k_fore_end_radius_m = 0.0195;
 
 const Quat k_along_z = rotation_about(Vec3::UnitX(), k_half_pi);
 
-// A rounded cross-section between an ellipse and its bounding box.
+// A corner of a rounded cross-section, fuller than an ellipse but inside the bounding box.
 Vec3 gun_corner(const GunRing& ring, int corner) {
     double s = 0.0;
     double c = 1.0;
@@ -133,7 +133,7 @@ void draw_body(StationKit& kit) {
                  Vec3(0.0022, 0.0065, 0.0045));
     }
     kit.beam(Material::metal, {}, Vec3(0.0, 0.0765, -0.128), Vec3(0.0018, 0.0065, 0.0050));
-    // The battery in front of the guard.
+    // The battery, in front of the trigger guard.
     kit.beam(Material::dark, {}, Vec3(0.0, -0.004, -0.106), Vec3(0.0140, 0.0200, 0.0230));
     kit.block(Material::accent, {}, Vec3(0.0, -0.0235, -0.106), Vec3(0.0150, 0.0030, 0.0240));
 }

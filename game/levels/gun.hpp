@@ -3,7 +3,7 @@
 #include "game/levels/station.hpp"
 #include "game/scene/scene_file.hpp"
 
-// The game's gun: an object that is held in one way. Talk row 10.
+// The game's gun: a body with authored grips. Talk row 10.
 namespace handhold {
 
 // Frame: -Z is the muzzle's direction, +Y is up, x = 0 is the plane of symmetry, and the origin is

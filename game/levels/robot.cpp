@@ -12,7 +12,7 @@ constexpr Color k_accent = {0.55F, 0.22F, 0.02F};
 
 constexpr double k_back_m = 0.25;  // height of the back above the torso's frame
 
-// The robot's path: half the length of its straights, and the radius of its bends.
+// The robot's path: half the length of a straight, and the radius of the bends.
 constexpr double k_straight_half_m = 4.0;
 constexpr double k_bend_m = 3.6;
 constexpr double k_robot_mps = 0.45;
@@ -105,7 +105,7 @@ void add_back_rails(StationKit& kit) {
     }
 }
 
-// A pose on the path, `along_m` from the middle of the straight at +X.
+// The pose at arc length `along_m` on the robot's path; 0 is the middle of the straight at +X.
 Pose way_at(double along_m) {
     const double bend = 2.0 * k_half_pi * k_bend_m;
     const double lap = 4.0 * k_straight_half_m + 2.0 * bend;
@@ -121,7 +121,8 @@ Pose way_at(double along_m) {
     } else {
         rest += k_straight_half_m + bend;
     }
-    // From here on measured from the start of a bend. The first bend is at -Z and turns left.
+    // From here on, `rest` is the distance from the start of a bend. The first bend is at -Z and
+    // turns left.
     const Quat lap_turn = rotation_about(Vec3::UnitY(), 2.0 * k_half_pi * (half_turns - 1.0));
     const double angle = rest < bend ? rest / k_bend_m : 2.0 * k_half_pi;
     double sine = 0.0;
@@ -134,7 +135,7 @@ Pose way_at(double along_m) {
     return {lap_turn * place, lap_turn * rotation_about(Vec3::UnitY(), angle)};
 }
 
-// Equipment on the hull inside the path, lower than the legs swing.
+// Equipment on the hull inside the robot's path, low enough for the swinging legs.
 void add_island(StationKit& kit) {
     // Along the middle: two tanks, a mast with a dish, boxes, and a rail around them.
     for (const double z : {-2.2, 2.2}) {
@@ -163,8 +164,8 @@ void add_island(StationKit& kit) {
     }
 }
 
-// Bolts in a plate's corners and, on some plates, a stripe or a grille. All are below 6 mm, because
-// feet may land anywhere.
+// Bolts in a plate's corners and, on some plates, a stripe or a grille. They rise less than 6 mm,
+// because feet may land anywhere.
 void add_plate_marks(StationKit& kit, const Vec3& center, std::size_t salt) {
     const Vec3 top = center + Vec3(0.0, 0.075, 0.0);
     for (int corner = 0; corner < 4; ++corner) {
@@ -213,7 +214,7 @@ void add_plates(StationKit& kit) {
     }
 }
 
-// Boxes and radiators outside the path.
+// Boxes and radiators on the hull outside the path.
 void add_outskirts(StationKit& kit) {
     for (int i = 0; i < 14; ++i) {
         const auto salt = static_cast<std::size_t>(i);

@@ -6,9 +6,9 @@
 #include "engine/geometry/mesh.hpp"
 #include "game/render/render_frame.hpp"
 
-// The game's level, made from a description (docs/reference/station_format.md), and the platform
-// that flies past, made in code. Lengths in metres. The meshes are colliders too, so they are equal
-// on every machine.
+// The station, built from a description (docs/reference/station_format.md), and the ship, a
+// platform that is built in code. Lengths in metres. The meshes are also colliders, so they must be
+// equal on every machine, bit for bit.
 namespace handhold {
 
 // The straight part of a handrail, along its axis.
@@ -21,10 +21,10 @@ struct HandrailSpan {
 
 struct SpawnPoint {
     std::string name;
-    Pose pose;  // of the head, which looks along -Z; at least 0.3 m from every surface
+    Pose pose;  // pose of the head, which looks along -Z; at least 0.3 m from every surface
 };
 
-// Meshes in one frame. Each part is welded and made of closed solids of one material, and is named
+// Meshes in one frame. Each part is made of closed solids of one material, is welded, and is named
 // "<section>/<material>". Solids may touch or intersect each other.
 struct Structure {
     std::vector<Mesh> parts;
@@ -36,19 +36,20 @@ struct Structure {
 
 struct StationDescription;  // game/levels/station_description.hpp
 
-// Static, in the frame of the description. Coordinates are exactly representable as floats.
+// The station in the frame of its description. It is static. Its coordinates are exactly
+// representable as floats.
 Structure make_station(const StationDescription& description);
 // The station of game/assets/station.json. The node's centre is the origin; the habitat is towards
 // +Z, the laboratory towards -X, the airlock towards +X, the cupola towards -Z, the truss above.
 Structure make_station();
-// The rails of that station, for scripts that plan along them.
+// The rails of the game's station, for scripts that plan along them.
 std::vector<HandrailSpan> station_rails();
 
 // An open shuttle-like platform of about 8 m (along Z) x 3 m x 4 m: deck, wall, roof over its rear
 // half, rails. In its body's frame: origin in the middle, -Z forward.
 Structure make_ship();
 
-// The visual of a rock of about 16 cm. The caller chooses its collider.
+// The visual of a rock of about 16 cm, without a collider.
 Mesh make_held_rock();
 
 }  // namespace handhold

@@ -70,7 +70,8 @@ constexpr std::array<Word<ToolType>, 12> k_tool_types = {{{"wrench", ToolType::w
                                                           {"book", ToolType::book},
                                                           {"helmet", ToolType::helmet}}};
 
-// The value of a word. For an unknown word, keeps an error and returns the first value.
+// Reads a word and returns its value. An unknown word is kept as the document's error and gives the
+// first value.
 template <typename T, std::size_t N>
 T read_word(const JsonValue& value, const std::array<Word<T>, N>& words) {
     const std::string text = value.text();
@@ -85,7 +86,7 @@ T read_word(const JsonValue& value, const std::array<Word<T>, N>& words) {
     return words.front().value;
 }
 
-// Names become file names and parts of paths of names ("hab/rail_0").
+// Names are used as file names and as components of paths such as "hab/rail_0".
 std::string read_file_name(const JsonValue& value) {
     std::string name = value.text();
     if (!is_file_name(name)) {
@@ -199,7 +200,7 @@ void DescriptionReader::read_place(const JsonValue& value, StationSection& secti
         attach.refuse("nothing: a truss is placed by \"position_m\"");
     }
     if (section.type == SectionType::node) {
-        taken_ports_.insert({section.name, 2});  // its -Z port is the connection
+        taken_ports_.insert({section.name, 2});  // the node is attached by its -Z port
     }
     if (!taken_ports_.insert({section.attached_to, section.port}).second) {
         attach["port"].refuse("a port that nothing else is attached to");

@@ -14,14 +14,15 @@
 #include "game/levels/station_rack.hpp"
 #include "game/render/render_frame.hpp"
 
-// A station as data: docs/reference/station_format.md. Lengths in metres. A section's frame has its
-// origin in the middle of its near end (nodes and cupolas: see there), +Z along the section, +Y up.
+// A station as data (docs/reference/station_format.md). Lengths in metres. The frame of a section
+// has its origin in the middle of the section's near end, +Z along the section, +Y up. Nodes and
+// cupolas have other origins: see the format.
 namespace handhold {
 
 enum class SectionType : std::uint8_t { node, module, cupola, truss };
 
-// How a module's far end is closed. `open`: a door that stands open outside. `hatch`: another
-// section can be attached.
+// How a module's far end is closed. `open`: the door stands open, outside. `hatch`: another section
+// can be attached.
 enum class EndKind : std::uint8_t { hatch, door, window, open };
 
 enum class WallSide : std::uint8_t { floor, right, ceiling, left };
@@ -32,7 +33,7 @@ inline constexpr std::size_t k_wall_count = 4;
 struct RailLine {
     std::string name;
     WallSide wall = WallSide::floor;
-    bool outside = false;   // on the top strip; `wall` is unused
+    bool outside = false;   // on the strip along the top; `wall` is unused
     double across_m = 0.0;  // along the wall's X, from its middle
     double from_m = 0.0;    // along the section's Z
     double to_m = 1.0;
@@ -49,17 +50,19 @@ struct StationSection {
     std::string name;
     SectionType type = SectionType::module;
     std::string attached_to;  // name of an earlier section; empty: placed by `pose`
-    int port = 0;             // node: quarter turns from its +Z to the left; module: unused
+    // Attached to a node: port, in quarter turns from the node's +Z to the left; to a module:
+    // unused.
+    int port = 0;
     Pose pose;
     std::size_t racks = 5;  // module: length in racks; truss: bays
     EndKind far_end = EndKind::door;
     Color accent = {0.5F, 0.5F, 0.5F};
     std::size_t seed = 1;
-    std::array<std::vector<RackKind>, k_wall_count>
-        walls;  // module: one for each rack, by WallSide
+    // module: one for each rack, by WallSide.
+    std::array<std::vector<RackKind>, k_wall_count> walls;
     std::vector<RailLine> rails;
     std::vector<HoseLine> hoses;
-    std::vector<Lamp> lamps;  // beside the section's own lamps; in its frame
+    std::vector<Lamp> lamps;  // in the section's frame, in addition to the section's own lamps
 };
 
 enum class ToolType : std::uint8_t {
@@ -86,7 +89,7 @@ struct StationTool {
     Vec3 angular_velocity_radps = Vec3::Zero();
 };
 
-// A spawn, given by the eyes.
+// A spawn, given by the position and the view direction of the eyes.
 struct StationSpawn {
     std::string name;
     Vec3 eyes = Vec3::Zero();
@@ -102,9 +105,9 @@ struct StationDescription {
     std::vector<StationSpawn> spawns;
 };
 
-// Refused, with JSON pointer and value: values out of range or of the wrong type, unknown keys,
-// names that are taken or cannot be a file's, a section attached to a later section, to no port, or
-// to a port that is taken.
+// Errors name the JSON pointer and the value: values out of range or of the wrong type, unknown
+// keys, names that are taken or are no file names, and sections attached to a later section, to no
+// port, or to a port that is taken.
 Result<StationDescription> parse_station_description(std::string_view text,
                                                      const std::filesystem::path& path);
 Result<StationDescription> load_station_description(const std::filesystem::path& path);

@@ -4,8 +4,8 @@
 
 namespace handhold {
 
-// Fronts that fill a whole rack: garden, bunk, bench and stowage. Between the seat tracks they rise
-// at most 2 cm above the wall, which leaves the rails beside them free.
+// Adds a front that fills a whole rack: `kind` is garden, bunk, bench or stowage. Between the
+// wall's two seat tracks it rises at most 2 cm, which keeps the handrails on the tracks free.
 void build_fitting(StationKit& kit, const Pose& frame, double z0, RackKind kind, std::size_t seed);
 
 }  // namespace handhold

@@ -17,7 +17,7 @@ struct MaterialLook {
     Look look;
 };
 
-// By Material.
+// Name and look of each Material.
 constexpr std::array<MaterialLook, k_material_count> k_materials = {{
     {"hull", {0.62F, 0.63F, 0.66F}, {0.0F, 1.0F, 0.35F}},
     {"liner", {0.115F, 0.120F, 0.130F}, {0.0F, 1.0F, 0.10F}},
@@ -40,8 +40,8 @@ constexpr std::array<MaterialLook, k_material_count> k_materials = {{
 
 constexpr double k_post_spacing_m = 0.85;
 
-// Through memory: GCC 12's vectoriser leaves the last elements of a loop over (double)(float)x
-// unchanged.
+// Rounds through memory, because GCC 12's vectoriser loses the conversion (double)(float)x in the
+// last elements of a loop.
 double to_nearest_float(double x) {
     const volatile float rounded = static_cast<float>(x);
     return static_cast<double>(rounded);
@@ -92,7 +92,8 @@ void StationKit::beam(Material material, const Pose& frame, const Vec3& center,
 }
 
 void StationKit::rim(Material material, const Pose& frame, const RimShape& shape) {
-    // Rings lie in X and Z, counter-clockwise seen from +Y, in the order of a loft with a hole.
+    // The rings lie in the XZ plane, counter-clockwise seen from +Y, in the order that
+    // LoftEnds::looped needs.
     const auto ring = [&](double inset, double y) {
         const double x = shape.half_x - inset;
         const double z = shape.half_z - inset;
@@ -131,7 +132,7 @@ void StationKit::handrail(const std::string& name, const Pose& frame, const Vec3
     const int spans = std::max(1, static_cast<int>(std::lround(length / k_post_spacing_m)));
     for (int i = 0; i <= spans; ++i) {
         const Vec3 foot = a + along * (length * i / spans);
-        // X along the bar: a foot plate and, between the ends, a flat post.
+        // X is along the bar. Adds a foot plate and, between the ends, a flat post.
         const Pose turned = frame * Pose{foot, rotation_between(Vec3::UnitX(), along)};
         block(Material::rail, turned, Vec3(0.0, -0.003, 0.0), Vec3(0.030, 0.009, 0.024));
         if (i > 0 && i < spans) {

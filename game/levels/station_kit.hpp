@@ -33,22 +33,22 @@ enum class Material {
 inline constexpr std::size_t k_material_count = 17;
 
 inline constexpr double k_rail_radius_m = 0.0175;
-inline constexpr double k_rail_clearance_m = 0.045;  // between bar and wall
+inline constexpr double k_rail_clearance_m = 0.045;  // gap between bar and wall
 
 struct RimShape {
     double x = 0.0, z = 0.0;            // centre
-    double half_x = 0.1, half_z = 0.1;  // to the outside
-    double width = 0.02;                // of the rim
+    double half_x = 0.1, half_z = 0.1;  // from the centre to the outer edge
+    double width = 0.02;                // width of the rim
     double y0 = -0.03, y1 = 0.0;        // height of its foot and of its face
 };
 
-// Collects the solids of one section (a module, the node) into one mesh for each material. Frames
-// passed to it have +Y away from the wall and Z along the section.
+// Collects the solids of one section (a module, the node) into one mesh for each material. In every
+// `frame`, +Y points away from the wall and Z along the section.
 class StationKit {
   public:
     StationKit(Structure& out, std::string section, const Color& accent);
-    // Writes the collected solids into the structure. Call once, last. Coordinates are rounded to
-    // floats, so a file holds the same station.
+    // Writes the collected solids into the structure; call it once, last. Rounds coordinates to
+    // floats, so a saved station loads unchanged.
     void finish();
 
     void add(Material material, const Mesh& solid, const Pose& frame);
@@ -60,8 +60,8 @@ class StationKit {
     // The rim of a recessed panel in one piece: an outer box in X and Z with the middle cut out,
     // from y0 up to y1.
     void rim(Material material, const Pose& frame, const RimShape& shape);
-    // A bar on posts above the wall from `a` to `b` (points on the wall), its ends bent into the
-    // wall.
+    // A bar on posts along a wall from `a` to `b` (points on the wall). The bar's ends bend into
+    // the wall.
     void handrail(const std::string& name, const Pose& frame, const Vec3& a, const Vec3& b);
     // A circle swept along a smooth curve (Catmull and Rom 1974) through at least two points.
     void hose(Material material, const Pose& frame, std::span<const Vec3> points, double radius_m);

@@ -13,11 +13,11 @@ constexpr double k_liner_half_m = 1.42;
 constexpr double k_hull_radius_m = 1.90;
 constexpr double k_plate_m = 0.12;           // thickness of an end
 constexpr double k_recess_m = 0.015;         // depth of an end's outside behind the hull's rim
-constexpr double k_end_clearance_m = 0.17;   // from an end's outside to the first rack
-constexpr double k_module_corner_m = 1.365;  // from the axis to a stand-off's face
+constexpr double k_end_clearance_m = 0.17;   // distance from an end's outside to the first rack
+constexpr double k_module_corner_m = 1.365;  // distance from the axis to a stand-off's face
 constexpr double k_hatch_corner_m = 0.22;
 
-// The strip of the outer rail, above the bands and shields.
+// The frame of the strip that carries the outer rail, above the hull's bands and shields.
 const Pose k_top{Vec3(0.0, k_hull_radius_m + 0.06, 0.0), Quat::Identity()};
 
 struct Module {
@@ -35,7 +35,7 @@ Ring hatch_outline(double half_m, double z) {
     return make_outline({half_m, half_m, k_hatch_corner_m * half_m / k_hatch_half_m, 4, 2}, z);
 }
 
-// The skin, octagonal inside and round outside, with raised bands.
+// The hull: octagonal inside and round outside, with raised bands.
 void add_hull(StationKit& kit, const Pose& pose, double length) {
     const Ring inner = make_outline({k_liner_half_m, k_liner_half_m, 0.45, 1, 4}, 0.0);
     const auto outer = [&](double radius, double z) {
@@ -87,8 +87,8 @@ void add_end(StationKit& kit, const Module& module, EndKind kind, bool is_far) {
     } else if (kind == EndKind::window) {
         add_window(kit, frame);
     } else if (kind == EndKind::open) {
-        // Outside, +Y of the wall's frame points out of the module. The open door is turned by 100
-        // degrees about the hinge at the hatchway's edge.
+        // In the frame of the end's outside, +Y points out of the module. The open door is turned
+        // by 100 degrees about the hinge at the hatchway's edge.
         const Pose outer = module.pose * end_frame(length - k_recess_m, false);
         dress_hatch_plate(kit, outer, "outer", HatchRails::beside);
         const double hinge_m = 0.80;
@@ -153,7 +153,7 @@ void add_standoffs(StationKit& kit, const Module& module) {
     }
 }
 
-// Exterior: shields between the bands, and a rail along the top.
+// The outside: shields between the hull's bands, and a rail along the top.
 void add_outside(StationKit& kit, const Module& module) {
     const double length = module_length_m(module.section);
     constexpr std::size_t k_around = 10;
@@ -195,8 +195,8 @@ void add_vestibule(StationKit& kit, const Pose& pose) {
 }
 
 void add_door(StationKit& kit, const Pose& frame) {
-    // In the end's frame Y points into the module. The door is lofted along Z, and a quarter turn
-    // moves that to Y.
+    // In the end's frame, Y points into the module. The door is lofted along Z, so it is turned by
+    // 90 degrees.
     const Pose out = frame * Pose{Vec3::Zero(), rotation_about(Vec3::UnitX(), -k_half_pi)};
     const std::array<Ring, 5> door = {hatch_outline(0.67, -0.09), hatch_outline(0.67, -0.03),
                                       hatch_outline(0.60, -0.005), hatch_outline(0.46, -0.005),
@@ -248,7 +248,7 @@ void dress_hatch_plate(StationKit& kit, const Pose& frame, const std::string& na
                                         hatch_outline(0.662, 0.024)};
     kit.add(Material::accent, make_loft(collar, LoftEnds::looped), out);
     for (int side = 0; side < 4; ++side) {
-        // Y away from the plate, X along this side, +Z outward.
+        // In `turned`, Y points away from the plate, X along this side, and +Z outward.
         const Pose turned =
             frame * Pose{Vec3::Zero(), rotation_about(Vec3::UnitY(), side * k_half_pi)};
         // Two panels on each side with a stiffener between them.

@@ -9,11 +9,13 @@
 namespace handhold {
 namespace {
 
-constexpr double k_node_half_m = 1.25;   // from the node's middle to the inside of its walls
+// Distance from the node's middle to the inside of its walls.
+constexpr double k_node_half_m = 1.25;
 constexpr double k_node_plate_m = 0.15;  // thickness of the walls
 constexpr double k_node_outside_m = k_node_half_m + k_node_plate_m;
 
-// +Z away from the node's middle, +Y up; quarter turns from the node's +Z to the left.
+// The frame of one side of a node, `distance_m` from the node's middle: +Z outward, +Y up. The side
+// is given in quarter turns from the node's +Z to the left.
 Pose node_side(const Pose& node, int quarters, double distance_m) {
     const Quat turn = rotation_about(Vec3::UnitY(), quarters * k_half_pi);
     return node * Pose{turn * Vec3(0.0, 0.0, distance_m), turn};
@@ -24,7 +26,7 @@ void add_node_walls(StationKit& kit, const Pose& node,
     for (int side = 0; side < 4; ++side) {
         kit.add(Material::liner, make_hatch_plate(k_node_outside_m, 0.04, k_node_plate_m),
                 node_side(node, side, k_node_half_m));
-        // Inside, the frame's +Y points to the middle.
+        // In `inside`, +Y points to the node's middle.
         const Pose inside = node_side(node, side, k_node_half_m) *
                             Pose{Vec3::Zero(), rotation_about(Vec3::UnitX(), -k_half_pi)};
         dress_hatch_plate(kit, inside, std::to_string(side), HatchRails::beside);
@@ -115,7 +117,7 @@ void build_node(Structure& out, const StationSection& section, const Pose& pose,
     add_node_walls(kit, pose, ports);
     add_node_decks(kit, pose, section.seed);
     if (!section.attached_to.empty()) {
-        // A node attached to a module brings the passage between them.
+        // The passage between a module and a node belongs to the node.
         add_vestibule(kit, pose * Pose{Vec3(0.0, 0.0, -k_node_outside_m), Quat::Identity()});
     }
     add_described_parts(kit, section, pose);

@@ -8,10 +8,10 @@
 namespace handhold {
 namespace {
 
-constexpr double k_depth_m = 0.31;  // of a rack, behind its face
-constexpr double k_gap_m = 0.006;   // between two fronts
+constexpr double k_depth_m = 0.31;  // depth of a rack behind its face
+constexpr double k_gap_m = 0.006;   // gap between two fronts
 
-// A rectangle of the front: centre and half sizes, across (x) and along (z).
+// A rectangle of a rack's front: centre and half sizes, across (x) and along (z).
 struct Cell {
     double x, z, half_x, half_z;
 };
@@ -20,7 +20,7 @@ Vec3 on_face(const Cell& cell, double across, double height, double along) {
     return {cell.x + across * cell.half_x, height, cell.z + along * cell.half_z};
 }
 
-// A solid front, 40 mm thick, whose face is `proud` above the wall.
+// A solid front, 40 mm thick. Its face stands `proud` metres above the wall.
 void add_front(StationKit& kit, Material material, const Pose& frame, const Cell& cell,
                double proud) {
     kit.panel(material, frame, Vec3(cell.x, proud - 0.02, cell.z),
@@ -30,7 +30,7 @@ void add_front(StationKit& kit, Material material, const Pose& frame, const Cell
 void add_drawer(StationKit& kit, const Pose& frame, const Cell& cell, std::size_t seed) {
     const bool is_accent = chance(seed, 1, 0) < 0.22;
     add_front(kit, is_accent ? Material::accent : Material::panel, frame, cell, 0.0);
-    // A recessed handle plate with a bar over it, a latch at its end, and a label.
+    // A recessed handle plate with a bar above it, a latch at one end, and a label.
     kit.block(Material::dark, frame, on_face(cell, 0.0, 0.0, 0.0), Vec3(0.075, 0.003, 0.020));
     const std::array<Vec3, 4> bar = {on_face(cell, 0.0, 0.0, 0.0) + Vec3(-0.062, -0.004, 0.0),
                                      on_face(cell, 0.0, 0.0, 0.0) + Vec3(-0.056, 0.017, 0.0),

@@ -42,7 +42,7 @@ std::vector<std::uint32_t> indices_of(const Mesh& mesh) {
     return indices;
 }
 
-// Vertices are split at sharp edges.
+// Adds the mesh's triangles, with vertices split at sharp edges.
 void add_vertices(const Mesh& mesh, GltfSurface& surface) {
     const ShadingMesh shading = make_shading_mesh(mesh);
     const std::vector<std::uint32_t> corners = indices_of(mesh);
@@ -73,7 +73,7 @@ StationScene make_station_scene(const StationDescription& description) {
     Structure station = make_station(description);
     scene.lamps = station.lamps;
     for (const SpawnPoint& spawn : station.spawns) {
-        Pose origin = spawn.pose;  // of the head; a scene's spawns are floor points
+        Pose origin = spawn.pose;  // pose of the head; a scene's spawns are floor points
         origin.position -= origin.rotation * Vec3(0.0, k_eye_height_m, 0.0);
         scene.spawns.push_back({spawn.name, origin});
     }

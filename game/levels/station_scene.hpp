@@ -18,15 +18,16 @@ struct StationModel {
     Structure structure;
 };
 
-// A description as a scene file and its models. Built in memory, or written and loaded again, it is
-// the same scene: same names, triangles and state hashes.
+// A station as a scene file and its models. The scene is the same whether it is built in memory, or
+// written and loaded again: same names, triangles and state hashes.
 struct StationScene {
     SceneFile scene;
     std::vector<StationModel> models;
 };
 StationScene make_station_scene(const StationDescription& description);
 
-// As load_gltf_level reads it from the file of write_model_glb, except that vertices are shared.
+// The level that load_gltf_level would read from the file of write_model_glb, except that triangles
+// share vertices.
 GltfLevel level_of(const Structure& structure);
 // A .glb with a node for each part below a node for each section, with normals and materials.
 std::string write_model_glb(const Structure& structure);

@@ -8,9 +8,9 @@
 namespace handhold {
 namespace {
 
-constexpr double k_deck_y_m = -1.28;  // the deck's face
-constexpr double k_roof_y_m = 1.22;   // the roof's face, which looks down
-constexpr double k_wall_x_m = -1.66;  // the wall's face
+constexpr double k_deck_y_m = -1.28;  // y of the deck's face
+constexpr double k_roof_y_m = 1.22;   // y of the roof's face, which looks down
+constexpr double k_wall_x_m = -1.66;  // x of the wall's face
 constexpr double k_half_length_m = 4.0;
 constexpr double k_half_width_m = 2.0;
 
@@ -85,7 +85,7 @@ void add_engines(StationKit& kit) {
             {{0.05, -0.02}, {0.07, 0.02}, {0.10, 0.07}, {0.14, 0.14}, {0.12, 0.14}, {0.05, 0.04}}};
         kit.add(Material::dark, make_revolved(bell, 24), pose);
     }
-    // Ribs and tanks on the outside of the wall stay within the 4 m.
+    // Ribs and tanks on the wall's outside, within the ship's width of 4 m.
     for (int rib = 0; rib < 5; ++rib) {
         kit.beam(Material::metal, Pose{}, Vec3(-1.985, -0.02, -3.4 + 1.7 * rib),
                  Vec3(0.03, 1.22, 0.07));

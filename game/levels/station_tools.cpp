@@ -8,7 +8,7 @@
 namespace handhold {
 namespace {
 
-// Colliders are slightly smaller than the visuals.
+// A box collider. Colliders are slightly smaller than the visuals.
 SceneShape box(const Vec3& half_m) {
     SceneShape shape;
     shape.kind = ShapeKind::box;
@@ -33,7 +33,7 @@ Mesh tube(double radius_m, double y0, double y1, int segments = 20) {
     return make_cylinder(Vec3(0.0, y0, 0.0), Vec3(0.0, y1, 0.0), radius_m, segments);
 }
 
-// An open jaw at each end of a flat bar along X.
+// A wrench: an open jaw at each end of a flat bar along X.
 void draw_wrench(StationKit& kit) {
     kit.beam(Material::metal, {}, Vec3::Zero(), Vec3(0.085, 0.007, 0.012));
     for (const double end : {-1.0, 1.0}) {
@@ -88,7 +88,7 @@ void draw_bottle(StationKit& kit) {
     kit.add(Material::panel, tube(0.037, -0.055, -0.010), {});
 }
 
-// The body along Z, the grip along -Y.
+// A drill: body along Z, grip along -Y.
 void draw_drill(StationKit& kit) {
     const Vec3 nose(0.0, 0.055, -0.10);
     kit.add(Material::accent, make_capsule(nose, Vec3(0.0, 0.055, 0.055), 0.036, 20), {});

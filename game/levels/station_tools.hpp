@@ -7,8 +7,8 @@
 namespace handhold {
 
 struct ToolModel {
-    SceneShape shape;      // box, sphere or capsule, about the middle
-    double mass_kg = 1.0;  // of a real one
+    SceneShape shape;      // box, sphere or capsule around the body's origin
+    double mass_kg = 1.0;  // of a real tool of this type
     Structure visual;      // in the body's frame, closed solids; no rails, lamps or spawns
 };
 ToolModel make_tool(ToolType type);

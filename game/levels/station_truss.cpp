@@ -8,7 +8,7 @@ namespace handhold {
 namespace {
 
 constexpr double k_half_m = 0.40;    // half the truss's width, to the axes of its chords
-constexpr double k_chord_m = 0.035;  // radius
+constexpr double k_chord_m = 0.035;  // radius of a chord
 constexpr double k_batten_m = 0.020;
 
 const std::array<Vec3, 4> k_corners = {
@@ -94,7 +94,7 @@ void add_loads(StationKit& kit, const Pose& pose, const StationSection& section)
     }
 }
 
-// Along +Z: an arm and ten panels of solar cells in the plane of X and Z.
+// A solar wing along +Z: an arm and ten panels of solar cells in the XZ plane.
 void add_wing(StationKit& kit, const Pose& pose) {
     kit.beam(Material::metal, pose, Vec3(0.0, 0.0, 3.65), Vec3(0.035, 0.035, 3.65));
     kit.add(Material::hull, make_cylinder(Vec3(0, 0, 0.0), Vec3(0, 0, 0.5), 0.16, 16), pose);
@@ -112,7 +112,7 @@ void add_wing(StationKit& kit, const Pose& pose) {
     }
 }
 
-// White panels with coolant lines, along +Z.
+// A radiator along +Z: white panels with coolant lines.
 void add_radiator(StationKit& kit, const Pose& pose) {
     kit.beam(Material::metal, pose, Vec3(0.0, 0.0, 0.30), Vec3(0.04, 0.04, 0.30));
     for (int panel = 0; panel < 3; ++panel) {

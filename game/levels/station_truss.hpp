@@ -6,7 +6,7 @@
 namespace handhold {
 
 inline constexpr double k_truss_bay_m = 1.0;
-inline constexpr double k_truss_strip_m = 0.47;  // from the axis up to the strips' faces
+inline constexpr double k_truss_strip_m = 0.47;  // height of the strips' faces above the axis
 
 // A lattice of square bays from z = 0, with solar wings at both ends, radiators, a dish, and boxes
 // and tanks in its bays.

@@ -14,7 +14,8 @@ namespace {
 
 enum class Region { body, head, hand };
 
-// Parts above the shoulders count as head: they would block the view from the eyes.
+// The region of a vertex. Parts above the shoulders count as head, because they would block the
+// view from the eyes.
 Region region_of(const BodyRig& rig, const Vec3& position_ms, const SkinWeights& weights) {
     switch (rig.carriers[rig.joints[heaviest_joint(weights)].carrier].bone) {
         case BodyBone::head:
@@ -93,7 +94,8 @@ BodyFigures::BodyFigures(BodyModel model, Renderer& renderer) : model_(std::move
     copies_.push_back(make_copy(renderer));
 }
 
-// Assigns each triangle to the region of most of its corners; leaves out hands.
+// Splits the figure into pieces: each triangle belongs to the region of most of its corners. Leaves
+// out hands.
 void BodyFigures::cut_pieces() {
     const SkinnedMesh& figure = model_.figure;
     std::vector<Region> regions;
@@ -156,7 +158,7 @@ void BodyFigures::add(const BodyMeasures& measures, const RenderPose& render, Se
     }
     const SkinnedMesh& figure = model_.figure;
     pose_skeleton(model_.rig, measures, render, pose_);
-    // Vertices relative to the head, to keep float precision far from the origin.
+    // Vertices are relative to the head, to keep float precision far from the origin.
     const Pose origin_ws{render.head_ws.position, Quat::Identity()};
     for (Affine& carry : pose_.carry_ws) {
         carry.translation -= origin_ws.position;

@@ -18,12 +18,12 @@ struct BodyModel {
 };
 
 BodyModel builtin_body_model();
-// Loads the figure and the joint map of a command line. Both may be empty: without a figure,
-// returns the robot; without a map, a VRM table or the joints' names decide.
+// Loads a figure and a joint map; either name may be empty. Without a figure, returns the built-in
+// robot. Without a map, the figure's VRM table or its joint names determine the bones.
 Result<BodyModel> choose_body_model(const std::string& figure_file, const std::string& map_file);
 
-// Meshes of one body model in one renderer. Call begin(), then add() for every player, for each
-// picture. The figure's own hands are not drawn: HandFigures draws hands.
+// Meshes of one body model in one renderer. For each picture, call begin(), then add() for every
+// player. The figure's own hands are not drawn: HandFigures draws hands.
 class BodyFigures {
   public:
     // by_himself: the picture is from the player's eyes; head, neck and collar are not drawn.

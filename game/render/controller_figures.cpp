@@ -10,11 +10,12 @@
 namespace handhold {
 namespace {
 
-// The handle lies in the fist like a real controller's, along the same line. The wand's head is
-// longer, so the hand is lower on it.
+// The wand's handle lies in the fist along the same line as a real controller's. The hand is lower
+// on the handle, because the wand's head is longer.
 constexpr HandleGrip k_wand_grip = {HandleGrip{}.radius_m, HandleGrip{}.slant_rad, -0.015};
 
-// Pictures have no textures; without this, a material whose colour is in a texture would be white.
+// Replaces white. Pictures have no textures, so a material whose colour is in a texture would be
+// white.
 constexpr Color k_textured_color = {0.045F, 0.048F, 0.055F};
 constexpr Color k_white = {1.0F, 1.0F, 1.0F};
 
@@ -49,7 +50,7 @@ Result<ControllerModel> load_controller(const ControllerSide& side,
     return model;
 }
 
-// A rotation about a point of the wand, from its rest pose.
+// A control that rotates about a point of the wand, from its rest pose.
 ControlMove turn_of_wand(Control control, const Vec3& about_ms, const Vec3& from_rad,
                          const Vec3& to_rad) {
     const Pose rest{about_ms, Quat::Identity()};
@@ -107,7 +108,8 @@ ControllerModels builtin_controllers(const HandTuning& tuning) {
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         ControllerModel& model = models.sides[index_of(side)];
         add_wand(model);
-        // The model is placed in the fist; the joint then gives its tracked pose.
+        // The model is placed in the fist. The joint between hand and controller then gives the
+        // model's tracked pose.
         const Pose joint = default_controller_to_hand(side, tuning);
         model.fit.hand_in_grip = joint;
         model.fit.grip_ms = inverse(joint * handle_in_hand(side, k_wand_grip, tuning));

@@ -9,30 +9,31 @@
 #include "game/render/hand_figures.hpp"
 #include "game/render/level_meshes.hpp"
 
-// Drawing of controllers in hands that hold nothing else.
+// Draws controllers in hands that hold nothing else.
 namespace handhold {
 
 struct ControllerModel {
-    std::vector<LevelMesh> meshes;                // leading to each mesh, the outermost first
-    std::vector<std::vector<ControlMove>> moves;  // of each mesh, the outermost first
+    std::vector<LevelMesh> meshes;
+    // The movements of meshes[i] with the controls, outermost first, by index in `meshes`.
+    std::vector<std::vector<ControlMove>> moves;
     ControllerFit fit;
 };
 struct ControllerModels {
     std::string name;
     std::array<ControllerModel, k_hand_count> sides;  // by HandSide
-    bool has_own_joint = false;                       // else Tuning's joint applies
+    bool has_own_joint = false;                       // false: Tuning's joint applies
     std::vector<std::string> notes = {};  // about the loaded files; see GltfLevel::notes
 
     std::array<Pose, k_hand_count> joints() const;
 };
 
-// The built-in model: a wand in the fist, placed by Tuning's joint.
+// The built-in model: a wand in the fist. Tuning's joint between hand and controller places it.
 ControllerModels builtin_controllers(const HandTuning& tuning);
-// "builtin", or the file of a profile with its models. Errors name the file, the place, and what
-// was expected.
+// `name_or_file`: "builtin", or the file of a profile with its models. Errors name the file, the
+// place in it, and what was expected.
 Result<ControllerModels> choose_controllers(const std::string& name_or_file);
 
-// A rig's fingers closed on the controller until they touch.
+// Closes a rig's fingers on the controller until they touch it.
 std::array<FingerAngles, k_finger_count> fingers_around(const ControllerModel& model,
                                                         const HandRig& rig);
 

@@ -7,7 +7,7 @@
 #include "engine/io/gltf_skin_writer.hpp"
 #include "game/render/figure_kit.hpp"
 
-// Writes figures of rigid parts as a skinned file, with one surface per material.
+// Builds a skinned figure for a glTF file from rigid parts, with one surface per material.
 namespace handhold {
 
 class FigureSkin {
@@ -16,10 +16,10 @@ class FigureSkin {
 
     // Adds a part with pose `at` in the figure's frame, rigidly bound to one joint.
     void add(FigureMaterial material, const Mesh& part, const Pose& at, std::uint16_t joint);
-    // All parts of a kit.
+    // Adds all parts of a kit.
     void add(const FigureKit& kit, const Pose& at, std::uint16_t joint, const std::string& name);
 
-    // The skin on these joints and the surfaces' materials, for write_skinned_glb.
+    // For write_skinned_glb: the skin on these joints, and the materials of its surfaces.
     GltfSkin finish(std::vector<SkinJoint> joints) const;
     static std::vector<GltfMaterial> materials();
 

@@ -4,8 +4,8 @@
 
 #include "game/render/figure_kit.hpp"
 
-// The robot's head and the controller that it holds, for rendering only (no colliders). Its hands
-// are in robot_hand.hpp, the other parts in robot_body.hpp.
+// The robot's head and the controller in its hand, for rendering only (no colliders). For its hands
+// see robot_hand.hpp, for its other parts robot_body.hpp.
 namespace handhold {
 
 // Helmet with visor. Origin between the eyes, -Z forward, +Y up.

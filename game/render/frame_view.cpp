@@ -61,8 +61,8 @@ std::array<double, 4> to_clip(const FrameView& view, const Vec3& point_cs) {
 bool sees_sphere(const FrameView& view, const Vec3& center_cs, double radius_m) {
     const Vec3 c = view.from_view.conjugate() * center_cs;
     const double ahead = -c.z();
-    // Distance outside both side planes through the eye, for a picture from middle - half to middle
-    // + half at distance 1.
+    // Distance outside the farther of two opposite side planes through the eye; negative inside. At
+    // distance 1, the picture extends from middle - half to middle + half.
     const auto outside = [ahead](double across, double middle, double half) {
         const double above = middle + half;
         const double below = middle - half;
@@ -166,7 +166,8 @@ void build_line_vertices(const RenderFrame& frame, const FrameView& view,
         }
         const std::array<double, 4> clip_a = to_clip(view, a);
         const std::array<double, 4> clip_b = to_clip(view, b);
-        // Offset of half the line's width, perpendicular to it: in pixels, then in clip units.
+        // Offset of half the line's width, perpendicular to the line: in pixels, then in clip
+        // units.
         const double dx = (clip_b[0] / clip_b[3] - clip_a[0] / clip_a[3]) * size_px[0];
         const double dy = (clip_b[1] / clip_b[3] - clip_a[1] / clip_a[3]) * size_px[1];
         const double length = std::max(std::sqrt(dx * dx + dy * dy), 1e-9);

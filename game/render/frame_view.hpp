@@ -14,14 +14,14 @@ using Matrix4 = std::array<float, 16>;  // column-major
 struct FrameView {
     Vec3 eye_ws = Vec3::Zero();
     Quat from_view = Quat::Identity();  // the camera's rotation
-    double half_width = 1.0;            // of the picture at distance 1
+    double half_width = 1.0;            // half the picture's width at distance 1
     double half_height = 1.0;
     // offset of the picture's centre at distance 1; not 0 for a headset's eye
     double middle_x = 0.0;
     double middle_y = 0.0;
     double near_m = 0.03;
-    double depth_scale = 0.0;   // P22 and
-    double depth_offset = 0.0;  // P32 of the projection
+    double depth_scale = 0.0;   // element P22 of the projection matrix
+    double depth_offset = 0.0;  // element P32 of the projection matrix
     Matrix4 cs_to_clip{};
 };
 FrameView make_frame_view(const Camera& camera, int width_px, int height_px);
@@ -39,16 +39,18 @@ struct ShadowView {
     double reach_m = 1.0;
     double texel_m = 0.01;
     Matrix4 cs_to_clip{};     // z = -1 at the farthest caster
-    Matrix4 cs_to_texture{};  // the same, in [0, 1]
+    Matrix4 cs_to_texture{};  // cs_to_clip, mapped to [0, 1]
 };
 // The region moves by whole texels, so shadows do not crawl when the camera moves.
 ShadowView make_shadow_view(const KeyLight& key, const FrameView& view, int size_px);
 bool casts_shadow(const ShadowView& shadow, const Vec3& center_cs, double radius_m);
 
-// Model to camera-relative; the position is the model's origin, already camera-relative.
+// Matrix from model space to camera-relative space. `origin_cs`: the model's origin, relative to
+// the camera.
 Matrix4 make_model_matrix(const Quat& rotation, const Vec3& origin_cs);
 
-// The `limit` lamps that contribute most light around the camera, in the frame's order.
+// The `limit` lamps that contribute most light around the camera, in the order of
+// RenderFrame::lamps.
 std::vector<Lamp> choose_lamps(const RenderFrame& frame, std::size_t limit);
 
 struct LineVertex {

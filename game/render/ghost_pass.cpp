@@ -63,7 +63,7 @@ int GhostPass::draw(const RenderFrame& frame, const FrameView& view,
     return drawn;
 }
 
-// Draws the ghosts with the given Ghost::own_hides.
+// Draws the ghosts whose Ghost::own_hides equals `own_hides`.
 int GhostPass::draw_alike(const Picture& picture, bool own_hides) const {
     const FrameView& view = picture.view;
     int drawn = 0;
@@ -110,7 +110,8 @@ int GhostPass::draw_alike(const Picture& picture, bool own_hides) const {
     return drawn;
 }
 
-// Only where they are visible: an arm inside a wall hides nothing of its hand there.
+// Writes the depths of the player's own instances, but only of their visible pixels. An arm inside
+// a wall must not hide the ghost hand there.
 int GhostPass::draw_own_depths(const Picture& picture) const {
     int drawn = 0;
     glUseProgram(own_program_);

@@ -29,8 +29,8 @@ void main() {
 }
 )";
 
-// Writes the depths of visible surfaces only. The scene's depths come from the same vertices,
-// rounded to 24 bits.
+// Writes the depths of visible surfaces only. The scene's depths come from the same vertices but
+// are rounded to 24 bits, hence the tolerance.
 inline constexpr const char* k_own_depth_fragment = R"(
 uniform sampler2D scene_depth;
 void main() {

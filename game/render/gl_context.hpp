@@ -34,7 +34,8 @@ class GlContext {
     GlContext() = default;
     bool try_api(GlApi api);
 
-    // Shared by the whole process and never terminated, since other contexts may use it.
+    // The display is shared by the whole process and never terminated, since other contexts may use
+    // it.
     void* display_ = nullptr;
     void* config_ = nullptr;
     void* context_ = nullptr;

@@ -68,8 +68,8 @@ GlFramebuffer make_framebuffer(GLuint color_texture, GLuint depth_texture);
 // Checks the current draw framebuffer.
 bool is_framebuffer_complete();
 
-// `vertex` and `fragment` have no version line. On failure returns name 0 and the compiler's
-// message.
+// Compiles and links a program. `vertex` and `fragment` have no version line. On failure returns
+// name 0, and the compiler's message in `why_not`.
 GlProgram make_program(GlApi api, std::string_view vertex, std::string_view fragment,
                        std::string& why_not);
 

@@ -27,7 +27,7 @@ inline std::array<float, 3> to_floats(const Vec3& v) {
     return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
-// The context that shall own the mesh must be current, here and below.
+// Precondition of both functions: the OpenGL context that owns the mesh is current.
 GpuMesh make_gpu_mesh(const ShadingMesh& shading, const Color& color);
 // Sets the vertices of a moving mesh. `scratch` is only reused memory. Precondition: as many
 // normals as positions, at least GpuMesh::vertices_named.

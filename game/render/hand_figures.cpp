@@ -8,7 +8,7 @@
 namespace handhold {
 namespace {
 
-// Adds the run's triangles as a moving mesh with all vertices of the skin.
+// Adds the triangles of one colour as a moving mesh with all vertices of the skin.
 MeshId add_run(const SkinnedMesh& skin, std::size_t run, Renderer& renderer) {
     const std::size_t from = skin.color_runs[run].first_triangle;
     const std::size_t to = run + 1 < skin.color_runs.size()
@@ -138,7 +138,7 @@ void HandFigures::add_skin(HandSide side, const Pose& wrist_ws,
         }
         copies.push_back(std::move(copy));
     }
-    // From the file's frame directly to hand space.
+    // Transforms from the file's frame directly to hand space.
     const std::vector<Pose> posed_hs = skeleton_pose(model.rig, fingers);
     std::vector<Affine> carry;
     carry.reserve(posed_hs.size());

@@ -21,18 +21,21 @@ struct HandModel {
 using HandModels = std::array<HandModel, k_hand_count>;
 
 HandModels builtin_hand_models();
-// Skins of both sides with WebXR's joint names.
+// Loads the skins of both hands. Their joints must have WebXR's names.
 Result<HandModels> load_hand_models(const std::filesystem::path& left,
                                     const std::filesystem::path& right);
 
-// From the files of a command line: none, or left and right.
+// Hand models for the files on the command line: without files, the built-in ones; else files[0]
+// left and files[1] right. Precondition: 0 or 2 files.
 Result<HandModels> choose_hand_models(std::span<const std::string> files);
 
-// Pose in hand space of every joint of a skin with these fingers, by RigJoint.
+// Poses in hand space of all joints of a skin with these finger angles, by index in
+// HandRig::joints.
 std::vector<Pose> skeleton_pose(const HandRig& rig,
                                 const std::array<FingerAngles, k_finger_count>& fingers);
 
-// The meshes of both hands in one renderer. Call begin(), then add() every hand, for each picture.
+// The meshes of both hands in one renderer. For each picture, call begin(), then add() for every
+// hand.
 class HandFigures {
   public:
     HandFigures(HandModels models, Renderer& renderer);

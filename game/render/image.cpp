@@ -5,7 +5,8 @@
 #include "engine/core/check.hpp"
 #include "engine/io/text_file.hpp"
 
-// Static: the glTF library carries its own copy of both, which would clash at link time.
+// Static, because the glTF library contains its own copies of both libraries, which would clash at
+// link time.
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
 #include <stb_image_write.h>

@@ -23,11 +23,11 @@ struct Image {
 
 // The picture as a PNG file in memory; empty for an empty picture.
 std::vector<std::uint8_t> encode_png(const Image& image);
-// Decodes a PNG file; nullopt if the bytes are not one.
+// Decodes a PNG file; nullopt if the bytes are no PNG file.
 std::optional<Image> decode_png(std::span<const std::uint8_t> bytes);
-// Writes and fails as write_file_atomically. An empty picture is refused.
+// Writes a PNG with write_file_atomically. Fails for an empty picture.
 [[nodiscard]] std::optional<FileError> save_png(const Image& image, const std::string& path);
-// RFC 4648 with padding, for pictures inside an HTML page.
+// Base64 (RFC 4648) with padding, for pictures inside an HTML page.
 std::string encode_base64(std::span<const std::uint8_t> bytes);
 
 }  // namespace handhold

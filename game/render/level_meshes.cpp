@@ -10,7 +10,8 @@
 namespace handhold {
 namespace {
 
-// Copies a run of triangles. `places` maps the part's vertices to the mesh's.
+// Copies the triangles from `first` up to `end`. `places`: for each vertex of `from`, its index in
+// `to`.
 void copy_run(const Mesh& from, std::size_t first, std::size_t end, Mesh& to,
               std::vector<std::uint32_t>& places) {
     constexpr std::uint32_t k_not_copied = std::numeric_limits<std::uint32_t>::max();

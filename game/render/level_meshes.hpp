@@ -13,7 +13,8 @@ struct LevelMesh {
 };
 
 // A loaded level as meshes for the renderer: one mesh per part and kind of surface, in order of
-// first use, without unused vertices. Parts and triangles keep their frame and winding.
+// first use. Vertices that no triangle uses are left out. Parts and triangles keep their frame and
+// winding.
 std::vector<LevelMesh> make_level_meshes(const GltfLevel& level);
 
 }  // namespace handhold

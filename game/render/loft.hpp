@@ -11,10 +11,10 @@ namespace handhold {
 // Points around +Z, counter-clockwise seen from +Z.
 using Ring = std::vector<Vec3>;
 
-// Lofts a surface over rings of equal point count in order along +Z (counter-clockwise seen from
-// the last ring). The first and last ring may be a single point, where the surface closes. `capped`
-// closes open ends with a fan around their mean point; `looped` joins the last ring to the first,
-// which gives a solid with a hole.
+// Lofts a surface over rings with equal numbers of points, in order along +Z. The rings are
+// counter-clockwise seen from the last ring. The first and the last ring may be a single point,
+// where the surface closes. `capped` closes open ends with a fan around their mean point. `looped`
+// joins the last ring to the first, which gives a solid with a hole.
 enum class LoftEnds { capped, looped };
 Mesh make_loft(std::span<const Ring> rings, LoftEnds ends);
 
@@ -29,7 +29,7 @@ struct RoundedRect {
     int side_steps = 1;
 };
 Ring make_outline(const RoundedRect& rect, double z_m);
-// Moves the outline's points along their directions from Z onto a circle around Z.
+// Moves the outline's points radially onto a circle around Z.
 Ring round_outline(const Ring& outline, double radius_m);
 Ring at_height(Ring ring, double z_m);
 

@@ -12,7 +12,7 @@ inline std::uint32_t index_of(std::size_t vertex) { return static_cast<std::uint
 
 // Appends a copy of `part`, transformed by `at`. `into` keeps its name and colour.
 void append(Mesh& into, const Mesh& part, const Pose& at = {});
-// Mirrors through x = 0 and reverses the winding, so that outside stays outside.
+// Mirrors through x = 0 and reverses the winding, so that the outside stays outside.
 void mirror_x(Mesh& mesh);
 // Scales each axis; factors must be above 0.
 void stretch(Mesh& mesh, const Vec3& factors);

@@ -19,7 +19,7 @@ void bind_texture(int unit, GLuint texture) {
     glBindTexture(GL_TEXTURE_2D, texture);
 }
 
-// Runs the current program over a whole target; its input picture is on unit 0.
+// Runs the current program over a whole target. The program's input picture is on texture unit 0.
 void fill(GLuint target, int width_px, int height_px) {
     glBindFramebuffer(GL_FRAMEBUFFER, target);
     glViewport(0, 0, width_px, height_px);
@@ -69,7 +69,7 @@ bool PicturePasses::create(GlApi api, const PictureSize& size, std::string& why_
            compile(edges_program_, shaders::k_edges_fragment);
 }
 
-// Without effects: no occlusion and no glow.
+// Clears the results of the effects, for pictures without effects: no occlusion and no glow.
 void PicturePasses::clear_effects() {
     for (const auto& [target, brightness] :
          {std::pair{GLuint{smooth_target_}, 1.0F}, std::pair{GLuint{glow_target_}, 0.0F}}) {
@@ -180,7 +180,8 @@ void PicturePasses::copy_into(GLuint texture) {
     copied_ = true;
 }
 
-// Rows are read from the top, because the finished picture is upside down.
+// The finished picture is upside down in OpenGL, so its first row is the top. A picture that was
+// copied into a texture is upright there and is flipped here.
 void PicturePasses::read(Image& out) const {
     out.width_px = size_.width_px;
     out.height_px = size_.height_px;
@@ -194,7 +195,7 @@ void PicturePasses::read(Image& out) const {
         const auto top = out.rgba.begin() + y * row;
         std::swap_ranges(top, top + row, out.rgba.end() - (y + 1) * row);
     }
-    // Alpha held the brightness for the edge filter.
+    // Until here, alpha held the brightness for the edge filter.
     for (std::size_t i = 0; i < pixels; ++i) {
         out.rgba[4 * i + 3] = 255;
     }

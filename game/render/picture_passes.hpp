@@ -18,17 +18,17 @@ struct PictureSize {
     bool effects = true;  // ambient occlusion and glow
 };
 
-// The passes after a picture's triangles are drawn: ambient occlusion, glow, resolving the samples
-// of a pixel (or smoothing edges if there is one sample), panels, and read-back. Uses supersampling
-// instead of the card's multisampling: the software rasteriser also shades hidden fragments of a
-// multisampled target, and 2 x 2 samples then cost half of four multisamples.
+// The passes after the triangles of a picture: ambient occlusion, glow, resolving the samples of a
+// pixel (or smoothing edges if there is one sample), panels, and read-back. Uses supersampling
+// instead of the card's multisampling. The software rasteriser also shades hidden fragments of a
+// multisampled target; for it, 2 x 2 samples cost half as much as four multisamples.
 class PicturePasses {
   public:
     // False, with the reason in `why_not`, if the graphics driver cannot create the resources.
     bool create(GlApi api, const PictureSize& size, std::string& why_not);
     // Binds and clears the target that the scene is drawn into.
     void begin() const;
-    // Binds it again after another target was bound.
+    // Binds the scene's target again, after another target was bound.
     void bind_scene() const;
     // Textures and size of the scene target.
     GLuint color() const { return color_; }
@@ -36,13 +36,13 @@ class PicturePasses {
     std::array<int, 2> scene_size_px() const {
         return {size_.width_px * size_.samples_across, size_.height_px * size_.samples_across};
     }
-    // Produces the finished picture from the scene target, with panels in the world and on top, if
-    // any. Needs any vertex array bound.
+    // Produces the finished picture from the scene target. `sheet`, `ui`: panels in the world and
+    // on top; may be null. Precondition: any vertex array is bound.
     void finish(const FrameView& view, const Sheet* sheet, const UiPicture* ui);
-    // Copies the finished bytes unchanged into a texture of the same size, rows from the bottom. A
-    // texture in sRGB is not encoded again.
+    // Copies the finished bytes unchanged into a texture of the same size, rows from the
+    // bottom. Does not encode them a second time if the texture is sRGB.
     void copy_into(GLuint texture);
-    // Reads the finished picture, or the texture it was last copied into.
+    // Reads the finished picture, or the texture that it was last copied into.
     void read(Image& out) const;
 
   private:

@@ -26,7 +26,7 @@ Vec3 corner_sign(unsigned corner) {
             (corner & 4U) != 0U ? 1.0 : -1.0};
 }
 
-// Flips every triangle of a convex mesh around the origin that faces inwards.
+// Flips the triangles that face inwards. Precondition: the mesh is convex and contains the origin.
 void face_outward(Mesh& mesh) {
     for (Triangle& t : mesh.triangles) {
         const Vec3& a = mesh.positions[t[0]];
@@ -101,8 +101,8 @@ Mesh make_box(const Vec3& half_m) {
 Mesh make_bevelled_box(const Vec3& half_m, double bevel_m) {
     HH_CHECK(bevel_m > 0.0 && bevel_m < half_m.minCoeff(), "bevel out of range", bevel_m);
     Mesh mesh;
-    // Vertex 3 * corner + axis: the corner moved inwards along both other axes, so it lies on the
-    // face across `axis`.
+    // Vertex 3 * corner + axis is the corner moved inwards along the two other axes. It lies on a
+    // face perpendicular to `axis`.
     for (unsigned corner = 0; corner < 8; ++corner) {
         for (int axis = 0; axis < 3; ++axis) {
             Vec3 extent = half_m - Vec3::Constant(bevel_m);
@@ -118,7 +118,7 @@ Mesh make_bevelled_box(const Vec3& half_m, double bevel_m) {
             add_quad(mesh, 3 * side + axis, 3 * (side | u) + axis, 3 * (side | u | v) + axis,
                      3 * (side | v) + axis);
         }
-        // The four edges along `axis`, each between the faces across the other two axes.
+        // The four edges along `axis`, each between faces perpendicular to the other two axes.
         const unsigned first = (axis + 1) % 3;
         const unsigned second = (axis + 2) % 3;
         for (const unsigned edge : {0U, u, v, u | v}) {
@@ -227,8 +227,8 @@ Mesh make_tube(std::span<const Vec3> path, double radius_m, int segments) {
 Mesh make_torus(double radius_m, double bar_radius_m, int segments, int bar_segments) {
     std::vector<Ring> rings;
     for (int i = 0; i < bar_segments; ++i) {
-        // Backwards around the bar (inner side first, then down and out), the order of a looped
-        // loft.
+        // Backwards around the bar (inner side first, then down and out): the order that
+        // LoftEnds::looped needs.
         double sine = 0.0;
         double cosine = 1.0;
         sin_cos(k_two_pi * i / bar_segments, sine, cosine);
@@ -256,7 +256,7 @@ Mesh make_icosphere(double radius_m, int levels) {
             mesh.positions.emplace_back(point.normalized());
         }
     }
-    // The twenty triples of mutually adjacent vertices.
+    // The twenty triangles are the triples of mutually adjacent vertices.
     const double reach = 1.01 * 2.0 / std::sqrt(golden * golden + 1.0);
     const auto is_near = [&](std::uint32_t a, std::uint32_t b) {
         return (mesh.positions[a] - mesh.positions[b]).norm() < reach;

@@ -14,12 +14,13 @@ namespace handhold {
 
 using Color = std::array<float, 3>;  // linear RGB
 
-// A mesh given to Renderer::add_mesh.
+// Identifies a mesh that was added with Renderer::add_mesh.
 enum class MeshId : std::uint32_t {};
 
 // How a surface reflects and emits light.
 struct Look {
-    // Multiple of the colour that is added. 1: brightness of a lit white wall; lamps are at 2 to 4.
+    // Multiple of the colour that is added to the reflected light. 1: as bright as a lit white
+    // wall; lamps have 2 to 4.
     float emissive = 0.0F;
     float opacity = 1.0F;  // below 1: blended, drawn after opaque surfaces, casts no shadow
     float gloss = 0.25F;   // 0 chalk .. 1 polished
@@ -28,9 +29,9 @@ struct Look {
 struct Instance {
     MeshId mesh{};
     Pose pose_ws;
-    std::optional<Color> color;  // none: the mesh's own
+    std::optional<Color> color;  // nullopt: the mesh's own
     Look look;
-    bool is_own = false;  // part of the player whose eyes the camera is at; see Ghost::own_hides
+    bool is_own = false;  // belongs to the player whose eyes the camera is at; see Ghost::own_hides
 };
 
 // A straight line of constant width in pixels (palm rays, constraints); drawn faintly behind
@@ -50,9 +51,9 @@ struct Ghost {
     Color color = {0.35F, 0.75F, 1.0F};
     float seen = 0.5F;            // where visible
     float hidden = 0.35F;         // where geometry hides it
-    double hidden_from_m = 0.0;   // distance behind the geometry where `hidden` starts,
-    double hidden_full_m = 0.01;  // and where it is complete; above hidden_from_m
-    bool own_hides = false;       // not drawn behind visible instances with is_own
+    double hidden_from_m = 0.0;   // distance behind the geometry where `hidden` starts to apply
+    double hidden_full_m = 0.01;  // distance where it applies fully; above hidden_from_m
+    bool own_hides = false;       // not drawn where instances with is_own hide it
 };
 
 // A small lamp without shadow. Its light fades to zero at reach_m, so it hardly leaks through
@@ -111,11 +112,11 @@ struct RenderFrame {
     std::optional<Sheet> sheet;
     std::vector<Lamp> lamps;  // the twelve with most influence around the camera are used
     KeyLight key;
-    // the ambient light blends from ground_ambient to sky_ambient along it
+    // ambient light blends from ground_ambient to sky_ambient along this direction
     Vec3 up_ws = Vec3::UnitY();
     Color sky_ambient = {0.16F, 0.175F, 0.20F};
     Color ground_ambient = {0.11F, 0.105F, 0.10F};
-    float head_light = 0.06F;  // a lamp at the camera that keeps unlit places readable
+    float head_light = 0.06F;  // strength of a lamp at the camera that keeps dark places readable
     float exposure = 1.0F;
     float haze_per_m = 0.010F;  // fraction of haze per metre of distance
     Color haze = {0.20F, 0.23F, 0.27F};

@@ -36,7 +36,8 @@ float to_srgb(float x) {
 }  // namespace
 
 struct Renderer::Impl {
-    std::unique_ptr<GlContext> context;  // first: it must outlive every OpenGL name below
+    // Declared first, so that it outlives every OpenGL name below.
+    std::unique_ptr<GlContext> context;
     int width_px = 0;
     int height_px = 0;
     bool casts_shadows = true;
@@ -333,7 +334,7 @@ MeshId Renderer::add_moving_mesh(std::span<const std::array<std::uint32_t, 3>> t
         shading.indices.empty()
             ? 0
             : *std::max_element(shading.indices.begin(), shading.indices.end()) + 1;
-    gpu.index_count = 0;  // until move_mesh
+    gpu.index_count = 0;  // draws nothing until move_mesh sets vertices
     impl_->meshes.push_back(std::move(gpu));
     return MeshId{static_cast<std::uint32_t>(impl_->meshes.size() - 1)};
 }

@@ -18,7 +18,7 @@ struct UiPicture;  // ui_picture.hpp
 
 // Cost of the last picture.
 struct RenderCounters {
-    int draw_calls = 0;      // of meshes, in all passes
+    int draw_calls = 0;      // draw calls of meshes, in all passes
     int triangles = 0;       // submitted, in all passes
     int instances_seen = 0;  // inside the camera's frustum
     int instances_given = 0;
@@ -34,34 +34,35 @@ enum class PictureQuality { plain, quick, fine };
 // nothing else is available. One thread at a time; several renderers may coexist.
 class Renderer {
   public:
-    // Nothing, with the reason in `why_not`, if unsupported. Precondition: both sizes in [16,
-    // 8192].
+    // nullopt, with the reason in `why_not`, if the machine cannot draw. Precondition: both sizes
+    // in [16, 8192].
     static std::optional<Renderer> create(int width_px, int height_px, std::string& why_not,
                                           PictureQuality quality = PictureQuality::quick);
     Renderer(Renderer&& other) noexcept;
     Renderer& operator=(Renderer&& other) noexcept;
     ~Renderer();
 
-    // Copies the mesh to the graphics card until the renderer ends. Edges below 35 degrees are
-    // shaded smooth for any winding; both sides of a triangle are lit. An empty mesh is allowed and
-    // draws nothing.
+    // Copies the mesh to the graphics card, where it stays as long as the renderer. Edges below 35
+    // degrees are shaded smooth for any winding; both sides of a triangle are lit. An empty mesh is
+    // allowed and draws nothing.
     MeshId add_mesh(const Mesh& mesh);
     // Adds a mesh whose vertices come from move_mesh; until then it draws nothing.
     MeshId add_moving_mesh(std::span<const std::array<std::uint32_t, 3>> triangles,
                            const Color& color);
-    // Sets vertices and normals until the next call. Precondition: the mesh was added by
-    // add_moving_mesh, and its triangles use no vertex beyond `positions`.
+    // Sets vertices and normals, which stay until the next call. Precondition: the mesh was added
+    // by add_moving_mesh, and its triangles use no vertex beyond `positions`.
     void move_mesh(MeshId mesh, std::span<const Vec3> positions, std::span<const Vec3> normals);
     // Draws the frame at the size given to create(). Skips instances and lines that are not finite.
     // Precondition: every instance's mesh came from this renderer. `ui`: panels drawn on top, may
     // be null.
     void draw(const RenderFrame& frame, Image& out, const UiPicture* ui = nullptr);
-    // The same into an OpenGL texture of the same size with eight sRGB bits per channel, rows from
-    // the bottom. If `copy` is given, reads that texture back into it.
+    // Like draw(), but into an OpenGL texture of the same size with eight sRGB bits per channel,
+    // rows from the bottom. If `copy` is given, reads the texture back into it.
     void draw_into(std::uint32_t texture, const RenderFrame& frame, Image* copy = nullptr,
                    const UiPicture* ui = nullptr);
 
-    // For a library that shares it (a headset's runtime). Valid as long as the renderer.
+    // The OpenGL context, for a library that shares it (an XR runtime). Valid as long as the
+    // renderer.
     const GlContext& context() const;
     const RenderCounters& counters() const;
 

@@ -81,7 +81,7 @@ FigureKit build_bellows(double height_m, double half_x_m, double half_y_m) {
 }
 
 FigureKit build_chest() {
-    // From the lowest rib to the collar.
+    // Sections of the chest, from the lowest rib to the collar.
     constexpr std::array<LoftSection, 9> k_ribs = {{{-0.105, 0.080, 0.066, 0.050, 0.0, 0.000},
                                                     {-0.098, 0.104, 0.082, 0.060, 0.0, 0.000},
                                                     {-0.050, 0.128, 0.100, 0.072, 0.0, 0.004},
@@ -212,7 +212,7 @@ FigureKit build_shin(double length_m) {
     return kit;
 }
 
-// At the ankle, upright; -Z towards the toes.
+// The foot. Its frame is at the ankle: +Y up, -Z towards the toes.
 FigureKit build_foot() {
     constexpr std::array<LoftSection, 8> k_boot = {{{-0.085, 0.024, 0.026, 0.018, 0.0, -0.070},
                                                     {-0.078, 0.034, 0.038, 0.026, 0.0, -0.066},
@@ -236,7 +236,7 @@ Vec3 on_side(HandSide side, const Vec3& right) {
     return side == HandSide::right ? right : Vec3(-right.x(), right.y(), right.z());
 }
 
-// Joints and the parts on each.
+// Builds the figure's joints and the parts on each joint.
 class BodyBuilder {
   public:
     std::string build() {

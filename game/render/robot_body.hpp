@@ -6,13 +6,14 @@
 #include "engine/io/gltf_skin.hpp"
 
 // The robot that represents the player, without its hands (robot_hand.hpp). It is a figure in
-// T-pose, posed and drawn like a loaded figure.
+// T-pose, which is posed and drawn like a loaded figure.
 namespace handhold {
 
-// The bytes of a .glb, identical each time: shells, joints and lamps, each rigid on one joint, for
-// an eye height of 1.64 m. Opens in animation software; parse_gltf_figure and fit_body_rig read it.
+// The bytes of a .glb, the same on every call. Each part (shells, joint covers, lamps) is bound to
+// one joint. Eye height: 1.64 m. Animation software can open the file; parse_gltf_figure and
+// fit_body_rig can read it.
 std::string make_robot_body_glb();
-// The same, parsed.
+// The figure of make_robot_body_glb, parsed.
 SkinnedMesh make_robot_body();
 
 }  // namespace handhold

@@ -5,19 +5,19 @@
 #include "components/hand_rig.hpp"
 #include "game/render/figure_kit.hpp"
 
-// The robot's hand built for a rig: each part is rigid, on one link or on the palm.
+// The robot's hand, built for a rig. Each part is rigid, on one link or on the palm.
 namespace handhold {
 
 struct HandPart {
-    std::int32_t finger = RigJoint::k_palm;  // into HandRig::fingers, or k_palm
+    std::int32_t finger = RigJoint::k_palm;  // index in HandRig::fingers, or k_palm
     std::uint32_t link = 0;
     FigureMaterial material = FigureMaterial::shell;
-    Mesh mesh;  // in the link's frame, or in hand space
+    Mesh mesh;  // in the link's frame; parts of the palm: in hand space
 };
 
 // Builds shells, pads and hinges for the rig's lengths and radii, for any number of fingers and
-// links. Pads are flush with the rig's capsules; on the palm's side nothing protrudes by more than
-// a millimetre. A left rig gives the mirrored parts of the right rig.
+// links. Pads are flush with the rig's capsules. On the palm's side nothing protrudes by more than
+// a millimetre. The parts of a left rig mirror those of the right rig.
 std::vector<HandPart> make_robot_hand(const HandRig& rig);
 
 // Parts of one palm or link, for pictures of hands that are posed part by part. The palm is in hand

@@ -19,8 +19,8 @@ struct PalmFigures {
     std::vector<double> radii;
     double low_x = -0.03, high_x = 0.03;  // outer sides of the row of knuckles
     double end_z = 0.08;                  // end of the body, in front of the knuckles' drums
-    double below = -0.014;                // palm surface
-    double above = 0.011;                 // back surface
+    double below = -0.014;                // y of the palm's surface
+    double above = 0.011;                 // y of the back's surface
 };
 
 PalmFigures measure(const HandRig& rig) {
@@ -68,7 +68,7 @@ void add_body(FigureKit& kit, const PalmFigures& palm) {
 
 // A plate over each metacarpal that ends in a fork around the knuckle's drum.
 void add_ridge(FigureKit& kit, const Vec3& knuckle, double r, const PalmFigures& palm) {
-    // Along the body's back, then down to the drum if its knuckle lies lower.
+    // The plate runs along the body's back, then down to the drum if the knuckle lies lower.
     const double back = palm.above - 0.0012;
     const Vec3 root(0.52 * knuckle.x(), back, 0.30 * palm.end_z);
     const Vec3 end(knuckle.x(), std::min(back, knuckle.y() + 0.80 * r), knuckle.z() - 0.72 * r);
@@ -107,7 +107,7 @@ void add_back(FigureKit& kit, const PalmFigures& palm) {
     kit.add(joint, loft_sections(inlay));
 }
 
-// Rubber pads in the palm: below the knuckles, at the heel, and on the two sides between.
+// Rubber pads in the palm: below the knuckles, at the heel, and on both sides in between.
 void add_pads(FigureKit& kit, const PalmFigures& palm) {
     const double x = 0.5 * (palm.low_x + palm.high_x);
     const double half = 0.5 * (palm.high_x - palm.low_x);

@@ -25,7 +25,7 @@ void main() {
 }
 )";
 
-// In the opaque pass, alpha is the weight of ambient occlusion: 1 for surfaces, 0 for emissive
+// In the opaque pass, alpha is the weight of ambient occlusion: 1 for most surfaces, 0 for emissive
 // ones.
 inline constexpr const char* k_mesh_fragment = R"(
 const int k_max_lamps = 12;
@@ -160,7 +160,7 @@ out vec4 color;
 void main() { color = vec4(pow(tint, vec3(1.0 / 2.2)), strength); }
 )";
 
-// Panels. The picture's first row is the target's lowest.
+// Panels. The first row of the picture is the lowest row of the target.
 inline constexpr const char* k_ui_vertex = R"(
 layout(location = 0) in vec2 place_px;
 layout(location = 1) in vec2 glyph_uv;
@@ -182,8 +182,8 @@ out vec4 color;
 void main() { color = tint * texture(glyphs, uv); }
 )";
 
-// Panels on a sheet in the world. The target's first row is the picture's top; the scene's first
-// row is its bottom.
+// Panels on a sheet in the world. The first row of the target is the picture's top; the first row
+// of the scene's depths is the picture's bottom.
 inline constexpr const char* k_sheet_vertex = R"(
 layout(location = 0) in vec2 place_px;
 layout(location = 1) in vec2 glyph_uv;
@@ -222,7 +222,7 @@ void main() {
 }
 )";
 
-// One triangle that covers the picture, with depth at the far end.
+// One triangle that covers the picture, at the far plane.
 inline constexpr const char* k_screen_vertex = R"(
 out vec2 uv;
 void main() {
@@ -381,7 +381,8 @@ void main() {
 }
 )";
 
-// Averages the occlusion over the 4 x 4 block in which its noise repeats, within one surface.
+// Averages the occlusion over blocks of 4 x 4 pixels, in which its noise repeats. Pixels of other
+// surfaces hardly count.
 inline constexpr const char* k_smooth_fragment = R"(
 in vec2 uv;
 uniform sampler2D picture;
@@ -423,9 +424,9 @@ void main() {
 }
 )";
 
-// Anti-aliasing: where brightness (in alpha) jumps, averages along the edge, up to four pixels each
-// way. If the long average leaves the range of the neighbourhood, it has crossed another edge, and
-// the short average is used.
+// Anti-aliasing. Where the brightness (in alpha) jumps, averages along the edge, up to four pixels
+// in both directions. If this long average is outside the neighbourhood's range, it has crossed
+// another edge; then the short average is used.
 inline constexpr const char* k_edges_fragment = R"(
 in vec2 uv;
 uniform sampler2D picture;

@@ -17,8 +17,8 @@ struct ShadingMesh {
 };
 
 // Splits vertices where neighbouring triangles meet at more than 35 degrees. Vertices at bitwise
-// equal positions count as one, and a neighbour of opposite winding counts as flipped, so meshes
-// with split vertices or mixed winding are smooth too. Each normal follows its own triangle's
+// equal positions count as one, and a neighbour of opposite winding counts as flipped. Meshes with
+// split vertices or mixed winding are therefore smooth too. Each normal follows its own triangle's
 // winding. Drops triangles without area or with vertices that are not finite.
 ShadingMesh make_shading_mesh(const Mesh& mesh);
 

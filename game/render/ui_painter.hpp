@@ -10,10 +10,10 @@
 
 namespace handhold {
 
-// Draws panels over the bound target, whose rows go from the top.
+// Draws panels over the bound target, whose first row is the top.
 class UiPainter {
   public:
-    // False, with the compiler's message, if the programs do not compile.
+    // False, with the compiler's message in `why_not`, if the programs do not compile.
     bool create(GlApi api, std::string& why_not);
     void draw(const UiPicture& ui, std::array<int, 2> size_px);
     // Draws panels on a sheet in the world where the scene's depths (`samples_across` samples per

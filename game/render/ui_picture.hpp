@@ -16,14 +16,14 @@ struct UiVertex {
 };
 struct UiCommand {
     std::array<int, 4> clip_px;  // left, top, right, bottom
-    std::uint32_t first = 0;     // into UiPicture::indices
+    std::uint32_t first = 0;     // first index, in UiPicture::indices
     std::uint32_t count = 0;
 };
 struct UiPicture {
     std::vector<UiVertex> vertices;
     std::vector<std::uint32_t> indices;
     std::vector<UiCommand> commands;
-    Image glyphs;                       // white, shapes in alpha
+    Image glyphs;                       // texture of the letters: white, their shapes in alpha
     std::uint32_t glyphs_revision = 0;  // changes whenever `glyphs` changes
 };
 

@@ -18,14 +18,14 @@
 namespace handhold {
 namespace {
 
-// Standard input and output of a child process; -1: /dev/null.
+// File descriptors for standard input and output of a child process; -1: /dev/null.
 struct ChildStreams {
     int input = -1;
     int output = -1;
 };
 
-// Starts a program found on PATH; discards its standard error. Returns the process, or -1 and the
-// reason.
+// Starts a program found on PATH and discards its standard error. Returns the process id, or -1 and
+// the reason.
 int start_program(const std::vector<std::string>& arguments, const ChildStreams& streams,
                   std::string& why_not) {
     std::vector<char*> argv;
@@ -47,8 +47,8 @@ int start_program(const std::vector<std::string>& arguments, const ChildStreams&
     connect(streams.output, STDOUT_FILENO, O_WRONLY);
     connect(-1, STDERR_FILENO, O_WRONLY);
     pid_t process = -1;
-    // A process group of its own: Ctrl+C in the terminal ends the session, which then ends the
-    // encoder, and not the encoder itself.
+    // The encoder gets its own process group. Ctrl+C in the terminal then reaches only the game,
+    // which ends the encoder properly.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
@@ -74,7 +74,8 @@ bool wait_for(int process) {
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-// Everything a program prints; empty, with the reason, if it cannot be started or fails.
+// Everything that a program prints. Empty, with the reason, if the program cannot be started or
+// fails.
 std::string output_of(const std::vector<std::string>& arguments, std::string& why_not) {
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0) {
@@ -108,8 +109,8 @@ std::vector<std::string> encoder_arguments(const VideoSettings& settings, bool h
     std::vector<std::string> arguments = {
         settings.program, "-loglevel", "error", "-y", "-f", "rawvideo", "-pixel_format", "rgba",
         "-video_size", size, "-framerate", std::to_string(settings.frames_per_s), "-i", "pipe:0",
-        // yuv420p, the one format that every player supports, halves both sides, so they must be
-        // even.
+        // Every video player supports yuv420p. This format halves the colours' resolution, so width
+        // and height must be even.
         "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-movflags", "+faststart"};
     const std::vector<std::string> codec =
         has_h264 ? std::vector<std::string>{"-c:v", "libx264", "-preset", "fast", "-crf", "20"}
@@ -139,7 +140,7 @@ std::unique_ptr<VideoWriter> VideoWriter::open(const std::string& path,
     if (encoders.empty()) {
         return nullptr;
     }
-    // A socket instead of a pipe: writing to a dead encoder then gives an error instead of a
+    // A socket instead of a pipe: writing to an encoder that has ended then gives an error, not a
     // signal.
     std::array<int, 2> ends{};
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {

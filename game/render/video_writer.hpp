@@ -19,8 +19,8 @@ struct VideoSettings {
 // stops a session.
 class VideoWriter {
   public:
-    // Null, with the reason in `why_not`, if the program is missing or cannot be started. It is
-    // started without a shell, so `path` may hold any character.
+    // Null, with the reason in `why_not`, if the program is missing or cannot be started. No shell
+    // is involved, so `path` may contain any character.
     static std::unique_ptr<VideoWriter> open(const std::string& path, const VideoSettings& settings,
                                              std::string& why_not);
     ~VideoWriter();
@@ -29,8 +29,8 @@ class VideoWriter {
 
     // False if the encoder has ended or the picture has another size; later pictures are dropped.
     bool add(const Image& image);
-    // Waits for the encoder and renames the file to its final name. On failure: false, the reason,
-    // and no file. If not called, the destructor discards the video.
+    // Waits for the encoder and renames the file to its final name. On failure returns false and
+    // the reason, and leaves no file. If finish() is not called, the destructor discards the video.
     bool finish(std::string& why_not);
 
   private:

@@ -17,11 +17,11 @@ constexpr char k_frames_header[] =
     "velocity_x,velocity_y,velocity_z,islands,islands_pushed,contact_rounds,newton_iterations\n";
 constexpr char k_bodies_header[] = "frame,t,body,mass_kg,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz\n";
 
-// A little above the average, so that most runs need one allocation.
+// Slightly more than the average, so that most runs need one allocation.
 constexpr std::size_t k_bytes_per_player_row = 560;
 constexpr std::size_t k_bytes_per_body_row = 300;
 
-// Writes the cells of a row, each but the first after a comma.
+// Writes the cells of a row, separated by commas.
 class RowWriter {
   public:
     explicit RowWriter(std::string& text) : text_(text) {}

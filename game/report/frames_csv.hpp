@@ -7,16 +7,16 @@
 #include "engine/io/result.hpp"
 #include "game/session/run_log.hpp"
 
-// A run as tables: one row for each frame and player, or frame and body. SI units unless a column's
-// name says otherwise; numbers round-trip exactly. Stage times are left out, so equal runs give
-// equal files. Preconditions: indices of players and bodies are valid in RunLog's lists of names,
-// and body_mass_kg is as long as body_names.
+// Tables of a run: one row for each frame and player, or for each frame and body. SI units unless a
+// column's name says otherwise; numbers round-trip exactly. Stage times are left out, so equal runs
+// give equal files. Preconditions: indices of players and bodies are valid in RunLog's lists of
+// names, and body_mass_kg is as long as body_names.
 namespace handhold {
 
 // frames.csv. The columns up to `contacts`, with their names and order, are a contract with
-// external scripts; more columns follow. `player` is an index into RunLog::player_names; `l_body`
-// and `r_body` are names, empty for none. residual_mm and all later columns except the velocity are
-// the frame's, repeated for each player.
+// external scripts; more columns follow. `player` is an index in RunLog::player_names. `l_body` and
+// `r_body` are names, empty for none. residual_mm and all later columns except the velocity belong
+// to the frame and are repeated for each player.
 std::string format_frames_csv(const RunLog& log);
 // bodies.csv: kinematic and free bodies at the end of each frame; mass_kg is 0 for kinematic
 // bodies.

@@ -9,7 +9,7 @@ namespace handhold {
 namespace {
 
 constexpr int k_max_ticks = 100;
-constexpr double k_min_span = 1e-100;  // below this, nothing was measured
+constexpr double k_min_span = 1e-100;  // smaller spans count as empty
 
 // An empty range gets a span of 1.
 double choose_high(double low, double high) { return high - low > k_min_span ? high : low + 1.0; }
@@ -18,7 +18,8 @@ double choose_step(double span, int count) {
     const double rough = span / count;
     const double power = std::pow(10.0, std::floor(std::log10(rough)));
     const double digit = rough / power;
-    // A round digit is chosen from the geometric mean with its predecessor on.
+    // Chooses the round digit nearest in ratio: thresholds are the geometric means of neighbouring
+    // digits.
     const double round_digit = digit < std::sqrt(2.0)    ? 1.0
                                : digit < std::sqrt(10.0) ? 2.0
                                : digit < std::sqrt(50.0) ? 5.0
@@ -26,7 +27,7 @@ double choose_step(double span, int count) {
     return round_digit * power;
 }
 
-// Multiples of the step in [low, high], including those that rounding puts just outside.
+// The multiples of `step` in [low, high], including those that rounding puts just outside.
 std::vector<double> list_multiples(double low, double high, double step) {
     constexpr double k_tolerance = 1e-9;
     const double first = std::ceil(low / step - k_tolerance);
@@ -34,13 +35,13 @@ std::vector<double> list_multiples(double low, double high, double step) {
     std::vector<double> ticks;
     // An integer counter: far from zero, first + 1 may equal first.
     for (int i = 0; i <= k_max_ticks && first + i <= last; ++i) {
-        ticks.push_back((first + i) * step + 0.0);  // + 0.0: no -0
+        ticks.push_back((first + i) * step + 0.0);  // adding 0.0 turns -0 into 0
     }
     return ticks;
 }
 
-// Labels with as many decimals as the step needs. Very small and very large values share a power of
-// ten, whose exponent is a multiple of three.
+// Adds labels with as many decimals as the step needs. Very small and very large values share a
+// power of ten, whose exponent is a multiple of three.
 void label_ticks(PlotAxis& axis, const std::vector<double>& ticks, double step) {
     constexpr double k_least = 1e-3;
     constexpr double k_most = 1e5;

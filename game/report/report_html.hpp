@@ -23,7 +23,7 @@ struct ReportMedia {
     std::string video;                    // path relative to the page, "run.mp4"; empty: none
 };
 
-// Preconditions: those of summarize_run.
+// The text of report.html. Preconditions: those of summarize_run.
 std::string format_report_html(const RunLog& log, const ReportMedia& media = {});
 
 // Writes format_report_html to a file. Returns the reason for a failure.

@@ -7,12 +7,12 @@
 #include "engine/io/result.hpp"
 #include "game/session/run_log.hpp"
 
-// report.json: the figures of a run (run_summary.hpp) for scripts. Keys may be added, never renamed
-// or dropped.
+// report.json: the figures of a run (run_summary.hpp) for scripts. Releases may add keys but never
+// rename or drop them.
 namespace handhold {
 
-// Numbers round-trip exactly; numbers that are not finite become null. Invalid UTF-8 in names is
-// replaced. Preconditions: those of summarize_run.
+// The text of report.json. Numbers round-trip exactly; numbers that are not finite become null.
+// Invalid UTF-8 in names is replaced. Preconditions: those of summarize_run.
 std::string format_report_json(const RunLog& log);
 
 // Writes format_report_json to a file. Returns the reason for a failure.

@@ -35,7 +35,7 @@ std::string wrap_table(const std::string& rows) {
     return "<div class=\"scroll\"><table>\n" + rows + "</tbody></table></div>\n";
 }
 
-// A fixed number of decimals, so that decimal points align.
+// A table cell with a fixed number of decimals, so that decimal points align.
 std::string make_fixed_cell(double value, int decimals, const char* unit = "") {
     std::string text;
     append_fixed(text, value, decimals);
@@ -68,6 +68,12 @@ const char* meaning_of(Fallback reason) {
                    "ignored.";
         case Fallback::head_recentred:
             return "The head's tracking jumped; the player stayed in place in the world.";
+        case Fallback::device_asleep:
+            return "A controller at exactly (0, 0, 0) was ignored: it is not tracked yet.";
+        case Fallback::hand_implausible:
+            return "A sample had a hand move faster than a hand can; it was ignored.";
+        case Fallback::space_recentred:
+            return "Head and hands jumped together: the play space was recentred, nobody moved.";
         case Fallback::grab_no_surface:
             return "A hand closed with no surface within reach; it holds nothing.";
         case Fallback::grip_stretched:
@@ -83,6 +89,20 @@ const char* meaning_of(Fallback reason) {
             return "One of two hands let go; nothing was thrown.";
         case Fallback::hands_too_close:
             return "Two hands on one body were too close to turn it; only the first one moved it.";
+        case Fallback::grab_refused_by_rule:
+            return "A hand closed where everything within reach refuses it by a rule or layer.";
+        case Fallback::grab_needs_two_hands:
+            return "One hand closed on a body that only both hands grip; it holds nothing.";
+        case Fallback::grip_needs_two_hands:
+            return "One of both hands left a body that needs two; the other let go.";
+        case Fallback::grip_ended_by_host:
+            return "The host ordered a gripping hand to let go.";
+        case Fallback::grip_out_of_reach:
+            return "After a tracking jump a palm was too far from what it gripped and let go.";
+        case Fallback::grip_speed_limited:
+            return "A gripping hand moved faster than a hand can; its grip slipped by the rest.";
+        case Fallback::grab_out_of_sight:
+            return "A hand closed behind a wall; it did not grip through it.";
         case Fallback::contact_rounds_exhausted:
             return "New contacts appeared after the last allowed round; they wait for the next "
                    "frame.";

@@ -8,8 +8,8 @@
 // The tables of report.html, each a <table> element.
 namespace handhold {
 
-// Median, 99th percentile and maximum of each stage and of the whole frame, and each stage's share
-// of the total.
+// Run times: median, 99th percentile and maximum of each stage and of the whole frame, and each
+// stage's share of the total.
 std::string make_stage_table(const RunSummary& summary);
 // Counters of the solver: totals, and means over `frames`.
 std::string make_work_table(const RunSummary& summary, std::size_t frames);
@@ -19,7 +19,7 @@ std::string make_fallback_table(const RunSummary& summary);
 std::string make_momentum_table(const MomentumFigures& momentum);
 std::string make_player_table(const RunSummary& summary);
 
-// What happened and what the runtime did instead, as a sentence for people.
+// A sentence for people: what happened, and what the runtime did instead.
 const char* meaning_of(Fallback reason);
 
 }  // namespace handhold

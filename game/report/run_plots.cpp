@@ -37,7 +37,7 @@ LinePlot plot_head(const RunLog& log, PlacePoint place) {
     return plot;
 }
 
-// One value for each frame, against time.
+// One point for each frame: time and value.
 template <typename ValueOf>
 std::vector<PlotPoint> list_over_time(const RunLog& log, const ValueOf& value_of) {
     std::vector<PlotPoint> points;

@@ -10,14 +10,15 @@
 namespace handhold {
 namespace {
 
-// Unlike std::max, keeps a NaN on either side.
+// Sets `worst` to the larger value. Unlike std::max, keeps a NaN in either of them.
 void keep_worst(double& worst, double value) {
     if (value > worst || std::isnan(value)) {
         worst = value;
     }
 }
 
-// The ceil(percent n / 100)-th smallest. In integers, because 0.99 * 100 may round below 99.
+// The ceil(percent * n / 100)-th smallest of n values. Computed in integers, because 0.99 * 100 may
+// round below 99.
 double nearest_rank(const std::vector<double>& sorted, std::size_t percent) {
     constexpr std::size_t k_hundred = 100;
     return sorted[(sorted.size() * percent + k_hundred - 1) / k_hundred - 1];
@@ -50,8 +51,8 @@ void add_counters(StageStats& totals, const StageStats& frame) {
     totals.newton_iterations += frame.newton_iterations;
 }
 
-// A hand that releases still holds until the end of that frame, so a hand counts as gripping if it
-// gripped in this frame or the last.
+// A hand counts as gripping if it grips in this frame or did in the previous one, because a hand
+// that releases holds until the frame's end.
 void add_hand_errors(const FrameLog& frame, const PlayerLog& player,
                      std::array<bool, k_hand_count>& gripped_before, HandErrorFigures& worst) {
     std::size_t gripping = 0;
@@ -71,10 +72,11 @@ void add_hand_errors(const FrameLog& frame, const PlayerLog& player,
     }
 }
 
-// Class i holds times from k_first_us * 1.01^i; the first class also all shorter ones.
+// Class i counts times from k_first_us * 1.01^i to k_first_us * 1.01^(i + 1). Class 0 also counts
+// all shorter times.
 constexpr double k_first_us = 0.01;
 constexpr double k_class_width = 1.01;
-constexpr std::size_t k_classes = 2400;  // up to minutes
+constexpr std::size_t k_classes = 2400;  // the last class is at minutes
 
 std::size_t class_of(double time_us) {
     if (!(time_us > k_first_us)) {
@@ -110,7 +112,7 @@ TimeFigures RunTally::Histogram::finish(std::uint64_t total) const {
     bool median_known = false;
     for (std::size_t i = 0; i < counts.size() && seen < total; ++i) {
         seen += counts[i];
-        // The middle of the class, within half a per cent of its values.
+        // The middle of the class: at most 0.5 % from any time in it.
         const double time_us = k_first_us * std::pow(k_class_width, static_cast<double>(i) + 0.5);
         if (!median_known && k_hundred * seen >= 50 * total) {
             out.median_us = time_us;

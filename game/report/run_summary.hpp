@@ -22,39 +22,42 @@ struct TimeFigures {
 };
 TimeFigures summarize_times(std::vector<double> times_us);
 
-// Worst distance of a gripping hand from its anchor, by how constrained the hand is. A player on
-// one hand can always follow it; two hands keep their distance only as well as they are tracked.
+// Worst distance between a gripping hand and its anchor. The player can follow one hand, so its
+// error should vanish. With two hands, changes of the tracked distance between them remain as
+// errors.
 struct HandErrorFigures {
-    double one_hand_free_m = 0.0;  // exactly one hand grips at the frame's end; no contacts and no
-                                   // push-back in the frame
-    double two_hands_m = 0.0;      // both hands grip
-    double any_m = 0.0;            // any hand grips
+    double one_hand_free_m = 0.0;  // not both hands grip; no contacts and no push-back in the frame
+    double two_hands_m = 0.0;      // both hands grip, or did in the previous frame
+    double any_m = 0.0;            // at least one hand grips
 };
 
 struct PlayerFigures {
     std::string name;
     double mass_kg = 0.0;
-    double path_m = 0.0;       // length of the origin's path, from the end of the first frame
+    double path_m = 0.0;       // length of the origin's path, from the end of the first frame on
     double push_back_m = 0.0;  // worst frame
 };
 
 // Impulses summed over all frames.
 struct MomentumFigures {
     MomentumLedger sum;
-    // Distance of the receivers' sum from zero: each frame's total, relative to all impulses of the
-    // run. Frames cannot cancel each other. 0 if there were none.
+    // How far momentum is from being conserved. For each frame, takes the length of the sum over
+    // receivers; sums these lengths over the frames, so that frames cannot cancel each other.
+    // Divides by the summed lengths of all impulses; 0 if there were none.
     double linear_residual = 0.0;
     double angular_residual = 0.0;
 };
 
-// A worst value is NaN if any of its values is, so that a broken run does not look good.
+// The figures of a run. A worst value is NaN if any of the values is NaN, so that a broken run does
+// not look good.
 struct RunSummary {
     std::array<TimeFigures, static_cast<std::size_t>(Stage::count)> stages;
     TimeFigures frame;  // sum of a frame's stages
     std::uint64_t frames = 0;
-    double duration_s = 0.0;       // simulated
-    double frames_per_s = 0.0;     // stepped per second of wall time; 0 if none was measured
-    StageStats totals;             // counters and fallbacks only
+    double duration_s = 0.0;  // simulated time
+    // Frames stepped per second of wall time; 0 if no time was measured.
+    double frames_per_s = 0.0;
+    StageStats totals;             // sums of counters and fallbacks; nothing else is set
     double residual_m = 0.0;       // worst contact overlap
     double joint_error_m = 0.0;    // worst joint: points, and limits of sliders
     double joint_error_rad = 0.0;  // worst joint: directions and angles
@@ -64,8 +67,8 @@ struct RunSummary {
     std::vector<PlayerFigures> players;
 };
 
-// Preconditions: indices of players are valid in RunLog::player_names, and player_mass_kg is as
-// long.
+// Preconditions: indices of players are valid in RunLog::player_names, and player_mass_kg has the
+// same length.
 RunSummary summarize_run(const RunLog& log);
 
 // Summarises a run frame by frame without keeping frames, in constant memory. Its figures equal
@@ -74,7 +77,7 @@ class RunTally {
   public:
     RunTally();
     void add(const FrameLog& frame);
-    // Uses all of `log` but its frames. Preconditions as summarize_run.
+    // Uses all fields of `log` except its frames. Preconditions: those of summarize_run.
     RunSummary finish(const RunLog& log) const;
 
   private:
@@ -92,10 +95,10 @@ class RunTally {
         std::optional<Vec3> last_ws;
         std::array<bool, k_hand_count> gripped_before{};
     };
-    // One kind of momentum.
+    // The residual of linear or angular momentum.
     struct MomentumTally {
-        double error = 0.0;  // sum of all frames' totals
-        double given = 0.0;  // sum over all receivers and frames
+        double error = 0.0;  // sum over frames of the length of the receivers' sum
+        double given = 0.0;  // sum over frames and receivers of the impulse's length
         void add(const std::array<Vec3, MomentumLedger::receiver_count>& frame,
                  std::array<Vec3, MomentumLedger::receiver_count>& sum);
         double residual() const { return given == 0.0 ? 0.0 : error / given; }
@@ -112,7 +115,7 @@ class RunTally {
     Histogram frame_;
 };
 
-// "0x0123456789abcdef"
+// Formats as "0x0123456789abcdef".
 std::string format_hash(std::uint64_t hash);
 
 }  // namespace handhold

@@ -16,7 +16,7 @@ constexpr double k_margin_right_px = 14.0;
 constexpr double k_title_px = 20.0;   // height of the title's line
 constexpr double k_legend_px = 20.0;  // height of each line of the legend
 constexpr double k_margin_bottom_px = 44.0;
-constexpr double k_letter_px = 6.6;   // mean width, to lay out the legend
+constexpr double k_letter_px = 6.6;   // mean width of a letter, to lay out the legend
 constexpr double k_swatch_px = 34.0;  // line sample and gaps in the legend
 constexpr std::size_t k_max_name_letters = 28;
 
@@ -43,7 +43,8 @@ struct PlotFrame {
     PlotAxis y;
 };
 
-// Beyond 1e100 a span would overflow; such values are broken anyway.
+// Points beyond 1e100 count as not finite: their span would overflow, and such values are errors
+// anyway.
 bool is_finite_point(const PlotPoint& point) {
     constexpr double k_most = 1e100;
     return std::abs(point.x) <= k_most && std::abs(point.y) <= k_most;
@@ -161,7 +162,7 @@ void append_axes(std::string& svg, const PlotFrame& frame) {
     append_line(svg, "axis", {frame.x.from_px, frame.y.from_px}, {frame.x.to_px, frame.y.from_px});
 }
 
-// "error (mm)" -> "error (10⁻⁶ mm)".
+// Inserts the factor before the unit: "error (mm)" becomes "error (10⁻⁶ mm)".
 std::string add_factor(const std::string& label, const std::string& factor) {
     const std::size_t unit = label.find('(');
     if (factor.empty()) {
@@ -172,7 +173,7 @@ std::string add_factor(const std::string& label, const std::string& factor) {
                : label.substr(0, unit + 1) + factor + " " + label.substr(unit + 1);
 }
 
-// Cut after whole UTF-8 characters.
+// Cuts the name after k_max_name_letters whole UTF-8 characters.
 std::string shorten(const std::string& name) {
     std::size_t letters = 0;
     for (std::size_t i = 0; i < name.size(); ++i) {
@@ -190,9 +191,9 @@ struct LegendEntry {
     int color = 0;
 };
 
-// Left to right below the title, in as many lines as needed.
+// Places the legend's entries from left to right below the title, in as many lines as needed.
 std::vector<LegendEntry> place_legend(const LinePlot& plot) {
-    constexpr double k_legend_left_px = 2.0;  // for round line ends
+    constexpr double k_legend_left_px = 2.0;  // space for round line ends
     std::vector<LegendEntry> entries;
     if (plot.series.size() < 2) {
         return entries;
@@ -222,7 +223,8 @@ void append_legend(std::string& svg, const std::vector<LegendEntry>& entries) {
     }
 }
 
-// An unbroken part of a line. A single point becomes a dot: a line of zero length with round ends.
+// Appends an unbroken part of a line to an SVG path. A single point becomes a dot: a line of zero
+// length with round ends.
 void append_run(std::string& path, std::span<const PlotPoint> run) {
     std::string last;
     std::size_t count = 0;
@@ -337,7 +339,7 @@ std::string draw_line_plot(const LinePlot& plot) {
 }
 
 std::string line_plot_css() {
-    // Hues that colour-blind readers can tell apart, in order of use; darker on a light ground,
+    // Hues that colour-blind readers can tell apart, in order of use; darker on a light background,
     // lighter on a dark one.
     constexpr std::array<const char*, k_plot_colors> k_on_light = {"#1f6fd0", "#d9600a", "#0f8a63",
                                                                    "#8a4fc4", "#c2307a", "#8a6a10"};

@@ -38,13 +38,13 @@ std::string group_thousands(const std::string& digits) {
     return text;
 }
 
-// "1.25×10⁻⁷", value > 0.
+// Formats as "1.25×10⁻⁷". Precondition: value > 0.
 std::string format_scientific(double value) {
     std::array<char, k_max_number_length> digits;
     const char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
                                           std::chars_format::scientific, 2)
                                 .ptr;
-    // The exponent as the library rounded it: log10 is off by one at 9.999e-8.
+    // Uses the exponent after the library's rounding: log10 is off by one at 9.999e-8.
     const std::string_view written(digits.data(), static_cast<std::size_t>(end - digits.data()));
     const std::size_t e = written.find('e');
     int exponent = 0;

@@ -24,7 +24,7 @@ Scene empty_scene(std::string name, std::string description) {
     return scene;
 }
 
-// The spawns of a structure are eye positions; a scene's spawns are floor points.
+// Adds a structure's spawns. A structure has eye positions; a scene has floor points.
 void add_spawns(const Structure& structure, Scene& scene) {
     for (const SpawnPoint& spawn : structure.spawns) {
         Pose origin = spawn.pose;
@@ -33,7 +33,7 @@ void add_spawns(const Structure& structure, Scene& scene) {
     }
 }
 
-// All parts share one frame, so the rails belong to any of their bodies.
+// Adds the rails. All parts share one frame, so the rails can refer to the body of any part.
 void add_rails(const std::vector<HandrailSpan>& rails, Scene& scene) {
     for (const HandrailSpan& rail : rails) {
         scene.rails.push_back({scene.visuals.front().body, rail.start, rail.end});
@@ -42,14 +42,14 @@ void add_rails(const std::vector<HandrailSpan>& rails, Scene& scene) {
 
 // --- station ---
 
-const Vec3 k_hab_rail(-1.033, 0.560, 0.0);  // hab/left_upper, along z
+const Vec3 k_hab_rail(-1.033, 0.560, 0.0);  // hab/left_upper; the rail is along z
 
 SessionScript station_script() {
     SessionScript script;
     const Vec3 ahead = -Vec3::UnitZ();
     script.duration_s = 20.5;
-    // Along the habitat's rail, hand over hand through the hatch, a push across the node, a catch
-    // at its far hatch, and a look out of the cupola behind it.
+    // The plan: along the habitat's rail, hand over hand through the hatch, a push across the node,
+    // a catch at the node's far hatch, and a look out of the cupola behind it.
     script.body = {{0.0, Vec3(-0.52, 0.50, 5.60), Vec3::Zero()},
                    {1.0, Vec3(-0.52, 0.50, 5.60), Vec3::Zero()},
                    {2.0, Vec3(-0.52, 0.50, 5.35), 0.5 * ahead},
@@ -73,15 +73,15 @@ SessionScript station_script() {
     add_crawl(crawl, script);
     script.holds.push_back(
         {HandSide::left, 7.15, 8.0, Vec3(-1.013, 0.560, 2.58), Vec3::UnitX(), Vec3::UnitY()});
-    // On the bar above the habitat's hatch: palms under the bar, fingers forward.
+    // Holds on the bar above the habitat's hatch: palms under the bar, fingers forward.
     const Vec3 under = -Vec3::UnitY();
     const auto hold = [&](HandSide side, double from_s, double until_s, const Vec3& on_axis) {
         script.holds.push_back({side, from_s, until_s, on_axis + 0.02 * under, under, ahead});
     };
     hold(HandSide::right, 7.6, 10.1, Vec3(0.16, 0.885, 1.893));
     hold(HandSide::left, 8.7, 9.6, Vec3(-0.18, 0.885, 1.893));
-    // The node's hatches have collars instead of bars: first palms under the upper edge of the
-    // collar behind, then against the face of the collar ahead.
+    // The node's hatches have collars instead of bars. The palms first lie under the upper edge of
+    // the rear collar, then against the face of the front collar.
     hold(HandSide::left, 10.05, 11.5, Vec3(-0.18, 0.668, 1.235));
     hold(HandSide::right, 10.7, 11.5, Vec3(0.18, 0.668, 1.235));
     const Vec3 back = Vec3::UnitZ();
@@ -97,7 +97,7 @@ SessionScript station_script() {
     return script;
 }
 
-// From the description that is compiled into the game; no file is read.
+// Built from the description that is compiled into the game; reads no file.
 Scene make_station_scene() {
     StationScene station = make_station_scene(own_station_description());
     add_session_spawn(station.scene);
@@ -121,11 +121,12 @@ constexpr double k_ship_speed_mps = 20.0;
 constexpr double k_ship_spin_radps = 0.06;
 constexpr double k_rock_radius_m = 0.08;
 constexpr double k_rock_mass_kg = 5.0;
-constexpr double k_first_grip_s = 0.35;       // the session's first grip
-constexpr double k_pick_s = 8.6;              // the session picks up the rock
-const Vec3 k_rock_place(-1.10, 0.12, -0.95);  // at that time, in the ship's frame
-const Vec3 k_ship_rail(-1.593, 0.530, 0.0);   // ship/wall_upper, along z
-constexpr double k_ship_wall_x = -1.65;  // approximately; the session pushes well into the wall
+constexpr double k_first_grip_s = 0.35;       // when the session's first grip begins
+constexpr double k_pick_s = 8.6;              // when the session picks up the rock
+const Vec3 k_rock_place(-1.10, 0.12, -0.95);  // the rock at k_pick_s, in the ship's frame
+const Vec3 k_ship_rail(-1.593, 0.530, 0.0);   // ship/wall_upper; the rail is along z
+// Approximate x of the wall's face; the session pushes the rock well into the wall.
+constexpr double k_ship_wall_x = -1.65;
 
 SessionScript ship_script() {
     SessionScript script;
@@ -144,13 +145,13 @@ SessionScript ship_script() {
     crawl.along = along;
     crawl.away = Vec3::UnitX();
     crawl.fingers = Vec3::UnitY();
-    crawl.speed_mps = 0.45;
     crawl.from_s = k_first_grip_s;
     crawl.until_s = 6.9;
     add_crawl(crawl, script);
     script.holds.push_back({HandSide::left, 7.2, 15.6, k_ship_rail + Vec3(0.02, 0.0, -0.10),
                             Vec3::UnitX(), Vec3::UnitY()});
-    // The rock is taken from above, waved, then pushed into the wall, which pushes back.
+    // The hand takes the rock from above, waves it, then pushes it into the wall, which pushes the
+    // player back.
     const Vec3 up = Vec3::UnitY();
     const Vec3 fingers = -Vec3::UnitX();
     const Vec3 on_rock = k_rock_place + (k_rock_radius_m + 0.005) * up;
@@ -199,8 +200,8 @@ Scene make_ship_scene() {
     rock.shape = scene.shapes->add_sphere(k_rock_radius_m);
     rock.body = {BodyKind::free, k_rock_mass_kg,
                  solid_inertia(scene.shapes->at(rock.shape), k_rock_mass_kg), 0.3};
-    // The rock moves in a straight line while the ship turns. It starts where the turning ship
-    // brings it to the session's hand in time.
+    // The rock flies along with the ship but does not turn with it. It starts, relative to the
+    // ship's origin, where the turning ship will bring the hand at k_pick_s.
     rock.pose_ws.position = rotation_from_vector(spin * k_pick_s) * k_rock_place;
     rock.velocity = {velocity, Vec3::Zero()};
     const Entity entity = add_body(scene.world, rock, *scene.shapes);
@@ -209,8 +210,8 @@ Scene make_ship_scene() {
         {entity, std::make_shared<const Mesh>(make_held_rock()), std::nullopt, {}});
     scene.lamps = ship.lamps;
     scene.lamps_body = scene.world.mover.owners()[0];
-    // The ship does not turn a player who holds nothing either: the spawn is where the ship's
-    // turning meets the player in time.
+    // A player who holds nothing does not turn with the ship. The spawn is chosen so that at
+    // k_first_grip_s the turning ship is in the right place for the first grip.
     const Pose turned{Vec3::Zero(), rotation_from_vector(spin * k_first_grip_s)};
     scene.spawns.push_back({"rail", turned * session_origin(ship_script())});
     add_spawns(ship, scene);

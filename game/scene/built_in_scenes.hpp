@@ -12,14 +12,15 @@ namespace handhold {
 
 // The names that make_built_in_scene accepts.
 std::vector<std::string_view> built_in_scenes();
-// Empty for an unknown name.
+// Builds the scene; nullopt for an unknown name.
 std::optional<Scene> make_built_in_scene(std::string_view name);
 
-// Inserts a first spawn "rail" where the scene's built-in session begins. Does nothing if the scene
-// names no built-in session.
+// Inserts a first spawn "rail" at the place where the scene's built-in session begins. Does nothing
+// if the scene names no built-in session.
 void add_session_spawn(SceneFile& scene);
 
-// The session `scene.session->built_in` as if a headset had recorded it. Empty for an unknown name.
+// The session `scene.session->built_in` as if a headset had recorded it. nullopt for an unknown
+// name.
 std::optional<Recording> make_built_in_session(std::string_view name);
 
 }  // namespace handhold

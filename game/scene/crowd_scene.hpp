@@ -4,9 +4,8 @@
 
 namespace handhold {
 
-// Turns a scene into the crowd: free bodies float in its open space, all players have small jets,
-// and a dozen climbers accompany the first player. The surroundings of the first spawn stay as they
-// are.
+// Turns a scene into the crowd scene: adds free bodies in open space, weak jets for all players,
+// and a dozen climbers beside the first player. Adds no bodies near the first spawn.
 void fill_with_crowd(Scene& scene);
 
 }  // namespace handhold

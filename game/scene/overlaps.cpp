@@ -30,7 +30,8 @@ class OverlapFinder {
         std::vector<ContactPoint> contacts;
         caches_.collision.set_ignored_pairs({});
         caches_.collision.find_contacts({}, contacts);
-        std::map<std::pair<std::uint64_t, std::uint64_t>, double> depth_m;  // by pair of ids
+        // Deepest contact, by pair of ids.
+        std::map<std::pair<std::uint64_t, std::uint64_t>, double> depth_m;
         for (const ContactPoint& contact : contacts) {
             double& deepest_m = depth_m[{contact.id_a, contact.id_b}];
             deepest_m = std::max(deepest_m, -contact.separation_m);

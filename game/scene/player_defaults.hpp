@@ -3,11 +3,11 @@
 // Defaults for players where neither the scene nor the command line says otherwise.
 namespace handhold {
 
-inline constexpr double k_eye_height_m = 1.6;  // of a player who stands in play space
-inline constexpr double k_jets_mps2 = 0.5;     // for scenes without thrusters that need some
-inline constexpr double k_pull_reach_m =
-    3.0;  // for scenes without distance grab when it is switched on
-inline constexpr double k_head_clear_m =
-    0.3;  // comfortable distance from a head's centre to surfaces
+inline constexpr double k_eye_height_m = 1.6;  // eye height of a player who stands in play space
+inline constexpr double k_jets_mps2 = 0.5;     // for scenes without jets that need some
+// If distance grab is switched on in a scene without it.
+inline constexpr double k_pull_reach_m = 3.0;
+// Comfortable distance between a head's centre and surfaces.
+inline constexpr double k_head_clear_m = 0.3;
 
 }  // namespace handhold

@@ -10,24 +10,24 @@
 namespace handhold {
 namespace {
 
-const Vec3 k_rail(0.0, 0.98, 0.16);  // along x
+const Vec3 k_rail(0.0, 0.98, 0.16);  // on the rail's axis, which is along x
 constexpr double k_eyes_y_m = 1.48;
 constexpr double k_eyes_z_m = 0.62;
 constexpr double k_crawl_mps = 0.55;
 constexpr const char* k_gun_model = "gun.glb";  // built in code, not loaded
 
-// To the right of where the session begins, pointing across it to the left.
+// The gun's pose: to the right of the session's start, with the muzzle to the left.
 Pose gun_place() { return {Vec3(-3.02, 1.31, 0.45), rotation_about(Vec3::UnitY(), 1.05)}; }
 
 Vec3 eyes_before(double x_m, double z_m = k_eyes_z_m) { return {x_m, k_eyes_y_m, z_m}; }
 
-// The left hand stays on the rail while the right hand works.
+// The left hand holds the rail while the right hand works.
 void stay(double from_s, double until_s, double x_m, SessionScript& script) {
     script.holds.push_back({HandSide::left, from_s, until_s, k_rail + Vec3(x_m, 0.0, 0.02),
                             Vec3::UnitZ(), Vec3::UnitY()});
 }
 
-// Hand over hand along the rail to the next contraption.
+// Moves hand over hand along the rail to the next contraption.
 void crawl(double from_s, double from_x_m, double to_x_m, SessionScript& script) {
     const double until_s = from_s + (to_x_m - from_x_m) / k_crawl_mps;
     const Vec3 along = Vec3::UnitX();
@@ -86,7 +86,7 @@ void work_drawer(double t_s, SessionScript& script) {
     drawer.move(t_s + 2.4, Vec3(0.0, 0.0, 0.06));
 }
 
-// Turns the handle down, pulls the door open, and lets the handle return.
+// The right hand turns the door's handle down, pulls the door open, and lets the handle return.
 void work_door(double t_s, SessionScript& script) {
     const Work handle{script, t_s, Vec3(-0.06, 1.5, 0.345), Vec3::UnitZ(), -Vec3::UnitY()};
     const Vec3 pivot(0.02, 1.5, 0.345);
@@ -124,7 +124,7 @@ void work_cable(double t_s, SessionScript& script) {
     link.move(t_s + 3.2, Vec3(0.05, 0.05, -0.03));
 }
 
-// The rock is wider than the gap: pushing it in pushes the player back.
+// The right hand pushes a rock into a narrower gap, which pushes the player back.
 void work_rock(double t_s, SessionScript& script) {
     const Work rock{script, t_s, Vec3(3.42, 1.62, 0.505), Vec3::UnitZ(), Vec3::UnitY()};
     rock.hold(t_s + 3.6);
@@ -135,7 +135,7 @@ void work_rock(double t_s, SessionScript& script) {
     rock.move(t_s + 3.4, Vec3(0.0, 0.05, 0.20));
 }
 
-// Where a script puts a wrist.
+// A wrist pose in the form that scripts use.
 struct ScriptedWrist {
     Vec3 palm, away, fingers;
 };
@@ -144,7 +144,7 @@ ScriptedWrist scripted_wrist(const Pose& wrist) {
             wrist.rotation * -Vec3::UnitZ()};
 }
 
-// The right hand takes the gun by its handle, looks along it, returns it, and takes it again by its
+// The right hand takes the gun by its handle, aims, returns the gun, and takes it again by its
 // back, where no authored grip is near.
 void work_gun(double t_s, SessionScript& script) {
     const GunModel gun = make_gun();
@@ -166,7 +166,7 @@ void work_gun(double t_s, SessionScript& script) {
     aim(t_s + 2.1, Vec3(-3.20, 1.40, 0.46), 0.5, 0.75);
     aim(t_s + 2.5, Vec3(-3.20, 1.40, 0.46), 0.5, 0.75);
     aim(t_s + 3.4, Vec3(-3.10, 1.38, 0.50), -0.8, 0.2);
-    // After the release, the gun lies where the grip held it.
+    // After the release, the gun stays where the hand held it.
     const Pose left_at = back * inverse(wrist_in_gun);
     const Pose on_back{transform_point(left_at, Vec3(0.0, 0.076, -0.085)),
                        left_at.rotation * rotation_about(Vec3::UnitY(), 1.2)};
@@ -209,7 +209,8 @@ Scene make_playground_scene() {
 
 SessionScript playground_script() {
     SessionScript script;
-    constexpr double k_gun_s = 8.2;  // before the other contraptions
+    // Duration of the gun's part, which comes before the other contraptions.
+    constexpr double k_gun_s = 8.2;
     script.body.push_back({0.0, eyes_before(-3.4), Vec3::Zero()});
     stay(0.4, k_gun_s + 4.4, -3.65, script);
     work_gun(1.2, script);

@@ -7,9 +7,9 @@
 
 namespace handhold {
 
-// A random number generator with equal results on every machine: a counter through a mixer
-// (SplitMix64). The distributions of <random> differ between libraries. A copy continues with the
-// same numbers.
+// A random number generator (SplitMix64: a counter through a mixer) with equal results on every
+// machine. The distributions of <random> differ between libraries. A copy continues with the same
+// numbers.
 class Random {
   public:
     explicit Random(std::uint64_t seed = 0) : state_(seed) {}

@@ -23,7 +23,7 @@ SessionScript reach_script() {
     script.duration_s = 19.0;
     script.body = {{0.0, Vec3(0.0, 1.45, 0.62), Vec3::Zero()},
                    {19.0, Vec3(0.0, 1.45, 0.62), Vec3::Zero()}};
-    const Vec3 back = Vec3::UnitZ();  // the backs of palms that face forward
+    const Vec3 back = Vec3::UnitZ();  // direction of the backs of palms that face forward
     const Vec3 up = Vec3::UnitY();
     const auto hold = [&](HandSide side, double from_s, double until_s, const Vec3& palm) {
         script.holds.push_back({side, from_s, until_s, palm, back, up});
@@ -33,23 +33,23 @@ SessionScript reach_script() {
     };
     const Vec3 rail(0.0, 0.98, 0.18);
     hold(HandSide::left, 0.3, 17.8, rail - Vec3(0.25, 0.0, 0.0));
-    // The canister arrives, is shown from both sides, and is released.
+    // The right hand pulls the canister close, shows it from both sides, and releases it.
     const Vec3 ahead(0.26, 1.36, 0.10);
     hold(HandSide::right, 1.4, 4.8, ahead);
     move(2.9, ahead);
     move(3.5, ahead + Vec3(-0.16, 0.10, 0.10));
     move(4.1, ahead + Vec3(0.14, -0.02, 0.12));
     move(4.7, ahead + Vec3(0.16, -0.10, 0.10));
-    // The safe is too heavy to move.
+    // The right hand pulls at the safe, which is too heavy to move.
     hold(HandSide::right, 6.2, 7.0, Vec3(0.12, 0.66, 0.12));
-    // The hand opens early, so the ball flies past to the left.
+    // The right hand pulls the ball but opens early, so the ball flies past to the left.
     hold(HandSide::right, 8.4, 8.9, Vec3(-0.55, 1.72, 0.05));
-    // Both hands on the rail, tracked farther apart than their grips allow.
+    // Both hands hold the rail and are tracked farther apart than their grips allow.
     hold(HandSide::right, 10.6, 13.4, rail + Vec3(0.12, 0.0, 0.0));
     move(11.2, rail + Vec3(0.12, 0.0, 0.0));
     move(12.0, rail + Vec3(0.30, 0.16, 0.02));
     move(12.8, rail + Vec3(0.30, 0.16, 0.02));
-    // A hand is pushed into the slab and withdrawn.
+    // The right hand is pushed into the slab and withdrawn.
     move(14.4, Vec3(0.50, 1.46, 0.16));
     move(15.4, Vec3(0.55, 1.50, -0.17));
     move(16.6, Vec3(0.58, 1.53, -0.19));

@@ -6,12 +6,12 @@
 namespace handhold {
 
 // A bay with a rail and distant free bodies, with distance grab on (game/assets/reach.json). The
-// caller makes its grip meshes.
+// caller must add its grip meshes (add_grip_meshes).
 Scene make_reach_scene();
 
-// A canister is pulled from two metres away and taken. A safe is too heavy and stays. A ball is
-// released on its way and flies past. Then the hands are pulled apart on one rail and pushed into a
-// slab, where ghosts show the tracked hands.
+// The session of that scene. A canister is pulled from two metres away and taken. A safe is too
+// heavy and stays. A ball is released on its way and flies past. Then the hands are pulled apart on
+// one rail and pushed into a slab, where ghosts show the tracked hands.
 SessionScript reach_script();
 
 }  // namespace handhold

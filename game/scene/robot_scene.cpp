@@ -9,8 +9,8 @@
 namespace handhold {
 namespace {
 
-const Vec3 k_left_rail(-0.28, 0.3125, 0.0);   // robot/left, along z
-const Vec3 k_first_rung(0.0, 0.3125, -0.62);  // robot/rung_0, along x
+const Vec3 k_left_rail(-0.28, 0.3125, 0.0);   // robot/left; the rail is along z
+const Vec3 k_first_rung(0.0, 0.3125, -0.62);  // robot/rung_0; the rung is along x
 
 // All parts of a structure as one collision mesh; the visuals keep their materials.
 Mesh whole_mesh(const Structure& structure) {
@@ -76,7 +76,8 @@ SessionScript robot_script() {
     const Vec3 ahead = -Vec3::UnitZ();
     const Vec3 up = Vec3::UnitY();
     script.duration_s = 20.0;
-    // From tail to head along the left rail, then both hands on the first rung, into the bend.
+    // The plan: along the left rail from tail to head, then both hands on the first rung while the
+    // robot walks into the bend.
     const double height = 0.78;
     script.body = {{0.0, Vec3(-0.10, height, 1.00), Vec3::Zero()},
                    {0.8, Vec3(-0.10, height, 1.00), Vec3::Zero()},
@@ -89,7 +90,6 @@ SessionScript robot_script() {
     crawl.along = ahead;
     crawl.away = up;
     crawl.fingers = Vec3::UnitX();
-    crawl.speed_mps = 0.25;
     crawl.from_s = 0.35;
     crawl.until_s = 6.8;
     add_crawl(crawl, script);

@@ -26,13 +26,13 @@ namespace handhold {
 struct SceneVisual {
     Entity body;
     std::shared_ptr<const Mesh> mesh;
-    std::optional<Color> color;  // absent: the mesh's own
+    std::optional<Color> color;  // nullopt: the mesh's own
     Look look;
 };
 
 struct SceneSpawnPoint {
     std::string name;
-    Pose pose_ws;  // of the play space: its floor point
+    Pose pose_ws;  // pose of the play space; its position is the floor point
 };
 
 // The axis of a graspable straight bar in a body's frame, for scripted climbers.
@@ -42,7 +42,7 @@ struct SceneRail {
     Vec3 end_bs = Vec3::Zero();
 };
 
-// A player who is not in the world yet.
+// A player who is to be added to the world.
 struct ScenePlayerStart {
     std::string name;
     Pose origin_ws;
@@ -53,9 +53,10 @@ struct Scene {
     std::string name;
     std::string description;
     World world;
-    std::unique_ptr<ShapeLibrary> shapes =
-        std::make_unique<ShapeLibrary>();  // the address is stable: caches refer to it
-    // Surfaces that hands are fitted to, for every body's shape. The address is stable.
+    // The library's address is stable: caches refer to it.
+    std::unique_ptr<ShapeLibrary> shapes = std::make_unique<ShapeLibrary>();
+    // For every body's shape, the surfaces that hands are fitted to. The library's address is
+    // stable.
     std::unique_ptr<GripMeshLibrary> grip_meshes = std::make_unique<GripMeshLibrary>();
     Tuning tuning;
     ShapeId head_shape;  // a sphere with the tuning's head radius
@@ -67,9 +68,9 @@ struct Scene {
     std::vector<SceneRail> rails;           // may be empty
     std::vector<SceneSpawnPoint> spawns;    // the first is the default; may be empty
     std::vector<ScenePlayerStart> players;  // the scene's own players; may be empty
-    std::vector<std::string> body_names;    // by row of world.body at load
-    // By name of a scene file's body: its authored grips in the file's frame, and that frame in the
-    // body's frame (they differ for hulls and compounds).
+    std::vector<std::string> body_names;    // by row of world.body when the scene was loaded
+    // By the name of a body in the scene file: its authored grips in the file's frame, and the pose
+    // of the body's frame in the file's frame (not the identity for hulls and compounds).
     std::map<std::string, std::vector<SceneGrip>> grips;
     std::map<std::string, Pose> body_in_file;
     std::optional<SceneSession> session;  // the session that shows the scene
@@ -80,19 +81,19 @@ struct Scene {
 // Loads a built-in scene by name, a scene file (.json), or a level (.glb, .gltf: each mesh node
 // becomes a static body). Loads all or nothing.
 Result<Scene> load_scene(const std::string& name_or_file);
-// Loads the levels and meshes that a scene file names.
+// A function that loads the levels and meshes that a scene file names.
 using LevelSource = std::function<Result<GltfLevel>(const std::filesystem::path&)>;
-// Builds a checked scene file.
+// Builds a scene from a scene file that was read and checked. `path`: the file, for error messages.
 Result<Scene> build_scene(const SceneFile& file, const std::filesystem::path& path,
                           const LevelSource& levels = load_gltf_level);
 
-// Builds the missing surfaces that hands are fitted to. Call it after adding bodies to a scene. A
-// body without such a surface can be gripped, but hands are shown on it as tracked.
+// Builds the grip meshes that are missing; call it after adding bodies to a scene. A body without a
+// grip mesh can be gripped, but hands are shown on it as tracked.
 void add_grip_meshes(Scene& scene);
 
-// `wanted` with as many primes appended as it takes for it and its hands' names to be free.
+// `wanted`, with primes (') appended until the name and those of the player's hands are free.
 std::string free_player_name(const World& world, std::string wanted);
-// Adds a player who moves with the scene's reference velocity.
+// Adds a player to the world, at the start pose and with the scene's reference velocity.
 PlayerEntities add_scene_player(Scene& scene, const ScenePlayerStart& start);
 
 // A static body whose visual is its collision mesh.

@@ -22,7 +22,7 @@ constexpr NumberRange k_period_s = {1e-3, 1e6, false};
 constexpr NumberRange k_reach_m = {0.0, 1e6, true};
 constexpr NumberRange k_angle_deg = {-360.0, 360.0, false};
 
-// Reads the sections of one document. The document keeps the first error.
+// Reads the sections of one document, which keeps the first error.
 class SceneReader {
   public:
     SceneReader(const JsonValue& root, std::filesystem::path folder)
@@ -46,7 +46,8 @@ class SceneReader {
 
     JsonValue root_;
     std::filesystem::path folder_;
-    std::set<std::string> entity_names_;  // bodies, joints and players share persistent ids
+    // Names of bodies, joints and players, which share the persistent ids.
+    std::set<std::string> entity_names_;
     SceneJointNames joint_names_;
     std::set<std::string> spawn_names_;
 };
@@ -142,9 +143,9 @@ void SceneReader::read_free_body(const JsonValue& value, SceneBody& body) {
     }
     if (const JsonValue inertia = value["inertia_kgm2"]; inertia.exists()) {
         body.inertia_kgm2 = inertia.vector(k_inertia_kgm2);
-        // No mass distribution has a moment above the sum of the other two: int (y^2 + z^2) <= int
-        // (x^2 + z^2) + int (x^2 + y^2). A thin plate reaches equality; the factor allows for
-        // rounding.
+        // No mass distribution has a moment of inertia above the sum of the other two, since int
+        // (y^2 + z^2) <= int (x^2 + z^2) + int (x^2 + y^2). A thin plate reaches equality; the
+        // factor allows for rounding.
         const double largest = body.inertia_kgm2->maxCoeff();
         if (largest > (body.inertia_kgm2->sum() - largest) * (1.0 + 1e-6)) {
             inertia.refuse("moments of which none is above the sum of the others");

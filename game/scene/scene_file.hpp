@@ -18,24 +18,23 @@
 
 // The content of a scene's JSON, checked but not built: docs/reference/scene_format.md. All poses
 // are in the scene's frame, which world_transform places in the world. Mesh files and sessions are
-// named, not opened; their paths are relative to the scene file's folder in the file and resolved
-// here.
+// named, not opened. Their paths in the file are relative to its folder; here they are resolved.
 namespace handhold {
 
 struct SceneLevel {
     std::filesystem::path file;  // .glb or .gltf
-    Pose pose;                   // of the file's frame in the scene
-    Vec3 scale = Vec3::Ones();   // along the file's axes
+    Pose pose;                   // pose of the file's frame in the scene
+    Vec3 scale = Vec3::Ones();   // scale along the file's axes
 };
 
-// A closed path, as PathMover. The body starts at the first pose.
+// A closed path (see PathMover). The body starts at the first pose.
 struct ScenePath {
     double period_s = 1.0;    // > 0
     std::vector<Pose> poses;  // 2 to 16, in the scene's frame, equally spaced in time
 };
 
-// Motion of a kinematic body: a constant twist, as Mover, or a path, which makes the other fields
-// unused.
+// Motion of a kinematic body: a constant twist (see Mover), or a path. With a path, the other
+// fields are unused.
 struct SceneMotion {
     Vec3 velocity_mps = Vec3::Zero();  // at time 0
     Vec3 angular_velocity_radps = Vec3::Zero();
@@ -47,26 +46,30 @@ struct SceneBody {
     std::string name;  // unique among the bodies: gives the persistent id
     BodyKind kind = BodyKind::fixed;
     SceneShape shape;
-    Pose pose;  // of the shape's frame. For a free body, except hulls and compounds, the centre of
-                // mass with principal axes
-    double mass_kg = 1.0;              // free: > 0; else unused
-    std::optional<Vec3> inertia_kgm2;  // free: principal moments, > 0, the largest at most the sum
-                                       // of the others; absent: those of the solid shape
-    Vec3 velocity_mps = Vec3::Zero();  // free: at time 0
+    // Pose of the shape's frame. Free bodies except hulls and compounds: its origin is the centre
+    // of mass and its axes are the principal axes.
+    Pose pose;
+    double mass_kg = 1.0;  // free: > 0; else unused
+    // Free: principal moments, > 0, the largest at most the sum of the others; nullopt: those of
+    // the solid shape.
+    std::optional<Vec3> inertia_kgm2;
+    Vec3 velocity_mps = Vec3::Zero();            // free: at time 0
     Vec3 angular_velocity_radps = Vec3::Zero();  // free: at time 0
-    SceneMotion motion;                          // kinematic; all zero: at rest
-    std::optional<std::array<float, 3>>
-        color;  // linear RGB in [0, 1]; absent: the mesh's own, or grey
-    std::filesystem::path
-        visual;  // .glb or .gltf in the body's frame, drawn instead of its shape; empty: the shape
-    double restitution = 0.0;      // [0, 1]; of two bodies the larger counts
-    double friction = 0.4;         // Coulomb coefficient; of two bodies the geometric mean counts
+    SceneMotion motion;                          // kinematic; all zero: the body rests
+    // Linear RGB in [0, 1]; nullopt: the mesh's own, or grey.
+    std::optional<std::array<float, 3>> color;
+    // .glb or .gltf in the body's frame, drawn instead of its shape; empty: the shape.
+    std::filesystem::path visual;
+    // [0, 1]; in a contact, the larger of the two bodies' values applies.
+    double restitution = 0.0;
+    // Coulomb coefficient; in a contact, the geometric mean of the two bodies' values applies.
+    double friction = 0.4;
     std::vector<SceneGrip> grips;  // at most k_max_authored_grips
 };
 
 struct SceneSpawn {
     std::string name;  // unique among the spawns
-    Pose pose;         // of a play space: its floor point; it faces -Z
+    Pose pose;         // of the play space, at its floor point; the player faces -Z
 };
 
 struct ScenePlayer {
@@ -75,7 +78,7 @@ struct ScenePlayer {
     double mass_kg = 80.0;  // > 0
 };
 
-// The recorded session that shows the scene.
+// The session that shows the scene.
 struct SceneSession {
     std::filesystem::path file;  // .csv; empty: see built_in
     std::string built_in;        // name of one of the game's sessions; empty: see file
@@ -83,8 +86,8 @@ struct SceneSession {
 
 struct SceneFile {
     std::string name;                            // not empty
-    std::string description;                     // what the scene shows; absent: empty
-    Vec3 reference_velocity_mps = Vec3::Zero();  // reference velocity until something is gripped
+    std::string description;                     // what the scene shows; may be empty
+    Vec3 reference_velocity_mps = Vec3::Zero();  // applies until a player grips something
     std::vector<SceneLevel> levels;
     std::vector<SceneBody> bodies;
     std::vector<SceneJoint> joints;
@@ -92,16 +95,17 @@ struct SceneFile {
     std::vector<SceneSpawn> spawns;
     std::vector<ScenePlayer> players;
     std::optional<SceneSession> session;
-    Pose world_transform;            // of the scene's frame in the world; velocities turn with it
+    Pose world_transform;            // of the scene's frame in the world; also rotates velocities
     std::string tuning_json = "{}";  // the object "tuning" as JSON text; parse_tuning reads it
 };
 
 // Limits: coordinates 1e6 m, sizes of shapes [1e-3, 1e4] m, speeds 1e5 m/s and 1e3 rad/s, masses
-// [1e-6, 1e12] kg. Refused, with JSON pointer and value: values out of range or of the wrong type,
-// unknown keys and keys that do not fit the body's kind, names that are taken, free bodies shaped
-// by a mesh, players without a spawn.
+// [1e-6, 1e12] kg. Errors name the JSON pointer and the value: values out of range or of the wrong
+// type, unknown keys and keys that do not fit the body's kind, names that are taken, free bodies
+// shaped by a mesh, players without a spawn.
 Result<SceneFile> load_scene_file(const std::filesystem::path& path);
-// The same for text in memory. `path` is for messages, and its folder is that of relative paths.
+// Like load_scene_file, for text in memory. `path`: for messages; relative paths start at its
+// folder.
 Result<SceneFile> parse_scene_file(std::string_view text, const std::filesystem::path& path);
 
 }  // namespace handhold

@@ -138,7 +138,7 @@ const char* name_of(JointKind kind) {
     return "distance";
 }
 
-// Limits, resistance and latch, in the file's units.
+// Writes limits, resistance and latch, in the file's units.
 void add_coordinate(const SceneJoint& joint, Json& json) {
     const Joint& numbers = joint.joint;
     const bool angle = numbers.kind == JointKind::hinge;

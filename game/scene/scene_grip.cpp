@@ -18,7 +18,7 @@ constexpr NumberRange k_snap_radius_m = {0.0, 1.0, true};
 constexpr NumberRange k_snap_angle_deg = {0.0, 180.0, true};
 constexpr std::int64_t k_max_priority = 100;
 
-constexpr std::array<const char*, k_hand_count> k_sides = {"left", "right"};  // by HandSide
+constexpr std::array<const char*, k_hand_count> k_side_keys = {"left", "right"};  // by HandSide
 constexpr std::array<const char*, 3> k_axes = {"x", "y", "z"};
 
 void read_finger(const JsonValue& value, FingerName name, FingerAngles& angles) {
@@ -129,7 +129,7 @@ SceneGrip read_scene_grip(const JsonValue& value, std::set<std::string>& taken) 
         value["name"].refuse("a name that no other grip of the body has");
     }
     for (std::size_t side = 0; side < k_hand_count; ++side) {
-        grip.hands[side] = read_hand(value[k_sides[side]]);
+        grip.hands[side] = read_hand(value[k_side_keys[side]]);
     }
     const bool has_left = grip.hands[0].is_there;
     const bool has_right = grip.hands[1].is_there;
@@ -161,7 +161,7 @@ std::string write_scene_grip(const SceneGrip& grip) {
     for (const std::size_t side : {std::size_t{1}, std::size_t{0}}) {
         const bool is_image = side == 0 && grip.mirror_axis != SceneGrip::k_no_mirror;
         if (grip.grip.hands[side].is_there && !is_image) {
-            json[k_sides[side]] = hand_json(grip.grip.hands[side]);
+            json[k_side_keys[side]] = hand_json(grip.grip.hands[side]);
         }
     }
     if (grip.mirror_axis != SceneGrip::k_no_mirror) {

@@ -9,25 +9,28 @@
 // Authored grips in files: objects in a body's "grips" (docs/reference/scene_format.md).
 namespace handhold {
 
-// In the frame of the body's shape (called `_bs` until the body is built, although the centre of
-// mass of a hull or compound is elsewhere).
+// An authored grip in a file. Poses are in the frame of the body's shape, although their names end
+// in `_bs`; in_body_frame converts them. For a hull or compound the two frames differ.
 struct SceneGrip {
     std::string name;  // unique among the body's grips
     AuthoredGrip grip;
-    int mirror_axis = k_no_mirror;  // 0 to 2: normal axis of the mirror plane through the frame's
-                                    // origin; the left hand is the right hand's mirror image
+    // Normal axis of the mirror plane through the frame's origin, 0 to 2; the left hand is the
+    // right hand's mirror image.
+    int mirror_axis = k_no_mirror;
     static constexpr int k_no_mirror = -1;
 };
 
 // Limits: wrists 1e3 m, curls [-30, 130] and oppositions [-180, 180] degrees, priorities [-100,
-// 100], zones 1 m and 180 degrees. Refused, with JSON pointer and value: values out of range, a
-// grip for no hand, a mirror beside two hands, unknown fingers and keys, a name in `taken`.
+// 100], zones 1 m and 180 degrees. Errors name the JSON pointer and the value: values out of range,
+// a grip for no hand, a mirror beside two hands, unknown fingers and keys, a name in `taken`.
 SceneGrip read_scene_grip(const JsonValue& value, std::set<std::string>& taken);
 
-// The grip as such an object. read_scene_grip gives it back, except for the rounding of angles.
+// The grip as a JSON object. read_scene_grip reads the same grip back, except for the rounding of
+// angles.
 std::string write_scene_grip(const SceneGrip& grip);
 
-// The grip in the body's frame. `frame` is the body's frame in the frame of the file.
+// Converts a grip from the file's frame to the body's frame. `frame`: the body's frame in the
+// file's frame.
 AuthoredGrip in_body_frame(const AuthoredGrip& grip, const Pose& frame);
 
 }  // namespace handhold

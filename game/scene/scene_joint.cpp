@@ -16,12 +16,12 @@ bool has_coordinate(JointKind kind) {
     return kind == JointKind::hinge || kind == JointKind::slider;
 }
 
-// Numbers of joints carry their unit in the file's keys and are SI in memory.
+// Units of a joint's numbers. The file's keys name the unit; in memory all numbers are SI.
 struct Units {
-    double scale;  // of one unit of the file
+    double scale;  // one unit of the file in SI units
     NumberRange range;
-    const char* suffix;        // of keys of coordinates
-    const char* force_suffix;  // of keys of forces on it
+    const char* suffix;        // of keys for coordinates
+    const char* force_suffix;  // of keys for forces and torques
 
     explicit Units(JointKind kind)
         : scale(is_angle(kind) ? std::numbers::pi / 180.0 : 1.0),

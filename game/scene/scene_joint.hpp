@@ -14,16 +14,18 @@ namespace handhold {
 
 struct SceneJoint {
     std::string name;
-    std::string a;                // name of a body; empty: the scene
-    std::string b;                // name of a body
-    std::string handle;           // of the latch: name of an earlier joint; empty: none
+    std::string a;  // name of a body; empty: the scene
+    std::string b;  // name of a body
+    // Joint that releases the latch: name of an earlier joint; empty: none.
+    std::string handle;
     bool handle_is_angle = true;  // the handle is a hinge; false: a slider
     Pose pose;                    // the joint's frame in the scene at time 0
-    Vec3 end_a = Vec3::Zero();    // distance joints: their end on a; else the frame's origin
-    Joint joint;                  // kind and numbers; the builder sets entities and frames
+    // Distance joints: the end on body a; other kinds: the frame's origin.
+    Vec3 end_a = Vec3::Zero();
+    Joint joint;  // kind and numbers; the builder sets entities and frames
 };
 
-// Bodies of the scene so far, by name, and the kinds of its joints so far.
+// Kinds of the bodies and joints that were read so far, by name.
 struct SceneJointNames {
     std::map<std::string, BodyKind> bodies;
     std::map<std::string, JointKind> joints;

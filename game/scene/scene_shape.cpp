@@ -88,7 +88,7 @@ std::optional<ShapeKind> kind_named(const std::string& type, ShapePlace place) {
         {"compound", ShapeKind::compound},
         {"mesh", ShapeKind::mesh},
     }};
-    constexpr std::size_t k_convex = 5;  // the first ones in the list
+    constexpr std::size_t k_convex = 5;  // number of convex kinds, which come first
     for (std::size_t i = 0; i < (place == ShapePlace::part ? k_convex : k_kinds.size()); ++i) {
         if (type == k_kinds[i].first) {
             return k_kinds[i].second;

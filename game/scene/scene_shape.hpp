@@ -13,33 +13,33 @@ namespace handhold {
 
 struct SceneShapePart;
 
-// Only the fields of its kind are used.
+// Only the fields of `kind` are used.
 struct SceneShape {
     ShapeKind kind = ShapeKind::box;
-    Vec3 half_m = Vec3::Constant(0.5);  // box
+    Vec3 half_m = Vec3::Constant(0.5);  // box: half extents
     double radius_m = 0.5;              // sphere, capsule, cylinder
     double half_height_m = 0.5;         // capsule, cylinder: along local y, without caps
-    ConvexHull hull;                    // hull without a file
-    std::filesystem::path file;  // mesh, or hull from a file: .glb or .gltf, in the shape's frame
-    Vec3 scale = Vec3::Ones();   // of the file's content
+    ConvexHull hull;                    // hull whose points are in the scene file
+    std::filesystem::path file;  // mesh, or hull from a model: .glb or .gltf, in the shape's frame
+    Vec3 scale = Vec3::Ones();   // scale of the model file
     std::vector<SceneShapePart> parts;  // compound
 };
 
 struct SceneShapePart {
     SceneShape shape;      // neither mesh nor compound
     Pose pose;             // in the compound's frame
-    double mass_kg = 0.0;  // 0 for all parts: by volume
+    double mass_kg = 0.0;  // 0 for all parts: the mass is divided by volume
 };
 
-// Reads numbers that a ShapeLibrary accepts. Refused, with JSON pointer and value: everything else;
-// hull points without volume or within a millimetre of a plane; compounds of meshes or compounds;
-// masses of only some parts. Files are named, not opened; their paths are made relative to
-// `folder`.
+// Reads a shape that a ShapeLibrary accepts. Errors name the JSON pointer and the value: numbers
+// out of range, hull points without volume or within a millimetre of a plane, compounds of meshes
+// or compounds, masses of only some parts. Files are named, not opened; their paths are resolved
+// against `folder`.
 SceneShape read_scene_shape(const JsonValue& value, const std::filesystem::path& folder);
 // "scale": one factor or three; absent: 1.
 Vec3 read_scale(const JsonValue& value);
 
-// A mesh of the shape in its own frame, to draw it. A mesh at scale 1 is returned itself.
+// A mesh to draw the shape, in the shape's frame. A mesh shape at scale 1 gives its own mesh.
 std::shared_ptr<const Mesh> make_shape_mesh(const Shape& shape);
 
 }  // namespace handhold

@@ -15,16 +15,17 @@ namespace handhold {
 namespace {
 
 constexpr int k_yaws = 12;
-constexpr std::size_t k_surface_points = 600;  // for each yaw
-constexpr std::size_t k_played = 16;           // number of the best candidates that are played
-constexpr std::size_t k_head_checks = 12;      // along the session
-constexpr double k_head_clearance_m = 0.06;    // beyond the head's radius
-constexpr double k_palm_gap_m = 0.02;          // between the first grab's palm and the surface
+constexpr std::size_t k_surface_points = 600;  // number of surface points for each yaw
+constexpr std::size_t k_played = 16;           // the best candidates are played; at most this many
+// Number of head positions that are checked along the session.
+constexpr std::size_t k_head_checks = 12;
+constexpr double k_head_clearance_m = 0.06;  // distance from surfaces beyond the head's radius
+constexpr double k_palm_gap_m = 0.02;        // gap between the first grab's palm and the surface
 
-// The session as it would go if every grab gripped something fixed. In play space, relative to the
-// starting origin.
+// The session as it would go if every grab gripped a fixed body. Poses are in play space, relative
+// to the start origin.
 struct Rehearsal {
-    std::vector<PalmRay> grabs;  // at the onsets
+    std::vector<PalmRay> grabs;  // palm rays at the starts of the grabs
     std::vector<Vec3> heads;     // centres of the head's collider over time
     std::size_t onsets = 0;
 };
@@ -85,14 +86,14 @@ struct Candidate {
     double score = 0.0;
 };
 
-struct Judge {
+struct SpawnEvaluator {
     const CollisionWorld& collision;
     const Rehearsal& rehearsal;
     const HeadTuning& head;
     const HandTuning& hand;
 
-    // Number of grabs that would find a surface; negative if the head starts inside something. A
-    // head that gets in the way later costs a little.
+    // Rates a start origin: the number of grabs that would find a surface; negative if the head
+    // starts too near to a surface. Later positions of the head near a surface cost a little.
     double score(const Pose& origin_ws) const {
         double score = 0.0;
         for (std::size_t i = 0; i < rehearsal.heads.size(); ++i) {
@@ -167,7 +168,7 @@ struct SurfaceSampler {
     }
 };
 
-std::vector<Candidate> propose(const Scene& scene, const Judge& evaluate) {
+std::vector<Candidate> propose(const Scene& scene, const SpawnEvaluator& evaluator) {
     std::vector<Candidate> best;
     const SurfaceSampler surface(scene);
     if (surface.pieces.empty()) {
@@ -180,18 +181,18 @@ std::vector<Candidate> propose(const Scene& scene, const Judge& evaluate) {
         const Quat rotation = (upright * rotation_about(Vec3::UnitY(), angle)).normalized();
         for (std::size_t i = 0; i < k_surface_points; ++i) {
             const SurfaceSampler::Sample sample = surface.draw(random);
-            // On a random side of the surface; one of the first grabs, or the head, is placed next
-            // to it.
+            // Chooses a side of the surface and one of the first three grabs (the head, if there
+            // are none), which is placed next to the surface.
             const double side = random.unit() < 0.5 ? -1.0 : 1.0;
-            const std::size_t grabs = std::min<std::size_t>(evaluate.rehearsal.grabs.size(), 3);
+            const std::size_t grabs = std::min<std::size_t>(evaluator.rehearsal.grabs.size(), 3);
             const auto pick = static_cast<std::size_t>(random.unit() * static_cast<double>(grabs));
             const bool lay_head = grabs == 0;
-            const Vec3 laid = lay_head ? evaluate.rehearsal.heads.front()
-                                       : evaluate.rehearsal.grabs[pick].palm_ws;
+            const Vec3 laid = lay_head ? evaluator.rehearsal.heads.front()
+                                       : evaluator.rehearsal.grabs[pick].palm_ws;
             const double gap = lay_head ? 0.5 : k_palm_gap_m;
             const Pose origin_ws{sample.point_ws + side * gap * sample.normal_ws - rotation * laid,
                                  rotation};
-            const double score = evaluate.score(origin_ws);
+            const double score = evaluator.score(origin_ws);
             if (score >= 0.0) {
                 best.push_back({origin_ws, score});
             }
@@ -208,7 +209,7 @@ struct Played {
     double path_m = 0.0;
 };
 
-// Plays in a copy of the world, which stays as it is.
+// Plays the session in a copy of the world; `world` stays unchanged.
 Played play_from(Scene& trial, const World& world, FrameCaches& caches, const Recording& recording,
                  const Pose& origin_ws, double hz) {
     trial.world = world;
@@ -229,7 +230,7 @@ Played play_from(Scene& trial, const World& world, FrameCaches& caches, const Re
 
 FoundSpawn find_spawn(const Scene& scene, FrameCaches& caches, const Recording& recording,
                       double hz) {
-    Scene trial;  // the caches' shapes and these have the same numbers
+    Scene trial;  // its shapes get the same ids as those of the caches
     *trial.shapes = *scene.shapes;
     trial.name = scene.name;
     trial.world = scene.world;
@@ -245,9 +246,10 @@ FoundSpawn find_spawn(const Scene& scene, FrameCaches& caches, const Recording& 
     if (rehearsal.heads.empty()) {
         return found;
     }
-    const Judge evaluate{caches.collision, rehearsal, scene.tuning.head, scene.tuning.hand};
+    const SpawnEvaluator evaluator{caches.collision, rehearsal, scene.tuning.head,
+                                   scene.tuning.hand};
     double best_path_m = -1.0;
-    for (const Candidate& candidate : propose(scene, evaluate)) {
+    for (const Candidate& candidate : propose(scene, evaluator)) {
         const Played played =
             play_from(trial, scene.world, caches, recording, candidate.origin_ws, hz);
         if (best_path_m < 0.0 || played.gripped > found.gripped ||

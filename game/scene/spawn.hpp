@@ -14,11 +14,12 @@ struct FoundSpawn {
     std::size_t gripped = 0;  // grabs that grip when the session is played from here
 };
 
-// Finds the standing place and yaw from which most of the recording's grabs begin near a surface,
-// with the head clear. Candidates put one of the recording's first grabs onto a random point of the
-// scene's surfaces. They are evaluated along the path that the origin would take if every grab
-// gripped; the best are played. Deterministic. Up is the scene's. `caches` belong to the scene. A
-// scene without surfaces gives its first spawn, or the origin.
+// Finds the start place and yaw from which most of the recording's grabs begin near a surface, with
+// the head clear of surfaces. Each candidate puts one of the recording's first grabs next to a
+// random point of the scene's surfaces. Candidates are rated along the path that the origin would
+// take if every grab gripped; the best candidates are played. Deterministic. The player stands
+// along the scene's up direction. Without surfaces, returns the first spawn, or the world's origin.
+// Precondition: `caches` belong to the scene.
 FoundSpawn find_spawn(const Scene& scene, FrameCaches& caches, const Recording& recording,
                       double hz);
 

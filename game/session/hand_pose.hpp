@@ -6,11 +6,12 @@
 
 namespace handhold {
 
-// A palm's contact with a surface.
+// A pose of a palm that touches a surface.
 struct PalmTarget {
     Vec3 palm = Vec3::Zero();
-    Vec3 away = Vec3::UnitY();      // unit, from the surface into the palm
-    Vec3 fingers = -Vec3::UnitZ();  // not along `away`; only the part across `away` counts
+    Vec3 away = Vec3::UnitY();  // unit, from the surface into the palm
+    // Not parallel to `away`; only the part perpendicular to `away` counts.
+    Vec3 fingers = -Vec3::UnitZ();
 };
 
 // The wrist of a hand whose palm is at `place`.

@@ -2,9 +2,9 @@
 
 namespace handhold {
 
-// While one exists, the first SIGINT or SIGTERM only sets is_interrupted(): long loops then end
-// early and their files are written whole. The second ends the process as it would without this.
-// One at a time; not from several threads.
+// While a guard exists, the first SIGINT or SIGTERM only sets is_interrupted(): long loops then end
+// early and complete their files. A second signal ends the process as it would without a guard. One
+// guard at a time; not from several threads.
 class InterruptGuard {
   public:
     InterruptGuard();

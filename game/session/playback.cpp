@@ -27,8 +27,9 @@ std::span<const TrackingSample> Playback::window(double frame_end_s) {
     while (next_ < samples_.size() && samples_[next_].t_s <= frame_end_s) {
         ++next_;
     }
-    // A recorder whose samples end with its frames saw no further either: a hand that reappears in
-    // the next frame was still lost in this one.
+    // A sample lies exactly at the frame's end, as in a session that was recorded frame by
+    // frame. In this frame that session did not know the next sample yet: a hand that is found
+    // again there was still lost here.
     const bool ends_with_frame = next_ > begin && samples_[next_ - 1].t_s == frame_end_s;
     const std::size_t end = next_ < samples_.size() && !ends_with_frame ? next_ + 1 : next_;
     return std::span(samples_).subspan(begin, end - begin);

@@ -9,23 +9,22 @@
 
 namespace handhold {
 
-// A recording as the runtime takes it: samples on the frame clock, from 0, frame by frame.
+// Gives a recording's samples to the runtime frame by frame, on a clock that starts at 0.
 class Playback {
   public:
     explicit Playback(const Recording& recording);
 
     double duration_s() const { return duration_s_; }
-    // The samples since the last call, up to frame_end_s, and, unless one lies exactly there, the
-    // first after it. Each sample before frame_end_s is returned once. frame_end_s must not
-    // decrease.
+    // The samples since the last call, up to `frame_end_s`. Unless one lies exactly at
+    // `frame_end_s`, also the first sample after it, which the next call returns again.
+    // Precondition: `frame_end_s` does not decrease.
     std::span<const TrackingSample> window(double frame_end_s);
-    // Commands as of the last sample within the frame of the last window: both menu buttons ask for
-    // calibration.
+    // The commands at the last sample of the frame: calibration while both menu buttons are down.
     PlayerCommands commands() const;
 
   private:
     std::vector<TrackingSample> samples_;
-    std::vector<bool> calibrates_;  // by sample
+    std::vector<bool> calibrates_;  // by index in samples_
     std::size_t next_ = 0;          // first sample not yet returned
     double duration_s_ = 0.0;
 };

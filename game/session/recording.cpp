@@ -14,11 +14,11 @@ namespace handhold {
 namespace {
 
 constexpr double k_max_time_s = 1e9;
-constexpr double k_max_coordinate_m = 1e6;
+constexpr double k_max_recorded_m = 1e6;
 constexpr double k_max_buttons = 65535.0;
 constexpr double k_length_tolerance = 1e-2;
-// A quaternion so near to unit length is as unit as rounding allows; dividing again could move its
-// last bits, and a saved recording has to load as what it was.
+// A quaternion this near to unit length is not normalised. That could change its last bits, but a
+// saved recording must load unchanged.
 constexpr double k_unit_tolerance = 1e-14;
 
 constexpr std::size_t k_pose_cells = 7;
@@ -34,6 +34,12 @@ constexpr std::array<const char*, k_head_begin + k_pose_cells + 2 * k_hand_cells
 
 // One row's cells in the order of k_columns.
 using Cells = std::array<double, k_columns.size()>;
+
+// A device that was not tracked.
+Pose lost_pose() {
+    constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
+    return {Vec3::Constant(k_nan), Quat(k_nan, k_nan, k_nan, k_nan)};
+}
 
 // Reads rows into samples; the first bad cell is kept as the error.
 class RowReader {
@@ -67,13 +73,12 @@ class RowReader {
     bool read_pose(const Cells& cells, std::size_t begin, Pose& pose) {
         for (std::size_t i = begin; i < begin + k_pose_cells; ++i) {
             if (std::isnan(cells[i])) {
-                constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
-                pose = {Vec3::Constant(k_nan), Quat(k_nan, k_nan, k_nan, k_nan)};
+                pose = lost_pose();
                 return true;
             }
         }
         for (std::size_t i = begin; i < begin + 3; ++i) {
-            if (!check(i, std::abs(cells[i]) <= k_max_coordinate_m, "a coordinate within 1e6 m",
+            if (!check(i, std::abs(cells[i]) <= k_max_recorded_m, "a coordinate within 1e6 m",
                        cells)) {
                 return false;
             }
@@ -81,6 +86,10 @@ class RowReader {
         pose.position = Vec3(cells[begin], cells[begin + 1], cells[begin + 2]);
         pose.rotation =
             Quat(cells[begin + 6], cells[begin + 3], cells[begin + 4], cells[begin + 5]);
+        if (pose.rotation.coeffs().isZero(0.0)) {  // how some recorders write a lost device
+            pose = lost_pose();
+            return true;
+        }
         const double length = pose.rotation.norm();
         if (!(std::abs(length - 1.0) <= k_length_tolerance)) {
             return refuse(std::string("expected a quaternion of length 1 from \"") +
@@ -96,7 +105,7 @@ class RowReader {
     bool read_hand(const Cells& cells, std::size_t begin, RecordedHand& hand) {
         const std::size_t buttons = begin + k_pose_cells;
         const std::size_t trigger = buttons + 1;
-        // Written so that NaN, allowed for poses only, fails.
+        // Written so that NaN fails: NaN is allowed only in poses.
         if (!read_pose(cells, begin, hand.controller) ||
             !check(buttons,
                    cells[buttons] >= 0.0 && cells[buttons] <= k_max_buttons &&
@@ -201,8 +210,8 @@ Result<Recording> load_recording(const std::filesystem::path& path) {
 
 std::optional<FileError> save_recording(const std::filesystem::path& path,
                                         const Recording& recording) {
-    constexpr std::size_t k_bytes_per_row =
-        480;  // 26 cells of up to 17 digits: one allocation for nearly all
+    // 26 cells of up to 17 digits, so that nearly every recording needs one allocation.
+    constexpr std::size_t k_bytes_per_row = 480;
     std::string text;
     text.reserve((recording.samples.size() + 1) * k_bytes_per_row);
     for (const char* column : k_columns) {

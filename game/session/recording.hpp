@@ -19,23 +19,25 @@ constexpr int k_button_trackpad = 1;
 constexpr int k_button_trigger = 2;
 constexpr int k_button_grip = 4;
 constexpr int k_button_menu = 8;
-// A hand grabs while one of these is down.
+// A hand grabs while one of these buttons is down.
 constexpr int k_grab_buttons = k_button_trigger | k_button_grip;
 
 struct RecordedHand {
-    Pose controller;  // of the device in tracking space: metres, floor at y = 0; all NaN while it
-                      // was not tracked
-    int buttons = 0;  // mask of k_button_*, [0, 65535]
+    // Pose of the device in tracking space: metres, floor at y = 0; all NaN while it was not
+    // tracked.
+    Pose controller;
+    int buttons = 0;       // mask of k_button_*, [0, 65535]
     double trigger = 0.0;  // [0, 1]
 };
 
 struct RecordedSample {
-    double t_s = 0.0;  // strictly increasing; from any origin
+    double t_s = 0.0;  // strictly increasing; may start at any time
     Pose head;         // between the eyes, in tracking space; all NaN while it was not tracked
     std::array<RecordedHand, 2> hands;  // left, right
 };
 
-// What a headset that made this sample would have recorded: a hand that grabs holds k_button_grip.
+// Converts a sample to what a headset would have recorded. A hand that grabs holds k_button_grip
+// down.
 RecordedSample recorded(const TrackingSample& sample);
 
 struct Recording {
@@ -46,13 +48,14 @@ struct Recording {
 // does not increase, a coordinate beyond 1e6 m, a quaternion further than 1e-2 from unit length
 // (the others are made unit), buttons that are no mask, a trigger outside [0, 1]; and a file with
 // less than two samples. Columns may come in any order and others may stand between them. Where one
-// of the seven cells of a pose is "nan" the device was not tracked and all become NaN.
+// of the seven cells of a pose is "nan", or its quaternion is all zeros, the device was not tracked
+// and all become NaN.
 Result<Recording> load_recording(const std::filesystem::path& path);
-// The same for text in memory; `file` is for messages.
+// Parses text in memory. `file`: for messages.
 Result<Recording> parse_recording(std::string_view text, const std::string& file);
 
-// Writes digits enough for every bit: a recording that was loaded comes back as it was, and replays
-// to the same state hash. Returns the reason where the file cannot be written.
+// Writes enough digits to keep every bit: a recording that was loaded is saved unchanged and
+// replays to the same state hash. Returns the reason if the file cannot be written.
 [[nodiscard]] std::optional<FileError> save_recording(const std::filesystem::path& path,
                                                       const Recording& recording);
 

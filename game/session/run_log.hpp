@@ -13,8 +13,8 @@
 namespace handhold {
 
 struct HandLog {
-    Vec3 target_ws = Vec3::Zero();  // tracked hand
-    Vec3 shown_ws = Vec3::Zero();   // on its anchor while gripping
+    Vec3 target_ws = Vec3::Zero();  // of the tracked hand
+    Vec3 shown_ws = Vec3::Zero();   // of the shown hand; on its anchor while gripping
     int grip = 0;                   // GripKind
     std::int32_t body = -1;         // index into RunLog::body_names; -1: none
     double error_m = 0.0;
@@ -51,7 +51,8 @@ struct RunLog {
     std::string spawn;  // name, or "auto: x y z, yaw"
     double hz = 90.0;
     int threads = 1;
-    std::size_t bytes_per_player = 0;  // state of the player and both hands in the world's columns
+    // Size of the player's and both hands' state in the world's columns.
+    std::size_t bytes_per_player = 0;
     std::vector<std::string> player_names;
     std::vector<double> player_mass_kg;
     std::vector<std::string> body_names;

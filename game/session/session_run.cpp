@@ -13,7 +13,7 @@ namespace {
 constexpr double k_seconds_without_recording = 10.0;
 constexpr std::uint64_t k_frames_reserved = 10000;
 
-// Entity -> index in RunLog::body_names, -1 for none.
+// Index of an entity in RunLog::body_names; -1: none.
 class BodyIndex {
   public:
     explicit BodyIndex(const World& world) {
@@ -51,7 +51,7 @@ PlayerLog log_player(const World& world, std::uint32_t index, const PlayerEntiti
     return log;
 }
 
-// Into a log that may have been used before: then nothing is allocated.
+// Writes one frame to a log, which is overwritten. A log that was used before needs no allocation.
 void log_frame(const Scene& scene, const std::vector<PlayerEntities>& players,
                const BodyIndex& bodies, const StageStats& stats, FrameLog& log) {
     const World& world = scene.world;
@@ -74,7 +74,7 @@ void log_frame(const Scene& scene, const std::vector<PlayerEntities>& players,
     }
 }
 
-// Bytes of a player's and their hands' rows in all columns, including owners and indices.
+// Bytes of a player and of their hands in all columns, including owners and indices.
 std::size_t state_bytes(const World& world, const PlayerEntities& player) {
     std::size_t bytes = 0;
     visit_columns(world, [&](const char*, const auto& column) {
@@ -138,7 +138,7 @@ RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEn
     }
     const double begin_s = scene.world.clock.t_s;
     const double seconds = session_length_s(recording, settings) - begin_s;
-    constexpr double k_rounding = 1e-3;  // of a frame: the clock is a sum
+    constexpr double k_rounding = 1e-3;  // of a frame; the clock is a sum with rounding errors
     const auto frames =
         static_cast<std::uint64_t>(std::max(1.0, std::floor(seconds * settings.hz + k_rounding)));
     if (scene.world.clock.frame > 0) {
@@ -148,7 +148,8 @@ RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEn
     }
 
     RunLog log = begin_log(scene, players, settings);
-    // Enough for minutes. The length that a file claims must not decide how much memory is taken.
+    // Enough for minutes. A file may claim any length, which must not decide how much memory is
+    // reserved.
     log.frames.reserve(settings.keep_frames ? std::min<std::uint64_t>(frames, k_frames_reserved)
                                             : 1);
     const BodyIndex bodies(scene.world);

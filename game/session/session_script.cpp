@@ -11,7 +11,7 @@ namespace {
 
 constexpr double k_sample_hz = 90.0;
 constexpr double k_lift_m = 0.07;       // height of a moving hand above the surface
-constexpr double k_rest_after_s = 0.7;  // time to lower an idle hand
+constexpr double k_rest_after_s = 0.7;  // duration of an idle hand's way down to its rest pose
 
 Vec3 eyes_at(const std::vector<ScriptedBody>& body, double t_s) {
     const auto next = std::find_if(body.begin(), body.end(),
@@ -36,10 +36,11 @@ struct HandKey {
     double t_s = 0.0;
     Pose hand;  // the wrist
     Vec3 away = Vec3::UnitY();
-    bool holds = false;  // until the next key
+    bool holds = false;  // holds until the next key
 };
 
-// Beside and before the chest, palm down, relative to the eyes at that time.
+// Rest pose of a hand: beside and in front of the chest, palm down, relative to the eyes at that
+// time.
 HandKey rest_key(const SessionScript& script, HandSide side, double t_s, const HandTuning& tuning) {
     const double outward = side == HandSide::right ? 1.0 : -1.0;
     const Vec3 palm =
@@ -66,7 +67,7 @@ std::vector<HandKey> keys_of(const SessionScript& script, HandSide side, const H
     }
     std::stable_sort(keys.begin(), keys.end(),
                      [](const HandKey& a, const HandKey& b) { return a.t_s < b.t_s; });
-    // A reach during a hold moves the held object; the hold lasts until its own end.
+    // A reach during a hold moves the held body. It does not end the hold.
     bool holds = false;
     for (HandKey& key : keys) {
         const bool inside =
@@ -104,7 +105,7 @@ HandNow hand_at(const SessionScript& script, HandSide side, const std::vector<Ha
     return now;
 }
 
-// The eyes look ahead, and partly at the hands.
+// Pose of the head: the eyes look ahead, and partly at the hands.
 Pose head_pose(const SessionScript& script, double t_s, const Vec3& between_hands) {
     Pose pose;
     pose.position = eyes_at(script.body, t_s);
@@ -127,7 +128,7 @@ Pose head_pose(const SessionScript& script, double t_s, const Vec3& between_hand
 }  // namespace
 
 void add_crawl(const ScriptedCrawl& crawl, SessionScript& script) {
-    constexpr double k_period_s = 1.6;  // of one hand
+    constexpr double k_period_s = 1.6;  // period of one hand's holds
     constexpr double k_held = 0.64;     // fraction of the period; the hands' holds overlap
     int step = 0;
     for (double t_s = crawl.from_s; t_s < crawl.until_s; t_s += 0.5 * k_period_s, ++step) {
@@ -138,7 +139,7 @@ void add_crawl(const ScriptedCrawl& crawl, SessionScript& script) {
         if (hold.until_s - hold.from_s < 0.2) {
             break;
         }
-        // The body passes the hold at half its time.
+        // The hold is where the body will be after half of the hold's time.
         const Vec3 eyes = eyes_at(script.body, t_s + 0.5 * k_held * k_period_s);
         const Vec3 on_bar = crawl.bar_start + crawl.along * crawl.along.dot(eyes - crawl.bar_start);
         hold.palm = on_bar + crawl.palm_off_axis_m * crawl.away;
@@ -169,7 +170,8 @@ Recording record_session(const SessionScript& script, const HandTuning& tuning) 
     for (int i = 0; i < count; ++i) {
         RecordedSample sample;
         sample.t_s = i / k_sample_hz;
-        // The recorded person stands in the room and only sways; the hands move the play space.
+        // The recorded person stands in the room and only sways; gripping hands move the play
+        // space.
         const Vec3 sway = Vec3(0.02 * sine(0.4 * sample.t_s), 0.01 * sine(0.5 * sample.t_s),
                                0.02 * sine(0.3 * sample.t_s));
         const Vec3 carried =

@@ -6,9 +6,9 @@
 #include "components/tuning.hpp"
 #include "game/session/recording.hpp"
 
-// The game's sessions: recordings of a planned climb as a headset would make them. The plan is in
-// the world (or in the ship's frame). A gripping hand moves the head 1:1, so the hands in play
-// space follow from the plan.
+// The game's built-in sessions: recordings of planned climbs, as a headset would make them. A plan
+// is in the world's frame or in a ship's. A gripping hand moves the head 1:1, so the hands' motion
+// in play space follows from the plan.
 namespace handhold {
 
 // A hand on a bar or a surface.
@@ -16,20 +16,20 @@ struct ScriptedHold {
     HandSide side = HandSide::left;
     double from_s = 0.0;
     double until_s = 0.0;
-    Vec3 palm = Vec3::Zero();       // where the palm's skin is
+    Vec3 palm = Vec3::Zero();       // point of the palm's skin that touches
     Vec3 away = Vec3::UnitY();      // unit, from the surface into the palm
     Vec3 fingers = -Vec3::UnitZ();  // unit, across `away`
 };
 
-// Planned positions of the eyes. Between two keys: a cubic with the keys' velocities. Equal
-// velocities along the line between two keys give uniform motion.
+// A planned position of the eyes. Between two of them: a cubic with the velocities of both. If both
+// velocities point along the line between the positions and are equal, the motion is uniform.
 struct ScriptedBody {
     double t_s = 0.0;
     Vec3 eyes = Vec3::Zero();
     Vec3 velocity_mps = Vec3::Zero();
 };
 
-// Free motion of a hand between its holds, through this place of the palm.
+// A hand passes this pose at `t_s`, between its holds or while it holds a free body.
 struct ScriptedReach {
     HandSide side = HandSide::left;
     double t_s = 0.0;
@@ -39,23 +39,23 @@ struct ScriptedReach {
 };
 
 struct SessionScript {
-    Quat play_space = Quat::Identity();  // of the play space in the plan's frame
-    double eye_height_m = 1.6;           // eyes above the play space's floor point at the start
+    Quat play_space = Quat::Identity();  // rotation of the play space in the plan's frame
+    // Height of the eyes above the play space's floor point at the start.
+    double eye_height_m = 1.6;
     double duration_s = 0.0;
     std::vector<ScriptedBody> body;   // by time, first at 0
-    std::vector<ScriptedHold> holds;  // by time for each hand, not overlapping
+    std::vector<ScriptedHold> holds;  // sorted by time for each hand, not overlapping
     std::vector<ScriptedReach> reaches;
 };
 
-// Adds alternating holds along a bar for a body that moves along it at `speed_mps`, from the body's
-// key at from_s until until_s.
+// A body that moves along a bar, hand over hand. add_crawl adds alternating holds from `from_s`
+// until `until_s`; the keys of SessionScript::body must already contain the body's motion.
 struct ScriptedCrawl {
     Vec3 bar_start = Vec3::Zero();  // any point of the bar's axis
     Vec3 along = Vec3::UnitX();     // unit, the body's direction
     Vec3 away = Vec3::UnitY();
     Vec3 fingers = Vec3::UnitY();
-    double palm_off_axis_m = 0.02;  // the bar's radius and a little
-    double speed_mps = 0.5;
+    double palm_off_axis_m = 0.02;  // slightly more than the bar's radius
     double from_s = 0.0;
     double until_s = 1.0;
 };
@@ -63,7 +63,7 @@ void add_crawl(const ScriptedCrawl& crawl, SessionScript& script);
 
 // The play space at the start, in the plan's frame.
 Pose session_origin(const SessionScript& script);
-// 90 samples a second with a hand's natural tremor.
+// Records the plan with 90 samples a second and a hand's natural tremor.
 Recording record_session(const SessionScript& script, const HandTuning& tuning);
 
 }  // namespace handhold

@@ -14,8 +14,8 @@ void help_line(const char* control, const char* what) {
 
 }  // namespace
 
-// Fixed size and no table: the layout starts from scratch for each picture, so no widths are known
-// from a previous frame.
+// Shows a panel of fixed size without a table. The layout starts from scratch for each picture, so
+// no widths are known from a previous frame.
 void show_headset_help(const HeadsetHelp& help) {
     ImGui::SetNextWindowPos(ImVec2(0.0F, 0.0F));
     ImGui::SetNextWindowSize(

@@ -11,10 +11,10 @@ namespace handhold {
 struct HeadsetHelp {
     TurnKind turn = TurnKind::snap;
     bool has_jets = false;
-    bool pulls = false;  // the distance grab is on
+    bool pulls = false;  // distance grab is on
     std::string notice;  // one status line; may be empty
 };
-// Size for Overlay::resize; letters are as large as in a picture of height 900.
+// Size for Overlay::resize, and the picture height for which the letters are sized.
 inline constexpr std::array<int, 2> k_headset_help_px = {680, 280};
 inline constexpr int k_headset_letters_for_px = 900;
 void show_headset_help(const HeadsetHelp& help);

@@ -10,7 +10,7 @@ struct Hud {
     bool shows_mark = true;
     bool shows_help = true;
     bool paused = false;
-    double rewound_s = 0.0;  // time before the last played frame
+    double rewound_s = 0.0;  // how far the session is rewound
     double vignette = 0.0;   // [0, 1]; darkness of the edges
     std::string footer;      // one line of costs
 };

@@ -70,7 +70,7 @@ void show_work(const InspectorView& view) {
                        static_cast<double>(view.history.frames()) * DesktopSession::k_dt_s);
 }
 
-// Highlights recently counted fallbacks for a while.
+// Shows the counts of fallbacks; highlights recent ones for a while.
 void show_fallbacks(const InspectorView& view) {
     InspectorMemory& memory = view.memory;
     const auto& counts = view.tally.figures().totals.fallbacks;

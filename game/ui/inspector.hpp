@@ -6,12 +6,12 @@
 
 #include "game/desktop/desktop_session.hpp"
 #include "game/desktop/play_tally.hpp"
-#include "game/session/session_history.hpp"
+#include "game/desktop/session_history.hpp"
 #include "game/view/gizmos.hpp"
 
 namespace handhold {
 
-// UI state that persists between pictures. Not state of the world.
+// What the inspector remembers between pictures. Not state of the world.
 struct InspectorMemory {
     GizmoSet gizmos = k_no_gizmos;
     std::string turn_to;  // name of a page to switch to once; empty: none
@@ -35,7 +35,7 @@ struct InspectorView {
 // A panel with pages for the frame, the hands, tuning, entities and gizmos.
 void show_inspector(const InspectorView& view);
 
-// The pages.
+// The pages of the inspector.
 void show_frame_page(const InspectorView& view);
 void show_hands_page(const InspectorView& view);
 void show_tuning_page(const InspectorView& view);

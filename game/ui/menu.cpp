@@ -14,7 +14,8 @@ namespace {
 const ImVec4 k_soft(0.62F, 0.66F, 0.70F, 1.0F);
 const ImVec4 k_lit(0.27F, 1.0F, 0.43F, 1.0F);
 
-// Created once, because a scene must be built to get its description.
+// The built-in scenes' names and descriptions. The list is made once, because a scene must be built
+// to get its description.
 const std::vector<std::pair<std::string, std::string>>& scenes_with_texts() {
     static const std::vector<std::pair<std::string, std::string>> scenes = [] {
         std::vector<std::pair<std::string, std::string>> list;

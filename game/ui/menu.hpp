@@ -6,14 +6,14 @@
 
 namespace handhold {
 
-// Choices made in the menu in this picture.
+// What the player chose in the menu in this picture.
 struct MenuChoice {
     std::string scene;     // scene to play now; empty: none
     bool quality = false;  // the settings' quality has changed
-    bool goes_on = false;  // closes the menu
+    bool goes_on = false;  // the player closes the menu and plays on
     bool leaves = false;
 };
-// Shows scenes with descriptions, and the settings, which it changes.
+// Shows the scenes with descriptions, and the settings. Changes `settings` directly.
 MenuChoice show_menu(const std::string& playing, PlaySettings& settings);
 
 }  // namespace handhold

@@ -11,7 +11,7 @@
 namespace handhold {
 namespace {
 
-// Debian's fonts-dejavu-core; without it, panels use ImGui's small default font.
+// From Debian's fonts-dejavu-core. If the file is missing, panels use ImGui's small default font.
 constexpr const char* k_font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 
 constexpr std::array<ImGuiKey, static_cast<std::size_t>(UiKey::count)> k_keys = {

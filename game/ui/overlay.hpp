@@ -9,7 +9,8 @@
 // picture, so they also appear in saved pictures and need no window.
 namespace handhold {
 
-// The functions of game/ui may be called between begin() and end(). One overlay at a time.
+// The functions of game/ui may be called between begin() and end(). At most one overlay may be
+// between these calls.
 class Overlay {
   public:
     Overlay(int width_px, int height_px);
@@ -23,7 +24,8 @@ class Overlay {
     // The panels as triangles; valid until the next begin().
     const UiPicture& end();
 
-    // True if a panel uses keyboard and mouse, so the game must ignore them.
+    // True while a text field of a panel has the focus, so that the game must ignore keyboard and
+    // mouse.
     bool takes_keys() const;
 
   private:

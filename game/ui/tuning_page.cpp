@@ -62,7 +62,7 @@ T default_of(const TuningInfo& info) {
     return value;
 }
 
-// One value: name, field, unit and range. A click on its name restores the default.
+// Shows one value: name, field, unit and range. A click on the name restores the default.
 template <typename T>
 bool show_number(const TuningInfo& info, T& field) {
     const T standard = default_of<T>(info);
@@ -96,7 +96,8 @@ bool show_number(const TuningInfo& info, T& field) {
     return changed;
 }
 
-// Columns have the same width in all groups.
+// Begins the table of one group; false if the group is collapsed. Columns have the same width in
+// all groups.
 bool begin_group(const std::string& name) {
     if (!ImGui::CollapsingHeader(name.c_str(), ImGuiTreeNodeFlags_DefaultOpen) ||
         !ImGui::BeginTable(name.c_str(), 3)) {
@@ -108,7 +109,7 @@ bool begin_group(const std::string& name) {
     return true;
 }
 
-// Every value of Tuning, grouped by the first part of its name.
+// Shows every value of Tuning, grouped by the first part of its name.
 bool show_numbers(Tuning& tuning) {
     std::string_view group;
     bool open = false;
@@ -179,7 +180,7 @@ void show_tuning_page(const InspectorView& view) {
     ImGui::BeginChild("numbers");
     Tuning wanted = tuning;
     if (show_numbers(wanted)) {
-        // The rules of tuning files apply: a value that they refuse is not used.
+        // Applies the checks of tuning files: a rejected value is not used.
         const Result<Tuning> checked = parse_tuning(tuning_to_json(wanted), "tuning");
         if (checked) {
             tuning = wanted;

@@ -10,7 +10,7 @@
 namespace handhold {
 namespace {
 
-constexpr double k_query_radius_m = 1.0;  // for the nearest surface beyond reach
+constexpr double k_query_radius_m = 1.0;  // search radius for the nearest surface beyond reach
 constexpr double k_pointed_cos = 0.9962;
 
 [[gnu::format(printf, 1, 2)]] std::string format_text(const char* format, ...) {
@@ -22,7 +22,7 @@ constexpr double k_pointed_cos = 0.9962;
     return text;
 }
 
-// What the palm would grip if it closed now, by the rules of update_grabs.
+// Explains what the palm would grip if it closed now, by the rules of update_grabs.
 void explain_reach(const Scene& scene, const CollisionWorld& collision, const HandOwner& owner,
                    const Pose& hand_ws, HandStory& story) {
     const HandTuning& tuning = scene.tuning.hand;

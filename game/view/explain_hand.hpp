@@ -14,14 +14,14 @@ struct HandStory {
     std::string headline;
     std::vector<std::string> reasons;
 };
-// Precondition: `hand` is a player's hand. `collision` holds the current collider poses.
+// Preconditions: `hand` is a player's hand, and every collider of `collision` is at its current
+// pose.
 HandStory explain_hand(const Scene& scene, const CollisionWorld& collision, Entity hand);
 
-// The hand nearest to a line of sight, within about 5 degrees of it; none: nullopt.
+// The hand nearest to a line of sight, within about 5 degrees of it; nullopt if there is none.
 std::optional<Entity> hand_pointed_at(const World& world, const Vec3& eye_ws, const Vec3& look_ws);
 
-// A body's name in its scene; a player is "player", a hand "left hand" or "right hand". Else its
-// id.
+// A body's name in its scene, "player", or "left hand" or "right hand". Other entities: the id.
 std::string name_of_entity(const Scene& scene, Entity entity);
 
 }  // namespace handhold

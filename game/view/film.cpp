@@ -75,7 +75,8 @@ struct SessionFilm::Impl {
         if (video != nullptr && frame.t_s >= next_video_s &&
             frame.t_s <= settings.longest_video_s) {
             next_video_s += 1.0 / settings.video_fps;
-            // Alternates: four seconds from the player's eyes, four from outside.
+            // Alternates between four seconds from the player's eyes and four from
+            // outside.
             const View view = std::fmod(frame.t_s, 8.0) < 4.0 ? View::first_person : View::outside;
             draw(*moving, view, view == View::first_person ? 1.45 : 1.05);
             video->add(image);

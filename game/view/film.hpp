@@ -19,13 +19,14 @@ struct FilmShot {
 };
 
 struct FilmSettings {
-    int width_px = 960;  // of the pictures
+    int width_px = 960;  // size of the pictures
     int height_px = 540;
     int video_width_px = 640;
     int video_height_px = 360;
     double video_fps = 24.0;
-    double longest_video_s = 40.0;  // length of the session that the video covers at most
-    // Maximum number of pictures, spread over the session; taken when hands grab where possible.
+    double longest_video_s = 40.0;  // the video covers at most this much of the session
+    // Maximum number of pictures, spread over the session. If possible, a picture shows a hand that
+    // has just grabbed.
     int shots = 8;
     std::filesystem::path video;  // empty: no video
     PlayerModels models;

@@ -7,7 +7,7 @@ namespace handhold {
 namespace {
 
 constexpr double k_fly_mps = 1.5;
-constexpr double k_camera_hurry = 4.0;  // speed factor
+constexpr double k_camera_hurry = 4.0;  // factor on the speed while hurrying
 constexpr double k_camera_turn_radps = 1.5;
 constexpr double k_camera_snap_rad = 30.0 * k_degree;
 constexpr double k_camera_steepest_rad = 85.0 * k_degree;

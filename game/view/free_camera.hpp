@@ -10,11 +10,11 @@ namespace handhold {
 // and keeps their grips meanwhile.
 class FreeCamera {
   public:
-    // Starts at `camera_ws`, levelled with `up_ws`. Grips stay as `input` has them.
+    // Starts at `camera_ws`, levelled with `up_ws`. The player keeps the grips of `input`.
     void begin(const Pose& camera_ws, const Vec3& up_ws, const DesktopInput& input);
     // Moves the camera by `input` (instead of the player) for dt_s.
     void fly(const DesktopInput& input, double dt_s);
-    // The input to give to the player meanwhile: only the grips.
+    // The player's input while the camera flies: only the grips.
     DesktopInput held() const;
 
     const Pose& pose_ws() const { return pose_ws_; }

@@ -20,8 +20,9 @@ constexpr Color k_joint = {0.1F, 0.9F, 0.8F};
 constexpr Color k_bone = {1.0F, 0.6F, 0.15F};
 constexpr Color k_pole = {0.3F, 0.6F, 1.0F};
 constexpr Color k_residual = {1.0F, 0.1F, 0.3F};
-constexpr double k_residual_scale = 1000.0;   // a millimetre is drawn as a metre,
-constexpr double k_longest_residual_m = 0.5;  // and clamped
+// Residuals are drawn so many times as long: a millimetre as a metre.
+constexpr double k_residual_scale = 1000.0;
+constexpr double k_longest_residual_m = 0.5;  // maximum drawn length
 
 void add_cross(const Vec3& at_ws, double size_m, const Color& color, std::vector<Line>& out) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -80,7 +81,7 @@ void add_hands(const World& world, const GizmoSet& on, std::vector<Line>& out) {
     }
 }
 
-// From point to point.
+// Draws a line from `from_ws` through all joints in turn.
 void add_bones(const Vec3& from_ws, std::span<const Pose> joints_ws, const Color& color,
                std::vector<Line>& out) {
     Vec3 last = from_ws;
@@ -114,7 +115,7 @@ void add_spine(const SpinePose& pose, std::vector<Line>& out) {
 }
 
 void add_velocities(const World& world, std::vector<Line>& out) {
-    constexpr double k_shown_s = 0.25;  // look-ahead of the drawn velocity
+    constexpr double k_shown_s = 0.25;  // velocities are drawn as the path of this time
     constexpr double k_min_mps = 1e-3;
     for (std::size_t row = 0; row < world.body_velocity.size(); ++row) {
         const BodyVelocity& velocity = world.body_velocity.rows()[row];
@@ -156,10 +157,11 @@ void add_joint(const FrameGraph& graph, const RowBlock& block, std::vector<Line>
     }
 }
 
-// The residual of a block, drawn a thousand times as long.
+// Draws the residual of a block, a thousand times as long.
 void add_residual(const FrameGraph& graph, const RowBlock& block, std::vector<Line>& out) {
     const Vec3 point_ws = transform_point(graph.graph.bodies[block.b].pose_ws, block.point_b_bs);
-    // Free coordinates are not errors: the residual is the block's own length only.
+    // Uses the block's error, not the distance of its points: a slider's points may be apart
+    // without any error.
     const double error_m = block_error_m(graph.graph.bodies, block);
     const Vec3 towards =
         is_contact(block) ? Vec3(graph.graph.bodies[block.b].pose_ws.rotation * block.normal_b_bs)

@@ -42,8 +42,8 @@ struct GizmoInfo {
 GizmoInfo info_of(Gizmo gizmo);
 
 // Appends the lines of the gizmos that are on, for the last frame. Contacts, joints, islands,
-// residuals and the hands' surroundings exist only in the caches, so they are absent right after a
-// restore.
+// residuals and the hands' surroundings exist only in the caches, so these gizmos are empty right
+// after a restore.
 void add_gizmos(const World& world, const FrameCaches& caches, const Tuning& tuning,
                 const GizmoSet& on, std::vector<Line>& out);
 

@@ -30,7 +30,7 @@ Color blend(const Color& a, const Color& b, float share) {
     return color;
 }
 
-// An arc from `x` towards `y`; both have the radius as their length.
+// An arc from `x` towards `y`. The length of both vectors is the radius.
 void add_arc(const Vec3& center_ws, const Vec3& x, const Vec3& y, double angle_rad,
              const Color& color, std::vector<Line>& out) {
     const auto point = [&](int i) {
@@ -44,7 +44,7 @@ void add_arc(const Vec3& center_ws, const Vec3& x, const Vec3& y, double angle_r
     }
 }
 
-// The triangles that the search visited, from bright to dark; the chosen one is green.
+// Draws the triangles that the search visited, from bright to dark; the chosen one is green.
 void add_search(const HandSurroundings& hand, const GripSurface& chosen, const Tuning& tuning,
                 std::vector<Line>& out) {
     constexpr double k_shown_m = 1e-3;  // offset from the surface
@@ -79,7 +79,7 @@ void add_search(const HandSurroundings& hand, const GripSurface& chosen, const T
     }
 }
 
-// The palm's allowed height over the surface, and its allowed tilt.
+// Draws the palm's allowed height above the surface, and its allowed tilt.
 void add_palm_limits(const HandSurroundings& hand, const GripSurface& surface, const Pose& palm_ws,
                      const PalmTuning& tuning, std::vector<Line>& out) {
     constexpr double k_cone_m = 0.06;
@@ -117,9 +117,9 @@ std::optional<Vec3> nearest_ws(const HandSurroundings& hand, const Vec3& point_w
     return nearest;
 }
 
-// A line from the start of a cold search to the finger disc's cut through the surface, and the cut
-// itself. Runs the stage's search again for the open finger's middle plane on the gripped body's
-// search detail. The stage itself may have reused last frame's result.
+// Draws where the finger's disc cuts the surface, and a line from the search's start point to the
+// cut. The stage may have reused the last frame's result, so this searches again: for the open
+// finger's middle plane, on the gripped body's search detail.
 void add_cut(const HandSurroundings& hand, const GripSurface& surface, const FingerRig& finger,
              const Pose& palm_ws, TraceScratch& scratch, std::vector<Line>& out) {
     constexpr double k_shown_m = 1.5e-3;  // offset from the surface
@@ -163,7 +163,7 @@ void add_cut(const HandSurroundings& hand, const GripSurface& surface, const Fin
     }
 }
 
-// A sphere of the zone's radius around the palm's place in the grip.
+// Draws a sphere of the zone's radius around the palm's place in each authored grip.
 void add_snap_zones(const World& world, const Tuning& tuning, std::vector<Line>& out) {
     for (std::size_t row = 0; row < world.authored_grips.size(); ++row) {
         const AuthoredGrips& grips = world.authored_grips.rows()[row];
@@ -184,7 +184,7 @@ void add_snap_zones(const World& world, const Tuning& tuning, std::vector<Line>&
     }
 }
 
-// The disc that a finger flexes in, from open to closed; its links and contact points.
+// Draws the disc that a finger flexes in, from open to closed, its links, and their contact points.
 void add_finger(const HandSurroundings& hand, const FingerRig& finger, const FingerAngles& angles,
                 const Pose& palm_ws, std::vector<Line>& out) {
     constexpr double k_touch_m = 1.5e-3;

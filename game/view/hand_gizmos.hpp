@@ -9,7 +9,7 @@
 namespace handhold {
 
 // Appends debug lines of the hand stages for every gripping hand, for the last frame. Repeats the
-// search to get its order of visits; changes nothing.
+// search to get the order in which triangles were visited; changes nothing.
 void add_hand_gizmos(const World& world, const FrameCaches& caches, const Tuning& tuning,
                      const GizmoSet& on, std::vector<Line>& out);
 

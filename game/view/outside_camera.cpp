@@ -31,7 +31,8 @@ Pose OutsideCamera::look_from(std::span<const Offset> offsets, const Vec3& head_
     const Vec3 side = ahead_ws.cross(up);
     place_walls();
     const auto reach = [&](const Vec3& wanted) {
-        const Vec3 sweep = wanted - head_ws;  // the sweep starts at the head, which is free
+        // The sweep starts at the head, which penetrates nothing.
+        const Vec3 sweep = wanted - head_ws;
         const auto hit = walls_.cast_sphere(k_camera_radius_m, head_ws, wanted);
         const double share = hit ? hit->distance_m / sweep.norm() : 1.0;
         return Vec3(head_ws + std::max(0.0, share - 0.02) * sweep);

@@ -17,27 +17,27 @@ inline constexpr int k_player_viewpoints = 4;
 // Cameras that look at a player and avoid walls. Only reads the world.
 class OutsideCamera {
   public:
-    // `scene` must outlive it.
+    // `scene` must outlive the camera.
     explicit OutsideCamera(const Scene& scene) : scene_(&scene), walls_(*scene.shapes) {}
 
     // Behind and above the player's head.
     Pose behind(const RenderPose& render);
-    // In front of the player, looking back (the left hand is on the right, as in a photograph). The
+    // In front of the player, looking back. The left hand is on the right, as in a photograph. The
     // same as `behind` if walls leave less than 0.6 m.
     Pose before(const RenderPose& render);
 
   private:
-    // Ahead, up and to the right of the target, metres.
+    // Offset ahead, up and to the right of the target, metres.
     using Offset = std::array<double, 3>;
-    // Looks at the target from the first offset that walls between the head and the camera do not
-    // move much closer to the target than a later offset.
+    // Looks at the target from the offset that walls leave farthest from it. A later offset must be
+    // clearly farther than an earlier one.
     Pose look_from(std::span<const Offset> offsets, const Vec3& head_ws, const Vec3& target_ws,
                    const Vec3& ahead_ws);
     Vec3 level_ahead(const RenderPose& render) const;
     void place_walls();
 
     const Scene* scene_;
-    CollisionWorld walls_;  // of bodies that are not free
+    CollisionWorld walls_;  // colliders of the bodies that are not free
 };
 
 }  // namespace handhold

@@ -73,7 +73,7 @@ void PlayerView::add_hand(HandSide side, const RenderPose::Hand& hand,
     }
 }
 
-// A ghost at the tracked pose, if the hand is shown elsewhere.
+// Adds a ghost at the tracked pose, if the hand is shown elsewhere.
 void PlayerView::add_ghost(HandSide side, const RenderPose::Hand& hand, bool is_lost,
                            RenderFrame& frame) {
     const auto share = static_cast<float>(ghost_share(hand, ghosts_));
@@ -93,7 +93,7 @@ void PlayerView::add_ghost(HandSide side, const RenderPose::Hand& hand, bool is_
                  frame);
 }
 
-// Shows how an empty hand would sit in the authored grip nearby.
+// Shows an empty hand as it would grip the authored grip nearby.
 void PlayerView::add_snap_hint(Entity hand, RenderFrame& frame) {
     const std::optional<SnapHint> hint = find_snap_hint(scene_->world, hand, scene_->tuning.hand);
     if (!hint) {
@@ -125,7 +125,7 @@ void PlayerView::add_ghost_of(HandSide side, const Pose& wrist_ws,
     }
 }
 
-// A line from the palm of a pulling hand to the pulled body.
+// Adds a line from the palm of a pulling hand to the pulled body.
 void PlayerView::add_pull(Entity hand, const RenderPose::Hand& shown, RenderFrame& frame) const {
     const HandPull* const pull = scene_->world.hand_pull.find(hand);
     const BodyPose* const body =
@@ -135,7 +135,8 @@ void PlayerView::add_pull(Entity hand, const RenderPose::Hand& shown, RenderFram
     }
 }
 
-// Instances since `first` also shine through geometry that is not the player's own.
+// Adds ghosts of all instances from index `first` on. They shine through geometry that is not the
+// player's own.
 void PlayerView::add_penetrating_hands(std::size_t first, RenderFrame& frame) const {
     for (std::size_t i = first; i < frame.instances.size(); ++i) {
         const Instance& part = frame.instances[i];
@@ -145,7 +146,8 @@ void PlayerView::add_penetrating_hands(std::size_t first, RenderFrame& frame) co
 }
 
 void PlayerView::add_player(std::size_t row, BodyFigures::Seen seen, RenderFrame& frame) {
-    constexpr std::size_t k_who_plays = 0;  // hints are for this player, in every view
+    // Element of the player who gets the hints, in every view.
+    constexpr std::size_t k_who_plays = 0;
     const World& world = scene_->world;
     const Entity player = world.render_pose.owners()[row];
     const RenderPose& render = world.render_pose.rows()[row];

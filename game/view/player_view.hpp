@@ -13,10 +13,10 @@
 
 namespace handhold {
 
-// Draws a scene with its players: bodies and hands, palm rays, and lines to what holds them.
+// Draws a scene with its players: bodies and hands, palm rays, and lines to what the hands hold.
 class PlayerView {
   public:
-    // Nothing, with the reason in `why_not`, if nothing can be drawn on this machine. `scene` must
+    // nullopt, with the reason in `why_not`, if nothing can be drawn on this machine. `scene` must
     // outlive the view.
     static std::optional<PlayerView> open(const Scene& scene, PlayerModels models, int width_px,
                                           int height_px, std::string& why_not,
@@ -27,21 +27,22 @@ class PlayerView {
     void draw(const Pose& camera_ws, double vertical_fov_rad,
               std::optional<std::size_t> without_head, Image& out, std::span<const Line> marks = {},
               const UiPicture* ui = nullptr);
-    // The same for one eye of a headset, into a texture of the XR runtime (Renderer::draw_into).
+    // Draws one eye of a headset into a texture of the XR runtime (Renderer::draw_into). `whose`:
+    // element of the player.
     void draw_eye(const Camera& eye, std::size_t whose, std::uint32_t texture, Image* copy,
                   const UiPicture* ui = nullptr);
     // Shows palm rays and grip lines. Default: on.
     void show_hand_lines(bool shows) { shows_hand_lines_ = shows; }
-    // RenderFrame::hidden_lines.
+    // Sets RenderFrame::hidden_lines.
     void set_hidden_lines(float strength) { hidden_lines_ = strength; }
-    // Sets the controls' values of the player at element `row`. Other players' controls follow how
-    // far their hands are closed.
+    // Sets the positions of the controls for the player at element `row`. Other players' controls
+    // follow how far their hands are closed.
     void show_controls(std::size_t row, const std::array<ControlValues, k_hand_count>& values) {
         controls_ = PlayerControls{row, values};
     }
     // Shows a sheet of panels in the world; nullopt: none.
     void show_sheet(const std::optional<Sheet>& sheet) { sheet_ = sheet; }
-    // Valid as long as the view.
+    // The OpenGL context. Valid as long as the view.
     const GlContext& context() const { return renderer_.context(); }
     const RenderCounters& counters() const { return renderer_.counters(); }
 

@@ -21,7 +21,7 @@ RenderFrame make_scene_frame(const Scene& scene, const std::vector<MeshId>& mesh
     if (scene.lamps.empty()) {
         frame.head_light = 0.55F;  // a level without its own lamps
     }
-    if (!is_null(scene.lamps_body)) {  // lamps of a ship move with it
+    if (!is_null(scene.lamps_body)) {  // a ship's lamps move with the ship
         const Pose& ship = world.body_pose.at(scene.lamps_body).pose_ws;
         for (Lamp& lamp : frame.lamps) {
             lamp.position_ws = transform_point(ship, lamp.position_ws);

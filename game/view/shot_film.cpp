@@ -13,14 +13,14 @@
 namespace handhold {
 namespace {
 
-constexpr double k_shot_palm_m = 0.08;  // from the wrist towards the fingers
+constexpr double k_shot_palm_m = 0.08;  // distance of the palm from the wrist, towards the fingers
 
 }  // namespace
 
 struct ShotFilm::Impl {
     const Scene& scene;
     const FrameCaches& caches;
-    std::vector<Shot> shots;  // by start time
+    std::vector<Shot> shots;  // sorted by start time
     ShotFilmSettings settings;
     PlayerView view;
     OutsideCamera outside;

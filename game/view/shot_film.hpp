@@ -37,7 +37,8 @@ class ShotFilm {
     double length_s() const;
     // Call after each frame.
     void watch(double t_s);
-    // Returns the number of shots saved. `why_not`: the reason of the first failure, if any.
+    // Ends the film. Returns the number of shots saved. `why_not`: the reason of the first failure,
+    // if any.
     std::size_t finish(std::string& why_not);
 
   private:

@@ -34,7 +34,7 @@ ShotView read_view(const JsonValue& value) {
     return found->second;
 }
 
-// Gizmo names as in the inspector, or "all".
+// Reads names of gizmos, as in the inspector, or "all".
 void read_gizmos(const JsonValue& list, GizmoSet& gizmos) {
     for (const JsonValue& item : list.optional_items()) {
         const std::string name = item.text();
@@ -50,7 +50,7 @@ void read_gizmos(const JsonValue& list, GizmoSet& gizmos) {
     }
 }
 
-// A file name without any path.
+// True if the name has only lower-case letters, digits and underscores.
 bool is_plain_name(const std::string& name) {
     return std::ranges::all_of(name, [](char letter) {
         return (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') ||
@@ -89,12 +89,13 @@ Shot read_shot(const JsonValue& value) {
     return shot;
 }
 
-// Only one clip is drawn at a time.
+// True if two clips of one scene overlap: only one clip is drawn at a time.
 bool overlap(const Shot& a, const Shot& b) {
     return a.scene == b.scene && a.at_s < b.until_s && b.at_s < a.until_s;
 }
 
-// A list covers many scenes, so a misspelt scene would never be played and nobody would notice.
+// True if the scene exists. A list covers many scenes, so nobody would notice that the shots of a
+// misspelt scene are missing.
 bool is_scene(const std::string& scene) {
     const std::vector<std::string_view> built_in = built_in_scenes();
     std::error_code ignored;

@@ -9,8 +9,8 @@
 #include "engine/io/result.hpp"
 #include "game/view/gizmos.hpp"
 
-// Pictures and film clips of a scene's session, requested in a file. All pictures in the documents
-// are made this way (docs/reference/shots.md).
+// Pictures and film clips of a scene's session, requested in a file. All pictures in the
+// documentation are made this way (docs/reference/shots.md).
 namespace handhold {
 
 // Where a shot's camera is.
@@ -27,19 +27,19 @@ enum class ShotView : std::uint8_t {
 };
 
 struct Shot {
-    std::size_t number = 0;  // place in the list, from 0
+    std::size_t number = 0;  // index in the list, from 0
     std::string name;        // file name, without folder and extension
-    std::string scene;       // whose session it is of
+    std::string scene;       // the scene whose session is drawn
     std::string caption;     // one line over a clip; may be empty
     double at_s = 0.0;       // session time
-    double until_s = 0.0;    // end of a clip if later than at_s; else a picture
+    double until_s = 0.0;    // later than at_s: a clip that ends here; else: a picture
     ShotView view = ShotView::eyes;
-    HandSide side = HandSide::right;  // ShotView::hand
-    // ShotView::body: its name; ShotView::player: the player's name
+    HandSide side = HandSide::right;  // the hand of ShotView::hand
+    // ShotView::body: the body's name; ShotView::player: the player's name
     std::string body;
     // Right, up and back in the first player's play space; ShotView::place: in the world's axes.
     Vec3 from_m = Vec3(0.3, 0.2, 0.3);
-    Vec3 target_m = Vec3::Zero();  // Added to the point that the view looks at; same axes.
+    Vec3 target_m = Vec3::Zero();  // added to the point that the view looks at; same axes
     double fov_deg = 60.0;         // vertical
     bool marks = true;             // lines of palms, grips and heads
     double through = 0.22;         // [0, 1]; opacity of lines behind geometry
@@ -48,7 +48,7 @@ struct Shot {
 
 // Errors name the file, the JSON pointer, and what was expected.
 Result<std::vector<Shot>> parse_shots(std::string_view text, const std::string& file);
-// The same from a file. Every scene must be built in or an existing file.
+// Loads a file of shots. Every scene must be built in or an existing file.
 Result<std::vector<Shot>> load_shots(const std::filesystem::path& file);
 
 }  // namespace handhold

@@ -6,8 +6,8 @@
 #include "components/tuning.hpp"
 #include "components/world.hpp"
 
-// The authored grip that an empty hand would snap to if it closed now, for rendering a hint. Only
-// reads the world; the simulation reads nothing of this.
+// The authored grip that an empty hand would snap to if it closed now, for rendering a hint. The
+// simulation does not use it.
 namespace handhold {
 
 struct SnapHint {
@@ -17,10 +17,10 @@ struct SnapHint {
     bool is_within = false;  // inside the zone; else near it
 };
 
-// Considers the grips whose zone the hand is in or near. Returns the one with the highest priority,
-// then the one nearest to its centre relative to its radius and angle. Ignores obstacles and
-// whether the grip is taken (update_grabs also uses the palm's travel). None if the hand holds
-// something.
+// Considers the grips whose zone the hand is in or near. Returns the one with the highest priority;
+// among these, the one nearest to its centre relative to its radius and angle. nullopt if the hand
+// holds a body. Unlike update_grabs, ignores obstacles, the palm's travel, and whether the grip is
+// taken.
 std::optional<SnapHint> find_snap_hint(const World& world, Entity hand, const HandTuning& tuning);
 
 }  // namespace handhold

@@ -95,10 +95,10 @@ bool HeadsetActions::create_actions(bool has_palms, std::string& why_not) {
     return true;
 }
 
-// A profile that the runtime does not know is left out: one that it does know is enough.
+// Skips profiles that the runtime does not know; one known profile is enough.
 bool HeadsetActions::suggest(XrInstance instance, bool has_palms, std::string& why_not) const {
     bool any = false;
-    std::string refusal;  // of the last; matters only where none is known
+    std::string refusal;  // of the last failed profile; reported only if none is known
     for (const HeadsetProfile& profile : headset_profiles()) {
         std::vector<XrActionSuggestedBinding> bindings;
         for (const HeadsetBinding& binding : profile.bindings) {
@@ -234,10 +234,10 @@ void HeadsetActions::shake(XrSession session, HandSide side, const HapticPulse& 
     vibration.amplitude = static_cast<float>(pulse.amplitude);
     vibration.duration = static_cast<XrDuration>(pulse.duration_s * k_ns_per_s);
     vibration.frequency = XR_FREQUENCY_UNSPECIFIED;
-    // A controller that cannot shake is no reason to stop.
+    // An error is ignored: not every controller can vibrate.
     static_cast<void>(xrApplyHapticFeedback(
         session, &info,
-        reinterpret_cast<const XrHapticBaseHeader*>(&vibration)));  // NOLINT: OpenXR's way
+        reinterpret_cast<const XrHapticBaseHeader*>(&vibration)));  // NOLINT: OpenXR API
 }
 
 }  // namespace handhold

@@ -10,16 +10,17 @@
 
 namespace handhold {
 
-// The controllers: an action set with suggestions for every profile of bindings.hpp, attached to a
-// session. The session must outlive it.
+// Input from controllers, and their vibration: an OpenXR action set that is attached to a session
+// and suggests bindings for every profile of bindings.hpp. The session must outlive this object.
 class HeadsetActions {
   public:
     static std::optional<HeadsetActions> create(const HeadsetInstance& instance, XrSession session,
                                                 std::string& why_not);
 
-    // Asks the runtime what is pressed; false where it has no focus: all is let go then.
+    // Updates the state of buttons and sticks. Returns XR_SESSION_NOT_FOCUSED if the session has no
+    // focus; all buttons count as released then.
     XrResult sync(XrSession session);
-    // As of the last sync; poses as predicted for `time`, relative to `base`.
+    // Reads buttons and sticks as of the last sync(), and the poses predicted for `time` in `base`.
     void read(XrSession session, XrSpace base, XrTime time,
               std::array<HandReading, k_hand_count>& hands) const;
     void shake(XrSession session, HandSide side, const HapticPulse& pulse) const;
@@ -40,11 +41,11 @@ class HeadsetActions {
     OwnedXrActionSet set_;
     std::array<XrAction, k_headset_action_count> actions_{};  // destroyed with their set
     std::array<XrPath, k_hand_count> hands_{};
-    // Of the three poses, by HeadsetAction and HandSide.
+    // Spaces of the three pose actions, by HeadsetAction and HandSide.
     std::array<std::array<OwnedXrSpace, k_hand_count>, 3> spaces_;
 };
 
-// Where `space` is in `base`; nothing where that is not tracked or not known.
+// Pose of `space` in `base` at `time`; nullopt if the runtime does not know it.
 std::optional<Pose> locate(XrSpace space, XrSpace base, XrTime time);
 
 }  // namespace handhold

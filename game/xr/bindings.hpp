@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <span>
 
-// Which control of which controller does what: data without OpenXR's types.
+// Which control of which controller triggers which action, as data without OpenXR's types.
 namespace handhold {
 
 enum class HeadsetAction : std::uint8_t {
     grip_pose,
     aim_pose,
-    palm_pose,  // only where the runtime has palms
+    palm_pose,  // only if the runtime has XR_EXT_palm_pose
     squeeze,
     trigger,
     stick,
@@ -27,8 +27,8 @@ enum class ActionKind : std::uint8_t { pose, number, button, stick, shake };
 struct HeadsetActionName {
     HeadsetAction action;
     ActionKind kind;
-    const char* name;  // OpenXR's rules: a to z, digits, -, _ and .
-    const char* said;  // what a runtime's settings show
+    const char* name;  // OpenXR allows a to z, digits, -, _ and .
+    const char* said;  // shown in the runtime's settings
 };
 // By HeadsetAction.
 extern const std::array<HeadsetActionName, k_headset_action_count> k_headset_actions;

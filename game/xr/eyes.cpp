@@ -80,11 +80,12 @@ bool Eyes::create_eye(XrSession session, Eye& eye, std::string& why_not) const {
                       xr_struct<XrSwapchainImageOpenGLKHR>(XR_TYPE_SWAPCHAIN_IMAGE_OPENGL_KHR));
     return xr_succeeds(xrEnumerateSwapchainImages(swapchain, count, &count,
                                                   reinterpret_cast<XrSwapchainImageBaseHeader*>(
-                                                      eye.images.data())),  // NOLINT: its way
+                                                      eye.images.data())),  // NOLINT: OpenXR
                        "xrEnumerateSwapchainImages", why_not);
 }
 
-bool Eyes::draw_eye_picture(std::size_t which, const XrView& view, const DrawEye& draw_eye) const {
+bool Eyes::draw_eye_picture(std::size_t which, const XrView& view, const Pose& eye_ps,
+                            const DrawEye& draw_eye) const {
     const Eye& eye = eyes_[which];
     std::uint32_t image = 0;
     if (XR_FAILED(xrAcquireSwapchainImage(eye.swapchain.get(), nullptr, &image))) {
@@ -94,16 +95,16 @@ bool Eyes::draw_eye_picture(std::size_t which, const XrView& view, const DrawEye
     wait.timeout = XR_INFINITE_DURATION;
     const bool lent = XR_SUCCEEDED(xrWaitSwapchainImage(eye.swapchain.get(), &wait));
     if (lent) {
-        draw_eye({which, from_xr(view.pose), frustum_of(view.fov), eye.images[image].image, size_});
+        draw_eye({which, eye_ps, frustum_of(view.fov), eye.images[image].image, size_});
     }
     return XR_SUCCEEDED(xrReleaseSwapchainImage(eye.swapchain.get(), nullptr)) && lent;
 }
 
-bool Eyes::draw(XrSession session, XrSpace room, XrTime time, const DrawEye& draw_eye) {
+bool Eyes::draw(XrSession session, const Place& place, XrTime time, const DrawEye& draw_eye) {
     auto info = xr_struct<XrViewLocateInfo>(XR_TYPE_VIEW_LOCATE_INFO);
     info.viewConfigurationType = k_stereo;
     info.displayTime = time;
-    info.space = room;
+    info.space = place.room;
     auto state = xr_struct<XrViewState>(XR_TYPE_VIEW_STATE);
     std::array<XrView, k_eye_count> views;
     views.fill(xr_struct<XrView>(XR_TYPE_VIEW));
@@ -115,7 +116,8 @@ bool Eyes::draw(XrSession session, XrSpace room, XrTime time, const DrawEye& dra
         return false;
     }
     for (std::size_t which = 0; which < k_eye_count; ++which) {
-        if (!draw_eye_picture(which, views[which], draw_eye)) {
+        const Pose eye_ps = place.room_in_readings * from_xr(views[which].pose);
+        if (!draw_eye_picture(which, views[which], eye_ps, draw_eye)) {
             return false;
         }
         auto& shown = views_[which];
@@ -127,14 +129,14 @@ bool Eyes::draw(XrSession session, XrSpace room, XrTime time, const DrawEye& dra
         shown.subImage.imageRect = {{0, 0}, {size_.width_px, size_.height_px}};
     }
     layer_ = xr_struct<XrCompositionLayerProjection>(XR_TYPE_COMPOSITION_LAYER_PROJECTION);
-    layer_.space = room;
+    layer_.space = place.room;
     layer_.viewCount = k_eye_count;
     layer_.views = views_.data();
     return true;
 }
 
 const XrCompositionLayerBaseHeader* Eyes::layer() const {
-    return reinterpret_cast<const XrCompositionLayerBaseHeader*>(&layer_);  // NOLINT: OpenXR's way
+    return reinterpret_cast<const XrCompositionLayerBaseHeader*>(&layer_);  // NOLINT: OpenXR API
 }
 
 }  // namespace handhold

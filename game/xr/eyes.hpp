@@ -10,17 +10,21 @@
 
 namespace handhold {
 
-// What the runtime would have each eye's picture be; zero where it does not say.
+// Recommended and largest size of each eye's picture; 0 if the runtime does not say.
 EyeSizes eye_sizes_of(const HeadsetInstance& instance);
 
-// The pictures of both eyes, as the runtime owns them. The session must outlive it.
+// Pictures of both eyes, in swapchains of the runtime. The session must outlive this object.
 class Eyes {
   public:
     static std::optional<Eyes> create(XrSession session, const EyeSize& size, std::string& why_not);
 
-    // Draws both eyes, where they are at `time`, into pictures of the runtime. False where the
-    // runtime does not say where they are or lends no picture.
-    bool draw(XrSession session, XrSpace room, XrTime time, const DrawEye& draw_eye);
+    struct Place {
+        XrSpace room = XR_NULL_HANDLE;
+        Pose room_in_readings;  // the room's space in that of the readings
+    };
+    // Draws both eyes at their poses for `time` into pictures of the runtime. False if the runtime
+    // gives no poses or lends no picture.
+    bool draw(XrSession session, const Place& place, XrTime time, const DrawEye& draw_eye);
     // What draw() made, for the end of a frame. Valid until the next draw().
     const XrCompositionLayerBaseHeader* layer() const;
 
@@ -31,7 +35,8 @@ class Eyes {
     };
     Eyes() = default;
     bool create_eye(XrSession session, Eye& eye, std::string& why_not) const;
-    bool draw_eye_picture(std::size_t which, const XrView& view, const DrawEye& draw_eye) const;
+    bool draw_eye_picture(std::size_t which, const XrView& view, const Pose& eye_ps,
+                          const DrawEye& draw_eye) const;
 
     EyeSize size_;
     std::array<Eye, k_eye_count> eyes_;

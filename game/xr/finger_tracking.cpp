@@ -78,7 +78,8 @@ void FingerTracking::read_hand(std::size_t side, XrSpace base, XrTime time,
     const auto place = [&](int joint) {
         return from_xr(joints[static_cast<std::size_t>(joint)].pose).position;
     };
-    // A fist is the three fingers that hold; the index may point and the thumb may stand.
+    // The curl is the mean of middle, ring and little finger: index and thumb may point while the
+    // hand is closed.
     constexpr std::array<std::array<int, 2>, 3> k_fingers = {{
         {XR_HAND_JOINT_MIDDLE_PROXIMAL_EXT, XR_HAND_JOINT_MIDDLE_TIP_EXT},
         {XR_HAND_JOINT_RING_PROXIMAL_EXT, XR_HAND_JOINT_RING_TIP_EXT},

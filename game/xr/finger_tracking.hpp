@@ -8,16 +8,16 @@
 
 namespace handhold {
 
-// Fingers that cameras or controllers see (XR_EXT_hand_tracking): where the wrist is and how far
-// the fingers are curled. The instance and the session must outlive it.
+// Finger tracking by cameras or controllers (XR_EXT_hand_tracking): the wrist's pose, and how far
+// the fingers are curled. Instance and session must outlive this object.
 class FingerTracking {
   public:
-    FingerTracking() = default;  // sees nothing
+    FingerTracking() = default;  // reads every hand as not tracked
     ~FingerTracking();
     FingerTracking(FingerTracking&& other) noexcept;
     FingerTracking& operator=(FingerTracking&& other) noexcept;
 
-    // Sees nothing where the runtime cannot.
+    // If the runtime has no finger tracking, every hand is read as not tracked.
     static FingerTracking create(const HeadsetInstance& instance, XrSession session);
     void read(XrSpace base, XrTime time, std::array<HandReading, k_hand_count>& hands) const;
 

@@ -5,6 +5,7 @@
 #include <thread>
 #include <vector>
 
+#include "game/headset/play_space_changes.hpp"
 #include "game/xr/actions.hpp"
 #include "game/xr/eyes.hpp"
 #include "game/xr/finger_tracking.hpp"
@@ -15,7 +16,8 @@
 namespace handhold {
 namespace {
 
-constexpr std::int64_t k_headless_period_ns = 11'111'111;  // 90 Hz: nothing is displayed
+// 90 Hz; arbitrary, because nothing is displayed
+constexpr std::int64_t k_headless_period_ns = 11'111'111;
 constexpr auto k_wait_between_polls = std::chrono::milliseconds(5);
 
 SessionState state_from(XrSessionState state) {
@@ -57,7 +59,7 @@ std::optional<OwnedXrSession> create_session(const HeadsetInstance& instance, co
     return session;
 }
 
-// What the runtime likes best: headsets that one sees through have no opaque one.
+// The runtime's preferred blend mode. See-through headsets have no opaque one.
 XrEnvironmentBlendMode first_blend_mode(const HeadsetInstance& instance) {
     XrEnvironmentBlendMode first = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
     std::uint32_t count = 0;
@@ -75,13 +77,29 @@ XrEnvironmentBlendMode first_blend_mode(const HeadsetInstance& instance) {
     return first;
 }
 
+void correct(const Pose& space, HeadsetReading& reading) {
+    const auto correct_pose = [&space](std::optional<Pose>& pose) {
+        if (pose) {
+            *pose = space * *pose;
+        }
+    };
+    correct_pose(reading.head_ps);
+    for (HandReading& hand : reading.hands) {
+        correct_pose(hand.grip_ps);
+        correct_pose(hand.aim_ps);
+        correct_pose(hand.palm_ps);
+        correct_pose(hand.wrist_ps);
+    }
+}
+
 }  // namespace
 
 struct Headset::Impl {
-    // In this order: what is made from another goes before it.
+    // In this order, so that objects are destroyed before those that they were made from.
     HeadsetInstance instance;
     OwnedXrSession session;
     HeadsetSpaces spaces;
+    PlaySpaceChanges changes;
     std::optional<HeadsetActions> actions;
     FingerTracking fingers;
     std::optional<Eyes> eyes;
@@ -93,11 +111,11 @@ struct Headset::Impl {
     bool lost = false;
     bool leaves = false;
     bool has_focus = false;
-    std::int64_t last_ns = 0;  // headless: of the last frame
+    std::int64_t last_ns = 0;  // headless: time of the last frame
     XrEnvironmentBlendMode blend_mode = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
     PFN_xrConvertTimespecTimeToTimeKHR to_time = nullptr;
 
-    // Remembers that the runtime is gone. True where the call succeeded.
+    // Returns true if the call succeeded. Sets `lost` if the result says that the runtime is gone.
     bool obeys(XrResult result) {
         lost = lost || result == XR_ERROR_INSTANCE_LOST || result == XR_ERROR_SESSION_LOST ||
                result == XR_ERROR_RUNTIME_FAILURE;
@@ -116,7 +134,7 @@ void Headset::Impl::enter(SessionState next) {
             auto info = xr_struct<XrSessionBeginInfo>(XR_TYPE_SESSION_BEGIN_INFO);
             info.primaryViewConfigurationType = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
             runs = obeys(xrBeginSession(session.get(), &info));
-            lost = lost || !runs;  // else it would wait for ever
+            lost = lost || !runs;  // otherwise poll() would wait for ever
             break;
         }
         case SessionDeed::end:
@@ -141,6 +159,13 @@ void Headset::Impl::take(const XrEventDataBuffer& event) {
         if (changed.session == session.get()) {
             enter(state_from(changed.state));
         }
+    } else if (event.type == XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING) {
+        // NOLINTNEXTLINE: how OpenXR hands events out
+        const auto& change = reinterpret_cast<const XrEventDataReferenceSpaceChangePending&>(event);
+        if (change.session == session.get() && change.referenceSpaceType == spaces.room_type &&
+            change.poseValid == XR_TRUE) {
+            changes.add(change.changeTime, from_xr(change.poseInPreviousSpace));
+        }
     } else if (event.type == XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING) {
         lost = true;
     }
@@ -156,7 +181,7 @@ std::int64_t Headset::Impl::now_ns() {
 HeadsetFrame Headset::Impl::begin_headless_frame() {
     const std::int64_t now = now_ns();
     std::int64_t next = last_ns + k_headless_period_ns;
-    if (last_ns == 0 || next < now) {  // late: the next one is due at once
+    if (last_ns == 0 || next < now) {  // late: the next frame is due at once
         const std::int64_t late = last_ns == 0 ? 0 : (now - next) / k_headless_period_ns;
         next = last_ns == 0 ? now : next + late * k_headless_period_ns;
     }
@@ -255,7 +280,7 @@ HeadsetFrame Headset::begin_frame() {
     auto state = xr_struct<XrFrameState>(XR_TYPE_FRAME_STATE);
     if (!impl.obeys(xrWaitFrame(impl.session.get(), nullptr, &state)) ||
         !impl.obeys(xrBeginFrame(impl.session.get(), nullptr))) {
-        impl.lost = true;  // whatever it says: there are no frames to be had
+        impl.lost = true;  // whatever the result says: the session is useless without frames
         return {};
     }
     return {state.predictedDisplayTime, state.predictedDisplayPeriod,
@@ -277,6 +302,7 @@ HeadsetReading Headset::read(std::int64_t time_ns) const {
         impl.actions->read(impl.session.get(), room, time_ns, reading.hands);
         impl.fingers.read(room, time_ns, reading.hands);
     }
+    correct(impl.changes.space_at(time_ns), reading);
     return reading;
 }
 
@@ -290,7 +316,9 @@ bool Headset::end_frame(const HeadsetFrame& frame, const DrawEye& draw_eye) {
     info.environmentBlendMode = impl.blend_mode;
     const XrCompositionLayerBaseHeader* layer = nullptr;
     if (frame.is_seen &&
-        impl.eyes->draw(impl.session.get(), impl.spaces.room.get(), frame.display_ns, draw_eye)) {
+        impl.eyes->draw(impl.session.get(),
+                        {impl.spaces.room.get(), impl.changes.space_at(frame.display_ns)},
+                        frame.display_ns, draw_eye)) {
         layer = impl.eyes->layer();
         info.layerCount = 1;
         info.layers = &layer;

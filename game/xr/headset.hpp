@@ -19,74 +19,77 @@ struct EyeSize {
     int height_px = 0;
 };
 
-// Of one eye's picture: what the runtime recommends, and the largest that it takes.
+// Sizes of one eye's picture: recommended by the runtime, and the largest that it accepts.
 struct EyeSizes {
     EyeSize recommended;
     EyeSize largest;
 };
 
-// One eye's picture to be drawn: OpenGL's name of a texture of the runtime, rows from the bottom,
-// bytes in sRGB.
+// A picture to be drawn for one eye. `texture`: OpenGL name of a texture of the runtime; rows from
+// the bottom up, bytes in sRGB.
 struct EyePicture {
     std::size_t eye = 0;  // 0 left, 1 right
-    Pose eye_ps;          // in the space of the readings
+    Pose eye_ps;          // in play space
     EyeFrustum frustum;
     std::uint32_t texture = 0;
     EyeSize size;
 };
 using DrawEye = std::function<void(const EyePicture&)>;
 
-// What became of the session since it was last asked.
+// State of the session, as poll() reports it.
 enum class HeadsetState : std::uint8_t {
-    waits,  // the runtime does not want frames yet, or no longer: ask again
+    waits,  // the runtime wants no frames now; poll again
     runs,
-    lost,   // for good: a new Headset may find the runtime again
-    leaves  // whoever wears it wants to leave
+    lost,   // for good; a new Headset may find the runtime again
+    leaves  // the session is over: the player or the program asked to leave
 };
 
-// The frame that the runtime waits for next.
+// The next frame for the runtime.
 struct HeadsetFrame {
-    std::int64_t display_ns = 0;  // when it will be seen, on the runtime's clock
-    std::int64_t period_ns = 0;   // from one refresh of the display to the next
-    bool is_seen = false;         // else: no picture is wanted
+    std::int64_t display_ns = 0;  // time of its display, on the runtime's clock
+    std::int64_t period_ns = 0;   // interval between refreshes of the display
+    bool is_seen = false;         // false: the runtime wants no picture
 };
 
-// A headset with its controllers, through the machine's OpenXR runtime: a session from its
-// beginning until it is lost or left. Nothing here throws; once the runtime is gone, state() says
-// so. OpenXR is named in game/xr/ only. Built without OpenXR, open() says that.
+// A headset with its controllers, accessed through OpenXR: one session, from its beginning until it
+// is lost or left. Throws nothing; once the runtime is lost, poll() returns HeadsetState::lost.
+// Only game/xr/ uses OpenXR. In builds without OpenXR, open() fails and says so.
 class Headset {
   public:
-    // Nothing, with the reason in one line, where there is no runtime or no headset. headless: no
-    // pictures and no graphics card, poses and buttons only (XR_MND_headless).
+    // Returns nullptr, with a reason of one line, if there is no runtime or no headset. headless:
+    // poses and buttons only, without pictures and graphics card (XR_MND_headless).
     static std::unique_ptr<Headset> open(bool headless, std::string& why_not);
     ~Headset();
     Headset(const Headset&) = delete;
     Headset& operator=(const Headset&) = delete;
 
-    // Zero where it is headless, or the runtime does not say.
+    // 0 if headless, or if the runtime does not say.
     EyeSizes eye_sizes() const;
-    // "Monado 25.0.0, Monado: Remote HMD"
+    // Runtime and headset: "Monado 25.0.0, Monado: Remote HMD". After begin() also the tracking
+    // space.
     const std::string& description() const;
 
-    // Creates the session; pictures of that size. `gl` must be current and outlive this; null where
-    // it is headless. False, with the reason, where the runtime refuses.
+    // Creates the session, with pictures of this size. `gl` must be current and outlive this
+    // object; null if headless. Returns false, with the reason, if the runtime refuses.
     bool begin(const GlContext* gl, const EyeSize& size, std::string& why_not);
-    // Reads the runtime's events and obeys: begins, ends, finds out that all is lost.
+    // Handles the runtime's pending events: begins or ends the session when the runtime asks for
+    // it, and notices when the session or the runtime is lost.
     HeadsetState poll();
-    // Buttons and poses reach the game only then.
+    // True if the session has focus; otherwise hands read as not tracked.
     bool has_focus() const;
-    // Waits until it is time for the next frame; then end_frame() must follow. Precondition:
-    // poll() said runs.
+    // Waits until it is time for the next frame. display_ns is 0 if the runtime was lost; otherwise
+    // end_frame() must follow. Precondition: the last poll() returned `runs`.
     HeadsetFrame begin_frame();
-    // Asks for the controllers' state, once a frame; read() then gives it with the poses of any
-    // time around now.
+    // sync() updates the state of the controllers; call it once per frame. read() returns that
+    // state, with poses predicted for time_ns.
     void sync();
     HeadsetReading read(std::int64_t time_ns) const;
-    // Pictures are drawn where they are wanted. True where both eyes were shown one.
+    // Draws both eyes if frame.is_seen, and hands the frame to the runtime. Returns true if both
+    // eyes got a picture.
     bool end_frame(const HeadsetFrame& frame, const DrawEye& draw_eye);
-    // True where the controller was told to.
+    // Returns true if the controller was told to vibrate.
     bool shake(HandSide side, const HapticPulse& pulse) const;
-    // Asks the runtime to end the session; poll() says leaves when it has.
+    // Asks the runtime to end the session; poll() returns `leaves` once it has.
     void ask_to_leave();
 
   private:

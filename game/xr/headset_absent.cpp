@@ -1,4 +1,4 @@
-// In the place of headset.cpp where this is built without OpenXR.
+// Replaces headset.cpp in builds without OpenXR.
 #include "game/xr/headset.hpp"
 
 namespace handhold {

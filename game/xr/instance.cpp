@@ -38,7 +38,7 @@ bool list_extensions(std::vector<XrExtensionProperties>& extensions, std::string
     return true;
 }
 
-// Which of them to ask for: what is there and the kind of session has a use for.
+// Extensions to enable: those that the runtime has (`there`) and this kind of session uses.
 std::vector<const char*> choose_extensions(const std::vector<XrExtensionProperties>& there,
                                            bool headless, HeadsetFeatures& features) {
     const auto has = [&](std::string_view name) {
@@ -64,7 +64,7 @@ std::vector<const char*> choose_extensions(const std::vector<XrExtensionProperti
     static_cast<void>(k_local_floor);
 #endif
     features.hand_tracking = ask(true, XR_EXT_HAND_TRACKING_EXTENSION_NAME);
-    features.palm_pose = ask(true, k_palm_pose);  // a path only: nothing of the headers
+    features.palm_pose = ask(true, k_palm_pose);  // needs only a path, nothing from headers
     return chosen;
 }
 
@@ -117,7 +117,7 @@ bool xr_succeeds(XrResult result, const char* call, std::string& why_not) {
     if (XR_SUCCEEDED(result)) {
         return true;
     }
-    // A runtime's own words need an instance; the loader has none of its own to ask.
+    // xrResultToString needs an instance, and there may be none yet.
     static constexpr std::pair<XrResult, const char*> k_names[] = {
         {XR_ERROR_RUNTIME_FAILURE, "the runtime fails"},
         {XR_ERROR_RUNTIME_UNAVAILABLE, "no runtime answers"},
@@ -142,7 +142,8 @@ bool xr_succeeds(XrResult result, const char* call, std::string& why_not) {
 }
 
 std::optional<HeadsetInstance> open_headset_instance(bool headless, std::string& why_not) {
-    // The loader would print a page about a missing runtime; who wants it sets this himself.
+    // Keeps the loader from printing a page if there is no runtime. Users who want the page set the
+    // variable themselves.
     constexpr int k_keep = 0;
     // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody else reads the environment meanwhile
     ::setenv("XR_LOADER_DEBUG", "none", k_keep);

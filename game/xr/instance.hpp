@@ -7,7 +7,7 @@
 
 namespace handhold {
 
-// What a runtime has beyond OpenXR's core that the game uses where it is there.
+// Optional OpenXR extensions that the game uses if the runtime has them.
 struct HeadsetFeatures {
     bool headless = false;
     bool opengl_egl = false;
@@ -17,7 +17,7 @@ struct HeadsetFeatures {
     bool time_conversion = false;
 };
 
-// A connection to the machine's OpenXR runtime, and the headset that it knows.
+// A connection to the machine's OpenXR runtime and its headset.
 struct HeadsetInstance {
     OwnedXrInstance instance;
     XrSystemId system = XR_NULL_SYSTEM_ID;
@@ -26,8 +26,8 @@ struct HeadsetInstance {
     std::string system_name;
 };
 
-// Nothing, with the reason in one line, where there is no runtime, no headset, or not what drawing
-// (or, headless, being without pictures) takes.
+// Returns nullopt, with a reason of one line, if there is no runtime or no headset, or if the
+// runtime lacks an extension that drawing (headless: a session without pictures) needs.
 std::optional<HeadsetInstance> open_headset_instance(bool headless, std::string& why_not);
 
 }  // namespace handhold

@@ -4,7 +4,7 @@
 
 namespace handhold {
 
-// OpenXR's states of a session, as it numbers them.
+// OpenXR's session states, with OpenXR's values.
 enum class SessionState : std::uint8_t {
     unknown = 0,
     idle = 1,
@@ -18,7 +18,7 @@ enum class SessionState : std::uint8_t {
 };
 enum class SessionDeed : std::uint8_t { none, begin, end, reopen, leave };
 
-// What a program owes the runtime on entering a state.
+// The action that OpenXR demands of a program when its session enters this state.
 constexpr SessionDeed deed_on(SessionState state) {
     switch (state) {
         case SessionState::ready:
@@ -33,7 +33,7 @@ constexpr SessionDeed deed_on(SessionState state) {
             return SessionDeed::none;
     }
 }
-// Pictures are seen.
+// True if the player sees the session's pictures.
 constexpr bool is_seen(SessionState state) {
     return state == SessionState::visible || state == SessionState::focused;
 }

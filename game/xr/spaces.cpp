@@ -35,11 +35,13 @@ std::optional<HeadsetSpaces> make_headset_spaces(const HeadsetInstance& instance
     bool made = false;
     if (has(XR_REFERENCE_SPACE_TYPE_STAGE)) {
         spaces.room_name = "stage";
+        spaces.room_type = XR_REFERENCE_SPACE_TYPE_STAGE;
         made = make_space(session, XR_REFERENCE_SPACE_TYPE_STAGE, 0.0F, spaces.room, why_not);
     }
 #ifdef XR_EXT_local_floor
     if (!made && instance.features.local_floor) {
         spaces.room_name = "local floor";
+        spaces.room_type = XR_REFERENCE_SPACE_TYPE_LOCAL_FLOOR_EXT;
         made = make_space(session, XR_REFERENCE_SPACE_TYPE_LOCAL_FLOOR_EXT, 0.0F, spaces.room,
                           why_not);
     }
@@ -48,6 +50,7 @@ std::optional<HeadsetSpaces> make_headset_spaces(const HeadsetInstance& instance
 #endif
     if (!made) {
         spaces.room_name = "local";
+        spaces.room_type = XR_REFERENCE_SPACE_TYPE_LOCAL;
         made = make_space(session, XR_REFERENCE_SPACE_TYPE_LOCAL, k_eye_height_m, spaces.room,
                           why_not);
     }

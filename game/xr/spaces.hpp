@@ -7,14 +7,15 @@
 
 namespace handhold {
 
-// The room that the headset tracks, its floor at y = 0, and the head in it.
+// OpenXR's spaces of the tracked room, with the floor at y = 0, and of the head.
 struct HeadsetSpaces {
     OwnedXrSpace room;
     OwnedXrSpace head;
     std::string room_name;  // which of OpenXR's spaces the room is
+    XrReferenceSpaceType room_type = XR_REFERENCE_SPACE_TYPE_LOCAL;
 };
-// The stage, else what lies on the floor, else what begins at the eyes, an upright person's height
-// above the floor.
+// `room` is the stage space if the runtime has it, else the local-floor space, else the local
+// space. The origin of the local space is taken to be 1.6 m above the floor.
 std::optional<HeadsetSpaces> make_headset_spaces(const HeadsetInstance& instance, XrSession session,
                                                  std::string& why_not);
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// OpenXR with OpenGL through EGL: the one way in which its headers are included. API 1.0; what is
-// newer than the headers of Debian 12 (1.0.20) stands behind #ifdef.
+// Includes OpenXR's headers, for OpenGL through EGL; the only file that does. Uses API 1.0. Code
+// for anything newer than Debian 12's headers (1.0.20) is inside #ifdef.
 #include <ctime>
 #include <string>
 #include <utility>
@@ -20,7 +20,8 @@
 
 namespace handhold {
 
-// Owns a handle of OpenXR and destroys it with `Destroy`. What it was made from must outlive it.
+// Owns an OpenXR handle and destroys it with `Destroy`. The object that it was created from must
+// outlive it.
 template <class Handle, auto Destroy>
 class XrOwned {
   public:
@@ -38,7 +39,7 @@ class XrOwned {
     }
     Handle get() const { return handle_; }
     explicit operator bool() const { return handle_ != XR_NULL_HANDLE; }
-    // For a function that makes one. Precondition: holds none.
+    // Output argument for a function that creates a handle. Precondition: holds none.
     Handle* out() { return &handle_; }
 
   private:
@@ -51,7 +52,7 @@ using OwnedXrSpace = XrOwned<XrSpace, &xrDestroySpace>;
 using OwnedXrActionSet = XrOwned<XrActionSet, &xrDestroyActionSet>;
 using OwnedXrSwapchain = XrOwned<XrSwapchain, &xrDestroySwapchain>;
 
-// A structure of OpenXR with its type filled in.
+// An OpenXR structure with its type filled in.
 template <class T>
 T xr_struct(XrStructureType type) {
     T value{};
@@ -59,10 +60,11 @@ T xr_struct(XrStructureType type) {
     return value;
 }
 
-// True where a call succeeded; else why_not has its name and the runtime's word for the result.
+// Returns true if the call succeeded; else sets why_not to the call's name and the meaning of the
+// result.
 bool xr_succeeds(XrResult result, const char* call, std::string& why_not);
 
-// A function of an extension; null where the runtime lacks it.
+// A function of an extension; null if the runtime lacks it.
 template <class Function>
 Function xr_function(XrInstance instance, const char* name) {
     PFN_xrVoidFunction function = nullptr;

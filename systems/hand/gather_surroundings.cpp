@@ -21,7 +21,11 @@ class Gatherer {
         const Grab& grab = io_.grab.at(hand);
         const Pose tracked_ws = io_.origin.at(owner.player).pose_ws * io_.hand.at(hand).pose_ps;
         out.hand = hand;
-        out.rig = &io_.rigs[index_of(owner.side)];
+        const HandRigChoice* const choice =
+            io_.rig_choice != nullptr ? io_.rig_choice->find(hand) : nullptr;
+        out.rig = choice != nullptr && choice->index < io_.more_rigs.size()
+                      ? &io_.more_rigs[choice->index]
+                      : &io_.rigs[index_of(owner.side)];
         out.body = k_no_entity;
         out.body_ws = {};
         out.wrist_bs = tracked_ws;

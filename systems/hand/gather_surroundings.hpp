@@ -33,8 +33,10 @@ struct GatherSurroundingsIo {
     // In. HandSurroundings::authored points into this column, so it must not change before the hand
     // stages have run.
     const Column<AuthoredHold>& authored_hold;
-    // Out: one per element of `owner`, in the same order.
-    std::vector<HandSurroundings>& surroundings;
+    std::vector<HandSurroundings>& surroundings;  // out: one per row of `owner`, in its order
+    // In: hands with a rig of their own, and these rigs. Null, or an index beyond: `rigs`.
+    const Column<HandRigChoice>* rig_choice = nullptr;
+    std::span<const HandRig> more_rigs = {};
 };
 
 // Collects each hand's wrist pose and the surfaces near the hand, in the gripped body's frame. This

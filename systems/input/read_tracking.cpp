@@ -1,81 +1,39 @@
 #include "systems/input/read_tracking.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
+#include "components/hand_rows.hpp"
 #include "engine/core/check.hpp"
+#include "systems/input/shared/hand_motion.hpp"
+#include "systems/input/shared/motion_limit.hpp"
+#include "systems/input/shared/play_space_tracker.hpp"
 
 namespace handhold {
 namespace {
 
 constexpr double k_half_turn_rad = 3.14159265358979323846;
 
-// What a tracking system can mean: beyond this it is broken, whatever it says.
-bool is_trackable(const Pose& pose_ps) {
-    constexpr double k_farthest_m = 1e4;
-    return is_valid(pose_ps) && pose_ps.position.cwiseAbs().maxCoeff() < k_farthest_m;
-}
-
-bool is_stale(double t_s, bool has_sample, double last_t_s) {
-    constexpr double k_latest_s = 1e9;  // beyond it a time is no time: a snapshot refuses it too
-    return !(std::abs(t_s) <= k_latest_s) || (has_sample && t_s <= last_t_s);
-}
-
 // A sample of no time at all is not one after the frame.
 bool is_later(double t_s, double end_s) { return std::isfinite(t_s) && t_s > end_s; }
 
-// Where a player's head is and how his readings are shifted, sample by sample: the same walk for
-// his head and for each of his hands.
-struct HeadWalk {
-    Vec3 shift_m;
-    Vec3 head_ps;  // of the last valid sample, shifted
-    double t_s;    // its time
-    bool has_sample;
-    bool jumped = false;  // in the sample followed last
-
-    explicit HeadWalk(const HeadTracking& head)
-        : shift_m(head.shift_m),
-          head_ps(head.sample_ps.position),
-          t_s(head.sample_t_s),
-          has_sample(head.state != TrackingState::never) {}
-
-    // A head that is farther from the last sample than any head moves has been re-centred: from
-    // here on all is shifted back to where it was.
-    void follow(const TrackingSample& sample, double max_jump_m) {
-        jumped = false;
-        if (is_stale(sample.t_s, has_sample, t_s) || !is_trackable(sample.head_ps)) {
-            return;
-        }
-        Vec3 next_ps = sample.head_ps.position + shift_m;
-        if (has_sample && (next_ps - head_ps).norm() > max_jump_m) {
-            jumped = true;
-            shift_m += head_ps - next_ps;
-            next_ps = head_ps;
-        }
-        head_ps = next_ps;
-        t_s = sample.t_s;
-        has_sample = true;
-    }
-    bool reaches(const Vec3& hand_ps, double max_arm_m) const {
-        return !has_sample || (hand_ps - head_ps).norm() <= max_arm_m;
-    }
-};
-
-// The same for the head and for hands: state and the pose at the end of the frame.
-// `later` is the first pose after the frame's end, or null.
+// Finds state and pose at the end of the frame, for the head and for hands alike.
+// `later` is the first pose after the frame's end, or null. True if a pose older than that is held.
 template <typename Device>
-void finish_device(Device& device, bool has_sample, const Pose* later, double later_t_s,
+bool finish_device(Device& device, bool has_sample, const Pose* later, double later_t_s,
                    double end_s, double lost_after_s, StageStats& stats) {
     if (!has_sample && later == nullptr) {
-        return;  // never tracked
+        return false;  // never tracked
     }
     const bool first = device.state == TrackingState::never;
     if (has_sample && later != nullptr && later_t_s - device.sample_t_s > lost_after_s) {
-        later = nullptr;  // nobody knows the way across a gap that long
+        later = nullptr;  // the motion across a gap that long is unknown
     }
     if (!has_sample) {
-        device.sample_ps =
-            *later;  // the session begins between two samples: the later one is yet to come
+        // The session begins between two samples. The later one counts in its own frame.
+        device.sample_ps = *later;
         device.sample_t_s = end_s;
     }
     if (later == nullptr && end_s - device.sample_t_s > lost_after_s) {
@@ -83,7 +41,7 @@ void finish_device(Device& device, bool has_sample, const Pose* later, double la
             stats.count(Fallback::tracking_lost);
         }
         device.state = TrackingState::lost;
-        return;
+        return true;
     }
     device.state = TrackingState::tracked;
     device.pose_ps = device.sample_ps;
@@ -94,71 +52,7 @@ void finish_device(Device& device, bool has_sample, const Pose* later, double la
     if (first) {
         device.start_ps = device.pose_ps;
     }
-}
-
-void remember(HandHistory& history, const HandTracking& hand) {
-    history.entries[history.next] = {hand.sample_t_s, hand.sample_ps};
-    history.next = (history.next + 1) % HandHistory::k_capacity;
-    history.count = std::min<std::uint32_t>(history.count + 1, HandHistory::k_capacity);
-}
-
-// The window, made longer where it holds too short a time to measure a speed in: samples
-// microseconds apart would turn a tenth of a millimetre of noise into metres a second.
-double measured_window(const HandHistory& history, double t_s, double window_s) {
-    constexpr double k_shortest_span_s = 0.005;
-    constexpr int k_longest = 4;  // windows
-    for (int times = 1; times < k_longest; ++times) {
-        double oldest_s = t_s;
-        for (std::uint32_t i = 0; i < history.count; ++i) {
-            const double at_s = history.entries[i].t_s;
-            oldest_s = at_s >= t_s - times * window_s && at_s < oldest_s ? at_s : oldest_s;
-        }
-        if (t_s - oldest_s >= k_shortest_span_s) {
-            return times * window_s;
-        }
-    }
-    return k_longest * window_s;
-}
-
-// Least-squares slope of position and rotation over the window before t_s. Two samples give their
-// difference, one gives zero.
-void measure_release(const HandHistory& history, double t_s, double window_s, HandTracking& hand) {
-    double weight = 0.0;
-    double mean_t = 0.0;
-    const double from_s = t_s - measured_window(history, t_s, window_s);
-    const auto for_window = [&](auto&& visit) {
-        for (std::uint32_t i = 0; i < history.count; ++i) {
-            const HandHistory::Entry& entry = history.entries[i];
-            if (entry.t_s >= from_s && entry.t_s <= t_s) {
-                visit(entry);
-            }
-        }
-    };
-    for_window([&](const HandHistory::Entry& entry) {
-        weight += 1.0;
-        mean_t += entry.t_s - t_s;
-    });
-    hand.release_velocity_ps_mps.setZero();
-    hand.release_spin_ps_radps.setZero();
-    if (weight < 2.0) {
-        return;
-    }
-    mean_t /= weight;
-    double spread = 0.0;
-    Vec3 linear = Vec3::Zero();
-    Vec3 angular = Vec3::Zero();
-    for_window([&](const HandHistory::Entry& entry) {
-        const double dt = entry.t_s - t_s - mean_t;
-        spread += dt * dt;
-        linear += dt * (entry.hand_ps.position - hand.edge_ps.position);
-        angular +=
-            dt * rotation_to_vector(entry.hand_ps.rotation * hand.edge_ps.rotation.conjugate());
-    });
-    constexpr double k_min_spread_s2 = 1e-6;
-    if (spread > k_min_spread_s2) {
-        hand.release_velocity_ps_mps = linear / spread;
-        hand.release_spin_ps_radps = angular / spread;
-    }
+    return later == nullptr;
 }
 
 void begin_edge(HandTracking& hand, const HandHistory& history, double t_s, const Pose& hand_ps,
@@ -172,99 +66,167 @@ void begin_edge(HandTracking& hand, const HandHistory& history, double t_s, cons
     }
 }
 
-struct HandRows {
+// True if a hand could have come to `hand_ps`:
+//  - from its last sample at tracking.max_hand_speed_mps, or from where its own velocity would have
+//    taken it (fast hands are fast for several samples);
+//  - and, after a reading that was ignored, from that one too: two readings in a row must agree.
+// A jump by d is thus believed once d / max_hand_speed_mps has passed.
+bool is_plausible(const HandTracking& hand, const HandHistory& history, const Pose& hand_ps,
+                  double t_s, double max_speed_mps) {
+    const double dt_s = t_s - hand.sample_t_s;
+    const bool was_ignored = hand.reading_t_s > hand.sample_t_s;
+    if (could_move(hand.sample_ps, hand_ps, dt_s, max_speed_mps)) {
+        return !was_ignored ||
+               could_move(hand.reading_ps, hand_ps, t_s - hand.reading_t_s, max_speed_mps);
+    }
+    return !hand.interrupted &&
+           could_move(extrapolated(hand, history, t_s), hand_ps, dt_s, max_speed_mps);
+}
+
+// One hand and all that its readings are compared with.
+struct HandReader {
     HandTracking& hand;
     HandHistory& history;
-    HeadWalk walk;  // from the end of the last frame
-    Pose joint;     // hand in controller
+    PlaySpaceTracker space;  // from the end of the last frame
     HandSide side;
-};
+    const ReadTrackingIo& io;
+    const Tuning& tuning;
+    StageStats& stats;
+    bool has_sample = false;
+    bool has_jumped = false;
 
-void read_hand(HandRows rows, const PlayerInput& input, const ReadTrackingIo& io,
-               const Tuning& tuning, StageStats& stats) {
-    HandTracking& hand = rows.hand;
-    HeadWalk& walk = rows.walk;
-    const TrackingState before = hand.state;
-    bool has_sample = hand.state != TrackingState::never;
-    bool jumped = false;
-    hand.start_ps = hand.pose_ps;
-    hand.edge = GrabEdge::none;
-    const bool may_begin_now =
-        before == TrackingState::tracked || (before == TrackingState::lost && hand.pressed);
-    if (hand.raw_pressed != hand.pressed && may_begin_now) {
-        begin_edge(hand, rows.history, io.frame_start_s, hand.start_ps, tuning.tracking);
+    // Why a reading is ignored; none if it counts.
+    std::optional<Fallback> refusal(const ControllerSample& reading, const Pose& hand_ps,
+                                    double t_s) const {
+        if (!is_trackable(reading.controller_ps)) {
+            return Fallback::sample_not_finite;
+        }
+        if (is_asleep(reading)) {
+            return Fallback::device_asleep;
+        }
+        if (!space.is_in_reach(hand_ps.position, tuning.hand.max_arm_m)) {
+            return Fallback::hand_out_of_reach;
+        }
+        if (has_sample &&
+            !is_plausible(hand, history, hand_ps, t_s, tuning.tracking.max_hand_speed_mps)) {
+            return Fallback::hand_implausible;
+        }
+        return std::nullopt;
     }
-    Pose later;
-    const Pose* later_or_null = nullptr;
-    double later_t_s = 0.0;
-    for (const TrackingSample& sample : input.samples) {
-        const ControllerSample& reading = sample.controllers[index_of(rows.side)];
-        walk.follow(sample, tuning.tracking.max_jump_m);
-        Pose hand_ps = reading.controller_ps * rows.joint;
-        hand_ps.position += walk.shift_m;
-        const bool is_seen = is_trackable(reading.controller_ps);
-        const bool is_believed = is_seen && walk.reaches(hand_ps.position, tuning.hand.max_arm_m);
-        const bool jumps = has_sample && (hand_ps.position - hand.sample_ps.position).norm() >
-                                             tuning.tracking.max_jump_m;
-        if (is_later(sample.t_s, io.frame_end_s)) {
-            if (is_believed && !jumps) {
-                later = hand_ps;
-                later_or_null = &later;
-                later_t_s = sample.t_s;
+
+    // True if the hand comes back at another place than where it was last shown.
+    bool jumps_to(const Pose& hand_ps) const {
+        const bool is_first = hand.sample_t_s < io.frame_start_s;
+        return has_sample && hand.interrupted &&
+               travel_m(is_first ? hand.start_ps : hand.sample_ps, hand_ps) > k_unnoticed_m;
+    }
+
+    void ignore(Fallback reason, const Pose& hand_ps, double t_s) {
+        stats.count(reason);
+        hand.interrupted = has_sample;
+        if (reason == Fallback::hand_implausible) {
+            hand.reading_ps = hand_ps;
+            hand.reading_t_s = t_s;
+        }
+    }
+
+    void believe(const Pose& hand_ps, double t_s) {
+        if (jumps_to(hand_ps)) {
+            has_jumped = true;
+            if (hand.reading_t_s > hand.sample_t_s) {
+                clear(history);  // it jumped: no velocity
             }
-            break;
+            if (hand.edge == GrabEdge::onset) {  // it closes where it is now
+                hand.edge_ps = hand_ps;
+                hand.edge_t_s = std::max(t_s, io.frame_start_s);
+            }
         }
-        if (is_stale(sample.t_s, has_sample, hand.sample_t_s)) {
-            continue;  // counted once a player, by the head
-        }
+        hand.sample_ps = hand.reading_ps = hand_ps;
+        hand.sample_t_s = hand.reading_t_s = t_s;
+        hand.interrupted = false;
+        has_sample = true;
+        remember(history, hand);
+    }
+
+    void read_button(const ControllerSample& reading, double t_s, bool is_believed) {
         hand.raw_pressed = reading.grab;
-        if (is_believed) {
-            if (jumps) {
-                jumped = true;
-                rows.history.count = rows.history.next = 0;
-                if (hand.edge == GrabEdge::onset) {  // it closes where it is now
-                    hand.edge_ps = hand_ps;
-                    hand.edge_t_s = std::max(sample.t_s, io.frame_start_s);
-                }
-            }
-            hand.sample_ps = hand_ps;
-            hand.sample_t_s = sample.t_s;
-            has_sample = true;
-            remember(rows.history, hand);
-        } else {
-            stats.count(is_seen ? Fallback::hand_out_of_reach : Fallback::sample_not_finite);
-        }
-        // A hand that cannot be seen may let go, but waits with closing until it is seen again.
+        // A hand that cannot be seen may let go, but does not close until it is seen again.
         const bool may_begin = has_sample && (is_believed || !reading.grab);
         if (may_begin && reading.grab != hand.pressed && hand.edge == GrabEdge::none) {
-            begin_edge(hand, rows.history, std::max(sample.t_s, io.frame_start_s), hand.sample_ps,
+            begin_edge(hand, history, std::max(t_s, io.frame_start_s), hand.sample_ps,
                        tuning.tracking);
         }
     }
-    finish_device(hand, has_sample, later_or_null, later_t_s, io.frame_end_s,
-                  tuning.tracking.lost_after_s, stats);
-    hand.resumed = hand.state == TrackingState::tracked &&
-                   (before == TrackingState::lost || (jumped && before != TrackingState::never));
-    if (hand.resumed) {
-        hand.start_ps = hand.pose_ps;
-    }
-}
 
-void read_head(HeadTracking& head, const PlayerInput& input, const ReadTrackingIo& io,
-               const TrackingTuning& tuning, StageStats& stats) {
-    HeadWalk walk(head);
-    bool has_sample = walk.has_sample;
+    void begin_frame() {
+        hand.start_ps = hand.pose_ps;
+        hand.edge = GrabEdge::none;
+        const bool may_begin_now = hand.state == TrackingState::tracked ||
+                                   (hand.state == TrackingState::lost && hand.pressed);
+        if (hand.raw_pressed != hand.pressed && may_begin_now) {
+            begin_edge(hand, history, io.frame_start_s, hand.start_ps, tuning.tracking);
+        }
+    }
+
+    void read(const PlayerInput& input) {
+        const TrackingState before = hand.state;
+        has_sample = before != TrackingState::never;
+        begin_frame();
+        std::optional<Pose> later;
+        double later_t_s = 0.0;
+        for (const TrackingSample& sample : input.samples) {
+            const ControllerSample& reading = sample.controllers[index_of(side)];
+            space.follow(sample, tuning.tracking);
+            const Pose hand_ps = space.hand_ps(reading, side);
+            const std::optional<Fallback> why_not = refusal(reading, hand_ps, sample.t_s);
+            if (is_later(sample.t_s, io.frame_end_s)) {
+                if (!why_not && !jumps_to(hand_ps)) {
+                    later = hand_ps;
+                    later_t_s = sample.t_s;
+                }
+                break;
+            }
+            if (is_stale(sample.t_s, has_sample, hand.sample_t_s)) {
+                continue;  // counted once a player, by the head
+            }
+            if (why_not) {
+                ignore(*why_not, hand_ps, sample.t_s);
+            } else {
+                believe(hand_ps, sample.t_s);
+            }
+            read_button(reading, sample.t_s, !why_not);
+        }
+        finish(before, later ? &*later : nullptr, later_t_s);
+    }
+
+    void finish(TrackingState before, const Pose* later, double later_t_s) {
+        constexpr double k_longest_hold_s = 0.05;  // devices of 30 Hz and more are never late
+        const bool is_held = finish_device(hand, has_sample, later, later_t_s, io.frame_end_s,
+                                           tuning.tracking.lost_after_s, stats);
+        hand.interrupted =
+            hand.interrupted || (is_held && io.frame_end_s - hand.sample_t_s > k_longest_hold_s);
+        hand.resumed =
+            hand.state == TrackingState::tracked &&
+            (before == TrackingState::lost || (has_jumped && before != TrackingState::never));
+        if (hand.resumed) {
+            hand.start_ps = hand.pose_ps;
+        }
+    }
+};
+
+void read_head(HeadTracking& head, PlaySpaceTracker space, const PlayerInput& input,
+               const ReadTrackingIo& io, const TrackingTuning& tuning, StageStats& stats) {
+    bool has_sample = space.has_head();
     head.start_ps = head.pose_ps;
     Pose later;
     const Pose* later_or_null = nullptr;
     double later_t_s = 0.0;
     for (const TrackingSample& sample : input.samples) {
         const bool is_stale_now = is_stale(sample.t_s, has_sample, head.sample_t_s);
-        walk.follow(sample, tuning.max_jump_m);
-        const Pose head_ps{walk.head_ps, sample.head_ps.rotation.normalized()};
+        const PlaySpaceTracker::Jump jump = space.follow(sample, tuning);
         if (is_later(sample.t_s, io.frame_end_s)) {
             if (is_trackable(sample.head_ps)) {
-                later = head_ps;
+                later = space.head_ps();
                 later_or_null = &later;
                 later_t_s = sample.t_s;
             }
@@ -275,11 +237,15 @@ void read_head(HeadTracking& head, const PlayerInput& input, const ReadTrackingI
         } else if (!is_trackable(sample.head_ps)) {
             stats.count(Fallback::sample_not_finite);
         } else {
-            if (walk.jumped) {
-                stats.count(Fallback::head_recentred);
+            if (jump != PlaySpaceTracker::Jump::none) {
+                stats.count(jump == PlaySpaceTracker::Jump::head ? Fallback::head_recentred
+                                                                 : Fallback::space_recentred);
             }
-            head.shift_m = walk.shift_m;
-            head.sample_ps = head_ps;
+            head.shift_m = space.shift_m();
+            head.shift_turn = space.shift_turn();
+            head.before_ps = space.before_ps();
+            head.before_t_s = space.before_t_s();
+            head.sample_ps = space.head_ps();
             head.sample_t_s = sample.t_s;
             has_sample = true;
         }
@@ -314,6 +280,60 @@ PlayerCommands finite_commands(PlayerCommands commands) {
     return commands;
 }
 
+Pose hand_in_controller(const ReadTrackingIo& io, Entity hand, HandSide side,
+                        const HandTuning& tuning) {
+    const ControllerToHand* const own = io.controller_to_hand.find(hand);
+    return own != nullptr ? own->hand_in_controller : default_controller_to_hand(side, tuning);
+}
+
+// Rows in `io.owner` of a player's hands by side; the column's size where a hand is missing.
+std::array<std::size_t, k_hand_count> hand_rows_of(const ReadTrackingIo& io, Entity player,
+                                                   std::size_t player_row) {
+    const std::size_t none = io.owner.size();
+    std::array<std::size_t, k_hand_count> rows = {none, none};
+    const std::size_t first = find_hand_row(io.owner, player, k_hand_count * player_row);
+    if (first == none) {
+        return rows;
+    }
+    for (const std::size_t row : {first, find_hand_row(io.owner, player, first + 1)}) {
+        rows[index_of(io.owner.rows()[row].side)] = row;
+    }
+    return rows;
+}
+
+// Head and hands follow the same samples from the same state, so they agree on every correction.
+void read_player(const ReadTrackingIo& io, std::size_t row, const Tuning& tuning,
+                 StageStats& stats) {
+    const Entity player = io.head.owners()[row];
+    HeadTracking& head = io.head.rows()[row];
+    const PlayerInput& input = input_of(io, player, row);
+    const std::array<std::size_t, k_hand_count> hand_rows = hand_rows_of(io, player, row);
+    std::array<PlaySpaceTracker::Hand, k_hand_count> hands;
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const std::size_t hand_row = hand_rows[index_of(side)];
+        if (hand_row < io.owner.size()) {
+            const Entity entity = io.owner.owners()[hand_row];
+            const HandTracking& hand = io.hand.at(entity);
+            hands[index_of(side)] = {hand_in_controller(io, entity, side, tuning.hand),
+                                     hand.reading_ps, hand.reading_t_s,
+                                     hand.state != TrackingState::never};
+        }
+    }
+    const PlaySpaceTracker space(head, hands);
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const std::size_t hand_row = hand_rows[index_of(side)];
+        if (hand_row < io.owner.size()) {
+            const Entity entity = io.owner.owners()[hand_row];
+            HandReader{io.hand.at(entity), io.history.at(entity), space, side, io, tuning, stats}
+                .read(input);
+        }
+    }
+    read_head(head, space, input, io, tuning.tracking, stats);
+    if (PlayerCommands* const commands = io.commands.find(player)) {
+        commands->thrust_ps = head.shift_turn * commands->thrust_ps;
+    }
+}
+
 }  // namespace
 
 Pose default_controller_to_hand(HandSide side, const HandTuning& tuning) {
@@ -330,25 +350,12 @@ Pose default_controller_to_hand(HandSide side, const HandTuning& tuning) {
 void read_tracking(const ReadTrackingIo& io, const Tuning& tuning, StageStats& stats) {
     HH_CHECK(io.frame_end_s > io.frame_start_s, "the frame has no length",
              io.frame_end_s - io.frame_start_s);
-    const Pose joints[k_hand_count] = {default_controller_to_hand(HandSide::left, tuning.hand),
-                                       default_controller_to_hand(HandSide::right, tuning.hand)};
     for (std::size_t row = 0; row < io.commands.size(); ++row) {
         io.commands.rows()[row] =
             finite_commands(input_of(io, io.commands.owners()[row], row).commands);
     }
-    // Hands first: they follow the head from where the last frame left it.
-    for (std::size_t row = 0; row < io.owner.size(); ++row) {
-        const Entity entity = io.owner.owners()[row];
-        const HandOwner& owner = io.owner.rows()[row];
-        const ControllerToHand* const own = io.controller_to_hand.find(entity);
-        const HandRows rows{
-            io.hand.at(entity), io.history.at(entity), HeadWalk(io.head.at(owner.player)),
-            own != nullptr ? own->hand_in_controller : joints[index_of(owner.side)], owner.side};
-        read_hand(rows, input_of(io, owner.player, row / k_hand_count), io, tuning, stats);
-    }
     for (std::size_t row = 0; row < io.head.size(); ++row) {
-        read_head(io.head.rows()[row], input_of(io, io.head.owners()[row], row), io,
-                  tuning.tracking, stats);
+        read_player(io, row, tuning, stats);
     }
 }
 

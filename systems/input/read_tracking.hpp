@@ -11,29 +11,37 @@
 namespace handhold {
 
 struct ReadTrackingIo {
-    std::span<const PlayerInput>
-        inputs;                  // in: at most one a player; players without one keep their poses
-    double frame_start_s = 0.0;  // in
-    double frame_end_s = 0.0;    // in: > frame_start_s
-    const Column<HandOwner>& owner;                      // in
-    const Column<ControllerToHand>& controller_to_hand;  // in: hands without one use Tuning's
+    std::span<const PlayerInput> inputs;  // in: at most one per player; without one, poses are held
+    double frame_start_s = 0.0;           // in
+    double frame_end_s = 0.0;             // in: > frame_start_s
+    const Column<HandOwner>& owner;       // in
+    const Column<ControllerToHand>& controller_to_hand;  // in: hands without it use Tuning's
     Column<HeadTracking>& head;                          // in/out
     Column<HandTracking>& hand;                          // in/out
     Column<HandHistory>& history;                        // in/out
     Column<PlayerCommands>& commands;                    // out
 };
 
-// Stage 1. Brings samples of any rate to the frame clock: poses at the end of the frame,
-// interpolated where a later sample is known, held otherwise; button edges at their own sample's
-// time. Samples that are out of order or not finite are ignored and counted; a device silent for
-// longer than lost_after_s is lost and its pose frozen. Where a head jumps farther than max_jump_m
-// from one sample to the next, all of the player's readings are shifted back by as much from there
-// on; a hand farther than max_arm_m from its head is not believed in that sample; a hand that jumps
-// comes back as from lost tracking. Each is counted. Commands hold for their own frame only;
-// numbers in them that are not finite ask for nothing.
+// Stage 1. Resamples devices of any rate to the frame clock. Poses at the end of the frame are
+// interpolated if a later sample is known, and held otherwise. Button edges keep the time and pose
+// of their sample.
+//
+// Ignored, and counted: samples out of order; poses that are not finite; a controller at exactly
+// (0, 0, 0); a hand farther than max_arm_m from its head; a hand that would have moved faster than
+// max_hand_speed_mps. A jump of a hand is used once two samples in a row agree and the hand could
+// have travelled that far since the last sample used. If the hand then comes back elsewhere, or
+// from any other gap in its samples, it is `resumed`: it did not travel, it takes new anchors. A
+// device silent for longer than lost_after_s is lost and its pose frozen.
+//
+// If the head jumps by more than max_jump_m, or head and hands jump by one turn about +Y and one
+// translation (recentring), later samples are corrected by HeadTracking's shift so that the head
+// stays where it was.
+//
+// Commands hold for their own frame. Numbers in them that are not finite count as 0.
 void read_tracking(const ReadTrackingIo& io, const Tuning& tuning, StageStats& stats);
 
-// The hand in a controller that has no joint of its own; mirrored in x for the left.
+// Pose of the hand in a controller without a ControllerToHand component. Mirrored in x for the left
+// hand.
 Pose default_controller_to_hand(HandSide side, const HandTuning& tuning);
 
 }  // namespace handhold

@@ -16,8 +16,13 @@ void take_anchor(const Pose& body_ws, const Pose& origin_ws, const Pose& hand_ps
     grab.anchor_bs = anchor_bs(body_ws, origin_ws, hand_ps);
 }
 
-// As at the frame's start, where everything is known exactly. A hand found again is where it is
-// now.
+// Takes a new anchor because of a tracking error: the hand's displacement is kept in slip_hs.
+void slip_to(const Pose& anchor_bs, Grab& grab) {
+    grab.slip_hs = inverse(anchor_bs) * (grab.anchor_bs * grab.slip_hs);
+    grab.anchor_bs = anchor_bs;
+}
+
+// Anchor at the start of the frame, where all poses are exact. A resumed hand is where it is now.
 Pose anchor_at_start_bs(const AnchorGrabsIo& io, Entity player, const HandTracking& hand,
                         const Grab& grab) {
     const GrabInstant start{io, 0.0};
@@ -29,8 +34,8 @@ void take_anchor_at_start(const AnchorGrabsIo& io, Entity player, const HandTrac
     grab.anchor_bs = anchor_at_start_bs(io, player, hand, grab);
 }
 
-// Hands that led a body together and do not any more, for whatever reason: what stays starts
-// from scratch.
+// Hands that drove a body together and no longer do, for any reason: the one that stays takes a new
+// anchor.
 void end_broken_two_hand_grips(const AnchorGrabsIo& io, StageStats& stats) {
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const HandPair pair = pair_of(io, row);
@@ -50,8 +55,8 @@ double line_length_m(const HandPair& pair) {
     return std::min(apart.norm(), apart_bs.norm());
 }
 
-// Says whether the two lead together. The second of hands that are too close holds on wherever it
-// is; once they part, the line between them begins as it lies then. Nothing jumps either way.
+// Decides whether the two hands drive the body together. If they are too close, the second hand has
+// no effect; once they part, the line between them starts as it is then. Nothing jumps either way.
 void pair_hands(const AnchorGrabsIo& io, const HandPair& first, StageStats& stats) {
     constexpr double k_begin_two_handed_m = 0.05;
     constexpr double k_end_two_handed_m = 0.04;
@@ -95,7 +100,7 @@ void set_target(const AnchorGrabsIo& io, const HandTracking& hand, Grab& grab) {
     set_target_pose(io, hand.pose_ps, hand, grab);
 }
 
-// Where the hand that stays holds on when the other one leaves: from where the pair had put the
+// Anchor of the hand that stays when the other one leaves, at the pose that the pair had given the
 // player (or the body).
 Pose staying_anchor_bs(const AnchorGrabsIo& io, const HandPair& leaving, bool leaving_is_first,
                        const PhaseTuning& tuning) {
@@ -134,15 +139,14 @@ bool leaves_shared_grip(const HandPair& pair) {
            pair.other->phase == GrabPhase::holding && share_hold(pair.grab, *pair.other);
 }
 
-// Hands that leave what their players' others stay on drop their rows now; those start from
-// scratch. All anchors are found before any hand is gone: hands of several players may lead one
-// body.
+// Hands that let go of a shared hold leave now; the hands that stay take new anchors. All anchors
+// are found before any hand leaves, because hands of several players may drive one body.
 void leave_shared_grips(const AnchorGrabsIo& io, const PhaseTuning& tuning, StageStats& stats) {
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const HandPair pair = pair_of(io, row);
         if (leaves_shared_grip(pair)) {
             const std::size_t other = find_other_hand(io.owner, io.grab, row);
-            // Kept with the leaving hand till then: nobody asks any more where that held on.
+            // Stored in the leaving hand until then; its own anchor is no longer needed.
             pair.grab.anchor_bs =
                 staying_anchor_bs(io, pair, is_first_hand(io.owner, io.grab, row, other), tuning);
         }
@@ -158,7 +162,7 @@ void leave_shared_grips(const AnchorGrabsIo& io, const PhaseTuning& tuning, Stag
     }
 }
 
-// Hands that opened while nobody saw them: where they are now says nothing of how they let go.
+// Hands that opened while they were not tracked: their present pose says nothing about the release.
 void drop_lost_grabs(const AnchorGrabsIo& io, StageStats& stats) {
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const HandPair pair = pair_of(io, row);
@@ -173,27 +177,36 @@ void drop_lost_grabs(const AnchorGrabsIo& io, StageStats& stats) {
     }
 }
 
-// A free body in an authored grip moves into the hand: it was authored against
-// hand and controller, and a gun points where the controller does. As fast as shown palms move; in
-// two hands it stays as they have it, for they say together how it lies.
-void move_into_authored_grip(const AnchorGrabsIo& io, Entity entity, const PalmTuning& tuning,
-                             const HandPair& pair) {
+// Moves a free body into the hand that holds it:
+//  - into its authored grip, at the rate of shown palms. The grip was authored against hand and
+//    controller: a gun points where the controller does;
+//  - else back to where the hand first held it, if tracking errors moved the hand.
+// Two hands on one body define its pose together: only a slip is undone then.
+void move_into_hand(const AnchorGrabsIo& io, Entity entity, const Tuning& tuning,
+                    const HandPair& pair) {
     Grab& grab = pair.grab;
-    const AuthoredHold* const hold = io.authored_hold.find(entity);
-    const bool is_free = grab.kind == GripKind::held && !grab.jointed &&
-                         !(pair.other != nullptr && share_free_body(grab, *pair.other));
-    if (hold == nullptr || hold->body != grab.body || !is_free ||
-        grab.phase != GrabPhase::holding) {
+    if (grab.kind != GripKind::held || grab.jointed || grab.phase != GrabPhase::holding) {
         return;
     }
     const double held_s = io.end_s - std::clamp(grab.since_s, io.start_s, io.end_s);
-    grab.anchor_bs = step_towards(grab.anchor_bs, hold->hand.wrist_bs, tuning.rate_mps * held_s,
-                                  tuning.tilt_cost_m_per_rad);
+    const double m_per_rad = tuning.palm.tilt_cost_m_per_rad;
+    const AuthoredHold* const hold = io.authored_hold.find(entity);
+    const bool is_shared = pair.other != nullptr && share_free_body(grab, *pair.other);
+    if (hold != nullptr && hold->body == grab.body && !is_shared) {
+        grab.anchor_bs = step_towards(grab.anchor_bs, hold->hand.wrist_bs,
+                                      tuning.palm.rate_mps * held_s, m_per_rad);
+        grab.slip_hs = {};
+    } else if (has_slipped(grab)) {
+        const Pose first_bs = grab.anchor_bs * grab.slip_hs;
+        grab.slip_hs =
+            step_towards(grab.slip_hs, {}, tuning.hand.return_speed_mps * held_s, m_per_rad);
+        grab.anchor_bs = first_bs * inverse(grab.slip_hs);
+    }
 }
 
-// Whose hand leads the free body that another player's closes on, or opens from; none where
-// nobody's does, or those of several do: they share it by their masses, which only the solver
-// knows.
+// The hand of another player that drives the free body which `joining` closes on or opens from.
+// None if there is none, or if hands of several players share the body: that depends on their
+// masses, which only the solver knows.
 std::optional<HandPair> leader_of(const AnchorGrabsIo& io, const HandPair& joining) {
     std::optional<HandPair> leader;
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
@@ -218,8 +231,8 @@ std::optional<HandPair> leader_of(const AnchorGrabsIo& io, const HandPair& joini
     return leader;
 }
 
-// What another player still has is not thrown: the hand that leaves it goes on as the body does,
-// from its edge to the frame's end, and pulls at nobody. False where nobody else has it.
+// A body that another player still holds is not thrown: from its edge to the end of the frame, the
+// leaving hand moves as the body does. False if nobody else holds the body.
 bool follow_leader(const AnchorGrabsIo& io, const HandPair& leaving) {
     const std::optional<HandPair> leader = leader_of(io, leaving);
     if (!leader || leader->grab.phase == GrabPhase::releasing) {
@@ -228,20 +241,20 @@ bool follow_leader(const AnchorGrabsIo& io, const HandPair& leaving) {
     const GrabInstant edge{io, fraction_of(io, leaving.hand.edge_t_s)};
     const GrabInstant end{io, 1.0};
     const Pose hand_ws = edge.hand_driven_origin_ws(leaving.player) * leaving.hand.edge_ps;
-    const Pose way_ws = held_body_ws(end, *leader) * inverse(held_body_ws(edge, *leader));
-    set_target_pose(io, inverse(end.hand_driven_origin_ws(leaving.player)) * (way_ws * hand_ws),
+    const Pose motion_ws = held_body_ws(end, *leader) * inverse(held_body_ws(edge, *leader));
+    set_target_pose(io, inverse(end.hand_driven_origin_ws(leaving.player)) * (motion_ws * hand_ws),
                     leaving.hand, leaving.grab);
     return true;
 }
 
 void anchor_new_grab(const AnchorGrabsIo& io, const HandPair& pair, const PhaseTuning& tuning) {
-    if (pair.hand.edge != GrabEdge::onset) {  // it has pulled something near, and has it now
+    if (pair.hand.edge != GrabEdge::onset) {  // a pulled body reached the palm
         take_anchor_at_start(io, pair.player, pair.hand, pair.grab);
         pair.grab.phase = GrabPhase::holding;
         return;
     }
     const GrabInstant now{io, fraction_of(io, pair.hand.edge_t_s)};
-    // Two that close at one instant take their anchors alike, on the predicted way: neither leads.
+    // Hands that close at one instant both take predicted anchors: neither drives the other.
     const bool at_once = pair.other != nullptr && pair.other_hand->edge == GrabEdge::onset &&
                          pair.other_hand->edge_t_s == pair.hand.edge_t_s;
     const Grab* const leading = at_once ? nullptr : pair.other;
@@ -260,8 +273,8 @@ void anchor_new_grab(const AnchorGrabsIo& io, const HandPair& pair, const PhaseT
     pair.grab.phase = GrabPhase::holding;
 }
 
-// The row of the new grip with the earliest edge, or the column's size: who holds first leads who
-// joins, whichever is listed first.
+// Row of the new grip with the earliest edge, or the column's size. The earlier hand drives the
+// body that the later one joins, whatever their order in the column.
 std::size_t earliest_new_grab(const AnchorGrabsIo& io) {
     std::size_t earliest = io.grab.size();
     double edge_t_s = 0.0;
@@ -276,7 +289,8 @@ std::size_t earliest_new_grab(const AnchorGrabsIo& io) {
     return earliest;
 }
 
-// The hand was lost and is somewhere now: it holds on there, and so does the one it led with.
+// The hand may be anywhere after a tracking error: it takes a new anchor, and so does the other
+// hand if the two drove a body together.
 void reanchor_resumed_grab(const AnchorGrabsIo& io, const HandPair& pair, const PhaseTuning& tuning,
                            StageStats& stats) {
     const GrabInstant now{io, 0.0};
@@ -285,9 +299,10 @@ void reanchor_resumed_grab(const AnchorGrabsIo& io, const HandPair& pair, const 
         pair.grab.two_handed = false;
         pair.other->two_handed = false;
     }
-    take_anchor(now.body_ws(pair.grab.body),
-                origin_at(now, pair.player, pair.other, pair.other_hand, tuning), pair.hand.pose_ps,
-                pair.grab);
+    slip_to(anchor_bs(now.body_ws(pair.grab.body),
+                      origin_at(now, pair.player, pair.other, pair.other_hand, tuning),
+                      pair.hand.pose_ps),
+            pair.grab);
     stats.count(Fallback::grip_reanchored);
 }
 
@@ -311,11 +326,32 @@ void set_targets(const AnchorGrabsIo& io) {
     }
 }
 
+// A hand moves what it grips, and its player, at most at max_speed_mps: the grip slips by the rest.
+void limit_hand_speeds(const AnchorGrabsIo& io, double max_speed_mps, StageStats& stats) {
+    const double max_m = max_speed_mps * (io.end_s - io.start_s);
+    for (std::size_t row = 0; row < io.grab.size(); ++row) {
+        const HandPair pair = pair_of(io, row);
+        Grab& grab = pair.grab;
+        const bool closes = pair.hand.edge == GrabEdge::onset;
+        const Vec3 travel_ps =
+            grab.target_ps.position - (closes ? pair.hand.edge_ps : pair.hand.start_ps).position;
+        if (grab.kind == GripKind::none || travel_ps.norm() <= max_m) {
+            continue;
+        }
+        const Vec3 rest_ps = travel_ps * (1.0 - max_m / travel_ps.norm());
+        const GrabInstant end{io, 1.0};
+        const Vec3 rest_bs = end.body_ws(grab.body).rotation.conjugate() *
+                             (end.origin_ws(pair.player).rotation * rest_ps);
+        slip_to({grab.anchor_bs.position + rest_bs, grab.anchor_bs.rotation}, grab);
+        stats.count(Fallback::grip_speed_limited);
+    }
+}
+
 }  // namespace
 
 void anchor_grabs(const AnchorGrabsIo& io, const Tuning& tuning, StageStats& stats) {
     end_broken_two_hand_grips(io, stats);
-    // New grips before anything leaves.
+    // New grips come before releases.
     for (std::size_t row = earliest_new_grab(io); row < io.grab.size();
          row = earliest_new_grab(io)) {
         anchor_new_grab(io, pair_of(io, row), tuning.phases);
@@ -324,8 +360,9 @@ void anchor_grabs(const AnchorGrabsIo& io, const Tuning& tuning, StageStats& sta
     leave_shared_grips(io, tuning.phases, stats);
     reanchor_resumed_grabs(io, tuning.phases, stats);
     set_targets(io);
+    limit_hand_speeds(io, tuning.tracking.max_hand_speed_mps, stats);
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        move_into_authored_grip(io, io.grab.owners()[row], tuning.palm, pair_of(io, row));
+        move_into_hand(io, io.grab.owners()[row], tuning, pair_of(io, row));
     }
     end_broken_two_hand_grips(io, stats);
     for (std::size_t row = 0; row < io.grab.size(); ++row) {

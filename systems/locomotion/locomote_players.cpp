@@ -9,7 +9,7 @@
 namespace handhold {
 namespace {
 
-// One player's hands that hold on to something, first hand first.
+// One player's gripping hands, first hand first.
 struct Grips {
     struct Grip {
         const Grab* grab = nullptr;
@@ -22,8 +22,8 @@ struct Grips {
 
 bool is_on_surface(const Grips::Grip& grip) { return grip.grab->kind == GripKind::surface; }
 
-// A grip fixed to the world leads, of two equal ones the hand that holds longer, and of two that
-// closed at one instant the left: never the one that is listed first.
+// Surface grips come first, then the hand that closed earlier, then the left hand. The order in the
+// column has no effect.
 bool comes_first(const Grips::Grip& a, const Grips::Grip& b) {
     if (is_on_surface(a) != is_on_surface(b)) {
         return is_on_surface(a);
@@ -31,8 +31,7 @@ bool comes_first(const Grips::Grip& a, const Grips::Grip& b) {
     return a.grab->since_s != b.grab->since_s ? a.grab->since_s < b.grab->since_s : a.side < b.side;
 }
 
-// `expected_row` of the hands: where the player's would be if all hands were made in the order of
-// the players.
+// `expected_row`: row of the player's hands if all hands were created in the order of the players.
 Grips grips_of(const LocomotePlayersIo& io, Entity player, std::size_t expected_row) {
     Grips found;
     const std::size_t first = find_hand_row(io.owner, player, expected_row);
@@ -55,7 +54,7 @@ Grips grips_of(const LocomotePlayersIo& io, Entity player, std::size_t expected_
     return found;
 }
 
-// Rotates the play space about a point that stays where it is in the world.
+// Rotates the play space about a point that keeps its place in the world.
 void turn_about(PlayerOrigin& origin, const Vec3& pivot_ps, const Quat& turn_ws) {
     const Vec3 pivot_ws = transform_point(origin.pose_ws, pivot_ps);
     origin.pose_ws.rotation = (turn_ws * origin.pose_ws.rotation).normalized();
@@ -70,7 +69,7 @@ Quat commanded_turn(const LocomotePlayersIo& io, const PlayerCommands& commands,
     return rotation_about(play_space * Vec3::UnitY(), angle);
 }
 
-// How the support turned the play space in this frame.
+// Rotation of the play space with its support in this frame.
 Quat support_turn(const LocomotePlayersIo& io, const Grips& grips, const Quat& play_space,
                   const LocomotionTuning& tuning) {
     const bool both_on_one = grips.count == 2 && is_on_surface(grips.grips[0]) &&
@@ -100,8 +99,7 @@ void update_reference(const LocomotePlayersIo& io, const Grips& grips,
         reference.linear_mps = io.scene_velocity_mps;
         return;
     }
-    // At the point last gripped, not at the player: his distance may grow, and with it the speed of
-    // a turning body there.
+    // At the point last gripped, not at the player: a turning body is faster at a distant player.
     const Vec3 arm = io.body_pose.at(reference.body).pose_ws.rotation * reference.point_bs;
     reference.linear_mps = support->linear_mps + support->angular_radps.cross(arm);
 }
@@ -110,7 +108,7 @@ void drive(const LocomotePlayersIo& io, const PlayerCommands& commands, const Qu
            const Vec3& reference_mps, const LocomotionTuning& tuning, Vec3& velocity_mps) {
     const double brake = std::clamp(commands.brake, 0.0, 1.0) * tuning.brake_drag_per_s;
     const double drag = (tuning.drift_drag_per_s + brake) * io.dt_s;
-    // Exact for 1/(1 + x) drag over a frame: stable for any drag, no exponential needed.
+    // Implicit Euler, v' = v / (1 + drag dt): stable for any drag.
     velocity_mps = reference_mps + (velocity_mps - reference_mps) / (1.0 + drag);
     const Vec3 thrust_ps = commands.thrust_ps.cwiseMax(-1.0).cwiseMin(1.0);
     velocity_mps += (tuning.thruster_mps2 * io.dt_s) * (play_space * thrust_ps);

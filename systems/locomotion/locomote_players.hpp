@@ -12,7 +12,7 @@ namespace handhold {
 
 struct LocomotePlayersIo {
     double dt_s = 0.0;                          // in
-    Vec3 scene_velocity_mps = Vec3::Zero();     // in: reference where nothing was gripped yet
+    Vec3 scene_velocity_mps = Vec3::Zero();     // in: reference until something is gripped
     const Column<PlayerCommands>& commands;     // in
     const Column<HeadTracking>& head;           // in
     const Column<HandOwner>& owner;             // in
@@ -25,10 +25,10 @@ struct LocomotePlayersIo {
     Column<ReferenceVelocity>& reference;  // in/out
 };
 
-// Stage 2b. All that moves a player by his own intent: snap and smooth turns, brake, thrusters; and
-// what moves his frame of mind: the reference velocity, and, where asked for, the play space's
-// turning with a support. Two hands on one turning body make the play space follow it fully,
-// whatever the setting: two fixed points allow no other motion.
+// Stage 2b. Moves players by their commands: snap and smooth turns, brake, thrusters. Updates the
+// reference velocity, and turns the play space with a support as LocomotionTuning::support_follow
+// says. Two hands on one turning body always make the play space follow it fully: two fixed points
+// allow no other motion.
 void locomote_players(const LocomotePlayersIo& io, const LocomotionTuning& tuning);
 
 }  // namespace handhold

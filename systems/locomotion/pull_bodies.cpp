@@ -10,14 +10,14 @@
 namespace handhold {
 namespace {
 
-constexpr double k_too_far = 1.5;  // of the reach: a pull that began ends there
+constexpr double k_lost_ratio = 1.5;  // of the reach: distance at which a pull ends
 
 PalmRay ray_of(const PullBodiesIo& io, Entity hand, const Pose& hand_ps, const HandTuning& tuning) {
     const HandOwner& owner = io.owner.at(hand);
     return palm_ray(io.origin.at(owner.player).pose_ws * hand_ps, owner.side, tuning);
 }
 
-// By any hand but this one.
+// True if any hand grips the body, or another hand pulls it.
 bool is_taken(const PullBodiesIo& io, Entity hand, Entity body) {
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const Grab& grab = io.grab.rows()[row];
@@ -45,7 +45,7 @@ bool is_jointed(const PullBodiesIo& io, std::size_t body_row) {
     return false;
 }
 
-// Why this hand may not pull a body; nothing where it may.
+// Why this hand may not pull the body; none if it may.
 std::optional<Fallback> refusal_reason(const PullBodiesIo& io, Entity hand, Entity pulled,
                                        const PullTuning& tuning) {
     const RigidBody& body = io.body.at(pulled);
@@ -68,7 +68,7 @@ Entity body_of_id(const PullBodiesIo& io, std::uint64_t id) {
     return found != owners.end() ? *found : k_no_entity;
 }
 
-// What the palm points at, where it may be pulled; null where not, and counted why.
+// The body that the palm points at. Null, and counted, if there is none or it may not be pulled.
 Entity find_pullable_body(const PullBodiesIo& io, Entity hand, const Tuning& tuning,
                           StageStats& stats) {
     const PalmRay ray = ray_of(io, hand, io.hand.at(hand).edge_ps, tuning.hand);
@@ -87,14 +87,15 @@ Entity find_pullable_body(const PullBodiesIo& io, Entity hand, const Tuning& tun
     return found;
 }
 
-// From what of the body is nearest to the palm: a ring's middle may come to a palm that then has
-// nothing to close on, and that of a long pole be far away. Its middle, where it has no surface.
+// Offset from the body's nearest surface point to the palm; from its centre if it has no surface.
+// The centre would not do: a palm in the middle of a ring has nothing to grip, and that of a long
+// pole may be far away.
 Vec3 offset_to_palm(const PullBodiesIo& io, Entity pulled, const Vec3& palm_ws) {
     const auto near = io.collision.closest_point_on(io.persistent_id.at(pulled).value, palm_ws);
     return palm_ws - (near ? near->point_ws : io.body_pose.at(pulled).pose_ws.position);
 }
 
-// False where it ends; counted where that is not the hand's will.
+// False if the pull ends; counted if the hand did not end it.
 bool can_continue(const PullBodiesIo& io, Entity hand, const HandPull& pull, const Tuning& tuning,
                   StageStats& stats) {
     const HandTracking& tracking = io.hand.at(hand);
@@ -107,7 +108,7 @@ bool can_continue(const PullBodiesIo& io, Entity hand, const HandPull& pull, con
     const bool may_go_on = is_there && is_seen &&
                            !refusal_reason(io, hand, pull.body, tuning.pull) &&
                            offset_to_palm(io, pull.body, palm_ws).norm() <=
-                               k_too_far * tuning.pull.reach_m + tuning.hand.reach_m;
+                               k_lost_ratio * tuning.pull.reach_m + tuning.hand.reach_m;
     if (!may_go_on) {
         stats.count(Fallback::pull_lost);
     }
@@ -122,19 +123,19 @@ void apply_pull(const PullBodiesIo& io, Entity hand, Entity pulled, const Tuning
     const Vec3 palm_end_ws = ray_of(io, hand, tracking.pose_ps, tuning.hand).palm_ws;
     Vec3& player_mps = io.player_velocity.at(player).linear_mps;
     Vec3& body_mps = io.body_velocity.at(pulled).linear_mps;
-    const Vec3 way = offset_to_palm(io, pulled, palm_ws);
-    const double distance_m = std::max(way.norm(), 1e-6);
+    const Vec3 offset = offset_to_palm(io, pulled, palm_ws);
+    const double distance_m = std::max(offset.norm(), 1e-6);
     const double body_kg = io.body.at(pulled).mass_kg;
     const double player_kg = io.player.at(player).mass_kg;
     const double reduced_kg = body_kg * player_kg / (body_kg + player_kg);
-    // Half of the force could stop it in the distance that is left.
+    // v^2 = 2 (F/2) / m d: half of the force can stop it within the remaining distance.
     const double stoppable_mps = std::sqrt(tuning.pull.force_n / reduced_kg * distance_m);
     const double speed_mps = std::min(tuning.pull.speed_mps, stoppable_mps);
     const Vec3 palm_mps = player_mps + (palm_end_ws - palm_ws) / io.dt_s;
-    Vec3 impulse = reduced_kg * (way * (speed_mps / distance_m) - (body_mps - palm_mps));
-    const double most_ns = tuning.pull.force_n * io.dt_s;
-    if (impulse.norm() > most_ns) {
-        impulse *= most_ns / impulse.norm();
+    Vec3 impulse = reduced_kg * (offset * (speed_mps / distance_m) - (body_mps - palm_mps));
+    const double max_ns = tuning.pull.force_n * io.dt_s;
+    if (impulse.norm() > max_ns) {
+        impulse *= max_ns / impulse.norm();
     }
     body_mps += impulse / body_kg;
     player_mps -= impulse / player_kg;
@@ -155,7 +156,8 @@ void pull_bodies(const PullBodiesIo& io, const Tuning& tuning, StageStats& stats
             (tracking.edge != GrabEdge::none || !can_continue(io, hand, *pull, tuning, stats))) {
             io.pull.remove(hand);
         }
-        if (tracking.edge == GrabEdge::onset && io.grab.rows()[row].kind == GripKind::none) {
+        if (tracking.edge == GrabEdge::onset && io.grab.rows()[row].kind == GripKind::none &&
+            io.sight.at(hand).is_clear) {
             const Entity loose = find_pullable_body(io, hand, tuning, stats);
             if (!is_null(loose)) {
                 io.pull.add(hand, {loose, tracking.edge_t_s});

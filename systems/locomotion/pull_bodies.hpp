@@ -19,6 +19,7 @@ struct PullBodiesIo {
     const Column<HandOwner>& owner;             // in
     const Column<HandTracking>& hand;           // in
     const Column<Grab>& grab;                   // in
+    const Column<HandSight>& sight;             // in
     const Column<PlayerBody>& player;           // in
     const Column<PlayerOrigin>& origin;         // in: at the start of the frame, turned
     const Column<RigidBody>& body;              // in
@@ -29,15 +30,14 @@ struct PullBodiesIo {
     Column<PlayerVelocity>& player_velocity;    // in/out
 };
 
-// Stage 2b, the distance grab; where PullTuning::reach_m is 0, which is the default, nothing. A
-// hand that closes on nothing looks along its palm for a loose, light body that no joint ties to
-// another and no other hand has or pulls. While that is so and the hand stays closed,
-// body and player draw each other with at most PullTuning::force_n between the body's centre of
-// mass and the player, so that what of its surface is nearest comes to the palm as that moves, as
-// two masses on a rope would: what one gets of momentum the other loses, and what is in the way is
-// in the way, for this changes velocities before prediction and nothing else. Slower the nearer it
-// is, so that it can be stopped. update_grabs takes it once it is at the palm. A hand that opens
-// lets it fly on.
+// Stage 2b, the distance grab. Off if PullTuning::reach_m is 0, the default. A hand that closes on
+// nothing, with its palm in sight (HandSight), searches along its palm ray for a light free body
+// without joints that no other hand grips or pulls. While the hand stays closed, body and player
+// attract each other like two masses on a rope, with at most PullTuning::force_n: the player loses
+// the momentum that the body gains. The body's nearest surface point comes to the moving palm, more
+// slowly the nearer it is, so that it can be stopped. Only velocities change, before prediction:
+// obstacles act as usual. update_grabs grips the body at the palm. If the hand opens, the body
+// flies on.
 void pull_bodies(const PullBodiesIo& io, const Tuning& tuning, StageStats& stats);
 
 }  // namespace handhold

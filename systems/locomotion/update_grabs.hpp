@@ -1,44 +1,32 @@
 #pragma once
 
-#include "components/authored_grip.hpp"
-#include "components/body.hpp"
-#include "components/frame_graph.hpp"
-#include "components/grab.hpp"
-#include "components/player.hpp"
 #include "components/stats.hpp"
-#include "components/tracking.hpp"
 #include "components/tuning.hpp"
-#include "engine/collision/collision_world.hpp"
-#include "engine/ecs/column.hpp"
+#include "systems/locomotion/shared/grab_search.hpp"
 
 namespace handhold {
 
-struct UpdateGrabsIo {
-    const CollisionWorld& collision;              // in: colliders at the start of the frame
-    const Column<PersistentId>& persistent_id;    // in
-    const Column<HandOwner>& owner;               // in
-    const Column<HandTracking>& hand;             // in: edges
-    const Column<PlayerOrigin>& origin;           // in: at the start of the frame
-    const Column<HeadTracking>& head;             // in: as the colliders have it
-    const Column<RigidBody>& body;                // in
-    const Column<BodyPose>& body_pose;            // in: at the start of the frame
-    const JointGroups& joint_groups;              // in
-    const Column<AuthoredGrips>& authored_grips;  // in
-    const Column<HandPull>& pull;                 // in: of the last frame
-    Column<Grab>& grab;                           // in/out
-    Column<AuthoredHold>& authored_hold;          // in/out: of hands that sit in an authored grip
-    Column<HeadIgnores>& head_ignores;            // in/out: held bodies are added
-};
+using UpdateGrabsIo = GrabSearch;  // systems/locomotion/shared/grab_search.hpp
 
-// Stage 2. Hands that close look for a surface along the palm's ray, from behind the palm through
-// it; where that meets nothing, for the nearest surface within reach of the palm: any surface, from
-// any angle, and any other player's head. Hands that open, that are stretched too far, or whose
-// body is gone let go; of a player's two stretched hands only the worse, of two alike the one that
-// grips for the shorter time. Talk rows 2, 3.
-// Before any surface comes an authored grip in whose snap zone the hand closes: of several the one
-// of the highest priority, of equal ones that which moves the palm least. One that another hand
-// sits in, or that something stands before, does not count. Talk row 10.
-// A closed hand that pulls a body from afar grips it as soon as it would by closing where it is.
+// Stage 2. A hand that closes grips, in this order:
+//  - an authored grip whose snap zone it is in (talk row 10): the one of the highest priority, of
+//    equal ones the one that moves the palm least. Grips that another hand occupies, or that an
+//    obstacle blocks, do not count;
+//  - the first surface on the palm ray (talk rows 2, 3);
+//  - the nearest surface within HandTuning::reach_m of the palm, from any angle. Other players'
+//    heads count as surfaces.
+// The hand must get there without crossing a wall: palm or surface must be visible from where the
+// palm was last outside of walls (HandSight), or from the head, or a hand's width beside those
+// lines. A palm pushed through a surface grips that surface.
+//
+// A hand lets go if it opens, if its error exceeds HandTuning::max_stretch_m, if its body is gone,
+// or if a tracking error took the palm farther than max_stretch_m from its surface. Of a player's
+// two stretched hands only the worse one lets go, of two alike the one that gripped later.
+// A closed hand that pulls a body (pull_bodies) grips it as soon as the body is at the palm.
+//
+// Bodies that refuse the hand by their GrabRule or its player's GrabLayers are passed over. A body
+// for two hands is gripped when the second of them closes on it. A host's orders (GrabOrder) come
+// before hands that close, and ask no rule.
 void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats);
 
 }  // namespace handhold

@@ -18,6 +18,9 @@ struct AnimateMoversIo {
     Column<BodyPose>& body_pose;          // out, kinematic bodies: world, end of the frame
     Column<BodyStart>& body_start;        // out, kinematic bodies: world, start of the frame
     Column<BodyVelocity>& velocity;       // out, kinematic bodies: world, m/s and rad/s at the end
+    // In: bodies that the host moves; null: none. Their velocity is the displacement over dt_s.
+    const Column<MoveTarget>* target = nullptr;
+    double dt_s = 0.0;  // in: > 0 if there are targets
 };
 void animate_movers(const AnimateMoversIo& io);
 

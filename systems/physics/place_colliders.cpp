@@ -14,6 +14,11 @@ ColliderProxy proxy_of(const PlaceCollidersIo& io, Entity entity, const HeadTuni
     proxy.id = io.persistent_id.at(entity).value;
     const Collider* const collider = io.collider.find(entity);
     proxy.shape = collider != nullptr ? collider->shape : k_no_shape;
+    if (const CollisionFilter* const filter =
+            io.filter != nullptr ? io.filter->find(entity) : nullptr) {
+        proxy.layers = filter->layers;
+        proxy.mask = filter->mask;
+    }
     if (const PlayerOrigin* const origin = io.origin.find(entity)) {
         proxy.to_ws =
             origin->pose_ws * Pose{head_center_ps(io.head.at(entity), tuning), Quat::Identity()};

@@ -5,6 +5,7 @@
 namespace handhold {
 void predict_bodies(const PredictBodiesIo& io) {
     FreeRotations rotations(io.dt_s);
+    const bool has_gravity = io.gravity_mps2 != Vec3::Zero();
     for (std::size_t row = 0; row < io.body.size(); ++row) {
         const RigidBody& body = io.body.rows()[row];
         if (body.kind != BodyKind::free) {
@@ -14,6 +15,12 @@ void predict_bodies(const PredictBodiesIo& io) {
         Pose& pose_ws = io.body_pose.at(entity).pose_ws;
         BodyVelocity& velocity = io.body_velocity.at(entity);
         io.body_start.at(entity).pose_ws = pose_ws;
+        if (has_gravity) {
+            const GravityScale* const scale =
+                io.gravity_scale != nullptr ? io.gravity_scale->find(entity) : nullptr;
+            velocity.linear_mps +=
+                (scale != nullptr ? scale->scale : 1.0) * io.dt_s * io.gravity_mps2;
+        }
         pose_ws.position += velocity.linear_mps * io.dt_s;
         rotations.add(body.inertia_kgm2, pose_ws.rotation, velocity.angular_radps);
     }

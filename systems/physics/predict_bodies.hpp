@@ -19,6 +19,8 @@ struct PredictBodiesIo {
     Column<BodyVelocity>& body_velocity;            // in/out, free bodies: world; out: rad/s
     Column<PlayerOrigin>& origin;                   // in/out: world, position only
     Column<PlayerStart>& player_start;              // out: world, start of the frame
+    Vec3 gravity_mps2 = Vec3::Zero();  // in: world; free bodies gain it before they move
+    const Column<GravityScale>* gravity_scale = nullptr;  // in: null or without a row: 1
 };
 void predict_bodies(const PredictBodiesIo& io);
 

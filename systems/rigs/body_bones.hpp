@@ -4,7 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "systems/rigs/body_rig_fit.hpp"
+#include "engine/io/gltf_skin.hpp"
+#include "engine/io/result.hpp"
+#include "systems/rigs/body_joint_names.hpp"
+#include "systems/rigs/body_map.hpp"
 
 // First step of fit_body_rig: finds the joint of each bone.
 namespace handhold {

@@ -1,32 +1,13 @@
 #pragma once
 
-#include <array>
-#include <filesystem>
-#include <map>
-#include <optional>
-#include <string>
-#include <string_view>
-
 #include "engine/io/gltf_skin.hpp"
 #include "engine/io/result.hpp"
-#include "systems/rigs/body_joint_names.hpp"
+#include "systems/rigs/body_map.hpp"
 #include "systems/rigs/body_rig.hpp"
 
 // Fits body rigs to humanoid figures (load_gltf_figure) in T-pose or A-pose. Figures must be +Y up;
 // their heading and size are arbitrary.
 namespace handhold {
-
-// The user's assignment of bones to joints, for figures whose joint names do not determine them.
-// Other bones are looked for among the joints that the map does not contain.
-using BodyMap = std::map<std::string, std::string>;  // body_joint_text -> joint's name in the file
-// Reads a file such as {"joints": {"pelvis": "Hips", "left_upper_arm": "arm_l_01"}}. Other keys,
-// and values that are not text, are errors.
-Result<BodyMap> load_body_map(const std::filesystem::path& path);
-// The same from text in memory; `file` is used in messages.
-Result<BodyMap> parse_body_map(std::string_view text, const std::string& file);
-
-// Converts VRM's humanoid table (parse_vrm_humanoid). Omits bones that BodyBone does not have.
-BodyMap body_map_of_vrm(const std::map<std::string, std::string>& humanoid);
 
 // Fits a body rig to a figure. Finds the bones first by the map, then by the joints' names
 // (parse_body_joint_name), then by the joints' hierarchy and positions (fill_bones_by_shape).

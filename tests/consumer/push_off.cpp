@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <vector>
 
-#include <handhold/handhold.hpp>
+#include <handhold/ecs.hpp>
 
 namespace {
 

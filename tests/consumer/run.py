@@ -12,13 +12,13 @@ from pathlib import Path
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 # Beside the standard library, whose headers have neither folder nor ending; compilers for x86 bring emmintrin.h and xmmintrin.h.
-LIBRARIES = re.compile(r"Eigen/\w+|[a-z_]+|nlohmann/json_fwd\.hpp|[ex]mmintrin\.h")
+LIBRARIES = re.compile(r"Eigen/\w+|[a-z_]+|std(bool|def|int)\.h|nlohmann/json_fwd\.hpp|[ex]mmintrin\.h")
 
 
 def lost_includes(root: Path) -> list[str]:
     """What installed headers include that is neither installed nor one of the library's own dependencies."""
     lost = []
-    for header in sorted(root.rglob("*.hpp")):
+    for header in sorted([*root.rglob("*.hpp"), *root.rglob("*.h")]):
         for mark, path in INCLUDE.findall(header.read_text(encoding="utf-8")):
             is_ours = path.startswith("handhold/")
             found = (root / path).is_file() if is_ours else mark == "<" and LIBRARIES.fullmatch(path)
@@ -38,7 +38,8 @@ def main() -> int:
     build, work = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
     shutil.rmtree(work, ignore_errors=True)
     prefix = work / "prefix"
-    run("cmake", "--install", build, "--prefix", prefix, "--component", "handhold_runtime")
+    for component in ("runtime", "dev"):
+        run("cmake", "--install", build, "--prefix", prefix, "--component", component)
     lost = lost_includes(prefix / "include")
     if lost:
         print("\n".join(lost), file=sys.stderr)

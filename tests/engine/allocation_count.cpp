@@ -1,5 +1,6 @@
 #include "allocation_count.hpp"
 
+#include <atomic>
 #include <cstdlib>
 #include <new>
 
@@ -11,7 +12,17 @@
 #endif
 #endif
 
+// Of Bullet, LinearMath/btAlignedAllocator.h: this source has not its include path.
+void btAlignedAllocSetCustom(void* (*allocate)(std::size_t), void (*release)(void*));
+
 namespace {
+
+std::atomic<std::uint64_t> g_collision_allocations{0};
+
+void* allocate_counted(std::size_t size) {
+    g_collision_allocations.fetch_add(1, std::memory_order_relaxed);
+    return std::malloc(size);
+}
 
 thread_local std::size_t t_allocations = 0;
 thread_local std::size_t t_bytes = 0;
@@ -48,6 +59,14 @@ namespace handhold {
 
 std::size_t allocation_count() { return t_allocations; }
 std::size_t allocated_bytes() { return t_bytes; }
+
+std::uint64_t collision_allocation_count() {
+    static const bool hooked = [] {
+        btAlignedAllocSetCustom(&allocate_counted, &std::free);
+        return true;
+    }();
+    return hooked ? g_collision_allocations.load(std::memory_order_relaxed) : 0;
+}
 
 bool counts_allocations() {
 #ifdef HH_SANITIZER_OPERATORS

@@ -16,6 +16,9 @@ void run_gltf(Bytes bytes);
 void run_recording(Bytes bytes);
 void run_tuning(Bytes bytes);
 void run_shots(Bytes bytes);
+void run_station(Bytes bytes);     // a station's description
+void run_controller(Bytes bytes);  // a controller's profile
+void run_csv(Bytes bytes);         // a table of the lab
 // The first byte selects the meaning of the rest: 0 patches of a valid snapshot, 1 a payload, 2 a
 // whole snapshot. Most inputs thus pass the checksum, and seeds survive changes of the schema.
 void run_snapshot(Bytes bytes);

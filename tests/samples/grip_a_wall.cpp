@@ -1,7 +1,7 @@
 // The README's sample: a player who grips a wall and stays there, hand exact.
 #include <cstdio>
 
-#include <handhold/handhold.hpp>
+#include <handhold/ecs.hpp>
 
 using namespace handhold;
 

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <string>
 
-#include <handhold/handhold.hpp>
+#include <handhold/ecs.hpp>
 
 using namespace handhold;
 

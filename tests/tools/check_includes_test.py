@@ -76,6 +76,14 @@ class CheckIncludes(unittest.TestCase):
         self.assert_breach("components/hand.hpp", "#pragma once\n" + include,
                            "components/hand.hpp:2 | components does not include systems")
 
+    def test_folders_of_game_refuse_those_that_build_on_them(self):
+        for folder, refused in (("climber", "commands"), ("render", "view"), ("session", "desktop"), ("view", "commands")):
+            with self.subTest(folder=folder):
+                self.assert_breach(f"game/{folder}/a.hpp", f'#pragma once\n#include "game/{refused}/b.hpp"\n',
+                                   f"game/{folder}/a.hpp:2 | game/{folder} does not include game/{refused}")
+                self.assert_clean(f"game/{refused}/a.cpp", f'#include "game/{folder}/b.hpp"\n')
+        self.assert_clean("tests/game/session/a_test.cpp", '#include "game/desktop/b.hpp"\n')
+
     def test_only_allowed_files_name_world(self):
         self.assert_breach("systems/physics/a.cpp", "void f(const World& world);\n",
                            "systems/physics/a.cpp:1 | World")

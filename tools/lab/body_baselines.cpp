@@ -6,7 +6,7 @@
 namespace handhold::lab {
 namespace {
 
-// Eyes to the point midway between the shoulders, in the chest's axes.
+// From the eyes to the midpoint of the shoulders, in the chest's axes.
 const Vec3 k_shoulders(0.0, -0.22, 0.07);
 
 Vec3 level(const Vec3& v) {
@@ -72,7 +72,8 @@ void estimate_as_talked(const Pose& head_ps, const BodyMeasures& measures, ArmEs
     const auto pole_of = [&](std::size_t side) {
         const double outward = side == 0 ? -1.0 : 1.0;
         const Vec3 rest = chest_ps * Vec3(0.3 * outward, -0.8, 0.5);
-        // The wrist's direction: the elbow is opposite the fingers.
+        // Blends the rest direction with the one opposite to the fingers, where the elbow
+        // is.
         return Vec3(0.5 * rest - 0.5 * (out.arms[side].hand_ps.rotation * -Vec3::UnitZ()));
     };
     hang_arms(head_ps, measures, ahead, pole_of, out);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double k_first_frame_s = 1.0 / 90.0;
 
-// One player at the world's origin, in the columns that the systems take.
+// One player at the world's origin, as the columns that the systems need.
 class OnePlayer {
   public:
     explicit OnePlayer(std::string estimator) : estimator_(std::move(estimator)) {

@@ -24,7 +24,7 @@ Pose from_bullet(const btTransform& transform) {
     return {from_bullet(transform.getOrigin()), Quat(q.w(), q.x(), q.y(), q.z()).normalized()};
 }
 
-// Bullet's hinge axis is its frame's z, ours is x.
+// Bullet's hinge axis is z of its frame, ours is x.
 btTransform hinge_frame(const Pose& frame) {
     return to_bullet(frame * Pose{Vec3::Zero(), rotation_about(Vec3::UnitY(), 0.5 * k_pi)});
 }
@@ -55,9 +55,10 @@ struct BulletRun::Impl {
     std::vector<std::unique_ptr<btCollisionShape>> shapes;
     std::vector<std::unique_ptr<btTriangleMesh>> meshes;
     std::vector<BodyPtr> bodies;  // in the order of FrameRecord::poses
-    BodyPtr ground;               // the world's end of joints
+    BodyPtr ground;               // a fixed body, for joints to the world
     std::vector<std::unique_ptr<btTypedConstraint>> joints;
-    std::vector<std::unique_ptr<btTypedConstraint>> grabs;  // by LabScene::holds; null: released
+    // By index in LabScene::holds; null: released.
+    std::vector<std::unique_ptr<btTypedConstraint>> grabs;
 
     Impl(const LabScene& of, Holder who, double hz) : scene(of), holder(who), dt_s(1.0 / hz) {
         world.setGravity({0.0, 0.0, 0.0});
@@ -134,7 +135,8 @@ struct BulletRun::Impl {
                                  make_shape(body));
         made->setLinearVelocity(to_bullet(body.velocity.linear_mps));
         made->setAngularVelocity(to_bullet(body.velocity.angular_radps));
-        // Bullet multiplies the values of two bodies, so bodies that are not free have 1.
+        // Bullet multiplies the values of the two bodies in a contact, so bodies that are not free
+        // have 1.
         made->setFriction(is_free ? body.friction : 1.0);
         made->setRestitution(is_free ? body.restitution : 1.0);
         if (body.kind == BodyKind::kinematic) {
@@ -207,8 +209,8 @@ struct BulletRun::Impl {
         const Vec3& origin = scene.players[static_cast<std::size_t>(hold.player)].origin_ws;
         return Pose{origin, Quat::Identity()} * hold.hand_ps(at_s);
     }
-    // The hand in its carrier's frame: the player's, or that of the kinematic body that is the
-    // hand.
+    // The hand's pose in the frame of the body that carries it: the player, or the kinematic body
+    // that is the hand.
     Pose hand_in_carrier(const LabHold& hold, double at_s) const {
         return holder == Holder::player ? hold.hand_ps(at_s) : Pose{};
     }

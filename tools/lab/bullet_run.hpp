@@ -5,7 +5,7 @@
 
 #include "tools/lab/lab_scene.hpp"
 
-// The same scenes in Bullet: btDiscreteDynamicsWorld with btSequentialImpulseConstraintSolver at
+// Runs a lab scene in Bullet: btDiscreteDynamicsWorld with btSequentialImpulseConstraintSolver at
 // its defaults, with Bullet's joints and contacts.
 namespace handhold::lab {
 
@@ -26,8 +26,8 @@ class BulletRun {
     std::unique_ptr<Impl> impl_;
 };
 
-// Worst error of any joint, metres, at the end of frame `frame` if its step has 1, 2, ...
-// iterations.
+// Worst joint error, metres, at the end of frame `frame`, for 1, 2, ... solver iterations in that
+// frame's step.
 std::vector<double> bullet_residuals(const LabScene& scene, Holder holder, double hz, int frame);
 
 }  // namespace handhold::lab

@@ -29,7 +29,8 @@ Disc disc_of(const HingeChain& chain) {
     return disc;
 }
 
-// The sector that a joint and the straight rest of the finger sweep, and the first contact in it.
+// The sector that one joint sweeps with the straight rest of the finger, and the first contact in
+// that sector.
 class JointDisc {
   public:
     JointDisc(const Vec2& center, double direction_rad, double radius_m, double open_rad,
@@ -99,7 +100,7 @@ std::int32_t link_at(const HingeChain& chain, std::size_t joint, double distance
     return static_cast<std::int32_t>(link);
 }
 
-// The first link from `from` on that touches with these angles.
+// Index of the first link, counted from `from`, that touches the mesh with these angles.
 std::optional<std::size_t> first_touching_link(const HingeChain& chain, const ChainAngles& angles,
                                                std::size_t from, const GripMesh& mesh) {
     const auto capsules = chain_capsules(chain, angles);
@@ -153,8 +154,8 @@ ClosedFinger close_by_talk(const HingeChain& chain, const GripMesh& mesh,
     const CrossingSearch found =
         find_crossing(mesh.search, disc, {&seed_under_palm, 1}, order, scratch.trace);
     closed.pops = found.pops;
-    // Walks the surface that is touched: the comparison is of closing methods, not of detail
-    // levels.
+    // Walks the surface that fingers touch. On the search detail, the comparison would be of
+    // levels of detail instead of closing methods.
     const auto near = found.triangle != k_no_triangle
                           ? mesh.contact_bvh.closest_point(found.point, k_detail_apart_m)
                           : std::nullopt;

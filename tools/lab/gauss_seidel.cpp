@@ -66,7 +66,7 @@ class GaussSeidel {
         return std::min(depth(island_.blocks[i].a), depth(island_.blocks[i].b));
     }
 
-    // Distance of each body from the nearest immovable one, in blocks, breadth first.
+    // For each body, the number of blocks to the nearest immovable body (breadth-first search).
     void find_depths() {
         depths_.assign(island_.bodies.size(), k_far);
         std::vector<std::vector<std::uint32_t>> neighbours(island_.bodies.size());
@@ -101,7 +101,8 @@ class GaussSeidel {
         return {body.inverse_mass, inverse_inertia_ws(body)};
     }
 
-    // The element of J M^-1 J^T for rows x and y of one block (bodies a and b).
+    // The element of J M^-1 J^T (J: Jacobian, M: masses) for rows x and y of one block between
+    // bodies a and b.
     static double coupling(const Row& x, const Row& y, const Mobility& a, const Mobility& b) {
         return (a.inverse_mass + b.inverse_mass) * x.linear_a.dot(y.linear_a) +
                x.angular_a.dot(a.inverse_inertia_ws * y.angular_a) +
@@ -173,7 +174,7 @@ class GaussSeidel {
     const IslandView& island_;
     std::vector<Row>& rows_;
     std::vector<std::uint32_t> depths_;  // by body
-    std::vector<std::uint32_t> order_;   // blocks
+    std::vector<std::uint32_t> order_;   // indices of blocks, in the order in which they are solved
 };
 
 NewtonResult solve(const IslandView& island, const NewtonSettings& settings, SolveScratch& scratch,

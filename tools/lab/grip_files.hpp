@@ -24,7 +24,8 @@ Result<std::vector<Placement>> load_placements(const std::filesystem::path& path
 // One line of the output, with line break.
 std::string posed_hand_line(std::int64_t id, const HandRig& rig, const PosedHand& posed);
 
-// Costs of warm hands and counts of jumping joints, for every frame of every hand.
+// Costs of hands that reuse results (warm), and counts of jumping joints, for every frame of every
+// hand.
 std::string warm_hands_json(const WarmHand& all);
 
 // The rig as JSON, for external measuring tools: every field of HandRig except its skin's joints.

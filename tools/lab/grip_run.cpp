@@ -61,7 +61,7 @@ class OneHand {
         timed(us.fit_us, [&] { fit(k_at_once_s, tuning, variant); });
     }
 
-    // Runs one frame with the previous frame's results.
+    // Runs one frame that reuses the previous frame's results. Returns its time in microseconds.
     double run_frame_us(const Pose& wrist, const Tuning& tuning, const GripVariant& variant) {
         surroundings_.front().wrist_bs = wrist;
         traces_.front() = {};
@@ -213,7 +213,7 @@ void add_pops(const std::array<FingerTrace, k_finger_count>& traces, WarmHand& w
     }
 }
 
-// The hand as shown.
+// Writes the shown hand to `posed`.
 void describe(const OneHand& hand, const GripMesh& mesh, const HandRig& rig, PosedHand& posed) {
     posed.gripped = hand.surface().triangle != GripSurface::k_none;
     posed.reason = posed.gripped ? "" : "no_surface";

@@ -35,11 +35,11 @@ struct GripTimes {  // microseconds of thread CPU time
 
 struct PosedHand {
     bool gripped = false;
-    std::string reason;  // reason if not gripped, or empty
+    std::string reason;  // why the hand does not grip; empty if it grips
     Pose wrist;          // as shown, in the mesh's frame
     double sync_m = 0.0;
     double sync_rad = 0.0;
-    std::uint32_t triangle = 0;  // of the mesh as loaded
+    std::uint32_t triangle = 0;  // index in the mesh as loaded
     Vec3 point = Vec3::Zero();
     Vec3 normal = Vec3::UnitY();
     std::array<FingerAngles, k_finger_count> angles;  // by index in HandRig::fingers
@@ -52,10 +52,10 @@ struct PosedHand {
 PosedHand pose_cold_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
                          const Tuning& tuning, const GripVariant& variant);
 
-// Motion of a hand that is measured warm.
+// Motion of a hand whose costs are measured while it reuses results.
 struct HandSlide {
     std::int32_t frames = 0;  // of 1/90 s: first sliding, then as many standing still
-    double speed_mps = 0.2;   // back and forth by 4 cm: along the surface, across the fingers
+    double speed_mps = 0.2;   // along the surface, across the fingers; back and forth by 4 cm
 };
 
 // Costs of a hand that reuses its last solution: microseconds of thread CPU time per frame, from
@@ -63,15 +63,19 @@ struct HandSlide {
 struct WarmHand {
     std::vector<double> slide_us;
     std::vector<double> stand_us;
-    std::vector<std::uint32_t> pops;  // per searched disc: mean over a finger and a frame
-    PosedHand slid;                   // in the last sliding frame; without times
-    std::uint32_t joint_frames = 0;   // while sliding: joints of all fingers times frames
-    std::uint32_t jumps = 0;          // of these, target moved by 10 degrees or more in one frame
-    // of these, shown angle moved by 10 degrees or more in one frame
+    // Visited triangles per searched disc: one mean for each finger and frame.
+    std::vector<std::uint32_t> pops;
+    PosedHand slid;  // in the last sliding frame; without times
+    // While sliding: number of joints of all fingers times number of frames.
+    std::uint32_t joint_frames = 0;
+    // Joint frames in which the target angle changed by 10 degrees or more.
+    std::uint32_t jumps = 0;
+    // Joint frames in which the shown angle changed by 10 degrees or more.
     std::uint32_t shown_jumps = 0;
 };
 
-// Closes a hand as pose_cold_hand does, then lets it slide and stand. Empty if it does not grip.
+// Closes a hand as pose_cold_hand does, then lets it slide and stand still. The result is empty if
+// the hand does not grip.
 WarmHand slide_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
                     const Tuning& tuning, const GripVariant& variant, const HandSlide& slide);
 

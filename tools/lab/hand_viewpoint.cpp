@@ -1,4 +1,5 @@
-// Directions: points of a golden spiral on the sphere. Rays: Moeller and Trumbore 1997.
+// The candidate directions are points of a golden spiral on the sphere. The ray test is that of
+// Moeller and Trumbore 1997.
 #include "tools/lab/hand_viewpoint.hpp"
 
 #include <algorithm>
@@ -9,7 +10,7 @@ namespace handhold::lab {
 namespace {
 
 constexpr int k_directions = 96;
-// a view from the side is worth hiding a quarter of the fingers
+// Weight of a view from beside the hand, relative to the visible share of the fingers.
 constexpr double k_beside_weight = 0.25;
 constexpr double k_above_weight = 0.08;  // prefers views from above
 
@@ -51,7 +52,7 @@ Vec3 spiral_direction(int i) {
     return {wide * std::cos(around), height, wide * std::sin(around)};
 }
 
-// Whether the eye sees the middle of capsule `own`'s facing side.
+// True if the eye sees the middle of capsule `own`, on the side that faces the eye.
 bool is_seen(std::span<const HandCapsule> capsules, std::size_t own, const Vec3& towards,
              std::span<const Triangle> around, double distance_m) {
     const HandCapsule& capsule = capsules[own];

@@ -27,7 +27,7 @@ struct HandView {
 
 using Triangle = std::array<Vec3, 3>;
 
-// The triangles of all meshes within `reach_m` of the point.
+// The triangles of all meshes that are within `reach_m` of the point.
 std::vector<Triangle> triangles_near(std::span<const Mesh> meshes, const Vec3& point,
                                      double reach_m);
 

@@ -52,7 +52,7 @@ std::vector<DrawnHand> choose_hands(std::vector<DrawnHand> all,
     return chosen;
 }
 
-// Frame for a close view of a mesh: lit from over the eye's left shoulder, with bright
+// The frame for a close view of a mesh: lit from above the viewer's left shoulder, with bright
 // surroundings.
 RenderFrame make_frame(const HandView& view, double distance_m) {
     RenderFrame frame;
@@ -74,7 +74,7 @@ RenderFrame make_frame(const HandView& view, double distance_m) {
     return frame;
 }
 
-// One file's meshes, as instances and as triangles.
+// The meshes of one file, and their instances.
 struct Studio {
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;

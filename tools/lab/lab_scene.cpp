@@ -82,7 +82,8 @@ LabScene make_scene(std::string_view name, const SceneOptions& options) {
     const auto* const found = std::ranges::find(k_scenes, name, &NamedScene::name);
     HH_CHECK(found != k_scenes.end(), "no such scene", name.size());
     LabScene scene = found->make(options);
-    scene.tuning.hand.max_arm_m = 1000.0;  // no arm limit: a chain is longer than an arm
+    scene.tuning.hand.max_arm_m = 1000.0;            // no arm limit: a chain is longer than an arm
+    scene.tuning.tracking.max_hand_speed_mps = 1e6;  // hands jump: the solver is measured
     scene.name = name;
     return scene;
 }

@@ -12,16 +12,16 @@
 #include "components/tracking.hpp"
 #include "components/tuning.hpp"
 
-// Benchmark scenes for constraint solvers, as plain descriptions. runtime_run builds a World from
-// them, bullet_run a Bullet world, scene_files the JSON. No gravity; hands and driven bodies are
-// functions of time. docs/reference/lab.md lists the scenes.
+// Benchmark scenes for constraint solvers, as plain descriptions. runtime_run builds a World from a
+// scene, bullet_run a Bullet world, and scene_files the JSON. There is no gravity; hands and driven
+// bodies are functions of time. docs/reference/lab.md lists the scenes.
 namespace handhold::lab {
 
 inline constexpr int k_world = -1;
 inline constexpr double k_never_s = std::numeric_limits<double>::infinity();
 
-// kinematic: there are no players. Every hand is a kinematic body on the same path, joined to the
-// body it holds (by a ball joint if point_only, else rigidly).
+// Who moves the hands. With `kinematic`, there are no players. Every hand is a kinematic body on
+// the same path, joined to the body it holds (by a ball joint if point_only, else rigidly).
 enum class Holder : std::uint8_t { player, kinematic };
 
 using PathOfTime = std::function<Pose(double t_s)>;
@@ -34,10 +34,11 @@ struct LabBody {
     double mass_kg = 0.0;
     Vec3 half_m = Vec3::Zero();  // a box
     bool collides = false;       // has a collider
-    bool is_mesh = false;        // fixed body: a one-sided mesh of its +x face instead of the box
+    // Fixed body: a one-sided mesh of the box's +x face instead of the box.
+    bool is_mesh = false;
     double restitution = 0.0;
     double friction = 0.0;
-    PathOfTime drive;  // kinematic body: its pose
+    PathOfTime drive;  // kinematic body: its pose over time
 
     Vec3 inertia_kgm2() const;
 };
@@ -65,7 +66,8 @@ struct LabPlayer {
     Vec3 origin_ws = Vec3::Zero();
     Vec3 head_ps = Vec3(0.0, 0.6, 1.5);  // centre of the head's collider; constant
     Vec3 velocity_mps = Vec3::Zero();
-    // false: planes are infinite but the walls are not, so the head is not tested
+    // Whether the head is tested against the planes. It is not if the head can pass beside a
+    // wall, because planes are infinite.
     bool head_meets_planes = false;
 };
 
@@ -77,7 +79,8 @@ struct LabHold {
     Vec3 anchor_bs = Vec3::Zero();  // the hand's position in the body's frame
     PathOfTime hand_ps;
     double release_s = k_never_s;
-    // Held by a point only, as for bodies jointed to something fixed and for heavy bodies.
+    // The hand holds only a point and may rotate, as it does with heavy bodies and with bodies
+    // jointed to something fixed.
     bool point_only = false;
 };
 
@@ -85,18 +88,18 @@ struct LabHold {
 struct FrameRecord {
     double t_s = 0.0;
     double dt_s = 0.0;
-    // By LabScene::bodies; then the players' origins or, without players, the hands in order of
-    // holds.
+    // First the bodies, by LabScene::bodies. Then the players' origins; without players, the hands,
+    // by LabScene::holds.
     std::vector<Pose> poses;
     std::vector<BodyVelocity> velocities;
-    std::vector<Pose> targets;       // by LabScene::holds: the tracked hand in the world
-    std::vector<std::uint8_t> held;  // by LabScene::holds: whether still held
+    std::vector<Pose> targets;       // tracked hands in the world, by LabScene::holds
+    std::vector<std::uint8_t> held;  // whether the body is still held, by LabScene::holds
     double step_us = 0.0;            // physics stages, thread CPU time
     double frame_us = 0.0;           // the whole frame
     int iterations = 0;
 };
 
-// Named results of one scene compared with its closed form.
+// Named results: how far a scene is from its closed form.
 class Figures {
   public:
     void set(const std::string& name, double value) { values_[name] = value; }
@@ -116,15 +119,15 @@ struct LabScene {
     std::vector<LabPlane> planes;
     Tuning tuning;
 
-    // Until this time every joint and hand can be satisfied with the players at their start
-    // positions, so they must stay there exactly. 0: not a claim of this scene.
+    // Until this time, every joint and hand can be satisfied without moving the players, so the
+    // players must stay exactly at their start. 0: the scene does not claim this.
     double players_still_until_s = 0.0;
     // From this time on the scene has no external forces, so its momentum must be conserved.
     double closed_from_s = k_never_s;
-    bool closed_in_spin = false;  // angular momentum too
+    bool closed_in_spin = false;  // angular momentum must be conserved too
     // Called after every frame if there are players.
     std::function<void(const FrameRecord&, Figures&)> watch;
-    // What Bullet cannot express of this scene; empty: nothing.
+    // The part of the scene that Bullet cannot express; empty: none.
     std::string beyond_bullet;
     // The hand moves where the held body cannot follow, so a player must yield.
     bool needs_player = false;
@@ -155,7 +158,7 @@ struct SceneOptions {
 
 // Names of all scenes, in the order of docs/reference/lab.md.
 std::vector<std::string_view> scene_names();
-// Precondition: `name` is one of them.
+// Precondition: `name` is in scene_names().
 LabScene make_scene(std::string_view name, const SceneOptions& options);
 std::vector<std::string_view> mass_patterns();
 

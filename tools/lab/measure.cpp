@@ -184,8 +184,8 @@ void Measure::take_players(const FrameRecord& frame) {
 }
 
 void Measure::take_momentum(const FrameRecord& frame) {
-    // A kinematic hand exchanges momentum; once it has released, the scene is closed for either
-    // holder.
+    // A kinematic hand changes the scene's momentum as long as it holds. After its release the
+    // scene is closed, as with a player.
     const bool ever_alone = scene_.closed_from_s > 0.0 || holder_ == Holder::player;
     if (frame.t_s < scene_.closed_from_s || !ever_alone) {
         return;

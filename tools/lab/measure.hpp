@@ -8,12 +8,12 @@
 namespace handhold::lab {
 
 struct JointErrors {
-    double point_m = 0.0;    // including how far a slider is beyond its limits
-    double angle_rad = 0.0;  // including how far a hinge is beyond its limits
+    double point_m = 0.0;    // also includes how far a slider is beyond its limits
+    double angle_rad = 0.0;  // also includes how far a hinge is beyond its limits
 };
 JointErrors joint_error(const LabJoint& joint, const std::vector<Pose>& poses);
 
-// Distance between the tracked hand and its anchor.
+// Distance between the tracked hand and the hand's anchor.
 double grab_error_m(const LabHold& hold, const Pose& target_ws, const std::vector<Pose>& poses);
 
 // The deepest penetration of boxes and heads into a plane's half space.
@@ -23,12 +23,13 @@ double penetration_m(const LabScene& scene, Holder holder, const std::vector<Pos
 struct Momentum {
     Vec3 linear = Vec3::Zero();
     Vec3 angular = Vec3::Zero();
-    double linear_size = 0.0;  // sum of the bodies' magnitudes, which residuals are relative to
+    // Sum of the magnitudes of the bodies' momenta; residuals are relative to it.
+    double linear_size = 0.0;
     double angular_size = 0.0;
 };
 Momentum momentum(const LabScene& scene, Holder holder, const FrameRecord& frame);
 
-// Values over the frames, for maximum and quantiles.
+// One value for each frame, for maximum and quantiles.
 struct Series {
     std::vector<double> values;
 

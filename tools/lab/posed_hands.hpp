@@ -11,7 +11,8 @@
 
 namespace handhold::lab {
 
-// A line of a G.jsonl, as far as pictures need it. In the mesh's frame.
+// One line of the output of `handhold-lab grip`, as far as pictures need it. Poses are in the
+// mesh's frame.
 struct DrawnHand {
     std::int64_t id = 0;
     Pose wrist;  // as shown

@@ -5,14 +5,14 @@
 #include "components/frame_graph.hpp"
 
 // Residual by iteration: solves the first island of a frame repeatedly from the same start, each
-// time with one more iteration.
+// time with one iteration more.
 namespace handhold::lab {
 
-// Installs the probe before `solver`; pass the returned solver to the run.
+// Wraps `solver` with the probe. Pass the returned solver to the run.
 PositionSolver probe_residuals(PositionSolver solver);
 // Probes the next solve.
 void arm_probe();
-// Metres, before the first iteration, after it, and so on; empty until a solve was probed.
+// Metres: before the first iteration, after it, and so on. Empty if no solve was probed.
 const std::vector<double>& probed_residuals();
 
 }  // namespace handhold::lab

@@ -12,7 +12,7 @@ namespace {
 constexpr std::array k_physics = {Stage::predict_bodies, Stage::build_constraints,
                                   Stage::solve_phases, Stage::update_velocities};
 
-// The box's +x face of two by two quads, facing outward.
+// A box's +x face as a one-sided mesh of two by two quads, facing outward.
 std::shared_ptr<const Mesh> face_mesh(const Vec3& half_m) {
     auto mesh = std::make_shared<Mesh>();
     constexpr std::uint32_t k_quads = 2;
@@ -163,7 +163,8 @@ void RuntimeRun::add_kinematic_hand(std::size_t hold_index) {
     hand_joints_.push_back(holds_free ? add_joint(world_, {name + "/joint", joint}) : k_no_entity);
 }
 
-// Moves a body as a host does: sets pose and velocity for the end of the frame, before the step.
+// Moves a kinematic body as a host program does: before the step, sets pose and velocity for the
+// end of the frame.
 void RuntimeRun::drive(World& world, Entity body, const Pose& pose_ws) const {
     Pose& now = world.body_pose.at(body).pose_ws;
     world.body_start.at(body).pose_ws = now;
@@ -189,7 +190,7 @@ void RuntimeRun::drive_all(World& world, double end_s) const {
     }
 }
 
-// One sample per frame, at its end: the hand is at its scripted pose at that instant.
+// Makes one sample per frame, at the frame's end, where the hand is at its scripted pose.
 void RuntimeRun::sample_devices(double end_s) {
     samples_.assign(players_.size(), TrackingSample{});
     inputs_.assign(players_.size(), PlayerInput{});

@@ -18,7 +18,7 @@ struct RunLabels {
     int links = 0;
 };
 
-// Residual by iteration of one solve, metres.
+// Residual of one solve after each iteration, metres.
 struct ResidualCurve {
     int frame = -1;  // -1: not recorded
     std::vector<double> residual_m;

@@ -58,8 +58,8 @@ void add_links(LabScene& scene, const std::vector<Vec3>& places, const std::stri
     }
 }
 
-// Zigzag from the world's origin to `end`, in the plane of that direction and y. For an odd number
-// of links, the last one lies along the direction.
+// Corners of a zigzag from the world's origin to `end`, in the plane of the direction to `end` and
+// y. For an odd number of links, the last one lies along that direction.
 std::vector<Vec3> zigzag(int links, const Vec3& end) {
     const int folded = links - links % 2;
     const double span_m = end.norm() - k_link_m * (links % 2);
@@ -132,7 +132,8 @@ LabScene make_ring(const SceneOptions& options) {
         places.emplace_back(radius * Vec3(std::cos(angle), std::sin(angle), 0.0));
     }
     add_links(scene, places, options.masses);
-    scene.joints.front().a = links - 1;  // closed, and not joined to the world
+    // This joint closes the ring, instead of joining it to the world.
+    scene.joints.front().a = links - 1;
     scene.joints.front().frame_a = {Vec3(0.5 * k_link_m, 0.0, 0.0), Quat::Identity()};
     scene.joints.front().frame_b = {Vec3(-0.5 * k_link_m, 0.0, 0.0), Quat::Identity()};
     const Vec3 start = places.front();

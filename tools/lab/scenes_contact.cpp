@@ -9,9 +9,9 @@ namespace handhold::lab {
 namespace {
 
 constexpr double k_rock_half_m = 0.08;
-constexpr double k_gap_m = 0.1;      // between rock and wall at the start
+constexpr double k_gap_m = 0.1;      // gap between rock and wall at the start
 constexpr double k_too_far_m = 0.2;  // distance that the hand moves into the wall
-constexpr double k_wave_s = 0.5;     // duration of the movement along the wall before
+constexpr double k_wave_s = 0.5;     // duration of the first movement, along the wall
 constexpr double k_wall_half_m = 0.5;
 
 void add_wall(LabScene& scene) {
@@ -41,7 +41,8 @@ void add_player_before_wall(LabScene& scene) {
     scene.players.back().head_meets_planes = true;
 }
 
-// A rock in the hand, 10 cm from the wall: moved along it, then into it by `into_wall`.
+// A player holds a rock 10 cm from a wall and moves it along the wall, then into it. `into_wall`:
+// distance towards the wall at a time.
 LabScene make_rock_before_wall(const std::function<double(double)>& into_wall) {
     LabScene scene;
     add_wall(scene);
@@ -67,8 +68,8 @@ LabScene make_shove(const SceneOptions& /*options*/) {
     LabScene scene = make_rock_before_wall(into_wall);
     scene.players_still_until_s = k_wave_s + k_gap_m / k_hand_speed_mps;
     const double stop_s = k_wave_s + (k_gap_m + k_too_far_m) / k_hand_speed_mps;
-    // While the hand moves into the wall, the player moves out by as much; then the player drifts
-    // on.
+    // While the hand moves into the wall, the player moves away from it by as much. Then the player
+    // drifts on.
     scene.watch = [into_wall, stop_s](const FrameRecord& frame, Figures& figures) {
         if (frame.t_s <= stop_s) {
             const Vec3 expected = std::max(0.0, into_wall(frame.t_s) - k_gap_m) * Vec3::UnitX();
@@ -116,8 +117,8 @@ LabScene make_lean_in(const SceneOptions& /*options*/) {
     hold.hand_ps = [pull](double t_s) { return Pose{Vec3(pull(t_s), 0.0, 0.0), Quat::Identity()}; };
     scene.add_hold(hold);
     scene.needs_player = true;
-    // Contacts have priority over hands: the head stops at the wall and the rest is the hand's
-    // error.
+    // Contacts have priority over hands: the head stops at the wall, and the rest of the movement
+    // becomes the hand's error.
     scene.watch = [pull, gap_m](const FrameRecord& frame, Figures& figures) {
         const Vec3 expected(-std::min(pull(frame.t_s), gap_m), 0.0, 0.0);
         figures.take_worst("push_back_error_mm", 1e3 * (frame.poses[1].position - expected).norm());
@@ -125,8 +126,8 @@ LabScene make_lean_in(const SceneOptions& /*options*/) {
     return scene;
 }
 
-// A gap of 20 cm closes to 14 cm around a rock of 16 cm in a hand, which moves back and forth and
-// then rests.
+// A gap of 20 cm closes to 14 cm around a rock of 16 cm in a hand. The hand moves back and forth
+// and then rests.
 LabScene make_jam(const SceneOptions& options) {
     LabScene scene;
     add_wall(scene);
@@ -168,7 +169,7 @@ LabScene make_jam(const SceneOptions& options) {
     return scene;
 }
 
-// Boxes that hit the wall flat at 2 m/s leave it at e times that speed (e: restitution).
+// Boxes hit the wall flat at 2 m/s and must leave it at e times that speed (e: restitution).
 LabScene make_bounce(const SceneOptions& /*options*/) {
     LabScene scene;
     add_wall(scene);
@@ -191,8 +192,8 @@ LabScene make_bounce(const SceneOptions& /*options*/) {
     return scene;
 }
 
-// A block on a floor that is accelerated upwards under it with a = 9.81 m/s^2 slides v^2 / (2 mu a)
-// (v: speed, mu: friction).
+// A block slides on a floor that is accelerated upwards with a = 9.81 m/s^2. It must slide v^2 / (2
+// mu a) (v: speed, mu: friction).
 LabScene make_slide(const SceneOptions& options) {
     LabScene scene;
     constexpr double k_push_mps2 = 9.81;
@@ -204,7 +205,7 @@ LabScene make_slide(const SceneOptions& options) {
     floor.half_m = Vec3(20.0, 1.0, 20.0);
     floor.collides = true;
     floor.friction = k_friction;
-    // Discrete path with equal speed gain per step.
+    // The floor gains the same speed in every step.
     const double dt_s = 1.0 / options.hz;
     floor.drive = [dt_s](double t_s) {
         return Pose{Vec3(0.0, 0.5 * k_push_mps2 * t_s * (t_s + dt_s) - 1.0, 0.0), Quat::Identity()};

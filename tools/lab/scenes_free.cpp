@@ -48,7 +48,7 @@ LabScene make_wave(const SceneOptions& /*options*/) {
     return scene;
 }
 
-// A ship at 20 m/s on a circle, and a player who holds on to it and moves their arm.
+// A ship flies on a circle at 20 m/s. A player holds on to the ship and moves their arm.
 LabScene make_ship_kinematic(const SceneOptions& /*options*/) {
     LabScene scene;
     static constexpr double k_turn_radps = 0.2;
@@ -71,7 +71,7 @@ LabScene make_ship_kinematic(const SceneOptions& /*options*/) {
     scene.add_hold(hold);
     scene.needs_player = true;
     const Vec3 anchor = scene.holds.front().anchor_bs;
-    // Expected pose from the closed form of the ship's path at this time.
+    // The expected pose is the closed form of the ship's path at this time.
     scene.watch = [drive = ship.drive, anchor](const FrameRecord& frame, Figures& figures) {
         const Vec3 expected = transform_point(drive(frame.t_s), anchor) - wave(frame.t_s).position;
         figures.take_worst("ship_lag_mm", 1e3 * (frame.poses[1].position - expected).norm());
@@ -79,7 +79,8 @@ LabScene make_ship_kinematic(const SceneOptions& /*options*/) {
     return scene;
 }
 
-// The same with a free ship of 10 t: momentum is exchanged exactly.
+// Like make_ship_kinematic, but with a free ship of 10 t: the momentum that player and ship
+// exchange must be conserved.
 LabScene make_ship_dynamic(const SceneOptions& /*options*/) {
     LabScene scene;
     const int ship = add_box(scene, "ship", 1e4, Vec3(3.0, 2.0, 5.0), Vec3::Zero());
@@ -103,7 +104,8 @@ LabScene make_ship_dynamic(const SceneOptions& /*options*/) {
     return scene;
 }
 
-// Pushing away 50 kg with kappa 1: both get the speeds that momentum conservation gives.
+// A player pushes a crate of 50 kg away with kappa 1 (the share of a push that moves the player).
+// Both must get the speeds that follow from momentum conservation.
 LabScene make_push_off(const SceneOptions& /*options*/) {
     LabScene scene;
     constexpr double k_mass_kg = 50.0;
@@ -137,8 +139,8 @@ LabScene make_push_off(const SceneOptions& /*options*/) {
     return scene;
 }
 
-// A bar of 1 kg, held at one end of its middle part and thrown with spin: it leaves with the hand's
-// velocity.
+// A bar of 1 kg is held at one end of its middle part and thrown with spin. It must leave with the
+// hand's velocity.
 LabScene make_throw(const SceneOptions& /*options*/) {
     LabScene scene;
     constexpr double k_release_s = 0.5;
@@ -153,7 +155,7 @@ LabScene make_throw(const SceneOptions& /*options*/) {
     hold.release_s = k_release_s;
     scene.add_hold(hold);
     take_off_limits(scene.tuning);
-    // Released half a frame later at the latest; from then on the bar is free.
+    // The hand releases at most half a frame later; from then on the bar is free.
     scene.closed_from_s = k_release_s + 0.03;
     scene.closed_in_spin = true;
     scene.watch = [velocity, spin, left_s = 0.0](const FrameRecord& frame,

@@ -7,9 +7,10 @@
 #include "tools/lab/scenes.hpp"
 
 namespace handhold::lab {
-// One player with both hands on a lever, both exactly on their arcs. Another, 10 m away, with both
-// hands on a free bar: their distance varies by 2 mm, as real hands' does. The first hand keeps its
-// anchor; the second is on the line through both.
+// Two players, 10 m apart. The first has both hands on a lever; each hand moves exactly on its arc.
+// The second has both hands on a free bar; the distance between the hands varies by 2 mm, as real
+// hands' does. The hand that gripped first must stay at its anchor. The anchor of the other hand
+// must lie on the line through both hands.
 LabScene make_two_hands(const SceneOptions& /*options*/) {
     LabScene scene;
     const int lever = add_box(scene, "lever", 2.0, Vec3(0.015, 0.2, 0.015), Vec3(0.0, 0.2, 0.0));
@@ -46,8 +47,8 @@ LabScene make_two_hands(const SceneOptions& /*options*/) {
         scene.add_hold(on_bar);
     }
     scene.players_still_until_s = k_never_s;
-    // If hands have no start time of their grip, the left one is the first. Holds: lever and bar of
-    // the left hand, then of the right one.
+    // Both hands hold from the start; the left one counts as the first. The holds are: left hand on
+    // lever and bar, then right hand on lever and bar.
     scene.watch = [first = scene.holds[1], second = scene.holds[3]](const FrameRecord& frame,
                                                                     Figures& figures) {
         figures.take_worst("first_hand_error_mm",
@@ -60,8 +61,8 @@ LabScene make_two_hands(const SceneOptions& /*options*/) {
     return scene;
 }
 
-// Two players at the ends of one bar pull it apart by 20 cm, ten times: their origins move together
-// by exactly as much.
+// Two players at the ends of one bar pull it apart by 20 cm, ten times. Their origins must approach
+// each other by exactly as much.
 LabScene make_two_players(const SceneOptions& /*options*/) {
     LabScene scene;
     const int bar = add_box(scene, "bar", 5.0, Vec3(0.6, 0.02, 0.02), Vec3::Zero());
@@ -87,7 +88,7 @@ LabScene make_two_players(const SceneOptions& /*options*/) {
     return scene;
 }
 
-// Both hands on one fixed body pull 20 cm apart: each gets half of the error.
+// Both hands on one fixed body pull 20 cm apart. Each hand must get half of the error.
 LabScene make_contradict(const SceneOptions& /*options*/) {
     LabScene scene;
     const int rail = add_box(scene, "rail", 0.0, Vec3(0.5, 0.02, 0.02), Vec3::Zero());
@@ -123,14 +124,14 @@ Vec3 climbing_hand(double t_s) {
     return {triangle_wave(t_s, 0.4, k_hand_speed_mps), tremor_m, 0.0};
 }
 
-// Offset of the second hand, whose distance varies.
+// Offset of the second hand, so that its distance from the first varies.
 Vec3 stray(double t_s) { return {0.002 * std::sin(2.0 * k_pi * 3.0 * t_s), 0.0, 0.0}; }
 
 }  // namespace
 
-// Two players pull themselves along one rail in the same way: one with the right hand, the other
-// with both, of which the left one releases. The second player's head moves by half of the left
-// hand's offset, and keeps the offset of the moment of release.
+// Two players pull themselves along one rail in the same way. The first uses the right hand; the
+// second uses both, and the left one releases. The second player's head moves by half of the left
+// hand's offset; after the release it keeps the offset of that moment.
 LabScene make_climb(const SceneOptions& /*options*/) {
     LabScene scene;
     const int rail = add_box(scene, "rail", 0.0, Vec3(10.0, 0.02, 0.02), Vec3::Zero());
@@ -157,7 +158,7 @@ LabScene make_climb(const SceneOptions& /*options*/) {
     add(1, HandSide::right, k_never_s);
     add(1, HandSide::left, k_leaves_s);
     scene.needs_player = true;
-    // Distance of the head from where a hand without slip would put it.
+    // Distance between the head and its place if the hands did not slip.
     scene.watch = [aside, left_by = Vec3(Vec3::Zero()), held = true](const FrameRecord& frame,
                                                                      Figures& figures) mutable {
         const Vec3 travel = climbing_hand(frame.t_s) - climbing_hand(0.0);

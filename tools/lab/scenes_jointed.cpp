@@ -1,5 +1,5 @@
-// Bodies jointed to a wall: a lever, a drawer, a door. In the first half of the run they can follow
-// the hand; in the second the hand pulls them beyond their range.
+// Bodies jointed to a wall: a lever, a drawer, a door. In the first half of a run the body can
+// follow the hand. In the second half the hand pulls the body beyond its range.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,7 +12,8 @@ namespace {
 
 constexpr double k_lever_m = 0.4;
 
-// 0, up to `height` and back to 0, once per second; `height` is 5, 10 and 20 cm in turn.
+// Distance of the pull: from 0 up to `height` and back to 0, once per second. `height` is 5, 10 and
+// 20 cm in turn.
 double pull_off(double t_s) {
     constexpr std::array k_heights = {0.05, 0.10, 0.20};
     if (t_s <= 0.0) {
@@ -24,7 +25,7 @@ double pull_off(double t_s) {
     return k_heights[turn] * smooth_step(rise, 0.0, 1.0);
 }
 
-// When the hand starts to pull too far; never if there is no player to yield.
+// When the hand starts to pull too far. Never if there is no player, because nothing could yield.
 double half_time(const SceneOptions& options) {
     return options.holder == Holder::player ? 0.5 * options.duration_s : k_never_s;
 }
@@ -56,8 +57,8 @@ LabScene make_lever(const SceneOptions& options) {
     hinge.upper = 1.2;
     scene.add_joint_at(hinge, {Vec3::Zero(), rotation_between(Vec3::UnitX(), Vec3::UnitZ())});
     const double half_s = half_time(options);
-    const double pull_s =
-        half_s + 0.2;  // once the lever is at rest; else it pushes the player as it stops
+    // After the lever has come to rest; otherwise the lever would push the player as it stops.
+    const double pull_s = half_s + 0.2;
     scene.add_hold(hold_body([half_s, pull_s](double t_s) {
         const double angle =
             triangle_wave(std::min(t_s, half_s), 1.8, k_hand_speed_mps / k_lever_m, 0.9) - 0.9;
@@ -67,7 +68,7 @@ LabScene make_lever(const SceneOptions& options) {
             rotation_about(Vec3(1.0, 2.0, -1.0).normalized(), twist)};
     }));
     scene.players_still_until_s = pull_s;
-    // The lever cannot follow along its hinge axis, so the player moves by as much.
+    // The lever cannot follow along its hinge axis, so the player must move by as much.
     scene.watch = [pull_s](const FrameRecord& frame, Figures& figures) {
         const Vec3 expected(0.0, 0.0, -pull_off(frame.t_s - pull_s));
         figures.take_worst("push_back_error_mm", 1e3 * (frame.poses[1].position - expected).norm());

@@ -15,7 +15,7 @@ struct SolveOptions {
     std::string solver = "direct";
     int frames = 900;
     double hz = 90.0;
-    int residual_frame = -1;  // -1: none
+    int residual_frame = -1;  // frame whose residual curve is recorded; -1: none
     std::filesystem::path json;
     std::filesystem::path csv;
 };

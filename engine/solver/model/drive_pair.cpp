@@ -29,7 +29,8 @@ Quat rotation_from_drive_pair(const DrivePair& drives, const Quat& near) {
     };
     add(drives.first.rotation, drives.first_anchor_bs.rotation);
     add(drives.second.rotation, drives.second_anchor_bs.rotation);
-    // The half-angle vectors have equal length, so their sum points midway between them.
+    // Each drive has added (sine, cosine) of half its twist, times the cosine of half its swing.
+    // The sum points between both, nearer to the drive with less swing.
     return (rotation_about(line, 2.0 * arc_tangent2(sine, cosine)) * lined).normalized();
 }
 

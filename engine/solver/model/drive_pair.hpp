@@ -1,6 +1,6 @@
 // Solver, model: two drives on one free body, without a least-squares compromise. The first drive
-// holds a point (drive_point, 3 rows), the body's rotation is held by drive_direction (3 rows) at
-// the rotation computed here. Six equations for six degrees of freedom can always be satisfied.
+// holds a point (drive_point, 3 rows). drive_direction (3 rows) holds the body's rotation at the
+// one computed here. Six equations for six degrees of freedom can always be satisfied.
 
 #pragma once
 
@@ -19,13 +19,11 @@ struct DrivePair {
 };
 
 // Returns the body rotation for which
-// - the line between the anchors is parallel to the line between the drives. With the first drive
-//   on
-//   its anchor, the second drive is on the line through both anchors and may slide along it;
-// - the twists of the two drives against their anchors about that line cancel. A drive is weighted
-//   by
-//   the cosine of half its swing out of the line: a drive swung by half a turn has no defined twist
-//   and weight 0.
+// - The line between the anchors is parallel to the line between the drives. If the first drive is
+//   on its anchor, the second drive is on the line through both anchors and may slide along it.
+// - The twists of the two drives against their anchors about that line cancel, each weighted by the
+//   cosine of half the drive's swing out of the line. A drive swung by half a turn has no defined
+//   twist and weight 0.
 //
 // `near` selects among rotations a whole turn apart: any rotation within half a turn of both
 // drives' twists. Returns `near` if the drives or the anchors are closer together than a

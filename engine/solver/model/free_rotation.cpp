@@ -117,7 +117,8 @@ struct Rotation4 {
     Sines4 half_turn, half_top;
 };
 
-// Energy = |m|^2 / (2 I_middle) + the differences of the two outer axes, m the angular momentum.
+// Splits the energy into |m|^2 / (2 I_middle), and (1/I - 1/I_middle) m_axis^2 / 2 for each of the
+// two outer axes. m: angular momentum, I: principal moments.
 HH_INLINE void begin_turn(double dt_s, const FreeRotation4& bodies, Rotation4& out) {
     const WideAxes before = axes_of(bodies.rotation);
     const Wide3 spin_bs = rotate_back(before, bodies.spin);
@@ -144,7 +145,8 @@ HH_INLINE void begin_turn(double dt_s, const FreeRotation4& bodies, Rotation4& o
     out.axes = axes;
 }
 
-// Symmetric tops (two equal moments) rotate about one body axis only, which is exact.
+// Symmetric tops (two equal moments) need, besides the common rotation, only one about a body axis.
+// The result is exact.
 HH_INLINE void turn_tops(const Rotation4& turning, SortedAxes& axes, Double4& w) {
     const Mask4 about_max = turning.max_rate != 0.0;
     Double4 handedness = axes.handedness;
@@ -184,8 +186,9 @@ HH_INLINE void write_spin(const Rotation4& turning, FreeRotation4& bodies) {
            bodies.spin);
 }
 
-// Stage by stage over all groups of four: each stage is a long dependency chain, and a processor
-// overlaps the chains of neighbouring groups only if they are close together in the code.
+// Runs each stage for all groups of four before the next stage. Each stage is a long dependency
+// chain, and a processor overlaps the chains of several groups only if they are close together in
+// the code.
 template <bool AreTops>
 HH_INLINE void advance_fours(double dt_s, std::span<FreeRotation4> fours) {
     Rotation4 turnings[FreeRotations::k_fours];

@@ -19,8 +19,8 @@ struct IslandView {
     std::span<RowBlock> blocks;
     std::span<const std::uint32_t> island_bodies;
     std::span<const std::uint32_t> island_blocks;
-    std::uint64_t revision =
-        0;  // Revision of the graph. Islands and blocks are unchanged while it is; 0: unknown.
+    // Revision of the graph. While it is the same, so are islands and blocks. 0: unknown.
+    std::uint64_t revision = 0;
 };
 
 // True if the filter includes the block and at least one of its bodies can move.

@@ -38,8 +38,8 @@ void unite_blocks(ConstraintGraph& graph) {
     }
 }
 
-// Counting sort: the counts are in the `end` fields; turns them into offsets, then places members
-// in ascending order.
+// Second half of a counting sort. In: the islands' member counts, in their `end` fields. Out:
+// ranges, and each island's members in ascending order.
 void place_members(ConstraintGraph& graph) {
     std::uint32_t bodies = 0;
     std::uint32_t blocks = 0;

@@ -19,10 +19,10 @@ namespace handhold {
 struct Regularisation {
     double drive = 1e-8;
     double contact = 1e-7;
-    double joint = 1e-10;  // joints and locked limits; other limits: k_limit_regularisation times
+    double joint = 1e-10;  // joints and locked limits; other limits: times k_limit_regularisation
 };
 
-// Limits of different joints may contradict each other.
+// Limits are less stiff than joints, because limits of different joints may contradict each other.
 inline constexpr double k_limit_regularisation = 100.0;
 
 inline double relative_regularisation(const Row& row, const Regularisation& regularisation) {
@@ -44,13 +44,14 @@ inline double relative_regularisation(const Row& row, const Regularisation& regu
 // of their diagonal entries, so that the result does not depend on the world's orientation.
 class HarmonicMean {
   public:
-    // `width` rows of one error and the sum of their diagonal entries, 0 if nothing can move them.
+    // Adds one error of `width` rows with this sum of diagonal entries. Ignored if the sum is 0:
+    // nothing can move the rows.
     void add(double width, double diagonal_sum) {
         if (diagonal_sum > 0.0) {
             add_inverse(width, width * width / diagonal_sum);
         }
     }
-    // Several errors at once: number of rows, and the sum of width^2 / diagonal_sum.
+    // Adds several errors at once: their number of rows, and the sum of width^2 / diagonal_sum.
     void add_inverse(double rows, double inverse_sum) {
         inverse_sum_ += inverse_sum;
         count_ += rows;

@@ -1,5 +1,5 @@
 // Solver, model: Jacobians and residuals of every block kind. Every Jacobian is checked against
-// central differences in tests/engine/solver/rows_test.cpp and joint_rows_test.cpp.
+// central differences in tests/engine/solver/model/rows_test.cpp and joint_rows_test.cpp.
 #include "engine/solver/model/rows.hpp"
 
 #include <algorithm>
@@ -58,8 +58,7 @@ Row empty_row(const RowBlock& block, std::uint32_t block_index, RowGroup group) 
     return row;
 }
 
-// Residual: p_a - p_b, one row per world axis (p: anchor point). J: linear +-1, angular arm x
-// e_axis.
+// Residual: p_a - p_b, one row per world axis (p: anchor point). J: linear +-1, angular arm x axis.
 void append_point_rows(const Ends& ends, Row row, std::vector<Row>& rows) {
     for (int axis = 0; axis < 3; ++axis) {
         const Vec3 unit = Vec3::Unit(axis);
@@ -73,7 +72,7 @@ void append_point_rows(const Ends& ends, Row row, std::vector<Row>& rows) {
 }
 
 // Residual: k_angle_lever_m times the rotation vector from b's frame to a's. J: +-k_angle_lever_m
-// e.
+// along each world axis.
 void append_weld_rows(const Vec3& error_rad, Row row, std::vector<Row>& rows) {
     row.linear_a.setZero();
     for (int axis = 0; axis < 3; ++axis) {
@@ -85,9 +84,9 @@ void append_weld_rows(const Vec3& error_rad, Row row, std::vector<Row>& rows) {
     }
 }
 
-// Keeps b's axis parallel to a's. Residual: lean of b's axis towards a's two other axes, scaled
-// from the sine to the angle, so that an opposed axis (half a turn) is the largest error and not
-// zero.
+// Keeps b's axis parallel to a's. Residuals: components of b's axis along a's two other axes, times
+// angle / sine of the angle between both axes. The factor makes opposed axes (half a turn) the
+// largest error; without it, their error would be 0.
 void append_axis_rows(const Quat& frame_a_ws, const Vec3& axis_b_ws, Row row,
                       std::vector<Row>& rows) {
     const Vec3 axis_a_ws = frame_a_ws * Vec3::UnitX();
@@ -176,8 +175,8 @@ void append_limit_rows(std::span<const SolverBody> bodies, const RowBlock& block
     }
     const double lever = is_angular(block.kind) ? k_angle_lever_m : 1.0;
     const double coordinate = joint_coordinate(bodies, block);
-    // A cone's angle and a distance cannot be negative. A lower limit of 0 would stop a body that
-    // passes through the middle, so it has no row.
+    // A cone's angle and a distance cannot be negative. A lower limit of 0 gets no row, because it
+    // would stop a body that passes through the middle.
     const bool has_lower =
         joint.lower > 0.0 || block.kind == RowKind::hinge || block.kind == RowKind::slider;
     const double above =

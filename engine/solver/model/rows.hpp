@@ -67,12 +67,13 @@ struct JointRows {
     bool limited = false;
     double lower = 0.0;
     double upper = 0.0;
-    double previous = 0.0;  // Hinge: q is the angle closest to this among those whole turns apart.
-    // The rest applies to the velocity solve only; impulses are in N s or N m s per frame. Friction
-    // about the axis (ball: all axes) or along it, at most this impulse.
+    // Hinge: of the angles whole turns apart, q is the one closest to this.
+    double previous = 0.0;
+    // The fields below apply to the velocity solve only; impulses are in N s or N m s per frame.
+    // Largest friction impulse about the axis (ball: about all axes) or along it.
     double friction_impulse = 0.0;
-    // Motor: towards `motor_target`, at the speed that reaches it within `motor_time_s`, limited to
-    // `motor_max_impulse` (0: no motor).
+    // Motor: moves q towards `motor_target`, at the speed that reaches it within `motor_time_s`,
+    // with an impulse of at most `motor_max_impulse` (0: no motor).
     double motor_target = 0.0;  // m or rad
     double motor_time_s = 0.0;  // s; > 0 if there is a motor
     double motor_max_impulse = 0.0;
@@ -91,7 +92,7 @@ struct RowBlock {
     // Orders blocks of one kind between the same bodies: id of the drive's source or of the joint,
     // feature id of the contact.
     std::uint64_t key = 0;
-    std::uint32_t source = 0;  // drives, joints: element index in the column it came from
+    std::uint32_t source = 0;  // drives, joints: index in the column of the component
     Vec3 point_a_bs = Vec3::Zero();
     Vec3 point_b_bs = Vec3::Zero();
     // Weld, joints: frame rotations; the constraint makes the two equal in the world.
@@ -145,9 +146,9 @@ struct Row {
     std::uint32_t b = 0;
     RowGroup group = RowGroup::contact;
     bool unilateral = false;  // true: satisfied if residual >= 0
-    // Number of rows of one vector-valued error, starting with this row; 0: belongs to an earlier
-    // row. Norms are taken over all rows of an error, so that they do not depend on the world's
-    // orientation.
+    // Number of rows of the vector-valued error that starts with this row; 0: the row belongs to
+    // the error of an earlier row. Norms are taken over all rows of an error, so that they do not
+    // depend on the world's orientation.
     std::uint8_t width = 1;
 };
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/solver/newton/geometric_stiffness.hpp"
+#include "engine/solver/model/geometric_stiffness.hpp"
 
 namespace handhold {
 

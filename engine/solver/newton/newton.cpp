@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "engine/math/flush_denormals.hpp"
-#include "engine/solver/newton/geometric_stiffness.hpp"
+#include "engine/solver/model/geometric_stiffness.hpp"
 #include "engine/solver/newton/load_stepping.hpp"
 #include "engine/solver/newton/regularisation_schedule.hpp"
 

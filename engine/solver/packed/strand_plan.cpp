@@ -13,7 +13,7 @@ constexpr std::uint32_t k_separators = k_strands - 1;
 // Shorter strands cost more for their separators than they save.
 constexpr std::uint32_t k_shortest_strand = 4;
 
-// The other end of the same node.
+// An end is one side of a node: 2 * node + side. Returns the other side of the same node.
 std::uint32_t other_side(std::uint32_t end) { return end ^ 1U; }
 
 }  // namespace
@@ -69,7 +69,8 @@ void StrandPlan::find_ends(std::span<const RowNode> nodes) {
     }
 }
 
-// Marks the links both of whose bodies have at most one other node.
+// Marks the nodes that a strand may run through: point links whose two bodies each have at most one
+// node besides this one.
 void StrandPlan::find_links(std::span<const RowNode> nodes) {
     is_open_.assign(nodes.size(), 0);
     for (std::uint32_t node = 0; node < nodes.size(); ++node) {
@@ -83,7 +84,7 @@ void StrandPlan::find_links(std::span<const RowNode> nodes) {
     }
 }
 
-// The other node's end at this end's body; k_no_slot if there is none.
+// The end of the other node at the same body; k_no_slot if there is none.
 std::uint32_t StrandPlan::beyond(std::span<const RowNode> nodes, std::uint32_t end) const {
     const std::uint32_t slot = nodes[end / 2].slots[end % 2];
     if (slot == k_no_slot || uses_[slot] < 2) {
@@ -92,8 +93,8 @@ std::uint32_t StrandPlan::beyond(std::span<const RowNode> nodes, std::uint32_t e
     return ends_[slot][0] == end ? ends_[slot][1] : ends_[slot][0];
 }
 
-// Collects the whole run that contains a link, from one end to the other. In a closed run this link
-// is left to the rest.
+// Collects in run_ all links of the run that contains link `from`, in order. In a closed run,
+// `from` itself is left out and acts as a separator.
 void StrandPlan::follow(std::span<const RowNode> nodes, std::uint32_t from) {
     const auto is_open = [this](std::uint32_t end) {
         return end != k_no_slot && is_open_[end / 2] != 0;
@@ -127,15 +128,16 @@ void StrandPlan::follow(std::span<const RowNode> nodes, std::uint32_t from) {
     }
 }
 
-// Cuts the run into four strands. Lanes 0 and 1 run forwards and lanes 2 and 3 backwards, so that
-// all four are eliminated towards the middle separator.
+// Cuts the run into four strands, unless it is too short. Lanes 0 and 1 follow the run forwards,
+// lanes 2 and 3 backwards, so that all four are eliminated towards the middle separator.
 void StrandPlan::cut(std::span<const RowNode> nodes) {
     const auto size = static_cast<std::uint32_t>(run_.size());
     if (size < k_strands * k_shortest_strand + k_separators) {
         return;
     }
     const std::uint32_t length = (size - k_separators) / k_strands;
-    std::uint32_t spare = size - k_separators - k_strands * length;  // the separators take these
+    // remainder: links added to separators
+    std::uint32_t spare = size - k_separators - k_strands * length;
     StrandPack strand_pack;
     strand_pack.length = length;
     strand_pack.row = static_cast<std::uint32_t>(bodies_.size());
@@ -177,7 +179,7 @@ void StrandPlan::add_strand(std::span<const RowNode> nodes, std::span<const std:
         place(k, ends[k]);
     }
     place(strand_pack.length, other_side(ends.back()));
-    // node numbers of the whole island; lay_out_rest converts them
+    // nodes of the whole island; lay_out_rest converts them to indices in rest_
     strand_pack.before[lane] = beyond(nodes, ends.front());
     strand_pack.after[lane] = beyond(nodes, other_side(ends.back()));
 }

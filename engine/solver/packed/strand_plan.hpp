@@ -12,45 +12,48 @@
 
 namespace handhold {
 
-// Strands and rest of an island's nodes. A run is a sequence of links each of which shares a body
-// with the next. Each long run is cut by separators into four strands of equal length (nested
-// dissection). Nothing couples two strands except the separators, so all four are eliminated side
-// by side. The rest is the separators and every node that is in no run.
+// Splits an island's nodes (here: triads, see triad_system.hpp) into strands and the rest. A link
+// is a point triad between two bodies that each have at most one other triad. A run is a sequence
+// of links; consecutive links share a body. Three separators, of one or two links each, cut a long
+// run into four strands of equal length (nested dissection). Strands are coupled only through
+// separators, so all four are eliminated side by side. The rest is all nodes that are in no strand.
 //
-// A strand has `length` links and length + 1 bodies, counted in rows: link k connects the bodies of
-// rows k and k + 1. Its first and its last body may each have one node of the rest. Towards the
-// rest, a strand counts as one body: slot `slot_count() + 4 * strand pack + lane` of `rest_nodes`.
+// A strand has `length` links and length + 1 bodies; its link k connects its bodies k and k + 1.
+// Row k of a strand pack holds body k of each of its four strands. The first and the last body of a
+// strand may each have one node of the rest. In `rest_nodes`, a strand counts as one body, with the
+// slot `slot_count() + 4 * strand pack + lane`.
 class StrandPlan {
   public:
     using Lanes = std::array<std::uint32_t, 4>;
 
     void build(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate);
-    // Reserves the other plan's capacities, so that a build of its structure does not allocate.
+    // Reserves the capacities of `other`, so that building the same structure does not allocate.
     void reserve(const StrandPlan& other);
 
-    // Four strands, one per lane.
+    // Four strands of equal length, one per lane.
     struct StrandPack {
         std::uint32_t length = 0;  // links per strand
-        std::uint32_t row = 0;     // first of its length + 1 rows, into `bodies`
-        std::uint32_t links = 0;   // first of its `length` steps, into `links`
-        // The rest's end at the first body, k_no_slot if there is none: 2 * (index in `rest`) +
-        // side.
+        std::uint32_t row = 0;     // first of its length + 1 rows, in bodies()
+        std::uint32_t links = 0;   // first of its `length` steps, in links()
+        // By lane: the node of the rest at the strand's first body, as 2 * (index in rest()) +
+        // side; k_no_slot if there is none.
         Lanes before{};
-        Lanes after{};  // the same at the last body
+        Lanes after{};  // same, at the last body
     };
     std::span<const StrandPack> strand_packs() const { return strand_packs_; }
     std::size_t row_count() const { return bodies_.size(); }
-    // By row: slots. k_no_slot if the strand starts at an immovable body.
+    // By row: slots of its four bodies. k_no_slot if a strand starts at an immovable body.
     std::span<const Lanes> bodies() const { return bodies_; }
-    // By strand pack and step: 2 * node + the side at row k.
+    // For each step k of each strand pack, by lane: 2 * (the link's node) + its side at row k.
     std::span<const Lanes> links() const { return links_; }
 
-    std::span<const std::uint32_t> rest() const { return rest_; }  // nodes, ascending
-    // Index of a node in `rest`; k_no_slot for a strand's.
+    std::span<const std::uint32_t> rest() const { return rest_; }  // node numbers, ascending
+    // By node: its index in rest(); k_no_slot if it is in a strand.
     std::span<const std::uint32_t> places() const { return places_; }
     std::span<const RowNode> rest_nodes() const { return rest_nodes_; }
     std::span<const std::uint8_t> rest_can_rotate() const { return rest_can_rotate_; }
-    std::span<const std::uint32_t> rest_slots() const { return rest_slots_; }  // ascending
+    // Slots of the bodies in no strand, ascending.
+    std::span<const std::uint32_t> rest_slots() const { return rest_slots_; }
     std::size_t slot_count() const { return slot_count_; }
 
   private:
@@ -74,10 +77,11 @@ class StrandPlan {
     std::size_t slot_count_ = 0;
 
     // Scratch of build.
-    std::vector<std::array<std::uint32_t, 2>> ends_;  // by slot: the first two ends at it
-    std::vector<std::uint32_t> uses_;                 // by slot
-    std::vector<std::uint8_t> is_open_;               // by node: a link that is in no run yet
-    std::vector<std::uint32_t> run_;                  // 2 * node + the side at which the run enters
+    // by slot: its first two nodes, as 2 * node + side
+    std::vector<std::array<std::uint32_t, 2>> ends_;
+    std::vector<std::uint32_t> uses_;    // by slot: its number of nodes
+    std::vector<std::uint8_t> is_open_;  // by node: 1 for links in no run yet
+    std::vector<std::uint32_t> run_;     // the current run: 2 * node + side nearer its start
     std::vector<std::uint32_t> strand_of_slot_;
 };
 

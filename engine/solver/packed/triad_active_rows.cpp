@@ -1,4 +1,4 @@
-// Solver, packed: TriadSystem's error norms, and the active windows of long strands.
+// Solver, packed: TriadSystem's error norms, and the choice of active rows in long strands.
 #include <algorithm>
 #include <cmath>
 
@@ -41,8 +41,8 @@ void TriadSystem::activate_all_rows() {
     }
 }
 
-// The rows of the window that the last solve moved, plus a margin. The whole window if it moved
-// none.
+// The rows of `window` that the last solve moved by at least min_move_m, and a margin on both
+// sides. The whole window if no row moved that far.
 RowWindow TriadSystem::active_window(const TriadPlan::StrandPack& strand_pack,
                                      const RowWindow& window, double min_move_m) const {
     constexpr std::uint32_t k_margin = 4;  // a pull fades by a factor of about four per link

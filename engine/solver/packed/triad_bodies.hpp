@@ -1,11 +1,10 @@
 // Solver, packed: kernels over four bodies at a time: poses, ends, inertia, J W J^T, moves.
 // Included by triad_kernels.cpp only, and inlined there into functions for one processor type.
-// Source: geometric stiffness after Tournier, Nesme, Gilles and Faure, Stable Constrained Dynamics
-// (2015), as in newton/geometric_stiffness.cpp.
 
 #pragma once
 
 #include "engine/math/wide_rotation.hpp"
+#include "engine/solver/model/geometric_stiffness.hpp"
 #include "engine/solver/packed/triad_kernels.hpp"
 
 namespace handhold::triads {
@@ -35,7 +34,7 @@ HH_INLINE void write_axes(Bodies4& bodies) {
     assign(axes.y, bodies.axes.y);
     assign(axes.z, bodies.axes.z);
 }
-// An end's contribution to its triad's residual; also updates its arm.
+// Contribution of four ends to the residuals of their triads. Also updates the ends' arms.
 HH_INLINE Wide3 part_of(const Bodies4& bodies, Ends4& end) {
     const Wide3 arm = rotate(bodies.axes, end.point_bs);
     assign(arm, end.arm);
@@ -95,7 +94,7 @@ HH_INLINE double worst_square(const TriadArrays& arrays) {
 
 // --- Inertia -----------------------------------------------------------------------------------
 
-// A diagonal matrix given in body axes, in world axes.
+// Converts a diagonal matrix from body axes to world axes.
 HH_INLINE WideSymmetric to_world(const WideAxes& axes, const Wide3& diagonal) {
     const Wide3 x = diagonal.x * axes.x;
     const Wide3 y = diagonal.y * axes.y;
@@ -121,8 +120,9 @@ HH_INLINE WideSymmetric inverse_of(const WideSymmetric& m, const Double4& times)
             factor * (m.xy * m.xz - m.xx * m.yz)};
 }
 
-// (I + stiffness)^-1. Works on I times the product of its inverse moments, which needs one division
-// at the end instead of three at the start.
+// (I + stiffness)^-1; I: inertia in world axes. 0 if the body cannot rotate. Both terms are first
+// multiplied by the product of the inverse moments, which takes one division at the end instead of
+// three at the start.
 HH_INLINE WideSymmetric inverse_with_stiffness(const Bodies4& bodies,
                                                const WideSymmetric& stiffness) {
     const Wide3& in = bodies.inverse_inertia_bs;
@@ -140,51 +140,6 @@ HH_INLINE WideSymmetric inverse_with_stiffness(const Bodies4& bodies,
             may_turn ? inverse.xz : zero, may_turn ? inverse.yz : zero};
 }
 
-// out += factor * v v^T
-HH_INLINE void add_outer(const Wide3& v, const Double4& factor, WideSymmetric& out) {
-    const Wide3 scaled = factor * v;
-    out.xx += scaled.x * v.x;
-    out.yy += scaled.y * v.y;
-    out.zz += scaled.z * v.z;
-    out.xy += scaled.x * v.y;
-    out.xz += scaled.x * v.z;
-    out.yz += scaled.y * v.z;
-}
-
-// out += positive_stiffness(force, arm, +1). The arm of b's ends is reversed, which amounts to the
-// sign -1.
-HH_INLINE void add_stiffness(const Wide3& force, const Wide3& arm, WideSymmetric& out) {
-    constexpr double k_min_ratio = 1e-12;
-    const Double4 zero = zero4();
-    const Double4 force_square = dot(force, force);
-    const Double4 arm_square = dot(arm, arm);
-    const Double4 product = square_root(force_square * arm_square);
-    const Double4 along = dot(force, arm);
-    const Wide3 normal = cross(force, arm);
-    const Double4 normal_square = dot(normal, normal);
-    const Mask4 is_nonzero = product >= k_min_ratio;
-    const Mask4 pulls = along > 0.0;
-    const Mask4 is_straight = pulls & (normal_square <= k_min_ratio * product * product);
-    const Double4 ratio = is_nonzero ? product / arm_square : zero;
-    const Wide3 difference = force - ratio * arm;
-    const Wide3 axis{is_straight ? force.x : difference.x, is_straight ? force.y : difference.y,
-                     is_straight ? force.z : difference.z};
-    // One division for two quotients; unused lanes divide by 1.
-    const Mask4 has_normal = pulls & ~is_straight;
-    const Double4 one = zero + 1.0;
-    const Double4 axis_size = is_straight ? force_square : dot(difference, difference);
-    const Double4 normal_size = has_normal ? normal_square : one;
-    const Double4 by = 1.0 / (axis_size * normal_size);
-    const Double4 of_axis = (is_straight ? -product : 0.5 * (product + along)) * (normal_size * by);
-    const Double4 of_normal = has_normal ? along * (axis_size * by) : zero;
-    const Double4 of_all = (is_nonzero & is_straight) ? product : zero;
-    add_outer(axis, is_nonzero ? of_axis : zero, out);
-    add_outer(normal, is_nonzero ? of_normal : zero, out);
-    out.xx += of_all;
-    out.yy += of_all;
-    out.zz += of_all;
-}
-
 HH_INLINE Wide3 lambdas_of(const TriadPlan::Lanes& ends, const TriadArrays& arrays) {
     return to_wide3(arrays.lambdas[ends[0] / 2].v, arrays.lambdas[ends[1] / 2].v,
                     arrays.lambdas[ends[2] / 2].v, arrays.lambdas[ends[3] / 2].v);
@@ -196,8 +151,8 @@ HH_INLINE void gather_stiffness(const TriadArrays& arrays) {
     for (std::size_t i = 0; i < groups.size(); ++i) {
         WideSymmetric sum{zero, zero, zero, zero, zero, zero};
         for (std::uint32_t j = 0; j < groups[i].width; ++j) {
-            add_stiffness(lambdas_of(arrays.plan->ends()[groups[i].ends + j], arrays),
-                          arrays.body_ends[groups[i].packed + j].arm, sum);
+            add_positive_stiffness(lambdas_of(arrays.plan->ends()[groups[i].ends + j], arrays),
+                                   arrays.body_ends[groups[i].packed + j].arm, sum);
         }
         assign(sum, arrays.stiffness[groups[i].group_index]);
     }
@@ -225,7 +180,8 @@ HH_INLINE void write_row(const Wide3& row, const TriadPlan::Pair& pair, int plac
     }
 }
 
-// Rotational part of the rows of J W of an end. Rows of J: arm x e_k, or lever * e_k.
+// Rotational part of J W at one end, three rows. The rows of J are arm x e_k (point triads) or
+// lever * e_k (angular triads); e_k: unit vector along world axis k.
 template <bool HasTurn>
 HH_INLINE void write_side(const WideSymmetric& w, const Ends4& end, Wide3* side) {
     const Wide3 x{w.xx, w.xy, w.xz};

@@ -1,5 +1,5 @@
-// Solver, packed: kernels of the rest's sparse LDL^T in 3x3 blocks. Included by triad_kernels.cpp
-// only, and inlined there into functions for one processor type.
+// Solver, packed: kernels of the sparse LDL^T of the triads outside strands, in 3x3 blocks.
+// Included by triad_kernels.cpp only, and inlined there into functions for one processor type.
 // Source: LDL^T by blocks as in Golub and Van Loan, Matrix Computations, 4.2.
 
 #pragma once
@@ -12,19 +12,20 @@ namespace handhold::triads {
 
 // --- Inverses ----------------------------------------------------------------------------------
 
-// Inverses by cofactors, which need one division instead of three dependent ones. They lose digits
-// if triads repeat each other: the remainder of such a block is as small as alpha, 1e-10 of its
-// diagonal, and is a difference of large products. Such a block gets an LDL^T instead. It is stored
-// in place of the inverse: inverse pivots in row 0, l10, l20 and l21 in row 1, and a 1 in row 0's
-// fourth element, where an inverse has 0.
+// Blocks are inverted by cofactors, which takes one division instead of three dependent ones.
+// Cofactors lose digits if triads are linearly dependent. After elimination, such a block is as
+// small as alpha (1e-10 of its former diagonal) and a difference of large products. It gets an
+// LDL^T instead, stored in place of the inverse. Row 0 holds the inverse pivots and, as fourth
+// element, 1 (an inverse has 0 there). Row 1 holds l10, l20 and l21.
 
-// Relative to the product of the diagonal before elimination. A block with a smaller determinant
-// gets an LDL^T.
+// A block gets an LDL^T if its determinant is less than this times the product of its diagonal
+// before elimination.
 inline constexpr double k_well_conditioned = 0.1;
 
 HH_INLINE bool has_pivots(const Rows3& inverse) { return inverse.row[0][3] != 0.0; }
 
-// 1 / pivot, or 0 if the row repeats other rows or nothing moves it; its multiplier is then 0.
+// 1 / pivot; 0 if the row is linearly dependent on others or if nothing can move it. The row's
+// multiplier is then 0.
 inline double inverse_pivot(double pivot, double min_pivots) {
     return std::abs(pivot) > min_pivots ? 1.0 / pivot : 0.0;
 }
@@ -195,8 +196,8 @@ HH_INLINE void negate_values(const TriadArrays& arrays) {
 
 HH_INLINE void substitute(const TriadArrays& arrays) {
     const std::span<const TriadPlan::Step> steps = arrays.plan->steps();
-    // Blocks and later nodes are stored in the order of the steps: each step's own block, then the
-    // others.
+    // Blocks and later nodes are stored in the order of the steps: each step's diagonal block, then
+    // its blocks with later nodes.
     const Rows3* block = arrays.blocks.data();
     const std::uint32_t* later = arrays.plan->later().data();
     for (std::size_t i = 0; i < steps.size(); ++i) {

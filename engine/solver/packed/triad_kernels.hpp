@@ -3,8 +3,8 @@
 // turn. Nothing here fails or allocates. Units are metres, seconds, kilograms and radians; vectors
 // are in world axes unless noted. Terms are defined in triad_system.hpp.
 //
-// Work on bodies is done for four bodies at a time, work on triads block by block. Triads are those
-// of the plan's rest unless noted; those of strands are stored four links at a time.
+// Bodies are processed four at a time, triads block by block. Unless noted, triads are those
+// outside strands (TriadPlan::rest); those of strands are stored four links at a time.
 
 #pragma once
 
@@ -16,7 +16,8 @@
 
 namespace handhold {
 
-// Four bodies, one per lane. All zeros in a lane without a body or with an immovable one.
+// Four bodies, one per lane. Inverse mass and inertia are 0 in a lane without a body or with an
+// immovable one.
 struct Bodies4 {
     Wide3 position;  // of the centre of mass
     Wide4 rotation;  // unit
@@ -31,9 +32,9 @@ struct Bodies4 {
     Wide3 turn;
 };
 
-// One end at each of four bodies. Its contribution to the triad's residual is sign * position + arm
-// (point triads) or lever * rotation (angular triads). For b's ends sign and lever are negative,
-// and the arm points from the anchor point to the body's centre.
+// One end (side a or b of a triad) at each of four bodies. An end contributes sign * position + arm
+// to its triad's residual (point triads), or lever * rotation (angular triads). For b's ends, sign
+// and lever are negative, and the arm points from the anchor point to the body's centre.
 struct Ends4 {
     Wide3 point_bs;  // anchor point times the sign
     Double4 sign;    // +-1 for point triads, else 0
@@ -46,46 +47,52 @@ struct WideMat3 {
     Wide3 x, y, z;
 };
 
-// One step of a strand pack: a link per lane.
+// One step of a strand pack: one link in each of its four strands. `before` and `after` are the
+// nodes outside the strand at its ends (TriadPlan::StrandPack).
 struct Links4 {
     Wide3 value;    // residual, as TriadArrays::values
     Wide3 unknown;  // scratch of the solve
     Wide3 impulse;  // sum of lambdas, N s
     // The step's row of the factor.
     WideSymmetric inverse;  // inverse of its own block, or the block's LDL^T
-    WideMat3 next;          // inverse * block that couples it with the next link or with `after`
-    // inverse * block that couples it with `before`; up to Strands4::decoupled_step
+    // inverse times the block that couples the link with the next one, or with `after`
+    WideMat3 next;
+    // inverse times the block that couples the link with `before`; valid up to
+    // Strands4::decoupled_step
     WideMat3 before;
     bool has_pivots = false;
 };
 
-// The remainder of four strands once their links are eliminated.
+// Contribution of four eliminated strands to the blocks of `before` and `after` (as in Links4).
 struct Strands4 {
     WideSymmetric before;  // subtracted from the block of `before`
     WideSymmetric after;
-    WideMat3 between;                // rows of `after`, columns of `before`
-    Double4 inverse_sum;             // sum of 9 / (sum of the link's diagonal); see HarmonicMean
-    std::size_t decoupled_step = 0;  // First step that is not coupled with `before`.
+    // rows of `after`, columns of `before`; added to the block that couples them
+    WideMat3 between;
+    Double4 inverse_sum;  // sum over links of 9 / (sum of its diagonal); see HarmonicMean
+    std::size_t decoupled_step = 0;  // first step not coupled with `before`
 };
 
-// A struct, because a template argument would lose the alignment.
+// Wraps a Double4, which would lose its alignment as a template argument.
 struct TriadVector {
     Double4 v = {};
 };
 
-// The active rows of a strand pack, in all four lanes. Bodies outside are treated as immovable.
+// Active rows of a strand pack, the same in all four lanes. Bodies outside are treated as
+// immovable.
 struct RowWindow {
     std::uint32_t begin = 0;
     std::uint32_t end = 0;  // > begin; length + 1 if the last row is included
 };
 
-// Where the plan names a dummy end, block or triad, an element exists that may be written and is
-// never read, or (the dummy triad's multiplier) is 0.
+// `ends`, `lambdas` and `blocks` have one extra element for the dummies of the plan. A dummy end or
+// block may be written, but has no effect. The dummy triad's multiplier is 0.
 struct TriadArrays {
-    std::span<Bodies4> bodies;           // by place / 4
-    std::span<Ends4> body_ends;          // by the plan's packed ends
+    std::span<Bodies4> bodies;           // by group of four bodies: place / 4
+    std::span<Ends4> body_ends;          // by TriadPlan::packed_ends
     std::span<WideSymmetric> stiffness;  // as `bodies`
-    std::span<Links4> links;             // by the plan's strand pack steps
+    // indexed like StrandPlan::links(): one entry per step of each strand pack
+    std::span<Links4> links;
     std::span<Wide3> multipliers;  // lambdas of strand packs: see TriadPlan::StrandPack::bound
     std::span<Strands4> strands;   // by strand pack
     std::span<TriadVector> ends;   // by end: its contribution to the triad's residual
@@ -93,8 +100,8 @@ struct TriadArrays {
     std::span<TriadVector> values;
     std::span<TriadVector> lambdas;  // by triad, of the last solve: on a; b gets the opposite
     std::span<const std::uint8_t> is_drive;  // by triad: 1 for drives
-    std::span<Rows3> blocks;                 // the plan's
-    std::span<Rows3> inverses;               // by step: inverse of its own block
+    std::span<Rows3> blocks;                 // by the plan's block index: matrix, then factor
+    std::span<Rows3> inverses;               // by step: inverse of its diagonal block
     // Scratch by step: the diagonals during factorisation, then intermediate results of the
     // substitution.
     std::span<TriadVector> unknowns;
@@ -111,16 +118,16 @@ struct LargestMove {
 };
 
 struct TriadKernels {
-    // Computes axes, arms, ends and residuals at the bodies' poses; residuals of angular triads are
-    // computed by TriadSystem. Ends at immovable bodies, and everything outside the windows, must
-    // be up to date. The velocity kernels ignore the windows.
+    // Computes axes, arms, ends and residuals at the bodies' poses, except the residuals of angular
+    // triads (TriadSystem::evaluate). Precondition: ends at immovable bodies, and all values
+    // outside the windows, are up to date. The velocity kernels ignore the windows.
     void (*evaluate)(const TriadArrays& arrays);
-    // Residuals of the velocities, without the drives' own velocities.
+    // Computes the velocity residuals, without the velocities of the drives' targets.
     void (*evaluate_velocities)(const TriadArrays& arrays);
     // Largest squared norm of a residual.
     double (*worst_square)(const TriadArrays& arrays);
-    // Sums the geometric stiffness from the arms and multipliers of the last solve
-    // (positive_stiffness).
+    // Computes the bodies' geometric stiffness (positive_stiffness) from the arms and the
+    // multipliers of the last solve.
     void (*gather_stiffness)(const TriadArrays& arrays);
     // Computes the inertia in world axes, writes J W J^T to the plan's blocks and factorises the
     // strands. `joint_alpha` is relative to the diagonal.

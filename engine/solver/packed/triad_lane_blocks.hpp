@@ -32,7 +32,8 @@ HH_INLINE void decompose(const WideSymmetric& m, const Wide3& diagonal, WideSymm
     out.zz = inverse_pivot((m.zz - out.xz * m.xz) - out.yz * rest, min_pivot.z);
 }
 
-// True if `out` holds an LDL^T instead of the inverse: in all lanes, if one of them needs it.
+// Returns true if `out` holds an LDL^T instead of the inverse. If one lane needs an LDL^T, all
+// lanes get one.
 HH_INLINE bool invert(const WideSymmetric& m, const Wide3& diagonal, WideSymmetric& out) {
     const Double4 xx = m.yy * m.zz - m.yz * m.yz;
     const Double4 xy = m.xz * m.yz - m.xy * m.zz;

@@ -12,7 +12,8 @@ namespace {
 constexpr std::uint32_t k_rows = 3;
 constexpr std::size_t k_block_size = 9;
 
-// In a panel, blocks lie side by side in rows of length `stride`; here they follow one another.
+// Index into TriadPlan's blocks of the block whose first value is `value` in the panel. In a panel,
+// blocks lie side by side in rows of length `stride`; in a TriadPlan they follow one another.
 std::uint32_t block_at(const EliminationPlan::Panel& panel, std::uint32_t value) {
     return panel.begin / (k_rows * k_rows) + (value - panel.begin) / k_rows;
 }
@@ -103,8 +104,8 @@ void TriadPlan::find_places() {
     }
 }
 
-// Ends of earlier eliminated nodes come first: a product's block lies in the panel of the earlier
-// one.
+// Forms groups of four bodies. Numbers each body's ends in the order in which their nodes are
+// eliminated, because a product's block lies in the panel of the node eliminated first.
 void TriadPlan::find_groups() {
     const std::span<const std::uint32_t> slots = strands_.rest_slots();
     counts_.assign(strands_.rest_can_rotate().size(), 0);
@@ -181,7 +182,7 @@ void TriadPlan::find_pairs() {
         const std::uint32_t row = place_in_body_[coupling.panel_end];
         const std::uint32_t column = place_in_body_[coupling.later_end];
         const Group& group = groups_[places_[slot] / k_lanes - first];
-        // each row has one pair less than the row before
+        // the pairs form an upper triangle: each row has one pair fewer than the row before
         const std::uint32_t before = row * group.width - row * (row + 1) / 2;
         pairs_[group.pairs + before + column].blocks[places_[slot] % k_lanes] =
             block_at(plan_.panel_of(coupling.panel_end / 2), coupling.target);
@@ -213,7 +214,8 @@ void TriadPlan::find_zeros() {
         for (const Lanes* const blocks :
              {&strand_pack.block_before, &strand_pack.block_after, &strand_pack.block_between}) {
             for (const std::uint32_t block : *blocks) {
-                counts_[block] += 2;  // never the only contribution
+                // 2: products must be added to the block, because strands change it too
+                counts_[block] += 2;
             }
         }
     }

@@ -13,31 +13,31 @@
 namespace handhold {
 
 // Elimination order and memory layout of a sparse LDL^T whose blocks are all 3x3: strands first,
-// then the rest in the order of an EliminationPlan. Also maps groups of four bodies to the
-// ends of their triads and to the blocks that they contribute to.
+// then the rest (all other nodes) in the order of an EliminationPlan. Also maps groups of four
+// bodies to the ends of their triads, and to the blocks that these ends contribute to.
 //
-// Nodes, ends (2 * node + side), steps and blocks are those of the rest, numbered by their index in
-// `rest()`. "Given" nodes are those passed to `build`.
+// Unless noted, nodes, ends (2 * node + side), steps and blocks are those of the rest. A node's
+// number is its index in rest(). "Given" nodes are those passed to `build`.
 class TriadPlan {
   public:
-    // Every node must be three rows wide; no body may have more than k_hub_nodes of them.
+    // Preconditions: every node is three rows wide; no body has more than k_hub_nodes nodes.
     void build(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate);
-    // Reserves the other plan's capacities, so that a build of its structure does not allocate.
+    // Reserves the capacities of `other`, so that building the same structure does not allocate.
     void reserve(const TriadPlan& other);
     // True if the plan was built from the same input.
     bool fits(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate) const;
 
-    // The elimination of one node. Its own block is followed by its blocks with the later nodes
-    // that it is coupled with.
+    // The elimination of one node. Its diagonal block is followed by its blocks with the later
+    // nodes that it is coupled with.
     struct Step {
         std::uint32_t node = 0;
         std::uint32_t own = 0;
-        std::uint32_t later_begin = 0;  // into `later`
+        std::uint32_t later_begin = 0;  // into later()
         std::uint32_t later_end = 0;
-        // Into `updates`: one target for each pair of its later nodes, (0, 0), (0, 1) .. (1, 1),
-        // (1, 2) ..
+        // Into updates(): one target block for each pair (x, y) of later nodes, x <= y, by x, then
+        // by y.
         std::uint32_t updates = 0;
-        bool is_independent = false;  // not coupled with the node of the step before
+        bool is_independent = false;  // not coupled with the node of the previous step
     };
     std::span<const Step> steps() const { return steps_; }
     std::span<const std::uint32_t> later(const Step& step) const {
@@ -50,64 +50,67 @@ class TriadPlan {
     // One number per lane. Lane l of group g is the body at place 4 * g + l.
     using Lanes = StrandPlan::Lanes;
     static constexpr std::size_t k_lanes = std::tuple_size_v<Lanes>;
-    // Given node of each node of the rest.
+    // By node of the rest: the given node.
     std::span<const std::uint32_t> rest() const { return strands_.rest(); }
-    // Place of a slot's body, 4 * group + lane. Rows of strands come first.
+    // By slot: the body's place, 4 * group + lane. Rows of strands are the first groups.
     std::span<const std::uint32_t> places() const { return places_; }
-    // By place: the slot; k_no_slot if a strand has no body there.
+    // By place: the slot; k_no_slot where a strand starts at an immovable body.
     std::span<const std::uint32_t> slots() const { return slots_; }
     std::size_t group_count() const { return strands_.row_count() + groups_.size(); }
-    // Ends of given nodes in the order in which they are packed, four bodies each: two for
-    // each row of a strand (that of the link before, that of the link after), then `ends()`.
-    // k_no_slot: none in this lane.
+    // Ends of given nodes in packing order, for four bodies at a time. Each row of a strand pack
+    // has two entries: the ends of the links before and after it. Then follow the entries of
+    // ends(). k_no_slot: no end in this lane.
     std::span<const Lanes> packed_ends() const { return packed_ends_; }
 
-    // Four strands. A row has four bodies.
+    // Four strands, one per lane. A row holds one body of each strand.
     struct StrandPack {
         std::uint32_t length = 0;  // links per strand: one less than rows
-        std::uint32_t row = 0;     // its first row, into the groups of four bodies
+        std::uint32_t row = 0;     // its first row, as index of a group of four bodies
         std::uint32_t step = 0;    // first of its `length` steps; a step eliminates four links
-        // First of its length + 2 quadruples of multipliers: those of `before`, of each step and of
-        // `after`.
+        // First of its length + 2 elements in TriadArrays::multipliers: those of `before`, of each
+        // step and of `after`.
         std::uint32_t bound = 0;
-        Lanes before{};  // the rest's end at the first body, or `dummy_end`
-        Lanes after{};   // the same at the last body
-        // Blocks to which the strand's remainder is added, or `dummy_block`.
+        Lanes before{};  // by lane: end of a node of the rest at the first body, or dummy_end()
+        Lanes after{};   // same, at the last body
+        // By lane: blocks of `before`, of `after` and between both, or dummy_block(). The
+        // elimination of the strand changes them.
         Lanes block_before{};
         Lanes block_after{};
         Lanes block_between{};
-        std::array<bool, 4> before_first{};  // rows of `block_between` are those of `before`
+        // true: the rows of block_between are those of `before`; false: of `after`
+        std::array<bool, 4> before_first{};
     };
     std::span<const StrandPack> strand_packs() const { return strand_packs_; }
-    // Given nodes of a strand pack's steps: 2 * node + the side at row k.
+    // By step k of a strand pack and lane: 2 * (given node of the link) + its side at row k.
     std::span<const Lanes> links(const StrandPack& strand_pack) const {
         return strands_.links().subspan(strand_pack.step, strand_pack.length);
     }
     std::size_t strand_pack_steps() const { return strands_.links().size(); }
-    // A strand's first end if it is at an immovable body, and the place of the stand-in body for
-    // it.
+    // First end of a strand that starts at an immovable body, and the place of the body that is
+    // packed instead of it (see TriadSystem::Anchor).
     struct AnchoredEnd {
         std::uint32_t end = 0;
         std::uint32_t place = 0;
     };
     std::span<const AnchoredEnd> anchored_ends() const { return anchored_ends_; }
-    // Index of a given node in `rest()`; k_no_slot for a strand's.
+    // By given node: its index in rest(); k_no_slot if it is in a strand.
     std::span<const std::uint32_t> rest_places() const { return strands_.places(); }
 
-    // Four bodies of the rest. Each has up to `width` ends (2 * node + side), those of earlier
-    // eliminated nodes first; missing ones are `dummy_end`.
+    // Four bodies in no strand. Each has up to `width` ends (2 * node + side), in the order in
+    // which their nodes are eliminated. Missing ends are dummy_end().
     struct Group {
         std::uint32_t width = 0;
-        std::uint32_t group_index = 0;  // into groups of four bodies, rows of strands first
-        std::uint32_t packed = 0;       // into `packed_ends`
-        std::uint32_t ends = 0;         // into `ends`, `width` of them
-        // into `pairs`, ordered as Step::updates: products of two of its ends
+        std::uint32_t group_index = 0;  // index among all groups; rows of strands come first
+        std::uint32_t packed = 0;       // into packed_ends()
+        std::uint32_t ends = 0;         // into ends(): first of `width` entries
+        // Into TriadPlan::pairs(): one pair for each two of a body's ends, in the order of
+        // Step::updates: (0, 0), (0, 1) .. (1, 1), (1, 2) ..
         std::uint32_t pairs = 0;
     };
-    // Target blocks of a product, or `dummy_block`.
+    // By lane: the block to which the product of two ends is added, or dummy_block().
     struct Pair {
         Lanes blocks{};
-        bool is_alone = false;  // no other product is added to any of these
+        bool is_alone = false;  // no other product is added to any of these blocks
     };
     std::span<const Group> groups() const { return groups_; }
     std::span<const Lanes> ends() const { return ends_; }
@@ -134,7 +137,7 @@ class TriadPlan {
     std::vector<RowNode> nodes_;  // as given
     std::vector<std::uint8_t> can_rotate_;
     StrandPlan strands_;
-    EliminationPlan plan_;  // of the rest
+    EliminationPlan plan_;  // of the nodes of the rest
     std::vector<Step> steps_;
     std::vector<std::uint32_t> later_;  // nodes
     std::vector<std::uint32_t> updates_;
@@ -147,7 +150,7 @@ class TriadPlan {
     std::vector<Lanes> ends_;
     std::vector<Pair> pairs_;
     std::vector<std::uint32_t> zeros_;
-    std::vector<std::uint32_t> place_in_body_;  // by end: its index among its body's ends
+    std::vector<std::uint32_t> place_in_body_;  // by end: its position among its body's ends
     std::size_t block_count_ = 0;
 
     // Scratch of build.

@@ -10,10 +10,10 @@
 
 namespace handhold::triads {
 
-// A strand pack's part of the arrays.
+// The elements of TriadArrays that belong to one strand pack.
 struct StrandPackArrays {
-    Bodies4* bodies;     // by row
-    Ends4* ends;         // 2 * row: ends of the link before, then of the link after
+    Bodies4* bodies;  // by row
+    Ends4* ends;  // [2 * row]: the row's ends of the link before; [2 * row + 1]: of the link after
     Links4* links;       // by step
     Wide3* multipliers;  // of `before`, of each step, of `after`
 };
@@ -24,11 +24,12 @@ HH_INLINE StrandPackArrays part_of(const TriadPlan::StrandPack& strand_pack,
             arrays.links.data() + strand_pack.step, arrays.multipliers.data() + strand_pack.bound};
 }
 
-// The rows of a window, and the steps whose links have a body among them.
+// Rows of a window, and the steps whose links have a body in these rows.
 struct StrandPackRange {
     std::size_t begin, end;            // rows
     std::size_t first_step, end_step;  // step k connects rows k and k + 1
-    bool has_before, has_after;        // whether the strand pack's first and last row are included
+    // whether the first row of the strand pack is included, and the last
+    bool has_before, has_after;
 };
 HH_INLINE StrandPackRange part_in(const RowWindow& window,
                                   const TriadPlan::StrandPack& strand_pack) {
@@ -106,8 +107,8 @@ HH_INLINE void gather_strand_stiffness(const TriadArrays& arrays) {
         const StrandPackArrays of = part_of(strand_pack, arrays);
         for (std::size_t row = arrays.windows[i].begin; row < arrays.windows[i].end; ++row) {
             WideSymmetric sum{zero, zero, zero, zero, zero, zero};
-            add_stiffness(of.multipliers[row], of.ends[2 * row].arm, sum);
-            add_stiffness(of.multipliers[row + 1], of.ends[2 * row + 1].arm, sum);
+            add_positive_stiffness(of.multipliers[row], of.ends[2 * row].arm, sum);
+            add_positive_stiffness(of.multipliers[row + 1], of.ends[2 * row + 1].arm, sum);
             assign(sum, arrays.stiffness[strand_pack.row + row]);
         }
     }
@@ -118,7 +119,7 @@ HH_INLINE void gather_strand_stiffness(const TriadArrays& arrays) {
 // Contribution of a row's bodies to the blocks of their two nodes.
 struct WideCoupling {
     WideSymmetric before, after;
-    WideMat3 between;  // rows of the node before
+    WideMat3 between;  // rows of the node before, columns of the node after
 };
 HH_INLINE WideCoupling no_coupling() {
     const Double4 zero = zero4();
@@ -169,15 +170,15 @@ HH_INLINE void add(const WideSymmetric& m, const TriadPlan::Lanes& blocks,
 
 // State of a strand pack's elimination.
 struct StrandElimination {
-    WideCoupling row;  // contribution of the bodies after the last link
+    WideCoupling row;  // contribution of the bodies after the link eliminated last
     WideMat3 before;   // couples the current link with `before`
     WideSymmetric subtracted, subtracted_before;
-    Wide3 diagonal;  // of the last link, before elimination
+    Wide3 diagonal;  // of the link eliminated last, before its elimination
     Double4 inverse_sum;
 };
 
-// Eliminates one link. `of_first` is the contribution of the link's first bodies to its block;
-// at.row is that of its second bodies.
+// Eliminates one link of each of four strands. `of_first`: contribution of the links' first bodies
+// to their blocks; at.row: contribution of their second bodies.
 template <bool Carries>
 HH_INLINE void eliminate_link(const WideSymmetric& of_first, double joint_alpha, Links4& links,
                               StrandElimination& at) {
@@ -235,7 +236,7 @@ HH_INLINE std::size_t eliminate_links(const StrandPackRange& part, const StrandP
         at.row = couple<HasTurn>(of.bodies[k + 1], of.ends[2 * k + 2], of.ends[2 * k + 3]);
         eliminate_link<false>(of_first, joint_alpha, of.links[k], at);
     }
-    if (k < part.end_step) {  // the link between the last active bodies and held ones
+    if (k < part.end_step) {  // the link between the last active bodies and inactive ones
         const WideSymmetric of_first = at.row.after;
         at.row = no_coupling();
         eliminate_link<true>(of_first, joint_alpha, of.links[k], at);
@@ -287,7 +288,8 @@ HH_INLINE void eliminate_strands(const TriadArrays& arrays, double joint_alpha) 
     }
 }
 
-// A block's rows are those of the node that is eliminated first.
+// Adds the coupling of `before` with `after` to its block. A block's rows are those of the node
+// that is eliminated first, so some lanes need the transpose.
 HH_INLINE void add_between(const WideMat3& between, const TriadPlan::StrandPack& strand_pack,
                            const TriadArrays& arrays) {
     const WideMat3 turned = transposed(between);
@@ -306,7 +308,7 @@ HH_INLINE void add_between(const WideMat3& between, const TriadPlan::StrandPack&
     }
 }
 
-// Subtracts the strands' remainders from the rest's blocks.
+// Applies the contributions of the eliminated strands to the blocks of the other nodes.
 HH_INLINE void subtract_strands(const TriadArrays& arrays) {
     const std::span<const TriadPlan::StrandPack> strand_packs = arrays.plan->strand_packs();
     const Double4 zero = zero4();

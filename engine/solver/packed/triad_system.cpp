@@ -55,7 +55,8 @@ bool is_as_packed(const SolverBody& from, std::size_t lane, const Bodies4& body)
            (is_lane(lane, body.inverse_inertia_bs, from.inverse_inertia_bs) || !may_turn(from));
 }
 
-// A stand-in at the end of an immovable body: at the anchor point, with its velocity.
+// Replaces an immovable body at one end of a constraint: an immovable body located at the anchor
+// point, with the velocity of that point.
 SolverBody body_at(const SolverBody& body, const Vec3& point_bs) {
     const Vec3 arm = body.pose_ws.rotation * point_bs;
     SolverBody at;
@@ -80,7 +81,7 @@ void TriadSystem::read_bodies(const IslandView& island) {
 
 void TriadSystem::pack_bodies(const IslandView& island) {
     const TriadPlan& plan = plans_.current();
-    // may hold another island; everything that is read is written below
+    // bodies_ may hold another island, but every lane that is read is written below
     bodies_.resize(plan.group_count());
     for (std::uint32_t place = 0; place < plan.slots().size(); ++place) {
         const std::uint32_t slot = plan.slots()[place];
@@ -115,7 +116,7 @@ void TriadSystem::pack_velocities(const IslandView& island) {
     }
 }
 
-// Adds a triad. False if more triads share a body than TriadSystem supports.
+// Adds a triad. Returns false if more than k_hub_nodes triads share a body.
 bool TriadSystem::add(const IslandView& island, std::uint32_t index, bool is_angular) {
     const RowBlock& block = island.blocks[index];
     const bool is_drive = handhold::is_drive(block);
@@ -147,7 +148,7 @@ bool TriadSystem::add(const IslandView& island, std::uint32_t index, bool is_ang
     return fits;
 }
 
-// Resizes to this many triads and the dummy end.
+// Resizes the arrays to `triads` triads and the dummy end.
 void TriadSystem::resize(std::size_t triads) {
     triads_.resize(triads);
     nodes_.resize(triads);

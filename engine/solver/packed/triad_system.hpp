@@ -19,7 +19,7 @@
 //   place        where a body is packed: 4 * group + lane
 //   link         point triad of a joint that shares each of its bodies with at most one other triad
 //   run          links in a row, each sharing a body with the next
-//   separator    link that cuts a run
+//   separator    one or two links that cut a run
 //   strand       part of a run between two separators
 //   strand pack  four strands of equal length, one per lane
 //   rest         all triads that are in no strand: separators, drives, welds, branches, short runs
@@ -28,10 +28,10 @@
 // Elimination order (nested dissection of each run, then minimum degree)
 //   run:     end - - lane 0 - -> S - - lane 1 - -> S <- - lane 2 - - S <- - lane 3 - - end
 //   1. Strands. Step k eliminates link k of all four strands. Strands are coupled only through
-//      separators (S), so the lanes need no exchange. The coupling with the separator `before` a
-//      strand fades from link to link; once negligible it is no longer carried.
+//      separators (S), so the lanes need no exchange. The coupling with the triad `before` a strand
+//      fades from link to link. It is dropped once it is negligible.
 //   2. The rest, in the order of an EliminationPlan, block by block.
-//   Substitution runs through both in the same order, then back in the opposite order.
+//   Substitution runs through 1 and 2 in this order, then back in the opposite order.
 //
 // Layout of a strand pack: row r holds four bodies, step k connects rows k and k + 1
 //                       lane 0   lane 1   lane 2   lane 3
@@ -65,32 +65,32 @@
 
 namespace handhold {
 
-// RowSystem's equations for an island all of whose rows are bilateral triads, at a fraction of its
-// instructions. Bodies and rows are packed copies, loaded once per solve.
+// Solves RowSystem's equations for an island whose rows are all bilateral triads, with a fraction
+// of the instructions. Works on packed copies of bodies and rows, loaded once per solve.
 class TriadSystem {
   public:
     explicit TriadSystem(const TriadKernels& kernels = triad_kernels()) : kernels_(&kernels) {}
 
     // Loads the island's bodies and the blocks that take part. Returns false if a row may be
     // unilateral, slide or stop, or if more than k_hub_nodes triads share a body; then no other
-    // function may be called. Contacts with a separation above `touch_m` are ignored; the position
-    // solve uses infinity, because any contact may close.
+    // function may be called. Contacts with a separation of at least `touch_m` are ignored. The
+    // position solve uses infinity, because any contact may close.
     bool load(const IslandView& island, double touch_m = std::numeric_limits<double>::infinity());
-    // Loads only the velocities and keeps the rest. Returns false unless `load` and `store_poses`
-    // were called in the same revision of the graph, masses and poses are unchanged and there are
-    // no contacts.
+    // Loads only the velocities; everything else stays as loaded before. Returns false unless
+    // `load` and `store_poses` were called in the same revision of the graph, masses and poses are
+    // unchanged and there are no contacts.
     bool resume(const IslandView& island);
-    // Writes poses of the movable bodies; or their velocities, and the impulses of the blocks that
-    // take part.
+    // store_poses writes the poses of the movable bodies. store_velocities writes their velocities,
+    // and the impulses of the blocks that take part.
     void store_poses(const IslandView& island) const;
     void store_velocities(const IslandView& island) const;
 
     // Computes the residuals at the current poses, metres; angles times k_angle_lever_m.
     void evaluate(const IslandView& island);
-    // The same, unless they have been evaluated since the last move.
+    // Calls `evaluate` unless the bodies have not moved since its last call.
     void evaluate_if_moved(const IslandView& island);
-    // Computes the residuals of the velocities, m/s, including the drives' own velocities, at the
-    // arms of the last `evaluate`.
+    // Computes the velocity residuals, m/s, with the arms of the last `evaluate`. They include the
+    // velocities of the drives' targets.
     void evaluate_velocities(const IslandView& island);
     double worst_residual();
     double worst_drive_residual() const;  // of drives only
@@ -128,8 +128,9 @@ class TriadSystem {
         bool is_angular = false;  // rotation on rotation, else point on point
         bool is_drive = false;
     };
-    // An end at an immovable body. If a strand starts with it, a stand-in body at its point is
-    // packed at `place`; otherwise it is packed nowhere.
+    // An end at an immovable body. If the end is the first of a strand, `place` is where the body
+    // that replaces the immovable one is packed (body_at). Otherwise `rest_end` is the end in the
+    // numbering of TriadPlan.
     struct Anchor {
         std::uint32_t end = 0;   // 2 * triad + side
         std::uint32_t body = 0;  // into the graph's bodies
@@ -166,8 +167,8 @@ class TriadSystem {
     std::size_t triad_count_ = 0;
     std::vector<Triad> triads_;
     std::vector<Anchor> anchors_;
-    std::vector<TriadVector> points_;    // by end: anchor point times the sign; the sign
-    std::vector<TriadVector> impulses_;  // by triad of the rest: sum of lambdas
+    std::vector<TriadVector> points_;  // by end: x, y, z: anchor point times the sign; w: the sign
+    std::vector<TriadVector> impulses_;  // by triad outside strands: sum of its lambdas
 
     // Storage of `arrays`; documented at TriadArrays.
     std::vector<Bodies4> bodies_;

@@ -9,12 +9,13 @@ namespace {
 
 using Panel = EliminationPlan::Panel;
 
-// Nearly all blocks are three or six wide. A loop length known to the compiler halves their cost;
-// 0: a length known at run time only. The order of operations is the same, and so are the bits.
+// Kernels for loop lengths known at compile time, which halves the cost for blocks that are three
+// or six wide (nearly all). 0: the length is known only at run time. The order of operations, and
+// so every bit of the result, is the same.
 template <std::size_t KnownDepth, std::size_t KnownWidth>
 struct Kernels {
-    // Factorises a panel's diagonal block in place, u -> D L^T, and applies it to the rest of its
-    // rows.
+    // Factorises a panel's diagonal block in place, u -> D L^T, and updates the other columns of
+    // the panel's rows.
     static void eliminate(const Panel& panel, std::span<const double> smallest_pivots, double* u,
                           double* inverse_pivots) {
         const std::size_t depth = KnownDepth != 0 ? KnownDepth : panel.width;

@@ -20,7 +20,7 @@ class BlockFactor {
     // `smallest_pivots`, by unknown, >= 0. An unknown with a smaller pivot is linearly dependent on
     // others to within rounding; its solution is 0.
     void factorise(const EliminationPlan& plan, std::span<const double> smallest_pivots);
-    // Right-hand side in, solution out; by unknown.
+    // `unknowns`: in, the right-hand side; out, the solution.
     void substitute(const EliminationPlan& plan, std::span<double> unknowns) const;
 
   private:

@@ -11,7 +11,7 @@
 namespace handhold {
 namespace {
 
-// Bodies with more rows than this are hubs too.
+// A body with more constraint rows than this is a hub, however few row nodes it has.
 constexpr std::uint32_t k_hub_rows = 16;
 
 }  // namespace
@@ -137,9 +137,10 @@ std::uint32_t EliminationPlan::weight_of(std::uint32_t node) const {
     return weight;
 }
 
-// A row node all of whose bodies are hubs (or cannot rotate) has almost nothing on its diagonal
-// until a hub has been eliminated. Eliminated earlier, it would leave the hub's unknowns as
-// differences of numbers 1e10 times larger.
+// False for a row node that must wait for a hub: one of its bodies is a hub that is not eliminated
+// yet, and no other body of the node can rotate. The node's diagonal is nearly 0 until that hub is
+// eliminated. If the node came first, the hub's unknowns would be differences of numbers 1e10 times
+// larger.
 bool EliminationPlan::can_eliminate(std::uint32_t node) const {
     if (node >= nodes_.size() || nodes_[node].is_regularised) {
         return true;
@@ -247,7 +248,7 @@ void EliminationPlan::lay_out() {
     scalar_count_ = scalar;
 }
 
-// Column of a later panel's node in this panel's rows; 0 for the panel's own node.
+// First column of the node of panel `later` in the rows of `panel`; 0 for the panel's own node.
 std::uint32_t EliminationPlan::column_of(const Panel& panel, std::uint32_t later) const {
     const std::span<const Block> of = blocks(panel);
     const auto found = std::ranges::lower_bound(of, later, {}, &Block::panel);

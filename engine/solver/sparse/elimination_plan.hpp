@@ -11,9 +11,10 @@
 
 namespace handhold {
 
-inline constexpr std::uint32_t k_widest_node = 12;  // rows; four contacts with friction
-// Relative to the diagonal. A smaller pivot means that the row is linearly dependent on others to a
-// degree that alpha cannot separate.
+// maximum width of a node, in rows: four contacts with friction
+inline constexpr std::uint32_t k_widest_node = 12;
+// Smallest pivot, relative to the diagonal. A row with a smaller pivot is linearly dependent on
+// others to a degree that alpha cannot separate.
 inline constexpr double k_smallest_pivot = 1e-14;
 inline constexpr std::uint32_t k_hub_nodes = 4;  // bodies with more row nodes are hubs
 inline constexpr std::uint32_t k_no_slot = std::numeric_limits<std::uint32_t>::max();
@@ -28,25 +29,25 @@ struct RowNode {
     // Slots of a and b; k_no_slot for a body that cannot move.
     std::uint32_t slots[2] = {k_no_slot, k_no_slot};
     std::uint32_t width = 0;      // rows
-    bool is_regularised = false;  // All rows have an alpha large enough to serve as their pivot.
-    bool is_point_link = false;   // A point triad of a joint; may lie in a strand (packed/).
+    bool is_regularised = false;  // all rows have an alpha large enough as a pivot
+    bool is_point_link = false;   // point triad of a joint; may be in a strand (packed/)
     bool operator==(const RowNode&) const = default;
 };
 
-// Nodes are numbered: row nodes first, in the order given, then hubs. A hub is a body with so many
-// row nodes that J W J^T would couple each of them with every other. Instead, the hub's negative
-// motion is an unknown of its own, six wide, and the matrix is
-//   [ J_l W_l J_l^T + R   -J_h ]     l: the other bodies, h: hubs, M_h: their masses
+// Nodes are numbered: row nodes in the order given, then hubs. A hub is a body with many row nodes.
+// J W J^T would couple each of these nodes with every other. To avoid that, the hub's motion,
+// negated, is an unknown of its own, six wide, and the matrix is
+//   [ J_l W_l J_l^T + R   -J_h ]     l: the other bodies, h: hubs, M_h: mass matrices of the hubs
 //   [ -J_h^T              -M_h ]
 // This matrix is symmetric quasi-definite, so an LDL^T exists for every order (Vanderbei 1995).
 //
-// Each node has a panel: `width` rows, each from the node's own diagonal block over the blocks of
-// all later nodes that it is coupled with. Together the panels are the upper triangle, by rows.
+// Each node has a panel of `width` rows: the node's diagonal block, then its blocks with all later
+// nodes that it is coupled with. Together the panels are the matrix's upper triangle, by rows.
 class EliminationPlan {
   public:
     // `can_rotate` by slot; 0 for translating bodies.
     void build(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate);
-    // Reserves the other plan's capacities, so that a build of its structure does not allocate.
+    // Reserves the capacities of `other`, so that building the same structure does not allocate.
     void reserve(const EliminationPlan& other);
     // True if the plan was built from the same input.
     bool fits(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate) const;
@@ -55,26 +56,27 @@ class EliminationPlan {
         std::uint32_t node = 0;
         std::uint32_t width = 0;
         std::uint32_t stride = 0;        // length of a row
-        std::uint32_t begin = 0;         // of the panel, into the factor's values
-        std::uint32_t scalar = 0;        // of the node's first unknown
-        std::uint32_t blocks_begin = 0;  // coupled later nodes, into `blocks`
+        std::uint32_t begin = 0;         // first value, in BlockFactor::values()
+        std::uint32_t scalar = 0;        // index of the node's first unknown
+        std::uint32_t blocks_begin = 0;  // its blocks with later nodes, in blocks_
         std::uint32_t blocks_end = 0;
-        // Into `updates`: one target per pair of its blocks: (0, 0), (0, 1) .. (1, 1), (1, 2) ..
+        // Into updates(): one target for each pair (x, y) of its blocks, x <= y, by x, then by y.
         std::uint32_t updates = 0;
     };
     struct Block {
         std::uint32_t panel = 0;   // of the later node
-        std::uint32_t column = 0;  // in this panel's rows
+        std::uint32_t column = 0;  // first column in the rows of the panel that contains the block
     };
-    // A product to be added to the matrix, of two row nodes that share a body: rows of the earlier
-    // node's panel, columns of the later node's block.
+    // A product of two row nodes that share a body, added to the matrix at `target`: in the rows of
+    // the earlier node's panel and the columns of the later node's block.
     struct Coupling {
         std::uint32_t panel_end = 0;  // 2 * node + side
         std::uint32_t later_end = 0;
         std::uint32_t target = 0;
         std::uint32_t stride = 0;
     };
-    // Where -J of a row node lies in the rows or columns of a hub.
+    // Location of a row node's -J in the matrix: in the hub's rows if `hub_first`, else in its
+    // columns.
     struct HubCoupling {
         std::uint32_t end = 0;  // 2 * node + side
         std::uint32_t target = 0;
@@ -86,7 +88,8 @@ class EliminationPlan {
         std::uint32_t target = 0;  // its diagonal block
         std::uint32_t stride = 0;
     };
-    // Where the column of a node's unknown m lies in an earlier panel: begin + m, `rows` times.
+    // Location of a node's columns in an earlier panel. The column of the node's unknown m has the
+    // values begin + m + i * stride, 0 <= i < rows.
     struct Appearance {
         std::uint32_t begin = 0;
         std::uint32_t rows = 0;

@@ -10,14 +10,14 @@
 
 namespace handhold {
 
-// Plans of the structures that an island had recently. Structures recur: with and without contacts,
-// with a body held still or not. The cache affects cost only, never the result. A Plan has `build`,
-// `reserve` and `fits`, as EliminationPlan.
+// Keeps the plans of recent structures, because structures recur: with and without contacts, or
+// with a body held still or not. Affects cost only, never the result. A Plan has `build`, `reserve`
+// and `fits`, like EliminationPlan.
 template <typename Plan>
 class PlanCache {
   public:
-    // Returns the plan of this structure: a cached one, or a new one in place of the least recently
-    // used.
+    // Returns the plan of this structure: a cached one, or a new one that replaces the least
+    // recently used.
     const Plan& choose(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate) {
         ++uses_;
         std::size_t oldest = current_;
@@ -29,7 +29,8 @@ class PlanCache {
             oldest = used_[candidate] < used_[oldest] ? candidate : oldest;
         }
         plans_[oldest].build(nodes, can_rotate);
-        // All plans reserve alike, so that only the first plan of a size allocates.
+        // Gives every plan in the cache the capacity of this one, so that later builds of this size
+        // do not allocate.
         for (Plan& plan : plans_) {
             plan.reserve(plans_[oldest]);
         }

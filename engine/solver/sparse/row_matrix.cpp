@@ -7,8 +7,9 @@
 namespace handhold {
 namespace {
 
-// Nearly all nodes are three rows wide. A loop length known to the compiler halves their cost; 0: a
-// length known at run time only. The order of operations is the same, and so are the bits.
+// Kernels for loop lengths known at compile time, which halves the cost for nodes three rows wide
+// (nearly all). 0: the length is known only at run time. The order of operations, and so every bit
+// of the result, is the same.
 template <std::size_t KnownWidth>
 struct RowKernels {
     // Writes J and W J^T of one side of a node, and adds J W J^T to the diagonal of its rows.
@@ -49,7 +50,8 @@ struct RowKernels {
         }
     }
 
-    // The same for two point nodes, whose linear parts are the identity: they share only the mass.
+    // add_product for two point nodes. Their linear parts are plus or minus the identity, so
+    // translations contribute to the diagonal only.
     static void add_point_product(const double* response, const double* jacobian, double* out,
                                   std::size_t stride) {
         for (std::size_t i = 0; i < 3; ++i) {
@@ -160,7 +162,7 @@ void RowMatrix::multiply_out() {
     }
 }
 
-// Writes the hubs' unknowns: -J at their rows or columns, -M on their diagonal.
+// Writes the hubs' part of the matrix: -J in their rows or columns, -M in their diagonal blocks.
 void RowMatrix::write_hubs(std::span<const SolverBody> bodies,
                            std::span<const Mat3> inverse_inertia_ws) {
     for (const EliminationPlan::HubCoupling& coupling : plan().hub_couplings()) {

@@ -28,10 +28,12 @@ class RowMatrix {
     std::size_t size() const { return diagonal_.size(); }
     // Diagonal of J W J^T, without alpha.
     double diagonal(std::size_t row) const { return diagonal_[row]; }
-    // R's diagonal, one value per row, >= 0. Takes effect with the next `factorise`.
+    // The diagonal `alpha` in the equation above (regularisation): one value per row, >= 0. Takes
+    // effect with the next `factorise`.
     std::span<double> alpha() { return alpha_; }
 
-    // Factorises the chosen rows (not 0) that something can move, as if the others did not exist.
+    // Factorises the matrix of the rows with a non-zero `chosen`, as if the others did not exist.
+    // Also omits rows that no body can move (zero diagonal).
     void factorise(std::span<const std::uint8_t> chosen);
     // Solves (J W J^T + diag(alpha)) lambda = -values with the last factor; 0 for omitted rows.
     void solve(std::span<const double> values, std::span<double> lambda);
@@ -43,7 +45,7 @@ class RowMatrix {
     double row_motion(std::size_t row) const;
 
   private:
-    // The rows between one pair of bodies.
+    // Consecutive rows between the same two bodies, at most k_widest_node.
     struct Node {
         std::uint32_t first_row = 0;
         std::uint32_t width = 0;
@@ -58,15 +60,15 @@ class RowMatrix {
     void write_hubs(std::span<const SolverBody> bodies, std::span<const Mat3> inverse_inertia_ws);
     void exclude_row(std::uint32_t node, std::size_t row_in_node);
     const EliminationPlan& plan() const { return plans_.current(); }
-    // Begin of a node side's J (six rows of the node's width) in `jacobians_`, and of its W J^T
-    // (six values for each row of the node) in `responses_`.
+    // Index at which the values of an end (2 * node + side) begin: J in jacobians_ (six rows of the
+    // node's width), W J^T in responses_ (six values for each row of the node).
     std::size_t end_begin(std::uint32_t end) const {
         const Node& node = nodes_[end / 2];
         return 12 * std::size_t{node.first_row} + (end % 2) * std::size_t{6} * node.width;
     }
 
     std::vector<Node> nodes_;
-    std::vector<RowNode> row_nodes_;  // the same, as the plan takes them
+    std::vector<RowNode> row_nodes_;  // nodes_ in the format of the plan
     std::vector<std::uint8_t> can_rotate_;
     std::vector<std::uint32_t> body_of_slot_;
     std::vector<std::uint32_t> node_of_row_;

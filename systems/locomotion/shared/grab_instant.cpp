@@ -10,16 +10,16 @@
 namespace handhold {
 namespace {
 
-// Where a hand was, on the way through its samples.
+// The hand at fraction t of the frame, interpolated between its samples.
 Pose hand_within_frame(const HandTracking& hand, const HandHistory& history, double start_s,
                        double end_s, double t) {
-    struct Stop {
+    struct Knot {
         double t = 0.0;
         const Pose* hand_ps = nullptr;
     };
-    Stop before{0.0, &hand.start_ps};
-    Stop after{1.0, &hand.pose_ps};
-    const bool jumps = hand.resumed;  // it has no way
+    Knot before{0.0, &hand.start_ps};
+    Knot after{1.0, &hand.pose_ps};
+    const bool jumps = hand.resumed;  // it did not travel
     for (std::uint32_t i = 0; i < history.count && !jumps; ++i) {
         const HandHistory::Entry& entry = history.entries[i];
         const double at = (entry.t_s - start_s) / (end_s - start_s);
@@ -32,8 +32,8 @@ Pose hand_within_frame(const HandTracking& hand, const HandHistory& history, dou
     return interpolate(*before.hand_ps, *after.hand_ps, (t - before.t) / (after.t - before.t));
 }
 
-// Where the hands want a free body; `first` leads it, alone or with the other hand.
-Pose wanted_body(const GrabInstant& now, const HandPair& first) {
+// Target pose of a free body by its hands. `first` drives it, alone or with the other hand.
+Pose target_body(const GrabInstant& now, const HandPair& first) {
     const Pose origin_ws = now.hand_driven_origin_ws(first.player);
     const Pose hand_ps = now.hand_ps(first.hand);
     const Pose& anchor_bs = first.grab.anchor_bs;
@@ -74,7 +74,7 @@ Vec3 GrabInstant::held_origin_ws(Entity player, const Grab& grab, const HandTrac
 Pose GrabInstant::hand_driven_origin_ws(Entity player) const {
     const GrabInstant start{io, 0.0};
     Pose hand_driven_ws = origin_ws(player);
-    Vec3 way = Vec3::Zero();
+    Vec3 travel = Vec3::Zero();
     int hands = 0;
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const Entity entity = io.grab.owners()[row];
@@ -82,12 +82,12 @@ Pose GrabInstant::hand_driven_origin_ws(Entity player) const {
         const HandTracking& hand = io.hand.at(entity);
         if (io.owner.at(entity).player == player && grab.kind == GripKind::surface &&
             grab.phase == GrabPhase::holding && hand.edge != GrabEdge::onset && !hand.resumed) {
-            way += held_origin_ws(player, grab, hand) - start.held_origin_ws(player, grab, hand);
+            travel += held_origin_ws(player, grab, hand) - start.held_origin_ws(player, grab, hand);
             ++hands;
         }
     }
     if (hands > 0) {
-        hand_driven_ws.position = io.player_start.at(player).pose_ws.position + way / hands;
+        hand_driven_ws.position = io.player_start.at(player).pose_ws.position + travel / hands;
     }
     return hand_driven_ws;
 }
@@ -129,7 +129,7 @@ Pose hand_driven_body_ws(const GrabInstant& now, Entity body, const PhaseTuning&
     };
     const Pose holder_start_ws = holder_ws(start);
     const Pose holder_now_ws = holder_ws(now);
-    double way = 0.0;
+    double travel = 0.0;
     double weights = 0.0;
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const Entity entity = io.grab.owners()[row];
@@ -145,34 +145,34 @@ Pose hand_driven_body_ws(const GrabInstant& now, Entity body, const PhaseTuning&
         };
         const Vec3 from_hs = hand_hs(start, holder_start_ws);
         const double weight = weight_along(*rail, from_hs);
-        way += weight * travel_along(*rail, from_hs, hand_hs(now, holder_now_ws));
+        travel += weight * travel_along(*rail, from_hs, hand_hs(now, holder_now_ws));
         weights += weight;
     }
-    constexpr double k_min_weight = 1e-8;  // a tenth of a millimetre off the axle: leads nothing
+    constexpr double k_min_weight = 1e-8;  // 0.1 mm off the axis: moves nothing
     if (weights < k_min_weight) {
         return now.body_ws(body);
     }
     return holder_now_ws *
-           moved_along(*rail, inverse(holder_start_ws) * start.body_ws(body), way / weights);
+           moved_along(*rail, inverse(holder_start_ws) * start.body_ws(body), travel / weights);
 }
 
 Pose origin_from_jointed_grab(const GrabInstant& now, Entity player, const Pose& body_ws,
                               const Grab& grab, const HandTracking& hand) {
     const GrabInstant start{now.io, 0.0};
-    const Vec3 body_way = transform_point(body_ws, grab.anchor_bs.position) -
-                          transform_point(start.body_ws(grab.body), grab.anchor_bs.position);
+    const Vec3 body_travel = transform_point(body_ws, grab.anchor_bs.position) -
+                             transform_point(start.body_ws(grab.body), grab.anchor_bs.position);
     Pose origin_ws = now.hand_driven_origin_ws(player);
-    const Vec3 hand_pose_at =
+    const Vec3 hand_travel =
         transform_point(origin_ws, now.hand_ps(hand).position) -
         transform_point(start.hand_driven_origin_ws(player), start.hand_ps(hand).position);
-    origin_ws.position += body_way - hand_pose_at;
+    origin_ws.position += body_travel - hand_travel;
     return origin_ws;
 }
 
 Pose origin_at(const GrabInstant& now, Entity player, const Grab* holding,
                const HandTracking* holding_hand, const PhaseTuning& tuning) {
     Pose origin_ws = now.origin_ws(player);
-    // A hand that was lost until now may have jumped: what it holds says nothing.
+    // A resumed hand may have jumped: its grip says nothing.
     if (holding == nullptr || holding->phase != GrabPhase::holding || holding_hand->resumed) {
         return origin_ws;
     }
@@ -192,12 +192,12 @@ Pose held_body_ws(const GrabInstant& now, const HandPair& first) {
     if (jumps) {
         return now.body_ws(first.grab.body);
     }
-    Pose wanted_ws = wanted_body(now, first);
+    Pose target_ws = target_body(now, first);
     if (first.hand.edge == GrabEdge::onset) {
-        return wanted_ws;
+        return target_ws;
     }
     const Pose start_ws = now.io.body_start.at(first.grab.body).pose_ws;
-    return wanted_ws * (inverse(wanted_body({now.io, 0.0}, first)) * start_ws);
+    return target_ws * (inverse(target_body({now.io, 0.0}, first)) * start_ws);
 }
 
 }  // namespace handhold

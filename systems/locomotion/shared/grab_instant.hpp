@@ -9,19 +9,19 @@
 #include "components/tuning.hpp"
 #include "engine/ecs/column.hpp"
 
-// Where hands, players and what they hold were at an instant within the frame, as hands led them:
-// what anchor_grabs takes anchors from. All poses are in the world, but for the hands' in their
-// players' play spaces (_ps).
+// Poses of hands, players and gripped bodies at an instant within the frame, as the hands move
+// them. anchor_grabs takes anchors from these. All poses are in the world, except for hands', which
+// are in their players' play spaces (_ps).
 namespace handhold {
 
-// The inputs of anchor_grabs (AnchorGrabsIo). The functions here read them; anchor_grabs
-// alone writes, and only `grab`.
+// Everything that anchors of a frame depend on; also AnchorGrabsIo. The functions below read it;
+// only anchor_grabs writes, and only `grab`.
 struct GrabFrame {
     double start_s = 0.0;  // in: the frame
     double end_s = 0.0;
     const Column<HandOwner>& owner;             // in
     const Column<HandTracking>& hand;           // in
-    const Column<HandHistory>& hand_history;    // in: the hands' ways within the frame
+    const Column<HandHistory>& hand_history;    // in: samples within the frame
     const Column<PlayerStart>& player_start;    // in
     const Column<PlayerOrigin>& origin;         // in: predicted
     const Column<HeadTracking>& head;           // in
@@ -34,28 +34,28 @@ struct GrabFrame {
     Column<Grab>& grab;                         // in/out: anchor, target, phase, two_handed
 };
 
-// Poses at one instant within the frame, 0 its start, 1 its end.
+// Poses at one instant within the frame; t = 0 is its start, 1 its end.
 struct GrabInstant {
     const GrabFrame& io;
     double t = 0.0;
 
-    // As predicted; of a player his head's.
+    // The predicted pose; for a player, the head's.
     Pose body_ws(Entity body) const;
     Pose origin_ws(Entity player) const;
     // `hand` is a row of `io.hand`.
     Pose hand_ps(const HandTracking& hand) const;
-    // Where a hand that holds on to something fixed would have its player.
+    // The origin position at which a hand on a fixed body would be on its anchor.
     Vec3 held_origin_ws(Entity player, const Grab& grab, const HandTracking& hand) const;
-    // Whom hands have held on to something fixed since before the frame goes the mean of their
-    // ways, and lacks all the while what he lacked at the frame's start; others go as predicted.
+    // If hands of the player have gripped fixed bodies since before the frame, the origin moves by
+    // the mean of their travels; its error stays what it was at the start of the frame. Other
+    // players' origins are the predicted ones.
     Pose hand_driven_origin_ws(Entity player) const;
 };
 
 // 0 to 1, of a time within the frame.
 double fraction_of(const GrabFrame& io, double t_s);
 
-// A grip, its hand and the same player's other ones; the other grip is null where there is no other
-// hand.
+// A grip and its hand, and those of the same player's other hand; null if there is none.
 struct HandPair {
     Grab& grab;
     const HandTracking& hand;
@@ -66,24 +66,25 @@ struct HandPair {
 HandPair pair_of(const GrabFrame& io, std::size_t row);
 HandPair swapped(const HandPair& pair);
 
-// True where it has had what it holds since before the frame, and knows where it is.
+// True if the hand has gripped its body since before the frame, and is not `resumed`.
 bool drives_whole_frame(const Grab& grab, const HandTracking& hand);
 
-// Where a body on a joint is that hands lead: as far along the joint as they went, on average, each
-// counted as the solver counts it, and off it by what it lacked at the frame's start. Any other
-// body: as predicted.
+// Pose of a jointed body that hands move: along its joint by the weighted mean of the hands'
+// travels (weight_along). Its error stays what it was at the start of the frame. Any other body:
+// predicted.
 Pose hand_driven_body_ws(const GrabInstant& now, Entity body, const PhaseTuning& tuning);
 
-// Where a free body that is held is: it follows its hands, not its velocity, and lacks all the
-// while what it lacked at the frame's start. What began to hold it in this frame lacks nothing.
-// `first` leads it, alone or with the other hand.
+// Pose of a held free body: it follows its hands, not its velocity. Its error stays what it was at
+// the start of the frame; a grip that began in this frame has none. `first` drives the body, alone
+// or with the other hand.
 Pose held_body_ws(const GrabInstant& now, const HandPair& first);
 
-// The player's origin, who goes by a hand of his all that its body, on a joint, cannot go with it.
+// The player's origin by a hand on a jointed body: it takes the part of the hand's travel that the
+// joint does not allow.
 Pose origin_from_jointed_grab(const GrabInstant& now, Entity player, const Pose& body_ws,
                               const Grab& grab, const HandTracking& hand);
-// The player's origin: from a hand that already holds on to something fixed, exact, or to something
-// on a joint; else, and where `holding` is null, on the predicted way.
+// The player's origin: by a hand that already grips a fixed body (exact) or a jointed one;
+// predicted otherwise, or if `holding` is null.
 Pose origin_at(const GrabInstant& now, Entity player, const Grab* holding,
                const HandTracking* holding_hand, const PhaseTuning& tuning);
 

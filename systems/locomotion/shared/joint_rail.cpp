@@ -56,12 +56,12 @@ double weight_along(const JointRail& rail, const Vec3& from_hs) {
     return rail.turns ? rail.axis_hs.cross(from_hs - rail.point_hs).squaredNorm() : 1.0;
 }
 
-Pose moved_along(const JointRail& rail, const Pose& pose_hs, double way) {
-    const double way_free = std::clamp(way, rail.back, rail.ahead);
+Pose moved_along(const JointRail& rail, const Pose& pose_hs, double travel) {
+    const double clamped = std::clamp(travel, rail.back, rail.ahead);
     if (!rail.turns) {
-        return {pose_hs.position + way_free * rail.axis_hs, pose_hs.rotation};
+        return {pose_hs.position + clamped * rail.axis_hs, pose_hs.rotation};
     }
-    const Quat turn = rotation_about(rail.axis_hs, way_free);
+    const Quat turn = rotation_about(rail.axis_hs, clamped);
     return {rail.point_hs + turn * (pose_hs.position - rail.point_hs),
             (turn * pose_hs.rotation).normalized()};
 }

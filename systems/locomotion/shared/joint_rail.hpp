@@ -15,31 +15,31 @@ struct JointRailIo {
     const Column<JointState>& joint_state;  // in: at the frame's start
 };
 
-// The one way that a lever, a door or a drawer can go: about its hinge or along its slider. In the
-// space (hs) of what holds it and no hand moves: the world, a fixed, kinematic or heavy body.
+// The single degree of freedom of a lever, a door or a drawer: about its hinge or along its slider.
+// Given in the space (_hs) of its holder, which no hand moves: the world, or a fixed, kinematic or
+// heavy body.
 struct JointRail {
     Entity holder;  // null: the world
     Vec3 point_hs = Vec3::Zero();
     Vec3 axis_hs = Vec3::UnitX();  // unit
     bool turns = false;            // about the axis; else along it
-    double back = 0.0;             // how far it can go, rad or m: <= 0
-    double ahead = 0.0;            // >= 0
+    double back = 0.0;             // lowest travel, rad or m, <= 0
+    double ahead = 0.0;            // highest travel, >= 0
 };
 
-// The rail of a light free body. None where no joint holds it, where more than one does, or where
-// it is free to go more ways than one (ball, distance).
+// The rail of a light free body. None if it has no joint, more than one joint, or a joint with more
+// than one degree of freedom (ball, distance).
 std::optional<JointRail> find_rail(const JointRailIo& io, Entity body, const PhaseTuning& tuning);
 
-// How far along its rail the body goes when a hand takes a point of it from one place as near to
-// another as it can: rad in [-pi, pi] or m, whatever the rail's ends. 0 for a point on the axle.
+// Travel of the body along its rail when a hand takes one of its points as close to `to_hs` as the
+// rail allows: rad in [-pi, pi] or m. The rail's ends are not applied. 0 for a point on the axis.
 double travel_along(const JointRail& rail, const Vec3& from_hs, const Vec3& to_hs);
 
-// How much the way of a hand there counts among those of several, as the solver counts it: on a
-// hinge by the square of its arm, m^2, since an angle is the less certain the nearer it is to the
-// axle.
+// Weight of a hand's travel in the mean over several hands, equal to its weight in the solver: on a
+// hinge the square of the lever arm, m^2; on a slider 1.
 double weight_along(const JointRail& rail, const Vec3& from_hs);
 
-// A pose that far along the rail, or as far as its ends allow.
-Pose moved_along(const JointRail& rail, const Pose& pose_hs, double way);
+// The pose moved by `travel` along the rail, clamped to its ends.
+Pose moved_along(const JointRail& rail, const Pose& pose_hs, double travel);
 
 }  // namespace handhold

@@ -12,6 +12,7 @@ using test::at;
 using test::Random;
 
 TEST(CollisionWorld, WarmWorldAllocatesNothing) {
+    (void)collision_allocation_count();  // hooks Bullet's allocator
     ShapeLibrary shapes;
     const ShapeId ball = shapes.add_sphere(0.12);
     const std::vector<CompoundChild> pair = {{ball, at({-0.1, 0.0, 0.0}), 0.0},

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/io/gltf.hpp"
+#include "tests/engine/allocation_count.hpp"
 #include "tests/engine/collision/scene.hpp"
 
 // Oracle: a mesh with its positions multiplied by the scale.

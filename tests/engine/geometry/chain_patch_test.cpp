@@ -8,21 +8,14 @@
 #include <gtest/gtest.h>
 
 #include "broken_meshes.hpp"
-#include "engine/geometry/hinge_chain.hpp"
 #include "engine/geometry/segment_triangle.hpp"
 #include "surface_cuts.hpp"
 
 namespace handhold::chain_patch_test {
 namespace {
 
+using test::full_mesh;
 using test::Random;
-
-// Full detail, so that reference cuts use the same triangles.
-GripMesh full_mesh(const Mesh& source) {
-    GripMeshSettings settings;
-    settings.contact.deviation_m = 0.0;
-    return build_grip_mesh(source, settings);
-}
 
 ChainReach random_reach(Random& random) {
     return {{random.vector(0.1), random.rotation()}, random.between(0.02, 0.12), 0.008};
@@ -298,121 +291,6 @@ TEST(ChainPatch, CutsFarFromMeshCentre) {
         EXPECT_GT(comparison.cuts, 1000) << half_m;
         EXPECT_LT(comparison.undecided, comparison.cuts / 50) << half_m;
     }
-}
-
-// Stores boxes rounded outwards, as the tree does.
-void put_rounded(const Vec3& low, const Vec3& high, std::size_t lane, Boxes4& boxes) {
-    constexpr float k_infinity = std::numeric_limits<float>::infinity();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto at = static_cast<Eigen::Index>(axis);
-        boxes.low[axis][lane] = std::nextafter(static_cast<float>(low[at]), -k_infinity);
-        boxes.high[axis][lane] = std::nextafter(static_cast<float>(high[at]), k_infinity);
-    }
-}
-
-// A corner of the aligned box lies on a face of the oriented one and the rest lies outside. The
-// smallest rounding in the wrong direction would reject it. Boxes 4 cm farther away are rejected.
-TEST(OrientedBoxTest, TouchingBoxesAreNeverRejected) {
-    Random random(1508);
-    int apart = 0;
-    constexpr int k_boxes = 20000;
-    for (int i = 0; i < k_boxes; ++i) {
-        const Mat3 turn = random.rotation().toRotationMatrix();
-        const Vec3 touch = random.vector(10.0);
-        const int face = i % 3;
-        OrientedBox box;
-        box.half_extents = random.vector(0.1).cwiseAbs();
-        for (int axis = 0; axis < 3; ++axis) {
-            const double off = axis == face ? -1.0 : random.between(-1.0, 1.0);
-            box.axis[static_cast<std::size_t>(axis)] = turn.row(axis).transpose();
-            box.centre[axis] = turn.row(axis).dot(touch) + off * box.half_extents[axis];
-        }
-        const Vec3 outwards = turn.row(face).transpose();
-        const Vec3 size = random.vector(0.1).cwiseAbs();
-        const Vec3 low = touch - (outwards.array() < 0.0).select(size, Vec3::Zero());
-        const Vec3 high = low + size;
-        const double reach_m = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
-        const OrientedBoxTest test(box, reach_m + 0.1);
-        const Vec3 away = 0.04 * outwards;
-        Boxes4 boxes;
-        const auto touching = static_cast<std::size_t>(i % 4);
-        for (std::size_t lane = 0; lane < 4; ++lane) {
-            const Vec3 off = lane == touching ? Vec3(Vec3::Zero()) : away;
-            put_rounded(low + off, high + off, lane, boxes);
-        }
-        const Int4 is_met = test.may_meet(boxes);
-        ASSERT_NE(is_met[touching], 0) << i;
-        for (std::size_t lane = 0; lane < 4; ++lane) {
-            apart += is_met[lane] == 0 ? 1 : 0;
-        }
-    }
-    EXPECT_EQ(apart, 3 * k_boxes);
-}
-
-TEST(ChainDepth, ThickerChainDeterminesDepthOfChain) {
-    Random random(1509);
-    const GripMesh mesh = full_mesh(test::make_torus(0.08, 0.03, 90, 48));
-    const std::vector<PlacedMesh> placed = {{&mesh, {}}};
-    int penetrating = 0;
-    for (int i = 0; i < 500; ++i) {
-        HingeChain chain;
-        chain.base = {random.vector(0.1), random.rotation()};
-        chain.length_m = {0.045, 0.026, 0.022};
-        chain.radius_m = {0.009, 0.008, 0.007};
-        const ChainAngles angle_rad = {random.between(0.0, 1.0), random.between(0.0, 1.0),
-                                       random.between(0.0, 1.0)};
-        ChainPatch patch;
-        patch.gather({chain.base, reach_m(chain) + 1e-3, 0.01}, placed);
-        const ChainDepth expected = chain_depth(chain, angle_rad, patch);
-        const ChainDepth derived =
-            own_depth(chain, chain_depth(chain, angle_rad, patch, {.extra_radius_m = 5e-4}), 3);
-        EXPECT_NEAR(derived.depth_m, expected.depth_m, 1e-15);
-        EXPECT_EQ(derived.link, expected.link);
-        // A query that stops at a sufficient depth reports at least that depth.
-        const ChainDepth enough =
-            chain_depth(chain, angle_rad, patch, {.sufficient_depth_m = 0.5 * expected.depth_m});
-        EXPECT_GE(enough.depth_m, 0.5 * expected.depth_m);
-        EXPECT_LE(enough.depth_m, expected.depth_m);
-        penetrating += expected.depth_m > 0.0 ? 1 : 0;
-    }
-    EXPECT_GT(penetrating, 50);
-}
-
-// More poses of the first link than are cached, in any order.
-TEST(ChainDepths, EqualDepthOfEachPoseAlone) {
-    Random random(1512);
-    const GripMesh mesh = full_mesh(test::make_torus(0.08, 0.03, 90, 48));
-    const std::vector<PlacedMesh> placed = {{&mesh, {}}};
-    int penetrating = 0;
-    int crossed = 0;
-    for (int i = 0; i < 200; ++i) {
-        HingeChain chain;
-        chain.base = {random.vector(0.1), random.rotation()};
-        chain.length_m = {0.045, 0.026, 0.022};
-        chain.radius_m = {0.009, 0.008, 0.007};
-        ChainPatch patch;
-        patch.gather({chain.base, reach_m(chain) + 1e-3, 0.01}, placed);
-        ChainDepths depths(chain, patch);
-        for (int pose = 0; pose < 40; ++pose) {
-            const double first_rad = 0.15 * std::floor(random.between(0.0, 8.0));
-            const ChainAngles angle_rad = {first_rad, random.between(0.0, 1.0),
-                                           random.between(0.0, 1.0)};
-            const ChainDepth expected = chain_depth(chain, angle_rad, patch);
-            const double sufficient_depth_m =
-                pose % 4 == 0 ? std::numeric_limits<double>::infinity() : random.between(0.0, 0.01);
-            const double found_m = depths.depth_m(angle_rad, sufficient_depth_m);
-            if (expected.depth_m < sufficient_depth_m) {
-                ASSERT_EQ(found_m, expected.depth_m) << i << ", " << pose;
-            } else {
-                ASSERT_GE(found_m, sufficient_depth_m) << i << ", " << pose;
-                ASSERT_LE(found_m, expected.depth_m) << i << ", " << pose;
-            }
-            penetrating += expected.depth_m > 0.0 ? 1 : 0;
-            crossed += expected.beyond_m[0] > 0.0 ? 1 : 0;
-        }
-    }
-    EXPECT_GT(penetrating, 500);
-    EXPECT_GT(crossed, 50);
 }
 
 }  // namespace

@@ -5,10 +5,18 @@
 
 #include "disc_oracle.hpp"
 #include "engine/geometry/disc_trace.hpp"
+#include "engine/geometry/grip_mesh.hpp"
 #include "engine/geometry/surface_graph.hpp"
 
 // Brute-force plane cuts of surfaces, and surfaces to cut.
 namespace handhold::test {
+
+// Full detail, so that reference cuts use the same triangles.
+inline GripMesh full_mesh(const Mesh& source) {
+    GripMeshSettings settings;
+    settings.contact.deviation_m = 0.0;
+    return build_grip_mesh(source, settings);
+}
 
 // The cuts of all triangles that reach into the disc, in triangle order.
 inline std::vector<DiscSegment> cut_by_hand(const SurfaceGraph& graph, const Disc& disc) {

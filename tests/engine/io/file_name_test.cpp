@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Random names seldom hold what leads out of a folder: these pieces do.
+// Pieces of names that lead out of a folder; random names seldom contain them.
 rc::Gen<std::string> hostile_names() {
     const auto piece = rc::gen::oneOf(
         rc::gen::element<std::string>("..", "/", "\\", ".", "~", "%", "%2F", "..\\", "C:", "\0",

@@ -91,4 +91,15 @@ inline GltfBuilder triangle_file() {
     return builder;
 }
 
+// Declares the positions to be compressed, which they are not.
+inline nlohmann::json& make_compressed(GltfBuilder& b) {
+    nlohmann::json& meshopt = b.json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"];
+    meshopt = {{"buffer", 0},
+               {"byteLength", 36},
+               {"byteStride", 12},
+               {"count", 3},
+               {"mode", "ATTRIBUTES"}};
+    return meshopt;
+}
+
 }  // namespace handhold::test

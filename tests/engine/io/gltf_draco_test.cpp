@@ -166,7 +166,8 @@ TEST(GltfDraco, DamagedDataIsRefusedOrSound) {
         for (int i = 0; i < 1 + round % 3; ++i) {
             const auto at = static_cast<std::size_t>(
                 random.between(0, static_cast<double>(whole.bytes.size()) - 0.001));
-            damaged.bytes[at] = static_cast<char>(random.between(0, 255.999));
+            damaged.bytes[at] =
+                static_cast<char>(static_cast<unsigned char>(random.between(0, 255.999)));
         }
         const Result<SkinnedMesh> skin = parse_gltf_skin(write_glb(damaged, source), "damaged.glb");
         for (std::size_t i = 0; skin && i < skin.value().triangles.size(); ++i) {

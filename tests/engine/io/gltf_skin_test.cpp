@@ -21,9 +21,9 @@ std::string raw(const std::vector<T>& values) {
     return bytes;
 }
 
-// A strip along +X below two joints, the second at x = 1, turned by 90 degrees about Z. All stands
-// below a node that scales by 0.5 and lifts by 2; the mesh's own node is elsewhere, which skins
-// ignore (specification, 3.7.3.3).
+// A strip along +X with two joints above it, the second at x = 1, turned by 90 degrees about Z.
+// Both are below a node that scales by 0.5 and lifts by 2. The mesh's own node is elsewhere, which
+// must have no effect (specification, 3.7.3.3).
 GltfBuilder strip_file() {
     GltfBuilder builder;
     const int positions = builder.add_positions({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}});
@@ -61,12 +61,13 @@ TEST(GltfSkin, StandsAsItsNodesPoseIt) {
     ASSERT_TRUE(skin.ok()) << skin.error().message();
     const SkinnedMesh& mesh = skin.value();
     ASSERT_EQ(mesh.positions.size(), 4U);
-    // The inverse binds undo the rest pose, so only the node above is left: half the size, 2 up.
+    // The inverse binds undo the rest pose. Only the node above remains: half the size, 2 up.
     const std::array<Vec3, 4> expected = {Vec3(0, 2, 0), Vec3(1, 2, 0), Vec3(1, 2.5, 0),
                                           Vec3(0, 2.5, 0)};
     for (std::size_t i = 0; i < 4; ++i) {
         EXPECT_NEAR((mesh.positions[i] - expected[i]).norm(), 0.0, 1e-6);
-        EXPECT_NEAR((mesh.normals[i] - Vec3::UnitZ()).norm(), 0.0, 1e-6);  // made: it has none
+        // computed: the file has none
+        EXPECT_NEAR((mesh.normals[i] - Vec3::UnitZ()).norm(), 0.0, 1e-6);
     }
     ASSERT_EQ(mesh.joints.size(), 2U);
     EXPECT_EQ(mesh.joints[1].name, "second");
@@ -189,8 +190,8 @@ TEST(GltfSkinRealData, BothHandsLoad) {
     }
 }
 
-// Beside the strip a triangle without a skin on a node that mirrors, and the skin's own node, which
-// is a joint that carries nothing.
+// Besides the strip, there is a triangle without a skin on a node that mirrors. The skin's own node
+// is a joint that moves no vertex.
 TEST(GltfFigure, EveryNodeIsAJointAndMeshesGoWithTheirNode) {
     GltfBuilder builder = strip_file();
     const int positions = builder.add_positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
@@ -221,7 +222,7 @@ TEST(GltfFigure, EveryNodeIsAJointAndMeshesGoWithTheirNode) {
     }
     EXPECT_NEAR((found.positions[flag] - Vec3(0.5, 2, 2)).norm(), 0.0, 1e-6);
     EXPECT_NEAR((found.positions[flag + 1] - Vec3(0.5, 1.5, 2)).norm(), 0.0, 1e-6);
-    // Outside stays outside: the triangle's winding was turned with the mirror.
+    // The outside stays outside: the triangle's winding was reversed together with the mirroring.
     for (const auto& [a, b, c] : found.triangles) {
         if (a >= flag && a < flag + 3) {
             const Vec3 area = (found.positions[b] - found.positions[a])
@@ -231,8 +232,8 @@ TEST(GltfFigure, EveryNodeIsAJointAndMeshesGoWithTheirNode) {
     }
 }
 
-// A ramp on a node that is twice as high as wide, and mirrored: its normal stays square to it, on
-// the side where its triangle shows.
+// A ramp on a mirroring node that is scaled to twice the height. Its normal stays perpendicular to
+// it, on the side from which its triangle is visible.
 TEST(GltfFigure, NormalsStaySquareToWhatIsScaled) {
     for (const double x : {1.0, -1.0}) {
         GltfBuilder builder;
@@ -254,7 +255,7 @@ TEST(GltfFigure, NormalsStaySquareToWhatIsScaled) {
     }
 }
 
-// Skins that are mirrored by what is above their joints: outside stays outside.
+// Skins mirrored by a node above their joints: the outside stays outside.
 TEST(GltfFigure, SkinsMayBeMirrored) {
     GltfBuilder builder = strip_file();
     builder.json["nodes"][0]["scale"] = {-0.5, 0.5, 0.5};

@@ -158,7 +158,8 @@ TEST(LoadGltfLevel, DropsAndCountsTrianglesWithoutArea) {
     GltfBuilder builder;
     const int corners =
         builder.add_positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3F, 0, 0}, {1, 0, 0}});
-    // A corner twice by index, by place, and three corners on a line; the last one is good.
+    // One triangle has a corner twice by index, one by position, and one has three corners on a
+    // line. The last one is good.
     const int indices = builder.add_indices<std::uint16_t>({0, 0, 2, 1, 4, 2, 0, 3, 1, 0, 1, 2});
     builder.json["nodes"] = {{{"mesh", builder.add_mesh(corners, indices)}}};
     const GltfLevel level = load(builder);

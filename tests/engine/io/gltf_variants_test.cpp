@@ -61,8 +61,8 @@ TEST(GltfVariants, RandomLevelsAreReadWithinQuantisation) {
         VariantBuilder builder;
         const int positions = builder.add_rows(quantized.rows, "VEC3", 3, random);
         const int indices = builder.add_indices(source.indices, source.positions.size(), random);
-        builder.gltf.json["nodes"] = {
-            dequantizing_node(quantized, builder.gltf.add_mesh(positions, indices))};
+        builder.gltf.json["nodes"] =
+            Json::array({dequantizing_node(quantized, builder.gltf.add_mesh(positions, indices))});
         const Result<GltfLevel> level = parse_gltf_level(builder.glb(), "level.glb");
         ASSERT_TRUE(level.ok()) << round << ": " << level.error().message();
         const Mesh& mesh = level.value().parts.at(0).mesh;

@@ -14,7 +14,7 @@ FileError error_of_parse(const std::string& text) {
     return document.ok() ? FileError() : document.error();
 }
 
-// What reading a document with `read` gives: the message, or nothing.
+// The error message after reading a document with `read`; empty if there is none.
 std::string message_of(const std::string& text, const std::function<void(const JsonValue&)>& read) {
     const Result<JsonDocument> document = JsonDocument::parse(text, "f.json");
     if (!document) {

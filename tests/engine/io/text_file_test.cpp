@@ -41,7 +41,7 @@ TEST_F(TextFile, ReturnsEveryByteThatWasWritten) {
         ASSERT_TRUE(read.ok());
         EXPECT_EQ(read.value(), text);
     }
-    EXPECT_EQ(count_entries(), 1);  // no temporary file stays
+    EXPECT_EQ(count_entries(), 1);  // no temporary file is left
 }
 
 TEST_F(TextFile, FailedWriteLeavesNothingBehind) {

@@ -53,6 +53,7 @@ struct Solo {
     StageStats stats;
     std::uint64_t onsets = 0;
     std::uint64_t gripped = 0;
+    std::uint64_t unseen = 0;  // refused: behind a wall
 
     Solo(Scene& in, const Vec3& head_ws, std::uint64_t seed, ClimberTask what = {})
         : scene(in), caches(*in.shapes, in.grip_meshes.get()), task(std::move(what)) {
@@ -68,6 +69,7 @@ struct Solo {
         step_frame(scene.world, caches, scene.tuning, {dt_s, {&input, 1}}, stats);
         onsets += stats.grab_onsets;
         gripped += stats.grabs_gripped;
+        unseen += stats.fallbacks[static_cast<std::size_t>(Fallback::grab_out_of_sight)];
     }
     double now_s() const { return scene.world.clock.t_s; }
     const RenderPose& render() const { return scene.world.render_pose.at(task.player.player); }

@@ -35,7 +35,9 @@ INSTANTIATE_TEST_SUITE_P(
     Formats, FuzzCorpus,
     testing::Values(Target{"scene", fuzz::run_scene}, Target{"gltf", fuzz::run_gltf},
                     Target{"recording", fuzz::run_recording}, Target{"tuning", fuzz::run_tuning},
-                    Target{"shots", fuzz::run_shots}, Target{"snapshot", fuzz::run_snapshot}));
+                    Target{"shots", fuzz::run_shots}, Target{"snapshot", fuzz::run_snapshot},
+                    Target{"station", fuzz::run_station},
+                    Target{"controller", fuzz::run_controller}, Target{"csv", fuzz::run_csv}));
 
 }  // namespace
 }  // namespace handhold::fuzz_corpus_test

@@ -13,7 +13,7 @@
 
 #include "engine/io/gltf_writer.hpp"
 #include "engine/io/text_file.hpp"
-#include "game/climber/climber_session.hpp"
+#include "game/commands/climb_command.hpp"
 
 namespace handhold::run_command_test {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "game/render/ghost_hands.hpp"
 #include "game/scene/built_in_scenes.hpp"
 #include "game/session/session_run.hpp"
-#include "game/view/ghost_hands.hpp"
 
 namespace handhold::reach_test {
 namespace {

@@ -133,6 +133,22 @@ TEST(Recording, OneNanCellLosesItsPoseOnly) {
     EXPECT_TRUE(is_valid(sample.hands[1].controller));
 }
 
+// Some recorders write a lost device so.
+TEST(Recording, QuaternionOfZerosLosesItsPoseOnly) {
+    Row lost = row_at("0.011");
+    lost[7] = "0";                                             // head
+    lost[20] = lost[21] = lost[22] = lost[23] = "-0.0000000";  // right hand
+    const Result<Recording> recording = parse_recording(write({row_at("0"), lost}), "f.csv");
+    ASSERT_TRUE(recording.ok()) << recording.error().message();
+    const RecordedSample& sample = recording.value().samples[1];
+    for (const Pose& pose : {sample.head, sample.hands[1].controller}) {
+        EXPECT_TRUE(pose.position.array().isNaN().all());
+        EXPECT_TRUE(pose.rotation.coeffs().array().isNaN().all());
+    }
+    EXPECT_EQ(sample.hands[1].buttons, k_button_grip);
+    EXPECT_TRUE(is_valid(sample.hands[0].controller));
+}
+
 TEST(Recording, QuaternionsWithinOnePercentAreMadeUnit) {
     Row nearly = row_at("0");
     nearly[7] = "1.009";
@@ -153,7 +169,7 @@ TEST(Recording, BadCellsAreRefusedByLine) {
         {"time nan", 0, "nan"},          {"time too large", 0, "1e300"},
         {"head too far", 1, "2e6"},      {"head infinite", 1, "inf"},
         {"head no number", 2, "up"},     {"quaternion long", 7, "1.011"},
-        {"quaternion zero", 7, "0"},     {"quaternion huge", 7, "1e200"},
+        {"quaternion short", 7, "0.98"}, {"quaternion huge", 7, "1e200"},
         {"button nan", 15, "nan"},       {"button negative", 15, "-1"},
         {"button fraction", 15, "1.5"},  {"button too large", 24, "65536"},
         {"trigger above 1", 16, "1.01"}, {"trigger below 0", 25, "-0.1"},
@@ -181,7 +197,7 @@ TEST(Recording, NeedsTwoSamples) {
               "f.csv: expected at least 2 samples, found 1");
 }
 
-// A cut file either breaks a row, or ends with fewer samples or fewer digits of the last cell.
+// A truncated file either breaks a row, or has fewer samples or fewer digits in its last cell.
 TEST(Recording, EveryTruncationIsAnErrorOrAShorterRecording) {
     const std::string whole = write({row_at("0"), row_at("1"), row_at("2")});
     for (std::size_t length = 0; length + 2 < whole.size(); ++length) {

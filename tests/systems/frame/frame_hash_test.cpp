@@ -52,6 +52,14 @@ World full_world() {
     world.authored_grips.add(ship);
     world.authored_hold.add(made.hands[0]);
     world.hand_pull.add(made.hands[0]);
+    world.move_target.add(ship);
+    world.gravity_scale.add(other);
+    world.filter.add(other);
+    world.grab_rule.add(other);
+    world.early_sample.add(made.player);
+    world.grab_layers.add(made.player);
+    world.grab_order.add(made.hands[0]);
+    world.hand_rig.add(made.hands[0]);
     return world;
 }
 

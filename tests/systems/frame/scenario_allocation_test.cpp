@@ -9,6 +9,7 @@
 
 #include "engine/collision/collision_world.hpp"
 #include "engine/solver/packed/triad_kernels.hpp"
+#include "tests/engine/allocation_count.hpp"
 #include "tests/systems/frame/scenario.hpp"
 
 #if defined(__has_feature)

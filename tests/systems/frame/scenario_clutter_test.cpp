@@ -87,6 +87,7 @@ double overlap_where_it_is(const Scenario& s, Entity body) {
 ClutterResult drag_through_clutter(std::uint64_t seed, Clutter kind) {
     Random random(seed);
     Scenario s;
+    s.tuning.tracking.max_hand_speed_mps = 1e3;  // jumps are followed
     const Vec3 palm(0.3, 1.2, -0.5);
     const Vec3 half_m(0.02, 0.02, 0.15);
     const Entity tool = s.add_crate("tool", 3.0, palm - Vec3(0.0, half_m.y(), 0.0), half_m);

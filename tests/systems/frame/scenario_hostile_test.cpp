@@ -94,7 +94,7 @@ TEST(TrackingLoss, FreezesTheHandAndResumesWithoutAJump) {
         if (t > 0.4 && t < 1.0) {
             return Pose{Vec3(nan, nan, nan), Quat(nan, nan, nan, nan)};
         }
-        return Pose{t < 0.7 ? hand : Vec3(hand + Vec3(0.0, 0.3, 0.2)), Quat::Identity()};
+        return Pose{t < 0.7 ? hand : Vec3(hand + Vec3(0.0, 0.2, 0.2)), Quat::Identity()};
     };
     Vec3 before = s.origin();
     std::uint64_t reanchored = 0;

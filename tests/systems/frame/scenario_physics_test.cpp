@@ -109,6 +109,7 @@ TEST_P(HeldRock, ShovedIntoWallPushesPlayerByTheViolationInTheSameFrame) {
 
 TEST_P(HeldRock, JumpingThirtyCentimetresInAFramePushesInsteadOfTunnelling) {
     Scenario s;
+    s.tuning.tracking.max_hand_speed_mps = 1e3;  // the jump is followed
     const Entity rock = add_rock_under_palm(s);
     s.add_wall("wall", Vec3(2.0, 2.0, 0.01),
                Vec3(0.0, 1.0, -k_radius_m - 0.10 - 0.01));  // 2 cm thin: crossed within one frame

@@ -104,7 +104,7 @@ TEST_F(SnapshotRefuses, CountsBeyondTheBytesWithoutAllocating) {
     const std::size_t pool = SnapshotBytes(bytes_).payload_begin();
     const std::size_t slots = crowd_.world.entities.generations().size();
     const std::size_t globals = pool + 4 * (2 + slots + crowd_.world.entities.free_slots().size());
-    const std::size_t first_column = globals + 8 + 8 + 24;
+    const std::size_t first_column = globals + 8 + 8 + 24 + 24;
     for (const std::size_t count_at : {std::size_t{12}, pool, pool + 4 + 4 * slots, first_column}) {
         for (const std::uint32_t claim : {1U << 30U, ~0U}) {
             SnapshotBytes claiming(bytes_);

@@ -61,7 +61,7 @@ PalmCost searched(const GripMesh& mesh, const PalmFrame& palm, const PalmTuning&
 TEST(SurfaceSearch, FindsTriangleOfLeastCost) {
     const PalmTuning tuning;
     int compared = 0;
-    int missed = 0;  // behind a hill that the idle limit does not reach over
+    int missed = 0;  // the search ended before it crossed a hill
     for (std::uint64_t seed = 2201; seed < 2211; ++seed) {
         Random random(seed);
         const GripMesh mesh = build_grip_mesh(make_dunes(random));

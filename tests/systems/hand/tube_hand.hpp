@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <numbers>
 #include <string>
 
@@ -8,6 +9,15 @@
 #include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold::test {
+
+// The relaxed angles of all fingers.
+inline std::array<FingerAngles, k_finger_count> relaxed(const HandRig& rig) {
+    std::array<FingerAngles, k_finger_count> angles;
+    for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
+        angles[i] = relaxed_angles(rig.fingers[i]);
+    }
+    return angles;
+}
 
 // A skinned mesh of open tubes around a rig's links and palm capsules, posed at `angles` with the
 // hand at `hand_ms`. A rig fitted to it has known capsules in closed form. Fingertip tubes end one

@@ -12,6 +12,7 @@ namespace {
 
 using test::Devices;
 using test::k_frame_s;
+using test::k_rest;
 using test::Random;
 using test::sample_at;
 
@@ -26,13 +27,13 @@ TEST(ReadTracking, EdgeHasTheTimeAndPoseOfItsOwnSample) {
     EXPECT_EQ(devices.right().edge_t_s, 0.004);
     EXPECT_EQ(devices.right().edge_ps.position, Vec3(2.0, 0.0, 0.0));
     EXPECT_TRUE(devices.right().pressed);
-    devices.step({sample_at(0.012, Vec3::Zero(), true)});
+    devices.step({sample_at(0.012, k_rest, true)});
     EXPECT_EQ(devices.right().edge, GrabEdge::none);
 }
 
 TEST(ReadTracking, TapWithinOneFrameIsAnOnsetAndAReleaseInTheNext) {
     Devices devices;
-    devices.step({sample_at(0.001), sample_at(0.003, Vec3::Zero(), true), sample_at(0.006)});
+    devices.step({sample_at(0.001), sample_at(0.003, k_rest, true), sample_at(0.006)});
     EXPECT_EQ(devices.right().edge, GrabEdge::onset);
     devices.step({sample_at(0.013), sample_at(0.018)});
     EXPECT_EQ(devices.right().edge, GrabEdge::release);
@@ -45,18 +46,18 @@ TEST(ReadTracking, BouncesThatEndAsTheyBeganAreOneEdge) {
     Devices devices;
     std::vector<TrackingSample> bouncing = {sample_at(0.001)};
     for (int i = 0; i < 7; ++i) {
-        bouncing.push_back(sample_at(0.002 + 0.001 * i, Vec3::Zero(), i % 2 == 0));
+        bouncing.push_back(sample_at(0.002 + 0.001 * i, k_rest, i % 2 == 0));
     }
     devices.step(bouncing);
     EXPECT_EQ(devices.right().edge, GrabEdge::onset);
     EXPECT_EQ(devices.right().edge_t_s, 0.002);
-    devices.step({sample_at(0.015, Vec3::Zero(), true)});
+    devices.step({sample_at(0.015, k_rest, true)});
     EXPECT_EQ(devices.right().edge, GrabEdge::none);
     EXPECT_TRUE(devices.right().pressed);
 }
 
-// Onsets and releases alternate for ever, at most one a frame, each within its frame; the hand ends
-// as the button does.
+// Onsets and releases alternate, at most one per frame, each within its frame. At the end, the
+// hand's state is the button's.
 RC_GTEST_PROP(ReadTracking, EdgesAlternateHoweverTheButtonBounces, (std::uint64_t seed)) {
     Random random(seed);
     Devices devices;
@@ -79,8 +80,8 @@ RC_GTEST_PROP(ReadTracking, EdgesAlternateHoweverTheButtonBounces, (std::uint64_
         RC_ASSERT(hand.pressed == (hand.edge == GrabEdge::none ? was_pressed : !was_pressed));
         was_pressed = hand.pressed;
     }
-    devices.step({sample_at(devices.t_s + 0.005, Vec3::Zero(), true)});
-    devices.step({sample_at(devices.t_s + 0.005, Vec3::Zero(), true)});
+    devices.step({sample_at(devices.t_s + 0.005, k_rest, true)});
+    devices.step({sample_at(devices.t_s + 0.005, k_rest, true)});
     RC_ASSERT(devices.right().pressed);
 }
 
@@ -104,7 +105,7 @@ void move_and_let_go(const Motion& motion, Devices& devices, double dt_s) {
     for (int frame = 0; frame < frames; ++frame) {
         std::vector<TrackingSample> samples;
         for (; 0.002 * next <= devices.t_s + dt_s; ++next) {
-            samples.push_back(sample_at(0.002 * next, Vec3::Zero(), next < 50));
+            samples.push_back(sample_at(0.002 * next, k_rest, next < 50));
             for (ControllerSample& controller : samples.back().controllers) {
                 controller.controller_ps = motion.at(0.002 * next);
             }
@@ -160,7 +161,7 @@ TEST(ReadTracking, ReleaseVelocityIsTheSameBitForBitAtAnyFrameRate) {
 TEST(ReadTracking, ReleaseOfASingleSampleIsStillAndOfTwoIsTheirDifference) {
     Devices still;
     still.tuning.tracking.release_window_s = 0.01;
-    still.step({sample_at(0.005, Vec3::Zero(), true)});
+    still.step({sample_at(0.005, k_rest, true)});
     for (int frame = 0; frame < 8; ++frame) {
         still.step({});
     }
@@ -169,8 +170,8 @@ TEST(ReadTracking, ReleaseOfASingleSampleIsStillAndOfTwoIsTheirDifference) {
     EXPECT_EQ(still.right().release_velocity_ps_mps, Vec3(Vec3::Zero()));
 
     Devices moving;
-    moving.step({sample_at(0.005, Vec3::Zero(), true)});
-    moving.step({sample_at(0.015, Vec3(0.02, 0.0, -0.01))});
+    moving.step({sample_at(0.005, k_rest, true)});
+    moving.step({sample_at(0.015, k_rest + Vec3(0.02, 0.0, -0.01))});
     ASSERT_EQ(moving.right().edge, GrabEdge::release);
     EXPECT_LT((moving.right().release_velocity_ps_mps - Vec3(2.0, 0.0, -1.0)).norm(), 1e-12);
 }

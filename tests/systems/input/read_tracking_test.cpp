@@ -20,6 +20,7 @@ using test::distance;
 using test::entity;
 using test::k_frame_s;
 using test::k_player;
+using test::k_rest;
 using test::Random;
 using test::sample_at;
 
@@ -179,13 +180,13 @@ TEST(ReadTracking, HeadThatJumpsIsRecentredAndItsHandsWithIt) {
     devices.step({sample_at(0.024, place_at(0.024) + jump_m, true),
                   sample_at(0.029, place_at(0.029) + jump_m, true)});
     EXPECT_EQ(count_of(devices.stats, Fallback::head_recentred), 1U);
-    // It stood still for the 9 ms of the jump, and its hands with it.
+    // The player does not move for the 9 ms of the jump, nor do the hands.
     const Vec3 stood_m(0.009, 0.0, 0.0);
     EXPECT_LT((devices.player_head().pose_ps.position + stood_m - place_at(0.029)).norm(), 1e-9);
     EXPECT_LT((devices.right().edge_ps.position + stood_m - place_at(0.024)).norm(), 1e-9);
     EXPECT_FALSE(devices.right().resumed);
     devices.step({sample_at(0.039, place_at(0.039) + jump_m)});
-    // What it throws with: 1 m/s, less what the jump stood still.
+    // Release velocity: 1 m/s, less because of the time without motion during the jump.
     const double slope_mps = devices.left().release_velocity_ps_mps.x();
     EXPECT_GT(slope_mps, 0.5);
     EXPECT_LT(slope_mps, 1.0);
@@ -212,13 +213,13 @@ TEST(ReadTracking, GlitchWithinAFrameLeavesNothingBehind) {
 
 TEST(ReadTracking, HandOutOfItsHeadsReachIsNotBelieved) {
     Devices devices;
-    devices.step({sample_at(0.005, Vec3::Zero(), true)});
-    TrackingSample glitch = sample_at(0.015, Vec3::Zero(), false);
+    devices.step({sample_at(0.005, k_rest, true)});
+    TrackingSample glitch = sample_at(0.015, k_rest, false);
     glitch.controllers[1].controller_ps.position.x() = devices.tuning.hand.max_arm_m + 0.001;
     devices.step({glitch});
     EXPECT_EQ(count_of(devices.stats, Fallback::hand_out_of_reach), 1U);
     // Where it was, but what its button says counts: it may open.
-    EXPECT_EQ(devices.right().pose_ps.position, Vec3::Zero());
+    EXPECT_EQ(devices.right().pose_ps.position, k_rest);
     EXPECT_EQ(devices.right().edge, GrabEdge::release);
     EXPECT_EQ(devices.right().release_velocity_ps_mps, Vec3::Zero());
     glitch.controllers[1].controller_ps.position.x() = devices.tuning.hand.max_arm_m - 0.001;
@@ -242,33 +243,106 @@ TEST(ReadTracking, HeadThatJumpsAloneLeavesItsHandsWhereTheyWere) {
     EXPECT_TRUE(devices.right().pressed);
 }
 
-TEST(ReadTracking, HandThatJumpsWithinReachSaysSoAndDoesNotSweep) {
+// --- What a hand can do --------------------------------------------------------------------------
+
+// Two readings in a row must agree, and the hand must have had the time: 0.4 m at 8 m/s are 50 ms.
+TEST(ReadTracking, HandThatJumpsIsBelievedOnceItCouldHaveComeThere) {
     Devices devices;
-    TrackingSample sample = sample_at(0.005);
-    sample.controllers[0].controller_ps.position.x() = -1.9;
-    devices.step({sample});
-    sample = sample_at(0.015);
-    sample.controllers[0].controller_ps.position.x() = 1.9;
-    devices.step({sample});
-    EXPECT_TRUE(devices.left().resumed);
-    EXPECT_EQ(devices.left().start_ps.position, Vec3(1.9, 0.0, 0.0));
-    EXPECT_EQ(devices.left().pose_ps.position, Vec3(1.9, 0.0, 0.0));
+    devices.tuning.tracking.max_hand_speed_mps = 8.0;
+    devices.step({sample_at(0.005, Vec3(1.0, 0.0, 0.0))});
+    std::uint64_t ignored = 0;
+    double believed_s = 0.0;
+    for (double t_s = 0.015; t_s < 0.2 && believed_s == 0.0; t_s += 0.01) {
+        TrackingSample jumped = sample_at(t_s, Vec3(1.0, 0.0, 0.0));
+        jumped.controllers[0].controller_ps.position.y() = 0.4;
+        devices.step({jumped});
+        EXPECT_EQ(devices.left().state, TrackingState::tracked);
+        if (devices.left().resumed) {
+            believed_s = t_s;
+            continue;
+        }
+        EXPECT_EQ(devices.left().pose_ps.position, Vec3(1.0, 0.0, 0.0)) << t_s;
+        ignored += count_of(devices.stats, Fallback::hand_implausible);
+    }
+    // 20 mm less, for noise: after 47.5 ms.
+    EXPECT_NEAR(believed_s, 0.055, 1e-9);
+    EXPECT_EQ(ignored, 4U);
+    EXPECT_EQ(devices.left().start_ps.position, Vec3(1.0, 0.4, 0.0));
+    EXPECT_EQ(devices.left().pose_ps.position, Vec3(1.0, 0.4, 0.0));
+    EXPECT_EQ(devices.right().pose_ps.position, Vec3(1.0, 0.0, 0.0));
+}
+
+// Readings that do not agree with each other are never believed, however long they last.
+RC_GTEST_PROP(ReadTracking, ReadingsAtRandomAreNeverBelieved, (std::uint64_t seed)) {
+    Random random(seed);
+    Devices devices;
+    devices.tuning.tracking.max_hand_speed_mps = 8.0;
+    devices.step({sample_at(0.005, Vec3(1.0, 0.0, 0.0))});
+    double side = 1.0;
+    while (devices.t_s < 1.0) {
+        side = -side;  // 0.4 m at least from one reading to the next
+        TrackingSample wrong = sample_at(devices.t_s + 0.005, Vec3(1.0, 0.0, 0.0));
+        wrong.controllers[1].controller_ps.position +=
+            Vec3(side * random.between(0.2, 0.8), random.between(-0.5, 0.5), 0.0);
+        devices.step({wrong});
+        RC_ASSERT(devices.right().pose_ps.position == Vec3(1.0, 0.0, 0.0));
+        RC_ASSERT(!devices.right().resumed);
+    }
+}
+
+// A hand accelerates for several samples; nothing that is smooth is ignored, at any rate.
+RC_GTEST_PROP(ReadTracking, SmoothHandOfAnySpeedIsBelieved, (std::uint64_t seed)) {
+    Random random(seed);
+    Devices devices;
+    devices.tuning.tracking.max_hand_speed_mps = 8.0;
+    devices.tuning.hand.max_arm_m = 100.0;
+    const double sample_s = 1.0 / random.between(60.0, 1000.0);
+    const Vec3 swing = random.between(0.1, 0.8) * random.direction();
+    const double rate = random.between(1.0, 20.0);  // up to 16 m/s and 320 m/s^2
+    const double noise_m = random.between(0.0, 0.002);
+    double next_s = 0.0;
+    while (devices.t_s < 1.0) {
+        std::vector<TrackingSample> samples;
+        for (; next_s <= devices.t_s + k_frame_s; next_s += sample_s * random.between(0.7, 1.3)) {
+            samples.push_back(sample_at(next_s, Vec3(0.0, 1.0, 0.0)));
+            samples.back().controllers[1].controller_ps.position +=
+                sine(rate * next_s + k_half_pi) * swing + random.vector(noise_m);  // from rest
+        }
+        devices.step(samples);
+        RC_ASSERT(count_of(devices.stats, Fallback::hand_implausible) == 0U);
+        RC_ASSERT(!devices.right().resumed);
+    }
+}
+
+TEST(ReadTracking, ControllerAtExactlyZeroIsAsleep) {
+    Devices devices;
+    TrackingSample asleep = sample_at(0.005);
+    asleep.controllers[1].controller_ps.position.setZero();
+    asleep.controllers[1].grab = true;
+    devices.step({asleep});
+    EXPECT_EQ(count_of(devices.stats, Fallback::device_asleep), 1U);
+    EXPECT_EQ(devices.right().state, TrackingState::never);
+    EXPECT_FALSE(devices.right().pressed);
+    EXPECT_EQ(devices.left().state, TrackingState::tracked);
 }
 
 TEST(ReadTracking, HandThatClosesAndJumpsClosesWhereItJumpedTo) {
     Devices devices;
-    TrackingSample sample = sample_at(0.005);
-    sample.controllers[0].controller_ps.position.x() = -1.9;
+    TrackingSample sample = sample_at(0.005, Vec3(1.0, 0.0, 0.0));
     devices.step({sample});
     sample.t_s = 0.012;
     sample.controllers[0].grab = true;
+    TrackingSample missing = sample;
+    missing.t_s = 0.014;
+    missing.controllers[0].controller_ps.position.x() = k_nan;
     TrackingSample jumped = sample;
     jumped.t_s = 0.016;
-    jumped.controllers[0].controller_ps.position.x() = 1.9;
-    devices.step({sample, jumped});
+    jumped.controllers[0].controller_ps.position.x() = 1.1;
+    devices.step({sample, missing, jumped});
     EXPECT_EQ(devices.left().edge, GrabEdge::onset);
     EXPECT_EQ(devices.left().edge_t_s, 0.016);
-    EXPECT_EQ(devices.left().edge_ps.position, Vec3(1.9, 0.0, 0.0));
+    EXPECT_EQ(devices.left().edge_ps.position, Vec3(1.1, 0.0, 0.0));
+    EXPECT_TRUE(devices.left().resumed);
 }
 
 TEST(ReadTracking, HeadThatComesBackFarAwayStaysWhereItWas) {
@@ -277,8 +351,8 @@ TEST(ReadTracking, HeadThatComesBackFarAwayStaysWhereItWas) {
     devices.step({}, 0.5);
     devices.step({sample_at(0.515, Vec3(3.0, 0.0, 0.0))});
     EXPECT_EQ(count_of(devices.stats, Fallback::head_recentred), 1U);
-    EXPECT_EQ(devices.player_head().pose_ps.position, Vec3::Zero());
-    EXPECT_EQ(devices.right().pose_ps.position, Vec3::Zero());
+    EXPECT_EQ(devices.player_head().pose_ps.position, k_rest);
+    EXPECT_EQ(devices.right().pose_ps.position, k_rest);
 }
 
 TEST(ReadTracking, HeadThatLeapsWithinItsBoundIsFollowed) {
@@ -371,7 +445,7 @@ TEST(ReadTracking, HandThatCannotBeSeenMayOpen) {
 TEST(ReadTracking, HandThatCannotBeSeenWaitsWithClosingUntilItIs) {
     Devices devices;
     devices.step({sample_at(0.005)});
-    TrackingSample unseen = sample_at(0.015, Vec3::Zero(), true);
+    TrackingSample unseen = sample_at(0.015, k_rest, true);
     unseen.controllers[1].controller_ps.position.x() = k_nan;
     devices.step({unseen});
     EXPECT_EQ(devices.right().edge, GrabEdge::none);

@@ -7,12 +7,15 @@
 #include "systems/input/read_tracking.hpp"
 #include "tests/systems/frame/column_scene.hpp"
 
-// What the tests of read_tracking share: players' devices as columns, and samples made on the spot.
+// Shared by the tests of read_tracking: players' devices as columns, and made-up samples.
 namespace handhold::test {
 
 inline constexpr double k_frame_s = 0.01;
 
-inline TrackingSample sample_at(double t_s, const Vec3& place = Vec3::Zero(), bool grab = false) {
+// Not (0, 0, 0), where a controller counts as asleep.
+inline const Vec3 k_rest(0.0, 0.0, 0.125);
+
+inline TrackingSample sample_at(double t_s, const Vec3& place = k_rest, bool grab = false) {
     TrackingSample sample;
     sample.t_s = t_s;
     sample.head_ps = pose_at(place);
@@ -21,7 +24,7 @@ inline TrackingSample sample_at(double t_s, const Vec3& place = Vec3::Zero(), bo
     return sample;
 }
 
-// One player whose hands are where his controllers are.
+// One player whose hands are where the controllers are.
 struct Devices {
     Column<HandOwner> owner;
     Column<ControllerToHand> joint;
@@ -33,7 +36,11 @@ struct Devices {
     StageStats stats;
     double t_s = 0.0;
 
-    Devices() { add_player(k_player, {HandSide::left, HandSide::right}); }
+    // Devices jump as they like: tests of what is plausible say so.
+    Devices() {
+        tuning.tracking.max_hand_speed_mps = 1e9;
+        add_player(k_player, {HandSide::left, HandSide::right});
+    }
     void add_player(Entity player, std::initializer_list<HandSide> order) {
         head.add(player);
         commands.add(player);

@@ -1,5 +1,5 @@
-// Whatever hands do in a frame, what comes of it depends neither on the order in which the world
-// lists them nor on where the world is.
+// The result of anchor_grabs depends neither on the order in which the world lists hands, nor on
+// the position of the world.
 #include <algorithm>
 #include <array>
 #include <span>
@@ -33,8 +33,9 @@ void set_state(Settling& scene, Entity hand, const HandState& state, double edge
     scene.set_edge(hand, state.edge, edge_at);
 }
 
-// A hand-over within one frame must not depend on which hand the world lists first, so all pairs of
-// states are tested. Edges lie beside the straight way, as samples do, and may be of one instant.
+// All pairs of hand states, because a hand-over within one frame must not depend on the order of
+// hands. Poses at button edges lie beside the straight path, as with real samples. Both edges may
+// have the same time.
 RC_GTEST_PROP(SettleGrabs, OrderOfHandsDoesNotMatterInAnyPairOfStates, (std::uint64_t seed)) {
     for (const HandState& left : k_hand_states) {
         for (const HandState& right : k_hand_states) {
@@ -73,8 +74,8 @@ RC_GTEST_PROP(SettleGrabs, OrderOfHandsDoesNotMatterInAnyPairOfStates, (std::uin
     }
 }
 
-// Two players whose hands are in any states at once, on a wall, and on a ship that is free or hangs
-// on a hinge: nothing depends on whose hand the world lists first.
+// Two players with hands in random states, on a wall and on a ship that is free or attached to a
+// hinge. The order of hands must not matter.
 RC_GTEST_PROP(SettleGrabs, OrderOfTwoPlayersHandsDoesNotMatter, (std::uint64_t seed)) {
     constexpr Entity k_other_player = test::entity(20);
     constexpr Entity k_other_left = test::entity(21);

@@ -15,7 +15,7 @@ using test::pose_at;
 
 // --- Fresh grips ---------------------------------------------------------------------------------
 
-// Body, origin and hand half way through the frame: means of their ends.
+// Half way through the frame, body, origin and hand are at the means of their start and end.
 TEST(SettleGrabs, AnchorIsTheHandInTheBodyAtTheInstantOfTheEdge) {
     Settling scene;
     scene.move_player(pose_at(Vec3(1.0, 0.0, 0.0)), pose_at(Vec3(1.2, 0.0, 0.0)));
@@ -45,7 +45,7 @@ RC_GTEST_PROP(SettleGrabs, NewGripHasNoErrorAtItsInstant, (std::uint64_t seed)) 
                        origin * scene.hand.at(k_left).edge_ps) < 1e-7);
 }
 
-// The right hand holds the wall, so the player is where that hand puts him, not where he was
+// The right hand holds the wall, so the player is where that hand puts them, not where they were
 // predicted.
 TEST(SettleGrabs, SecondHandsAnchorGoesByTheHandThatAlreadyHolds) {
     Settling scene;
@@ -57,11 +57,11 @@ TEST(SettleGrabs, SecondHandsAnchorGoesByTheHandThatAlreadyHolds) {
     scene.set_edge(k_left, GrabEdge::onset, 0.5);
     scene.set_grip(k_left, GripKind::surface, GrabPhase::fresh, k_wall);
     scene.run();
-    // The holding hand has moved 0.1 in z by then: the origin is at -0.1.
+    // The holding hand has moved 0.1 m in z by then, so the origin is at -0.1 m.
     EXPECT_LT((scene.grab.at(k_left).anchor_bs.position - Vec3(-0.3, 1.0, -0.1)).norm(), 1e-12);
 }
 
-// The same with a hand that does not go straight: samples say where it was in between.
+// A holding hand that does not move straight: its samples give the path in between.
 TEST(SettleGrabs, SecondHandsAnchorGoesByTheHoldersWayThroughItsSamples) {
     for (const double sampled_at : {0.25, 0.5, 0.75}) {
         Settling scene;
@@ -121,7 +121,7 @@ TEST(SettleGrabs, HoldingHandAimsAtItsTrackedPoseWithItsMeanVelocity) {
     EXPECT_LT((grab.target_spin_ps_radps - Vec3(0.0, 3.0, 0.0)).norm(), 1e-9);
 }
 
-// 0.4 of the frame is left: the hand goes on for it as it moved when it opened.
+// For the remaining 0.4 of the frame the hand moves on with the velocity of its release.
 TEST(SettleGrabs, OpeningHandCarriesOnWithItsReleaseVelocity) {
     Settling scene;
     HandTracking& hand = scene.hand.at(k_right);
@@ -141,7 +141,8 @@ TEST(SettleGrabs, OpeningHandCarriesOnWithItsReleaseVelocity) {
 
 // --- Two hands -----------------------------------------------------------------------------------
 
-// The hands disagree by 2 cm along x about where the player is; the pair puts him in the middle.
+// The hands disagree by 2 cm along x about the player's position; together they put the player in
+// the middle.
 TEST(SettleGrabs, HandThatLeavesTwoOnWallsIsGoneAtOnceAndTheOtherStaysWhereItIs) {
     for (const Entity leaving : {k_left, k_right}) {
         Settling scene;
@@ -163,7 +164,8 @@ TEST(SettleGrabs, HandThatLeavesTwoOnWallsIsGoneAtOnceAndTheOtherStaysWhereItIs)
     }
 }
 
-// It opened while nobody saw it, 20 cm from its anchor: its player stays where both had him.
+// The leaving hand opened while it was not tracked, 20 cm from its anchor. The player stays where
+// both hands put them.
 TEST(SettleGrabs, HandThatOpenedUnseenLeavesThePlayerWhereHeIs) {
     for (const Entity leaving : {k_left, k_right}) {
         Settling scene;
@@ -217,13 +219,13 @@ TEST(SettleGrabs, TwoHandsLeadABodyTogetherWhereTheyAreApart) {
             const Pose near = pose_at(Vec3(-0.2 + apart_m, 1.0, 0.0));
             scene.move_hand(k_right, near, near);
             scene.run();
-            // From 5 cm on, down to 4 cm.
+            // Both hands together hold from 5 cm apart on, and until they are 4 cm apart.
             const bool together = apart_m > (before ? 0.04 : 0.05);
             EXPECT_EQ(scene.grab.at(k_left).two_handed, together);
             EXPECT_EQ(scene.grab.at(k_right).two_handed, together);
             EXPECT_EQ(count_of(scene.stats, Fallback::hands_too_close), together ? 0U : 1U);
-            // Hands that led together keep their anchors: the second slides. Else it holds on where
-            // it is.
+            // Hands that already held together keep their anchors, and the second slides. Otherwise
+            // the second is anchored where it is.
             const double anchor_x = before && together ? 0.2 : -0.2 + apart_m;
             EXPECT_NEAR(scene.grab.at(k_right).anchor_bs.position.x(), anchor_x, 1e-12);
             EXPECT_NEAR(scene.grab.at(k_left).anchor_bs.position.x(), -0.2, 1e-12);
@@ -254,8 +256,8 @@ TEST(SettleGrabs, HandsOnWhatHangsOnJointsDoNotLeadTogether) {
     EXPECT_EQ(count_of_all(scene.stats), 0U);
 }
 
-// The body follows the hand that holds it, not its predicted velocity: a second hand closes on
-// where it is.
+// The body follows the hand that holds it, not its predicted velocity. A second hand's anchor is
+// where the body is then.
 TEST(SettleGrabs, SecondHandsAnchorGoesByTheHandThatHoldsTheBody) {
     Settling scene = held_by_both(false);
     scene.move_hand(k_left, pose_at(Vec3(-0.2, 1.0, 0.0)), pose_at(Vec3(-0.2, 1.0, 0.2)));
@@ -271,8 +273,8 @@ TEST(SettleGrabs, SecondHandsAnchorGoesByTheHandThatHoldsTheBody) {
 constexpr Entity k_guest = test::entity(7);
 constexpr Entity k_guest_hand = test::entity(8);
 
-// The first player's left hand holds the ship, as it was at the frame's start, and moves by 0.2 m
-// along z, where prediction has the ship fly off; a guest's hand closes on it.
+// The first player's left hand holds the ship at its pose of the frame's start, and moves by 0.2 m
+// along z. By prediction alone the ship would fly off. A guest's hand closes on it.
 Settling joined_by_guest(double fraction, bool guest_is_listed_first) {
     Settling scene({});
     scene.player_start.add(k_guest);
@@ -305,8 +307,9 @@ TEST(SettleGrabs, GuestsAnchorGoesByTheHandThatHoldsTheBodyWhoeverIsListedFirst)
     }
 }
 
-// Both close in this frame, the host a quarter into it where prediction has the ship by then: it
-// goes with his hand from there on. Who closes later, or at the same instant, leads nobody.
+// Both players' hands close in this frame. The first player's closes after a quarter of it, where
+// the ship is predicted to be; from then on the ship follows that hand. A hand that closes later
+// than the guest's, or at the same time, has no effect on the guest's anchor.
 TEST(SettleGrabs, WhoClosesFirstLeadsWhoeverIsListedFirst) {
     for (const bool first : {false, true}) {
         const auto closing_at = [&](double fraction) {
@@ -322,17 +325,19 @@ TEST(SettleGrabs, WhoClosesFirstLeadsWhoeverIsListedFirst) {
     }
 }
 
-// He climbs with his other hand: what he holds goes with the wall, not with his predicted way.
+// The first player climbs with the other hand: the body that they hold moves with the wall, not
+// with their predicted motion.
 TEST(SettleGrabs, GuestsAnchorGoesByTheWallThatTheHolderHoldsOnTo) {
     Settling scene = joined_by_guest(0.5, false);
     scene.add_hand(k_player, k_right, HandSide::right);
     scene.set_grip(k_right, GripKind::surface, GrabPhase::holding, k_wall, pose_at(Vec3(0, 2, 0)));
-    scene.move_hand(k_right, pose_at(Vec3(0, 2, 0)), pose_at(Vec3(0.0, 2.3, 0.0)));  // he goes down
+    scene.move_hand(k_right, pose_at(Vec3(0, 2, 0)), pose_at(Vec3(0.0, 2.3, 0.0)));  // moves down
     scene.move_player({}, pose_at(Vec3(5.0, 0.0, 0.0)));
     EXPECT_LT((guest_anchor(scene) - Vec3(0.2, 1.15, -0.1)).norm(), 1e-12);
 }
 
-// Shared already, its way is the solver's to find.
+// Two players hold the body already. Only the solver finds its motion, so the anchor is where
+// prediction puts it.
 TEST(SettleGrabs, BodyInTheHandsOfTwoOthersIsWherePredictionHasIt) {
     constexpr Entity k_third = test::entity(9);
     constexpr Entity k_third_hand = test::entity(10);
@@ -344,12 +349,12 @@ TEST(SettleGrabs, BodyInTheHandsOfTwoOthersIsWherePredictionHasIt) {
     EXPECT_LT((guest_anchor(scene) - Vec3(0.2, 1.0, -3.5)).norm(), 1e-12);
 }
 
-// Who grips a climber's head goes by the climber's hand as well.
+// A hand that grips a climber's head is anchored according to the climber's holding hand, too.
 TEST(SettleGrabs, AnchorOnAClimbersHeadGoesByTheWallThatHeHoldsOnTo) {
     Settling scene = joined_by_guest(0.5, false);
     scene.head.add(k_player);
     scene.set_grip(k_left, GripKind::surface, GrabPhase::holding, k_wall,
-                   pose_at(Vec3(-0.2, 1.0, 0.0)));  // he goes back by 0.2 m
+                   pose_at(Vec3(-0.2, 1.0, 0.0)));  // the climber moves back by 0.2 m
     scene.move_player({}, pose_at(Vec3(5.0, 0.0, 0.0)));
     scene.set_grip(k_guest_hand, GripKind::player, GrabPhase::fresh, k_player);
     EXPECT_LT((guest_anchor(scene) - Vec3(0.2, 1.0, 0.1)).norm(), 1e-12);
@@ -393,7 +398,7 @@ TEST(SettleGrabs, HandFoundAgainTakesItsAnchorWhereItIs) {
     EXPECT_EQ(count_of(scene.stats, Fallback::grip_reanchored), 1U);
 }
 
-// Both controllers come back into view at once, each somewhere else: neither may pull the player
+// Both controllers are tracked again in one frame, each somewhere else. Neither may pull the player
 // along.
 TEST(SettleGrabs, BothHandsFoundAgainAtOnceDoNotMoveThePlayer) {
     Settling scene;
@@ -412,6 +417,56 @@ TEST(SettleGrabs, BothHandsFoundAgainAtOnceDoNotMoveThePlayer) {
 }
 
 // --- Properties ----------------------------------------------------------------------------------
+
+// --- Tracking errors -----------------------------------------------------------------------------
+
+// 0.5 m in 10 ms at 8 m/s at most: the grip slips by 0.42 m, so that the player moves 0.08 m.
+TEST(SettleGrabs, HandFasterThanAHandSlipsByTheRest) {
+    for (const GripKind kind : {GripKind::surface, GripKind::held}) {
+        Settling scene;
+        scene.tuning.tracking.max_hand_speed_mps = 8.0;
+        scene.tuning.hand.return_speed_mps = 0.0;
+        scene.move_hand(k_right, pose_at(Vec3(0.3, 1.0, 0.0)), pose_at(Vec3(0.3, 1.5, 0.0)));
+        scene.set_grip(k_right, kind, GrabPhase::holding, k_wall, pose_at(Vec3(0.3, 1.0, 0.0)));
+        scene.run();
+        const Grab& grab = scene.grab.at(k_right);
+        EXPECT_LT((grab.anchor_bs.position - Vec3(0.3, 1.42, 0.0)).norm(), 1e-12);
+        EXPECT_EQ(grab.target_ps.position, Vec3(0.3, 1.5, 0.0));
+        EXPECT_LT((grab.slip_hs.position - Vec3(0.0, -0.42, 0.0)).norm(), 1e-12);
+        EXPECT_EQ(count_of(scene.stats, Fallback::grip_speed_limited), 1U);
+    }
+}
+
+// A slip of 0.42 m at 2 m/s: 20 mm in a frame of 10 ms. A surface stays where it is.
+TEST(SettleGrabs, HeldBodyReturnsByItsSlip) {
+    for (const GripKind kind : {GripKind::surface, GripKind::held}) {
+        Settling scene;
+        scene.move_hand(k_right, pose_at(Vec3(0.3, 1.5, 0.0)), pose_at(Vec3(0.3, 1.5, 0.0)));
+        scene.set_grip(k_right, kind, GrabPhase::holding, k_wall, pose_at(Vec3(0.3, 1.42, 0.0)));
+        scene.grab.at(k_right).slip_hs.position = Vec3(0.0, -0.42, 0.0);
+        scene.run();
+        const double moved_m = kind == GripKind::held ? 0.02 : 0.0;
+        const Grab& grab = scene.grab.at(k_right);
+        EXPECT_LT((grab.anchor_bs.position - Vec3(0.3, 1.42 - moved_m, 0.0)).norm(), 1e-12);
+        EXPECT_LT((grab.slip_hs.position - Vec3(0.0, moved_m - 0.42, 0.0)).norm(), 1e-12);
+    }
+}
+
+// However often it slips: what the slip undoes is the first anchor.
+RC_GTEST_PROP(SettleGrabs, SlipKeepsTheFirstAnchor, (std::uint64_t seed)) {
+    Random random(seed);
+    Settling scene;
+    const Pose first = random.pose();
+    scene.set_grip(k_right, GripKind::held, GrabPhase::holding, k_wall, first);
+    for (int jump = 0; jump < 5; ++jump) {
+        const Pose hand = random.pose();
+        scene.move_hand(k_right, hand, hand);
+        scene.hand.at(k_right).resumed = random.between(0.0, 1.0) < 0.7;
+        scene.run();
+        const Grab& grab = scene.grab.at(k_right);
+        RC_ASSERT(distance(grab.anchor_bs * grab.slip_hs, first) < 1e-7);
+    }
+}
 
 }  // namespace
 }  // namespace handhold::settle_grabs_test

@@ -20,7 +20,7 @@ constexpr double k_dt_s = k_end_s - k_start_s;
 
 constexpr Entity other_of(Entity hand) { return hand == k_left ? k_right : k_left; }
 
-// One player, a wall that rests and a ship that moves; hands move as they are told.
+// One player, a wall at rest and a moving ship. Tests set the motion of hands.
 struct Settling {
     Column<HandOwner> owner;
     Column<HandTracking> hand;
@@ -39,6 +39,7 @@ struct Settling {
     StageStats stats;
 
     explicit Settling(std::initializer_list<Entity> hands = {k_left, k_right}) {
+        tuning.tracking.max_hand_speed_mps = 1e3;  // hands move as far as a test likes
         player_start.add(k_player);
         origin.add(k_player);
         for (const Entity body : {k_wall, k_ship}) {
@@ -67,7 +68,7 @@ struct Settling {
         hand.at(which).start_ps = from;
         hand.at(which).pose_ps = to;
     }
-    // At a fraction of the frame; the hand is then on its straight way.
+    // Sets a button edge at a fraction of the frame, with the hand on its straight path.
     void set_edge(Entity which, GrabEdge edge, double fraction) {
         HandTracking& tracking = hand.at(which);
         tracking.edge = edge;

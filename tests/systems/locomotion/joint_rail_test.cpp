@@ -1,4 +1,4 @@
-// The one way of levers and drawers. Expected values are closed forms.
+// The single degree of freedom of levers and drawers. Expected values are closed forms.
 #include "systems/locomotion/shared/joint_rail.hpp"
 
 #include <gtest/gtest.h>
@@ -126,8 +126,8 @@ TEST(JointRail, TakesAPointAsNearToTheHandAsTheJointLetsIt) {
     EXPECT_LE((slid - (from - Vec3(0.0, 0.2, 0.0))).norm(), 1e-15);
 }
 
-// One hand stays at the lever's end, one near the axle trembles across its arm: by least squares
-// the end goes no farther than the tremble times the arms' ratio.
+// One hand rests at the lever's end; another, near the axle, trembles across its arm. By least
+// squares, the end moves by at most the tremble times the ratio of the arms.
 TEST(JointRail, HandsNearTheAxleHardlyCount) {
     constexpr double k_tremble_m = 5e-4;
     constexpr double k_end_m = 0.5;

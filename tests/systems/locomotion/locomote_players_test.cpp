@@ -189,8 +189,8 @@ TEST(LocomotePlayers, HeldRockTurnsNobody) {
 
 // --- Reference velocity --------------------------------------------------------------------------
 
-// A turning body's velocity where it is gripped: v + w x r. Not where the player is: he may drift
-// away for good, and the body's speed there would grow with him.
+// The velocity of a turning body is taken where it is gripped: v + w x r. It is not taken at the
+// player, who may drift away for good: there it would grow with the distance.
 TEST(LocomotePlayers, ReferenceIsTheGrippedBodysVelocityAtTheGrip) {
     Locomotion player;
     player.body_pose.at(k_ship).pose_ws.position = Vec3(10.0, 0.0, 0.0);
@@ -251,7 +251,7 @@ TEST(LocomotePlayers, BrakeActsAgainstTheReference) {
     EXPECT_EQ(player.speed(), player.scene_velocity);
 }
 
-// Two hands that closed at one instant: the left one leads, whichever is listed first.
+// If two hands closed at the same time, the left one counts, whichever is listed first.
 TEST(LocomotePlayers, OrderOfHandsDoesNotMatterWhereBothClosedAtOnce) {
     const auto turned = [](bool reversed) {
         Locomotion scene;

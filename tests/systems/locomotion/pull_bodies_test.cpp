@@ -35,6 +35,7 @@ struct Pulls {
     Column<HandOwner> owner;
     Column<HandTracking> hand;
     Column<Grab> grab;
+    Column<HandSight> sight;
     Column<PlayerBody> player;
     Column<PlayerOrigin> origin;
     Column<RigidBody> body;
@@ -57,6 +58,7 @@ struct Pulls {
             owner.add(hand_entity, {k_player, side});
             hand.add(hand_entity);
             grab.add(hand_entity);
+            sight.add(hand_entity);
         }
     }
     void add_stone(Entity stone, const Vec3& center, double mass_kg = k_stone_kg,
@@ -96,8 +98,8 @@ struct Pulls {
         std::ranges::sort(proxies, {}, &ColliderProxy::id);
         collision.set_proxies(proxies);
         stats = {};
-        pull_bodies({k_dt_s, collision, persistent_id, owner, hand, grab, player, origin, body,
-                     body_pose, joint_groups, pull, body_velocity, player_velocity},
+        pull_bodies({k_dt_s, collision, persistent_id, owner, hand, grab, sight, player, origin,
+                     body, body_pose, joint_groups, pull, body_velocity, player_velocity},
                     tuning, stats);
         for (HandTracking& tracking : hand.rows()) {
             tracking.edge = GrabEdge::none;
@@ -127,8 +129,8 @@ TEST(PullBodies, FirstFrameGivesTheWholeForceAlongTheWayAndTakesItFromThePlayer)
     EXPECT_EQ(count_of_all(pulls.stats), 0U);
 }
 
-// Near the palm the speed that half of the force could stop: sqrt(force / reduced mass * way), and
-// the way is the surface's.
+// Near the palm the speed is the one that half of the force can stop: sqrt(force / reduced mass *
+// distance), with the distance from the palm to the surface.
 TEST(PullBodies, SpeedNearThePalmIsWhatHalfTheForceCanStopBeforeTheSurfaceTouches) {
     Pulls pulls;
     constexpr double k_way_m = 0.05;
@@ -136,7 +138,7 @@ TEST(PullBodies, SpeedNearThePalmIsWhatHalfTheForceCanStopBeforeTheSurfaceTouche
     pulls.close(k_right, Vec3(0.0, 1.0, 0.0));
     pulls.run();
     for (int frame = 0; frame < 200; ++frame) {
-        pulls.run();  // nothing moves here: only the speeds settle
+        pulls.run();  // poses do not change here, only speeds
     }
     const double reduced_kg = k_stone_kg * k_player_kg / (k_stone_kg + k_player_kg);
     const double expected_mps = std::sqrt(pulls.tuning.pull.force_n / reduced_kg * k_way_m);
@@ -155,7 +157,7 @@ TEST(PullBodies, WhatTouchesThePalmIsStopped) {
     pulls.run();
     const Vec3 against =
         pulls.body_velocity.at(k_stone).linear_mps - pulls.player_velocity.at(k_player).linear_mps;
-    EXPECT_LT(against.norm(), 0.01);  // of the last micrometre
+    EXPECT_LT(against.norm(), 0.01);  // speed left for the last micrometre
     EXPECT_LT((pulls.momentum() - before).norm(), 1e-12);
 }
 
@@ -204,13 +206,13 @@ TEST(PullBodies, RefusesWhatIsFixedHeavyHeldOrJointedAndCounts) {
         pulls.hand.at(k_left).pressed = true;
         pulls.hand.at(k_left).state = TrackingState::tracked;
         pulls.pull.add(k_left, {k_stone, 0.0});
-        pulls.tuning.pull.force_n = 0.0;  // the other hand's does nothing here
+        pulls.tuning.pull.force_n = 0.0;  // the other hand's pull has no force
     });
     refused(Fallback::pull_refused_fixed, [](Pulls& pulls) {
-        pulls.joint_groups = {{0, 0}, {0, 0}};  // with the other
+        pulls.joint_groups = {{0, 0}, {0, 0}};  // joined to the other body
     });
     refused(Fallback::pull_refused_fixed, [](Pulls& pulls) {
-        pulls.joint_groups = {{0, 1}, {1, 0}};  // to something that stays
+        pulls.joint_groups = {{0, 1}, {1, 0}};  // joined to an immovable body
     });
 }
 
@@ -237,8 +239,8 @@ TEST(PullBodies, EndsWhereTheHandOpensGripsOrIsLost) {
     ends(1, [](Pulls& pulls) { pulls.body.at(k_stone).mass_kg = 1e3; });
 }
 
-// The middle of a pole of 14 m is farther from a palm that points at its end than any pull reaches.
-// It is given up where its end is.
+// The middle of a pole of 14 m is out of reach, but the palm points at the pole's end. The distance
+// of the end decides when the pull is given up.
 TEST(PullBodies, PoleIsPulledByItsEndHoweverFarItsMiddleIs) {
     constexpr double k_half_m = 7.0;
     Pulls pulls;

@@ -42,6 +42,8 @@ struct Grabs {
     Column<Grab> grab;
     Column<AuthoredHold> authored_hold;
     Column<HandPull> pull;
+    Column<ReferenceVelocity> reference;
+    Column<HandSight> sight;
     Column<HeadIgnores> head_ignores;
     Tuning tuning;
     StageStats stats;
@@ -51,10 +53,13 @@ struct Grabs {
         persistent_id.add(k_player, {100});
         origin.add(k_player, {frame_ws});
         head_ignores.add(k_player);
+        reference.add(k_player);
+        head.add(k_player).pose_ps = test::pose_at(Vec3(0.0, 1.8, 0.4));  // sees the hands
         for (const Entity entity : hands) {
             owner.add(entity, {k_player, entity == k_left ? HandSide::left : HandSide::right});
             hand.add(entity);
             grab.add(entity);
+            sight.add(entity);
         }
     }
     void add_body(Entity entity, const RigidBody& kind, ShapeId shape, const Pose& pose) {
@@ -93,9 +98,10 @@ struct Grabs {
                   [](const auto& a, const auto& b) { return a.id < b.id; });
         collision.set_proxies(proxies);
         stats = {};
-        update_grabs({collision, persistent_id, owner, hand, origin, head, body, body_pose,
-                      joint_groups, authored_grips, pull, grab, authored_hold, head_ignores},
-                     tuning, stats);
+        update_grabs(
+            {collision, persistent_id, owner, hand, origin, head, body, body_pose, joint_groups,
+             authored_grips, pull, reference, sight, grab, authored_hold, head_ignores},
+            tuning, stats);
     }
 };
 
@@ -187,7 +193,7 @@ TEST(UpdateGrabs, HeadsAreNothingToHoldOnTo) {
 }
 
 TEST(UpdateGrabs, HeadInTheWayHidesNoSurface) {
-    // Along the ray: the head's top at 1.06, the floor at 1.0.
+    // Along the ray, the head's top is at 1.06 m and the floor at 1.0 m.
     Grabs behind;
     behind.add_floor(1.0);
     behind.add_head(Vec3(0.0, 0.95, 0.0));
@@ -196,7 +202,7 @@ TEST(UpdateGrabs, HeadInTheWayHidesNoSurface) {
     EXPECT_EQ(behind.grab.at(k_right).body, k_wall);
     EXPECT_LT((behind.grab.at(k_right).hit_bs - Vec3(0.0, 0.5, 0.0)).norm(), 1e-9);
 
-    // Beside the palm, nearer than the floor.
+    // beside the palm and nearer than the floor
     Grabs beside;
     beside.add_floor(1.0);
     beside.add_head(Vec3(0.14, 1.08, 0.0));
@@ -265,8 +271,8 @@ TEST(UpdateGrabs, HandLetsGoWhereItIsStretchedFartherThanAllowed) {
     }
 }
 
-// The one that is stretched more; of two alike the one that joined; of two that closed at once the
-// left one. In either order of rows.
+// The hand that is stretched more releases; if equal, the hand that closed later; if they closed at
+// the same time, the left one. The order of rows must not matter.
 TEST(UpdateGrabs, OfTwoStretchedHandsOnlyOneLetsGo) {
     struct Case {
         double left_more_m;
@@ -302,7 +308,7 @@ TEST(UpdateGrabs, OfTwoStretchedHandsOnlyOneLetsGo) {
     }
 }
 
-// One hand keeps a rock while the other takes and drops many: what is held is never forgotten.
+// One hand keeps a rock while the other grips and drops many. The held rock must stay in the list.
 TEST(UpdateGrabs, HeldBodyStaysIgnoredWhilePlacesAreFree) {
     Grabs grabs;
     grabs.add_rock(k_rock, 5.0, Vec3(-1.0, 1.0, 0.0));

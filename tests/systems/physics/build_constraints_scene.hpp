@@ -67,16 +67,13 @@ struct Building {
     }
     Grab& grip(Entity hand, GripKind kind, Entity gripped, Random& random) {
         Grab& grip = grab.at(hand);
-        grip = {kind,
-                GrabPhase::holding,
-                gripped,
-                Vec3::Zero(),
-                Vec3::UnitY(),
-                random.pose(),
-                random.pose(),
-                random.vector(2.0),
-                random.vector(2.0),
-                0.0};
+        grip.kind = kind;
+        grip.phase = GrabPhase::holding;
+        grip.body = gripped;
+        grip.anchor_bs = random.pose();
+        grip.target_ps = random.pose();
+        grip.target_velocity_ps_mps = random.vector(2.0);
+        grip.target_spin_ps_radps = random.vector(2.0);
         return grip;
     }
     void run() {

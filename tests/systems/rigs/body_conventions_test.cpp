@@ -8,6 +8,7 @@
 #include "engine/io/gltf_skin_writer.hpp"
 #include "engine/io/text_file.hpp"
 #include "systems/rigs/body_bones.hpp"
+#include "systems/rigs/body_rig_fit.hpp"
 #include "tests/random.hpp"
 #include "tests/systems/rigs/humanoid.hpp"
 

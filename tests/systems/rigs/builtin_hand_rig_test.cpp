@@ -55,7 +55,7 @@ TEST(BuiltinHandRig, FingersOfAnOpenHandDoNotTouch) {
 
 TEST(BuiltinHandRig, PalmCentreLiesOnTheSkin) {
     const HandRig rig = builtin_hand_rig(HandSide::right);
-    double height_m = 1.0;  // of the palm's centre above the capsules
+    double height_m = 1.0;  // height of the palm's centre above the capsules
     for (const PalmCapsule& capsule : rig.palm) {
         height_m = std::min(height_m, to_segment(rig.palm_center_hs, capsule.a_hs, capsule.b_hs) -
                                           capsule.radius_m);

@@ -1,9 +1,326 @@
 #pragma once
 
-// Handhold: hands that grip any surface, inside the physics step. This header includes all public
-// headers. Units are SI, frames are right-handed with +Y up, -Z forward and +X right.
-#include <handhold/ecs.hpp>
-#include <handhold/files.hpp>
-#include <handhold/rigs.hpp>
-#include <handhold/tuning.hpp>
-#include <handhold/version.hpp>
+// Handhold in C++20: a thin wrapper over handhold.h. Header only; needs neither exceptions nor RTTI
+// nor Eigen. Ids, definitions and outputs are those of handhold.h, whose comments hold here too;
+// this header adds ownership, spans and defaults.
+//
+// Calls return Status, which converts to true on success, or Maybe<T>, which has a value on
+// success. Neither may be ignored.
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <handhold/handhold.h>
+
+// Ids compare by value.
+#define HANDHOLD_COMPARABLE(Id)                                    \
+    constexpr bool operator==(Id a, Id b) {                        \
+        return a.index == b.index && a.generation == b.generation; \
+    }
+HANDHOLD_COMPARABLE(hh_shape)
+HANDHOLD_COMPARABLE(hh_body)
+HANDHOLD_COMPARABLE(hh_joint)
+HANDHOLD_COMPARABLE(hh_player)
+#undef HANDHOLD_COMPARABLE
+
+namespace hh {
+
+using Vec3 = hh_vec3;
+using Quat = hh_quat;
+using Pose = hh_pose;
+using Shape = hh_shape;
+using Body = hh_body;
+using Joint = hh_joint;
+using Player = hh_player;
+using Sample = hh_tracking_sample;
+using Event = hh_event;
+using Side = hh_side;
+
+inline constexpr Quat k_no_turn{0.0, 0.0, 0.0, 1.0};
+constexpr Pose pose_at(Vec3 position, Quat rotation = k_no_turn) { return {position, rotation}; }
+
+// The result of a call.
+class [[nodiscard]] Status {
+  public:
+    Status(hh_result result) : result_(result) {}  // NOLINT(google-explicit-constructor)
+    explicit operator bool() const { return result_ == HH_OK; }
+    hh_result result() const { return result_; }
+    // What was wrong. Valid until this thread's next failure.
+    std::string_view text() const { return result_ == HH_OK ? "HH_OK" : hh_last_error(); }
+
+  private:
+    hh_result result_;
+};
+
+// A value, or the result that says why there is none; then the value is all zero.
+template <typename T>
+class [[nodiscard]] Maybe {
+  public:
+    Maybe(hh_result result, T value) : status_(result), value_(std::move(value)) {}
+    explicit operator bool() const { return static_cast<bool>(status_); }
+    Status status() const { return status_; }
+    const T& operator*() const& { return value_; }
+    T&& operator*() && { return std::move(value_); }
+    const T* operator->() const { return &value_; }
+    T value_or(T other) const { return *this ? value_ : std::move(other); }
+
+  private:
+    Status status_;
+    T value_;
+};
+
+// Defaults, to be changed by name: hh::BodyDef{.kind = ...} is not possible, since 0 is no default.
+inline hh_world_def world_def() { return hh_default_world_def(); }
+inline hh_body_def body_def() { return hh_default_body_def(); }
+inline hh_joint_def joint_def() { return hh_default_joint_def(); }
+inline hh_player_def player_def() { return hh_default_player_def(); }
+inline hh_grip_def grip_def() { return hh_default_grip_def(); }
+inline Sample sample() { return hh_default_tracking_sample(); }
+
+inline hh_player_input input(Player player, std::span<const Sample> samples,
+                             const hh_commands& commands = {}) {
+    hh_player_input made = hh_default_player_input();
+    made.player = player;
+    made.samples = samples.data();
+    made.sample_count = samples.size();
+    made.commands = commands;
+    return made;
+}
+
+// Triangles that are prepared on any thread.
+class Mesh {
+  public:
+    Mesh() = default;
+    // `xyz`: three coordinates a vertex. Fails as hh_mesh_create: then is_valid is false.
+    Mesh(std::span<const float> xyz, std::span<const std::uint32_t> indices,
+         bool fits_hands = true) {
+        hh_mesh_def def = hh_default_mesh_def();
+        def.positions = xyz.data();
+        def.vertex_count = xyz.size() / 3;
+        def.indices = indices.data();
+        def.index_count = indices.size();
+        def.fits_hands = fits_hands;
+        if (hh_mesh_create(&def, &mesh_) != HH_OK) {
+            mesh_ = nullptr;
+        }
+    }
+    ~Mesh() { hh_mesh_destroy(mesh_); }
+    Mesh(Mesh&& other) noexcept : mesh_(std::exchange(other.mesh_, nullptr)) {}
+    Mesh& operator=(Mesh&& other) noexcept {
+        std::swap(mesh_, other.mesh_);
+        return *this;
+    }
+    bool is_valid() const { return mesh_ != nullptr; }
+    const hh_mesh* get() const { return mesh_; }
+
+  private:
+    hh_mesh* mesh_ = nullptr;
+};
+
+// A world and everything in it. After a failed construction is_valid is false and every call fails
+// with HH_ERROR_NULL.
+class World {
+  public:
+    World() : World(world_def()) {}
+    explicit World(const hh_world_def& def) {
+        if (hh_world_create(&def, &world_) != HH_OK) {
+            world_ = nullptr;
+        }
+    }
+    ~World() { hh_world_destroy(world_); }
+    World(World&& other) noexcept : world_(std::exchange(other.world_, nullptr)) {}
+    World& operator=(World&& other) noexcept {
+        std::swap(world_, other.world_);
+        return *this;
+    }
+    bool is_valid() const { return world_ != nullptr; }
+    hh_world* get() { return world_; }
+    const hh_world* get() const { return world_; }
+
+    // Level.
+    Maybe<Shape> add_box(Vec3 half_extents_m) {
+        return make<Shape>([&](Shape* s) { return hh_shape_add_box(world_, half_extents_m, s); });
+    }
+    Maybe<Shape> add_sphere(double radius_m) {
+        return make<Shape>([&](Shape* s) { return hh_shape_add_sphere(world_, radius_m, s); });
+    }
+    Maybe<Shape> add_capsule(double radius_m, double half_height_m) {
+        return make<Shape>(
+            [&](Shape* s) { return hh_shape_add_capsule(world_, radius_m, half_height_m, s); });
+    }
+    Maybe<Shape> add_cylinder(double radius_m, double half_height_m) {
+        return make<Shape>(
+            [&](Shape* s) { return hh_shape_add_cylinder(world_, radius_m, half_height_m, s); });
+    }
+    Maybe<Shape> add_hull(std::span<const Vec3> points) {
+        return make<Shape>(
+            [&](Shape* s) { return hh_shape_add_hull(world_, points.data(), points.size(), s); });
+    }
+    Maybe<Shape> add_compound(std::span<const hh_compound_part> parts) {
+        return make<Shape>(
+            [&](Shape* s) { return hh_shape_add_compound(world_, parts.data(), parts.size(), s); });
+    }
+    Maybe<Shape> add_mesh(const Mesh& mesh, Vec3 scale = {1.0, 1.0, 1.0}) {
+        return make<Shape>(
+            [&](Shape* s) { return hh_shape_add_mesh(world_, mesh.get(), scale, s); });
+    }
+    Status remove(Shape shape) { return hh_shape_remove(world_, shape); }
+
+    Maybe<Body> add(const hh_body_def& def) {
+        return make<Body>([&](Body* b) { return hh_body_add(world_, &def, b); });
+    }
+    Maybe<Joint> add(const hh_joint_def& def) {
+        return make<Joint>([&](Joint* j) { return hh_joint_add(world_, &def, j); });
+    }
+    Maybe<Player> add(const hh_player_def& def) {
+        return make<Player>([&](Player* p) { return hh_player_add(world_, &def, p); });
+    }
+    Status remove(Body body) { return hh_body_remove(world_, body); }
+    Status remove(Joint joint) { return hh_joint_remove(world_, joint); }
+    Status remove(Player player) { return hh_player_remove(world_, player); }
+    bool has(Shape shape) const { return hh_shape_is_valid(world_, shape); }
+    bool has(Body body) const { return hh_body_is_valid(world_, body); }
+    bool has(Joint joint) const { return hh_joint_is_valid(world_, joint); }
+    bool has(Player player) const { return hh_player_is_valid(world_, player); }
+    // `name` ends with a 0.
+    Maybe<Body> find_body(const char* name) const {
+        return make<Body>([&](Body* b) { return hh_body_find(world_, name, b); });
+    }
+
+    // Bodies.
+    Maybe<Pose> pose(Body body) const {
+        return make<Pose>([&](Pose* p) { return hh_body_pose(world_, body, p); });
+    }
+    // `poses` is at least as long as `bodies`.
+    Status poses(std::span<const Body> bodies, std::span<Pose> poses) const {
+        return poses.size() < bodies.size()
+                   ? HH_ERROR_CAPACITY
+                   : hh_world_body_poses(world_, bodies.data(), bodies.size(), poses.data());
+    }
+    Status set_velocity(Body body, Vec3 linear_mps, Vec3 angular_radps = {}) {
+        return hh_body_set_velocity(world_, body, linear_mps, angular_radps);
+    }
+    Status apply_impulse(Body body, Vec3 impulse_ns, Vec3 point) {
+        return hh_body_apply_impulse(world_, body, impulse_ns, point);
+    }
+    Status teleport(Body body, Pose pose) { return hh_body_teleport(world_, body, pose); }
+    Status move_kinematic(Body body, Pose pose) {
+        return hh_body_move_kinematic(world_, body, pose);
+    }
+    Status add_grip(Body body, const hh_grip_def& def) {
+        return hh_body_add_grip(world_, body, &def);
+    }
+
+    // Players.
+    Status teleport(Player player, Pose origin) {
+        return hh_player_teleport(world_, player, origin);
+    }
+    // Samples are wrists with OpenXR's axes, not controllers.
+    Status use_wrists(Player player) {
+        const Pose identity = hh_identity_pose();
+        const hh_result left = hh_player_set_hand_in_controller(world_, player, HH_LEFT, &identity);
+        return left != HH_OK
+                   ? left
+                   : hh_player_set_hand_in_controller(world_, player, HH_RIGHT, &identity);
+    }
+    Maybe<hh_player_pose> pose(Player player) const {
+        return make<hh_player_pose>(
+            [&](hh_player_pose* p) { return hh_world_player_poses(world_, &player, 1, p); });
+    }
+    Status poses(std::span<const Player> players, std::span<hh_player_pose> poses) const {
+        return poses.size() < players.size()
+                   ? HH_ERROR_CAPACITY
+                   : hh_world_player_poses(world_, players.data(), players.size(), poses.data());
+    }
+    Maybe<hh_hand_state> hand(Player player, Side side) const {
+        return make<hh_hand_state>(
+            [&](hh_hand_state* h) { return hh_player_hand(world_, player, side, h); });
+    }
+    using HandJoints = std::array<hh_hand_joint, HH_HAND_JOINT_COUNT>;
+    Maybe<HandJoints> hand_joints(Player player, Side side, hh_space space) const {
+        return make<HandJoints>([&](HandJoints* joints) {
+            return hh_player_hand_joints(world_, player, side, space, joints->data());
+        });
+    }
+    using BodyJoints = std::array<Pose, HH_BODY_JOINT_COUNT>;
+    Maybe<BodyJoints> body_joints(Player player, hh_space space) const {
+        return make<BodyJoints>([&](BodyJoints* joints) {
+            return hh_player_body_joints(world_, player, space, joints->data());
+        });
+    }
+    Status grip(Player player, Side side, Body body) {
+        return hh_hand_grip(world_, player, side, body);
+    }
+    Status release(Player player, Side side) { return hh_hand_release(world_, player, side); }
+
+    // Stepping.
+    Status step(double dt_s, std::span<const hh_player_input> inputs = {}) {
+        return hh_world_step(world_, dt_s, inputs.data(), inputs.size());
+    }
+    Status step(double dt_s, const hh_player_input& input) {
+        return hh_world_step(world_, dt_s, &input, 1);
+    }
+    Status step_pose_only(double dt_s, std::span<const hh_player_input> inputs) {
+        return hh_world_step_pose_only(world_, dt_s, inputs.data(), inputs.size());
+    }
+    double time_s() const {
+        double time_s = 0.0;
+        return hh_world_time(world_, &time_s, nullptr) == HH_OK ? time_s : 0.0;
+    }
+    // Of the last step; valid until the next.
+    std::span<const Event> events() const {
+        const Event* first = nullptr;
+        std::size_t count = 0;
+        return hh_world_events(world_, &first, &count) == HH_OK ? std::span(first, count)
+                                                                : std::span<const Event>();
+    }
+    Maybe<hh_world_stats> stats() const {
+        hh_world_stats stats = hh_default_world_stats();
+        const hh_result result = hh_world_get_stats(world_, &stats);
+        return {result, stats};
+    }
+
+    // Saving. `bytes` keeps its memory from call to call.
+    Status save(std::vector<std::byte>& bytes) {
+        std::size_t size = 0;
+        hh_result result = hh_world_save(world_, bytes.data(), bytes.size(), &size);
+        if (result == HH_ERROR_CAPACITY || (result == HH_OK && bytes.empty())) {
+            bytes.resize(size);
+            result = hh_world_save(world_, bytes.data(), bytes.size(), &size);
+        }
+        if (result == HH_OK) {
+            bytes.resize(size);
+        }
+        return result;
+    }
+    Status restore(std::span<const std::byte> bytes) {
+        return hh_world_restore(world_, bytes.data(), bytes.size());
+    }
+    std::uint64_t hash() const {
+        std::uint64_t hash = 0;
+        return hh_world_hash(world_, &hash) == HH_OK ? hash : 0;
+    }
+
+    // Tuning. `name` ends with a 0.
+    Status tune(const char* name, double value) {
+        return hh_world_set_tuning(world_, name, &value, 1);
+    }
+    Maybe<double> tuning(const char* name) const {
+        return make<double>([&](double* v) { return hh_world_get_tuning(world_, name, v, 1); });
+    }
+
+  private:
+    template <typename T, typename Call>
+    static Maybe<T> make(const Call& call) {
+        T value{};
+        const hh_result result = call(&value);
+        return {result, value};
+    }
+
+    hh_world* world_ = nullptr;
+};
+
+}  // namespace hh

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "game/climber/climber.hpp"
+#include "game/climber/climber_body.hpp"
+
+// Where a climber goes: waypoints, detours, and distance from surfaces.
+namespace handhold {
+
+// The inputs and state of one frame's decision.
+struct ClimberMind {
+    const ClimberSight& sight;
+    const ClimberTask& task;
+    ClimberMoment now;
+    ClimberState& state;
+
+    const World& world() const { return sight.scene.world; }
+    Entity player() const { return task.player.player; }
+    ClimberHand& hand(HandSide side) const { return state.hands[index_of(side)]; }
+    Vec3 wrist_ws(HandSide side) const {
+        return transform_point(now.origin_ws, hand(side).wrist_ps.position);
+    }
+    double stretch_m(HandSide side) const {
+        return (hand(side).wrist_ps.position - shoulder_ps(state, side)).norm();
+    }
+};
+
+// Chooses a new heading for a wandering climber.
+void head_anywhere(const ClimberMind& mind);
+
+// Updates the heading. Returns the wanted velocity of the head in the world: along the heading,
+// slower in front of a wall, and away from surfaces nearby.
+Vec3 steer(const ClimberMind& mind);
+
+}  // namespace handhold

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/io/result.hpp"
+#include "game/commands/run_command.hpp"
+#include "game/render/player_models.hpp"
+#include "game/report/report_html.hpp"
+#include "game/report/run_summary.hpp"
+#include "game/scene/scene.hpp"
+#include "game/session/run_log.hpp"
+#include "game/view/film.hpp"
+
+// What `handhold run` leaves: the film of the session, the files of --out, and the printed summary.
+namespace handhold {
+
+// The film of a run; `camera` is null if nothing is filmed.
+struct RunFilm {
+    std::unique_ptr<SessionFilm> camera;
+    ReportMedia media;
+};
+
+// Prints why there are no pictures if they cannot be drawn.
+RunFilm open_run_film(const RunOptions& options, const Scene& scene, PlayerModels models,
+                      double session_s);
+
+// Finishes the video and returns the pictures.
+std::vector<FilmShot> finish_run_film(RunFilm& film);
+
+// Writes the pictures, tables and reports into `folder`.
+std::optional<FileError> write_run_output(const std::filesystem::path& folder, const RunLog& log,
+                                          ReportMedia media, std::vector<FilmShot> shots);
+
+// Prints the summary to standard output, except for its last line.
+void print_run_summary(const RunLog& log, const RunSummary& summary);
+
+}  // namespace handhold

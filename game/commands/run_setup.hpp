@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/world.hpp"
+#include "engine/io/result.hpp"
+#include "engine/math/math.hpp"
+#include "game/commands/run_command.hpp"
+#include "game/scene/scene.hpp"
+#include "game/session/recording.hpp"
+#include "systems/frame.hpp"
+
+// What `handhold run` prepares before the first frame: recordings, start places and players.
+namespace handhold {
+
+// The recordings that a run plays.
+struct RunSession {
+    std::optional<Recording> recording;
+    std::vector<Recording> more;  // recordings of the second player, the third, ...
+    std::string name;             // names of the files, "built-in <name>", or empty: no session
+};
+
+// Loads the players' recordings: those of --input, else the scene's session, else none.
+Result<RunSession> load_session(const RunOptions& options, const Scene& scene);
+
+// Limits the session's length. Times in a recording are arbitrary: two samples may be years apart.
+std::optional<FileError> check_length(const RunOptions& options, const std::string& name,
+                                      double length_s);
+
+// A start of the play space. The name is for the report.
+struct StartPlace {
+    Pose origin_ws;
+    std::string name;
+};
+
+// `spawn`: see RunOptions::spawn.
+Result<StartPlace> choose_place(const RunOptions& options, const std::string& spawn,
+                                const Scene& scene, FrameCaches& caches,
+                                const Recording* recording);
+
+// The number of players who have recordings; the first player counts even without one.
+std::size_t recorded_players(const RunOptions& options);
+
+// Start places of players with recordings: `first`, then those of --spawn, then the scene's next
+// spawns. Returns fewer places than recordings if the scene has no more spawns.
+Result<std::vector<StartPlace>> choose_places(const RunOptions& options, const StartPlace& first,
+                                              const Scene& scene, FrameCaches& caches,
+                                              const RunSession& session);
+
+// Adds the scene's own players if there are enough of them and neither --spawn nor --players was
+// given. Otherwise adds the first players at `places` and spreads the others over the scene.
+Result<std::vector<PlayerEntities>> add_players(Scene& scene, FrameCaches& caches,
+                                                const std::vector<StartPlace>& places,
+                                                const RunOptions& options);
+
+// Warns on standard error of bodies and players that penetrate at the start.
+void warn_of_overlaps(const Scene& scene, FrameCaches& caches,
+                      const std::vector<PlayerEntities>& players);
+
+}  // namespace handhold

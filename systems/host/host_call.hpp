@@ -1,0 +1,137 @@
+#pragma once
+
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <string>
+#include <utility>
+
+#include <handhold/base.h>
+
+#include "components/world.hpp"
+#include "engine/core/check.hpp"
+#include "engine/math/math.hpp"
+
+// What every function of the C interface does: checks, conversions, and turning exceptions into
+// results. Nothing thrown below leaves this layer.
+namespace handhold {
+
+// Ends a call with a result other than HH_OK.
+struct HostError {
+    hh_result result;
+    std::string text;
+};
+
+inline void require(bool condition, hh_result result, const char* text) {
+    if (!condition) [[unlikely]] {
+        throw HostError{result, text};
+    }
+}
+
+// Stores the text for hh_last_error and logs it; HH_ERROR_INTERNAL also calls the assert hook.
+hh_result report_failure(hh_result result, const char* text) noexcept;
+
+// Runs a call. `precondition`: what a PreconditionError means in it.
+template <typename Work>
+hh_result call(Work&& work, hh_result precondition = HH_ERROR_VALUE) noexcept {
+    try {
+        std::forward<Work>(work)();
+        return HH_OK;
+    } catch (const HostError& error) {
+        return report_failure(error.result, error.text.c_str());
+    } catch (const PreconditionError& error) {
+        return report_failure(precondition, error.what());
+    } catch (const std::bad_alloc&) {
+        return report_failure(HH_ERROR_MEMORY, "no memory left");
+    } catch (const std::exception& error) {
+        return report_failure(HH_ERROR_INTERNAL, error.what());
+    } catch (...) {
+        return report_failure(HH_ERROR_INTERNAL, "an unknown exception");
+    }
+}
+
+// A definition of any version up to this library's: what it lacks keeps its default.
+template <typename Def>
+Def read_def(const Def* def, const Def& defaults, std::size_t first_size = sizeof(Def)) {
+    require(def != nullptr, HH_ERROR_NULL, "the definition is null");
+    const std::size_t size = def->struct_size;
+    require(
+        size >= first_size && size <= sizeof(Def), HH_ERROR_VERSION,
+        "struct_size is not of a version that this library knows: use the hh_default_ function");
+    Def read = defaults;
+    std::memcpy(&read, def, size);
+    return read;
+}
+// Writes an output of any version up to this library's.
+template <typename Out>
+void write_out(Out* out, Out value, std::size_t first_size = sizeof(Out)) {
+    require(out != nullptr, HH_ERROR_NULL, "the output is null");
+    const std::uint32_t size = out->struct_size;
+    require(
+        size >= first_size && size <= sizeof(Out), HH_ERROR_VERSION,
+        "struct_size is not of a version that this library knows: use the hh_default_ function");
+    value.struct_size = size;
+    std::memcpy(out, &value, size);
+}
+
+inline Vec3 from_c(const hh_vec3& v) { return {v.x, v.y, v.z}; }
+inline hh_vec3 to_c(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+inline hh_pose to_c(const Pose& pose) {
+    const Quat& q = pose.rotation;
+    return {to_c(pose.position), {q.x(), q.y(), q.z(), q.w()}};
+}
+// Any numbers.
+inline Pose unchecked_pose(const hh_pose& pose) {
+    const hh_quat& q = pose.rotation;
+    return {from_c(pose.position), Quat(q.w, q.x, q.y, q.z)};
+}
+inline Vec3 checked(const hh_vec3& v, double limit, const char* text) {
+    const Vec3 read = from_c(v);
+    for (const double axis : read) {
+        require(std::abs(axis) <= limit, HH_ERROR_VALUE, text);  // false for NaN
+    }
+    return read;
+}
+inline double checked(double number, double low, double high, const char* text) {
+    require(number >= low && number <= high, HH_ERROR_VALUE, text);
+    return number;
+}
+inline Pose checked(const hh_pose& pose) {
+    Pose read = unchecked_pose(pose);
+    checked(pose.position, world_limits::k_max_coordinate_m, "a position beyond 1e9 m, or NaN");
+    require(is_valid(read), HH_ERROR_VALUE, "a rotation is not a unit quaternion");
+    // Bits of a unit quaternion stay, so that a pose that is read and written back is the same.
+    constexpr double k_rounding = 1e-12;
+    if (std::abs(read.rotation.squaredNorm() - 1.0) > k_rounding) {
+        read.rotation.normalize();
+    }
+    return read;
+}
+
+// Copies a list into a host's buffer. `count` gets its length in any case.
+template <typename T, typename Get>
+void write_list(std::size_t size, T* buffer, std::size_t capacity, std::size_t* count,
+                const Get& get) {
+    require(count != nullptr, HH_ERROR_NULL, "the count is null");
+    *count = size;
+    if (buffer == nullptr && capacity == 0) {
+        return;
+    }
+    require(buffer != nullptr, HH_ERROR_NULL, "the buffer is null");
+    require(size <= capacity, HH_ERROR_CAPACITY, "the buffer is too small");
+    for (std::size_t i = 0; i < size; ++i) {
+        buffer[i] = get(i);
+    }
+}
+
+template <typename Id>
+Entity entity_of(Id id) {
+    return {id.index, id.generation};
+}
+template <typename Id>
+Id id_of(Entity entity) {
+    return {entity.slot, entity.generation};
+}
+
+}  // namespace handhold

@@ -1,0 +1,362 @@
+// Events of the C interface: the differences between two steps (handhold/players.h).
+#include <algorithm>
+#include <tuple>
+
+#include "components/play_space.hpp"
+#include "engine/solver/newton/velocities.hpp"
+#include "systems/host/host_world.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr double k_touch_m = 0.02;
+
+HandReport& report_of(hh_world& host, Entity hand) {
+    HandReport* const known = host.hands.find(hand);
+    return known != nullptr ? *known : host.hands.add(hand);
+}
+
+hh_event hand_event(const hh_world& host, hh_event_kind kind, hh_reason reason, Entity hand,
+                    Entity what) {
+    const HandOwner& owner = host.world.hand_owner.at(hand);
+    hh_event event{};
+    event.kind = kind;
+    event.reason = reason;
+    event.player = id_of<hh_player>(owner.player);
+    event.side = owner.side == HandSide::left ? HH_LEFT : HH_RIGHT;
+    if (host.world.player.contains(what)) {
+        event.other = id_of<hh_player>(what);
+    } else {
+        event.body = id_of<hh_body>(what);
+    }
+    const RenderPose& shown = host.world.render_pose.at(owner.player);
+    event.position = to_c(shown.hands[index_of(owner.side)].shown_ws.position);
+    return event;
+}
+
+const HandNote* note_of(const hh_world& host, Entity hand) {
+    for (const HandNote& note : host.stats.hand_notes) {
+        if (note.hand == hand) {
+            return &note;
+        }
+    }
+    return nullptr;
+}
+
+hh_reason reason_of(Fallback fallback) {
+    switch (fallback) {
+        case Fallback::grab_no_surface:
+            return HH_REASON_NO_SURFACE;
+        case Fallback::grab_refused_by_rule:
+            return HH_REASON_NOT_ALLOWED;
+        case Fallback::grab_needs_two_hands:
+        case Fallback::grip_needs_two_hands:
+            return HH_REASON_NEEDS_TWO_HANDS;
+        case Fallback::grip_stretched:
+            return HH_REASON_STRETCHED;
+        case Fallback::grip_body_gone:
+            return HH_REASON_BODY_GONE;
+        case Fallback::grip_ended_by_host:
+            return HH_REASON_BY_HOST;
+        default:
+            return HH_REASON_NONE;
+    }
+}
+
+bool is_slip(hh_reason reason) {
+    return reason == HH_REASON_STRETCHED || reason == HH_REASON_BODY_GONE ||
+           reason == HH_REASON_TRACKING_LOST || reason == HH_REASON_NEEDS_TWO_HANDS;
+}
+
+hh_reason why_let_go(const hh_world& host, Entity hand) {
+    const HandNote* const note = note_of(host, hand);
+    const hh_reason noted = note != nullptr ? reason_of(note->reason) : HH_REASON_NONE;
+    const HandTracking& tracking = host.world.hand_tracking.at(hand);
+    if (noted != HH_REASON_NONE && noted != HH_REASON_NO_SURFACE &&
+        noted != HH_REASON_NOT_ALLOWED) {
+        return noted;
+    }
+    if (tracking.resumed) {
+        return HH_REASON_TRACKING_LOST;
+    }
+    return tracking.edge == GrabEdge::release ? HH_REASON_OPENED : HH_REASON_OTHER_HAND;
+}
+
+void add_grip_events(hh_world& host) {
+    for (std::size_t row = 0; row < host.world.grab.size(); ++row) {
+        const Entity hand = host.world.grab.owners()[row];
+        const Grab& grab = host.world.grab.rows()[row];
+        HandReport& before = report_of(host, hand);
+        const bool is_other = grab.body != before.body || grab.since_s != before.since_s;
+        if (before.grip != GripKind::none && (grab.kind == GripKind::none || is_other)) {
+            const hh_reason reason = why_let_go(host, hand);
+            host.events.push_back(hand_event(host,
+                                             is_slip(reason) ? HH_EVENT_SLIPPED : HH_EVENT_RELEASED,
+                                             reason, hand, before.body));
+        }
+        if (grab.kind != GripKind::none && (before.grip == GripKind::none || is_other)) {
+            host.events.push_back(
+                hand_event(host, HH_EVENT_GRABBED, HH_REASON_NONE, hand, grab.body));
+        }
+        before.grip = grab.kind;
+        before.body = grab.body;
+        before.since_s = grab.since_s;
+    }
+    for (const HandNote& note : host.stats.hand_notes) {
+        const bool is_refusal = note.reason == Fallback::grab_no_surface ||
+                                note.reason == Fallback::grab_refused_by_rule ||
+                                note.reason == Fallback::grab_needs_two_hands;
+        if (is_refusal && host.world.grab.at(note.hand).kind == GripKind::none) {
+            host.events.push_back(
+                hand_event(host, HH_EVENT_REFUSED, reason_of(note.reason), note.hand, note.body));
+        }
+    }
+}
+
+void measure_impulses(hh_world& host) {
+    for (HandReport& report : host.hands.rows()) {
+        report.impulse_ns.setZero();
+    }
+    for (const RowBlock& block : host.caches.graph.graph.blocks) {
+        if (is_drive(block) && block.source < host.world.grab.size()) {
+            report_of(host, host.world.grab.owners()[block.source]).impulse_ns -=
+                block.impulse_ws_ns;
+        }
+    }
+}
+
+// One contact for each of those that feel it: the head `a` is, the hands that hold it.
+void add_contact(hh_world& host, Entity a, Entity b, double impulse_ns, const Vec3& point_ws) {
+    HostContact contact;
+    contact.other = b;
+    contact.impulse_ns = impulse_ns;
+    contact.point_ws = point_ws;
+    if (host.world.player.contains(a)) {
+        contact.player = a;
+        host.contacts.push_back(contact);
+        return;
+    }
+    for (std::size_t row = 0; row < host.world.grab.size(); ++row) {
+        const Grab& grab = host.world.grab.rows()[row];
+        if (grab.kind == GripKind::held && grab.body == a) {
+            const HandOwner& owner = host.world.hand_owner.at(host.world.grab.owners()[row]);
+            contact.player = owner.player;
+            contact.side = owner.side == HandSide::left ? HH_LEFT : HH_RIGHT;
+            contact.held = a;
+            host.contacts.push_back(contact);
+        }
+    }
+}
+
+bool was_in_contact(const hh_world& host, Entity a, Entity b) {
+    return std::ranges::any_of(host.last_contacts, [&](const HostContact& contact) {
+        const Entity own = is_null(contact.held) ? contact.player : contact.held;
+        return (own == a && contact.other == b) || (own == b && contact.other == a);
+    });
+}
+
+void gather_contacts(hh_world& host) {
+    constexpr double k_begin_m = 1e-4;  // farther apart is no contact yet,
+    constexpr double k_end_m = 2e-3;    // and this far apart none any more
+    constexpr double k_least_impulse_ns = 1e-9;
+    const FrameGraph& frame = host.caches.graph;
+    host.last_contacts.swap(host.contacts);
+    host.contacts.clear();
+    for (const RowBlock& block : frame.graph.blocks) {
+        if (!is_contact(block) || block.a >= frame.entities.size() ||
+            block.b >= frame.entities.size()) {
+            continue;
+        }
+        const Entity a = frame.entities[block.a];
+        const Entity b = frame.entities[block.b];
+        const double impulse_ns = block.impulse_ws_ns.norm();
+        const double separation_m = contact_separation_m(frame.graph.bodies, block);
+        const double near_m = was_in_contact(host, a, b) ? k_end_m : k_begin_m;
+        if (impulse_ns < k_least_impulse_ns && separation_m > near_m) {
+            continue;
+        }
+        const Vec3 point_ws =
+            transform_point(frame.graph.bodies[block.a].pose_ws, block.point_a_bs);
+        add_contact(host, a, b, impulse_ns, point_ws);
+        add_contact(host, b, a, impulse_ns, point_ws);
+    }
+    const auto key = [](const HostContact& c) {
+        return std::tuple(c.player.slot, c.side, c.held.slot, c.other.slot);
+    };
+    std::ranges::stable_sort(host.contacts, {}, key);
+    // Points of one pair become one contact: the first, with the sum of the impulses.
+    std::size_t kept = 0;
+    for (const HostContact& contact : host.contacts) {
+        if (kept > 0 && host.contacts[kept - 1].is_same(contact)) {
+            host.contacts[kept - 1].impulse_ns += contact.impulse_ns;
+        } else {
+            host.contacts[kept++] = contact;
+        }
+    }
+    host.contacts.resize(kept);
+}
+
+void add_contact_events(hh_world& host, hh_event_kind kind,
+                        const std::vector<HostContact>& contacts,
+                        const std::vector<HostContact>& others) {
+    for (const HostContact& contact : contacts) {
+        if (std::ranges::any_of(others, [&](const HostContact& c) { return c.is_same(contact); })) {
+            continue;
+        }
+        hh_event event{};
+        event.kind = kind;
+        event.player = id_of<hh_player>(contact.player);
+        event.side = contact.side;
+        event.held = id_of<hh_body>(contact.held);
+        if (host.world.player.contains(contact.other)) {
+            event.other = id_of<hh_player>(contact.other);
+        } else {
+            event.body = id_of<hh_body>(contact.other);
+        }
+        event.position = to_c(contact.point_ws);
+        event.impulse_ns = kind == HH_EVENT_CONTACT_BEGAN ? contact.impulse_ns : 0.0;
+        host.events.push_back(event);
+    }
+}
+
+void add_touch_events(hh_world& host) {
+    for (std::size_t row = 0; row < host.world.hand_owner.size(); ++row) {
+        const Entity hand = host.world.hand_owner.owners()[row];
+        const HandOwner& owner = host.world.hand_owner.rows()[row];
+        HandReport& report = report_of(host, hand);
+        Entity touched = k_no_entity;
+        if (report.grip == GripKind::none &&
+            host.world.hand_tracking.at(hand).state == TrackingState::tracked) {
+            const Pose& hand_ws =
+                host.world.render_pose.at(owner.player).hands[index_of(owner.side)].tracked_ws;
+            const PalmRay ray = palm_ray(hand_ws, owner.side, host.tuning.hand);
+            const std::array own_head = {host.world.persistent_id.at(owner.player).value};
+            const auto found =
+                host.caches.collision.closest_point(ray.palm_ws, k_touch_m, own_head);
+            touched = found ? find_by_id(host.world, {found->id}) : k_no_entity;
+        }
+        if (!is_null(touched) && touched != report.touched) {
+            host.events.push_back(
+                hand_event(host, HH_EVENT_TOUCHED, HH_REASON_NONE, hand, touched));
+        }
+        report.touched = touched;
+    }
+}
+
+// A joint that came to its limit rests a little before it.
+bool is_at_limit(const Joint& joint, const JointState& state, bool was_at_limit) {
+    const double near_limit = was_at_limit ? 1e-2 : 5e-3;  // rad or m
+    const bool has_limits = joint.limited || joint.kind == JointKind::distance;
+    return has_limits && joint.kind != JointKind::fixed && joint.lower < joint.upper &&
+           (state.coordinate <= joint.lower + near_limit ||
+            state.coordinate >= joint.upper - near_limit);
+}
+
+// The hand that grips one of the joint's bodies, if any does.
+void attribute(const hh_world& host, const Joint& joint, hh_event& event) {
+    for (std::size_t row = 0; row < host.world.grab.size(); ++row) {
+        const Grab& grab = host.world.grab.rows()[row];
+        if (grab.kind != GripKind::none && (grab.body == joint.a || grab.body == joint.b)) {
+            const HandOwner& owner = host.world.hand_owner.at(host.world.grab.owners()[row]);
+            event.player = id_of<hh_player>(owner.player);
+            event.side = owner.side == HandSide::left ? HH_LEFT : HH_RIGHT;
+            return;
+        }
+    }
+}
+
+void update_joint_reports(hh_world& host, bool makes_events) {
+    for (std::size_t row = 0; row < host.world.joint.size(); ++row) {
+        const Entity entity = host.world.joint.owners()[row];
+        const Joint& joint = host.world.joint.rows()[row];
+        const JointState& state = host.world.joint_state.at(entity);
+        JointReport* const known = host.joints.find(entity);
+        const bool was_at_limit = known != nullptr && known->at_limit;
+        const JointReport now{state.latched, is_at_limit(joint, state, was_at_limit)};
+        if (known == nullptr) {
+            host.joints.add(entity, now);
+            continue;
+        }
+        const auto add = [&](hh_event_kind kind) {
+            hh_event event{};
+            event.kind = kind;
+            event.side = -1;
+            event.joint = id_of<hh_joint>(entity);
+            event.body = id_of<hh_body>(joint.b);
+            event.position = to_c(transform_point(host.world.body_pose.at(joint.b).pose_ws,
+                                                  joint.frame_b_bs.position));
+            attribute(host, joint, event);
+            host.events.push_back(event);
+        };
+        if (makes_events && now.latched != known->latched) {
+            add(now.latched ? HH_EVENT_LATCH_CLOSED : HH_EVENT_LATCH_OPENED);
+        }
+        if (makes_events && now.at_limit && !known->at_limit) {
+            add(HH_EVENT_LIMIT_REACHED);
+        }
+        *known = now;
+    }
+}
+
+template <typename T, typename Required>
+void drop_stale(Column<T>& column, const Column<Required>& required) {
+    for (std::size_t row = column.size(); row-- > 0;) {
+        if (!required.contains(column.owners()[row])) {
+            column.remove(column.owners()[row]);
+        }
+    }
+}
+
+}  // namespace
+
+void begin_events(hh_world& host) {
+    host.events.clear();
+    // Grips that ended between the steps: teleports.
+    for (std::size_t row = 0; row < host.world.grab.size(); ++row) {
+        const Entity hand = host.world.grab.owners()[row];
+        HandReport& report = report_of(host, hand);
+        if (report.grip != GripKind::none && host.world.grab.rows()[row].kind == GripKind::none) {
+            host.events.push_back(
+                hand_event(host, HH_EVENT_RELEASED, HH_REASON_BY_HOST, hand, report.body));
+            report.grip = GripKind::none;
+        }
+    }
+}
+
+void finish_events(hh_world& host) {
+    add_grip_events(host);
+    measure_impulses(host);
+    gather_contacts(host);
+    add_contact_events(host, HH_EVENT_CONTACT_BEGAN, host.contacts, host.last_contacts);
+    add_contact_events(host, HH_EVENT_CONTACT_ENDED, host.last_contacts, host.contacts);
+    update_joint_reports(host, true);
+    if (host.settings.reports_touches) {
+        add_touch_events(host);
+    }
+}
+
+void forget_events(hh_world& host) {
+    host.events.clear();
+    host.contacts.clear();
+    host.last_contacts.clear();
+    drop_stale(host.hands, host.world.grab);
+    drop_stale(host.joints, host.world.joint);
+    for (std::size_t row = 0; row < host.world.grab.size(); ++row) {
+        const Grab& grab = host.world.grab.rows()[row];
+        report_of(host, host.world.grab.owners()[row]) = {grab.kind, grab.body, grab.since_s,
+                                                          Vec3::Zero(), k_no_entity};
+    }
+    update_joint_reports(host, false);
+}
+
+}  // namespace handhold
+
+hh_result hh_world_events(const hh_world* world, const hh_event** events, size_t* count) {
+    using namespace handhold;
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(events != nullptr && count != nullptr, HH_ERROR_NULL, "an output is null");
+        *events = host.events.data();
+        *count = host.events.size();
+    });
+}

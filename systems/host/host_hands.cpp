@@ -1,0 +1,168 @@
+// Hands of the C interface: state, orders, joints of hands and bodies (handhold/players.h).
+#include <algorithm>
+#include <array>
+
+#include "components/play_space.hpp"
+#include "components/world_edit.hpp"
+#include "systems/host/host_skeleton.hpp"
+#include "systems/host/host_world.hpp"
+
+namespace handhold {
+namespace {
+
+hh_grip_kind grip_of(GripKind kind) {
+    switch (kind) {
+        case GripKind::none:
+            return HH_GRIP_NONE;
+        case GripKind::surface:
+            return HH_GRIP_SURFACE;
+        case GripKind::held:
+            return HH_GRIP_HELD;
+        case GripKind::authored:
+            return HH_GRIP_AUTHORED;
+        case GripKind::player:
+            return HH_GRIP_PLAYER;
+    }
+    return HH_GRIP_NONE;
+}
+
+hh_hand_state hand_state(const hh_world& host, Entity player, HandSide side) {
+    const Entity hand = hand_of(host.world, player, side);
+    const Grab& grab = host.world.grab.at(hand);
+    const HandTracking& tracking = host.world.hand_tracking.at(hand);
+    const RenderPose::Hand& shown = host.world.render_pose.at(player).hands[index_of(side)];
+    hh_hand_state state{};
+    state.tracked = to_c(shown.tracked_ws);
+    state.shown = to_c(shown.shown_ws);
+    state.anchor = hh_identity_pose();
+    state.is_tracked = tracking.state == TrackingState::tracked;
+    state.is_closed = tracking.pressed;
+    const bool is_body = host.world.body.contains(grab.body);
+    if (grab.kind == GripKind::none || (!is_body && !host.world.player.contains(grab.body))) {
+        return state;
+    }
+    const AuthoredHold* const hold = host.world.authored_hold.find(hand);
+    state.grip = hold != nullptr && hold->body == grab.body ? HH_GRIP_AUTHORED : grip_of(grab.kind);
+    state.anchor = to_c(is_body ? to_host_bs(host, grab.body, grab.anchor_bs) : grab.anchor_bs);
+    state.error_m = grab.error_m;
+    if (is_body) {
+        state.body = id_of<hh_body>(grab.body);
+    } else {
+        state.other = id_of<hh_player>(grab.body);
+    }
+    if (const HandReport* const report = host.hands.find(hand)) {
+        state.force_impulse_ns = to_c(report->impulse_ns);
+    }
+    return state;
+}
+
+hh_player_pose player_pose(const hh_world& host, Entity player) {
+    hh_player_pose pose{};
+    pose.origin = to_c(host.world.player_origin.at(player).pose_ws);
+    pose.head = to_c(host.world.render_pose.at(player).head_ws);
+    pose.velocity_mps = to_c(host.world.player_velocity.at(player).linear_mps);
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        pose.hands[index_of(side)] = hand_state(host, player, side);
+    }
+    return pose;
+}
+
+void order(hh_world& host, Entity hand, Entity body) {
+    host.world.grab_order.remove(hand);
+    host.world.grab_order.add(hand, {body});
+}
+
+}  // namespace
+}  // namespace handhold
+
+using namespace handhold;
+
+hh_result hh_player_hand(const hh_world* world, hh_player player, hh_side side,
+                         hh_hand_state* hand) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(hand != nullptr, HH_ERROR_NULL, "the output is null");
+        *hand = hand_state(host, player_of(host, player), side_of(side));
+    });
+}
+
+hh_result hh_world_player_poses(const hh_world* world, const hh_player* players, size_t count,
+                                hh_player_pose* poses) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(count == 0 || (players != nullptr && poses != nullptr), HH_ERROR_NULL,
+                "the ids or the buffer are null");
+        for (std::size_t i = 0; i < count; ++i) {
+            player_of(host, players[i]);
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            poses[i] = player_pose(host, entity_of(players[i]));
+        }
+    });
+}
+
+hh_result hh_hand_grip(hh_world* world, hh_player player, hh_side side, hh_body body) {
+    return call([&] {
+        hh_world& host = world_of(world);
+        const Entity hand = hand_of(host.world, player_of(host, player), side_of(side));
+        const Entity gripped = body_of(host, body);
+        require(host.world.hand_tracking.at(hand).state != TrackingState::never, HH_ERROR_STATE,
+                "the hand was never tracked");
+        order(host, hand, gripped);
+    });
+}
+
+hh_result hh_hand_release(hh_world* world, hh_player player, hh_side side) {
+    return call([&] {
+        hh_world& host = world_of(world);
+        order(host, hand_of(host.world, player_of(host, player), side_of(side)), k_no_entity);
+    });
+}
+
+hh_result hh_player_hand_joints(const hh_world* world, hh_player player, hh_side side,
+                                hh_space space, hh_hand_joint* joints) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(joints != nullptr, HH_ERROR_NULL, "the output is null");
+        require(space == HH_SPACE_WORLD || space == HH_SPACE_PARENT, HH_ERROR_VALUE,
+                "a space is HH_SPACE_WORLD or HH_SPACE_PARENT");
+        const Entity entity = player_of(host, player);
+        const HandSide which = side_of(side);
+        const HandRig& rig = hand_rig_of(host, hand_of(host.world, entity, which), which);
+        const RenderPose::Hand& shown = host.world.render_pose.at(entity).hands[index_of(which)];
+        const auto posed = pose_hand_joints(rig, shown.fingers, shown.shown_ws);
+        for (std::size_t i = 0; i < posed.size(); ++i) {
+            Pose pose = posed[i].pose_ws;
+            if (const std::int32_t parent = hand_joint_parent(i);
+                space == HH_SPACE_PARENT && parent >= 0) {
+                pose = inverse(posed[static_cast<std::size_t>(parent)].pose_ws) * pose;
+            }
+            joints[i] = {to_c(pose), posed[i].radius_m, posed[i].is_valid};
+        }
+    });
+}
+
+const char* hh_body_joint_name(size_t joint) {
+    return joint < HH_BODY_JOINT_COUNT ? k_body_joints[joint].name : nullptr;
+}
+
+int32_t hh_body_joint_parent(size_t joint) {
+    return joint < HH_BODY_JOINT_COUNT ? k_body_joints[joint].parent : -1;
+}
+
+hh_result hh_player_body_joints(const hh_world* world, hh_player player, hh_space space,
+                                hh_pose* joints) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(joints != nullptr, HH_ERROR_NULL, "the output is null");
+        require(space == HH_SPACE_WORLD || space == HH_SPACE_PARENT, HH_ERROR_VALUE,
+                "a space is HH_SPACE_WORLD or HH_SPACE_PARENT");
+        const auto posed = pose_body_joints(host.world.render_pose.at(player_of(host, player)));
+        for (std::size_t i = 0; i < posed.size(); ++i) {
+            const std::int32_t parent = k_body_joints[i].parent;
+            const bool is_local = space == HH_SPACE_PARENT && parent >= 0;
+            joints[i] = to_c(is_local ? inverse(posed[static_cast<std::size_t>(parent)]) * posed[i]
+                                      : posed[i]);
+        }
+    });
+}

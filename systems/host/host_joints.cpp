@@ -1,0 +1,105 @@
+// Joints of the C interface (handhold/level.h).
+#include "systems/host/host_world.hpp"
+
+namespace handhold {
+namespace {
+
+JointKind joint_kind_of(hh_joint_kind kind) {
+    switch (kind) {
+        case HH_BALL:
+            return JointKind::ball;
+        case HH_HINGE:
+            return JointKind::hinge;
+        case HH_SLIDER:
+            return JointKind::slider;
+        case HH_FIXED:
+            return JointKind::fixed;
+        case HH_DISTANCE:
+            return JointKind::distance;
+        case HH_JOINT_KIND_32_BITS:
+            break;
+    }
+    throw HostError{HH_ERROR_VALUE, "no such kind of joint"};
+}
+
+Joint read_joint(const hh_world& host, const hh_joint_def& def) {
+    Joint joint;
+    joint.kind = joint_kind_of(def.kind);
+    joint.b = body_of(host, def.body_b);
+    if (def.body_a.generation != 0) {
+        joint.a = body_of(host, def.body_a);
+    }
+    require(joint.a != joint.b, HH_ERROR_VALUE, "a joint needs two bodies");
+    joint = joint_at(host.world, joint, checked(def.frame));
+    if (joint.kind == JointKind::distance) {
+        const Vec3 point_ws =
+            checked(def.point_b, world_limits::k_max_coordinate_m, "a point beyond 1e9 m, or NaN");
+        joint.frame_b_bs.position =
+            inverse_transform_point(host.world.body_pose.at(joint.b).pose_ws, point_ws);
+    }
+    joint.collides = def.collides;
+    joint.limited = def.limited;
+    joint.lower = def.lower;
+    joint.upper = def.upper;
+    joint.friction = def.friction;
+    joint.detent_spacing = def.detent_spacing;
+    joint.detent_strength = def.detent_strength;
+    joint.latch.at = def.latch_at;
+    joint.latch.catch_range = def.latch_range;
+    joint.latch.strength = def.latch_strength;
+    joint.latch.handle_at = def.latch_handle_at;
+    if (def.latch_handle.generation != 0) {
+        joint.latch.handle = joint_of(host, def.latch_handle);
+    }
+    return joint;
+}
+
+}  // namespace
+}  // namespace handhold
+
+using namespace handhold;
+
+hh_joint_def hh_default_joint_def(void) {
+    hh_joint_def def{};
+    def.struct_size = sizeof def;
+    def.frame = hh_identity_pose();
+    return def;
+}
+
+hh_result hh_joint_add(hh_world* world, const hh_joint_def* wanted, hh_joint* joint) {
+    return call([&] {
+        hh_world& host = world_of(world);
+        const hh_joint_def def = read_def(wanted, hh_default_joint_def());
+        require(joint != nullptr, HH_ERROR_NULL, "the output is null");
+        const std::string name = new_name(host, def.name, "joint");
+        *joint = id_of<hh_joint>(add_joint(host.world, {name, read_joint(host, def)}));
+    });
+}
+
+hh_result hh_joint_remove(hh_world* world, hh_joint joint) {
+    return call([&] {
+        hh_world& host = world_of(world);
+        remove_entity(host, joint_of(host, joint));
+    });
+}
+
+bool hh_joint_is_valid(const hh_world* world, hh_joint joint) {
+    return world != nullptr && world->world.joint.contains(entity_of(joint));
+}
+
+hh_result hh_joint_state(const hh_world* world, hh_joint joint, double* coordinate, double* speed,
+                         bool* latched) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        const JointState& state = host.world.joint_state.at(joint_of(host, joint));
+        if (coordinate != nullptr) {
+            *coordinate = state.coordinate;
+        }
+        if (speed != nullptr) {
+            *speed = state.speed;
+        }
+        if (latched != nullptr) {
+            *latched = state.latched;
+        }
+    });
+}

@@ -1,0 +1,188 @@
+// Players of the C interface (handhold/players.h).
+#include "components/world_edit.hpp"
+#include "systems/host/host_world.hpp"
+#include "systems/input/read_tracking.hpp"
+
+namespace handhold {
+namespace {
+
+BodyMeasures read_measures(const hh_measures& measures, double scale) {
+    const auto length = [scale](double length_m) {
+        return checked(length_m * scale, BodyMeasures::k_min_m, BodyMeasures::k_max_m,
+                       "the body's measures must lie within 0.05 to 5 m");
+    };
+    return {length(measures.eye_height_m), length(measures.shoulder_width_m),
+            length(measures.upper_arm_m), length(measures.forearm_m)};
+}
+
+hh_measures write_measures(const BodyMeasures& measures) {
+    return {measures.eye_height_m, measures.shoulder_width_m, measures.upper_arm_m,
+            measures.forearm_m};
+}
+
+}  // namespace
+}  // namespace handhold
+
+using namespace handhold;
+
+hh_player_def hh_default_player_def(void) {
+    hh_player_def def{};
+    def.struct_size = sizeof def;
+    def.origin = hh_identity_pose();
+    def.mass_kg = PlayerBody{}.mass_kg;
+    def.measures = write_measures(BodyMeasures{});
+    def.scale = 1.0;
+    def.head_collides = true;
+    def.layers = CollisionFilter{}.layers;
+    def.mask = CollisionFilter{}.mask;
+    def.grab_layers = GrabLayers{}.layers;
+    return def;
+}
+
+hh_result hh_player_add(hh_world* world, const hh_player_def* wanted, hh_player* player) {
+    return call([&] {
+        hh_world& host = world_of(world);
+        const hh_player_def def = read_def(wanted, hh_default_player_def());
+        require(player != nullptr, HH_ERROR_NULL, "the output is null");
+        const std::string name = new_name(host, def.name, "player");
+        for (const char* const hand : {"/left_hand", "/right_hand"}) {
+            require(is_null(find_by_name(host.world, name + hand)), HH_ERROR_NAME,
+                    "the name of one of the player's hands is taken");
+        }
+        constexpr double k_max_scale = 100.0;
+        const double scale = checked(def.scale, 1e-3, k_max_scale, "scale must lie in (0, 100]");
+        PlayerDescription description;
+        description.name = name;
+        description.body.mass_kg = def.mass_kg;
+        description.origin_ws = checked(def.origin);
+        description.velocity_mps = checked(def.velocity_mps, world_limits::k_max_speed_mps,
+                                           "a velocity beyond 1e6 m/s, or NaN");
+        description.measures = read_measures(def.measures, scale);
+        checked(def.mass_kg, world_limits::k_min_mass_kg, world_limits::k_max_mass_kg,
+                "a player needs a mass within 1e-12 to 1e15 kg");
+        description.head_shape = k_no_shape;
+        if (def.head_collides) {
+            description.head_shape = head_shape(host, host.tuning.head.radius_m);
+        }
+        const Entity entity = add_player(host.world, description, host.shapes).player;
+        if (def.layers != CollisionFilter{}.layers || def.mask != CollisionFilter{}.mask) {
+            host.world.filter.add(entity, {def.layers, def.mask});
+        }
+        if (def.grab_layers != GrabLayers{}.layers) {
+            host.world.grab_layers.add(entity, {def.grab_layers});
+        }
+        set_user_data(host, entity, def.user_data);
+        *player = id_of<hh_player>(entity);
+    });
+}
+
+hh_result hh_player_remove(hh_world* world, hh_player player) {
+    return call([&] {
+        hh_world& host = world_of(world);
+        remove_entity(host, player_of(host, player));
+    });
+}
+
+bool hh_player_is_valid(const hh_world* world, hh_player player) {
+    return world != nullptr && world->world.player.contains(entity_of(player));
+}
+
+hh_result hh_world_players(const hh_world* world, hh_player* players, size_t capacity,
+                           size_t* count) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        write_list(host.world.player.size(), players, capacity, count, [&](std::size_t row) {
+            return id_of<hh_player>(host.world.player.owners()[row]);
+        });
+    });
+}
+
+hh_result hh_player_teleport(hh_world* world, hh_player player, hh_pose origin) {
+    return call([&] {
+        hh_world& host = world_of(world);
+        teleport_player(host.world, player_of(host, player), checked(origin));
+    });
+}
+
+hh_result hh_player_velocity(const hh_world* world, hh_player player, hh_vec3* velocity_mps) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(velocity_mps != nullptr, HH_ERROR_NULL, "the output is null");
+        *velocity_mps = to_c(host.world.player_velocity.at(player_of(host, player)).linear_mps);
+    });
+}
+
+hh_result hh_player_set_velocity(hh_world* world, hh_player player, hh_vec3 velocity_mps) {
+    return call([&] {
+        hh_world& host = world_of(world);
+        const Entity entity = player_of(host, player);
+        host.world.player_velocity.at(entity).linear_mps = checked(
+            velocity_mps, world_limits::k_max_speed_mps, "a velocity beyond 1e6 m/s, or NaN");
+    });
+}
+
+hh_result hh_player_measures(const hh_world* world, hh_player player, hh_measures* measures) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(measures != nullptr, HH_ERROR_NULL, "the output is null");
+        *measures = write_measures(host.world.body_measures.at(player_of(host, player)));
+    });
+}
+
+hh_result hh_player_set_measures(hh_world* world, hh_player player, const hh_measures* measures) {
+    return call([&] {
+        hh_world& host = world_of(world);
+        require(measures != nullptr, HH_ERROR_NULL, "the measures are null");
+        const Entity entity = player_of(host, player);
+        host.world.body_measures.at(entity) = read_measures(*measures, 1.0);
+    });
+}
+
+hh_result hh_player_set_user_data(hh_world* world, hh_player player, uint64_t user_data) {
+    return call([&] {
+        hh_world& host = world_of(world);
+        set_user_data(host, player_of(host, player), user_data);
+    });
+}
+
+hh_result hh_player_user_data(const hh_world* world, hh_player player, uint64_t* user_data) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(user_data != nullptr, HH_ERROR_NULL, "the output is null");
+        *user_data = user_data_of(host, player_of(host, player));
+    });
+}
+
+hh_result hh_player_set_hand_in_controller(hh_world* world, hh_player player, hh_side side,
+                                           const hh_pose* hand_in_controller) {
+    return call([&] {
+        hh_world& host = world_of(world);
+        const Entity hand = hand_of(host.world, player_of(host, player), side_of(side));
+        if (hand_in_controller == nullptr) {
+            host.world.controller_to_hand.remove(hand);
+            return;
+        }
+        constexpr double k_max_offset_m = 10.0;
+        const Pose pose = checked(*hand_in_controller);
+        checked(hand_in_controller->position, k_max_offset_m, "a wrist beyond 10 m");
+        if (ControllerToHand* const known = host.world.controller_to_hand.find(hand)) {
+            known->hand_in_controller = pose;
+        } else {
+            host.world.controller_to_hand.add(hand, {pose});
+        }
+    });
+}
+
+hh_result hh_player_hand_in_controller(const hh_world* world, hh_player player, hh_side side,
+                                       hh_pose* hand_in_controller) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(hand_in_controller != nullptr, HH_ERROR_NULL, "the output is null");
+        const HandSide which = side_of(side);
+        const Entity hand = hand_of(host.world, player_of(host, player), which);
+        const ControllerToHand* const own = host.world.controller_to_hand.find(hand);
+        *hand_in_controller =
+            to_c(own != nullptr ? own->hand_in_controller
+                                : default_controller_to_hand(which, host.tuning.hand));
+    });
+}

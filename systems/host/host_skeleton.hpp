@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "systems/host/host_world.hpp"
+
+// Joints of hands and bodies with the names that other engines give them.
+namespace handhold {
+
+struct PosedHandJoint {
+    Pose pose_ws;
+    double radius_m = 0.0;
+    bool is_valid = false;
+};
+using PosedHandJoints = std::array<PosedHandJoint, HH_HAND_JOINT_COUNT>;
+
+// The rig that the hand is shown with.
+const HandRig& hand_rig_of(const hh_world& host, Entity hand, HandSide side);
+// In the order and with the axes of XR_EXT_hand_tracking: -Z from a joint to the next one, +Y to
+// the back of the hand. Joints that the rig lacks have the pose of their parent.
+PosedHandJoints pose_hand_joints(const HandRig& rig,
+                                 const std::array<FingerAngles, k_finger_count>& angles,
+                                 const Pose& wrist_ws);
+// -1 for the wrist.
+std::int32_t hand_joint_parent(std::size_t joint);
+
+struct BodyJointInfo {
+    const char* name;
+    std::int32_t parent;
+};
+extern const std::array<BodyJointInfo, HH_BODY_JOINT_COUNT> k_body_joints;
+std::array<Pose, HH_BODY_JOINT_COUNT> pose_body_joints(const RenderPose& render);
+
+}  // namespace handhold

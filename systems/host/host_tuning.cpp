@@ -1,0 +1,177 @@
+// Tuning and statistics of the C interface (handhold/world.h).
+#include <algorithm>
+#include <numeric>
+#include <string_view>
+#include <type_traits>
+
+#include "components/tuning_check.hpp"
+#include "systems/host/host_world.hpp"
+#include "systems/host/tuning_json.hpp"
+
+namespace handhold {
+namespace {
+
+template <typename Field>
+constexpr std::size_t component_count() {
+    return std::is_same_v<std::remove_cvref_t<Field>, Vec3> ? 3 : 1;
+}
+
+void read_components(const double& field, double* values) { *values = field; }
+void read_components(const std::int32_t& field, double* values) { *values = field; }
+void read_components(const SupportFollow& field, double* values) {
+    *values = static_cast<double>(field);
+}
+void read_components(const Vec3& field, double* values) { std::copy_n(field.data(), 3, values); }
+
+void write_components(double& field, const double* values) { field = *values; }
+void write_components(std::int32_t& field, const double* values) {
+    field = static_cast<std::int32_t>(*values);
+}
+void write_components(SupportFollow& field, const double* values) {
+    field = static_cast<SupportFollow>(static_cast<int>(*values));
+}
+void write_components(Vec3& field, const double* values) { field = Vec3(values); }
+
+// Calls use(info, field) for the number with this name.
+template <typename TuningType, typename Use>
+void with_number(TuningType& tuning, const char* name, std::size_t count, const Use& use) {
+    require(name != nullptr, HH_ERROR_NULL, "the name is null");
+    bool is_found = false;
+    visit_tuning(tuning, [&](const TuningInfo& info, auto& field) {
+        if (std::string_view(info.name) != name) {
+            return;
+        }
+        is_found = true;
+        require(count == component_count<decltype(field)>(), HH_ERROR_VALUE,
+                "the number has another count of components");
+        use(info, field);
+    });
+    require(is_found, HH_ERROR_NAME, "no number has this name");
+}
+
+}  // namespace
+}  // namespace handhold
+
+using namespace handhold;
+
+hh_tuning_info hh_default_tuning_info(void) {
+    hh_tuning_info info{};
+    info.struct_size = sizeof info;
+    return info;
+}
+
+hh_result hh_tuning_describe(size_t index, hh_tuning_info* info) {
+    return call([&] {
+        require(info != nullptr, HH_ERROR_NULL, "the output is null");
+        std::size_t at = 0;
+        hh_tuning_info found = hh_default_tuning_info();
+        const Tuning tuning;
+        visit_tuning(tuning, [&](const TuningInfo& number, const auto& field) {
+            if (at++ == index) {
+                found = {found.struct_size,
+                         number.name,
+                         number.unit,
+                         number.what,
+                         number.low,
+                         number.high,
+                         component_count<decltype(field)>()};
+            }
+        });
+        require(found.name != nullptr, HH_ERROR_VALUE, "no number with this index");
+        write_out(info, found);
+    });
+}
+
+hh_result hh_world_get_tuning(const hh_world* world, const char* name, double* values,
+                              size_t count) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(values != nullptr, HH_ERROR_NULL, "the output is null");
+        with_number(host.tuning, name, count,
+                    [&](const TuningInfo&, const auto& field) { read_components(field, values); });
+    });
+}
+
+hh_result hh_world_set_tuning(hh_world* world, const char* name, const double* values,
+                              size_t count) {
+    return call([&] {
+        hh_world& host = world_of(world);
+        require(values != nullptr, HH_ERROR_NULL, "the values are null");
+        Tuning changed = host.tuning;
+        with_number(changed, name, count, [&](const TuningInfo& info, auto& field) {
+            for (std::size_t i = 0; i < count; ++i) {
+                require(values[i] >= info.low && values[i] <= info.high, HH_ERROR_VALUE,
+                        "the value is out of the number's range");
+            }
+            write_components(field, values);
+        });
+        check_tuning(changed);
+        host.tuning = changed;
+    });
+}
+
+hh_result hh_world_load_tuning(hh_world* world, const char* json, size_t size) {
+    return call([&] {
+        hh_world& host = world_of(world);
+        require(json != nullptr, HH_ERROR_NULL, "the text is null");
+        Result<Tuning> parsed = parse_tuning({json, size}, "tuning");
+        if (!parsed) {
+            throw HostError{HH_ERROR_DATA, parsed.error().message()};
+        }
+        check_tuning(parsed.value());
+        host.tuning = parsed.value();
+    });
+}
+
+hh_world_stats hh_default_world_stats(void) {
+    hh_world_stats stats{};
+    stats.struct_size = sizeof stats;
+    return stats;
+}
+
+hh_result hh_world_get_stats(const hh_world* world, hh_world_stats* stats) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        const StageStats& last = host.stats;
+        hh_world_stats read = hh_default_world_stats();
+        read.bodies = host.world.body.size();
+        read.joints = host.world.joint.size();
+        read.players = host.world.player.size();
+        read.shapes = shape_count(host);
+        read.contacts = last.contacts;
+        read.islands = last.islands;
+        read.newton_iterations = last.newton_iterations;
+        read.hand_error_m = last.hand_error_m;
+        read.overlap_m = last.residual_m;
+        read.joint_error_m = last.joint_error_m;
+        read.step_us = std::accumulate(last.stage_us.begin(), last.stage_us.end(), 0.0);
+        write_out(stats, read);
+    });
+}
+
+const char* hh_stage_name(size_t stage) {
+    return stage < static_cast<size_t>(Stage::count) ? name_of(static_cast<Stage>(stage)) : nullptr;
+}
+
+const char* hh_fallback_name(size_t fallback) {
+    return fallback < static_cast<size_t>(Fallback::count)
+               ? name_of(static_cast<Fallback>(fallback))
+               : nullptr;
+}
+
+hh_result hh_world_stage_times(const hh_world* world, double* us, size_t capacity, size_t* count) {
+    return call([&] {
+        const StageStats& last = world_of(world).stats;
+        write_list(last.stage_us.size(), us, capacity, count,
+                   [&](std::size_t i) { return last.stage_us[i]; });
+    });
+}
+
+hh_result hh_world_fallbacks(const hh_world* world, uint64_t* times, size_t capacity,
+                             size_t* count) {
+    return call([&] {
+        const StageStats& last = world_of(world).stats;
+        write_list(last.fallbacks.size(), times, capacity, count,
+                   [&](std::size_t i) { return std::uint64_t{last.fallbacks[i]}; });
+    });
+}

@@ -1,0 +1,177 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <handhold/handhold.h>
+
+#include "components/world.hpp"
+#include "engine/geometry/grip_mesh_library.hpp"
+#include "systems/frame.hpp"
+#include "systems/host/host_call.hpp"
+#include "systems/rigs/body_rig.hpp"
+#include "systems/snapshot.hpp"
+
+// The objects behind the C interface's opaque pointers.
+namespace handhold {
+
+// What the C interface knows of a shape id beyond the library's entry.
+struct HostShape {
+    std::uint32_t generation = 0;  // of the id's current or last shape
+    // The library's frame (centre of mass, principal axes) in the frame in which the host made the
+    // shape.
+    Pose frame;
+    bool is_moved = false;  // false: the frames are equal
+};
+
+struct UserData {
+    std::uint64_t value = 0;
+};
+
+struct BodyRigSlot {
+    std::unique_ptr<BodyRig> rig;
+    SkeletonPose pose;  // scratch
+};
+
+// One hand at the end of the last step, for the state and for the next step's events.
+struct HandReport {
+    GripKind grip = GripKind::none;
+    Entity body = k_no_entity;
+    double since_s = 0.0;
+    Vec3 impulse_ns = Vec3::Zero();  // on what it grips
+    Entity touched = k_no_entity;    // by the open palm
+};
+
+struct JointReport {
+    bool latched = false;
+    bool at_limit = false;
+};
+
+// A contact of a player's head, or of what a hand holds.
+struct HostContact {
+    Entity player;
+    std::int32_t side = -1;     // -1: the head
+    Entity held = k_no_entity;  // null: the head
+    Entity other;
+    double impulse_ns = 0.0;
+    Vec3 point_ws = Vec3::Zero();
+
+    bool is_same(const HostContact& contact) const {
+        return player == contact.player && side == contact.side && held == contact.held &&
+               other == contact.other;
+    }
+};
+
+}  // namespace handhold
+
+// The C interface's names.
+// NOLINTBEGIN(readability-identifier-naming)
+struct hh_mesh {
+    std::atomic<std::uint32_t> references{1};
+    std::shared_ptr<const handhold::Mesh> mesh;
+    std::shared_ptr<const handhold::TriangleTree> tree;
+    std::shared_ptr<const handhold::GripMesh> grip;  // null: not for hands
+};
+
+struct hh_world {
+    explicit hh_world(const hh_world_def& def);
+    ~hh_world();
+    hh_world(const hh_world&) = delete;
+    hh_world& operator=(const hh_world&) = delete;
+
+    hh_world_def settings;
+    handhold::ShapeLibrary shapes;
+    std::vector<handhold::HostShape> host_shapes;  // by ShapeId::index
+    std::vector<handhold::ShapeId> head_shapes;    // of players; they stay
+    handhold::GripMeshLibrary grip_meshes;
+    handhold::World world;
+    handhold::Tuning tuning;
+    handhold::FrameCaches caches;
+    handhold::StageStats stats;
+
+    // Not state: none of it changes what a step computes.
+    handhold::Column<handhold::UserData> user_data;
+    handhold::Column<handhold::BodyRigSlot> body_rigs;  // by player
+    handhold::Column<handhold::HandReport> hands;
+    handhold::Column<handhold::JointReport> joints;
+    std::vector<handhold::HostContact> contacts;       // of the last step
+    std::vector<handhold::HostContact> last_contacts;  // of the step before
+    std::vector<hh_event> events;
+
+    // Scratch of a step.
+    std::vector<handhold::PlayerInput> inputs;
+    std::vector<handhold::TrackingSample> samples;
+    std::vector<std::byte> snapshot;
+    // Of the shapes at `assets_revision`.
+    std::optional<handhold::SnapshotAssets> assets;
+    std::uint64_t assets_revision = 0;
+    bool may_recycle_shapes = false;  // shapes were removed since the last step
+};
+// NOLINTEND(readability-identifier-naming)
+
+namespace handhold {
+
+inline hh_world& world_of(hh_world* world) {
+    require(world != nullptr, HH_ERROR_NULL, "the world is null");
+    return *world;
+}
+inline const hh_world& world_of(const hh_world* world) {
+    require(world != nullptr, HH_ERROR_NULL, "the world is null");
+    return *world;
+}
+inline Entity body_of(const hh_world& host, hh_body body) {
+    const Entity entity = entity_of(body);
+    require(host.world.body.contains(entity), HH_ERROR_HANDLE, "no body with this id");
+    return entity;
+}
+inline Entity player_of(const hh_world& host, hh_player player) {
+    const Entity entity = entity_of(player);
+    require(host.world.player.contains(entity), HH_ERROR_HANDLE, "no player with this id");
+    return entity;
+}
+inline Entity joint_of(const hh_world& host, hh_joint joint) {
+    const Entity entity = entity_of(joint);
+    require(host.world.joint.contains(entity), HH_ERROR_HANDLE, "no joint with this id");
+    return entity;
+}
+inline HandSide side_of(hh_side side) {
+    require(side == HH_LEFT || side == HH_RIGHT, HH_ERROR_VALUE, "a side is HH_LEFT or HH_RIGHT");
+    return side == HH_LEFT ? HandSide::left : HandSide::right;
+}
+// The shape behind an id; k_no_shape for the null id.
+ShapeId shape_of(const hh_world& host, hh_shape shape);
+
+// The sphere of heads with this radius. It has no id of its own, and stays, so that a snapshot of
+// before a player came or left fits.
+ShapeId head_shape(hh_world& host, double radius_m);
+// Shapes that the host added.
+std::size_t shape_count(const hh_world& host);
+
+// Between a body's pose in the library and in the frame in which the host made its shape.
+const HostShape* moved_shape_of(const hh_world& host, Entity body);  // null: the frames are equal
+Pose host_pose_of(const hh_world& host, Entity body);
+Pose library_pose(const hh_world& host, Entity body, const Pose& host_pose_ws);
+// A pose in the body's library frame, in its host frame, and back.
+Pose to_host_bs(const hh_world& host, Entity body, const Pose& pose_bs);
+Pose from_host_bs(const hh_world& host, Entity body, const Pose& pose_bs);
+
+// The name, or one made of the id that the next entity gets, which is part of the state: so replays
+// after a restore give equal names. HH_ERROR_NAME if it is taken.
+std::string new_name(const hh_world& host, const char* name, const char* kind);
+
+// Removes an entity from the world and from all that this layer knows of it.
+void remove_entity(hh_world& host, Entity entity);
+void set_user_data(hh_world& host, Entity entity, std::uint64_t value);
+std::uint64_t user_data_of(const hh_world& host, Entity entity);
+
+// Around a step: events are the differences between its begin and its end.
+void begin_events(hh_world& host);
+void finish_events(hh_world& host);
+// After a restore: nothing that is so now counts as an event.
+void forget_events(hh_world& host);
+
+}  // namespace handhold

@@ -1,0 +1,11 @@
+#ifndef HANDHOLD_HANDHOLD_H
+#define HANDHOLD_HANDHOLD_H
+
+/* Handhold: hands that grip any surface, inside the physics step. The C interface, for any
+ * language: conventions in base.h. C++ hosts may use handhold.hpp, which wraps it. */
+#include <handhold/base.h>
+#include <handhold/level.h>
+#include <handhold/players.h>
+#include <handhold/world.h>
+
+#endif

@@ -1,0 +1,176 @@
+#ifndef HANDHOLD_LEVEL_H
+#define HANDHOLD_LEVEL_H
+
+#include <handhold/base.h>
+
+/* The level: shapes, bodies and joints. All may come and go between steps. */
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Shapes. Sizes in [1e-3, 1e4] m. A shape may be used by any number of bodies. ------------ */
+
+HH_API hh_result hh_shape_add_box(hh_world* world, hh_vec3 half_extents_m, hh_shape* shape);
+HH_API hh_result hh_shape_add_sphere(hh_world* world, double radius_m, hh_shape* shape);
+/* Along Y; half_height_m without the caps. */
+HH_API hh_result hh_shape_add_capsule(hh_world* world, double radius_m, double half_height_m,
+                                      hh_shape* shape);
+HH_API hh_result hh_shape_add_cylinder(hh_world* world, double radius_m, double half_height_m,
+                                       hh_shape* shape);
+/* Convex hull of points that are not coplanar. */
+HH_API hh_result hh_shape_add_hull(hh_world* world, const hh_vec3* points, size_t count,
+                                   hh_shape* shape);
+
+/* A part of a compound: any shape but a mesh or a compound. */
+typedef struct hh_compound_part {
+    hh_shape shape;
+    hh_pose pose;   /* in the compound's frame */
+    double mass_kg; /* of all parts, or 0 for all: by volume */
+} hh_compound_part;
+/* 1 to 64 parts that move as one. It keeps copies: the parts may be removed. */
+HH_API hh_result hh_shape_add_compound(hh_world* world, const hh_compound_part* parts, size_t count,
+                                       hh_shape* shape);
+
+/* Triangles, prepared for collision and hands. Shared by worlds; immutable. */
+typedef struct hh_mesh hh_mesh;
+typedef struct hh_mesh_def {
+    uint32_t struct_size;
+    const float* positions; /* x, y, z of each vertex, metres */
+    size_t vertex_count;
+    size_t vertex_stride; /* bytes from one vertex to the next; 0: 12 */
+    const uint32_t* indices;
+    size_t index_count; /* a multiple of 3, at most 3 * 2^21 */
+    bool fits_hands;    /* default true; false: hands on it are shown as tracked */
+} hh_mesh_def;
+HH_API hh_mesh_def hh_default_mesh_def(void);
+/* Copies and prepares a mesh. Any thread, beside steps of any world: the place for the work of
+ * streaming. Cost: about 40 microseconds a triangle with fits_hands, 1 without. */
+HH_API hh_result hh_mesh_create(const hh_mesh_def* def, hh_mesh** mesh);
+/* Gives the caller's reference back; shapes keep theirs. Null: nothing happens. Any thread. */
+HH_API void hh_mesh_destroy(hh_mesh* mesh);
+/* A shape of a prepared mesh, for static and kinematic bodies. Cost: constant for scale 1; another
+ * scale, each factor in [1e-3, 1e3], prepares the hands' surface again. */
+HH_API hh_result hh_shape_add_mesh(hh_world* world, const hh_mesh* mesh, hh_vec3 scale,
+                                   hh_shape* shape);
+
+/* HH_ERROR_STATE while a body or a player has the shape. */
+HH_API hh_result hh_shape_remove(hh_world* world, hh_shape shape);
+HH_API bool hh_shape_is_valid(const hh_world* world, hh_shape shape);
+/* Number of shapes. */
+HH_API hh_result hh_world_shape_count(const hh_world* world, size_t* count);
+
+/* ---- Bodies --------------------------------------------------------------------------------- */
+
+typedef enum hh_body_kind {
+    HH_STATIC = 0,    /* never moves, except by hh_body_teleport */
+    HH_KINEMATIC = 1, /* moved by hh_body_move_kinematic; pushes others and carries hands */
+    HH_DYNAMIC = 2,   /* moved by its velocity, contacts, joints and hands */
+    HH_BODY_KIND_32_BITS = 0x7fffffff
+} hh_body_kind;
+
+/* A body's pose is that of its shape's own frame, as the host made it: the library finds centre of
+ * mass and principal axes by itself. Velocities are those of the centre of mass, in the world. */
+typedef struct hh_body_def {
+    uint32_t struct_size;
+    const char* name; /* unique in the world, identifies the body in hashes; null: by its id */
+    hh_body_kind kind;
+    hh_shape shape; /* null: touches nothing */
+    hh_pose pose;
+    hh_vec3 velocity_mps;         /* each within 1e6 */
+    hh_vec3 angular_velocity_radps; /* each within 1e4 */
+    double mass_kg;        /* dynamic: [1e-12, 1e15], default 1 */
+    hh_vec3 inertia_kgm2;  /* about the principal axes; 0: of the solid shape. Needed without one */
+    double restitution;    /* [0, 1] */
+    double friction;       /* [0, 1e6], default 0.4 */
+    double gravity_scale;  /* default 1; within 1000 */
+    uint32_t layers, mask; /* two bodies touch if each one's layers meet the other's mask */
+    bool grab_left, grab_right; /* which hands may grip it; default both */
+    bool grab_two_hands;        /* only both hands of one player at once */
+    int32_t grab_priority; /* of bodies in reach, hands take one of highest priority; default 0 */
+    uint64_t user_data;    /* the host's; not part of the state */
+} hh_body_def;
+HH_API hh_body_def hh_default_body_def(void);
+/* Adds a body. Cost: constant, whatever else is in the world. */
+HH_API hh_result hh_body_add(hh_world* world, const hh_body_def* def, hh_body* body);
+/* Removes a body with its joints; hands that grip it let go in the next step. */
+HH_API hh_result hh_body_remove(hh_world* world, hh_body body);
+HH_API bool hh_body_is_valid(const hh_world* world, hh_body body);
+HH_API hh_result hh_body_find(const hh_world* world, const char* name, hh_body* body);
+/* Valid until a body is added or removed. Empty if the name came only with a snapshot. */
+HH_API hh_result hh_body_name(const hh_world* world, hh_body body, const char** name);
+/* Ids of all bodies; `count` gets their number. HH_ERROR_CAPACITY if it is more than `capacity`. */
+HH_API hh_result hh_world_bodies(const hh_world* world, hh_body* bodies, size_t capacity,
+                                 size_t* count);
+
+HH_API hh_result hh_body_pose(const hh_world* world, hh_body body, hh_pose* pose);
+/* Poses of many bodies in one call; HH_ERROR_HANDLE, and nothing written, if one is stale. */
+HH_API hh_result hh_world_body_poses(const hh_world* world, const hh_body* bodies, size_t count,
+                                     hh_pose* poses);
+/* Null outputs are skipped. */
+HH_API hh_result hh_body_velocity(const hh_world* world, hh_body body, hh_vec3* velocity_mps,
+                                  hh_vec3* angular_velocity_radps);
+/* Dynamic bodies only, as are impulses: HH_ERROR_STATE. */
+HH_API hh_result hh_body_set_velocity(hh_world* world, hh_body body, hh_vec3 velocity_mps,
+                                      hh_vec3 angular_velocity_radps);
+/* Changes the velocity by an impulse in N s at a point in the world. */
+HH_API hh_result hh_body_apply_impulse(hh_world* world, hh_body body, hh_vec3 impulse_ns,
+                                       hh_vec3 point);
+/* At once, without touching what is between. Keeps the velocity. Hands that grip it let go. */
+HH_API hh_result hh_body_teleport(hh_world* world, hh_body body, hh_pose pose);
+/* A kinematic body reaches the pose at the end of the next step, with the velocity that takes it
+ * there, and then rests. Call it before every step in which it moves. */
+HH_API hh_result hh_body_move_kinematic(hh_world* world, hh_body body, hh_pose pose);
+HH_API hh_result hh_body_set_gravity_scale(hh_world* world, hh_body body, double scale);
+HH_API hh_result hh_body_set_layers(hh_world* world, hh_body body, uint32_t layers, uint32_t mask);
+HH_API hh_result hh_body_set_grab_rule(hh_world* world, hh_body body, bool left, bool right,
+                                       bool two_hands, int32_t priority);
+HH_API hh_result hh_body_set_user_data(hh_world* world, hh_body body, uint64_t user_data);
+HH_API hh_result hh_body_user_data(const hh_world* world, hh_body body, uint64_t* user_data);
+
+/* ---- Joints --------------------------------------------------------------------------------- */
+
+/* Each has a coordinate, which limits, friction, detents and latches act on. */
+typedef enum hh_joint_kind {
+    HH_BALL = 0,    /* points coincide; the angle between both axes, a cone, rad */
+    HH_HINGE = 1,   /* turns about the axis, rad */
+    HH_SLIDER = 2,  /* moves along the axis, m */
+    HH_FIXED = 3,   /* no coordinate */
+    HH_DISTANCE = 4, /* distance of two points, m; lower 0: a rope; equal limits: a rod */
+    HH_JOINT_KIND_32_BITS = 0x7fffffff
+} hh_joint_kind;
+
+typedef struct hh_joint_def {
+    uint32_t struct_size;
+    const char* name; /* unique in the world; null: by its id */
+    hh_joint_kind kind;
+    hh_body body_a; /* null: the world */
+    hh_body body_b;
+    hh_pose frame; /* in the world, with the bodies where they are now: x is the joint's axis */
+    /* HH_DISTANCE: the point on body_b, in the world; the point on body_a is frame's. */
+    hh_vec3 point_b;
+    bool collides; /* the two bodies touch each other; default false */
+    bool limited;  /* lower and upper apply; distance joints are always limited */
+    double lower, upper;
+    double friction;         /* N, or N m about a hinge or any axis of a ball; >= 0 */
+    double detent_spacing;   /* a rest position at each multiple; 0: none */
+    double detent_strength;  /* N or N m */
+    double latch_at;         /* the coordinate is locked when it comes near this */
+    double latch_range;      /* closes within this distance; 0: no latch */
+    double latch_strength;   /* opens above this force, N or N m; 0: never by force */
+    hh_joint latch_handle;   /* a joint that opens it; null: none */
+    double latch_handle_at;  /* open while the handle's coordinate is at least this, either way */
+} hh_joint_def;
+HH_API hh_joint_def hh_default_joint_def(void);
+HH_API hh_result hh_joint_add(hh_world* world, const hh_joint_def* def, hh_joint* joint);
+HH_API hh_result hh_joint_remove(hh_world* world, hh_joint joint);
+HH_API bool hh_joint_is_valid(const hh_world* world, hh_joint joint);
+/* As of the last step; null outputs are skipped. A hinge counts full turns. */
+HH_API hh_result hh_joint_state(const hh_world* world, hh_joint joint, double* coordinate,
+                                double* speed, bool* latched);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

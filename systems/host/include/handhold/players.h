@@ -1,0 +1,230 @@
+#ifndef HANDHOLD_PLAYERS_H
+#define HANDHOLD_PLAYERS_H
+
+#include <handhold/base.h>
+
+/* Players: their bodies, hands, grips and events. A player is a play space that hands pull through
+ * the world; head and hands sit in it where the tracking says. */
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Players -------------------------------------------------------------------------------- */
+
+/* Sizes of a player's body, each in [0.05, 5] m. */
+typedef struct hh_measures {
+    double eye_height_m;     /* standing */
+    double shoulder_width_m; /* between the shoulder joints */
+    double upper_arm_m;
+    double forearm_m; /* to the wrist */
+} hh_measures;
+
+typedef struct hh_player_def {
+    uint32_t struct_size;
+    const char* name; /* unique in the world; null: by its id */
+    hh_pose origin;   /* the play space in the world; its origin is the tracking's */
+    hh_vec3 velocity_mps;
+    double mass_kg; /* default 80 */
+    hh_measures measures;
+    double scale;          /* of all measures, (0, 100]; default 1 */
+    bool head_collides;    /* the head is a sphere of head.radius_m; default true */
+    uint32_t layers, mask; /* of the head; as hh_body_def's */
+    uint32_t grab_layers;  /* the hands grip bodies with one of these layers; default all */
+    uint64_t user_data;
+} hh_player_def;
+HH_API hh_player_def hh_default_player_def(void);
+HH_API hh_result hh_player_add(hh_world* world, const hh_player_def* def, hh_player* player);
+HH_API hh_result hh_player_remove(hh_world* world, hh_player player);
+HH_API bool hh_player_is_valid(const hh_world* world, hh_player player);
+HH_API hh_result hh_world_players(const hh_world* world, hh_player* players, size_t capacity,
+                                  size_t* count);
+/* The play space is there at once, at rest. Dynamic bodies in the hands that no joint holds come
+ * along; hands let go of everything else. */
+HH_API hh_result hh_player_teleport(hh_world* world, hh_player player, hh_pose origin);
+HH_API hh_result hh_player_velocity(const hh_world* world, hh_player player, hh_vec3* velocity_mps);
+HH_API hh_result hh_player_set_velocity(hh_world* world, hh_player player, hh_vec3 velocity_mps);
+HH_API hh_result hh_player_measures(const hh_world* world, hh_player player, hh_measures* measures);
+HH_API hh_result hh_player_set_measures(hh_world* world, hh_player player,
+                                        const hh_measures* measures);
+HH_API hh_result hh_player_set_user_data(hh_world* world, hh_player player, uint64_t user_data);
+HH_API hh_result hh_player_user_data(const hh_world* world, hh_player player, uint64_t* user_data);
+/* The hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists with
+ * OpenXR's axes (-Z to the fingers, +Y the back of the hand). Null: a controller's grip pose, by the
+ * tuning's hand.controller_ numbers, which is the default. */
+HH_API hh_result hh_player_set_hand_in_controller(hh_world* world, hh_player player, hh_side side,
+                                                  const hh_pose* hand_in_controller);
+/* The same numbers, for hosts that have wrists and need controllers. */
+HH_API hh_result hh_player_hand_in_controller(const hh_world* world, hh_player player, hh_side side,
+                                              hh_pose* hand_in_controller);
+
+/* ---- Hands ---------------------------------------------------------------------------------- */
+
+typedef enum hh_grip_kind {
+    HH_GRIP_NONE = 0,
+    HH_GRIP_SURFACE = 1,  /* something static, kinematic or heavy: the player moves */
+    HH_GRIP_HELD = 2,     /* a dynamic body: it moves with the hand */
+    HH_GRIP_AUTHORED = 3, /* in one of the body's authored grips */
+    HH_GRIP_PLAYER = 4    /* another player's head */
+} hh_grip_kind;
+
+typedef struct hh_hand_state {
+    hh_grip_kind grip;
+    hh_body body;     /* gripped; null: none */
+    hh_player other;  /* gripped player; null: none */
+    hh_pose tracked;  /* the wrist in the world, as the devices say */
+    hh_pose shown;    /* the wrist to draw: on its anchor while it grips */
+    hh_pose anchor;   /* the wrist in the frame of what it grips, fixed when it closed */
+    double error_m;   /* distance of wrist and anchor: 0 unless something is in the way */
+    hh_vec3 force_impulse_ns; /* by the hand on what it grips, in the last step: for haptics */
+    bool is_tracked;
+    bool is_closed; /* the button is down */
+} hh_hand_state;
+
+typedef struct hh_player_pose {
+    hh_pose origin;      /* the play space in the world: put the camera rig here */
+    hh_pose head;        /* between the eyes, in the world */
+    hh_vec3 velocity_mps; /* of the play space */
+    hh_hand_state hands[2]; /* by hh_side */
+} hh_player_pose;
+
+HH_API hh_result hh_player_hand(const hh_world* world, hh_player player, hh_side side,
+                                hh_hand_state* hand);
+/* Poses of many players in one call; HH_ERROR_HANDLE, and nothing written, if one is stale. */
+HH_API hh_result hh_world_player_poses(const hh_world* world, const hh_player* players,
+                                       size_t count, hh_player_pose* poses);
+/* In the next step the hand grips `body` where both are, at any distance, whatever the grab rules
+ * say. It holds until hh_hand_release or until the player opens the hand; if the player closes it
+ * first, it grips what is there then, if anything is. HH_ERROR_STATE for a hand that was never
+ * tracked. */
+HH_API hh_result hh_hand_grip(hh_world* world, hh_player player, hh_side side, hh_body body);
+/* In the next step the hand lets go, without a throw. It grips again when the player opens and
+ * closes it. HH_OK also for an empty hand. */
+HH_API hh_result hh_hand_release(hh_world* world, hh_player player, hh_side side);
+
+/* ---- Events --------------------------------------------------------------------------------- */
+
+typedef enum hh_event_kind {
+    HH_EVENT_TOUCHED = 0,        /* an open palm came within 2 cm of a body */
+    HH_EVENT_GRABBED = 1,        /* a hand grips */
+    HH_EVENT_RELEASED = 2,       /* the player opened the hand, or `reason` says who did */
+    HH_EVENT_REFUSED = 3,        /* a hand closed and grips nothing: `reason` */
+    HH_EVENT_SLIPPED = 4,        /* a hand lost its grip: `reason` */
+    HH_EVENT_CONTACT_BEGAN = 5,  /* the player's head, or what a hand holds, hits a body */
+    HH_EVENT_CONTACT_ENDED = 6,
+    HH_EVENT_LATCH_CLOSED = 7,   /* of `joint` */
+    HH_EVENT_LATCH_OPENED = 8,
+    HH_EVENT_LIMIT_REACHED = 9   /* a joint came to its lower or upper limit */
+} hh_event_kind;
+
+typedef enum hh_reason {
+    HH_REASON_NONE = 0,
+    HH_REASON_OPENED = 1,          /* the player opened the hand */
+    HH_REASON_NO_SURFACE = 2,      /* nothing in reach */
+    HH_REASON_NOT_ALLOWED = 3,     /* by a grab rule or layers */
+    HH_REASON_NEEDS_TWO_HANDS = 4, /* the other hand is not there, or left */
+    HH_REASON_STRETCHED = 5,       /* farther from its anchor than hand.max_stretch_m */
+    HH_REASON_TRACKING_LOST = 6,   /* it opened while nobody saw it */
+    HH_REASON_BODY_GONE = 7,       /* the body was removed */
+    HH_REASON_BY_HOST = 8,         /* hh_hand_release, hh_hand_grip or a teleport */
+    HH_REASON_OTHER_HAND = 9       /* one of two hands on a body left */
+} hh_reason;
+
+typedef struct hh_event {
+    hh_event_kind kind;
+    hh_reason reason;
+    hh_player player; /* null: a joint's event that concerns no hand */
+    int32_t side;     /* hh_side; -1: no hand: the head or a joint alone */
+    hh_body body;     /* touched, gripped, held or hit; null: a player, or nothing */
+    hh_player other;  /* gripped or hit player; null: none */
+    hh_body held;     /* contacts: what the hand holds; null: the head */
+    hh_joint joint;   /* of latches and limits */
+    hh_vec3 position; /* in the world */
+    double impulse_ns; /* of a contact that began: >= 0, for haptics and sound */
+} hh_event;
+
+/* The events of the last step, in a fixed order. Valid until the next step, restore or destroy. */
+HH_API hh_result hh_world_events(const hh_world* world, const hh_event** events, size_t* count);
+
+/* ---- Joints of hands and bodies ------------------------------------------------------------- */
+
+typedef enum hh_space {
+    HH_SPACE_WORLD = 0,
+    HH_SPACE_PARENT = 1, /* in the parent joint's frame; roots: in the world */
+    HH_SPACE_32_BITS = 0x7fffffff
+} hh_space;
+
+#define HH_HAND_JOINT_COUNT 26
+/* Joints as XR_EXT_hand_tracking has them, in its order and with its axes: palm, wrist; thumb
+ * metacarpal, proximal, distal, tip; index, middle, ring and little metacarpal, proximal,
+ * intermediate, distal, tip. The parent of palm and metacarpals is the wrist. */
+typedef struct hh_hand_joint {
+    hh_pose pose;
+    double radius_m;
+    bool is_valid; /* false: the hand's rig has no such joint */
+} hh_hand_joint;
+/* The shown hand's joints: HH_HAND_JOINT_COUNT elements. */
+HH_API hh_result hh_player_hand_joints(const hh_world* world, hh_player player, hh_side side,
+                                       hh_space space, hh_hand_joint* joints);
+
+/* Joints of a humanoid, with VRM's names. Trunk, head and legs: +Y up along the bone, -Z to the
+ * front. Arms: -Z along the bone, +Y on the elbow's side. Hands: the wrist's axes. */
+typedef enum hh_body_joint {
+    HH_HIPS, HH_SPINE, HH_CHEST, HH_UPPER_CHEST, HH_NECK, HH_HEAD,
+    HH_LEFT_SHOULDER, HH_LEFT_UPPER_ARM, HH_LEFT_LOWER_ARM, HH_LEFT_HAND,
+    HH_RIGHT_SHOULDER, HH_RIGHT_UPPER_ARM, HH_RIGHT_LOWER_ARM, HH_RIGHT_HAND,
+    HH_LEFT_UPPER_LEG, HH_LEFT_LOWER_LEG, HH_LEFT_FOOT,
+    HH_RIGHT_UPPER_LEG, HH_RIGHT_LOWER_LEG, HH_RIGHT_FOOT,
+    HH_BODY_JOINT_COUNT
+} hh_body_joint;
+/* "leftUpperArm"; null beyond the last. Any thread. */
+HH_API const char* hh_body_joint_name(size_t joint);
+/* The parent's index; -1 for the hips and beyond the last. */
+HH_API int32_t hh_body_joint_parent(size_t joint);
+/* HH_BODY_JOINT_COUNT elements. */
+HH_API hh_result hh_player_body_joints(const hh_world* world, hh_player player, hh_space space,
+                                       hh_pose* joints);
+
+/* ---- Rigs and authored grips ---------------------------------------------------------------- */
+
+/* The player's hand gets the proportions of the skeleton in a glTF file (.glb, or .gltf with its
+ * data inside) whose joints have WebXR's or OpenXR's names. Null bytes: the built-in hand.
+ * HH_ERROR_DATA says what the file lacks. */
+HH_API hh_result hh_player_set_hand_rig(hh_world* world, hh_player player, hh_side side,
+                                        const void* gltf, size_t size);
+/* The player's body drives a humanoid skeleton from a glTF file. Null bytes: none. */
+HH_API hh_result hh_player_set_body_rig(hh_world* world, hh_player player, const void* gltf,
+                                        size_t size);
+/* Joints of the player's body rig, in the file's order. HH_ERROR_STATE without a rig. */
+HH_API hh_result hh_player_skeleton(hh_world* world, hh_player player, hh_space space,
+                                    hh_pose* joints, size_t capacity, size_t* count);
+/* Name and parent (-1: none) of one of these joints. The name is valid while the rig is set. */
+HH_API hh_result hh_player_skeleton_joint(const hh_world* world, hh_player player, size_t joint,
+                                          const char** name, int32_t* parent);
+
+typedef struct hh_finger {
+    bool is_posed;  /* false: the finger closes on the surface as usual */
+    double curl_rad[3]; /* of its hinges, from the palm */
+    double opposition_rad; /* thumb */
+} hh_finger;
+typedef struct hh_grip_hand {
+    bool is_used;  /* false: this hand cannot take the grip */
+    hh_pose wrist; /* in the body's frame */
+    hh_finger fingers[5]; /* thumb, index, middle, ring, little */
+} hh_grip_hand;
+typedef struct hh_grip_def {
+    uint32_t struct_size;
+    hh_grip_hand hands[2]; /* by hh_side */
+    int32_t priority;      /* of several in reach, the highest is taken */
+    double snap_radius_m;  /* of the palm, [0, 10]; default 0.08 */
+    double snap_angle_rad; /* [0, pi]; default pi / 3 */
+} hh_grip_def;
+HH_API hh_grip_def hh_default_grip_def(void);
+/* Adds an authored grip to a body, at most 4: hands that close near it take it. */
+HH_API hh_result hh_body_add_grip(hh_world* world, hh_body body, const hh_grip_def* def);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

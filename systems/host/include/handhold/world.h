@@ -1,0 +1,145 @@
+#ifndef HANDHOLD_WORLD_H
+#define HANDHOLD_WORLD_H
+
+#include <handhold/base.h>
+
+/* Worlds: stepping, snapshots, tuning and statistics. */
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct hh_world_def {
+    uint32_t struct_size;
+    /* Fingers and palms close on what they grip. Default true. Without it no shape needs a grip
+     * mesh, hands are shown as tracked, and meshes are added faster: for servers. */
+    bool fits_hands;
+    /* HH_EVENT_TOUCHED is reported: one query a hand and step. Default true. */
+    bool reports_touches;
+    hh_vec3 gravity_mps2;           /* of dynamic bodies; default 0. Each axis within 1e4 */
+    hh_vec3 reference_velocity_mps; /* of the scene: what counts as rest. Each axis within 1e6 */
+} hh_world_def;
+
+HH_API hh_world_def hh_default_world_def(void);
+/* Makes an empty world. A null `def`: the default. Any thread, at any time. Cost: 0.1 ms. */
+HH_API hh_result hh_world_create(const hh_world_def* def, hh_world** world);
+/* Destroys a world and everything in it. Null: nothing happens. */
+HH_API void hh_world_destroy(hh_world* world);
+
+/* One reading of the headset and both controllers. */
+typedef struct hh_tracking_sample {
+    double time_s; /* on the world's clock; later than the sample before, else it is ignored */
+    hh_pose head;  /* between the eyes, in play space: the frame that the tracking is given in */
+    hh_pose hands[2];     /* controllers, by hh_side; see hh_player_set_hand_in_controller */
+    bool head_tracked;    /* false: `head` is ignored */
+    bool hand_tracked[2]; /* false: the pose is ignored, `grab` counts */
+    bool grab[2];         /* a button that closes the hand is down */
+} hh_tracking_sample;
+
+/* Everything tracked, at the origin, hands open, at time 0. Any thread. */
+HH_API hh_tracking_sample hh_default_tracking_sample(void);
+
+/* What a player asks for in one step. */
+typedef struct hh_commands {
+    double smooth_turn; /* [-1, 1], positive turns left */
+    int32_t snap_turns; /* turns to the left begun in this step; negative: to the right */
+    double brake;       /* [0, 1] */
+    hh_vec3 thrust;     /* play space, each in [-1, 1]; needs locomotion.thruster_mps2 above 0 */
+    bool calibrate;     /* held while the player holds a T-pose: measures the body */
+} hh_commands;
+
+/* One player's input of one step. Fill by hh_default_player_input. */
+typedef struct hh_player_input {
+    uint32_t struct_size;
+    hh_player player;
+    /* Sorted by time: those since the last step. One of after this step's end may follow: poses are
+     * interpolated to it, and it is remembered for the next step. None: the devices are silent. */
+    const hh_tracking_sample* samples;
+    size_t sample_count;
+    hh_commands commands;
+} hh_player_input;
+
+HH_API hh_player_input hh_default_player_input(void);
+
+/* Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players
+ * without one are silent. Bad samples are ignored and counted; numbers in commands that are out of
+ * range are clamped. Cost: about 0.15 ms a gripping player, plus contacts. */
+HH_API hh_result hh_world_step(hh_world* world, double dt_s, const hh_player_input* inputs,
+                               size_t input_count);
+/* While the game is paused: heads, hands and bodies of players follow their last sample, whatever
+ * its time. The clock, bodies, joints, grips and play spaces stand still. The next hh_world_step
+ * goes on: hands that are still closed grip where they are by then. */
+HH_API hh_result hh_world_step_pose_only(hh_world* world, double dt_s,
+                                         const hh_player_input* inputs, size_t input_count);
+/* The world's clock, seconds, and the number of steps. Null outputs are skipped. */
+HH_API hh_result hh_world_time(const hh_world* world, double* time_s, uint64_t* frame);
+
+/* Acceleration of dynamic bodies; players float. Each axis within 1e4 m/s^2. */
+HH_API hh_result hh_world_set_gravity(hh_world* world, hh_vec3 gravity_mps2);
+/* Velocity of the scene: drifting players come to rest against it. Each axis within 1e6 m/s. */
+HH_API hh_result hh_world_set_reference_velocity(hh_world* world, hh_vec3 velocity_mps);
+
+/* Hash of the whole state. Equal on every machine, compiler and number of threads after equal
+ * calls with equal names. Cost: linear in the state, about 0.1 ms for a scene of 100 bodies. */
+HH_API hh_result hh_world_hash(const hh_world* world, uint64_t* hash);
+/* Saves every bit of the state. Writes the number of bytes to `size`. A null `buffer` only asks for
+ * it. HH_ERROR_CAPACITY if it is more than `capacity`. Shapes, rigs, tuning and user data are not
+ * in a snapshot. */
+HH_API hh_result hh_world_save(hh_world* world, void* buffer, size_t capacity, size_t* size);
+/* Back to a saved state, which then goes on bit for bit. Ids taken before the save are valid again.
+ * HH_ERROR_DATA, and no change, for bytes that are damaged or were saved with other shapes. Tolerates
+ * any bytes. */
+HH_API hh_result hh_world_restore(hh_world* world, const void* bytes, size_t size);
+
+/* Numbers of the last step. */
+typedef struct hh_world_stats {
+    uint32_t struct_size;
+    uint64_t bodies, joints, players, shapes; /* now */
+    uint64_t contacts;
+    uint64_t islands;           /* groups of bodies that constraints connect */
+    uint64_t newton_iterations; /* of all solves */
+    double hand_error_m;        /* largest distance of a gripping hand from its anchor */
+    double overlap_m;           /* worst contact overlap at the end */
+    double joint_error_m;       /* worst joint */
+    double step_us;             /* sum of all stages */
+} hh_world_stats;
+HH_API hh_world_stats hh_default_world_stats(void);
+HH_API hh_result hh_world_get_stats(const hh_world* world, hh_world_stats* stats);
+/* Stages and fallbacks by index; null beyond the last. A fallback is counted whenever the runtime
+ * does the next best instead of what was asked. Any thread. */
+HH_API const char* hh_stage_name(size_t stage);
+HH_API const char* hh_fallback_name(size_t fallback);
+/* Time of each stage in the last step, microseconds, and how often each fallback occurred. `count`
+ * gets the number of entries; HH_ERROR_CAPACITY if it is more than `capacity`. */
+HH_API hh_result hh_world_stage_times(const hh_world* world, double* us, size_t capacity,
+                                      size_t* count);
+HH_API hh_result hh_world_fallbacks(const hh_world* world, uint64_t* times, size_t capacity,
+                                    size_t* count);
+
+/* A tunable number, or a vector of three. Texts live as long as the process. */
+typedef struct hh_tuning_info {
+    uint32_t struct_size;
+    const char* name; /* "hand.reach_m" */
+    const char* unit; /* "m", "" */
+    const char* what;
+    double low, high; /* of each component */
+    size_t count;     /* 1 or 3 */
+} hh_tuning_info;
+HH_API hh_tuning_info hh_default_tuning_info(void);
+/* The number with this index; HH_ERROR_VALUE beyond the last. Any thread. */
+HH_API hh_result hh_tuning_describe(size_t index, hh_tuning_info* info);
+/* Reads and changes one number by name, between steps. `count` must be the number's.
+ * HH_ERROR_NAME for an unknown name, HH_ERROR_VALUE out of range. */
+HH_API hh_result hh_world_get_tuning(const hh_world* world, const char* name, double* values,
+                                     size_t count);
+HH_API hh_result hh_world_set_tuning(hh_world* world, const char* name, const double* values,
+                                     size_t count);
+/* All numbers from JSON, {"hand": {"reach_m": 0.12}}; those that it lacks get their defaults.
+ * HH_ERROR_DATA, with the place, for unknown names and wrong numbers. */
+HH_API hh_result hh_world_load_tuning(hh_world* world, const char* json, size_t size);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

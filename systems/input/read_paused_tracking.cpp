@@ -1,0 +1,57 @@
+#include "systems/input/read_paused_tracking.hpp"
+
+namespace handhold {
+namespace {
+
+const TrackingSample* last_sample(std::span<const PlayerInput> inputs, Entity player) {
+    for (const PlayerInput& input : inputs) {
+        if (input.player == player && !input.samples.empty()) {
+            return &input.samples.back();
+        }
+    }
+    return nullptr;
+}
+
+template <typename Device>
+void place(Device& device, const Pose& pose_ps) {
+    device.pose_ps = device.start_ps = device.sample_ps = pose_ps;
+}
+
+}  // namespace
+
+void read_paused_tracking(const ReadPausedTrackingIo& io) {
+    for (std::size_t row = 0; row < io.owner.size(); ++row) {
+        const Entity entity = io.owner.owners()[row];
+        const HandOwner& owner = io.owner.rows()[row];
+        HandTracking& hand = io.hand.at(entity);
+        hand.edge = GrabEdge::none;
+        hand.resumed = false;
+        const TrackingSample* const sample = last_sample(io.inputs, owner.player);
+        if (sample == nullptr || hand.state == TrackingState::never) {
+            continue;
+        }
+        const ControllerSample& reading = sample->controllers[index_of(owner.side)];
+        hand.raw_pressed = reading.grab;
+        hand.state = TrackingState::lost;
+        HandHistory& history = io.history.at(entity);
+        history.count = history.next = 0;
+        if (is_valid(reading.controller_ps)) {
+            const ControllerToHand* const joint = io.controller_to_hand.find(entity);
+            Pose hand_ps = reading.controller_ps *
+                           (joint != nullptr ? joint->hand_in_controller
+                                             : io.hand_in_controller[index_of(owner.side)]);
+            hand_ps.position += io.head.at(owner.player).shift_m;
+            place(hand, hand_ps);
+        }
+    }
+    for (std::size_t row = 0; row < io.head.size(); ++row) {
+        HeadTracking& head = io.head.rows()[row];
+        const TrackingSample* const sample = last_sample(io.inputs, io.head.owners()[row]);
+        if (sample != nullptr && head.state != TrackingState::never && is_valid(sample->head_ps)) {
+            place(head,
+                  {sample->head_ps.position + head.shift_m, sample->head_ps.rotation.normalized()});
+        }
+    }
+}
+
+}  // namespace handhold

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "components/tracking.hpp"
+
+// A hand's motion, measured from its last samples.
+namespace handhold {
+
+// Appends the hand's last sample.
+void remember(HandHistory& history, const HandTracking& hand);
+void clear(HandHistory& history);
+
+// The hand's pose at constant velocity, from its last two samples (motion_limit.hpp).
+Pose extrapolated(const HandTracking& hand, const HandHistory& history, double t_s);
+
+// Velocity and spin at a release: the least-squares slopes of position and rotation vector, both
+// relative to edge_ps, over the samples of the window before t_s,
+//     v = sum((t_i - t_mean) * (p_i - p_edge)) / sum((t_i - t_mean)^2).
+// Two samples give their difference quotient, a single one gives zero.
+void measure_release(const HandHistory& history, double t_s, double window_s, HandTracking& hand);
+
+}  // namespace handhold

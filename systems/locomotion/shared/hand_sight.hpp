@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "engine/collision/collision_world.hpp"
+#include "engine/math/math.hpp"
+
+namespace handhold {
+
+// What a hand can get at without crossing a wall. `outside_ws` is where the palm was last known to
+// be outside of walls; the head always is. Bodies in `skip` are no obstacles.
+struct SightLines {
+    const CollisionWorld& collision;
+    std::span<const std::uint64_t> skip;
+    Vec3 outside_ws;
+    Vec3 head_ws;
+
+    enum class Sight : std::uint8_t { blocked, clear, clear_beyond };
+    // `clear_beyond`: nothing stands in the way until 1 cm past the palm.
+    Sight sight_of_palm(const Vec3& palm_ws) const;
+
+    // True if the hand may grip `point_ws` of a body: its palm is in sight, or the point is
+    // (`any_point`: or another point of that body), or the hand can go round what blocks the view
+    // (a rail, a pipe, the rim of a recess).
+    enum class Needs : std::uint8_t { this_point, any_point };
+    bool may_grip(const Vec3& palm_ws, const Vec3& point_ws, std::uint64_t body_id,
+                  Needs needs) const;
+
+    // The visible surface that a palm was pushed through, as near to the palm as it can be seen.
+    std::optional<RayHit> entry(const Vec3& palm_ws) const;
+
+  private:
+    bool is_free(const Vec3& from_ws, const Vec3& to_ws) const;
+    bool sees(const Vec3& from_ws, const Vec3& point_ws, std::uint64_t body_id, Needs needs) const;
+    std::optional<RayHit> entry_from(const Vec3& from_ws, const Vec3& palm_ws) const;
+    bool can_go_round(const Vec3& from_ws, const Vec3& palm_ws, std::uint64_t body_id) const;
+};
+
+}  // namespace handhold

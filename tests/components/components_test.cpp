@@ -1,0 +1,393 @@
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <set>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "components/fields.hpp"
+#include "components/stats.hpp"
+#include "components/tuning.hpp"
+#include "components/world.hpp"
+#include "engine/core/check.hpp"
+#include "systems/host/tuning_json.hpp"
+#include "tests/systems/frame/column_scene.hpp"
+
+namespace handhold::components_test {
+namespace {
+
+using test::Random;
+
+// --- How many members an aggregate has -----------------------------------------------------------
+
+// Converts to any member's type.
+struct Anything {
+    template <typename T>
+    operator T() const;  // NOLINT(google-explicit-constructor): never defined, only used in
+                         // unevaluated contexts
+};
+
+template <typename T, std::size_t... I>
+constexpr bool takes_members(std::index_sequence<I...>) {
+    return requires { T{(static_cast<void>(I), Anything{})...}; };
+}
+
+// The largest number of braced values that initialise T.
+template <typename T, std::size_t Limit = 64>
+constexpr std::size_t member_count() {
+    static_assert(std::is_aggregate_v<T>);
+    if constexpr (Limit == 0 || takes_members<T>(std::make_index_sequence<Limit>{})) {
+        return Limit;
+    } else {
+        return member_count<T, Limit - 1>();
+    }
+}
+
+struct Empty {};
+struct ThreeMembers {
+    double a = 0.0;
+    std::array<Entity, 8> b;
+    Vec3 c;
+};
+static_assert(member_count<Empty>() == 0);
+static_assert(member_count<ThreeMembers>() == 3);
+
+template <typename T>
+std::vector<std::string> field_names() {
+    std::vector<std::string> names;
+    visit_fields(T{}, [&names](const char* name, const auto&) { names.emplace_back(name); });
+    return names;
+}
+
+template <typename T>
+void expect_all_fields_visited(const char* name) {
+    const std::vector<std::string> names = field_names<T>();
+    EXPECT_EQ(names.size(), member_count<T>()) << name;
+    EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size()) << name;
+}
+
+TEST(Fields, EveryMemberOfEveryComponentIsVisitedOnce) {
+    World world;
+    visit_columns(world, [](const char* name, auto& column) {
+        expect_all_fields_visited<std::remove_cvref_t<decltype(column.rows()[0])>>(name);
+    });
+    expect_all_fields_visited<RenderPose::Hand>("RenderPose::Hand");
+    expect_all_fields_visited<FingerAngles>("FingerAngles");
+    expect_all_fields_visited<AuthoredHand>("AuthoredHand");
+    expect_all_fields_visited<AuthoredGrip>("AuthoredGrip");
+    expect_all_fields_visited<HandHistory::Entry>("HandHistory::Entry");
+    expect_all_fields_visited<ArmMemory::Arm>("ArmMemory::Arm");
+    expect_all_fields_visited<ArmEstimate::Arm>("ArmEstimate::Arm");
+    expect_all_fields_visited<ArmPose::Arm>("ArmPose::Arm");
+    expect_all_fields_visited<SpinePose::Leg>("SpinePose::Leg");
+}
+
+TEST(Columns, EveryColumnOfTheWorldIsVisitedOnce) {
+    // entities, clock, reference_velocity_mps, gravity_mps2, name_of_id; the caches entity_by_id,
+    // joints_by_body
+    constexpr std::size_t k_others = 7;
+    World world;
+    std::set<std::string> names;
+    std::set<const void*> columns;
+    visit_columns(world, [&](const char* name, auto& column) {
+        names.insert(name);
+        columns.insert(&column);
+    });
+    EXPECT_EQ(columns.size(), member_count<World>() - k_others);
+    EXPECT_EQ(names.size(), columns.size());
+}
+
+// --- Adding and destroying -----------------------------------------------------------------------
+
+BodyDescription rock(std::string_view name) {
+    BodyDescription description;
+    description.name = name;
+    description.body = {BodyKind::free, 2.0, Vec3(0.1, 0.2, 0.3), 0.0};
+    return description;
+}
+PlayerDescription player(std::string_view name) {
+    PlayerDescription description;
+    description.name = name;
+    return description;
+}
+
+std::size_t row_count(const World& world) {
+    std::size_t rows = 0;
+    visit_columns(world, [&rows](const char*, const auto& column) { rows += column.size(); });
+    return rows;
+}
+std::size_t row_count(const World& world, Entity entity) {
+    std::size_t rows = 0;
+    visit_columns(
+        world, [&](const char*, const auto& column) { rows += column.contains(entity) ? 1U : 0U; });
+    return rows;
+}
+
+TEST(World, DestroyedBodyIsGoneFromEveryColumn) {
+    World world;
+    const Entity a = add_body(world, rock("a"));
+    const Entity b = add_body(world, rock("b"));
+    world.mover.add(a);
+    const std::size_t rows_of_b = row_count(world, b);
+    EXPECT_TRUE(destroy(world, a));
+    EXPECT_EQ(row_count(world, a), 0U);
+    EXPECT_EQ(row_count(world), rows_of_b);
+    EXPECT_FALSE(world.entities.is_alive(a));
+    EXPECT_FALSE(destroy(world, a));
+    EXPECT_FALSE(destroy(world, k_no_entity));
+    EXPECT_TRUE(world.entities.is_alive(b));
+}
+
+TEST(World, DestroyingAPlayerDestroysOnlyTheirHands) {
+    World world;
+    const PlayerEntities first = add_player(world, player("first"));
+    const PlayerEntities second = add_player(world, player("second"));
+    const std::size_t rows_of_one = row_count(world) / 2;
+    EXPECT_TRUE(destroy(world, first.player));
+    EXPECT_EQ(row_count(world), rows_of_one);
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        EXPECT_FALSE(world.entities.is_alive(first.hands[index_of(side)]));
+        const Entity hand = second.hands[index_of(side)];
+        EXPECT_EQ(world.hand_owner.at(hand).player, second.player);
+        EXPECT_EQ(world.hand_owner.at(hand).side, side);
+    }
+}
+
+TEST(World, NamesGiveTheIdsAndCanBeReusedAfterDestroying) {
+    World world;
+    const Entity a = add_body(world, rock("a"));
+    EXPECT_EQ(find_by_id(world, persistent_id_from_name("a")), a);
+    EXPECT_EQ(find_by_id(world, persistent_id_from_name("b")), k_no_entity);
+    destroy(world, a);
+    EXPECT_EQ(find_by_id(world, persistent_id_from_name("a")), k_no_entity);
+    const Entity again = add_body(world, rock("a"));
+    EXPECT_NE(again, a);
+    EXPECT_EQ(find_by_id(world, persistent_id_from_name("a")), again);
+}
+
+TEST(World, DuplicateNamesAreRefusedAndChangeNothing) {
+    World world;
+    add_body(world, rock("rock"));
+    add_player(world, player("player"));
+    add_body(world, rock("other/right_hand"));
+    const std::size_t rows = row_count(world);
+    EXPECT_THROW(add_body(world, rock("rock")), PreconditionError);
+    EXPECT_THROW(add_body(world, rock("player/left_hand")), PreconditionError);
+    EXPECT_THROW(add_player(world, player("rock")), PreconditionError);
+    EXPECT_THROW(add_player(world, player("player")), PreconditionError);
+    EXPECT_THROW(add_player(world, player("other")),
+                 PreconditionError);  // the name of its right hand exists already
+    EXPECT_EQ(row_count(world), rows);
+    EXPECT_EQ(world.entities.alive_count(), 5U);
+}
+
+TEST(World, InvalidBodiesAreRefused) {
+    World world;
+    BodyDescription weightless = rock("a");
+    weightless.body.mass_kg = 0.0;
+    EXPECT_THROW(add_body(world, weightless), PreconditionError);
+    BodyDescription thin = rock("a");
+    thin.body.inertia_kgm2.y() = 0.0;
+    EXPECT_THROW(add_body(world, thin), PreconditionError);
+    BodyDescription nowhere = rock("a");
+    nowhere.pose_ws.position.x() = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(add_body(world, nowhere), PreconditionError);
+    PlayerDescription massless = player("p");
+    massless.body.mass_kg = 0.0;
+    EXPECT_THROW(add_player(world, massless), PreconditionError);
+    PlayerDescription skewed = player("p");
+    skewed.origin_ws.rotation.coeffs() *= 2.0;
+    EXPECT_THROW(add_player(world, skewed), PreconditionError);
+    EXPECT_EQ(row_count(world), 0U);
+}
+
+TEST(World, OnlyFreeBodiesAndPlayersHaveALastValidPose) {
+    World world;
+    BodyDescription wall;
+    wall.name = "wall";
+    EXPECT_FALSE(world.last_valid.contains(add_body(world, wall)));
+    const Entity body = add_body(world, rock("rock"));
+    EXPECT_TRUE(world.last_valid.at(body).known);
+    const PlayerEntities made = add_player(world, player("player"));
+    EXPECT_FALSE(world.last_valid.at(made.player).known);  // the head was not tracked yet
+}
+
+// --- Names of counters ---------------------------------------------------------------------------
+
+template <typename Enum>
+void expect_names_distinct() {
+    std::set<std::string> names = {"unknown"};
+    for (std::size_t i = 0; i < static_cast<std::size_t>(Enum::count); ++i) {
+        EXPECT_TRUE(names.insert(name_of(static_cast<Enum>(i))).second) << i;
+    }
+    EXPECT_STREQ(name_of(Enum::count), "unknown");
+}
+
+TEST(Stats, EveryStageAndFallbackHasAUniqueName) {
+    expect_names_distinct<Stage>();
+    expect_names_distinct<Fallback>();
+}
+
+// --- Tuning --------------------------------------------------------------------------------------
+
+std::vector<double> numbers_of(double field) { return {field}; }
+std::vector<double> numbers_of(std::int32_t field) { return {static_cast<double>(field)}; }
+std::vector<double> numbers_of(SupportFollow field) { return {static_cast<double>(field)}; }
+std::vector<double> numbers_of(const Vec3& field) { return {field.x(), field.y(), field.z()}; }
+
+std::vector<double> all_numbers(const Tuning& tuning) {
+    std::vector<double> all;
+    visit_tuning(tuning, [&all](const TuningInfo&, const auto& field) {
+        for (const double number : numbers_of(field)) {
+            all.push_back(number);
+        }
+    });
+    return all;
+}
+
+TEST(Tuning, EveryDefaultLiesInItsRange) {
+    const Tuning tuning;
+    visit_tuning(tuning, [](const TuningInfo& info, const auto& field) {
+        EXPECT_LT(info.low, info.high) << info.name;
+        for (const double number : numbers_of(field)) {
+            EXPECT_GE(number, info.low) << info.name;
+            EXPECT_LE(number, info.high) << info.name;
+        }
+    });
+}
+
+TEST(Tuning, NamesAreUniqueAndDescribed) {
+    const Tuning tuning;
+    std::set<std::string> names;
+    visit_tuning(tuning, [&names](const TuningInfo& info, const auto&) {
+        EXPECT_TRUE(names.insert(info.name).second) << info.name;
+        EXPECT_NE(std::string(info.name).find('.'), std::string::npos) << info.name;
+        EXPECT_FALSE(std::string(info.what).empty()) << info.name;
+    });
+}
+
+TEST(Tuning, EveryMemberOfEveryGroupIsVisited) {
+    constexpr std::size_t k_members =
+        member_count<TrackingTuning>() + member_count<HandTuning>() + member_count<HeadTuning>() +
+        member_count<LocomotionTuning>() + member_count<PhaseTuning>() +
+        member_count<ContactTuning>() + member_count<SolverTuning>() + member_count<ArmTuning>() +
+        member_count<SpineTuning>() + member_count<AdditiveTuning>() + member_count<PalmTuning>() +
+        member_count<FingerTuning>() + member_count<ThumbTuning>() +
+        member_count<CalibrationTuning>() + member_count<PullTuning>();
+    static_assert(member_count<Tuning>() == 15, "a new group belongs into the sum above");
+    const Tuning tuning;
+    std::set<const void*> fields;
+    visit_tuning(tuning,
+                 [&fields](const TuningInfo&, const auto& field) { fields.insert(&field); });
+    EXPECT_EQ(fields.size(), k_members);
+}
+
+void set_random(double& field, const TuningInfo& info, Random& random) {
+    field = random.between(info.low, info.high);
+}
+void set_random(Vec3& field, const TuningInfo& info, Random& random) {
+    for (double& axis : field) {
+        axis = random.between(info.low, info.high);
+    }
+}
+void set_random(std::int32_t& field, const TuningInfo& info, Random& random) {
+    field = static_cast<std::int32_t>(random.between(info.low, info.high));
+}
+void set_random(SupportFollow& field, const TuningInfo&, Random& random) {
+    field = static_cast<SupportFollow>(static_cast<int>(random.between(0.0, 3.0)));
+}
+
+TEST(TuningJson, AnyTuningRoundTripsBitForBit) {
+    for (std::uint64_t seed = 0; seed < 50; ++seed) {
+        Random random(seed);
+        Tuning tuning;
+        visit_tuning(tuning, [&random](const TuningInfo& info, auto& field) {
+            set_random(field, info, random);
+        });
+        if (tuning.phases.kappa_light_kg >= tuning.phases.kappa_heavy_kg) {
+            std::swap(tuning.phases.kappa_light_kg, tuning.phases.kappa_heavy_kg);
+        }
+        const Result<Tuning> read = parse_tuning(tuning_to_json(tuning), "round.json");
+        ASSERT_TRUE(read.ok()) << read.error().message();
+        EXPECT_EQ(all_numbers(read.value()), all_numbers(tuning)) << seed;
+    }
+}
+
+TEST(TuningJson, MissingNumbersKeepTheirDefault) {
+    const Result<Tuning> empty = parse_tuning("{}", "empty.json");
+    ASSERT_TRUE(empty.ok());
+    EXPECT_EQ(all_numbers(empty.value()), all_numbers(Tuning{}));
+    const Result<Tuning> one = parse_tuning(R"({"hand": {"reach_m": 0.25}})", "one.json");
+    ASSERT_TRUE(one.ok());
+    Tuning expected;
+    expected.hand.reach_m = 0.25;
+    EXPECT_EQ(all_numbers(one.value()), all_numbers(expected));
+}
+
+TEST(TuningJson, EachKindOfMalformedFileIsRefusedWithItsPlace) {
+    const std::vector<std::pair<const char*, const char*>> cases = {
+        {R"({"hands": {}})", "/hands"},
+        {R"({"hand": {"reach": 0.2}})", "/hand/reach"},
+        {R"({"hand": 3})", "/hand"},
+        {R"({"hand": null})", "/hand"},
+        {R"({"hand": {"reach_m": "0.2"}})", "/hand/reach_m"},
+        {R"({"hand": {"reach_m": null}})", "/hand/reach_m"},
+        {R"({"hand": {"palm_center_m": 0.2}})", "/hand/palm_center_m"},
+        {R"({"hand": {"palm_center_m": [0.0, 0.0]}})", "/hand/palm_center_m"},
+        {R"({"hand": {"palm_center_m": [0.0, 0.0, 9.0]}})", "/hand/palm_center_m/2"},
+        {R"({"solver": {"max_iterations": 2.5}})", "/solver/max_iterations"},
+        {R"({"solver": {"max_iterations": 0}})", "/solver/max_iterations"},
+        {R"({"locomotion": {"support_follow": 3}})", "/locomotion/support_follow"},
+        {R"({"locomotion": {"support_follow": "yaw"}})", "/locomotion/support_follow"},
+        {R"({"phases": {"kappa_light_kg": 2000.0}})", "/phases"},
+        {R"({"phases": {"kappa_light_kg": 5.0, "kappa_heavy_kg": 5.0}})", "/phases"},
+        {R"([1, 2])", ""},
+    };
+    for (const auto& [text, place] : cases) {
+        const Result<Tuning> read = parse_tuning(text, "bad.json");
+        ASSERT_FALSE(read.ok()) << text;
+        EXPECT_EQ(read.error().file, "bad.json");
+        EXPECT_EQ(read.error().place, place) << text << ": " << read.error().message();
+        EXPECT_FALSE(read.error().expected.empty()) << text;
+    }
+}
+
+TEST(TuningJson, InvalidJsonIsRefusedWithItsLine) {
+    for (const char* const text :
+         {"", "{", R"({"hand": {"reach_m": 0.2,}})", R"({"hand": {}, "hand": {}})"}) {
+        const Result<Tuning> read = parse_tuning(text, "bad.json");
+        ASSERT_FALSE(read.ok()) << text;
+        EXPECT_FALSE(read.error().message().empty());
+    }
+}
+
+TEST(TuningJson, NumbersJustOutsideTheirRangeAreRefused) {
+    const Tuning defaults;
+    visit_tuning(defaults, [](const TuningInfo& info, const auto& field) {
+        const std::string name = info.name;
+        const std::size_t dot = name.find('.');
+        const bool is_whole = std::is_integral_v<std::remove_cvref_t<decltype(field)>> ||
+                              std::is_enum_v<std::remove_cvref_t<decltype(field)>>;
+        for (const double outside : {info.low - 1.0, info.high + 1.0}) {
+            std::string number =
+                is_whole ? std::to_string(static_cast<int>(outside)) : std::to_string(outside);
+            if (numbers_of(field).size() == 3) {
+                number = "[" + number + ", 0.0, 0.0]";
+            }
+            const std::string text = "{\"" + name.substr(0, dot) + "\": {\"" +
+                                     name.substr(dot + 1) + "\": " + number + "}}";
+            const Result<Tuning> read = parse_tuning(text, "range.json");
+            ASSERT_FALSE(read.ok()) << text;
+            const std::string pointer = "/" + name.substr(0, dot) + "/" + name.substr(dot + 1);
+            EXPECT_EQ(read.error().place.rfind(pointer, 0), 0U) << read.error().message();
+        }
+    });
+}
+
+}  // namespace
+}  // namespace handhold::components_test

@@ -1,0 +1,304 @@
+// Names, events, pausing, saving, rigs and frames of the C interface.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <handhold/ecs.hpp>
+#include <handhold/handhold.hpp>
+#include <rapidcheck/gtest.h>
+
+#include "tests/systems/host/host_scene.hpp"
+
+namespace handhold::host_interface_test {
+namespace {
+
+using namespace test;
+
+double distance_m(const hh::Vec3& a, const hh::Vec3& b) {
+    return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+
+TEST(HostNames, AreKeptAndFound) {
+    HostScene scene;
+    const hh::Body wall = scene.add_wall();
+    const char* name = nullptr;
+    ASSERT_EQ(hh_body_name(scene.world.get(), wall, &name), HH_OK);
+    EXPECT_STREQ(name, "wall");
+    EXPECT_TRUE(*scene.world.find_body("wall") == wall);
+    EXPECT_EQ(scene.world.find_body("window").status().result(), HH_ERROR_NAME);
+    hh_body_def twin = hh::body_def();
+    twin.name = "wall";
+    EXPECT_EQ(scene.world.add(twin).status().result(), HH_ERROR_NAME);
+    std::vector<std::byte> saved;
+    ASSERT_TRUE(scene.world.save(saved));
+    ASSERT_TRUE(scene.world.remove(wall));
+    EXPECT_FALSE(scene.world.find_body("wall"));
+    ASSERT_TRUE(scene.world.restore(saved));
+    ASSERT_EQ(hh_body_name(scene.world.get(), wall, &name), HH_OK);
+    EXPECT_STREQ(name, "wall");
+}
+
+TEST(HostEvents, SayWhyAGripEnded) {
+    HostScene scene;
+    const hh::Body wall = scene.add_wall();
+    scene.step();
+    scene.closed[HH_RIGHT] = true;
+    scene.step();
+    scene.closed[HH_RIGHT] = false;
+    scene.step();
+    EXPECT_EQ(scene.log, "grab right;release right;");
+    scene.closed[HH_RIGHT] = true;
+    scene.step();
+    ASSERT_TRUE(scene.world.remove(wall));
+    scene.step();
+    EXPECT_EQ(scene.log, "grab right;release right;grab right;slip right body_gone;");
+}
+
+TEST(HostEvents, LatchesAndLimitsAreReportedOnce) {
+    hh::World world;
+    hh_body_def panel = crate(world, {0.4, 0.0, 0.0});
+    panel.angular_velocity_radps = {0.0, 0.0, 1.0};
+    panel.velocity_mps = {0.0, 0.4, 0.0};
+    hh_joint_def hinge = hh::joint_def();
+    hinge.kind = HH_HINGE;
+    hinge.body_b = *world.add(panel);
+    hinge.frame.rotation = {0.0, -std::sqrt(0.5), 0.0, std::sqrt(0.5)};  // x becomes z
+    hinge.limited = true;
+    hinge.lower = -1.0;
+    hinge.upper = 0.5;
+    const hh::Joint joint = *world.add(hinge);
+    int reached = 0;
+    for (int i = 0; i < 120; ++i) {
+        ASSERT_TRUE(world.step(k_step_s));
+        for (const hh::Event& event : world.events()) {
+            reached += event.kind == HH_EVENT_LIMIT_REACHED && event.joint == joint ? 1 : 0;
+        }
+    }
+    double angle_rad = 0.0;
+    ASSERT_EQ(hh_joint_state(world.get(), joint, &angle_rad, nullptr, nullptr), HH_OK);
+    EXPECT_GE(reached, 1);
+    EXPECT_LE(reached, 2) << "not in every step that it rests there";
+    EXPECT_LT(std::fabs(angle_rad), 1.0 + 1e-6);
+}
+
+TEST(HostPause, ShowsHandsWhileTheWorldStandsStill) {
+    HostScene scene;
+    scene.add_wall();
+    const hh::Body thrown = *scene.world.add(crate(scene.world, {3.0, 1.0, 0.0}));
+    ASSERT_TRUE(scene.world.set_velocity(thrown, {0.5, 0.0, 0.0}));
+    scene.step();
+    scene.closed[HH_RIGHT] = true;
+    scene.step(3);
+    const double x_m = scene.world.pose(thrown)->position.x;
+    const double time_s = scene.world.time_s();
+    const hh_player_pose before = *scene.world.pose(scene.player);
+    scene.hand_at[HH_LEFT].y += 0.3;
+    scene.hand_at[HH_RIGHT].z += 0.1;  // less than hand.max_stretch_m
+    const hh::Sample now = scene.sample();
+    const std::array inputs = {hh::input(scene.player, {&now, 1})};
+    for (int i = 0; i < 5; ++i) {
+        ASSERT_TRUE(scene.world.step_pose_only(k_step_s, inputs));
+    }
+    const hh_player_pose paused = *scene.world.pose(scene.player);
+    EXPECT_EQ(scene.world.pose(thrown)->position.x, x_m);
+    EXPECT_EQ(scene.world.time_s(), time_s);
+    EXPECT_EQ(paused.origin.position.z, before.origin.position.z);
+    EXPECT_NEAR(paused.hands[HH_LEFT].tracked.position.y,
+                before.hands[HH_LEFT].tracked.position.y + 0.3, 1e-12);
+    // The hand that stayed closed grips where it is now: the player is not pulled.
+    scene.step(3);
+    const hh_player_pose after = *scene.world.pose(scene.player);
+    EXPECT_EQ(after.hands[HH_RIGHT].grip, HH_GRIP_SURFACE);
+    EXPECT_NEAR(after.origin.position.z, before.origin.position.z, 1e-6);
+    EXPECT_GT(scene.world.pose(thrown)->position.x, x_m);
+}
+
+RC_GTEST_PROP(HostSnapshots, ReplayAfterRestoreIsBitForBitEqual, ()) {
+    const int saved_at = *rc::gen::inRange(1, 30);
+    const double late_s = *rc::gen::element(0.0, 0.004, 0.02);  // samples of after the step's end
+    HostScene scene;
+    scene.add_wall();
+    const auto run = [&](int from, int to) {
+        for (int i = from; i < to; ++i) {
+            hh::Sample now = scene.sample();
+            now.time_s += late_s;
+            now.grab[HH_RIGHT] = i > 10;
+            now.hands[HH_RIGHT].position.z += 0.004 * i;
+            RC_ASSERT(
+                static_cast<bool>(scene.world.step(k_step_s, hh::input(scene.player, {&now, 1}))));
+        }
+    };
+    run(0, saved_at);
+    std::vector<std::byte> saved;
+    RC_ASSERT(static_cast<bool>(scene.world.save(saved)));
+    run(saved_at, 40);
+    hh_body_def added = crate(scene.world, {0.0, 9.0, 0.0});
+    added.shape = {};
+    added.inertia_kgm2 = {1.0, 1.0, 1.0};
+    const std::uint64_t hash = scene.world.hash();
+    RC_ASSERT(static_cast<bool>(scene.world.add(added)));
+    RC_ASSERT(scene.world.restore(saved).result() == HH_ERROR_DATA);  // the crate's shape is new
+    std::size_t count = 0;
+    RC_ASSERT(hh_world_bodies(scene.world.get(), nullptr, 0, &count) == HH_OK && count == 2);
+    RC_ASSERT(hash != scene.world.hash());
+}
+
+RC_GTEST_PROP(HostSnapshots, RollbackGivesTheSameHash, ()) {
+    const int saved_at = *rc::gen::inRange(1, 30);
+    const double late_s = *rc::gen::element(0.0, 0.004, 0.02);
+    HostScene scene;
+    scene.add_wall();
+    const auto run = [&](int from, int to) {
+        for (int i = from; i < to; ++i) {
+            hh::Sample now = scene.sample();
+            now.time_s += late_s;
+            now.grab[HH_RIGHT] = i > 10;
+            now.hands[HH_RIGHT].position.z += 0.004 * i;
+            RC_ASSERT(
+                static_cast<bool>(scene.world.step(k_step_s, hh::input(scene.player, {&now, 1}))));
+        }
+    };
+    run(0, saved_at);
+    std::vector<std::byte> saved;
+    RC_ASSERT(static_cast<bool>(scene.world.save(saved)));
+    run(saved_at, 40);
+    const std::uint64_t hash = scene.world.hash();
+    RC_ASSERT(static_cast<bool>(scene.world.restore(saved)));
+    run(saved_at, 40);
+    RC_ASSERT(scene.world.hash() == hash);
+}
+
+// A host gives each sample once, always a little after the step's end, as headsets predict.
+TEST(HostInput, SamplesOfAfterTheStepAreNotLost) {
+    HostScene scene;
+    for (int i = 0; i < 60; ++i) {
+        hh::Sample now = scene.sample();
+        now.time_s += 0.003;
+        ASSERT_TRUE(scene.world.step(k_step_s, hh::input(scene.player, {&now, 1})));
+    }
+    EXPECT_TRUE(scene.hand(HH_RIGHT).is_tracked);
+}
+
+TEST(HostShapes, HullsKeepTheFrameInWhichTheHostMadeThem) {
+    hh::World world;
+    // A box of 0.2 x 0.4 x 0.6 m whose corner is the host's origin.
+    std::vector<hh::Vec3> corners;
+    for (const double x : {0.0, 0.2}) {
+        for (const double y : {0.0, 0.4}) {
+            for (const double z : {0.0, 0.6}) {
+                corners.push_back({x, y, z});
+            }
+        }
+    }
+    hh_body_def def = hh::body_def();
+    def.kind = HH_DYNAMIC;
+    def.shape = *world.add_hull(corners);
+    def.pose = hh::pose_at({1.0, 2.0, 3.0});
+    const hh::Body body = *world.add(def);
+    EXPECT_LT(distance_m(world.pose(body)->position, {1.0, 2.0, 3.0}), 1e-9);
+    EXPECT_NEAR(std::fabs(world.pose(body)->rotation.w), 1.0, 1e-9);
+    ASSERT_TRUE(world.set_velocity(body, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}));
+    for (int i = 0; i < 90; ++i) {
+        ASSERT_TRUE(world.step(k_step_s));
+    }
+    // It turns about its centre of mass, (1.1, 2.2, 3.3): the corner's distance from it stays.
+    const double arm_m = distance_m(world.pose(body)->position, {1.1, 2.2, 3.3});
+    EXPECT_NEAR(arm_m, std::hypot(0.1, 0.2, 0.3), 1e-6);
+    EXPECT_GT(distance_m(world.pose(body)->position, {1.0, 2.0, 3.0}), 0.1);
+    ASSERT_TRUE(world.teleport(body, hh::pose_at({-1.0, 0.0, 0.0})));
+    EXPECT_LT(distance_m(world.pose(body)->position, {-1.0, 0.0, 0.0}), 1e-9);
+}
+
+// Two players of one world with hands of different sizes.
+TEST(PlayerRigs, TwoPlayersHaveDifferentHands) {
+    ShapeLibrary shapes;
+    World world;
+    std::array<PlayerEntities, 2> players;
+    players[0] =
+        add_player(world, {.name = "small", .body = {}, .origin_ws = {}, .head_shape = k_no_shape});
+    players[1] =
+        add_player(world, {.name = "tall", .body = {}, .origin_ws = {}, .head_shape = k_no_shape});
+    BodyDescription wall;
+    wall.name = "wall";
+    wall.pose_ws.position = Vec3(0.0, 1.5, -0.6);
+    wall.shape = shapes.add_box(Vec3(2.0, 2.0, 0.1));
+    add_body(world, wall);
+    const GripMeshLibrary meshes(shapes);
+    FrameCaches caches(shapes, &meshes);
+    HandRig large = builtin_hand_rig(HandSide::right);
+    for (FingerRig& finger : large.fingers) {
+        finger.base_hs.position *= 1.5;
+        for (std::size_t link = 0; link < k_max_links; ++link) {
+            finger.length_m[link] *= 1.5;
+        }
+    }
+    caches.more_hand_rigs.push_back(large);
+    world.hand_rig.add(players[1].hands[1], {0});
+    StageStats stats;
+    for (int frame = 1; frame <= 60; ++frame) {
+        TrackingSample sample;
+        sample.t_s = world.clock.t_s + k_step_s;
+        sample.head_ps.position = Vec3(0.0, 1.6, 0.0);
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            const auto which = static_cast<HandSide>(side);
+            const Pose wrist{Vec3(side == 1 ? 0.2 : -0.2, 1.4, -0.43),
+                             rotation_about(Vec3::UnitX(), k_half_pi)};
+            sample.controllers[side].controller_ps =
+                wrist * inverse(default_controller_to_hand(which, HandTuning{}));
+            sample.controllers[side].grab = frame > 5;
+        }
+        const std::array inputs = {PlayerInput{players[0].player, {&sample, 1}, {}},
+                                   PlayerInput{players[1].player, {&sample, 1}, {}}};
+        step_frame(world, caches, {}, {k_step_s, inputs}, stats);
+    }
+    EXPECT_EQ(caches.hands.surroundings.size(), 4U);
+    const auto rig_of = [&](Entity hand) {
+        for (const HandSurroundings& around : caches.hands.surroundings) {
+            if (around.hand == hand) {
+                return around.rig;
+            }
+        }
+        return static_cast<const HandRig*>(nullptr);
+    };
+    EXPECT_EQ(rig_of(players[1].hands[1]), caches.more_hand_rigs.data());
+    EXPECT_EQ(rig_of(players[0].hands[1]), &caches.hand_rigs[1]);
+    const auto& small = world.finger_pose.at(players[0].hands[1]).shown;
+    const auto& tall = world.finger_pose.at(players[1].hands[1]).shown;
+    EXPECT_NE(small[1].curl_rad, tall[1].curl_rad) << "equal angles for different fingers";
+}
+
+// A frame that cannot run changes nothing, whatever part of the world is wrong.
+TEST(StepFrame, ChecksEverythingBeforeItChangesAnything) {
+    ShapeLibrary shapes;
+    World world;
+    BodyDescription body;
+    body.name = "drifting";
+    body.body = {BodyKind::free, 1.0, Vec3::Ones(), 0.0, 0.4};
+    body.velocity.linear_mps = Vec3(1.0, 0.0, 0.0);
+    body.shape = shapes.add_sphere(0.1);
+    const Entity drifting = add_body(world, body);
+    FrameCaches caches(shapes);
+    StageStats stats;
+    step_frame(world, caches, {}, {}, stats);
+    const std::uint64_t before = hash_state(world);
+    world.collider.at(drifting).shape = {7};  // no such shape
+    EXPECT_THROW(step_frame(world, caches, {}, {}, stats), PreconditionError);
+    auto triangle = std::make_shared<Mesh>();
+    triangle->positions = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+    triangle->triangles = {{0, 1, 2}};
+    world.collider.at(drifting).shape = shapes.add_mesh(triangle);  // a mesh cannot be free
+    EXPECT_THROW(step_frame(world, caches, {}, {}, stats), PreconditionError);
+    world.collider.at(drifting).shape = body.shape;
+    world.gravity_mps2.y() = std::nan("");
+    EXPECT_THROW(step_frame(world, caches, {}, {}, stats), PreconditionError);
+    world.gravity_mps2.setZero();
+    EXPECT_EQ(hash_state(world), before);
+    step_frame(world, caches, {}, {}, stats);
+    EXPECT_NEAR(world.body_pose.at(drifting).pose_ws.position.x(), 2.0 / 90.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace handhold::host_interface_test
