@@ -21,6 +21,14 @@ struct BodyMeasures {
     double forearm_m = 0.28;  // from elbow to wrist
 };
 
+// Displacement of the chest from where the head alone would place it.
+struct ChestOffset {
+    Vec3 middle_m = Vec3::Zero();  // in the leaning chest's axes, for an eye height of 1.6 m
+    double roll = 0.0;             // tangent; positive: the right shoulder is up
+};
+
+inline constexpr std::size_t k_look_filters = 3;
+
 // State of estimate_arms between frames.
 struct ArmMemory {
     struct Arm {
@@ -31,9 +39,10 @@ struct ArmMemory {
         Pose hand_ps;                   // shown hand at the end of the last frame
     };
     bool known = false;  // false: the next frame re-initialises this state
-    // Horizontal unit vector: the head's look direction, low-pass filtered.
-    Vec3 look_ps = -Vec3::UnitZ();
+    // Horizontal unit vectors: the head's look direction, low-pass filtered, from fast to slow.
+    std::array<Vec3, k_look_filters> looks_ps = {-Vec3::UnitZ(), -Vec3::UnitZ(), -Vec3::UnitZ()};
     Vec3 facing_ps = -Vec3::UnitZ();     // horizontal unit vector: where the chest faces
+    ChestOffset chest;                   // low-pass filtered
     Pose head_ps;                        // at the end of the last frame
     std::array<Arm, k_hand_count> arms;  // by HandSide
 };

@@ -17,32 +17,22 @@ inline bool is_jump(double distance_m, double dt_s) {
     return distance_m > k_jump_m + k_jump_speed_mps * dt_s;
 }
 
-// Chest, shoulders and elbows. The defaults are fitted to motion capture;
-// docs/decisions/0034-chest-and-elbow-estimate.md lists subjects and scores.
+// Chest, shoulders and elbows: the constants that are a matter of looks. The fitted ones are in
+// systems/arm/shared/body_constants.hpp.
 struct ArmTuning {
-    double head_lag_s = 0.3;
-    double hand_share = 0.15;
-    double line_share = 1.35;
-    double roll_share = 0.1;
-    double behind_fade = 0.0;
+    double learned = 1.0;
     double chest_limit_rad = 1.3962634015954636;
-    double lean = 0.5;
-    double neck_m = 0.16;
-    Vec3 shoulder_offset_m = Vec3(0.0, -0.061, 0.07);
+    double chest_lag_s = 0.05;
+    double chest_speed_radps = 12.0;
     double clavicle_lift = 0.35;
     double clavicle_share = 0.8;
     double reach = 0.995;
     double shoulder_follow_m = 0.06;
-    Vec3 pole_rest = Vec3(0.199, -0.286, 0.305);
-    double pole_fingers = -0.551;
-    double pole_back = 0.142;
-    double pole_thumb = -0.337;
-    double swivel_lag_s = 0.08;
-    double swivel_speed_radps = 15.0;
+    double swivel_lag_s = 0.05;
+    double swivel_speed_radps = 9.0;
     double elbow_inertia = 0.5;
     Vec3 elbow_cone = Vec3(0.54, -0.64, -0.54);
     double elbow_cone_cosine = -0.087;
-    double chest_speed_radps = 12.0;
 };
 
 // T-pose calibration.
@@ -77,23 +67,12 @@ struct AdditiveTuning {
 // The part of visit_tuning (components/tuning.hpp) for these structs.
 template <typename TuningType, typename See>
 void visit_body_tuning(TuningType& t, const See& see) {
-    see("arm.head_lag_s", t.arm.head_lag_s, "s", 0.0, 10.0,
-        "Time constant with which the chest follows the head's horizontal look direction.");
-    see("arm.hand_share", t.arm.hand_share, "", 0.0, 10.0,
-        "Weight with which the chest turns towards the hands' mean position; 0: not at all.");
-    see("arm.line_share", t.arm.line_share, "", 0.0, 10.0,
-        "Weight with which the chest turns square to the line between the hands; 0: not at all.");
-    see("arm.roll_share", t.arm.roll_share, "", -3.0, 3.0,
-        "Weight with which the chest turns with rolling hands; 0: not at all.");
-    see("arm.behind_fade", t.arm.behind_fade, "", 0.0, 1.0,
-        "How much hands behind the body are ignored when the chest turns; 0: not, 1: completely.");
+    see("arm.learned", t.arm.learned, "", 0.0, 1.0,
+        "Weight of the fitted networks' corrections; 0: the talk's form alone.");
     see("arm.chest_limit_rad", t.arm.chest_limit_rad, "rad", 0.0, 3.0,
         "Maximum angle between the chest's facing and the head's look direction.");
-    see("arm.lean", t.arm.lean, "", 0.0, 1.0, "Share of the head's tilt by which the chest leans.");
-    see("arm.neck_m", t.arm.neck_m, "m", 0.0, 1.0,
-        "Distance from the eyes to the neck, down along the head's up axis.");
-    see("arm.shoulder_offset_m", t.arm.shoulder_offset_m, "m", -1.0, 1.0,
-        "Position of the midpoint between the shoulders relative to the neck, in chest axes.");
+    see("arm.chest_lag_s", t.arm.chest_lag_s, "s", 0.0, 10.0,
+        "Time constant with which the chest follows its estimate.");
     see("arm.clavicle_lift", t.arm.clavicle_lift, "", -1.0, 1.0,
         "Hand height below the shoulder, in arm lengths, at which the clavicle is level; higher "
         "hands raise it.");
@@ -104,15 +83,6 @@ void visit_body_tuning(TuningType& t, const See& see) {
         "stretch.");
     see("arm.shoulder_follow_m", t.arm.shoulder_follow_m, "m", 0.0, 0.5,
         "Maximum distance by which a shoulder follows its hand before the bones stretch.");
-    see("arm.pole_rest", t.arm.pole_rest, "", -3.0, 3.0,
-        "Direction in which the right elbow points at rest, in chest axes; the hand's axes are "
-        "added to it.");
-    see("arm.pole_fingers", t.arm.pole_fingers, "", -3.0, 3.0,
-        "Weight of the hand's finger direction in the elbow direction.");
-    see("arm.pole_back", t.arm.pole_back, "", -3.0, 3.0,
-        "Weight of the back of the hand's direction in the elbow direction.");
-    see("arm.pole_thumb", t.arm.pole_thumb, "", -3.0, 3.0,
-        "Weight of the hand's thumb direction in the elbow direction.");
     see("arm.swivel_lag_s", t.arm.swivel_lag_s, "s", 0.0, 10.0,
         "Time constant with which an elbow follows its wanted direction.");
     see("arm.swivel_speed_radps", t.arm.swivel_speed_radps, "rad/s", 0.1, 1e3,

@@ -292,10 +292,16 @@ void visit_fields(const ArmMemory::Arm& c, V&& visit) {
     visit("hand_ps", c.hand_ps);
 }
 template <typename V>
+void visit_fields(const ChestOffset& c, V&& visit) {
+    visit("middle_m", c.middle_m);
+    visit("roll", c.roll);
+}
+template <typename V>
 void visit_fields(const ArmMemory& c, V&& visit) {
     visit("known", c.known);
-    visit("look_ps", c.look_ps);
+    visit("looks_ps", c.looks_ps);
     visit("facing_ps", c.facing_ps);
+    visit("chest", c.chest);
     visit("head_ps", c.head_ps);
     visit("arms", c.arms);
 }

@@ -57,6 +57,7 @@ struct FrameGraph {
         bool grips_surface = false;
         bool pushed = false;  // the backward or contradiction phase ran on the body's island
         Vec3 velocity_before_mps = Vec3::Zero();  // players: velocity before the velocity solve
+        std::uint64_t work = 0;    // spent by the position solves of its islands (WorkBudget)
         double push_back_m = 0.0;  // players: how far contacts moved the origin in this frame
     };
     // graph.bodies has one more element at the end, the world, if a joint connects a body to the

@@ -116,10 +116,10 @@ const char* name_of(Fallback reason) {
             return "hands_load_stepped";
         case Fallback::load_stepping_failed:
             return "load_stepping_failed";
-        case Fallback::friction_wedged:
-            return "friction_wedged";
         case Fallback::friction_not_converged:
             return "friction_not_converged";
+        case Fallback::solver_budget:
+            return "solver_budget";
         case Fallback::release_speed_clamped:
             return "release_speed_clamped";
         case Fallback::object_speed_clamped:

@@ -60,7 +60,7 @@ enum class Fallback : std::uint8_t {
     grip_reanchored,       // tracking returned or the other hand let go: anchor moved to the hand
     two_hand_grip_ended,   // one of two hands let go: the body is not thrown
     hands_too_close,       // both hands too close on one free body: only the first hand drives it
-    grab_refused_by_rule,  // all that is in reach refuses the hand: GrabRule or GrabLayers
+    grab_refused_by_rule,  // a body within reach or pull refuses the hand: GrabRule or GrabLayers
     grab_needs_two_hands,  // the body is gripped by both hands or by none, and one closed
     grip_needs_two_hands,  // one of both hands left such a body: the other lets go
     grip_ended_by_host,    // a GrabOrder
@@ -75,10 +75,11 @@ enum class Fallback : std::uint8_t {
     restored_last_valid_pose,
     // A solve ended before its active set (pushing contacts and limits) converged.
     active_set_not_converged,
-    hands_load_stepped,    // a solve ran out of iterations, then converged by load stepping
-    load_stepping_failed,  // load stepping failed too: the first result is kept
-    friction_wedged,       // friction would be unbounded or gain energy: those contacts slip freely
-    friction_not_converged,  // stick or slip still changed after SolverTuning::friction_passes
+    hands_load_stepped,      // a solve ran out of iterations, then converged by load stepping
+    load_stepping_failed,    // load stepping failed too: the first result is kept
+    friction_not_converged,  // stick or slip did not converge: last iterate, or sweeps
+    // An island spent its WorkBudget: the rest goes on in the next frame.
+    solver_budget,
     release_speed_clamped,
     object_speed_clamped,
     head_ignores_full,

@@ -22,10 +22,10 @@ void let_go(World& world, std::size_t row) {
     world.hand_pull.remove(hand);
 }
 
-void let_go_of(World& world, Entity gripped, Entity except_player) {
+void let_go_of(World& world, Entity gripped, Entity keeper) {
     for (std::size_t row = 0; row < world.grab.size(); ++row) {
         const Entity player = world.hand_owner.at(world.grab.owners()[row]).player;
-        if (world.grab.rows()[row].body == gripped && player != except_player) {
+        if (world.grab.rows()[row].body == gripped && player != keeper) {
             let_go(world, row);
         }
     }
@@ -68,6 +68,11 @@ void teleport_body(World& world, Entity body, const Pose& pose_ws) {
     HH_CHECK(world.body.contains(body), "no body with this handle", body.slot);
     check_place(__func__, pose_ws);
     let_go_of(world, body, k_no_entity);
+    for (HandSight& sight : world.hand_sight.rows()) {
+        if (sight.frame == body) {
+            sight = {};  // the hand stays where it is
+        }
+    }
     place_body(world, body, pose_ws);
 }
 
@@ -79,9 +84,11 @@ void teleport_player(World& world, Entity player, const Pose& origin_ws) {
     let_go_of(world, player, k_no_entity);
     Entity carried_before = k_no_entity;
     for (std::size_t row = 0; row < world.grab.size(); ++row) {
-        if (world.hand_owner.at(world.grab.owners()[row]).player != player) {
+        const Entity hand = world.grab.owners()[row];
+        if (world.hand_owner.at(hand).player != player) {
             continue;
         }
+        world.hand_sight.at(hand) = {};  // the way of the hand to its new place crosses no wall
         const Grab& grab = world.grab.rows()[row];
         if (!is_carried(world, grab)) {
             let_go(world, row);

@@ -105,13 +105,25 @@ void place_colliders(const FrameContext& f, Stage needed_by) {
 void update_grabs(const FrameContext& f) {
     const StageTimer timer(Stage::update_grabs, f.stats);
     World& w = f.w;
-    handhold::update_grabs({f.collision(),    w.persistent_id, w.hand_owner,
-                            w.hand_tracking,  w.player_origin, w.head_tracking,
-                            w.body,           w.body_pose,     f.graph().joint_groups,
-                            w.authored_grips, w.hand_pull,     w.reference_velocity,
-                            w.hand_sight,     w.grab,          w.authored_hold,
-                            w.head_ignores,   &w.grab_rule,    &w.grab_layers,
-                            &w.filter,        &w.grab_order,   f.start_s()},
+    handhold::update_grabs({f.collision(),
+                            w.persistent_id,
+                            w.hand_owner,
+                            w.hand_tracking,
+                            w.player_origin,
+                            w.head_tracking,
+                            w.body,
+                            w.body_pose,
+                            f.graph().joint_groups,
+                            w.authored_grips,
+                            w.hand_pull,
+                            w.reference_velocity,
+                            w.hand_sight,
+                            w.grab,
+                            w.authored_hold,
+                            w.head_ignores,
+                            {&w.grab_rule, &w.grab_layers, &w.filter},
+                            &w.grab_order,
+                            f.start_s()},
                            f.tuning, f.stats);
 }
 
@@ -128,9 +140,22 @@ void locomote_players(const FrameContext& f) {
 void pull_bodies(const FrameContext& f) {
     const StageTimer timer(Stage::locomote_players, f.stats);
     World& w = f.w;
-    handhold::pull_bodies({f.dt_s(), f.collision(), w.persistent_id, w.hand_owner, w.hand_tracking,
-                           w.grab, w.hand_sight, w.player, w.player_origin, w.body, w.body_pose,
-                           f.graph().joint_groups, w.hand_pull, w.body_velocity, w.player_velocity},
+    handhold::pull_bodies({f.dt_s(),
+                           f.collision(),
+                           w.persistent_id,
+                           w.hand_owner,
+                           w.hand_tracking,
+                           w.grab,
+                           w.hand_sight,
+                           w.player,
+                           w.player_origin,
+                           w.body,
+                           w.body_pose,
+                           f.graph().joint_groups,
+                           w.hand_pull,
+                           w.body_velocity,
+                           w.player_velocity,
+                           {&w.grab_rule, &w.grab_layers, &w.filter}},
                           f.tuning, f.stats);
 }
 

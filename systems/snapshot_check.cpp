@@ -224,9 +224,10 @@ class BreachFinder {
                 constexpr double k_off = 1e-3;
                 return std::abs(v.y()) < k_off && std::abs(v.norm() - 1.0) < k_off;
             };
-            check(
-                !memory.known || (is_level_unit(memory.look_ps) && is_level_unit(memory.facing_ps)),
-                "arm_memory", w_.arm_memory.owners()[row], "", "horizontal unit vectors");
+            check(!memory.known ||
+                      (is_level_unit(memory.facing_ps) &&
+                       std::all_of(memory.looks_ps.begin(), memory.looks_ps.end(), is_level_unit)),
+                  "arm_memory", w_.arm_memory.owners()[row], "", "horizontal unit vectors");
         }
         for (std::size_t row = 0; row < w_.spine_memory.size(); ++row) {
             const double since_s = w_.spine_memory.rows()[row].since_tick_s;

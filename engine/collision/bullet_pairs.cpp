@@ -11,6 +11,13 @@ PairCache::Version version_of(const BroadphaseBody& body) { return {body.proxy.i
 // If more bodies than this have changed, one tree query is faster than testing each of them.
 constexpr std::size_t k_max_linear_changes = 128;
 
+// Bodies spawned in one place would be n^2 pairs. Of the free bodies that overlap a free body so
+// deeply that it contains their centres, or they its, only the first few by id are tested. The
+// others follow as these come apart.
+constexpr std::size_t k_max_deep_pairs = 8;
+
+double smallest_half(const Bounds& box) { return 0.5 * (box.high - box.low).minCoeff(); }
+
 }  // namespace
 
 bool CollisionWorld::Impl::is_pair(const BroadphaseBody& a, const BroadphaseBody& b) const {
@@ -22,6 +29,16 @@ bool CollisionWorld::Impl::is_pair(const BroadphaseBody& a, const BroadphaseBody
     }
     const auto [low, high] = std::minmax(a.proxy.id, b.proxy.id);
     return !std::binary_search(ignored.begin(), ignored.end(), IgnoredPair{low, high});
+}
+
+bool CollisionWorld::Impl::is_deep(const BroadphaseBody& a, const BroadphaseBody& b) const {
+    if (!b.proxy.free) {
+        return false;
+    }
+    const double depth_m = std::min(smallest_half(extents[a.proxy.shape.index].box),
+                                    smallest_half(extents[b.proxy.shape.index].box));
+    const Vec3 offset = a.proxy.to_ws.position - b.proxy.to_ws.position;
+    return offset.squaredNorm() < depth_m * depth_m;
 }
 
 // A body that stays inside its isolation box is tested only against bodies that changed since the
@@ -46,9 +63,11 @@ void CollisionWorld::Impl::find_pairs(double margin_m) {
         const std::span<const std::size_t> candidates =
             use_changed_list ? changed_bodies : broadphase.find(reach_ws, broadphase_scratch);
         const std::size_t first = pairs.size();
+        std::size_t deep_pairs = 0;
         for (const std::size_t other : candidates) {
             const BroadphaseBody& b = bodies[other];
-            if (b.stamp > since && overlaps(b.bounds_ws, reach_ws) && is_pair(a, b)) {
+            if (b.stamp > since && overlaps(b.bounds_ws, reach_ws) && is_pair(a, b) &&
+                (!is_deep(a, b) || deep_pairs++ < k_max_deep_pairs)) {
                 pairs.push_back(other);
             }
         }

@@ -38,6 +38,8 @@ struct CollisionWorld::Impl {
 
     void check(std::span<const ColliderProxy> proxies) const;
     bool is_pair(const BroadphaseBody& a, const BroadphaseBody& b) const;
+    // True if one of two free bodies has the other's centre well inside.
+    bool is_deep(const BroadphaseBody& a, const BroadphaseBody& b) const;
     // Fills body_pairs and pairs.
     void find_pairs(double margin_m);
     // Fills changed_bodies.

@@ -120,11 +120,11 @@ const char* meaning_of(Fallback reason) {
         case Fallback::load_stepping_failed:
             return "Hands jumped too far for one solve, and load stepping failed "
                    "too.";
-        case Fallback::friction_wedged:
-            return "Contacts wedged a body in, or would have added energy; their friction "
-                   "was dropped.";
         case Fallback::friction_not_converged:
-            return "Sticking and sliding contacts did not converge; the last iterate was taken.";
+            return "Sticking and sliding contacts did not converge; the result is approximate.";
+        case Fallback::solver_budget:
+            return "Bodies in contact needed more work than a frame allows; the rest went on in "
+                   "the next frame.";
         case Fallback::release_speed_clamped:
             return "A release was faster than allowed; its speed was limited.";
         case Fallback::object_speed_clamped:

@@ -87,7 +87,7 @@ inline Pose unchecked_pose(const hh_pose& pose) {
     return {from_c(pose.position), Quat(q.w, q.x, q.y, q.z)};
 }
 inline Vec3 checked(const hh_vec3& v, double limit, const char* text) {
-    const Vec3 read = from_c(v);
+    Vec3 read = from_c(v);
     for (const double axis : read) {
         require(std::abs(axis) <= limit, HH_ERROR_VALUE, text);  // false for NaN
     }

@@ -46,6 +46,7 @@ const HandNote* note_of(const hh_world& host, Entity hand) {
 hh_reason reason_of(Fallback fallback) {
     switch (fallback) {
         case Fallback::grab_no_surface:
+        case Fallback::grab_out_of_sight:
             return HH_REASON_NO_SURFACE;
         case Fallback::grab_refused_by_rule:
             return HH_REASON_NOT_ALLOWED;
@@ -54,6 +55,8 @@ hh_reason reason_of(Fallback fallback) {
             return HH_REASON_NEEDS_TWO_HANDS;
         case Fallback::grip_stretched:
             return HH_REASON_STRETCHED;
+        case Fallback::grip_out_of_reach:
+            return HH_REASON_TRACKING_LOST;
         case Fallback::grip_body_gone:
             return HH_REASON_BODY_GONE;
         case Fallback::grip_ended_by_host:
@@ -104,6 +107,7 @@ void add_grip_events(hh_world& host) {
     }
     for (const HandNote& note : host.stats.hand_notes) {
         const bool is_refusal = note.reason == Fallback::grab_no_surface ||
+                                note.reason == Fallback::grab_out_of_sight ||
                                 note.reason == Fallback::grab_refused_by_rule ||
                                 note.reason == Fallback::grab_needs_two_hands;
         if (is_refusal && host.world.grab.at(note.hand).kind == GripKind::none) {

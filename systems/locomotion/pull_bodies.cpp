@@ -55,6 +55,10 @@ std::optional<Fallback> refusal_reason(const PullBodiesIo& io, Entity hand, Enti
     if (body.mass_kg > tuning.max_mass_kg) {
         return Fallback::pull_refused_heavy;
     }
+    const GrabRule* const rule = io.rules.rule_of(pulled);
+    if (!io.rules.allow(io.owner.at(hand), pulled) || (rule != nullptr && rule->two_hands)) {
+        return Fallback::grab_refused_by_rule;
+    }
     if (is_taken(io, hand, pulled)) {
         return Fallback::pull_refused_held;
     }

@@ -9,6 +9,7 @@
 #include "components/tuning.hpp"
 #include "engine/collision/collision_world.hpp"
 #include "engine/ecs/column.hpp"
+#include "systems/locomotion/shared/grab_rules.hpp"
 
 namespace handhold {
 
@@ -28,16 +29,17 @@ struct PullBodiesIo {
     Column<HandPull>& pull;                     // in/out
     Column<BodyVelocity>& body_velocity;        // in/out
     Column<PlayerVelocity>& player_velocity;    // in/out
+    GrabRules rules = {};                       // in
 };
 
 // Stage 2b, the distance grab. Off if PullTuning::reach_m is 0, the default. A hand that closes on
 // nothing, with its palm in sight (HandSight), searches along its palm ray for a light free body
-// without joints that no other hand grips or pulls. While the hand stays closed, body and player
-// attract each other like two masses on a rope, with at most PullTuning::force_n: the player loses
-// the momentum that the body gains. The body's nearest surface point comes to the moving palm, more
-// slowly the nearer it is, so that it can be stopped. Only velocities change, before prediction:
-// obstacles act as usual. update_grabs grips the body at the palm. If the hand opens, the body
-// flies on.
+// without joints that no other hand grips or pulls, and that this hand may grip alone (GrabRules).
+// While the hand stays closed, body and player attract each other like two masses on a rope, with
+// at most PullTuning::force_n: the player loses the momentum that the body gains. The body's
+// nearest surface point comes to the moving palm, more slowly the nearer it is, so that it can be
+// stopped. Only velocities change, before prediction: obstacles act as usual. update_grabs grips
+// the body at the palm. If the hand opens, the body flies on.
 void pull_bodies(const PullBodiesIo& io, const Tuning& tuning, StageStats& stats);
 
 }  // namespace handhold

@@ -1,7 +1,6 @@
 #include "systems/locomotion/update_grabs.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -76,10 +75,10 @@ void start_grab(const UpdateGrabsIo& io, Entity hand, const GrabTarget& target, 
     }
 }
 
-// For a body that only both hands grip: true if the player's other hand holds it, or is closed on
-// it and grips it from now on.
-bool other_hand_joins(const UpdateGrabsIo& io, std::size_t row, Entity body, const Tuning& tuning,
-                      StageStats& stats) {
+// For a body that only both hands grip, the hand of `row` at `mine`: true if the player's other
+// hand holds it, or is closed on it and grips it from now on.
+bool other_hand_joins(const UpdateGrabsIo& io, std::size_t row, const GrabTarget& mine,
+                      const Tuning& tuning, StageStats& stats) {
     const std::size_t other = find_other_hand(io.owner, io.grab, row);
     if (other >= io.grab.size()) {
         return false;
@@ -88,14 +87,17 @@ bool other_hand_joins(const UpdateGrabsIo& io, std::size_t row, Entity body, con
     const HandTracking& hand = io.hand.at(entity);
     Grab& grab = io.grab.rows()[other];
     if (grab.kind != GripKind::none || !hand.pressed || hand.state != TrackingState::tracked) {
-        return grab.body == body && grab.phase != GrabPhase::releasing;
+        return grab.body == mine.body && grab.phase != GrabPhase::releasing;
     }
     const bool closes_now = hand.edge == GrabEdge::onset;
     const Pose hand_ws = io.origin.at(io.owner.at(entity).player).pose_ws *
                          (closes_now ? hand.edge_ps : hand.start_ps);
-    const auto target = find_grab_target(io, entity, hand_ws, k_no_entity, tuning, stats).target;
-    if (!target || target->body != body) {
+    auto target = find_grab_target(io, entity, hand_ws, k_no_entity, tuning, stats).target;
+    if (!target || target->body != mine.body) {
         return false;
+    }
+    if (target->hold && mine.hold && target->hold->grip == mine.hold->grip) {
+        target->hold.reset();  // a hand has an authored grip for itself
     }
     const double since_s = closes_now ? hand.edge_t_s : io.hand.at(io.grab.owners()[row]).edge_t_s;
     start_grab(io, entity, *target, since_s, grab, tuning, stats);
@@ -104,7 +106,7 @@ bool other_hand_joins(const UpdateGrabsIo& io, std::size_t row, Entity body, con
 
 // True if a closing hand already grips a body for two hands, because other_hand_joins came first.
 bool has_joined(const UpdateGrabsIo& io, const Grab& grab, const HandTracking& hand) {
-    const GrabRule* const rule = io.rule != nullptr ? io.rule->find(grab.body) : nullptr;
+    const GrabRule* const rule = io.rules.rule_of(grab.body);
     return rule != nullptr && rule->two_hands && grab.kind != GripKind::none &&
            grab.phase == GrabPhase::fresh && grab.since_s == hand.edge_t_s;
 }
@@ -127,9 +129,8 @@ void begin_grab(const UpdateGrabsIo& io, std::size_t row, const Closing& closing
         stats.note(found.refusal, entity, found.refused_by);
         return;
     }
-    const GrabRule* const rule = io.rule != nullptr ? io.rule->find(target->body) : nullptr;
-    if (rule != nullptr && rule->two_hands &&
-        !other_hand_joins(io, row, target->body, tuning, stats)) {
+    const GrabRule* const rule = io.rules.rule_of(target->body);
+    if (rule != nullptr && rule->two_hands && !other_hand_joins(io, row, *target, tuning, stats)) {
         stats.note(Fallback::grab_needs_two_hands, entity, target->body);
         return;
     }
@@ -264,12 +265,9 @@ void update_authored_hold(const UpdateGrabsIo& io, Entity entity, const Grab& gr
 
 // One of both hands left a body that needs them, or leaves it now.
 void release_half_held_bodies(const UpdateGrabsIo& io, StageStats& stats) {
-    if (io.rule == nullptr) {
-        return;
-    }
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const Grab& grab = io.grab.rows()[row];
-        const GrabRule* const rule = io.rule->find(grab.body);
+        const GrabRule* const rule = io.rules.rule_of(grab.body);
         if (grab.kind == GripKind::none || grab.phase == GrabPhase::releasing || rule == nullptr ||
             !rule->two_hands) {
             continue;
@@ -289,6 +287,9 @@ void carry_out_orders(const UpdateGrabsIo& io, const Tuning& tuning, StageStats&
         const Entity body = io.order->rows().front().body;
         io.order->remove(hand);
         const std::size_t row = io.grab.find_row(hand);
+        if (row >= io.grab.size()) {
+            continue;  // no hand
+        }
         const bool has_body = io.body.contains(body) ||
                               (io.origin.contains(body) && body != io.owner.at(hand).player &&
                                io.head.at(body).state != TrackingState::never);
@@ -296,8 +297,9 @@ void carry_out_orders(const UpdateGrabsIo& io, const Tuning& tuning, StageStats&
             release_grab(io, row, Fallback::grip_ended_by_host, stats);
             io.authored_hold.remove(hand);
         }
-        if (!has_body || io.hand.at(hand).state == TrackingState::never) {
-            continue;
+        if (!has_body || io.hand.at(hand).state == TrackingState::never ||
+            io.hand.at(hand).edge == GrabEdge::release) {
+            continue;  // a hand that opens in this frame would let go at once
         }
         const HandOwner& owner = io.owner.at(hand);
         const Pose hand_ws = io.origin.at(owner.player).pose_ws * io.hand.at(hand).start_ps;
@@ -326,9 +328,11 @@ void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& sta
         }
         update_authored_hold(io, entity, grab, stats);
         const HandPull* const pull = io.pull.find(entity);
-        if (hand.edge == GrabEdge::onset && !has_joined(io, grab, hand)) {
+        if (hand.edge == GrabEdge::onset) {
             ++stats.grab_onsets;
-            begin_grab(io, row, {hand.edge_ps, hand.edge_t_s, k_no_entity}, tuning, stats);
+            if (!has_joined(io, grab, hand)) {
+                begin_grab(io, row, {hand.edge_ps, hand.edge_t_s, k_no_entity}, tuning, stats);
+            }
         } else if (pull != nullptr && hand.edge == GrabEdge::none && hand.pressed &&
                    hand.state == TrackingState::tracked && !hand.resumed &&
                    grab.kind == GripKind::none) {

@@ -12,7 +12,8 @@ using UpdateGrabsIo = GrabSearch;  // systems/locomotion/shared/grab_search.hpp
 //  - an authored grip whose snap zone it is in (talk row 10): the one of the highest priority, of
 //    equal ones the one that moves the palm least. Grips that another hand occupies, or that an
 //    obstacle blocks, do not count;
-//  - the first surface on the palm ray (talk rows 2, 3);
+//  - the first surface on the palm ray (talk rows 2, 3), or one in reach of a higher
+//    GrabRule::priority;
 //  - the nearest surface within HandTuning::reach_m of the palm, from any angle. Other players'
 //    heads count as surfaces.
 // The hand must get there without crossing a wall: palm or surface must be visible from where the
@@ -26,7 +27,7 @@ using UpdateGrabsIo = GrabSearch;  // systems/locomotion/shared/grab_search.hpp
 //
 // Bodies that refuse the hand by their GrabRule or its player's GrabLayers are passed over. A body
 // for two hands is gripped when the second of them closes on it. A host's orders (GrabOrder) come
-// before hands that close, and ask no rule.
+// before hands that close, and ask no rule; but one hand alone never holds a body for two hands.
 void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats);
 
 }  // namespace handhold

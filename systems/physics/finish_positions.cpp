@@ -11,6 +11,9 @@ namespace {
 
 // --- Restoring penetrating bodies ----------------------------------------------------------------
 
+// With more constraint blocks in heaps, the searches of a restore cost more than a frame can
+// afford.
+constexpr std::size_t k_max_restore_blocks = 4000;
 // About the length of an arm's jump. A body that was dragged farther while penetrating stays.
 constexpr double k_max_restore_distance_m = 2.0;
 constexpr double k_max_error_ratio = 0.5;  // of the error before the restore
@@ -191,6 +194,15 @@ bool undo_failed_restores(FrameGraph& frame, StageStats& stats) {
 void restore_penetrating_bodies(const FinishPositionsIo& io, const ContactTuning& tuning,
                                 StageStats& stats) {
     FrameGraph& frame = io.frame;
+    if (heap_block_count(frame.graph) > k_max_restore_blocks) {
+        frame.penetrating_bodies.clear();
+        frame.hidden_overlaps.of_body.resize(frame.graph.bodies.size());
+        for (std::uint32_t i = 0; i < frame.graph.bodies.size(); ++i) {
+            frame.hidden_overlaps.of_body[i] = {0.0, i};
+        }
+        stats.count(Fallback::solver_budget);
+        return;
+    }
     find_missed_overlaps(
         {io.collision, frame.proxies, frame.contacts, frame.graph, frame.fresh_contacts},
         {tuning.margin_m, tuning.sweep_m}, frame.hidden_overlaps);

@@ -18,7 +18,8 @@
 // (find_missed_overlaps), count too; such a pose does not become the last valid one. A body
 // restored next to a fixed or kinematic body moves with it and enters the velocity solve at its
 // velocity. The bodies of one island are restored together or not at all. Fallbacks counted:
-// restored_last_valid_pose (per island), contacts_unresolved.
+// restored_last_valid_pose (per island), contacts_unresolved, solver_budget (heaps so large
+// that nothing is restored).
 namespace handhold {
 
 struct FinishPositionsIo {

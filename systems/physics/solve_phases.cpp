@@ -13,13 +13,20 @@ namespace {
 // rounding and the residual of a solved phase.
 constexpr double k_violated_m = 2e-7;
 constexpr double k_touching_m = 1e-5;  // closer contacts may support a body
+// Overlap within a heap from which the hands that press it give way.
+constexpr double k_heap_violated_m = 1e-3;
+// Constraint blocks of heaps that the searches of a frame may find. Beyond, no phase of the frame
+// searches again, because a search visits the whole world.
+constexpr std::uint64_t k_max_heap_visits = 12'000;
+constexpr int k_max_heap_rounds = 2;  // of a phase; what appears later waits for the next frame
 
-enum class Phase : std::uint8_t { reach, forward, backward, contradiction };
+enum class Phase : std::uint8_t { reach, forward, relax, backward, contradiction };
 
 struct Solve {
     const SolvePhasesIo& io;
     const Tuning& tuning;
     StageStats& stats;
+    std::uint64_t& heap_visits;
 
     double violated_m() const { return std::max(k_violated_m, 2.0 * tuning.solver.tolerance_m); }
     ConstraintGraph& graph() const { return io.frame.graph; }
@@ -74,19 +81,28 @@ bool may_push(const Solve& s, const Island& island) {
            });
 }
 
+// From now on players of this island take part in its push with their own mass, velocities
+// included.
+void mark_pushed(const Solve& s, const Island& island) {
+    for (const std::uint32_t i : s.graph().bodies_of(island)) {
+        s.phase_of(i).pushed = true;
+    }
+}
+
 // --- Masses of a phase ---------------------------------------------------------------------------
 
 // Factor on a body's inverse mass in a phase, in [0, 1].
 double share_of(const Solve& s, const Island& island, std::uint32_t index, Phase phase) {
     const SolverBody& body = s.graph().bodies[index];
     const FrameGraph::PhaseBody& info = s.phase_of(index);
+    const bool is_held_still = phase == Phase::backward && body.in_heap;
     switch (body.role) {
         case BodyRole::fixed:
             return 0.0;
         case BodyRole::free:
-            return 1.0;
+            return is_held_still ? 0.0 : 1.0;
         case BodyRole::heavy:
-            return phase == Phase::forward ? 0.0 : 1.0;
+            return phase == Phase::forward || phase == Phase::relax || is_held_still ? 0.0 : 1.0;
         case BodyRole::translating:
             break;
     }
@@ -95,17 +111,19 @@ double share_of(const Solve& s, const Island& island, std::uint32_t index, Phase
             return info.grips_surface ? 1.0 : info.forward_share;
         case Phase::forward:
             return info.grips_surface ? 0.0 : info.forward_share;
+        case Phase::relax:
+            return 0.0;
         case Phase::backward:
             return 1.0;
         case Phase::contradiction:
             break;
     }
-    // Without grips only their own collider moves a player.
+    // Without grips only their own collider moves a player, and only if the island may push them.
     const bool touches = std::ranges::any_of(s.graph().blocks_of(island), [&](std::uint32_t i) {
         const RowBlock& block = s.graph().blocks[i];
         return is_contact(block) && (block.a == index || block.b == index);
     });
-    return touches ? 1.0 : 0.0;
+    return touches && info.pushed ? 1.0 : 0.0;
 }
 
 void set_masses(const Solve& s, const Island& island, Phase phase) {
@@ -145,6 +163,7 @@ BlockFilter filter_of(Phase phase) {
     switch (phase) {
         case Phase::reach:
             return BlockFilter::without_contacts;
+        case Phase::relax:
         case Phase::contradiction:
             return BlockFilter::without_drives;
         default:
@@ -158,7 +177,22 @@ std::optional<IslandErrors> errors_after(const IslandView& island, const NewtonR
     if (!result.converged || !std::ranges::all_of(island.island_blocks, counts)) {
         return std::nullopt;
     }
-    return IslandErrors{result.residual_m, result.residual_m, result.residual_m, result.joints};
+    return IslandErrors{result.residual_m, result.residual_m, result.residual_m, 0.0,
+                        result.joints};
+}
+
+// What the island may still spend in this frame. Islands change between the phases: the body that
+// has spent most counts.
+std::uint64_t work_left(const Solve& s, const Island& island) {
+    std::uint64_t spent = 0;
+    for (const std::uint32_t i : s.graph().bodies_of(island)) {
+        spent = std::max(spent, s.phase_of(i).work);
+    }
+    const WorkBudget budget;
+    const std::uint64_t total =
+        budget.positions +
+        budget.per_block * std::min(s.graph().blocks_of(island).size(), budget.max_blocks);
+    return total - std::min(spent, total);
 }
 
 // Solves the islands for which `wanted` is true, largest first, on all threads. Islands share no
@@ -182,13 +216,22 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
     auto solve_one = [&](std::size_t i) {
         HH_DETAIL_ZONE("island");
         const Island& island = graph.islands[frame.island_order[i]];
+        NewtonSettings of_island = settings;
+        of_island.max_work = work_left(s, island);
         set_masses(s, island, phase);
-        const IslandView view{
-            filter_of(phase),        graph.bodies,  graph.blocks, graph.bodies_of(island),
-            graph.blocks_of(island), graph.revision};
+        const IslandView view{filter_of(phase),
+                              graph.bodies,
+                              graph.blocks,
+                              graph.bodies_of(island),
+                              graph.blocks_of(island),
+                              graph.revision,
+                              island.is_heap && phase != Phase::backward};
         const std::uint32_t index = frame.island_order[i];
         frame.island_results[i] =
-            frame.position_solver(view, settings, frame.island_scratch[index]);
+            frame.position_solver(view, of_island, frame.island_scratch[index]);
+        for (const std::uint32_t body : graph.bodies_of(island)) {
+            s.phase_of(body).work += frame.island_results[i].work;
+        }
         frame.island_errors[index] = errors_after(view, frame.island_results[i]);
     };
     parallel_for(frame.island_order.size(), solve_one);
@@ -196,6 +239,9 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
         s.stats.newton_iterations += static_cast<std::uint64_t>(result.iterations);
         if (result.active_set_unconverged) {
             s.stats.count(Fallback::active_set_not_converged);
+        }
+        if (result.out_of_work) {
+            s.stats.count(Fallback::solver_budget);
         }
         if (result.load_stepping != LoadStepping::none) {
             s.stats.count(result.load_stepping == LoadStepping::converged
@@ -209,11 +255,16 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
 // Sweeps colliders to the solved poses. True if contacts found there overlap.
 bool refresh_contacts(const Solve& s, OldPoints old_points) {
     FrameGraph& frame = s.io.frame;
+    if (s.heap_visits > k_max_heap_visits) {
+        s.stats.count(Fallback::solver_budget);
+        return false;
+    }
     const FoundContacts found = refresh_contacts(
         {s.io.collision, frame.proxies, frame.contacts, frame.graph, frame.fresh_contacts},
         {s.tuning.contact.margin_m, s.tuning.contact.sweep_m}, old_points);
     if (found != FoundContacts::unchanged) {
         ++s.stats.contact_rounds;
+        s.heap_visits += heap_block_count(frame.graph);
         clear_errors(s);
     }
     return found == FoundContacts::overlapping;
@@ -223,7 +274,10 @@ bool refresh_contacts(const Solve& s, OldPoints old_points) {
 template <typename Wanted>
 void solve_rounds(const Solve& s, Phase phase, Wanted&& wanted) {
     for (int round = 0; round < s.tuning.contact.max_rounds; ++round) {
-        if (solve_islands(s, phase, wanted) == 0 ||
+        const auto wanted_now = [&](const Island& island) {
+            return (round < k_max_heap_rounds || !island.is_heap) && wanted(island);
+        };
+        if (solve_islands(s, phase, wanted_now) == 0 ||
             !refresh_contacts(s, round == 0 ? OldPoints::replaced : OldPoints::kept)) {
             return;
         }
@@ -243,11 +297,32 @@ void reach(const Solve& s) {
     refresh_contacts(s, OldPoints::replaced);
 }
 
+// True if forward has left a heap deeply violated: relax is next.
+bool is_stuck(const Solve& s, const Island& island) {
+    return errors_of(s, island).heap_m > k_heap_violated_m &&
+           std::ranges::any_of(s.graph().bodies_of(island),
+                               [&](std::uint32_t i) { return s.phase_of(i).work > 0; });
+}
+
 void forward(const Solve& s) {
     HH_DETAIL_ZONE("forward");
     solve_rounds(s, Phase::forward, [&](const Island& island) {
+        const IslandErrors& errors = errors_of(s, island);
+        if (is_stuck(s, island)) {
+            return false;
+        }
         return has_role(s, island, BodyRole::free) &&
-               errors_of(s, island).without_drives_m() > s.tuning.solver.tolerance_m;
+               (errors.without_drives_m() > s.tuning.solver.tolerance_m ||
+                errors.heap_m > k_heap_slack_m);
+    });
+}
+
+// Heaps that forward could not solve with the hands where they are: lets the held bodies give way,
+// so that backward finds the heap free of overlap.
+void relax(const Solve& s) {
+    HH_DETAIL_ZONE("relax");
+    solve_rounds(s, Phase::relax, [&](const Island& island) {
+        return errors_of(s, island).heap_m > k_heap_violated_m;
     });
 }
 
@@ -265,9 +340,11 @@ bool prepare_backward(const Solve& s) {
         }
         any = true;
         ++s.stats.islands_pushed;
+        mark_pushed(s, island);
         for (const std::uint32_t i : s.graph().bodies_of(island)) {
             SolverBody& body = s.graph().bodies[i];
-            s.phase_of(i).pushed = true;
+            // A budget of its own: a heap that spent forward's must not cost the player exactness.
+            s.phase_of(i).work = 0;
             if (body.role == BodyRole::translating || s.phase_of(i).held) {
                 body.pose_ws = s.phase_of(i).reached_ws;
             }
@@ -301,15 +378,16 @@ void backward(const Solve& s) {
 void contradiction(const Solve& s) {
     HH_DETAIL_ZONE("contradiction");
     const auto wanted = [&](const Island& island) {
-        return errors_of(s, island).without_drives_m() > s.violated_m();
+        const IslandErrors& errors = errors_of(s, island);
+        return errors.without_drives_m() > s.violated_m() || errors.heap_m > k_heap_violated_m;
     };
     for (const Island& island : s.graph().islands) {
         if (!wanted(island)) {
             continue;
         }
         s.stats.count(Fallback::contacts_contradict);
-        for (const std::uint32_t i : s.graph().bodies_of(island)) {
-            s.phase_of(i).pushed = true;
+        if (may_push(s, island)) {
+            mark_pushed(s, island);
         }
     }
     solve_rounds(s, Phase::contradiction, wanted);
@@ -318,10 +396,12 @@ void contradiction(const Solve& s) {
 }  // namespace
 
 void solve_phases(const SolvePhasesIo& io, const Tuning& tuning, StageStats& stats) {
-    const Solve s{io, tuning, stats};
+    std::uint64_t heap_visits = heap_block_count(io.frame.graph);
+    const Solve s{io, tuning, stats, heap_visits};
     clear_errors(s);
     reach(s);
     forward(s);
+    relax(s);
     backward(s);
     contradiction(s);
     stats.islands += s.graph().islands.size();

@@ -114,20 +114,20 @@ void solve_islands(FrameGraph& frame, const Tuning& tuning, StageStats& stats) {
         const Island& island = graph.islands[i];
         set_masses(frame, island, tuning.phases);
         const IslandView view{
-            BlockFilter::all,        graph.bodies,  graph.blocks, graph.bodies_of(island),
-            graph.blocks_of(island), graph.revision};
-        frame.velocity_results[i] = solve_velocities(view, settings, frame.island_scratch[i]);
+            BlockFilter::all,        graph.bodies,   graph.blocks,  graph.bodies_of(island),
+            graph.blocks_of(island), graph.revision, island.is_heap};
+        VelocitySettings of_island = settings;
+        of_island.max_work += WorkBudget{}.per_block *
+                              std::min(graph.blocks_of(island).size(), WorkBudget{}.max_blocks);
+        frame.velocity_results[i] = solve_velocities(view, of_island, frame.island_scratch[i]);
     };
     parallel_for(graph.islands.size(), solve_one);
     for (const VelocityResult& result : frame.velocity_results) {
-        if (result.active_set_unconverged) {
-            stats.count(Fallback::active_set_not_converged);
-        }
-        if (result.wedged) {
-            stats.count(Fallback::friction_wedged);
-        }
-        if (result.friction_unconverged) {
+        if (result.unconverged) {
             stats.count(Fallback::friction_not_converged);
+        }
+        if (result.out_of_work) {
+            stats.count(Fallback::solver_budget);
         }
     }
 }

@@ -14,8 +14,7 @@
 //
 // One solve over the frame's rows: hands move at their tracked velocities, contacts do not
 // approach. The displacement that depenetration needed never becomes velocity. Fallbacks counted:
-// active_set_not_converged, friction_wedged, friction_not_converged, release_speed_clamped,
-// object_speed_clamped.
+// friction_not_converged, solver_budget, release_speed_clamped, object_speed_clamped.
 namespace handhold {
 
 struct UpdateVelocitiesIo {

@@ -81,6 +81,7 @@ TEST(Fields, EveryMemberOfEveryComponentIsVisitedOnce) {
     expect_all_fields_visited<AuthoredHand>("AuthoredHand");
     expect_all_fields_visited<AuthoredGrip>("AuthoredGrip");
     expect_all_fields_visited<HandHistory::Entry>("HandHistory::Entry");
+    expect_all_fields_visited<ChestOffset>("ChestOffset");
     expect_all_fields_visited<ArmMemory::Arm>("ArmMemory::Arm");
     expect_all_fields_visited<ArmEstimate::Arm>("ArmEstimate::Arm");
     expect_all_fields_visited<ArmPose::Arm>("ArmPose::Arm");

@@ -128,6 +128,19 @@ TEST_F(LabScenes, WallsPushBackInTheSameFrame) {
     }
 }
 
+// Figures of larger heaps: docs/reference/lab.md.
+TEST_F(LabScenes, HeapsOverlapByLessThanAMillimetreAndKeepTheHandExact) {
+    for (const int crates : {8, 27}) {
+        SolveOptions run_options = options("heap", 120);
+        run_options.links = crates;
+        const Json json = solve(run_options);
+        SCOPED_TRACE(crates);
+        EXPECT_LE(claim(json, "overlap_mm"), 1.0);
+        EXPECT_LE(worst(json, "penetration_mm"), 1.0);
+        EXPECT_LE(worst(json, "grab_error_mm"), 1e-3);
+    }
+}
+
 TEST_F(LabScenes, OpposingHandsShareTheErrorEqually) {
     EXPECT_LE(claim(solve("contradict"), "share_error_mm"), 1e-3);
     EXPECT_LE(claim(solve("two_players"), "push_back_error_mm"), 1e-3);

@@ -38,6 +38,7 @@ constexpr std::array k_scenes = {
     NamedScene{"bounce", &make_bounce},
     NamedScene{"slide", &make_slide},
     NamedScene{"hub", &make_hub},
+    NamedScene{"heap", &make_heap},
 };
 
 Pose body_pose(const LabScene& scene, int body) {

@@ -27,7 +27,9 @@ void add_solve_options(CLI::App& solve, lab::SolveOptions& options) {
     solve.add_option("--scene", options.scene, "Scene to solve")
         ->required()
         ->check(CLI::IsMember(strings(lab::scene_names())));
-    solve.add_option("--links", options.links, "Links of chains and rings, arms of the hub")
+    solve
+        .add_option("--links", options.links,
+                    "Links of chains and rings, arms of the hub, crates of the heap")
         ->check(CLI::Range(2, 4096));
     solve.add_option("--masses", options.masses, "Masses of the links")
         ->check(CLI::IsMember(strings(lab::mass_patterns())));

@@ -23,6 +23,7 @@ LabScene make_shove(const SceneOptions& options);
 LabScene make_shove_mesh(const SceneOptions& options);
 LabScene make_step(const SceneOptions& options);
 LabScene make_lean_in(const SceneOptions& options);
+LabScene make_heap(const SceneOptions& options);
 LabScene make_jam(const SceneOptions& options);
 LabScene make_bounce(const SceneOptions& options);
 LabScene make_slide(const SceneOptions& options);

@@ -6,6 +6,8 @@
 namespace handhold {
 namespace {
 
+// Proxies of a heap follow their bodies only roughly (moving_contacts.cpp), two of them twice.
+constexpr double k_heap_lag_m = 3e-3;
 // assumed distance of the collider's surface from its centre; conservative
 constexpr double k_max_arm_m = 1.0;
 
@@ -39,12 +41,13 @@ bool prepare_static_query(const MovingContacts& moving, double sweep_m, MissedOv
         }
     };
     for (std::uint32_t i = 0; i < moving.proxies.size(); ++i) {
-        if (moving.proxies[i].shape != k_no_shape && may_be_swept(moving.proxies[i], sweep_m)) {
+        if (moving.proxies[i].shape != k_no_shape && !moving.graph.bodies[i].in_heap &&
+            may_be_swept(moving.proxies[i], sweep_m)) {
             mark(i);
         }
     }
     for (const RowBlock& block : moving.graph.blocks) {
-        if (is_contact(block) &&
+        if (is_contact(block) && !is_heap_contact(moving.graph.bodies, block) &&
             may_be_swept(moving.proxies[block.a], moving.proxies[block.b], sweep_m)) {
             mark(block.a);
             mark(block.b);
@@ -72,9 +75,10 @@ void find_missed_overlaps(const MovingContacts& moving, const ContactLimits& lim
         }
     };
     for (const ContactPoint& contact : moving.scratch) {
-        if (-contact.separation_m > k_new_overlap_m) {
-            const std::size_t a = find_body(moving.graph, contact.id_a);
-            const std::size_t b = find_body(moving.graph, contact.id_b);
+        const std::size_t a = find_body(moving.graph, contact.id_a);
+        const std::size_t b = find_body(moving.graph, contact.id_b);
+        const bool is_heap = moving.graph.bodies[a].in_heap || moving.graph.bodies[b].in_heap;
+        if (-contact.separation_m > (is_heap ? k_heap_lag_m : k_new_overlap_m)) {
             record(a, b, -contact.separation_m);
             record(b, a, -contact.separation_m);
         }

@@ -14,6 +14,8 @@ namespace handhold {
 namespace {
 
 constexpr double k_moved_m = 1e-5;  // colliders that moved less keep their contacts
+// The same in a heap, whose pairs were all found within the margin before the solve.
+constexpr double k_heap_moved_m = 1e-3;
 constexpr double k_max_slide_m =
     5e-3;  // A contact point whose bodies slid farther than this is dropped.
 constexpr double k_same_point_m = 1e-3;
@@ -21,14 +23,14 @@ constexpr double k_same_normal = 0.99;
 constexpr double k_touch_m = VelocitySettings{}.touch_m;
 
 // True if a collider moved farther than its contacts stay valid.
-bool exceeds_contact_motion(const Pose& from, const Pose& to) {
+bool exceeds_contact_motion(const Pose& from, const Pose& to, double limit_m) {
     const double square = (to.position - from.position).squaredNorm();
-    if (square > k_moved_m * k_moved_m) {
+    if (square > limit_m * limit_m) {
         return true;
     }
     const double translation_m = std::sqrt(square);
     const double rotation_rad = 2.0 * (to.rotation.conjugate() * from.rotation).vec().norm();
-    return translation_m + rotation_rad * 0.5 > k_moved_m;
+    return translation_m + rotation_rad * 0.5 > limit_m;
 }
 
 // Moves the proxies to the solver's bodies; true if any moved farther than its contacts stay valid.
@@ -42,7 +44,8 @@ bool move_proxies(const MovingContacts& moving) {
         }
         ColliderProxy& proxy = moving.proxies[i];
         const Pose now = collider_pose(body);
-        if (exceeds_contact_motion(proxy.to_ws, now)) {
+        const double limit_m = body.in_heap ? k_heap_moved_m : k_moved_m;
+        if (exceeds_contact_motion(proxy.to_ws, now, limit_m)) {
             proxy.to_ws = now;
             moved = true;
         }

@@ -21,6 +21,7 @@ struct IslandView {
     std::span<const std::uint32_t> island_blocks;
     // Revision of the graph. While it is the same, so are islands and blocks. 0: unknown.
     std::uint64_t revision = 0;
+    bool is_heap = false;  // Island::is_heap
 };
 
 // True if the filter includes the block and at least one of its bodies can move.

@@ -89,6 +89,35 @@ void record_topology(ConstraintGraph& graph) {
     }
 }
 
+// Marks the islands that are heaps, and their loose bodies.
+void mark_heaps(ConstraintGraph& graph) {
+    for (Island& island : graph.islands) {
+        const std::span<const std::uint32_t> bodies = graph.bodies_of(island);
+        const std::span<const std::uint32_t> blocks = graph.blocks_of(island);
+        const bool may_be_heap = blocks.size() > k_max_direct_contacts;
+        for (const std::uint32_t i : bodies) {
+            graph.bodies[i].in_heap = may_be_heap && graph.bodies[i].role != BodyRole::translating;
+        }
+        island.is_heap = false;
+        if (!may_be_heap) {
+            continue;
+        }
+        for (const std::uint32_t i : blocks) {
+            if (const RowBlock& block = graph.blocks[i]; !is_contact(block)) {
+                graph.bodies[block.a].in_heap = graph.bodies[block.b].in_heap = false;
+            }
+        }
+        const auto loose_contacts = std::ranges::count_if(blocks, [&](std::uint32_t i) {
+            const RowBlock& block = graph.blocks[i];
+            return graph.bodies[block.a].in_heap || graph.bodies[block.b].in_heap;
+        });
+        island.is_heap = loose_contacts > k_max_direct_contacts;
+        for (const std::uint32_t i : bodies) {
+            graph.bodies[i].in_heap = graph.bodies[i].in_heap && island.is_heap;
+        }
+    }
+}
+
 // Bodies are rewritten every frame, so their slots must be too.
 void assign_slots(ConstraintGraph& graph) {
     for (const Island& island : graph.islands) {
@@ -139,6 +168,7 @@ void build_islands(ConstraintGraph& graph) {
     ++graph.revision;
     if (has_same_topology(graph)) {
         assign_slots(graph);
+        mark_heaps(graph);
         return;
     }
     record_topology(graph);
@@ -165,6 +195,7 @@ void build_islands(ConstraintGraph& graph) {
     }
     place_members(graph);
     assign_slots(graph);
+    mark_heaps(graph);
 }
 
 void sort_largest_first(const ConstraintGraph& graph, std::span<std::uint32_t> islands) {
@@ -175,13 +206,29 @@ void sort_largest_first(const ConstraintGraph& graph, std::span<std::uint32_t> i
     });
 }
 
+std::size_t heap_block_count(const ConstraintGraph& graph) {
+    std::size_t count = 0;
+    for (const Island& island : graph.islands) {
+        count += island.is_heap ? graph.blocks_of(island).size() : 0;
+    }
+    return count;
+}
+
+bool is_heap_contact(std::span<const SolverBody> bodies, const RowBlock& block) {
+    const SolverBody& a = bodies[block.a];
+    const SolverBody& b = bodies[block.b];
+    return is_contact(block) && (a.in_heap || b.in_heap) &&
+           (a.in_heap || a.role == BodyRole::fixed) && (b.in_heap || b.role == BodyRole::fixed);
+}
+
 IslandErrors island_errors(const ConstraintGraph& graph, const Island& island) {
     IslandErrors errors;
     for (const std::uint32_t i : graph.blocks_of(island)) {
         const RowBlock& block = graph.blocks[i];
-        double& worst = is_drive(block)     ? errors.drives_m
-                        : is_contact(block) ? errors.contacts_m
-                                            : errors.joints_m;
+        double& worst = is_drive(block)                        ? errors.drives_m
+                        : !is_contact(block)                   ? errors.joints_m
+                        : is_heap_contact(graph.bodies, block) ? errors.heap_m
+                                                               : errors.contacts_m;
         worst = std::max(worst, block_error_m(graph.bodies, block));
     }
     return errors;

@@ -19,7 +19,15 @@ struct Island {
     std::uint32_t bodies_end = 0;
     std::uint32_t blocks_begin = 0;  // into ConstraintGraph::island_blocks
     std::uint32_t blocks_end = 0;
+    bool is_heap = false;  // has more than k_max_direct_contacts contacts of loose bodies
 };
+
+// A loose body is a movable one that no joint and no drive holds. Islands with more contacts of
+// loose bodies than this are solved by sweeps (sweeps/row_sweeps.hpp): contacts between loose
+// bodies only to k_heap_slack_m, in bounded time. All else stays exact.
+inline constexpr std::uint32_t k_max_direct_contacts = 48;
+// Overlap at which a contact of two bodies of a heap counts as satisfied.
+inline constexpr double k_heap_slack_m = 5e-5;
 
 struct ConstraintGraph {
     std::vector<SolverBody> bodies;  // sorted by id
@@ -67,7 +75,7 @@ std::size_t find_body(const ConstraintGraph& graph, std::uint64_t id);
 void sort_blocks(ConstraintGraph& graph);
 
 // Finds connected components over all bodies that some phase may move (every role but `fixed`).
-// Bodies without a block belong to no island. Also assigns SolverBody::slot.
+// Bodies without a block belong to no island. Also assigns SolverBody::slot and in_heap.
 void build_islands(ConstraintGraph& graph);
 
 // Sorts island indices by block count, largest first, ties by index. Threads that take islands in
@@ -78,12 +86,17 @@ void sort_largest_first(const ConstraintGraph& graph, std::span<std::uint32_t> i
 struct IslandErrors {
     double drives_m = 0.0;
     double joints_m = 0.0;
-    double contacts_m = 0.0;
+    double contacts_m = 0.0;           // except those of heap_m
+    double heap_m = 0.0;               // contacts of which only bodies of a heap move
     std::optional<JointError> joints;  // exact joint errors, if a solve has reported them
 
     double without_drives_m() const { return std::max(joints_m, contacts_m); }
     double worst_m() const { return std::max(drives_m, without_drives_m()); }
 };
+// Blocks of all islands that are heaps.
+std::size_t heap_block_count(const ConstraintGraph& graph);
+// True if all movable bodies of a contact are in a heap.
+bool is_heap_contact(std::span<const SolverBody> bodies, const RowBlock& block);
 IslandErrors island_errors(const ConstraintGraph& graph, const Island& island);
 
 }  // namespace handhold

@@ -40,6 +40,7 @@ struct SolverBody {
     double inverse_mass = 0.0;
     Vec3 inverse_inertia_bs = Vec3::Zero();
     std::uint32_t slot = 0;  // index within its island; written by build_islands
+    bool in_heap = false;    // only contacts hold it, and its island is a heap; by build_islands
 };
 
 // What a block constrains. A block has a frame (point and rotation) in each of its bodies a and b.

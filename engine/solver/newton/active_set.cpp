@@ -80,6 +80,7 @@ void RowSystem::solve_active() {
         chosen_[i] = is_active(i) ? 1 : 0;
     }
     matrix_.factorise(chosen_);
+    work_ += 1 + matrix_.factorisation_cost() / WorkBudget::k_multiply_adds;
     matrix_.solve(values_, lambda_);
     for (std::size_t i = 0; i < size(); ++i) {
         lambda_[i] = fixed_[i] != 0 ? fixed_lambda_[i] : lambda_[i];
@@ -108,7 +109,7 @@ std::span<const double> RowSystem::solve(std::span<const Row> rows) {
 // stops decreasing.
 bool RowSystem::block_pivot(std::span<const Row> rows) {
     std::size_t min_violations = size() + 1;
-    for (int blocks_left = k_max_block_pivots; blocks_left > 0;) {
+    for (int blocks_left = k_max_block_pivots; blocks_left > 0 && !is_out_of_work();) {
         solve_active();
         violating_rows_.clear();
         for (std::uint32_t i = 0; i < size(); ++i) {
@@ -148,7 +149,7 @@ bool RowSystem::descend_active_set(std::span<const Row> rows) {
     }
     bool moves = true;
     bool activated_one = false;
-    for (int step = 0; step < k_max_descent_steps; ++step) {
+    for (int step = 0; step < k_max_descent_steps && !is_out_of_work(); ++step) {
         solve_active();
         const Approach approach = step_towards_solution(rows);
         moves = moves || approach.moves;

@@ -6,10 +6,12 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "engine/solver/model/rows.hpp"
+#include "engine/solver/newton/settings.hpp"
 #include "engine/solver/sparse/row_matrix.hpp"
 
 namespace handhold {
@@ -23,6 +25,14 @@ class RowSystem {
     // body of the island.
     void assemble(std::span<const SolverBody> bodies, std::span<const Mat3> inverse_inertia_ws,
                   std::span<const Row> rows);
+    // Work that later solves may spend until the next call, in the unit of WorkBudget. A solve
+    // takes at least one factorisation; beyond the limit it ends with an unconverged active set.
+    void limit_work(std::uint64_t limit) {
+        work_ = 0;
+        max_work_ = limit;
+    }
+    std::uint64_t work() const { return work_; }
+    bool is_out_of_work() const { return work_ >= max_work_; }
     // Discards the warm start: the next rows are unrelated to the previous ones.
     void reset_active_set() { keys_.clear(); }
 
@@ -78,6 +88,8 @@ class RowSystem {
     std::vector<std::uint32_t> violating_rows_;
     std::vector<double> feasible_lambda_;  // point of the descent: no multiplier pulls
     bool active_set_unconverged_ = false;
+    std::uint64_t work_ = 0;
+    std::uint64_t max_work_ = std::numeric_limits<std::uint64_t>::max();
 };
 
 }  // namespace handhold

@@ -38,31 +38,12 @@ void prepare_inertia(const IslandView& island, SolveScratch& scratch) {
     }
 }
 
-void regularise(std::span<const Row> rows, const Regularisation& regularisation, double factor,
-                RowSystem& system) {
-    HarmonicMean mean;
-    for (std::size_t i = 0; i < system.size();) {
-        const std::size_t width = rows[i].width;
-        double sum = 0.0;
-        for (std::size_t end = i + width; i < end; ++i) {
-            sum += system.diagonal(i);
-        }
-        mean.add(static_cast<double>(width), sum);
-    }
-    const double drive_scale = mean.value();
-    for (std::size_t i = 0; i < system.size(); ++i) {
-        const double scale = rows[i].group == RowGroup::drive ? drive_scale : system.diagonal(i);
-        system.alpha()[i] = factor * relative_regularisation(rows[i], regularisation) * scale;
-    }
-}
-
-double gather_moves(SolveScratch& scratch) {
-    const std::span<const RowSystem::Twist> moves = scratch.system.moves();
+double gather_moves(std::span<const RowMatrix::Twist> moves, SolveScratch& scratch) {
     scratch.moves_m.resize(moves.size());
     scratch.rotations_rad.resize(moves.size());
     double largest = 0.0;
     for (std::size_t slot = 0; slot < moves.size(); ++slot) {
-        const RowSystem::Twist& move = moves[slot];
+        const RowMatrix::Twist& move = moves[slot];
         scratch.moves_m[slot] = Vec3(move[0], move[1], move[2]);
         scratch.rotations_rad[slot] = Vec3(move[3], move[4], move[5]);
         largest = std::max(largest, scratch.rotations_rad[slot].squaredNorm());

@@ -13,6 +13,7 @@
 #include "engine/solver/newton/active_set.hpp"
 #include "engine/solver/newton/load_stepped_drives.hpp"
 #include "engine/solver/packed/triad_system.hpp"
+#include "engine/solver/sweeps/row_sweeps.hpp"
 
 namespace handhold {
 
@@ -37,11 +38,16 @@ struct SolveScratch {
         std::size_t normal = 0;  // row whose multiplier times `coefficient` is the limit
         double coefficient = 0.0;
         bool slides = false;
-        bool is_frictionless = false;  // released because its contacts wedge
     };
     std::vector<Friction> frictions;
     bool has_energy_source = false;  // a drive or motor may add energy
     RowSystem system;
+    RowSweeps sweeps;  // used instead of `system` if the island is a heap
+    std::vector<BoundedRows> bounded;
+    // Velocities with restitution, kept while those without are solved.
+    std::vector<double> bouncing_lambda;
+    std::vector<Vec3> bouncing_moves_m;
+    std::vector<Vec3> bouncing_rotations_rad;
     TriadSystem triads;  // used instead of all the others if the island qualifies
     LoadSteppedDrives load_stepped;
     // By slot: result of the solve with full load, before load stepping.
@@ -62,12 +68,28 @@ inline constexpr double k_retry_regularisation_increase = 100.0;
 inline constexpr double k_max_move_ratio = 10.0;
 
 // Writes the system's alpha: model/regularisation.hpp.
+template <typename System>
 void regularise(std::span<const Row> rows, const Regularisation& regularisation, double factor,
-                RowSystem& system);
+                System& system) {
+    HarmonicMean mean;
+    for (std::size_t i = 0; i < system.size();) {
+        const std::size_t width = rows[i].width;
+        double sum = 0.0;
+        for (std::size_t end = i + width; i < end; ++i) {
+            sum += system.diagonal(i);
+        }
+        mean.add(static_cast<double>(width), sum);
+    }
+    const double drive_scale = mean.value();
+    for (std::size_t i = 0; i < system.size(); ++i) {
+        const double scale = rows[i].group == RowGroup::drive ? drive_scale : system.diagonal(i);
+        system.alpha()[i] = factor * relative_regularisation(rows[i], regularisation) * scale;
+    }
+}
 
-// Copies the moves W J^T lambda of the system's last solve, by slot. Returns the largest rotation
+// Copies the moves W J^T lambda of a solve, by slot. Returns the largest rotation
 // in radians.
-double gather_moves(SolveScratch& scratch);
+double gather_moves(std::span<const RowMatrix::Twist> moves, SolveScratch& scratch);
 // Longest translation of the gathered moves, metres.
 double longest_move(const SolveScratch& scratch);
 

@@ -12,13 +12,13 @@
 #include "engine/math/flush_denormals.hpp"
 #include "engine/solver/model/geometric_stiffness.hpp"
 #include "engine/solver/newton/load_stepping.hpp"
+#include "engine/solver/newton/newton_rows.hpp"
 #include "engine/solver/newton/regularisation_schedule.hpp"
+#include "engine/solver/newton/sweep_steps.hpp"
 
 namespace handhold {
 namespace {
 
-// Contacts and limits are omitted from a step beyond both this and twice the worst error.
-constexpr double k_min_active_distance_m = 1e-3;
 // Longest plausible move of a body by joint rows, relative to the residual: an almost stretched
 // chain. Without it a drive that pulls across an endless rail would move a slider without bound.
 constexpr double k_max_joint_move_ratio = 10.0;
@@ -28,113 +28,17 @@ constexpr double k_unlimited_move_m = 0.1;  // a shorter move is always plausibl
 constexpr double k_drive_tolerance_ratio = 0.1;
 // Bodies that a step moves by less than this share of the tolerance count as at rest.
 constexpr double k_inactive_move_ratio = 1e-3;
+constexpr double k_stall_ratio = 0.7;  // Sweeps give up after a step that leaves more of the error.
 
 // --- Row by row ---------------------------------------------------------------------------------
-
-bool is_unilateral_block(const RowBlock& block) { return is_contact(block) || block.joint.limited; }
-
-bool has_unilateral_block(const IslandView& island) {
-    return std::ranges::any_of(island.island_blocks, [&](std::uint32_t index) {
-        return is_unilateral_block(island.blocks[index]);
-    });
-}
-
-// Separation beyond which contacts and limits are omitted from a step.
-double active_distance_of(const IslandView& island) {
-    if (!has_unilateral_block(island)) {
-        return k_min_active_distance_m;
-    }
-    double worst = 0.0;
-    for (const std::uint32_t index : island.island_blocks) {
-        if (takes_part(island, island.blocks[index])) {
-            worst = std::max(worst, block_error_m(island.bodies, island.blocks[index]));
-        }
-    }
-    return std::max(k_min_active_distance_m, 2.0 * worst);
-}
-
-// Collects the rows that a step may affect. A row that the step violates although it was omitted is
-// within reach in the next one.
-void collect_rows(const IslandView& island, std::vector<Row>& rows) {
-    const double reach_m = active_distance_of(island);
-    rows.clear();
-    for (const std::uint32_t index : island.island_blocks) {
-        const RowBlock& block = island.blocks[index];
-        if (takes_part(island, block) &&
-            (!is_contact(block) || contact_separation_m(island.bodies, block) < reach_m)) {
-            append_rows(island.bodies, block, index, rows, reach_m);
-        }
-    }
-}
-
-double worst_overlap(std::span<const Row> rows) {
-    double worst = 0.0;
-    for (const Row& row : rows) {
-        worst = row.group == RowGroup::contact ? std::max(worst, -row.residual) : worst;
-    }
-    return worst;
-}
-
-// Largest error. The rows of one vector-valued error enter with their norm, so that the result does
-// not depend on the world's orientation.
-double worst_error(std::span<const Row> rows) {
-    double worst = 0.0;
-    for (std::size_t i = 0; i < rows.size(); i += rows[i].width) {
-        if (rows[i].unilateral) {
-            worst = std::max(worst, -rows[i].residual);
-            continue;
-        }
-        double square = 0.0;
-        for (std::size_t j = i; j < i + rows[i].width; ++j) {
-            square += rows[j].residual * rows[j].residual;
-        }
-        worst = std::max(worst, std::sqrt(square));
-    }
-    return worst;
-}
-
-// Largest error of the drives.
-double worst_drive_error(std::span<const Row> rows) {
-    double worst = 0.0;
-    for (std::size_t i = 0; i < rows.size(); i += rows[i].width) {
-        if (rows[i].group == RowGroup::drive) {
-            worst = std::max(worst, worst_error(rows.subspan(i, rows[i].width)));
-        }
-    }
-    return worst;
-}
-
-// Moves the bodies by `scale` times the gathered moves. Returns the longest move, metres; rotations
-// count times k_angle_lever_m.
-double apply_moves(const IslandView& island, double scale, const SolveScratch& scratch) {
-    double longest_move = 0.0;
-    double largest_rotation = 0.0;
-    for (const std::uint32_t index : island.island_bodies) {
-        SolverBody& body = island.bodies[index];
-        if (!(body.inverse_mass > 0.0)) {
-            continue;
-        }
-        const Vec3 move = scale * scratch.moves_m[body.slot];
-        const Vec3 turn = scale * scratch.rotations_rad[body.slot];
-        body.pose_ws.position += move;
-        if (turn.squaredNorm() > 0.0) {
-            // Cayley map: a rotation by 2 atan(|turn| / 2), to second order equal to the
-            // exponential map.
-            const Vec3 half = 0.5 * turn;
-            body.pose_ws.rotation =
-                (Quat(1.0, half.x(), half.y(), half.z()) * body.pose_ws.rotation).normalized();
-        }
-        longest_move = std::max(longest_move, move.squaredNorm());
-        largest_rotation = std::max(largest_rotation, turn.squaredNorm());
-    }
-    return std::max(std::sqrt(longest_move), k_angle_lever_m * std::sqrt(largest_rotation));
-}
 
 // The step of an island solved by RowSystem: any kind of row, with an active set.
 class RowSteps {
   public:
-    RowSteps(const IslandView& island, SolveScratch& scratch) : island_(island), scratch_(scratch) {
+    RowSteps(const IslandView& island, std::uint64_t max_work, SolveScratch& scratch)
+        : island_(island), scratch_(scratch) {
         scratch_.system.reset_active_set();
+        scratch_.system.limit_work(max_work);
         clear_stiffness(island_, scratch_);
     }
 
@@ -158,6 +62,7 @@ class RowSteps {
     double overlap_m() const { return worst_overlap(scratch_.rows); }
     bool has_contact() const { return handhold::has_contact(scratch_.rows); }
     bool is_active_set_unconverged() const { return scratch_.system.is_active_set_unconverged(); }
+    std::uint64_t work() const { return scratch_.system.work(); }
 
     // True if the last factor fits the current rows.
     bool keeps_factor() const { return has_only_point_rows_ || has_same_rows(); }
@@ -188,6 +93,7 @@ class RowSteps {
     static void restrict_to_active(double /*still_m*/) {}
     static void activate_all_rows() {}
     static bool has_cheap_factor() { return false; }
+    static bool gives_up() { return false; }
     static std::optional<JointError> worst_joints() { return std::nullopt; }
 
   private:
@@ -221,7 +127,7 @@ class RowSteps {
         }
     }
     void take(std::span<const double> lambda) {
-        largest_rotation_ = gather_moves(scratch_);
+        largest_rotation_ = gather_moves(scratch_.system.moves(), scratch_);
         scratch_.lambda.assign(lambda.begin(), lambda.end());
     }
 
@@ -272,6 +178,7 @@ class TriadSteps {
     static double overlap_m() { return 0.0; }
     static bool has_contact() { return false; }
     static bool is_active_set_unconverged() { return false; }
+    static std::uint64_t work() { return 0; }
     static bool keeps_factor() { return true; }
     void stiffen(bool stiff) {
         if (stiff) {
@@ -291,6 +198,7 @@ class TriadSteps {
     void restrict_to_active(double min_move_m) { system_.restrict_to_active(min_move_m); }
     void activate_all_rows() { system_.activate_all_rows(); }
     static bool has_cheap_factor() { return true; }
+    static bool gives_up() { return false; }
     std::optional<JointError> worst_joints() const { return system_.worst_joints(); }
 
   private:
@@ -370,14 +278,18 @@ NewtonResult iterate(const NewtonSettings& settings, Steps&& steps) {
         steps.evaluate(step.whole);
         result.residual_m = steps.worst_m();
         result.converged = result.residual_m < settings.tolerance_m;
+        const bool is_stalled = steps.gives_up() && result.iterations > 0 &&
+                                result.residual_m > k_stall_ratio * smallest;
         if (result.iterations == 0) {
             result.initial_drive_error_m = steps.worst_drive_m();
         }
         refines_drives = result.converged && !refines_drives && step.whole &&
                          steps.keeps_factor() && result.iterations + 1 < settings.max_iterations &&
                          steps.worst_drive_m() > k_drive_tolerance_ratio * settings.tolerance_m;
+        result.work = steps.work();
+        result.out_of_work = !result.converged && result.work >= settings.max_work;
         if ((result.converged && !refines_drives) || result.iterations == settings.max_iterations ||
-            step.length_m < settings.step_tolerance_m) {
+            step.length_m < settings.step_tolerance_m || result.out_of_work || is_stalled) {
             result.joints = steps.worst_joints();
             return result;
         }
@@ -431,13 +343,24 @@ NewtonResult solve_triads(const IslandView& island, const NewtonSettings& settin
                : full_load;
 }
 
+NewtonResult solve_heap(const IslandView& island, const NewtonSettings& settings,
+                        SolveScratch& scratch) {
+    NewtonSettings of_heap = settings;
+    of_heap.max_iterations = std::min(settings.max_iterations, settings.sweeps.max_iterations);
+    return iterate(of_heap, SweepSteps(island, settings, scratch));
+}
+
 }  // namespace
 
 NewtonResult solve_positions(const IslandView& island, const NewtonSettings& settings,
                              SolveScratch& scratch) {
     const FlushDenormals flush;
-    return scratch.triads.load(island) ? solve_triads(island, settings, scratch)
-                                       : iterate(settings, RowSteps(island, scratch));
+    if (island.is_heap) {
+        return solve_heap(island, settings, scratch);
+    }
+    return scratch.triads.load(island)
+               ? solve_triads(island, settings, scratch)
+               : iterate(settings, RowSteps(island, settings.max_work, scratch));
 }
 
 }  // namespace handhold

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <cstdint>
+
 #include "engine/solver/model/regularisation.hpp"
 
 namespace handhold {
@@ -26,6 +28,26 @@ struct StepControl {
     double min_step_scale = 0.3;  // a step scaled below this is repeated with more regularisation
 };
 
+// Work that the solves of one island may spend in a frame. Counted, never timed, so that the same
+// frame ends at the same point everywhere. The unit is one visit of a row by a sweep, or
+// k_multiply_adds of a factorisation: about 30 ns.
+struct WorkBudget {
+    static constexpr std::uint64_t k_multiply_adds = 64;
+    std::uint64_t positions = 250'000;  // of all phases together
+    std::uint64_t velocities = 100'000;
+    std::uint64_t per_block = 60;  // added to both for each of the island's first max_blocks
+    std::size_t max_blocks = 4000;
+};
+
+// Solves by sweeps (sweeps/row_sweeps.hpp).
+struct SweepSettings {
+    int max_iterations = 6;  // Newton steps of a position solve
+    int max_sweeps = 30;     // per Newton step
+    int max_velocity_sweeps = 60;
+    // Of a velocity solve that is not a heap's, after the direct solve found no answer.
+    int max_small_velocity_sweeps = 30;
+};
+
 struct NewtonSettings {
     int max_iterations = 30;         // load stepping may take five times as many
     double tolerance_m = 1e-7;       // converged if every error is below
@@ -37,6 +59,8 @@ struct NewtonSettings {
     // (load_stepping.hpp).
     double load_stepping_from_m = 0.05;
     StepControl schedule{};
+    SweepSettings sweeps{};
+    std::uint64_t max_work = WorkBudget{}.positions;  // what is left of it
 };
 
 struct VelocitySettings {
@@ -45,9 +69,11 @@ struct VelocitySettings {
     // Drives are regularised more than in positions: there is no iteration that would reduce the
     // regularisation where drives contradict each other.
     Regularisation regularisation{.drive = 1e-6};
-    int friction_passes = 16;      // limit of the stick-slip iteration
+    int friction_passes = 6;       // limit of the stick-slip iteration
     double tolerance_mps = 1e-10;  // iterative refinement ends below this residual
     int refinements = 8;           // limit of the iterative refinement
+    SweepSettings sweeps{};
+    std::uint64_t max_work = WorkBudget{}.velocities;
 };
 
 }  // namespace handhold

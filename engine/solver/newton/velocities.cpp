@@ -9,6 +9,7 @@
 
 #include "engine/math/flush_denormals.hpp"
 #include "engine/solver/newton/triad_velocities.hpp"
+#include "engine/solver/newton/velocity_energy.hpp"
 
 namespace handhold {
 namespace {
@@ -148,119 +149,31 @@ bool apply_friction_law(std::span<const double> lambda, bool may_stick, SolveScr
     return changes;
 }
 
-// Largest normal impulse of a contact with friction, N s; 0 if there is none.
-double largest_normal_impulse(std::span<const double> lambda, const SolveScratch& scratch) {
-    double largest = 0.0;
-    for (const SolveScratch::Friction& friction : scratch.frictions) {
-        if (friction.coefficient > 0.0 && !friction.is_frictionless) {
-            largest = std::max(largest, std::abs(lambda[friction.normal]));
-        }
-    }
-    return largest;
-}
-
-// True if the rows of an island without energy source add energy. Work of a row: impulse times the
-// mean of its velocity before and after.
-bool adds_energy(std::span<const double> lambda, const VelocityResult& result,
-                 const SolveScratch& scratch) {
-    // Relative to the energy exchanged, which is unreliable if friction did not converge.
-    const double tolerance = result.friction_unconverged ? 1e-9 : 1e-3;
-    constexpr double k_slow_mps = 1e-3;
-    if (scratch.has_energy_source) {
-        return false;
-    }
-    double work = 0.0;
-    double exchanged = 0.0;
-    for (std::size_t i = 0; i < scratch.rows.size(); ++i) {
-        const double before = scratch.rows[i].residual - scratch.approach_mps[i];
-        const double after = scratch.system.remaining_residual(i, before);
-        work += 0.5 * lambda[i] * (before + after);
-        exchanged += 0.5 * std::abs(lambda[i]) * (std::abs(before) + std::abs(after) + k_slow_mps);
-    }
-    return work > tolerance * exchanged;
-}
-
-// Stick-slip iteration. Returns the multipliers of the last pass.
-std::span<const double> solve_stick_slip(int passes, SolveScratch& scratch,
-                                         VelocityResult& result) {
+// Stick-slip iteration; leaves the multipliers of the last pass in `lambda`. False if they still
+// changed after `passes`.
+bool solve_stick_slip(int passes, SolveScratch& scratch, std::span<const double>& lambda) {
     // later passes allow no return to sticking, so the iteration cannot cycle
     constexpr int k_max_stick_passes = 6;
-    constexpr double k_wedge = 10.0;  // times the largest normal impulse with all contacts sticking
-    std::span<const double> lambda = scratch.system.solve(scratch.rows);
-    const double sticking_impulse = largest_normal_impulse(lambda, scratch);
-    for (int pass = 0; pass < passes; ++pass) {
+    for (SolveScratch::Friction& friction : scratch.frictions) {
+        stick(scratch, friction);
+    }
+    lambda = scratch.system.solve(scratch.rows);
+    for (int pass = 0; pass < passes && !scratch.system.is_out_of_work(); ++pass) {
         bool changes = false;
         for (SolveScratch::Friction& friction : scratch.frictions) {
-            changes |= !friction.is_frictionless &&
-                       apply_friction_law(lambda, pass < k_max_stick_passes, scratch, friction);
+            changes |= apply_friction_law(lambda, pass < k_max_stick_passes, scratch, friction);
         }
         if (!changes) {
-            return lambda;
+            return true;
         }
         lambda = scratch.system.solve(scratch.rows);
-        if (largest_normal_impulse(lambda, scratch) > k_wedge * sticking_impulse) {
-            result.wedged = true;
-            return lambda;
-        }
     }
-    result.friction_unconverged = true;
-    return lambda;
+    return false;
 }
 
-void release_friction(SolveScratch& scratch, SolveScratch::Friction& friction) {
-    friction.is_frictionless = true;
-    for (std::size_t i = 0; i < friction.width; ++i) {
-        scratch.system.fix_multiplier(friction.row + i, 0.0);
-    }
-}
-
-// Removes restitution: Newton's law adds energy if some contacts of a body bounce and others do
-// not.
-void clear_restitution(SolveScratch& scratch) {
-    for (std::size_t i = 0; i < scratch.rows.size(); ++i) {
-        if (scratch.rows[i].group == RowGroup::contact) {
-            scratch.rows[i].residual -= scratch.approach_mps[i];
-            scratch.approach_mps[i] = 0.0;
-        }
-    }
-}
-
-// Solves for the multipliers of all rows with friction.
-std::span<const double> solve_with_friction(int passes, SolveScratch& scratch,
-                                            VelocityResult& result) {
-    result = {};
-    for (SolveScratch::Friction& friction : scratch.frictions) {
-        friction.is_frictionless = false;
-        stick(scratch, friction);
-    }
-    if (scratch.frictions.empty()) {
-        return scratch.system.solve(scratch.rows);
-    }
-    const std::span<const double> lambda = solve_stick_slip(passes, scratch, result);
-    if (!result.wedged && !adds_energy(lambda, result, scratch)) {
-        return lambda;
-    }
-    // The contacts wedge (more friction causes more normal impulse) or the rows add energy. Contact
-    // friction is removed and joint friction is solved again.
-    for (SolveScratch::Friction& friction : scratch.frictions) {
-        stick(scratch, friction);
-        if (friction.coefficient > 0.0) {
-            release_friction(scratch, friction);
-        }
-    }
-    result = {};
-    std::span<const double> without = solve_stick_slip(passes, scratch, result);
-    if (adds_energy(without, result, scratch)) {
-        clear_restitution(scratch);
-        without = solve_stick_slip(passes, scratch, result);
-    }
-    result.wedged = true;
-    return without;
-}
-
+// Adds the gathered moves to the velocities, and the impulses to the blocks.
 void apply_impulses(const IslandView& island, std::span<const double> lambda,
                     SolveScratch& scratch) {
-    gather_moves(scratch);
     for (const std::uint32_t index : island.island_bodies) {
         SolverBody& body = island.bodies[index];
         if (body.inverse_mass > 0.0) {
@@ -309,9 +222,139 @@ void refine_velocities(const IslandView& island, const VelocitySettings& setting
         for (const Row& row : scratch.rows) {
             scratch.values.push_back(row.residual);
         }
-        apply_impulses(island, scratch.system.solve_with_last_factor(scratch.values), scratch);
+        const std::span<const double> lambda =
+            scratch.system.solve_with_last_factor(scratch.values);
+        gather_moves(scratch.system.moves(), scratch);
+        apply_impulses(island, lambda, scratch);
     }
 }
+
+// --- Methods -------------------------------------------------------------------------------------
+
+// Both solve for the multipliers of scratch.rows, write scratch.lambda and gather the moves.
+class DirectMethod {
+  public:
+    DirectMethod(const IslandView& island, const VelocitySettings& settings, SolveScratch& scratch)
+        : island_(island), settings_(settings), scratch_(scratch) {
+        scratch_.system.reset_active_set();
+        scratch_.system.limit_work(settings.max_work);
+        scratch_.system.assemble(island.bodies, scratch_.inverse_inertia_ws, scratch_.rows);
+        regularise(scratch_.rows, settings.regularisation, 1.0, scratch_.system);
+    }
+    // False if there is no plausible answer.
+    bool solve() {
+        std::span<const double> lambda;
+        is_unconverged_ = !solve_stick_slip(settings_.friction_passes, scratch_, lambda);
+        gather_moves(scratch_.system.moves(), scratch_);
+        scratch_.lambda.assign(lambda.begin(), lambda.end());
+        if (scratch_.system.is_active_set_unconverged() || !has_contact(scratch_.rows)) {
+            return !scratch_.system.is_active_set_unconverged();
+        }
+        // No velocity satisfies contacts that contradict each other (a jam); stiff rows answer
+        // with huge impulses.
+        double largest = 0.0;
+        for (const Row& row : scratch_.rows) {
+            largest = std::max(largest, std::abs(row.residual));
+        }
+        return longest_move(scratch_) <= k_max_move_ratio * largest;
+    }
+    bool is_unconverged() const { return is_unconverged_; }
+    // Iterative refinement of the multipliers and of the gathered moves.
+    void refine() {
+        double previous = std::numeric_limits<double>::infinity();
+        for (int i = 0; i < settings_.refinements; ++i) {
+            scratch_.values.clear();
+            double worst = 0.0;
+            for (std::size_t row = 0; row < scratch_.rows.size(); ++row) {
+                const double rest = scratch_.rows[row].residual + moved(scratch_.rows[row]);
+                scratch_.values.push_back(rest);
+                worst = scratch_.system.is_active(row) ? std::max(worst, std::abs(rest)) : worst;
+            }
+            if (worst < settings_.tolerance_mps || worst > 0.5 * previous) {
+                return;
+            }
+            previous = worst;
+            add(scratch_.system.solve_with_last_factor(scratch_.values));
+        }
+    }
+
+  private:
+    // The row's velocity from the gathered moves.
+    double moved(const Row& row) const {
+        const SolverBody& a = island_.bodies[row.a];
+        const SolverBody& b = island_.bodies[row.b];
+        double sum = 0.0;
+        if (a.inverse_mass > 0.0) {
+            sum += row.linear_a.dot(scratch_.moves_m[a.slot]) +
+                   row.angular_a.dot(scratch_.rotations_rad[a.slot]);
+        }
+        if (b.inverse_mass > 0.0) {
+            sum += row.angular_b.dot(scratch_.rotations_rad[b.slot]) -
+                   row.linear_a.dot(scratch_.moves_m[b.slot]);
+        }
+        return sum;
+    }
+    void add(std::span<const double> lambda) {
+        for (std::size_t i = 0; i < lambda.size(); ++i) {
+            scratch_.lambda[i] += lambda[i];
+        }
+        const std::span<const RowMatrix::Twist> moves = scratch_.system.moves();
+        for (std::size_t slot = 0; slot < moves.size(); ++slot) {
+            const RowMatrix::Twist& move = moves[slot];
+            scratch_.moves_m[slot] += Vec3(move[0], move[1], move[2]);
+            scratch_.rotations_rad[slot] += Vec3(move[3], move[4], move[5]);
+        }
+    }
+
+    const IslandView& island_;
+    const VelocitySettings& settings_;
+    SolveScratch& scratch_;
+    bool is_unconverged_ = false;
+};
+
+class SweepMethod {
+  public:
+    // Sweeps end when they change no row's velocity by more than this.
+    static constexpr double k_tolerance_mps = 1e-8;
+    static constexpr double k_heap_tolerance_mps = 1e-5;
+
+    SweepMethod(const IslandView& island, const VelocitySettings& settings, SolveScratch& scratch)
+        : settings_(settings), scratch_(scratch), is_heap_(island.is_heap) {
+        scratch_.bounded.clear();
+        for (const SolveScratch::Friction& friction : scratch_.frictions) {
+            scratch_.bounded.push_back({friction.row, friction.width, friction.limit,
+                                        friction.normal, friction.coefficient});
+        }
+        RowSweeps& sweeps = scratch_.sweeps;
+        sweeps.assemble(island.bodies, scratch_.inverse_inertia_ws, scratch_.rows,
+                        scratch_.bounded);
+        regularise(scratch_.rows, settings.regularisation, 1.0, sweeps);
+        sweeps.factorise();
+    }
+    void solve() {
+        RowSweeps& sweeps = scratch_.sweeps;
+        scratch_.values.clear();
+        for (const Row& row : scratch_.rows) {
+            scratch_.values.push_back(row.residual);
+        }
+        const std::span<const double> lambda =
+            sweeps.solve(scratch_.values, {settings_.max_work,
+                                           is_heap_ ? settings_.sweeps.max_velocity_sweeps
+                                                    : settings_.sweeps.max_small_velocity_sweeps,
+                                           is_heap_ ? k_heap_tolerance_mps : k_tolerance_mps,
+                                           settings_.tolerance_mps});
+        gather_moves(sweeps.moves(), scratch_);
+        scratch_.lambda.assign(lambda.begin(), lambda.end());
+    }
+    bool is_out_of_work() const { return work() >= settings_.max_work; }
+
+  private:
+    std::uint64_t work() const { return scratch_.sweeps.work(); }
+
+    const VelocitySettings& settings_;
+    SolveScratch& scratch_;
+    bool is_heap_;
+};
 
 }  // namespace
 
@@ -322,40 +365,30 @@ VelocityResult solve_velocities(const IslandView& island, const VelocitySettings
         solve_triad_velocities(island, settings, scratch.triads);
         return {};
     }
-    VelocityResult result;
     collect_velocity_rows(island, settings, scratch);
     evaluate_velocity_rows(island, scratch);
     clear_stiffness(island, scratch);
     prepare_inertia(island, scratch);
-    scratch.system.reset_active_set();
-    scratch.system.assemble(island.bodies, scratch.inverse_inertia_ws, scratch.rows);
-    double largest_residual = 0.0;
-    for (const Row& row : scratch.rows) {
-        largest_residual = std::max(largest_residual, std::abs(row.residual));
-    }
-    // No velocity satisfies contacts that contradict each other (a jam); stiff rows would answer
-    // with huge impulses. No body may gain more speed than k_max_move_ratio times the residual.
-    Regularisation regularisation = settings.regularisation;
-    for (int attempt = 0; attempt <= k_max_regularisation_retries; ++attempt) {
-        regularise(scratch.rows, regularisation, 1.0, scratch.system);
-        const std::span<const double> lambda =
-            solve_with_friction(settings.friction_passes, scratch, result);
-        gather_moves(scratch);
-        scratch.lambda.assign(lambda.begin(), lambda.end());
-        if (!has_contact(scratch.rows) ||
-            longest_move(scratch) <= k_max_move_ratio * largest_residual) {
-            break;
+    if (!island.is_heap) {
+        DirectMethod direct(island, settings, scratch);
+        if (direct.solve()) {
+            const bool is_blended = limit_energy(
+                island, [&] { direct.solve(); }, [&] { direct.refine(); }, scratch);
+            apply_impulses(island, scratch.lambda, scratch);
+            if (!is_blended) {
+                refine_velocities(island, settings, scratch);
+            }
+            return {.unconverged = direct.is_unconverged(),
+                    .out_of_work = scratch.system.is_out_of_work()};
         }
-        regularisation.drive *= k_retry_regularisation_increase;
-        regularisation.contact *= k_retry_regularisation_increase;
     }
-    result.active_set_unconverged = scratch.system.is_active_set_unconverged();
+    SweepMethod sweeps(island, settings, scratch);
+    sweeps.solve();
+    limit_energy(
+        island, [&] { sweeps.solve(); }, [] {}, scratch);
     apply_impulses(island, scratch.lambda, scratch);
-    if (regularisation.contact == settings.regularisation.contact &&
-        !result.active_set_unconverged) {
-        refine_velocities(island, settings, scratch);
-    }
-    return result;
+    return {.unconverged = !island.is_heap,
+            .out_of_work = island.is_heap && sweeps.is_out_of_work()};
 }
 
 }  // namespace handhold

@@ -9,11 +9,9 @@ namespace handhold {
 
 // Fallbacks that an island's velocity solve took.
 struct VelocityResult {
-    // Friction wedged, or restitution or friction added energy: contact friction was removed.
-    bool wedged = false;
-    bool friction_unconverged = false;  // the stick-slip iteration reached its limit
-    // The active set did not converge: inactive rows may overlap.
-    bool active_set_unconverged = false;
+    // Stick and slip did not converge: the result is the last iterate, or that of sweeps.
+    bool unconverged = false;
+    bool out_of_work = false;  // ended because it had spent VelocitySettings::max_work
 };
 // Solves the same rows as the position solve for the bodies' velocities v:
 //   drives     v_a + v_drive - v_b = 0, and the same for spins (RowBlock::drive_velocity_ws_mps,

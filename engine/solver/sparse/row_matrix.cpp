@@ -246,6 +246,14 @@ void RowMatrix::factorise(std::span<const std::uint8_t> chosen) {
     factor_.factorise(plan(), smallest_pivots_);
 }
 
+std::uint64_t RowMatrix::factorisation_cost() const {
+    std::uint64_t cost = 0;
+    for (const EliminationPlan::Panel& panel : plan().panels()) {
+        cost += std::uint64_t{panel.width} * panel.stride * panel.stride / 2;
+    }
+    return cost;
+}
+
 void RowMatrix::solve(std::span<const double> values, std::span<double> lambda) {
     unknowns_.assign(plan().scalar_count(), 0.0);
     for (std::uint32_t i = 0; i < size(); ++i) {

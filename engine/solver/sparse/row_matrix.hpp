@@ -35,12 +35,16 @@ class RowMatrix {
     // Factorises the matrix of the rows with a non-zero `chosen`, as if the others did not exist.
     // Also omits rows that no body can move (zero diagonal).
     void factorise(std::span<const std::uint8_t> chosen);
+    // Multiply-adds of one factorisation, an upper bound. Depends on the rows only.
+    std::uint64_t factorisation_cost() const;
     // Solves (J W J^T + diag(alpha)) lambda = -values with the last factor; 0 for omitted rows.
     void solve(std::span<const double> values, std::span<double> lambda);
 
     // Computes the bodies' moves W J^T lambda and keeps them until the next call.
     void gather_moves(std::span<const double> lambda);
     std::span<const Twist> moves() const { return moves_; }  // by slot
+    // For other moves, of which row_motion then gives J times them.
+    std::span<Twist> edit_moves() { return moves_; }
     // J W J^T lambda of one row, from the gathered moves.
     double row_motion(std::size_t row) const;
 

@@ -69,55 +69,50 @@ SightLines sight_lines(const GrabSearch& io, Entity hand, const Vec3& palm_ws,
             head_ws};
 }
 
-template <typename T>
-const T* find_in(const Column<T>* column, Entity entity) {
-    return column != nullptr ? column->find(entity) : nullptr;
-}
-
-bool allows_grip(const GrabSearch& io, const HandOwner& owner, Entity gripped) {
-    const GrabRule* const rule = find_in(io.rule, gripped);
-    if (rule != nullptr && !(owner.side == HandSide::left ? rule->left : rule->right)) {
-        return false;
-    }
-    const GrabLayers* const wanted = find_in(io.layers, owner.player);
-    if (wanted == nullptr) {
-        return true;
-    }
-    const CollisionFilter* const filter = find_in(io.filter, gripped);
-    return (wanted->layers & (filter != nullptr ? *filter : CollisionFilter{}).layers) != 0;
-}
-
-bool any_priority(const GrabSearch& io) {
-    return io.rule != nullptr && std::ranges::any_of(io.rule->rows(), [](const GrabRule& rule) {
-               return rule.priority != 0;
-           });
+bool any_priority(const GrabRules& rules) {
+    return rules.rule != nullptr &&
+           std::ranges::any_of(rules.rule->rows(),
+                               [](const GrabRule& rule) { return rule.priority != 0; });
 }
 
 // Searches along the palm ray and then around the palm, seen or not. Passes over surfaces that
-// refuse the hand. Any head but the player's own counts.
+// refuse the hand. Of the others it takes the first, or one of a higher GrabRule::priority that no
+// other surface hides from the palm. Any head but the player's own counts.
 class SurfaceFinder {
   public:
-    SurfaceFinder(const GrabSearch& io, const HandOwner& owner)
-        : io_(io), owner_(owner), continues_(any_priority(io)) {
-        skip_[0] = io.persistent_id.at(owner.player).value;
+    SurfaceFinder(const GrabSearch& io, const HandOwner& owner, const PalmRay& ray)
+        : io_(io), owner_(owner), ray_(ray), continues_(any_priority(io.rules)) {
+        const std::uint64_t own_head = io.persistent_id.at(owner.player).value;
+        skipped_.add(own_head);
+        refusing_.add(own_head);
     }
 
     // nullopt: nothing in reach, or only what refuses the hand: see refused_by.
-    std::optional<GrabTarget> find(const PalmRay& ray, const HandTuning& tuning) {
-        while (offer(io_.collision.cast_ray(ray.from_ws, ray.to_ws, skipped()))) {
+    std::optional<GrabTarget> find(double reach_m) {
+        while (offer(io_.collision.cast_ray(ray_.from_ws, ray_.to_ws, skipped_.view()))) {
         }
-        while (!is_done() &&
-               offer(io_.collision.closest_point(ray.palm_ws, tuning.reach_m, skipped()))) {
+        while (!is_done() && !skipped_.is_full() &&
+               offer(io_.collision.closest_point(ray_.palm_ws, reach_m, skipped_.view()))) {
         }
         return best_;
     }
     Entity refused_by() const { return refused_by_; }
 
   private:
-    static constexpr std::size_t k_max_skipped = 16;
+    struct Ids {
+        std::array<std::uint64_t, 16> ids{};
+        std::size_t count = 0;
+        std::span<const std::uint64_t> view() const { return std::span(ids).first(count); }
+        bool is_full() const { return count == ids.size(); }
+        void add(std::uint64_t id) { ids[count++] = id; }
+    };
 
-    std::span<const std::uint64_t> skipped() const { return {skip_.data(), skip_count_}; }
     bool is_done() const { return best_.has_value() && !continues_; }
+
+    bool is_hidden(std::uint64_t id, const Vec3& point_ws) const {
+        const auto hit = io_.collision.cast_ray(ray_.palm_ws, point_ws, refusing_.view());
+        return hit && hit->id != id;
+    }
 
     // Takes a surface or passes over it. False if the search must not go on.
     template <typename Found>
@@ -126,28 +121,25 @@ class SurfaceFinder {
         if (is_null(body)) {
             return false;
         }
-        if (!allows_grip(io_, owner_, body)) {
+        const GrabRule* const rule = io_.rules.rule_of(body);
+        const std::int32_t priority = rule != nullptr ? rule->priority : 0;
+        if (!io_.rules.allow(owner_, body)) {
             refused_by_ = body;
-        } else {
-            const GrabRule* const rule = find_in(io_.rule, body);
-            const std::int32_t priority = rule != nullptr ? rule->priority : 0;
-            if (!best_ || priority > priority_) {
-                best_ = GrabTarget{body, found->point_ws, found->normal_ws, {}};
-                priority_ = priority;
-            }
+            refusing_.add(found->id);
+        } else if (!best_ || (priority > priority_ && !is_hidden(found->id, found->point_ws))) {
+            best_ = GrabTarget{body, found->point_ws, found->normal_ws, {}};
+            priority_ = priority;
         }
-        if (is_done() || skip_count_ == k_max_skipped) {
-            return false;
-        }
-        skip_[skip_count_++] = found->id;
-        return true;
+        skipped_.add(found->id);
+        return !is_done() && !skipped_.is_full();
     }
 
     const GrabSearch& io_;
     const HandOwner& owner_;
-    bool continues_;  // past the first surface, for one of higher priority
-    std::array<std::uint64_t, k_max_skipped> skip_{};
-    std::size_t skip_count_ = 1;
+    const PalmRay& ray_;
+    bool continues_;  // past the first surface, for one of a higher priority
+    Ids skipped_;     // already offered
+    Ids refusing_;    // of these, those that refuse the hand
     std::optional<GrabTarget> best_;
     std::int32_t priority_ = 0;
     Entity refused_by_ = k_no_entity;
@@ -158,12 +150,13 @@ class SurfaceFinder {
 GrabSearchResult find_visible_surface(const GrabSearch& io, const HandOwner& owner,
                                       const PalmRay& ray, const SightLines& sight,
                                       const HandTuning& tuning) {
-    SurfaceFinder finder(io, owner);
-    const auto surface = finder.find(ray, tuning);
+    const auto refused_by = [](Entity body) {
+        return GrabSearchResult{{}, Fallback::grab_refused_by_rule, body};
+    };
+    SurfaceFinder finder(io, owner, ray);
+    const auto surface = finder.find(tuning.reach_m);
     if (!surface) {
-        return is_null(finder.refused_by())
-                   ? GrabSearchResult{}
-                   : GrabSearchResult{{}, Fallback::grab_refused_by_rule, finder.refused_by()};
+        return is_null(finder.refused_by()) ? GrabSearchResult{} : refused_by(finder.refused_by());
     }
     const std::uint64_t surface_id = io.persistent_id.at(surface->body).value;
     if (sight.may_grip(ray.palm_ws, surface->point_ws, surface_id, SightLines::Needs::this_point)) {
@@ -172,9 +165,10 @@ GrabSearchResult find_visible_surface(const GrabSearch& io, const HandOwner& own
     const auto entry = sight.entry(ray.palm_ws);
     const Entity body = entry ? owner_of_id(io, entry->id) : k_no_entity;
     const double max_m = body == surface->body ? tuning.max_stretch_m : tuning.reach_m;
-    if (!is_null(body) && allows_grip(io, owner, body) &&
-        (entry->point_ws - ray.palm_ws).norm() <= max_m) {
-        return {GrabTarget{body, entry->point_ws, entry->normal_ws, {}}};
+    if (!is_null(body) && (entry->point_ws - ray.palm_ws).norm() <= max_m) {
+        return io.rules.allow(owner, body)
+                   ? GrabSearchResult{GrabTarget{body, entry->point_ws, entry->normal_ws, {}}}
+                   : refused_by(body);
     }
     return {{}, Fallback::grab_out_of_sight, surface->body};
 }
@@ -241,7 +235,7 @@ class SnapFinder {
         for (std::size_t row = 0; row < io_.authored_grips.size(); ++row) {
             const AuthoredGrips& grips = io_.authored_grips.rows()[row];
             const Entity body = io_.authored_grips.owners()[row];
-            if ((!is_null(only) && body != only) || !allows_grip(io_, owner_, body)) {
+            if ((!is_null(only) && body != only) || !io_.rules.allow(owner_, body)) {
                 continue;
             }
             for (std::uint8_t i = 0; i < grips.count; ++i) {

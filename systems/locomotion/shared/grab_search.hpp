@@ -12,33 +12,32 @@
 #include "components/tuning.hpp"
 #include "engine/collision/collision_world.hpp"
 #include "engine/ecs/column.hpp"
+#include "systems/locomotion/shared/grab_rules.hpp"
 
 // What a closing hand grips.
 namespace handhold {
 
 // Also UpdateGrabsIo. The functions below write `sight` only.
 struct GrabSearch {
-    const CollisionWorld& collision;                  // in: colliders at the start of the frame
-    const Column<PersistentId>& persistent_id;        // in
-    const Column<HandOwner>& owner;                   // in
-    const Column<HandTracking>& hand;                 // in: edges
-    const Column<PlayerOrigin>& origin;               // in: at the start of the frame
-    const Column<HeadTracking>& head;                 // in: as the colliders have it
-    const Column<RigidBody>& body;                    // in
-    const Column<BodyPose>& body_pose;                // in: at the start of the frame
-    const JointGroups& joint_groups;                  // in
-    const Column<AuthoredGrips>& authored_grips;      // in
-    const Column<HandPull>& pull;                     // in: of the last frame
-    const Column<ReferenceVelocity>& reference;       // in: of the last frame
-    Column<HandSight>& sight;                         // in/out
-    Column<Grab>& grab;                               // in/out
-    Column<AuthoredHold>& authored_hold;              // in/out: of hands in an authored grip
-    Column<HeadIgnores>& head_ignores;                // in/out: held bodies are added
-    const Column<GrabRule>* rule = nullptr;           // in: null: any hand grips anything
-    const Column<GrabLayers>* layers = nullptr;       // in
-    const Column<CollisionFilter>* filter = nullptr;  // in: layers of bodies
-    Column<GrabOrder>* order = nullptr;               // in/out: carried out and removed
-    double start_s = 0.0;                             // in: of the frame; for orders
+    const CollisionWorld& collision;              // in: colliders at the start of the frame
+    const Column<PersistentId>& persistent_id;    // in
+    const Column<HandOwner>& owner;               // in
+    const Column<HandTracking>& hand;             // in: edges
+    const Column<PlayerOrigin>& origin;           // in: at the start of the frame
+    const Column<HeadTracking>& head;             // in: as the colliders have it
+    const Column<RigidBody>& body;                // in
+    const Column<BodyPose>& body_pose;            // in: at the start of the frame
+    const JointGroups& joint_groups;              // in
+    const Column<AuthoredGrips>& authored_grips;  // in
+    const Column<HandPull>& pull;                 // in: of the last frame
+    const Column<ReferenceVelocity>& reference;   // in: of the last frame
+    Column<HandSight>& sight;                     // in/out
+    Column<Grab>& grab;                           // in/out
+    Column<AuthoredHold>& authored_hold;          // in/out: of hands in an authored grip
+    Column<HeadIgnores>& head_ignores;            // in/out: held bodies are added
+    GrabRules rules = {};                         // in
+    Column<GrabOrder>* order = nullptr;           // in/out: carried out and removed
+    double start_s = 0.0;                         // in: of the frame; for orders
 };
 
 // A point on a body, or on another player's head, that a hand grips.

@@ -112,7 +112,8 @@ struct SolverScene {
                 graph.blocks,
                 graph.bodies_of(island),
                 graph.blocks_of(island),
-                graph.revision};
+                graph.revision,
+                island.is_heap};
     }
     // Solves every island. The result is that of the last, in most tests the only one.
     NewtonResult solve_positions(const NewtonSettings& settings = tight_settings(),

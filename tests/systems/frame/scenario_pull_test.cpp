@@ -58,6 +58,18 @@ TEST(Pull, IsOffByDefault) {
     EXPECT_FALSE(scene.pulls());
 }
 
+TEST(Pull, NeverPullsWhatTheHandMayNotGripAlone) {
+    for (const GrabRule& rule : {GrabRule{.right = false}, GrabRule{.two_hands = true}}) {
+        FarRock scene;
+        scene.s.add_player_here();
+        scene.s.world.grab_rule.add(scene.rock, rule);
+        scene.run(1.0);
+        EXPECT_EQ(scene.s.velocity(), Vec3::Zero());
+        EXPECT_EQ(scene.count(Fallback::grab_refused_by_rule), 1U);
+        EXPECT_FALSE(scene.pulls());
+    }
+}
+
 TEST(Pull, AcceleratesByTheForceAndConservesMomentum) {
     FarRock scene;
     scene.s.add_player_here();

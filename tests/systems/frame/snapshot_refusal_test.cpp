@@ -77,11 +77,11 @@ TEST_F(SnapshotRefuses, AnyDamagedByte) {
 }
 
 TEST_F(SnapshotRefuses, AnotherFormatVersion) {
-    for (const std::uint32_t version : {2U, 4U}) {  // earlier field names; a later build
+    for (const std::uint32_t version : {1U, 2U, 3U, 5U}) {  // earlier field names; a later build
         SnapshotBytes other(bytes_);
         other.put(8, version);
         expect_refused(other,
-                       "byte 8: expected format version 3, found " + std::to_string(version));
+                       "byte 8: expected format version 4, found " + std::to_string(version));
     }
 }
 
@@ -204,7 +204,7 @@ TEST_F(SnapshotRefuses, RowsWithoutTheirCounterparts) {
     break_world(".restitution", [](World& w) { w.body.rows()[0].restitution = 1.5; });
     break_world("arm_memory[", [](World& w) {
         w.arm_memory.rows()[0].known = true;
-        w.arm_memory.rows()[0].look_ps = Vec3::Zero();
+        w.arm_memory.rows()[0].looks_ps[1] = Vec3::Zero();
     });
     break_world("calibration[", [](World& w) { w.calibration.rows()[0].held_s = 0.5; });
     break_world("].candidate_recheck_in_m",

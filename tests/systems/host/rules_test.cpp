@@ -126,6 +126,40 @@ TEST(HostTeleport, HandsLetGoOfABodyThatJumps) {
     EXPECT_NEAR(scene.world.pose(scene.player)->origin.position.z, 0.0, 1e-9);
 }
 
+RC_GTEST_PROP(HostGrabRules, PriorityCountsOnlyInSightOfThePalm, (bool is_behind)) {
+    const double x_m = *rc::gen::inRange(140, 260) * 1e-3;
+    const double y_m = *rc::gen::inRange(1340, 1460) * 1e-3;
+    HostScene scene;
+    RC_ASSERT(static_cast<bool>(scene.world.tune("hand.reach_m", 0.3)));
+    hh_body_def panel = hh::body_def();
+    panel.shape = *scene.world.add_box({2.0, 2.0, 0.005});
+    panel.pose.position = {0.0, 1.5, -0.5};
+    const hh::Body wall = *scene.world.add(panel);
+    hh_body_def knob = hh::body_def();
+    knob.shape = *scene.world.add_box({0.01, 0.01, 0.01});
+    knob.pose.position = {x_m, y_m, is_behind ? -0.52 : -0.48};
+    const hh::Body preferred = *scene.world.add(knob);
+    RC_ASSERT(hh_body_set_grab_rule(scene.world.get(), preferred, true, true, false, 5) == HH_OK);
+    scene.step(2);
+    scene.closed[HH_RIGHT] = true;
+    scene.step();
+    RC_ASSERT(scene.hand(HH_RIGHT).grip == HH_GRIP_SURFACE);
+    RC_ASSERT(scene.hand(HH_RIGHT).body == (is_behind ? wall : preferred));
+}
+
+TEST(HostOrders, OrderForAHandThatOpensMovesNothing) {
+    HostScene scene;
+    const hh::Body body = *scene.world.add(crate(scene.world, {0.8, 1.4, -0.9}));
+    scene.closed[HH_RIGHT] = true;
+    scene.step(3);
+    ASSERT_TRUE(scene.world.grip(scene.player, HH_RIGHT, body));
+    scene.closed[HH_RIGHT] = false;
+    scene.step(2);
+    EXPECT_EQ(scene.hand(HH_RIGHT).grip, HH_GRIP_NONE);
+    EXPECT_EQ(scene.world.pose(body)->position.x, 0.8);
+    EXPECT_EQ(scene.world.pose(scene.player)->origin.position.x, 0.0);
+}
+
 TEST(HostGrabRules, HandsThatMayNotGripAreRefused) {
     for (const hh::Side side : {HH_LEFT, HH_RIGHT}) {
         HostScene scene;

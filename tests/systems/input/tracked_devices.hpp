@@ -36,7 +36,7 @@ struct Devices {
     StageStats stats;
     double t_s = 0.0;
 
-    // Devices jump as they like: tests of what is plausible say so.
+    // No speed limit: devices may jump. Tests of implausible samples set a limit.
     Devices() {
         tuning.tracking.max_hand_speed_mps = 1e9;
         add_player(k_player, {HandSide::left, HandSide::right});

@@ -1,15 +1,35 @@
 """Files of `handhold-lab body` and the ground truth: columns by name, in any order; other columns are ignored."""
+import gzip
+import pathlib
+
 import numpy as np
 
-from pages.files import FormatError, read_text
+from pages.files import FormatError, read_bytes, read_text
 
 SIDES = ("l", "r")
 XYZ = ("x", "y", "z")
 
 
-def read_rows(path, wanted):
-    """{column: values} of a CSV with one header row, for the wanted columns."""
-    lines = read_text(path).splitlines()
+def found(folder, name):
+    """folder/name, or folder/name.gz if only that exists."""
+    path = pathlib.Path(folder) / name
+    packed = path.with_name(name + ".gz")
+    return packed if packed.exists() and not path.exists() else path
+
+
+def text_of(path):
+    """The text of a file that may be compressed with gzip (.gz)."""
+    if pathlib.Path(path).suffix != ".gz":
+        return read_text(path)
+    try:
+        return gzip.decompress(read_bytes(path)).decode("utf-8")
+    except (OSError, EOFError, UnicodeDecodeError) as error:
+        raise FormatError(f"{path}: expected UTF-8 compressed with gzip: {error}") from None
+
+
+def read_rows(path, wanted, optional=()):
+    """{column: values} of a CSV with one header row, for the wanted columns, and for those of the optional ones that exist."""
+    lines = text_of(path).splitlines()
     head = lines[0].split(",") if lines else []
     missing = [name for name in wanted if name not in head]
     if missing:
@@ -22,7 +42,8 @@ def read_rows(path, wanted):
         if len(cells) != len(head):
             raise FormatError(f"{path}: line {number}: expected {len(head)} cells, found {len(cells)}")
         rows.append(cells)
-    return {name: [row[head.index(name)] for row in rows] for name in wanted}
+    names = [*wanted, *(name for name in optional if name in head)]
+    return {name: [row[head.index(name)] for row in rows] for name in names}
 
 
 def read_numbers(path, wanted):
@@ -50,14 +71,16 @@ def vectors(columns, name, axes=XYZ):
 
 
 class Recording:
-    """IN.csv: clip, t_s, head_m (rows, 3), head_xyzw (rows, 4), hand_m (2, rows, 3), left first."""
+    """IN.csv: clip, t_s, head_m (rows, 3), head_xyzw (rows, 4), hand_m (2, rows, 3), left first; hand_xyzw (2, rows, 4)."""
 
     def __init__(self, path):
         names = ["clip", "t"] + ["h" + axis for axis in XYZ] + ["hq" + axis for axis in "xyzw"] + [side + axis for side in SIDES for axis in XYZ]
+        names += [side + "q" + axis for side in SIDES for axis in "xyzw"]
         columns = read_numbers(path, names)
         self.clip, self.t_s = columns["clip"], columns["t"]
         self.head_m, self.head_xyzw = vectors(columns, "h"), vectors(columns, "hq", "xyzw")
         self.hand_m = np.stack([vectors(columns, side) for side in SIDES])
+        self.hand_xyzw = np.stack([vectors(columns, side + "q", "xyzw") for side in SIDES])
         step = np.diff(self.t_s)[self.clip[1:] == self.clip[:-1]]
         if not len(step) or np.median(step) <= 0.0:
             raise FormatError(f"{path}: expected times that increase within a clip")
@@ -82,16 +105,26 @@ class Bodies:
 
 
 class Clips:
-    """CALIB.csv: {clip: name}, {clip: person}."""
+    """CALIB.csv: by clip its name, person, source (column dataset, if there is one), and measures (empty if
+    the file has none): eye height, upper arm, forearm, shoulder width."""
+
+    SIZES = ("eye_height", "upper_arm", "forearm", "shoulder_width")
 
     def __init__(self, path, recording):
-        columns = read_rows(path, ["clip", "name", "subject"])
+        columns = read_rows(path, ["clip", "name", "subject"], ["dataset", *self.SIZES])
         numbers = [number_or_nan(cell) for cell in columns["clip"]]
         self.name, self.person = dict(zip(numbers, columns["name"])), dict(zip(numbers, columns["subject"]))
+        self.source = dict(zip(numbers, columns.get("dataset", ["unknown"] * len(numbers))))
+        sizes = [[number_or_nan(cell) for cell in columns.get(size, [])] for size in self.SIZES]
+        self.measures = dict(zip(numbers, zip(*sizes)))
         unknown = sorted(set(recording.clip) - set(numbers))
         if unknown:
             raise FormatError(f"{path}: expected a row for clip {unknown[0]:g}")
         self.people = sorted({self.person[clip] for clip in set(recording.clip)})
+
+    def sources(self, recording):
+        """The source of each row."""
+        return np.array([self.source[clip] for clip in recording.clip])
 
     def rows_of(self, recording, person):
         return np.isin(recording.clip, [clip for clip, owner in self.person.items() if owner == person])

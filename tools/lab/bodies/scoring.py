@@ -28,15 +28,25 @@ def turned(vectors, source, target):
 
 
 def swivel_deg(hand, true, estimated):
-    """Angle of the elbow about the line from shoulder to hand, after that line is rotated onto the true one; NaN if the true arm is
-    straight.
+    """Angle from the estimated elbow to the true one about the line from shoulder to hand, after that line is rotated onto the true one; NaN if
+    the true arm is straight.
 
     true, estimated: (shoulder, elbow)."""
     line, line_estimated = unit(hand - true[0]), unit(hand - estimated[0])
     offset = across(true[1] - true[0], line)
     offset_estimated = turned(across(estimated[1] - estimated[0], line_estimated), line_estimated, line)
     angle = np.arctan2(np.sum(np.cross(offset_estimated, offset) * line, -1), np.sum(offset_estimated * offset, -1))
-    return np.where(np.linalg.norm(offset, axis=-1) > BENT_M, np.abs(np.degrees(angle)), np.nan)
+    return np.where(np.linalg.norm(offset, axis=-1) > BENT_M, np.degrees(angle), np.nan)
+
+
+def medians(values, sources):
+    """Of each source's rows the median of (2, rows) values; 0 if it has none."""
+    result = np.zeros(values.shape[1])
+    for name in ["all"] if sources is None else np.unique(sources):
+        rows = np.full(len(result), True) if sources is None else sources == name
+        known = values[:, rows][np.isfinite(values[:, rows])]
+        result[rows] = np.median(known) if len(known) else 0.0
+    return result
 
 
 def distance(a, b):
@@ -46,15 +56,19 @@ def distance(a, b):
 class Errors:
     """Errors per frame (rows), or per arm and frame (2, rows); NaN if excluded: invalid truth or missing neighbours.
 
-    jerk_mps3, true_jerk_mps3: third differences of the elbow, from the frame before to two frames after. pops: 1 if the elbow pops."""
+    own_swivel_deg: swivel without each source's median, which depends on how the source defines its joints. jerk_mps3, true_jerk_mps3: third differences of the elbow, from the frame before to two frames after. pops: 1 if the elbow pops."""
 
-    def __init__(self, recording, truth, estimate):
+    def __init__(self, recording, truth, estimate, sources=None):
+        """sources: name of each row's source; None: all are of one."""
         self.clip, self.t_s, self.hz, self.valid = recording.clip, recording.t_s, recording.hz, truth.valid
         counted = np.where(truth.valid, 1.0, np.nan)
         self.yaw_deg = counted * np.abs(wrapped_deg(estimate.yaw_deg - truth.yaw_deg))
         self.shoulder_cm = counted * CM_PER_M * distance(estimate.shoulder_m, truth.shoulder_m)
         self.elbow_cm = counted * CM_PER_M * distance(estimate.elbow_m, truth.elbow_m)
-        self.swivel_deg = counted * swivel_deg(recording.hand_m, (truth.shoulder_m, truth.elbow_m), (estimate.shoulder_m, estimate.elbow_m))
+        inward = np.array([[-1.0], [1.0]])  # the same sign for both arms
+        swivel = counted * inward * swivel_deg(recording.hand_m, (truth.shoulder_m, truth.elbow_m), (estimate.shoulder_m, estimate.elbow_m))
+        self.swivel_deg = np.abs(swivel)
+        self.own_swivel_deg = np.abs(wrapped_deg(swivel - medians(swivel, sources)))
         lengths = [distance(body.shoulder_m, body.elbow_m) + distance(body.elbow_m, recording.hand_m) for body in (estimate, truth)]
         self.stretch_percent = counted * 100.0 * np.abs(lengths[0] / np.maximum(lengths[1], 1e-9) - 1.0)
         self.jerk_mps3 = counted * self._jerk(estimate.elbow_m)
@@ -93,7 +107,7 @@ def figures(errors, rows):
     jerk, true_jerk = mean(errors.jerk_mps3[:, rows]), mean(errors.true_jerk_mps3[:, rows])
     return {
         "minutes": float(minutes),
-        **{name: spread(getattr(errors, name)[..., rows]) for name in ("yaw_deg", "shoulder_cm", "elbow_cm", "swivel_deg", "stretch_percent")},
+        **{name: spread(getattr(errors, name)[..., rows]) for name in ("yaw_deg", "shoulder_cm", "elbow_cm", "swivel_deg", "own_swivel_deg", "stretch_percent")},
         "pops_per_min": float(errors.pops[:, rows].sum() / minutes) if minutes > 0.0 else math.nan,
         "jerk_ratio": jerk / true_jerk if true_jerk > 0.0 else math.nan,
     }
@@ -116,7 +130,7 @@ def where_hands_are(recording, truth):
             "behind": (back > 0.12) & (up > -0.9), "crossed": outward < -0.45, "at the shoulder": reach < 0.45}
 
 
-EVALUATED = (("yaw_deg", "mean"), ("shoulder_cm", "mean"), ("elbow_cm", "mean"), ("swivel_deg", "mean"), ("pops_per_min", None), ("jerk_ratio", None))
+EVALUATED = (("yaw_deg", "mean"), ("shoulder_cm", "mean"), ("elbow_cm", "mean"), ("swivel_deg", "mean"), ("own_swivel_deg", "mean"), ("pops_per_min", None), ("jerk_ratio", None))
 
 
 def value_of(figures, name, part):

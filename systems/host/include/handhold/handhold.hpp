@@ -45,8 +45,11 @@ constexpr Pose pose_at(Vec3 position, Quat rotation = k_no_turn) { return {posit
 // The result of a call.
 class [[nodiscard]] Status {
   public:
+    // Takes over a result of the C interface.
     Status(hh_result result) : result_(result) {}  // NOLINT(google-explicit-constructor)
+    // True for HH_OK.
     explicit operator bool() const { return result_ == HH_OK; }
+    // The result of the C interface.
     hh_result result() const { return result_; }
     // What was wrong. Valid until this thread's next failure.
     std::string_view text() const { return result_ == HH_OK ? "HH_OK" : hh_last_error(); }
@@ -59,12 +62,19 @@ class [[nodiscard]] Status {
 template <typename T>
 class [[nodiscard]] Maybe {
   public:
+    // A result and its value; the value counts only for HH_OK.
     Maybe(hh_result result, T value) : status_(result), value_(std::move(value)) {}
+    // True if there is a value.
     explicit operator bool() const { return static_cast<bool>(status_); }
+    // The status of the call.
     Status status() const { return status_; }
+    // The value. Precondition: there is one.
     const T& operator*() const& { return value_; }
+    // The value. Precondition: there is one.
     T&& operator*() && { return std::move(value_); }
+    // Member of the value. Precondition: there is one.
     const T* operator->() const { return &value_; }
+    // The value, or `other` if there is none.
     T value_or(T other) const { return *this ? value_ : std::move(other); }
 
   private:
@@ -108,12 +118,16 @@ class Mesh {
         }
     }
     ~Mesh() { hh_mesh_destroy(mesh_); }
+    // Takes over the mesh; `other` is empty afterwards.
     Mesh(Mesh&& other) noexcept : mesh_(std::exchange(other.mesh_, nullptr)) {}
+    // Exchanges the two.
     Mesh& operator=(Mesh&& other) noexcept {
         std::swap(mesh_, other.mesh_);
         return *this;
     }
+    // True unless creation failed or the mesh was moved from.
     bool is_valid() const { return mesh_ != nullptr; }
+    // The handle of the C interface; null if not valid.
     const hh_mesh* get() const { return mesh_; }
 
   private:
@@ -125,65 +139,88 @@ class Mesh {
 class World {
   public:
     World() : World(world_def()) {}
+    // As hh_world_create. Check is_valid().
     explicit World(const hh_world_def& def) {
         if (hh_world_create(&def, &world_) != HH_OK) {
             world_ = nullptr;
         }
     }
     ~World() { hh_world_destroy(world_); }
+    // Takes over the world; `other` is empty afterwards.
     World(World&& other) noexcept : world_(std::exchange(other.world_, nullptr)) {}
+    // Exchanges the two.
     World& operator=(World&& other) noexcept {
         std::swap(world_, other.world_);
         return *this;
     }
+    // True unless creation failed or the world was moved from.
     bool is_valid() const { return world_ != nullptr; }
+    // The handle of the C interface; null if not valid.
     hh_world* get() { return world_; }
+    // The handle of the C interface; null if not valid.
     const hh_world* get() const { return world_; }
 
     // Level.
     Maybe<Shape> add_box(Vec3 half_extents_m) {
         return make<Shape>([&](Shape* s) { return hh_shape_add_box(world_, half_extents_m, s); });
     }
+    // As hh_shape_add_sphere.
     Maybe<Shape> add_sphere(double radius_m) {
         return make<Shape>([&](Shape* s) { return hh_shape_add_sphere(world_, radius_m, s); });
     }
+    // As hh_shape_add_capsule.
     Maybe<Shape> add_capsule(double radius_m, double half_height_m) {
         return make<Shape>(
             [&](Shape* s) { return hh_shape_add_capsule(world_, radius_m, half_height_m, s); });
     }
+    // As hh_shape_add_cylinder.
     Maybe<Shape> add_cylinder(double radius_m, double half_height_m) {
         return make<Shape>(
             [&](Shape* s) { return hh_shape_add_cylinder(world_, radius_m, half_height_m, s); });
     }
+    // As hh_shape_add_hull.
     Maybe<Shape> add_hull(std::span<const Vec3> points) {
         return make<Shape>(
             [&](Shape* s) { return hh_shape_add_hull(world_, points.data(), points.size(), s); });
     }
+    // As hh_shape_add_compound.
     Maybe<Shape> add_compound(std::span<const hh_compound_part> parts) {
         return make<Shape>(
             [&](Shape* s) { return hh_shape_add_compound(world_, parts.data(), parts.size(), s); });
     }
+    // As hh_shape_add_mesh.
     Maybe<Shape> add_mesh(const Mesh& mesh, Vec3 scale = {1.0, 1.0, 1.0}) {
         return make<Shape>(
             [&](Shape* s) { return hh_shape_add_mesh(world_, mesh.get(), scale, s); });
     }
+    // As hh_shape_remove.
     Status remove(Shape shape) { return hh_shape_remove(world_, shape); }
 
+    // As hh_body_add.
     Maybe<Body> add(const hh_body_def& def) {
         return make<Body>([&](Body* b) { return hh_body_add(world_, &def, b); });
     }
+    // As hh_joint_add.
     Maybe<Joint> add(const hh_joint_def& def) {
         return make<Joint>([&](Joint* j) { return hh_joint_add(world_, &def, j); });
     }
+    // As hh_player_add.
     Maybe<Player> add(const hh_player_def& def) {
         return make<Player>([&](Player* p) { return hh_player_add(world_, &def, p); });
     }
+    // As hh_body_remove.
     Status remove(Body body) { return hh_body_remove(world_, body); }
+    // As hh_joint_remove.
     Status remove(Joint joint) { return hh_joint_remove(world_, joint); }
+    // As hh_player_remove.
     Status remove(Player player) { return hh_player_remove(world_, player); }
+    // As hh_shape_is_valid.
     bool has(Shape shape) const { return hh_shape_is_valid(world_, shape); }
+    // As hh_body_is_valid.
     bool has(Body body) const { return hh_body_is_valid(world_, body); }
+    // As hh_joint_is_valid.
     bool has(Joint joint) const { return hh_joint_is_valid(world_, joint); }
+    // As hh_player_is_valid.
     bool has(Player player) const { return hh_player_is_valid(world_, player); }
     // `name` ends with a 0.
     Maybe<Body> find_body(const char* name) const {
@@ -200,16 +237,21 @@ class World {
                    ? HH_ERROR_CAPACITY
                    : hh_world_body_poses(world_, bodies.data(), bodies.size(), poses.data());
     }
+    // As hh_body_set_velocity.
     Status set_velocity(Body body, Vec3 linear_mps, Vec3 angular_radps = {}) {
         return hh_body_set_velocity(world_, body, linear_mps, angular_radps);
     }
+    // As hh_body_apply_impulse.
     Status apply_impulse(Body body, Vec3 impulse_ns, Vec3 point) {
         return hh_body_apply_impulse(world_, body, impulse_ns, point);
     }
+    // As hh_body_teleport.
     Status teleport(Body body, Pose pose) { return hh_body_teleport(world_, body, pose); }
+    // As hh_body_move_kinematic.
     Status move_kinematic(Body body, Pose pose) {
         return hh_body_move_kinematic(world_, body, pose);
     }
+    // As hh_body_add_grip.
     Status add_grip(Body body, const hh_grip_def& def) {
         return hh_body_add_grip(world_, body, &def);
     }
@@ -226,46 +268,58 @@ class World {
                    ? left
                    : hh_player_set_hand_in_controller(world_, player, HH_RIGHT, &identity);
     }
+    // As hh_world_player_poses.
     Maybe<hh_player_pose> pose(Player player) const {
         return make<hh_player_pose>(
             [&](hh_player_pose* p) { return hh_world_player_poses(world_, &player, 1, p); });
     }
+    // As hh_world_player_poses.
     Status poses(std::span<const Player> players, std::span<hh_player_pose> poses) const {
         return poses.size() < players.size()
                    ? HH_ERROR_CAPACITY
                    : hh_world_player_poses(world_, players.data(), players.size(), poses.data());
     }
+    // As hh_player_hand.
     Maybe<hh_hand_state> hand(Player player, Side side) const {
         return make<hh_hand_state>(
             [&](hh_hand_state* h) { return hh_player_hand(world_, player, side, h); });
     }
+    // As hh_player_hand_joints gives them.
     using HandJoints = std::array<hh_hand_joint, HH_HAND_JOINT_COUNT>;
+    // As hh_player_hand_joints.
     Maybe<HandJoints> hand_joints(Player player, Side side, hh_space space) const {
         return make<HandJoints>([&](HandJoints* joints) {
             return hh_player_hand_joints(world_, player, side, space, joints->data());
         });
     }
+    // As hh_player_body_joints gives them.
     using BodyJoints = std::array<Pose, HH_BODY_JOINT_COUNT>;
+    // As hh_player_body_joints.
     Maybe<BodyJoints> body_joints(Player player, hh_space space) const {
         return make<BodyJoints>([&](BodyJoints* joints) {
             return hh_player_body_joints(world_, player, space, joints->data());
         });
     }
+    // As hh_hand_grip.
     Status grip(Player player, Side side, Body body) {
         return hh_hand_grip(world_, player, side, body);
     }
+    // As hh_hand_release.
     Status release(Player player, Side side) { return hh_hand_release(world_, player, side); }
 
     // Stepping.
     Status step(double dt_s, std::span<const hh_player_input> inputs = {}) {
         return hh_world_step(world_, dt_s, inputs.data(), inputs.size());
     }
+    // As hh_world_step.
     Status step(double dt_s, const hh_player_input& input) {
         return hh_world_step(world_, dt_s, &input, 1);
     }
+    // As hh_world_step_pose_only.
     Status step_pose_only(double dt_s, std::span<const hh_player_input> inputs) {
         return hh_world_step_pose_only(world_, dt_s, inputs.data(), inputs.size());
     }
+    // As hh_world_time.
     double time_s() const {
         double time_s = 0.0;
         return hh_world_time(world_, &time_s, nullptr) == HH_OK ? time_s : 0.0;
@@ -277,6 +331,7 @@ class World {
         return hh_world_events(world_, &first, &count) == HH_OK ? std::span(first, count)
                                                                 : std::span<const Event>();
     }
+    // As hh_world_get_stats.
     Maybe<hh_world_stats> stats() const {
         hh_world_stats stats = hh_default_world_stats();
         const hh_result result = hh_world_get_stats(world_, &stats);
@@ -296,9 +351,11 @@ class World {
         }
         return result;
     }
+    // As hh_world_restore.
     Status restore(std::span<const std::byte> bytes) {
         return hh_world_restore(world_, bytes.data(), bytes.size());
     }
+    // As hh_world_hash.
     std::uint64_t hash() const {
         std::uint64_t hash = 0;
         return hh_world_hash(world_, &hash) == HH_OK ? hash : 0;
@@ -308,6 +365,7 @@ class World {
     Status tune(const char* name, double value) {
         return hh_world_set_tuning(world_, name, &value, 1);
     }
+    // As hh_world_get_tuning.
     Maybe<double> tuning(const char* name) const {
         return make<double>([&](double* v) { return hh_world_get_tuning(world_, name, v, 1); });
     }

@@ -94,7 +94,8 @@ HH_API hh_result hh_player_hand(const hh_world* world, hh_player player, hh_side
 HH_API hh_result hh_world_player_poses(const hh_world* world, const hh_player* players,
                                        size_t count, hh_player_pose* poses);
 /* In the next step the hand grips `body` where both are, at any distance, whatever the grab rules
- * say. It holds until hh_hand_release or until the player opens the hand; if the player closes it
+ * say; only a body for two hands needs an order for both. No grip begins while the player opens the
+ * hand. It holds until hh_hand_release or until the player opens the hand; if the player closes it
  * first, it grips what is there then, if anything is. HH_ERROR_STATE for a hand that was never
  * tracked. */
 HH_API hh_result hh_hand_grip(hh_world* world, hh_player player, hh_side side, hh_body body);
@@ -120,11 +121,11 @@ typedef enum hh_event_kind {
 typedef enum hh_reason {
     HH_REASON_NONE = 0,
     HH_REASON_OPENED = 1,          /* the player opened the hand */
-    HH_REASON_NO_SURFACE = 2,      /* nothing in reach */
+    HH_REASON_NO_SURFACE = 2,      /* nothing in reach, or only behind a wall */
     HH_REASON_NOT_ALLOWED = 3,     /* by a grab rule or layers */
     HH_REASON_NEEDS_TWO_HANDS = 4, /* the other hand is not there, or left */
     HH_REASON_STRETCHED = 5,       /* farther from its anchor than hand.max_stretch_m */
-    HH_REASON_TRACKING_LOST = 6,   /* it opened while nobody saw it */
+    HH_REASON_TRACKING_LOST = 6,   /* it opened unseen, or came back too far away */
     HH_REASON_BODY_GONE = 7,       /* the body was removed */
     HH_REASON_BY_HOST = 8,         /* hh_hand_release, hh_hand_grip or a teleport */
     HH_REASON_OTHER_HAND = 9       /* one of two hands on a body left */

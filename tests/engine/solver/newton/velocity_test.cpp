@@ -217,21 +217,19 @@ RC_GTEST_PROP(SolveVelocities, ContactsNeverAddEnergy, (std::uint64_t seed)) {
     scene.graph.bodies = {test::fixed_body(1), test::random_free_body(2, random)};
     scene.body(1).velocity_mps = random.vector(10.0);
     scene.body(1).spin_radps = random.vector(20.0);
-    // equal for both: Newton's law may add energy otherwise
-    const double restitution = random.between(0.0, 0.5);
     constexpr std::uint64_t k_contacts = 2;
     for (std::uint64_t i = 0; i < k_contacts; ++i) {
         RowBlock block = test::random_block(RowKind::contact, 1, 0, random);
         test::meet(scene.graph.bodies, block);
         block.key = i;
         block.friction = random.between(0.0, 2.0);
-        block.restitution = restitution;
+        block.restitution = random.between(0.0, 1.0);
         scene.graph.blocks.push_back(block);
     }
     sort_blocks(scene.graph);
     const double before = energy_of(scene.body(1));
     scene.solve_velocities();
-    RC_ASSERT(energy_of(scene.body(1)) <= 1.01 * before);
+    RC_ASSERT(energy_of(scene.body(1)) <= (1.0 + 1e-9) * before);
 }
 
 // A driven box is pressed against a wall and dragged along it. When the drive reverses, the wall's
@@ -250,7 +248,7 @@ TEST(SolveVelocities, FrictionBrakesADrivenBodyWhenTheDriveReverses) {
     build_islands(scene.graph);
     const Island& island = scene.graph.islands.front();
     const VelocityResult result = solve_velocities(scene.view(island), {}, scene.scratch);
-    EXPECT_FALSE(result.wedged);
+    EXPECT_FALSE(result.unconverged);
     const auto wall = std::ranges::find_if(scene.graph.blocks, is_contact);
     ASSERT_GT(wall->impulse_ws_ns.y(), 0.0);
     EXPECT_NEAR(wall->impulse_ws_ns.x(), 0.4 * wall->impulse_ws_ns.y(), 1e-3);

@@ -1,0 +1,107 @@
+// Solver, newton: the rows of a Newton step.
+#include "engine/solver/newton/newton_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace handhold {
+namespace {
+
+// Contacts and limits are omitted from a step beyond both this and twice the worst error.
+constexpr double k_min_active_distance_m = 1e-3;
+
+bool is_unilateral_block(const RowBlock& block) { return is_contact(block) || block.joint.limited; }
+
+// Separation beyond which contacts and limits are omitted from a step.
+double active_distance_of(const IslandView& island) {
+    if (!has_unilateral_block(island)) {
+        return k_min_active_distance_m;
+    }
+    double worst = 0.0;
+    for (const std::uint32_t index : island.island_blocks) {
+        if (takes_part(island, island.blocks[index])) {
+            worst = std::max(worst, block_error_m(island.bodies, island.blocks[index]));
+        }
+    }
+    return std::max(k_min_active_distance_m, 2.0 * worst);
+}
+
+}  // namespace
+
+bool has_unilateral_block(const IslandView& island) {
+    return std::ranges::any_of(island.island_blocks, [&](std::uint32_t index) {
+        return is_unilateral_block(island.blocks[index]);
+    });
+}
+
+void collect_rows(const IslandView& island, std::vector<Row>& rows) {
+    const double reach_m = active_distance_of(island);
+    rows.clear();
+    for (const std::uint32_t index : island.island_blocks) {
+        const RowBlock& block = island.blocks[index];
+        if (takes_part(island, block) &&
+            (!is_contact(block) || contact_separation_m(island.bodies, block) < reach_m)) {
+            append_rows(island.bodies, block, index, rows, reach_m);
+        }
+    }
+}
+
+double worst_overlap(std::span<const Row> rows) {
+    double worst = 0.0;
+    for (const Row& row : rows) {
+        worst = row.group == RowGroup::contact ? std::max(worst, -row.residual) : worst;
+    }
+    return worst;
+}
+
+double worst_error(std::span<const Row> rows) {
+    double worst = 0.0;
+    for (std::size_t i = 0; i < rows.size(); i += rows[i].width) {
+        if (rows[i].unilateral) {
+            worst = std::max(worst, -rows[i].residual);
+            continue;
+        }
+        double square = 0.0;
+        for (std::size_t j = i; j < i + rows[i].width; ++j) {
+            square += rows[j].residual * rows[j].residual;
+        }
+        worst = std::max(worst, std::sqrt(square));
+    }
+    return worst;
+}
+
+double worst_drive_error(std::span<const Row> rows) {
+    double worst = 0.0;
+    for (std::size_t i = 0; i < rows.size(); i += rows[i].width) {
+        if (rows[i].group == RowGroup::drive) {
+            worst = std::max(worst, worst_error(rows.subspan(i, rows[i].width)));
+        }
+    }
+    return worst;
+}
+
+double apply_moves(const IslandView& island, double scale, const SolveScratch& scratch) {
+    double longest_move = 0.0;
+    double largest_rotation = 0.0;
+    for (const std::uint32_t index : island.island_bodies) {
+        SolverBody& body = island.bodies[index];
+        if (!(body.inverse_mass > 0.0)) {
+            continue;
+        }
+        const Vec3 move = scale * scratch.moves_m[body.slot];
+        const Vec3 turn = scale * scratch.rotations_rad[body.slot];
+        body.pose_ws.position += move;
+        if (turn.squaredNorm() > 0.0) {
+            // Cayley map: a rotation by 2 atan(|turn| / 2), to second order equal to the
+            // exponential map.
+            const Vec3 half = 0.5 * turn;
+            body.pose_ws.rotation =
+                (Quat(1.0, half.x(), half.y(), half.z()) * body.pose_ws.rotation).normalized();
+        }
+        longest_move = std::max(longest_move, move.squaredNorm());
+        largest_rotation = std::max(largest_rotation, turn.squaredNorm());
+    }
+    return std::max(std::sqrt(longest_move), k_angle_lever_m * std::sqrt(largest_rotation));
+}
+
+}  // namespace handhold

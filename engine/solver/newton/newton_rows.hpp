@@ -1,0 +1,30 @@
+// Solver, newton: the rows of a Newton step, their errors, and the moves of a step.
+
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/solver/newton/island_system.hpp"
+
+namespace handhold {
+
+bool has_unilateral_block(const IslandView& island);
+
+// Collects the rows that a step may affect. A row that the step violates although it was omitted is
+// within reach in the next one.
+void collect_rows(const IslandView& island, std::vector<Row>& rows);
+
+// Deepest overlap of the contact rows, metres.
+double worst_overlap(std::span<const Row> rows);
+// Largest error, metres. The rows of one vector-valued error enter with their norm, so that the
+// result does not depend on the world's orientation.
+double worst_error(std::span<const Row> rows);
+// Largest error of the drives.
+double worst_drive_error(std::span<const Row> rows);
+
+// Moves the bodies by `scale` times the gathered moves. Returns the longest move, metres; rotations
+// count times k_angle_lever_m.
+double apply_moves(const IslandView& island, double scale, const SolveScratch& scratch);
+
+}  // namespace handhold

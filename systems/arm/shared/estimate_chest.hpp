@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+
+#include "components/arm.hpp"
+#include "components/body_tuning.hpp"
+#include "engine/math/math.hpp"
+#include "systems/arm/shared/body_view.hpp"
+#include "systems/arm/shared/level_direction.hpp"
+
+// The chest from head and hands: the talk's form (rows 19 and 21), then a network's correction.
+// Constants: body_constants.hpp, fitted by tools/lab/fit_body.
+namespace handhold {
+
+// Lean of the chest: the rotation from the play space's up towards the head's up, by a fitted
+// share.
+Quat chest_lean(const Vec3& head_up_ps);
+
+// Level direction in which the chest faces, in the talk's form. The chest turns from `look_ps`
+// towards the mean position of the hands, turns perpendicular to the line between them, and follows
+// rolling hands. `lean_ps`: chest_lean. `limit`: the maximum angle from the look direction.
+Vec3 chest_facing(const Vec3& look_ps, const Quat& lean_ps, const TrackedBody& body,
+                  const BodyAxes& axes, const TurnLimit& limit);
+
+// What the network adds to the talk's form. All zero for inputs that do not resemble its data.
+struct ChestCorrection {
+    double turn_rad = 0.0;  // to the left
+    ChestOffset offset;
+};
+// facing_ps: of the talk's form. looks_ps: as ArmMemory::looks_ps; look_ps: not filtered.
+ChestCorrection chest_correction(const Vec3& facing_ps, const Vec3& look_ps,
+                                 const std::array<Vec3, k_look_filters>& looks_ps,
+                                 const TrackedBody& body, const BodyAxes& axes);
+
+// Pose of the chest: its position is the middle between the resting shoulders.
+Pose chest_pose(const Vec3& facing_ps, const Quat& lean_ps, const ChestOffset& offset,
+                const TrackedBody& body, const Vec3& head_up_ps);
+
+}  // namespace handhold

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "components/body.hpp"
+#include "components/grab.hpp"
+#include "engine/ecs/column.hpp"
+
+namespace handhold {
+
+// What restricts which hand may grip which body. A null column restricts nothing.
+struct GrabRules {
+    const Column<GrabRule>* rule = nullptr;
+    const Column<GrabLayers>* layers = nullptr;       // of players
+    const Column<CollisionFilter>* filter = nullptr;  // layers of bodies; without one: the default
+
+    // The body's rule; null if it has none.
+    const GrabRule* rule_of(Entity body) const;
+    // True unless the body's rule or the layers of the hand's player refuse the hand.
+    bool allow(const HandOwner& hand, Entity body) const;
+};
+
+}  // namespace handhold

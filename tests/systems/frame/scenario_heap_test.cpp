@@ -1,0 +1,180 @@
+// Heaps and contradictions: bounded work, bounded overlap, bounded speed, whatever the input.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/random.hpp"
+#include "tests/systems/frame/scenario.hpp"
+
+namespace handhold::scenario_heap_test {
+namespace {
+
+using test::Random;
+
+constexpr double k_half_m = 0.1;
+
+double fastest_mps(const Scenario& s) {
+    double fastest = 0.0;
+    for (const BodyVelocity& velocity : s.world.body_velocity.rows()) {
+        fastest = std::max(fastest, velocity.linear_mps.norm());
+    }
+    return fastest;
+}
+
+double kinetic_energy(const Scenario& s) {
+    double energy = 0.0;
+    for (std::size_t row = 0; row < s.world.body.size(); ++row) {
+        const RigidBody& body = s.world.body.rows()[row];
+        const Entity entity = s.world.body.owners()[row];
+        const BodyVelocity& velocity = s.world.body_velocity.at(entity);
+        if (body.kind == BodyKind::free) {
+            const Quat& rotation = s.world.body_pose.at(entity).pose_ws.rotation;
+            const Vec3 spin_bs = rotation.conjugate() * velocity.angular_radps;
+            energy += 0.5 * body.mass_kg * velocity.linear_mps.squaredNorm() +
+                      0.5 * spin_bs.dot(body.inertia_kgm2.cwiseProduct(spin_bs));
+        }
+    }
+    return energy;
+}
+
+// side^3 crates 5 mm apart before a wall, and a crate in the right hand that is pushed into them.
+void add_shove(int side, Scenario& s) {
+    s.fits_hands = false;
+    s.add_crate("held", 2.0, Vec3(0.3, 1.2 - k_half_m - 0.02, -0.1), Vec3::Constant(k_half_m));
+    const double spacing_m = 2.0 * k_half_m + 0.005;
+    const Vec3 first(0.3 - 0.5 * (side - 1) * spacing_m, 1.2 - 0.5 * (side - 1) * spacing_m, -0.45);
+    for (int i = 0; i < side * side * side; ++i) {
+        const Vec3 place(i % side, i / side % side, -(i / (side * side)));
+        s.add_crate("crate" + std::to_string(i), 5.0, first + spacing_m * place,
+                    Vec3::Constant(k_half_m));
+    }
+    s.add_wall("wall", Vec3(3.0, 3.0, 0.1),
+               Vec3(0.3, 1.2, -0.45 - side * spacing_m + k_half_m - 0.2));
+    s.script.grabs[1] = [](double) { return true; };
+    s.script.hands[1] = [](double t_s) {
+        return Pose{Vec3(0.3, 1.2, -0.02 - 0.6 * ease(t_s, 0.2, 0.6)), Quat::Identity()};
+    };
+    s.add_player_here();
+}
+
+TEST(Heap, CratesShovedAgainstAWallOverlapByAtMostAMillimetreAndPushThePlayerBack) {
+    for (const int side : {2, 3, 4}) {
+        Scenario s;
+        add_shove(side, s);
+        std::uint64_t most_iterations = 0;
+        s.run(1.0, [&] {
+            ASSERT_LE(s.stats.residual_m, 1e-3) << side << " " << s.t_s();
+            ASSERT_LE(s.stats.hand_error_m, 1e-5) << side << " " << s.t_s();
+            most_iterations = std::max(most_iterations, s.stats.newton_iterations);
+        });
+        EXPECT_EQ(s.fallbacks(Fallback::solver_budget), 0U) << side;
+        EXPECT_LE(most_iterations, 60U) << side;
+        EXPECT_GT(s.origin().z(), 0.1) << side;
+    }
+}
+
+TEST(Heap, BodiesSpawnedInOnePlaceComeApartAtRest) {
+    Scenario s;
+    s.fits_hands = false;
+    Random random(5);
+    for (int i = 0; i < 60; ++i) {
+        s.add_crate("crate" + std::to_string(i), 5.0, Vec3(0.0, 1.0, -3.0) + random.vector(0.05),
+                    Vec3::Constant(k_half_m));
+    }
+    s.add_player_here();
+    s.run(1.0, [&] { ASSERT_LE(fastest_mps(s), 1e-6) << s.t_s(); });
+    EXPECT_LE(s.stats.residual_m, 1e-4);
+}
+
+TEST(Heap, WallsThatCloseOnCratesAndOnThePlayerThrowNothing) {
+    Scenario s;
+    s.fits_hands = false;
+    for (int i = 0; i < 27; ++i) {
+        const Vec3 place(i % 3, i / 3 % 3, i / 9);
+        s.add_crate("crate" + std::to_string(i), 5.0, Vec3(-0.25, 0.5, -1.5) + 0.25 * place,
+                    Vec3::Constant(k_half_m));
+    }
+    constexpr double k_speed_mps = 0.3;
+    for (const double side : {-1.0, 1.0}) {
+        const Entity wall = s.add_wall(side < 0.0 ? "left" : "right", Vec3(0.1, 3.0, 3.0),
+                                       Vec3(0.7 * side, 1.0, 0.0));
+        s.set_motion(wall, Vec3(-k_speed_mps * side, 0.0, 0.0), Vec3::Zero());
+    }
+    s.add_player_here();
+    s.run(3.0, [&] {
+        ASSERT_LE(fastest_mps(s), 10.0) << s.t_s();
+        ASSERT_LE(s.velocity().norm(), 10.0) << s.t_s();
+        ASSERT_TRUE(s.origin().allFinite()) << s.t_s();
+    });
+}
+
+TEST(Heap, RingThatCannotCloseStaysBoundedInWorkAndSpeed) {
+    Scenario s;
+    constexpr int k_links = 7;
+    std::vector<Entity> links;
+    for (int i = 0; i < k_links; ++i) {
+        const double angle = 2.0 * k_pi * i / k_links;
+        links.push_back(s.add_crate("link" + std::to_string(i), 1.0,
+                                    Vec3(std::cos(angle), 1.0 + std::sin(angle), -2.0),
+                                    Vec3(0.1, 0.02, 0.02)));
+    }
+    for (int i = 0; i < k_links; ++i) {
+        Joint joint;
+        joint.kind = JointKind::ball;
+        joint.a = links[static_cast<std::size_t>(i)];
+        joint.b = links[static_cast<std::size_t>((i + 1) % k_links)];
+        joint.frame_a_bs.position.x() = i == 0 ? 3.0 : 0.1;  // longer than all others together
+        joint.frame_b_bs.position.x() = -0.1;
+        add_joint(s.world, {"joint" + std::to_string(i), joint});
+    }
+    s.add_player_here();
+    std::uint64_t most_iterations = 0;
+    s.run(1.0, [&] {
+        ASSERT_LE(fastest_mps(s), 10.0) << s.t_s();
+        most_iterations = std::max(most_iterations, s.stats.newton_iterations);
+    });
+    EXPECT_LE(most_iterations, 400U);
+}
+
+TEST(Heap, RestitutionAndFrictionNeverAddEnergy) {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        Random random(seed);
+        Scenario s;
+        s.fits_hands = false;
+        for (int i = 0; i < 20; ++i) {
+            const Vec3 center = Vec3(0.0, 2.0, -3.0) + random.vector(0.8);
+            const std::string name = "body" + std::to_string(i);
+            const Entity body =
+                i % 2 == 0 ? s.add_rock(name, random.between(0.5, 5.0), center)
+                           : s.add_crate(name, random.between(0.5, 5.0), center,
+                                         Vec3::Constant(0.02) + random.vector(0.01).cwiseAbs());
+            s.world.body.at(body).restitution = 1.0;
+            s.world.body.at(body).friction = random.between(0.0, 1.0);
+            s.world.body_velocity.at(body) = {random.vector(4.0), random.vector(10.0)};
+        }
+        for (const double side : {-1.0, 1.0}) {
+            for (int axis = 0; axis < 3; ++axis) {
+                Vec3 half_m = Vec3::Constant(1.4);
+                half_m[axis] = 0.1;
+                Vec3 center(0.0, 2.0, -3.0);
+                center[axis] += side * 1.3;
+                const Entity wall = s.add_wall(
+                    "wall" + std::to_string(axis) + (side < 0.0 ? "-" : "+"), half_m, center);
+                s.world.body.at(wall).restitution = 1.0;
+                s.world.body.at(wall).friction = 0.5;
+            }
+        }
+        s.add_player_here(Vec3(0.0, 0.0, 3.0));
+        const double start = kinetic_energy(s);
+        s.run(3.0, [&] {
+            ASSERT_LE(kinetic_energy(s), start * (1.0 + 1e-6)) << seed << " " << s.t_s();
+        });
+        EXPECT_GT(kinetic_energy(s), 0.05 * start) << seed;
+    }
+}
+
+}  // namespace
+}  // namespace handhold::scenario_heap_test

@@ -1,0 +1,81 @@
+"""Writes the fitted constants as the header that the runtime compiles in."""
+import numpy as np
+
+from .estimator import LOOK_LAGS_S
+
+COLUMNS = 96
+
+
+def number(value):
+    text = f"{value:.4g}"
+    return text if any(mark in text for mark in ".e") else text + ".0"
+
+
+def wrapped_list(values, suffix, indent):
+    lines, line = [], ""
+    for value in values:
+        cell = number(value) + suffix + ","
+        if line and len(indent) + len(line) + 1 + len(cell) > COLUMNS:
+            lines.append(indent + line)
+            line = ""
+        line = f"{line} {cell}" if line else cell
+    return "\n".join(lines + [indent + line])
+
+
+def network_text(name, network):
+    """Outputs are scaled here, so that the runtime need not."""
+    parts = [network.mean, 1.0 / network.deviation, network.weights[0].ravel(), network.bias[0], (network.weights[1] * network.scale).ravel(),
+             network.bias[1] * network.scale]
+    lists = ",\n".join("    {{\n" + wrapped_list(part, "F", "        ") + "\n    }}" for part in parts)
+    inputs, hidden, outputs = network.weights[0].shape[0], network.weights[0].shape[1], network.weights[1].shape[1]
+    return (f"inline constexpr std::size_t k_{name}_inputs = {inputs};\n"
+            f"inline constexpr std::size_t k_{name}_outputs = {outputs};\n"
+            f"inline constexpr BodyNetwork<k_{name}_inputs, {hidden}, k_{name}_outputs> k_{name}_network = {{\n{lists}}};\n")
+
+
+def comment(lines):
+    return "".join(f"// {line}".rstrip() + "\n" for line in lines)
+
+
+def header(notes, chest, pole, chest_network, elbow_network):
+    """notes: lines of the leading comment. chest, pole: constants of the talk's form."""
+    scalars = "".join(f"inline constexpr double k_{name} = {number(value)};\n" for name, value in chest.items())
+    rest = ", ".join(number(pole[name]) for name in ("rest_x", "rest_y", "rest_z"))
+    wrist = "".join(f"inline constexpr double k_pole_{name} = {number(pole[name])};\n" for name in ("fingers", "back", "thumb"))
+    lags = ", ".join(number(lag) for lag in LOOK_LAGS_S)
+    return f"""#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "components/arm.hpp"
+#include "systems/arm/shared/body_network.hpp"
+
+{comment(notes)}
+// clang-format off
+namespace handhold::body_constants {{
+
+// Time constants of ArmMemory::looks_ps. The talk's form turns from the first.
+inline constexpr std::array<double, k_look_filters> k_look_lags_s = {{{lags}}};
+
+// The talk's form: chest_facing, chest_lean, chest_pose. Lengths: for an eye height of 1.6 m.
+{scalars}
+// The talk's form: elbow_pole. The rest direction is that of a right arm, in torso axes.
+inline constexpr std::array<double, 3> k_pole_rest = {{{rest}}};
+{wrist}
+// Inputs: chest_inputs in estimate_chest.cpp. Outputs: turn to the left (rad), middle of the shoulders (m), tangent of the roll.
+{network_text("chest", chest_network)}
+// Inputs: elbow_correction in estimate_elbow.cpp. Outputs: added to elbow_pole.
+{network_text("elbow", elbow_network)}
+}}  // namespace handhold::body_constants
+// clang-format on
+"""
+
+
+def rounded(network):
+    """The network with the digits that the header keeps, so that scores are those of the runtime."""
+    keep = lambda values: np.array([float(number(value)) for value in np.ravel(values)]).reshape(np.shape(values))
+    network.mean, network.deviation = keep(network.mean), 1.0 / keep(1.0 / network.deviation)
+    network.weights = [keep(network.weights[0]).astype(np.float32), (keep(network.weights[1] * network.scale) / network.scale).astype(np.float32)]
+    network.bias = [keep(network.bias[0]).astype(np.float32), (keep(network.bias[1] * network.scale) / network.scale).astype(np.float32)]
+    return network
