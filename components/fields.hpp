@@ -498,7 +498,7 @@ void visit_fields(const FingerPose& c, V&& visit) {
     visit("target", c.target);
     visit("closed", c.closed);
     visit("touches", c.touches);
-    visit("is_clear", c.is_clear);
+    visit("is_closed_clear", c.is_closed_clear);
     visit("is_authored", c.is_authored);
     visit("authored_pose_rejected", c.authored_pose_rejected);
     visit("closed_body", c.closed_body);
@@ -507,6 +507,8 @@ void visit_fields(const FingerPose& c, V&& visit) {
     visit("closed_normal_bs", c.closed_normal_bs);
     visit("is_closed_in_grip", c.is_closed_in_grip);
     visit("is_newly_closed", c.is_newly_closed);
+    visit("fitted_body", c.fitted_body);
+    visit("is_clear", c.is_clear);
     visit("fitted_wrist_bs", c.fitted_wrist_bs);
     visit("fitted_signature", c.fitted_signature);
     visit("is_converged", c.is_converged);

@@ -104,11 +104,11 @@ struct PalmPose {
 struct FingerPose {
     std::array<FingerAngles, k_finger_count> shown;   // follows `target` at the tuned rates
     std::array<FingerAngles, k_finger_count> target;  // written by fit_hands
-    // The last closing, written by sweep_fingers: angles, and whether the digit touched something.
+    // The last closing, written by sweep_fingers: angles, and whether the digit touched something
+    // and is known to be outside solids.
     std::array<FingerAngles, k_finger_count> closed;
     std::array<bool, k_finger_count> touches = {};
-    // Digits known to be outside solids, by the closing or the last fit.
-    std::array<bool, k_finger_count> is_clear = {};
+    std::array<bool, k_finger_count> is_closed_clear = {};
     // Digits in their authored pose, and digits whose authored pose penetrates in this grip.
     std::array<bool, k_finger_count> is_authored = {};
     std::array<bool, k_finger_count> authored_pose_rejected = {};
@@ -119,8 +119,12 @@ struct FingerPose {
     Vec3 closed_point_bs = Vec3::Zero();
     Vec3 closed_normal_bs = Vec3::UnitY();
     bool is_closed_in_grip = false;  // an authored one
-    // True until fit_hands has fitted the closing: the next fit starts from it.
+    // True until fit_hands has fitted the closing.
     bool is_newly_closed = false;
+    // The body that `target` was fitted to, null if none, and digits known to be outside its solids
+    // there.
+    Entity fitted_body = k_no_entity;
+    std::array<bool, k_finger_count> is_clear = {};
     // Cache key of the target: tracked wrist and HandSurroundings::signature of the last fit.
     Pose fitted_wrist_bs;
     std::uint64_t fitted_signature = 0;

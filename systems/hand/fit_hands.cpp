@@ -11,7 +11,12 @@ namespace handhold {
 namespace {
 
 constexpr std::int32_t k_closing_rounds = 6;
-constexpr std::int32_t k_rounds = 2;
+// A warm fit continues in the next frame.
+constexpr std::int32_t k_rounds = 1;
+constexpr double k_max_flex_rad = 0.15;
+// Hysteresis: a hand that closes again while it grips changes to the new closing if that costs less
+// than this share of its last fit's cost.
+constexpr double k_change_cost_share = 0.75;
 constexpr double k_fist_curl = 0.85;  // share of the range from open to fully curled
 
 // Angles of an empty hand's digit.
@@ -36,24 +41,54 @@ void pose_unsupported_hand(const HandSurroundings& hand, bool is_fist, const Thu
         pose.target[f] = pose.is_authored[f] ? pose.closed[f]
                                              : empty_angles(hand.rig->fingers[f], is_fist, tuning);
     }
+    pose.fitted_body = k_no_entity;
     pose.is_converged = false;
 }
 
-HandFitGoal goal_of(const HandSurroundings& hand, const PalmOffset& offset,
-                    const FingerPose& pose) {
+HandFitGoal common_goal(const HandSurroundings& hand, const FingerPose& pose) {
     HandFitGoal goal;
     goal.closed = pose.closed;
     goal.touches = pose.touches;
     goal.is_fixed = pose.is_authored;
     goal.is_wrist_fixed = hand.authored != nullptr;
-    const bool is_at_held = pose.is_newly_closed || goal.is_wrist_fixed;
-    goal.first = {is_at_held ? held_wrist_bs(hand, offset)
-                             : hand.wrist_bs * Pose{offset.target_m,
-                                                    rotation_from_vector(offset.target_turn_rad)},
-                  pose.is_newly_closed ? pose.closed : pose.target};
-    goal.is_clear = pose.is_clear;
-    goal.rounds = pose.is_newly_closed ? k_closing_rounds : k_rounds;
     return goal;
+}
+
+// Starts at the palm within its limits and the closed digits.
+HandFit fit_closed(const HandSurroundings& hand, const GripSurface& surface,
+                   const PalmOffset& offset, const FingerPose& pose, const PalmTuning& tuning) {
+    HandFitGoal goal = common_goal(hand, pose);
+    goal.first = {held_wrist_bs(hand, offset), pose.closed};
+    goal.is_clear = pose.is_closed_clear;
+    goal.rounds = k_closing_rounds;
+    return fit_hand(hand, surface, goal, tuning);
+}
+
+// Starts at last frame's fit, carried along with the tracked wrist.
+HandFit fit_last(const HandSurroundings& hand, const GripSurface& surface, const PalmOffset& offset,
+                 const FingerPose& pose, const PalmTuning& tuning) {
+    HandFitGoal goal = common_goal(hand, pose);
+    const Pose target{offset.target_m, rotation_from_vector(offset.target_turn_rad)};
+    goal.first = {goal.is_wrist_fixed ? held_wrist_bs(hand, offset) : hand.wrist_bs * target,
+                  pose.target};
+    goal.is_clear = pose.is_clear;
+    goal.rounds = k_rounds;
+    goal.max_flex_rad = k_max_flex_rad;
+    return fit_hand(hand, surface, goal, tuning);
+}
+
+HandFit best_fit(const HandSurroundings& hand, const GripSurface& surface, const Tuning& tuning,
+                 const PalmOffset& offset, const FingerPose& pose) {
+    if (!pose.is_newly_closed) {
+        return fit_last(hand, surface, offset, pose, tuning.palm);
+    }
+    const HandFit closed = fit_closed(hand, surface, offset, pose, tuning.palm);
+    const bool has_last = pose.fitted_body == hand.body && hand.authored == nullptr;
+    if (!has_last) {
+        return closed;
+    }
+    const HandFit last = fit_last(hand, surface, offset, pose, tuning.palm);
+    return closed.cost < k_change_cost_share * last.cost ? closed : last;
 }
 
 void fit_one(const HandSurroundings& hand, const GripSurface& surface, const Tuning& tuning,
@@ -64,7 +99,7 @@ void fit_one(const HandSurroundings& hand, const GripSurface& surface, const Tun
     if (is_same && pose.is_converged) {
         return;
     }
-    const HandFit fit = fit_hand(hand, surface, goal_of(hand, offset, pose), tuning.palm);
+    const HandFit fit = best_fit(hand, surface, tuning, offset, pose);
     const Pose target = inverse(hand.wrist_bs) * fit.pose.wrist_bs;
     offset.target_m = target.position;
     offset.target_turn_rad = rotation_to_vector(target.rotation);
@@ -76,6 +111,7 @@ void fit_one(const HandSurroundings& hand, const GripSurface& surface, const Tun
         stats.count(Fallback::hand_penetrates);
     }
     pose.is_newly_closed = false;
+    pose.fitted_body = hand.body;
     pose.fitted_wrist_bs = hand.wrist_bs;
     pose.fitted_signature = hand.signature;
     pose.is_converged = fit.is_converged;

@@ -110,7 +110,7 @@ class FingerCloser {
         pose.authored_pose_rejected[f] = false;
         pose.closed[f] = *posed;
         pose.touches[f] = true;
-        pose.is_clear[f] = true;
+        pose.is_closed_clear[f] = true;
         return true;
     }
 
@@ -132,7 +132,7 @@ class FingerCloser {
             pose.closed[f] = {fit.angle_rad, 0.0};
         }
         pose.touches[f] = touches(fit);
-        pose.is_clear[f] = fit.depth_m < k_max_clear_depth_m;
+        pose.is_closed_clear[f] = fit.depth_m < k_max_clear_depth_m;
         count_fallback(fit.fallback, stats_);
         if (!io_.traces.empty()) {
             io_.traces[hand_index][f] = {fit.discs,        fit.pops,     fit.walked,

@@ -14,7 +14,8 @@ namespace {
 constexpr double k_arm_m = 0.08;
 constexpr double k_lever_m = 0.05;  // l
 constexpr double k_close = 0.004;
-constexpr double k_touch = 0.2;
+constexpr double k_touch = 2.0;
+constexpr double k_let_go_m = 0.008;  // g
 constexpr double k_tip = 0.02;
 constexpr double k_first = 0.002;
 constexpr double k_first_opposition = 0.02;
@@ -35,7 +36,6 @@ constexpr double k_clear_m = 3e-4;  // gap that contacts aim for
 // Largest step of one round: gaps are linearised.
 constexpr double k_max_move_m = 0.02;
 constexpr double k_max_turn_rad = 0.3;
-constexpr double k_max_flex_rad = 0.4;
 
 constexpr double k_lever2 = k_lever_m * k_lever_m;
 
@@ -92,7 +92,7 @@ class Fitter {
         constexpr double k_gain = 1e-6;  // smallest relative gain that counts
         constexpr double k_gain_m2 = 1e-12;
         double cost = evaluate();
-        HandFit best = described();
+        HandFit best = described(cost);
         best.is_converged = true;
         for (std::int32_t round = 0; round < goal_.rounds; ++round) {
             step();
@@ -100,8 +100,8 @@ class Fitter {
             const double now = evaluate();
             const bool is_gain = now < cost - k_gain * cost - k_gain_m2;
             if (is_gain) {
-                best = described();
                 cost = now;
+                best = described(cost);
             }
             best.is_converged = !(cost < before);
         }
@@ -109,8 +109,9 @@ class Fitter {
     }
 
   private:
-    HandFit described() const {
+    HandFit described(double cost) const {
         HandFit fit;
+        fit.cost = cost;
         fit.pose = pose_;
         fit.penetration_m = spheres_.penetration_m();
         for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
@@ -211,13 +212,24 @@ class Fitter {
             if (!is_knuckle && (nearest == nullptr || sphere.gap_m < nearest->gap_m)) {
                 nearest = &sphere;
             }
-            if (sphere.is_tip && is_thumb(rig_.fingers[f]) && sphere.gap_m > 0.0) {
+            if (sphere.is_thumb_tip) {
                 add_square(k_tip, sphere.gap_m, slope_of(sphere));
             }
         }
-        if (nearest != nullptr && nearest->gap_m > 0.0) {
-            add_square(k_touch, nearest->gap_m, slope_of(*nearest));
+        if (nearest != nullptr && (goal_.touches[f] || nearest->gap_m < k_sphere_reach_m)) {
+            add_pull(*nearest, goal_.touches[f]);
         }
+    }
+
+    // Adds k_touch / 2 * gap^2 for a digit that touches, or else k_touch / 2 * gap^2 / (1 + gap^2 /
+    // g^2), as the square that has the same slope here (iteratively reweighted least squares). A
+    // gap of 0 is pulled too, so that the wrist does not leave it.
+    void add_pull(const HandSphere& sphere, bool touches) {
+        const double ratio = touches ? 0.0 : sphere.gap_m / k_let_go_m;
+        const double share = 1.0 / (1.0 + ratio * ratio);
+        const double weight = k_touch * share * share;
+        add_square(weight, sphere.gap_m, slope_of(sphere));
+        cost_ += 0.5 * (k_touch * share - weight) * sphere.gap_m * sphere.gap_m;
     }
 
     // Neighbours are fingers next to each other in the rig, thumbs left out.
@@ -332,8 +344,8 @@ class Fitter {
     // Moves by the solution of the problem that evaluate() built.
     void step() {
         for (int i = 6; i < layout_.end(); ++i) {
-            add_row(unit(i), k_max_flex_rad, k_joint_limit * k_lever2);
-            add_row(unit(i, -1.0), k_max_flex_rad, k_joint_limit * k_lever2);
+            add_row(unit(i), goal_.max_flex_rad, k_joint_limit * k_lever2);
+            add_row(unit(i, -1.0), goal_.max_flex_rad, k_joint_limit * k_lever2);
         }
         hold_fixed_unknowns();
         Unknowns change =
@@ -375,13 +387,14 @@ class Fitter {
             const FingerRig& finger = rig_.fingers[f];
             FingerAngles& angles = pose_.fingers[f];
             for (std::size_t i = 0; i < finger.link_count; ++i) {
-                const double flex_rad =
-                    std::clamp(change[layout_.hinge(f, i)], -k_max_flex_rad, k_max_flex_rad);
+                const double flex_rad = std::clamp(change[layout_.hinge(f, i)], -goal_.max_flex_rad,
+                                                   goal_.max_flex_rad);
                 angles.curl_rad[i] = std::clamp(angles.curl_rad[i] + flex_rad, finger.lower_rad[i],
                                                 finger.upper_rad[i]);
             }
             if (const int place = layout_.opposition(f); place >= 0) {
-                const double turn_rad = std::clamp(change[place], -k_max_flex_rad, k_max_flex_rad);
+                const double turn_rad =
+                    std::clamp(change[place], -goal_.max_flex_rad, goal_.max_flex_rad);
                 angles.opposition_rad =
                     std::clamp(angles.opposition_rad + turn_rad, finger.lower_opposition_rad,
                                finger.upper_opposition_rad);

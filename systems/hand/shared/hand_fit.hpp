@@ -13,7 +13,9 @@
 //   minimise   |p - p0|^2 + (arm |r|)^2             palm's centre p and rotation vector r from the
 //                                                   tracked wrist (p0, 0)
 //            + close  sum (lever (q - q_closed))^2  digits that touch something stay closed
-//            + touch  sum gap^2                     each digit's smallest positive gap
+//            + touch  sum pull(gap)                 each digit's smallest gap: gap^2 if the closing
+//                                                   found a contact, else gap^2 / (1 + gap^2 /
+//                                                   g^2): a digit that is far off is let go
 //            + tip    gap^2                         of the thumb's tip
 //            + first  sum (l (q - q_first))^2       angles q near those of the closing
 //            + alike  sum (l (q_f - q_f+1))^2       neighbouring fingers bend alike: a finger that
@@ -23,11 +25,11 @@
 //   subject to every capsule's gap >= 0, joint limits, the palm's limits on height and tilt, total
 //   bends up to 163 degrees, neighbours' total bends within 92 degrees of each other
 //
-// lever is the length beyond a hinge, l = 5 cm. The inequalities are penalties, stiffer in this
-// order: bends, palm, joints, gaps; what cannot be met is shared. Each round queries the gaps
-// (hand_spheres.hpp), linearises and solves (engine/math/penalty_quadratic.hpp). Sources: Santello,
-// Flanders, Soechting, Postural hand synergies for tool use, 1998 (fingers bend alike); Rijpkema,
-// Girard, Computer animation of knowledge-based human grasping, 1991 (2/3).
+// lever is the length beyond a hinge, l = 5 cm, g = 8 mm. The inequalities are penalties, stiffer
+// in this order: bends, palm, joints, gaps; what cannot be met is shared. Each round queries the
+// gaps (hand_spheres.hpp), linearises and solves (engine/math/penalty_quadratic.hpp). Sources:
+// Santello, Flanders, Soechting, Postural hand synergies for tool use, 1998 (fingers bend alike);
+// Rijpkema, Girard, Computer animation of knowledge-based human grasping, 1991 (2/3).
 namespace handhold {
 
 struct HandFitGoal {
@@ -39,10 +41,12 @@ struct HandFitGoal {
     std::array<bool, k_finger_count> is_fixed = {};  // the angles are kept, as in authored poses
     bool is_wrist_fixed = false;                     // the wrist is kept
     std::int32_t rounds = 0;                         // at most
+    double max_flex_rad = 0.4;                       // largest step of an angle in one round
 };
 
 struct HandFit {
     HandPose pose;               // of the cheapest round; `first` if none was cheaper
+    double cost = 0.0;           // of the objective, m^2
     double penetration_m = 0.0;  // of the deepest sphere; at least 0
     // By finger: smallest gap, below 0 if penetrating; infinity: nothing within reach.
     std::array<double, k_finger_count> gap_m = {};

@@ -15,6 +15,21 @@ constexpr int k_max_pieces = 6;          // per link
 constexpr double k_extra_gap_m = 0.004;  // links farther away need no extra sphere
 constexpr double k_max_inside_m = 0.03;  // deepest centre inside a solid that is found
 
+double query_radius_m(const HandSphere& sphere) {
+    const double reach_m = sphere.is_thumb_tip ? k_thumb_tip_reach_m : k_sphere_reach_m;
+    return std::max(sphere.radius_m + reach_m, k_max_inside_m);
+}
+
+// Upper bound of the gripped mesh's distance to `center` by a sphere with a known one: the triangle
+// inequality. It shortens the search.
+double distance_bound_m(const HandSphere& known, const Vec3& center) {
+    constexpr double k_slack_m = 1e-6;
+    const double distance_m = std::abs(known.signed_m);
+    return distance_m < query_radius_m(known)
+               ? distance_m + (center - known.center).norm() + k_slack_m
+               : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 HandLinkFrames link_frames(const HandRig& rig, const HandPose& pose) {
@@ -59,10 +74,11 @@ HandSpheres::HandSpheres(const HandSurroundings& hand, const GripSurface& surfac
             // A later link's first sphere is the previous link's last.
             for (int i = link == 0 ? 0 : 1; i <= pieces; ++i) {
                 sphere.center_ls = Vec3(0.0, 0.0, -finger.length_m[link] * i / pieces);
-                sphere.is_tip = link + 1 == finger.link_count && i == pieces;
+                sphere.is_thumb_tip = finger.name == FingerName::thumb &&
+                                      link + 1 == finger.link_count && i == pieces;
                 add(sphere);
             }
-            sphere.is_tip = false;
+            sphere.is_thumb_tip = false;
             sphere.is_extra = true;
             add(sphere);
         }
@@ -84,7 +100,8 @@ Vec3 HandSpheres::center_of(const HandSphere& sphere, const HandPose& pose,
 }
 
 void HandSpheres::query(const HandPose& pose, const HandLinkFrames& frames) {
-    const HandSphere* nearest = nullptr;  // of the present capsule
+    const HandSphere* nearest = nullptr;   // of the present capsule
+    const HandSphere* previous = nullptr;  // queried at this pose
     for (std::size_t i = 0; i < count_; ++i) {
         HandSphere& sphere = spheres_[i];
         if (sphere.is_extra) {
@@ -95,7 +112,14 @@ void HandSpheres::query(const HandPose& pose, const HandLinkFrames& frames) {
             nearest = nullptr;
             continue;
         }
-        query_sphere(sphere, center_of(sphere, pose, frames), !is_queried_);
+        const Vec3 center = center_of(sphere, pose, frames);
+        double bound_m = is_queried_ ? distance_bound_m(sphere, center)
+                                     : std::numeric_limits<double>::infinity();
+        if (previous != nullptr) {
+            bound_m = std::min(bound_m, distance_bound_m(*previous, center));
+        }
+        query_sphere(sphere, center, bound_m, !is_queried_);
+        previous = &sphere;
         if (sphere.has_gap && (nearest == nullptr || sphere.gap_m < nearest->gap_m)) {
             nearest = &sphere;
         }
@@ -125,7 +149,7 @@ void HandSpheres::query_extra(const HandSphere& nearest, HandSphere& extra, cons
     }
     extra.center = nearest.center;
     extra.signed_m = nearest.signed_m;
-    query_sphere(extra, center, false);
+    query_sphere(extra, center, distance_bound_m(nearest, center), false);
 }
 
 // 1 outside, -1 inside, before the distance is known.
@@ -148,19 +172,21 @@ double HandSpheres::side_of_gripped(const HandSphere& sphere, const Vec3& center
     return crosses ? -side : side;
 }
 
-void HandSpheres::query_sphere(HandSphere& sphere, const Vec3& center, bool is_first) {
+void HandSpheres::query_sphere(HandSphere& sphere, const Vec3& center, double bound_m,
+                               bool is_first) {
     // A centre at least this far below its nearest triangle's plane is inside. Beyond an edge, a
     // centre outside the solid can be slightly below one triangle's plane.
     constexpr double k_min_inside_ratio = 0.5;
     constexpr double k_on_surface_m = 1e-9;
-    const double radius_m = std::max(sphere.radius_m + k_sphere_reach_m, k_max_inside_m);
+    const double radius_m = query_radius_m(sphere);
     double signed_m = radius_m;
     sphere.has_gap = false;
     sphere.gap_m = std::numeric_limits<double>::infinity();
     for (std::size_t m = 0; m < hand_.meshes.size(); ++m) {
         const PlacedMesh& placed = hand_.meshes[m];
-        const auto near = placed.mesh->contact_bvh.closest_point(
-            inverse_transform_point(placed.pose, center), radius_m);
+        const auto near =
+            placed.mesh->contact_bvh.closest_point(inverse_transform_point(placed.pose, center),
+                                                   m == 0 ? std::min(radius_m, bound_m) : radius_m);
         if (!near) {
             continue;
         }
@@ -168,7 +194,8 @@ void HandSpheres::query_sphere(HandSphere& sphere, const Vec3& center, bool is_f
         const Vec3 outward =
             placed.pose.rotation *
             Vec3((m == 0 ? winding_ : 1.0) * placed.mesh->contact.normals[near->triangle]);
-        const bool is_below = outward.dot(offset) < -k_min_inside_ratio * near->distance_m;
+        const bool is_below = near->distance_m < k_max_inside_m &&
+                              outward.dot(offset) < -k_min_inside_ratio * near->distance_m;
         double side = is_below ? -1.0 : 1.0;
         if (m == 0) {
             side = side_of_gripped(sphere, center, is_below, is_first);

@@ -30,19 +30,20 @@ struct HandSphere {
     // An extra sphere where the capsule's axis is nearest to the surface. Without it, an edge could
     // penetrate between two spheres.
     bool is_extra = false;
-    bool is_tip = false;  // at the end of the last link
+    bool is_thumb_tip = false;
 
     // Written by HandSpheres::query.
     Vec3 center = Vec3::Zero();
     Vec3 away = Vec3::Zero();  // unit, from the nearest surface point to the centre, out of solids
     double gap_m = 0.0;        // below 0: penetration depth
-    bool has_gap = false;      // a surface is within k_sphere_reach_m of the sphere
+    bool has_gap = false;      // a surface is within reach of the sphere
     // Signed distance of the centre to the gripped mesh, at most the query radius.
     double signed_m = 0.0;
 };
 
-// Gaps up to this are reported.
+// Gaps up to this are reported. A thumb's tip can be far from a surface that its base touches.
 inline constexpr double k_sphere_reach_m = 0.02;
+inline constexpr double k_thumb_tip_reach_m = 0.06;
 
 class HandSpheres {
   public:
@@ -67,7 +68,8 @@ class HandSpheres {
     void add(const HandSphere& sphere);
     Vec3 center_of(const HandSphere& sphere, const HandPose& pose,
                    const HandLinkFrames& frames) const;
-    void query_sphere(HandSphere& sphere, const Vec3& center, bool is_first);
+    // `bound_m`: at least the distance of the gripped mesh, or infinity.
+    void query_sphere(HandSphere& sphere, const Vec3& center, double bound_m, bool is_first);
     void query_extra(const HandSphere& nearest, HandSphere& extra, const HandPose& pose,
                      const HandLinkFrames& frames);
     double side_of_gripped(const HandSphere& sphere, const Vec3& center, bool is_below,

@@ -8,29 +8,42 @@
 namespace handhold::test {
 
 // A beam of 4 cm by 4 cm along x with its top in the plane y = 0; fingers along -Z close around it.
+// Its cells are fine enough for mean normals to turn gradually at its edges.
 inline Mesh make_beam(double width_m = 0.04) {
-    constexpr std::uint32_t k_pieces = 40;
+    constexpr std::uint32_t k_along = 40;
+    constexpr std::uint32_t k_across = 4;
+    constexpr std::uint32_t k_ring = 4 * k_across;
     const double half_m = 0.5 * width_m;
-    const std::array<std::array<double, 2>, 4> ring = {
-        {{0.0, half_m}, {0.0, -half_m}, {-width_m, -half_m}, {-width_m, half_m}}};
+    const std::array<Vec3, 4> corners = {Vec3(0.0, 0.0, half_m), Vec3(0.0, 0.0, -half_m),
+                                         Vec3(0.0, -width_m, -half_m), Vec3(0.0, -width_m, half_m)};
     Mesh mesh;
-    for (std::uint32_t i = 0; i <= k_pieces; ++i) {
-        for (const auto& [y, z] : ring) {
-            mesh.positions.emplace_back(0.4 * i / k_pieces - 0.2, y, z);
+    for (std::uint32_t i = 0; i <= k_along; ++i) {
+        for (std::uint32_t k = 0; k < k_ring; ++k) {
+            const Vec3& from = corners[k / k_across];
+            const Vec3& to = corners[(k / k_across + 1) % 4];
+            const double share = static_cast<double>(k % k_across) / k_across;
+            mesh.positions.emplace_back(
+                Vec3((0.4 * i / k_along - 0.2) * Vec3::UnitX() + from + share * (to - from)));
         }
     }
-    for (std::uint32_t i = 0; i < k_pieces; ++i) {
-        for (std::uint32_t side = 0; side < 4; ++side) {
-            const std::uint32_t a = 4 * i + side;
-            const std::uint32_t b = 4 * i + (side + 1) % 4;
-            mesh.triangles.push_back({a, a + 4, b});
-            mesh.triangles.push_back({b, a + 4, b + 4});
+    for (std::uint32_t i = 0; i < k_along; ++i) {
+        for (std::uint32_t k = 0; k < k_ring; ++k) {
+            const std::uint32_t a = k_ring * i + k;
+            const std::uint32_t b = k_ring * i + (k + 1) % k_ring;
+            mesh.triangles.push_back({a, a + k_ring, b});
+            mesh.triangles.push_back({b, a + k_ring, b + k_ring});
         }
     }
-    for (const std::uint32_t end : {0U, 4 * k_pieces}) {
-        const bool is_first = end == 0;
-        mesh.triangles.push_back({end, end + (is_first ? 1U : 2U), end + (is_first ? 2U : 1U)});
-        mesh.triangles.push_back({end, end + (is_first ? 2U : 3U), end + (is_first ? 3U : 2U)});
+    for (const double end : {0.0, 1.0}) {
+        const auto middle = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.positions.emplace_back(0.4 * end - 0.2, -half_m, 0.0);
+        const std::uint32_t first = end > 0.0 ? k_ring * k_along : 0;
+        for (std::uint32_t k = 0; k < k_ring; ++k) {
+            const std::uint32_t a = first + k;
+            const std::uint32_t b = first + (k + 1) % k_ring;
+            mesh.triangles.push_back(end > 0.0 ? std::array{middle, b, a}
+                                               : std::array{middle, a, b});
+        }
     }
     return mesh;
 }

@@ -48,10 +48,12 @@ TEST_F(HandSpheresOnFloor, GapIsHeightLessRadius) {
                     EXPECT_LT((sphere.away - Vec3::UnitY()).norm(), 1e-6);
                     ++seen;
                 } else if (!sphere.is_extra && is_shallow) {
-                    EXPECT_GT(gap_m, k_sphere_reach_m - 1e-9);
+                    EXPECT_GT(
+                        gap_m,
+                        (sphere.is_thumb_tip ? k_thumb_tip_reach_m : k_sphere_reach_m) - 1e-9);
                 }
             }
-            EXPECT_GT(seen, 10);
+            EXPECT_GT(seen, 5);
         }
     }
 }
@@ -70,7 +72,7 @@ TEST_F(HandSpheresOnFloor, CentreThatCrossesASheetIsInside) {
         FittedHand over(mesh, hand.wrist_bs());
         over.search();
         HandSpheres all(over.hands.front(), over.surface.at(k_right), {});
-        query(all, pose_at(0.02, 0.0));
+        query(all, pose_at(0.1, 0.0));
         ASSERT_EQ(all.penetration_m(), 0.0);
         const HandPose low = pose_at(-0.005, 0.0);
         query(all, low);
