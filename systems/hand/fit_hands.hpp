@@ -25,9 +25,9 @@ struct FitHandsIo {
 // (shared/hand_fit.hpp), and shows all hands. Talk rows 10, 16 and 18.
 //
 // A hand that has just closed starts at the palm within its limits and the closed digits
-// (constrain_palms, sweep_fingers). Other hands start at last frame's fit, carried along with the
-// tracked wrist, so that they move continuously. A hand that closes again while it grips tries both
-// and changes only if the closing costs less than 75 % of the other. The fit is kept while wrist and surroundings are
+// (constrain_palms, sweep_fingers). Other hands move on from last frame's fit, carried along with
+// the tracked wrist. A hand that closes again while it grips tries both and changes only if the
+// closing costs less than 75 % of the other. The fit is kept while wrist and surroundings are
 // unchanged and another one would change nothing.
 //
 // A palm in an authored grip keeps the authored wrist, and digits with an authored pose keep it.

@@ -96,12 +96,12 @@ class Blind(unittest.TestCase):
         folder = Path(folder)
         (folder / "key.json").write_text(json.dumps([{"pair": i, "mesh": "m", "id": i, "order": order} for i, order in enumerate(orders)]))
         with open(folder / "answers.csv", "w", newline="") as out:
-            csv.writer(out).writerows([["pair", "better", "left", "right"], *[[i, *answer] for i, answer in enumerate(answers)]])
+            csv.writer(out).writerows([["pair", "better", "upper", "lower"], *[[i, *answer] for i, answer in enumerate(answers)]])
         return folder
 
     def test_answers_are_counted_by_variant_and_not_by_side(self):
         with tempfile.TemporaryDirectory() as folder:
-            self.write(folder, [[0, 1], [1, 0], [1, 0]], [["left", "convincing", "ugly"], ["right", "ugly", "convincing"],
+            self.write(folder, [[0, 1], [1, 0], [1, 0]], [["upper", "convincing", "ugly"], ["lower", "ugly", "convincing"],
                                                           ["same", "acceptable", "acceptable"]])
             lines = load_gallery().score(Path(folder))
         self.assertEqual(lines[0], "3 pairs, 1 the same")
@@ -112,7 +112,7 @@ class Blind(unittest.TestCase):
     def test_unfilled_answers_are_refused_with_the_line(self):
         with tempfile.TemporaryDirectory() as folder:
             self.write(folder, [[0, 1]], [["", "ugly", "ugly"]])
-            self.assertRaisesRegex(files.FormatError, "line 2: better: expected one of left", load_gallery().score, Path(folder))
+            self.assertRaisesRegex(files.FormatError, "line 2: better: expected one of upper", load_gallery().score, Path(folder))
 
     def test_wilson_bounds(self):
         low, high = load_gallery().wilson(50, 100)

@@ -11,12 +11,12 @@ namespace handhold::lab {
 // its best viewpoint, as one sheet.
 struct HandsPictureOptions {
     std::filesystem::path mesh;
-    std::filesystem::path hands;  // output of `handhold-lab grip` (JSON lines)
-    std::filesystem::path out;    // PNG
+    std::filesystem::path hands;     // output of `handhold-lab grip` (JSON lines)
+    std::filesystem::path out;       // PNG
     std::string style = "capsules";  // or "skin": the game's hand
     std::string hand = "right";      // side of the game's hand
     int views = 1;                   // of each hand, side by side: 1 or 2
-    std::vector<std::int64_t> ids;  // empty: `count` hands spread evenly over the file
+    std::vector<std::int64_t> ids;   // empty: `count` hands spread evenly over the file
     int count = 12;
     int columns = 4;
     int width_px = 480;  // size of one picture

@@ -26,8 +26,8 @@ HandCapsule read_capsule(const JsonValue& json) {
 
 void read_angles(const JsonValue& json, std::array<FingerAngles, k_finger_count>& angles) {
     const std::string name = json["name"].text();
-    const auto place = static_cast<std::size_t>(
-        std::find(k_names.begin(), k_names.end(), name) - k_names.begin());
+    const auto place =
+        static_cast<std::size_t>(std::find(k_names.begin(), k_names.end(), name) - k_names.begin());
     if (place >= k_finger_count) {
         json["name"].refuse("thumb, index, middle, ring or little");
         return;
