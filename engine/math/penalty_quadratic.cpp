@@ -9,7 +9,7 @@
 namespace handhold {
 namespace {
 
-constexpr int k_max_steps = 24;
+constexpr int k_max_newton_steps = 24;
 constexpr int k_max_line_steps = 16;
 constexpr double k_converged = 1e-10;  // relative length of the last step
 
@@ -92,7 +92,7 @@ Unknowns minimise_penalised(const UnknownsSquare& hessian, const Unknowns& gradi
         line[i] = {rows[i].value, 0.0, rows[i].weight};
     }
     Unknowns x = Unknowns::Zero();
-    for (int i = 0; i < k_max_steps; ++i) {
+    for (int i = 0; i < k_max_newton_steps; ++i) {
         UnknownsSquare matrix = hessian;
         const Unknowns turned = hessian.lazyProduct(x);
         Unknowns step = -gradient - turned;

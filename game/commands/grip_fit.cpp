@@ -13,6 +13,7 @@ namespace handhold {
 FittedGrip fit_grip(const GripMesh& mesh, const HandRig& rig, const Pose& wrist_bs,
                     const Tuning& tuning, const AuthoredHand* authored) {
     constexpr double k_at_once_s = std::numeric_limits<double>::infinity();
+    constexpr int k_max_frames = 40;  // until the fit converges, as that of a hand at rest
     EntityPool entities;
     const Entity hand = entities.create();
     const Entity body = entities.create();
@@ -34,7 +35,9 @@ FittedGrip fit_grip(const GripMesh& mesh, const HandRig& rig, const Pose& wrist_
     search_grip({k_at_once_s, hands, surface, search}, tuning, stats);
     constrain_palms({hands, surface, offset}, tuning);
     sweep_fingers({hands, surface, offset, fingers, {}, fit}, tuning, stats);
-    fit_hands({k_at_once_s, hands, tracking, surface, offset, fingers, palm}, tuning, stats);
+    for (int frame = 0; frame < k_max_frames && !fingers.at(hand).is_converged; ++frame) {
+        fit_hands({k_at_once_s, hands, tracking, surface, offset, fingers, palm}, tuning, stats);
+    }
     FittedGrip fitted;
     fitted.wrist_bs = palm.at(hand).pose_ws;
     fitted.fingers = fingers.at(hand).shown;
