@@ -17,6 +17,7 @@ constexpr double k_max_flex_rad = 0.15;
 // Hysteresis: a hand that closes again while it grips changes to the new closing if that costs less
 // than this share of its last fit's cost.
 constexpr double k_change_cost_share = 0.75;
+constexpr double k_deep_m = 3e-3;     // a fit that penetrates deeper is counted
 constexpr double k_fist_curl = 0.85;  // share of the range from open to fully curled
 
 // Angles of an empty hand's digit.
@@ -105,9 +106,9 @@ void fit_one(const HandSurroundings& hand, const GripSurface& surface, const Tun
     offset.target_turn_rad = rotation_to_vector(target.rotation);
     pose.target = fit.pose.fingers;
     for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
-        pose.is_clear[f] = fit.gap_m[f] > -k_max_clear_depth_m;
+        pose.is_clear[f] = fit.gap_m[f] > -clear_depth_m(hand.rig->fingers[f]);
     }
-    if (pose.is_newly_closed && fit.penetration_m > k_max_clear_depth_m) {
+    if (pose.is_newly_closed && fit.penetration_m > k_deep_m) {
         stats.count(Fallback::hand_penetrates);
     }
     pose.is_newly_closed = false;

@@ -132,7 +132,7 @@ class FingerCloser {
             pose.closed[f] = {fit.angle_rad, 0.0};
         }
         pose.touches[f] = touches(fit);
-        pose.is_closed_clear[f] = fit.depth_m < k_max_clear_depth_m;
+        pose.is_closed_clear[f] = fit.depth_m < clear_depth_m(finger);
         count_fallback(fit.fallback, stats_);
         if (!io_.traces.empty()) {
             io_.traces[hand_index][f] = {fit.discs,        fit.pops,     fit.walked,

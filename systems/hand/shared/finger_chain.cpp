@@ -1,5 +1,7 @@
 #include "systems/hand/shared/finger_chain.hpp"
 
+#include <algorithm>
+
 #include "engine/collision/closest_point.hpp"
 
 namespace handhold {
@@ -37,6 +39,12 @@ HingeChain finger_chain(const FingerRig& finger, double opposition_rad, const Po
     chain.closed_rad = finger.upper_rad;
     chain.rest_rad = finger.rest_rad;
     return chain;
+}
+
+double clear_depth_m(const FingerRig& finger) {
+    return *std::min_element(
+        finger.radius_m.begin(),
+        finger.radius_m.begin() + static_cast<std::ptrdiff_t>(finger.link_count));
 }
 
 ChainFitSettings chain_settings(const FingerTuning& tuning) {

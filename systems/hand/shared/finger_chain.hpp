@@ -13,8 +13,9 @@ namespace handhold {
 HingeChain finger_chain(const FingerRig& finger, double opposition_rad, const Pose& wrist);
 
 ChainFitSettings chain_settings(const FingerTuning& tuning);
-// A digit that penetrates less deep is outside the solids around it.
-inline constexpr double k_max_clear_depth_m = 3e-3;
+// A digit that penetrates less deep has no surface through its axis: it is on one side, and that is
+// the outside, from where it closed. Smallest radius of the digit's links.
+double clear_depth_m(const FingerRig& finger);
 
 // The wrist held within the palm's limits.
 Pose held_wrist_bs(const HandSurroundings& hand, const PalmOffset& offset);

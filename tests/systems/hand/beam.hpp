@@ -48,20 +48,27 @@ inline Mesh make_beam(double width_m = 0.04) {
     return mesh;
 }
 
-// Largest penetration of the digits at these angles, with the hand at `wrist_bs`. Oracle:
+// Largest penetration of a digit at these angles, with the hand at `wrist_bs`. Oracle:
 // find_penetration, which has its own tests.
+inline double digit_depth_m(const FittedHand& hand, std::size_t finger, const FingerAngles& angles,
+                            const Pose& wrist_bs) {
+    const HingeChain chain =
+        finger_chain(hand.rig.fingers[finger], angles.opposition_rad, wrist_bs);
+    const auto capsules = chain_capsules(chain, angles.curl_rad);
+    double deepest_m = 0.0;
+    for (std::size_t i = 0; i < chain.link_count; ++i) {
+        deepest_m =
+            std::max(deepest_m, find_penetration(capsules[i], hand.hands.front().meshes).depth_m);
+    }
+    return deepest_m;
+}
+
 inline double deepest_digit_m(const FittedHand& hand,
                               const std::array<FingerAngles, k_finger_count>& fingers,
                               const Pose& wrist_bs) {
     double deepest_m = 0.0;
     for (std::size_t f = 0; f < hand.rig.fingers.size(); ++f) {
-        const HingeChain chain =
-            finger_chain(hand.rig.fingers[f], fingers[f].opposition_rad, wrist_bs);
-        const auto capsules = chain_capsules(chain, fingers[f].curl_rad);
-        for (std::size_t i = 0; i < chain.link_count; ++i) {
-            deepest_m = std::max(deepest_m,
-                                 find_penetration(capsules[i], hand.hands.front().meshes).depth_m);
-        }
+        deepest_m = std::max(deepest_m, digit_depth_m(hand, f, fingers[f], wrist_bs));
     }
     return deepest_m;
 }

@@ -63,6 +63,45 @@ TEST_F(FitHands, FittedHandDoesNotPenetrateAndStaysWithinLimits) {
     EXPECT_LE(deep, 2);
 }
 
+// A palm held so low that its digits press into the beam, whose windings are random. Closed digits
+// that no surface goes through stay on their side, whatever the winding under the palm.
+TEST_F(FitHands, DigitsStayOnTheSideWhereTheyClosed) {
+    Random random(2503);
+    int pressed = 0;
+    for (int i = 0; i < 40; ++i) {
+        Mesh mesh = test::make_beam();
+        for (auto& [a, b, c] : mesh.triangles) {
+            if (random.between(0.0, 1.0) < 0.5) {
+                std::swap(b, c);
+            }
+        }
+        const GripMesh grip_mesh = build_grip_mesh(mesh);
+        const Vec3 center(random.between(-0.05, 0.05), random.between(-0.008, 0.002), 0.0);
+        const Vec3 up = (Vec3::UnitY() + random.vector(0.3)).normalized();
+        AuthoredHand held;
+        held.is_there = true;
+        held.wrist_bs = wrist_with_palm_at(rig, center, up);
+        FittedHand hand(grip_mesh, held.wrist_bs);
+        hand.hands.front().authored = &held;
+        hand.frame(k_unbudgeted_s);
+        const FingerPose closing = hand.pose();
+        const Pose wrist_bs = hand.shown_bs();
+        for (int frame = 0; frame < 5; ++frame) {
+            hand.frame(k_unbudgeted_s);
+        }
+        for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+            const double closed_m = test::digit_depth_m(hand, f, closing.closed[f], wrist_bs);
+            if (closed_m < clear_depth_m(rig.fingers[f]) - 1e-4) {
+                pressed += closed_m > 3e-3 ? 1 : 0;
+                EXPECT_LT(test::digit_depth_m(hand, f, hand.pose().target[f], hand.shown_bs()),
+                          clear_depth_m(rig.fingers[f]) - 1e-6)
+                    << i << ", finger " << f << ", closed " << closed_m;
+            }
+        }
+    }
+    EXPECT_GT(pressed, 5);
+}
+
 // Beyond the beam's end a finger reaches nothing.
 TEST_F(FitHands, FingerThatReachesNothingGoesWithItsNeighbour) {
     Pose at_end = on_beam;
