@@ -87,9 +87,11 @@ Unknowns minimise_penalised(const UnknownsSquare& hessian, const Unknowns& gradi
     HH_CHECK(count <= k_max_unknowns && rows.size() <= k_max_penalty_rows, "a small problem",
              count);
     const auto n = static_cast<Eigen::Index>(count);
-    std::array<RowOnLine, k_max_penalty_rows> line;  // NOLINT(*-member-init): filled as far as used
+    std::array<double, k_max_penalty_rows> values;   // NOLINT(*-member-init): filled as far as used
+    std::array<double, k_max_penalty_rows> along;    // NOLINT(*-member-init)
+    std::array<RowOnLine, k_max_penalty_rows> line;  // NOLINT(*-member-init)
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        line[i] = {rows[i].value, 0.0, rows[i].weight};
+        values[i] = rows[i].value;
     }
     Unknowns x = Unknowns::Zero();
     for (int i = 0; i < k_max_newton_steps; ++i) {
@@ -98,10 +100,10 @@ Unknowns minimise_penalised(const UnknownsSquare& hessian, const Unknowns& gradi
         Unknowns step = -gradient - turned;
         for (std::size_t r = 0; r < rows.size(); ++r) {
             const auto& [slope, value, weight] = rows[r];
-            if (line[r].value >= 0.0) {
+            if (values[r] >= 0.0) {
                 continue;
             }
-            step -= weight * line[r].value * slope;
+            step -= weight * values[r] * slope;
             for (Eigen::Index k = 0; k < n; ++k) {
                 if (slope[k] != 0.0) {
                     matrix.row(k).head(k + 1) += weight * slope[k] * slope.head(k + 1).transpose();
@@ -110,17 +112,25 @@ Unknowns minimise_penalised(const UnknownsSquare& hessian, const Unknowns& gradi
         }
         step.tail(static_cast<Eigen::Index>(k_max_unknowns) - n).setZero();
         solve_positive_definite(matrix, step, count);
+        std::size_t line_count = 0;  // rows that are violated somewhere along the step
         for (std::size_t r = 0; r < rows.size(); ++r) {
-            line[r].along = rows[r].slope.dot(step);
+            along[r] = rows[r].slope.dot(step);
+            if (std::min(values[r], values[r] + along[r]) < 0.0) {
+                line[line_count++] = {values[r], along[r], rows[r].weight};
+            }
         }
         const Unknowns bent = hessian.lazyProduct(step);
         const double length = best_length(turned.dot(step) + gradient.dot(step), bent.dot(step),
-                                          {line.data(), rows.size()});
+                                          {line.data(), line_count});
         x += length * step;
+        // A whole step that leaves the same rows violated ends at the minimum.
+        bool is_exact = length == 1.0;
         for (std::size_t r = 0; r < rows.size(); ++r) {
-            line[r].value += length * line[r].along;
+            const double before = values[r];
+            values[r] += length * along[r];
+            is_exact = is_exact && (before < 0.0) == (values[r] < 0.0);
         }
-        if (length * step.norm() <= k_converged * (1.0 + x.norm())) {
+        if (is_exact || length * step.norm() <= k_converged * (1.0 + x.norm())) {
             break;
         }
     }

@@ -208,8 +208,7 @@ class Fitter {
             if (sphere.finger != static_cast<std::int32_t>(f) || !sphere.has_gap) {
                 continue;
             }
-            const bool is_knuckle = sphere.link == 0 && sphere.center_ls.isZero();
-            if (!is_knuckle && (nearest == nullptr || sphere.gap_m < nearest->gap_m)) {
+            if (!is_knuckle(sphere) && (nearest == nullptr || sphere.gap_m < nearest->gap_m)) {
                 nearest = &sphere;
             }
             if (sphere.is_thumb_tip) {

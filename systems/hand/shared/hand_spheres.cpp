@@ -20,14 +20,9 @@ double query_radius_m(const HandSphere& sphere) {
     return std::max(sphere.radius_m + reach_m, k_max_inside_m);
 }
 
-// Upper bound of the gripped mesh's distance to `center` by a sphere with a known one: the triangle
-// inequality. It shortens the search.
-double distance_bound_m(const HandSphere& known, const Vec3& center) {
-    constexpr double k_slack_m = 1e-6;
-    const double distance_m = std::abs(known.signed_m);
-    return distance_m < query_radius_m(known)
-               ? distance_m + (center - known.center).norm() + k_slack_m
-               : std::numeric_limits<double>::infinity();
+std::size_t group_of(const HandSphere& sphere) {
+    return sphere.finger == HandSphere::k_palm ? k_finger_count
+                                               : static_cast<std::size_t>(sphere.finger);
 }
 
 }  // namespace
@@ -99,9 +94,27 @@ Vec3 HandSpheres::center_of(const HandSphere& sphere, const HandPose& pose,
     return transform_point(frame, sphere.center_ls);
 }
 
+std::array<double, k_finger_count + 1> HandSpheres::keep_gaps_m(
+    const HandPose& pose, const HandLinkFrames& frames) const {
+    std::array<double, k_finger_count + 1> nearest_m;
+    nearest_m.fill(std::numeric_limits<double>::infinity());
+    nearest_m[k_finger_count] = k_extra_gap_m;
+    for (const HandSphere& sphere : all()) {
+        if (!sphere.is_extra && is_queried_ && group_of(sphere) < k_finger_count &&
+            !is_knuckle(sphere)) {
+            const Vec3 moved = center_of(sphere, pose, frames) - sphere.searched_center;
+            double& least_m = nearest_m[group_of(sphere)];
+            least_m =
+                std::min(least_m, std::max(sphere.searched_gap_m + moved.norm(), k_extra_gap_m));
+        }
+    }
+    return nearest_m;
+}
+
 void HandSpheres::query(const HandPose& pose, const HandLinkFrames& frames) {
     const HandSphere* nearest = nullptr;   // of the present capsule
-    const HandSphere* previous = nullptr;  // queried at this pose
+    const HandSphere* previous = nullptr;  // searched last
+    const auto keep_m = keep_gaps_m(pose, frames);
     for (std::size_t i = 0; i < count_; ++i) {
         HandSphere& sphere = spheres_[i];
         if (sphere.is_extra) {
@@ -113,12 +126,14 @@ void HandSpheres::query(const HandPose& pose, const HandLinkFrames& frames) {
             continue;
         }
         const Vec3 center = center_of(sphere, pose, frames);
-        double bound_m = is_queried_ ? distance_bound_m(sphere, center)
-                                     : std::numeric_limits<double>::infinity();
-        if (previous != nullptr) {
-            bound_m = std::min(bound_m, distance_bound_m(*previous, center));
+        const Vec3 moved = center - sphere.searched_center;
+        if (is_queried_ && sphere.has_gap && !sphere.is_thumb_tip &&
+            sphere.searched_gap_m - moved.norm() > keep_m[group_of(sphere)]) {
+            sphere.center = center;
+            sphere.gap_m = sphere.searched_gap_m + sphere.away.dot(moved);
+            continue;
         }
-        query_sphere(sphere, center, bound_m, !is_queried_);
+        query_sphere(sphere, center, previous, !is_queried_);
         previous = &sphere;
         if (sphere.has_gap && (nearest == nullptr || sphere.gap_m < nearest->gap_m)) {
             nearest = &sphere;
@@ -147,9 +162,9 @@ void HandSpheres::query_extra(const HandSphere& nearest, HandSphere& extra, cons
     if ((center - nearest.center).norm() < k_same_m) {
         return;
     }
-    extra.center = nearest.center;
+    extra.searched_center = nearest.searched_center;
     extra.signed_m = nearest.signed_m;
-    query_sphere(extra, center, distance_bound_m(nearest, center), false);
+    query_sphere(extra, center, &nearest, false);
 }
 
 // 1 outside, -1 inside, before the distance is known.
@@ -161,19 +176,32 @@ double HandSpheres::side_of_gripped(const HandSphere& sphere, const Vec3& center
         return is_below && !is_clear ? -1.0 : 1.0;
     }
     const double side = sphere.signed_m < 0.0 ? -1.0 : 1.0;
-    if ((center - sphere.center).norm() < std::abs(sphere.signed_m)) {
+    if ((center - sphere.searched_center).norm() < std::abs(sphere.signed_m)) {
         return side;  // too short a path to reach the surface
     }
     const PlacedMesh& placed = hand_.meshes.front();
     const bool crosses = placed.mesh->contact_bvh
-                             .cast_ray(inverse_transform_point(placed.pose, sphere.center),
+                             .cast_ray(inverse_transform_point(placed.pose, sphere.searched_center),
                                        inverse_transform_point(placed.pose, center))
                              .has_value();
     return crosses ? -side : side;
 }
 
-void HandSpheres::query_sphere(HandSphere& sphere, const Vec3& center, double bound_m,
-                               bool is_first) {
+// Returns `radius_m`, or the distance to the triangle that the sphere found last if that is less: a
+// bound of the nearest triangle's distance.
+double HandSpheres::bound_m(const Vec3& center_ms, double radius_m,
+                            const HandSphere& sphere) const {
+    constexpr double k_slack_m = 1e-9;
+    const SurfaceGraph& graph = hand_.meshes.front().mesh->contact;
+    if (sphere.triangle == k_no_triangle) {
+        return radius_m;
+    }
+    const Vec3 on_triangle = closest_on_triangle(center_ms, corners_of(graph, sphere.triangle));
+    return std::min(radius_m, (on_triangle - center_ms).norm() + k_slack_m);
+}
+
+void HandSpheres::query_sphere(HandSphere& sphere, const Vec3& center,
+                               const HandSphere* near_sphere, bool is_first) {
     // A centre at least this far below its nearest triangle's plane is inside. Beyond an edge, a
     // centre outside the solid can be slightly below one triangle's plane.
     constexpr double k_min_inside_ratio = 0.5;
@@ -184,9 +212,15 @@ void HandSpheres::query_sphere(HandSphere& sphere, const Vec3& center, double bo
     sphere.gap_m = std::numeric_limits<double>::infinity();
     for (std::size_t m = 0; m < hand_.meshes.size(); ++m) {
         const PlacedMesh& placed = hand_.meshes[m];
-        const auto near =
-            placed.mesh->contact_bvh.closest_point(inverse_transform_point(placed.pose, center),
-                                                   m == 0 ? std::min(radius_m, bound_m) : radius_m);
+        const Vec3 center_ms = inverse_transform_point(placed.pose, center);
+        double within_m = radius_m;
+        if (m == 0) {
+            within_m = bound_m(center_ms, within_m, sphere);
+            within_m =
+                near_sphere != nullptr ? bound_m(center_ms, within_m, *near_sphere) : within_m;
+            sphere.triangle = k_no_triangle;
+        }
+        const auto near = placed.mesh->contact_bvh.closest_point(center_ms, within_m);
         if (!near) {
             continue;
         }
@@ -200,6 +234,7 @@ void HandSpheres::query_sphere(HandSphere& sphere, const Vec3& center, double bo
         if (m == 0) {
             side = side_of_gripped(sphere, center, is_below, is_first);
             signed_m = side * near->distance_m;
+            sphere.triangle = near->triangle;
         }
         const double gap_m = side * near->distance_m - sphere.radius_m;
         if (gap_m < sphere.gap_m) {
@@ -210,7 +245,13 @@ void HandSpheres::query_sphere(HandSphere& sphere, const Vec3& center, double bo
         }
     }
     sphere.center = center;
+    sphere.searched_center = center;
+    sphere.searched_gap_m = sphere.gap_m;
     sphere.signed_m = signed_m;
+}
+
+bool is_knuckle(const HandSphere& sphere) {
+    return sphere.finger != HandSphere::k_palm && sphere.link == 0 && sphere.center_ls.isZero();
 }
 
 double HandSpheres::penetration_m() const {

@@ -7,6 +7,7 @@
 
 #include "components/hand.hpp"
 #include "components/hand_surroundings.hpp"
+#include "engine/geometry/surface_graph.hpp"
 
 // A hand as spheres along its capsules, and their gaps to the surfaces around it.
 namespace handhold {
@@ -37,9 +38,15 @@ struct HandSphere {
     Vec3 away = Vec3::Zero();  // unit, from the nearest surface point to the centre, out of solids
     double gap_m = 0.0;        // below 0: penetration depth
     bool has_gap = false;      // a surface is within reach of the sphere
-    // Signed distance of the centre to the gripped mesh, at most the query radius.
+    // Of the last search: the centre, its gap (infinity: none), its signed distance to the gripped
+    // mesh, at most the query radius, and the nearest triangle there.
+    Vec3 searched_center = Vec3::Zero();
+    double searched_gap_m = 0.0;
     double signed_m = 0.0;
+    std::uint32_t triangle = k_no_triangle;
 };
+
+bool is_knuckle(const HandSphere& sphere);
 
 // Gaps up to this are reported. A thumb's tip can be far from a surface that its base touches.
 inline constexpr double k_sphere_reach_m = 0.02;
@@ -54,10 +61,11 @@ class HandSpheres {
     HandSpheres(const HandSurroundings& hand, const GripSurface& surface,
                 const std::array<bool, k_finger_count>& is_clear);
 
-    // Computes all gaps at a pose. At the first call, a centre is inside a solid if it is below the
-    // plane of its nearest triangle. Later a centre changes sides only if its path since the last
-    // call crosses a surface of the gripped mesh: windings of open or broken meshes cannot flip a
-    // finger through a wall.
+    // Computes all gaps at a pose. Spheres that have hardly moved since their last search and
+    // cannot be a digit's nearest keep its gap, moved along `away`. At the first call, a centre is
+    // inside a solid if it is below the plane of its nearest triangle. Later a centre changes sides
+    // only if its path since the last call crosses a surface of the gripped mesh: windings of open
+    // or broken meshes cannot flip a finger through a wall.
     void query(const HandPose& pose, const HandLinkFrames& frames);
 
     std::span<const HandSphere> all() const { return {spheres_.data(), count_}; }
@@ -68,8 +76,13 @@ class HandSpheres {
     void add(const HandSphere& sphere);
     Vec3 center_of(const HandSphere& sphere, const HandPose& pose,
                    const HandLinkFrames& frames) const;
-    // `bound_m`: at least the distance of the gripped mesh, or infinity.
-    void query_sphere(HandSphere& sphere, const Vec3& center, double bound_m, bool is_first);
+    // By digit, and last for the palm: smallest gap that a sphere may have whose last gap is kept.
+    std::array<double, k_finger_count + 1> keep_gaps_m(const HandPose& pose,
+                                                       const HandLinkFrames& frames) const;
+    // `near_sphere`: a sphere nearby, whose triangle bounds the search.
+    void query_sphere(HandSphere& sphere, const Vec3& center, const HandSphere* near_sphere,
+                      bool is_first);
+    double bound_m(const Vec3& center_ms, double radius_m, const HandSphere& sphere) const;
     void query_extra(const HandSphere& nearest, HandSphere& extra, const HandPose& pose,
                      const HandLinkFrames& frames);
     double side_of_gripped(const HandSphere& sphere, const Vec3& center, bool is_below,

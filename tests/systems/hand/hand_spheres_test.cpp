@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fitted_hand.hpp"
+#include "beam.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold::hand_spheres_test {
@@ -83,6 +83,47 @@ TEST_F(HandSpheresOnFloor, CentreThatCrossesASheetIsInside) {
         }
         EXPECT_GT(all.penetration_m(), 0.005);
     }
+}
+
+// Kept gaps must not hide a digit's nearest sphere, nor one about to touch. The beam's edges turn
+// the nearest direction, which kept gaps do not see.
+TEST_F(HandSpheresOnFloor, KeptGapsLeaveTheNearestOnesExact) {
+    const GripMesh beam = build_grip_mesh(test::make_beam());
+    FittedHand over(beam, hand.wrist_bs());
+    over.search();
+    const auto all_over = [&] {
+        return HandSpheres(over.hands.front(), over.surface.at(k_right), {});
+    };
+    test::Random random(2504);
+    int kept = 0;
+    for (int i = 0; i < 30; ++i) {
+        HandPose pose = pose_at(random.between(0.015, 0.03), random.between(0.0, 0.4));
+        HandSpheres moving = all_over();
+        query(moving, pose);
+        for (int step = 0; step < 4; ++step) {
+            pose.wrist_bs.position += random.vector(0.003);
+            for (FingerAngles& angles : pose.fingers) {
+                angles.curl_rad[1] += random.between(-0.05, 0.05);
+            }
+            query(moving, pose);
+            HandSpheres fresh = all_over();
+            query(fresh, pose);
+            for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+                if (moving.gap_m(f) > 0.0 && std::isfinite(fresh.gap_m(f))) {
+                    EXPECT_NEAR(moving.gap_m(f), fresh.gap_m(f), 1e-12) << i << ", finger " << f;
+                }
+            }
+            for (std::size_t k = 0; k < fresh.all().size(); ++k) {
+                const HandSphere& sphere = moving.all()[k];
+                kept += sphere.center != sphere.searched_center ? 1 : 0;
+                if (!sphere.is_extra && fresh.all()[k].has_gap && fresh.all()[k].gap_m < 3e-3 &&
+                    moving.penetration_m() == 0.0) {
+                    EXPECT_NEAR(sphere.gap_m, fresh.all()[k].gap_m, 1e-12) << i;
+                }
+            }
+        }
+    }
+    EXPECT_GT(kept, 300);
 }
 
 TEST_F(HandSpheresOnFloor, FingerGapIsThatOfItsNearestSphere) {
