@@ -11,6 +11,7 @@ namespace handhold {
 namespace {
 
 constexpr std::int32_t k_closing_rounds = 6;
+constexpr std::int32_t k_closing_again_rounds = 2;  // of a hand that shows a fit meanwhile
 // A warm fit continues in the next frame.
 constexpr std::int32_t k_rounds = 1;
 constexpr double k_max_flex_rad = 0.15;
@@ -57,11 +58,12 @@ HandFitGoal common_goal(const HandSurroundings& hand, const FingerPose& pose) {
 
 // Starts at the palm within its limits and the closed digits.
 HandFit fit_closed(const HandSurroundings& hand, const GripSurface& surface,
-                   const PalmOffset& offset, const FingerPose& pose, const PalmTuning& tuning) {
+                   const PalmOffset& offset, const FingerPose& pose, std::int32_t rounds,
+                   const PalmTuning& tuning) {
     HandFitGoal goal = common_goal(hand, pose);
     goal.first = {held_wrist_bs(hand, offset), pose.closed};
     goal.is_clear = pose.is_closed_clear;
-    goal.rounds = k_closing_rounds;
+    goal.rounds = rounds;
     return fit_hand(hand, surface, goal, tuning);
 }
 
@@ -83,8 +85,10 @@ HandFit best_fit(const HandSurroundings& hand, const GripSurface& surface, const
     if (!pose.is_newly_closed) {
         return fit_last(hand, surface, offset, pose, tuning.palm);
     }
-    const HandFit closed = fit_closed(hand, surface, offset, pose, tuning.palm);
     const bool has_last = pose.fitted_body == hand.body && hand.authored == nullptr;
+    const HandFit closed =
+        fit_closed(hand, surface, offset, pose,
+                   has_last ? k_closing_again_rounds : k_closing_rounds, tuning.palm);
     if (!has_last) {
         return closed;
     }
