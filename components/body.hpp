@@ -36,7 +36,7 @@ struct BodyStart {
     Pose pose_ws;
 };
 // Velocity of the centre of mass, in the world. Written by animate_movers (kinematic bodies) and
-// update_velocities (free bodies).
+// update_velocities, limit_velocities (free bodies).
 struct BodyVelocity {
     Vec3 linear_mps = Vec3::Zero();
     Vec3 angular_radps = Vec3::Zero();

@@ -4,7 +4,11 @@
 #include <optional>
 #include <vector>
 
+#include "components/active_bodies.hpp"
+#include "components/body.hpp"
+#include "components/player.hpp"
 #include "engine/collision/collision_world.hpp"
+#include "engine/ecs/column_watch.hpp"
 #include "engine/ecs/entity.hpp"
 #include "engine/solver/contact/missed_overlaps.hpp"
 #include "engine/solver/model/islands.hpp"
@@ -32,8 +36,8 @@ struct JointGroups {
     }
 };
 
-// Data passed between the physics stages within one frame. Not state: it is rebuilt every frame. It
-// persists only so that its memory is reused.
+// Data passed between the physics stages within one frame. Not state: without it, the next frame
+// has the same result. What belongs to bodies at rest is kept from frame to frame (ActiveBodies).
 struct FrameGraph {
     // One element per body or player, sorted by persistent id. `proxies`, `entities`, `phase` and
     // graph.bodies share this index. The proxy of a body without a collider has shape k_no_shape
@@ -45,6 +49,25 @@ struct FrameGraph {
         Entity entity;
     };
     std::vector<Identified> by_id;  // scratch of place_colliders
+    ActiveBodies active;
+    // What place_colliders saw last: it looks again only at what differs.
+    struct Watches {
+        ColumnWatch<PersistentId> persistent_id;
+        ColumnWatch<Collider> collider;
+        ColumnWatch<CollisionFilter> filter;
+        ColumnWatch<RigidBody> body;
+        ColumnWatch<BodyPose> body_pose;
+        ColumnWatch<BodyStart> body_start;
+        ColumnWatch<BodyVelocity> body_velocity;
+        ColumnWatch<LastValidPose> last_valid;
+        ColumnWatch<PlayerOrigin> origin;
+    };
+    Watches watches;
+    std::vector<std::uint32_t> index_of_slot;  // by Entity::slot: index into `entities`
+    std::vector<ColliderProxy> proxy_updates;  // scratch: proxies to send to the collision world
+    std::vector<std::uint32_t> displaced;  // bodies whose proxy there is not the one in `proxies`
+    double heavy_body_kg = 0.0;            // of the last build_constraints
+    std::uint64_t proxy_set = 0;           // CollisionWorld::proxy_set() after place_colliders
     struct PhaseBody {
         Pose reached_ws;  // pose after the reach phase
         // Players: 1/kappa, the factor on the player's inverse mass in the forward phase; from 0 to
@@ -58,12 +81,13 @@ struct FrameGraph {
         bool pushed = false;  // the backward or contradiction phase ran on the body's island
         Vec3 velocity_before_mps = Vec3::Zero();  // players: velocity before the velocity solve
         std::uint64_t work = 0;    // spent by the position solves of its islands (WorkBudget)
-        double push_back_m = 0.0;  // players: how far contacts moved the origin in this frame
+        std::uint64_t visits = 0;  // contacts of its heaps that searches have visited
     };
     // graph.bodies has one more element at the end, the world, if a joint connects a body to the
     // world.
     std::vector<PhaseBody> phase;
-    JointGroups joint_groups;  // written by group_joints
+    JointGroups joint_groups;          // written by group_joints
+    std::vector<PushBack> push_backs;  // of every player; written by finish_positions
 
     std::vector<ContactPoint> contacts;  // written by find_contacts, solve_phases
     std::vector<IgnoredPair> ignored;    // written by find_contacts
@@ -103,5 +127,12 @@ struct FrameGraph {
     std::vector<double> overlap_m;             // by body: depth
     std::vector<std::uint32_t> overlaps_with;  // by body: the body that it overlaps; itself if none
 };
+
+// Makes all bodies of islands active: the solver may move them.
+inline void activate_islands(FrameGraph& frame) {
+    for (const std::uint32_t body : frame.graph.island_bodies) {
+        frame.active.add(body);
+    }
+}
 
 }  // namespace handhold

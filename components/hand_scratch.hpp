@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "components/hand_surroundings.hpp"
+#include "components/stats.hpp"
 #include "engine/geometry/chain_fit.hpp"
 
 namespace handhold {
@@ -12,8 +13,13 @@ namespace handhold {
 struct HandScratch {
     std::vector<HandSurroundings> surroundings;                   // by row of HandOwner
     std::vector<std::array<FingerTrace, k_finger_count>> traces;  // by row of HandOwner
-    GripSearchScratch search;
-    ChainFitScratch fit;
+    // The hand stages run on slices of the hands in parallel.
+    struct Slice {
+        StageStats stats;  // only fallbacks
+        GripSearchScratch search;
+        ChainFitScratch fit;
+    };
+    std::vector<Slice> slices;
 };
 
 }  // namespace handhold

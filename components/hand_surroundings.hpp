@@ -1,15 +1,23 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "components/authored_grip.hpp"
 #include "components/hand_rig.hpp"
 #include "engine/ecs/entity.hpp"
 #include "engine/geometry/chain_fit.hpp"
+#include "engine/geometry/grip_mesh.hpp"
 #include "engine/math/math.hpp"
 
 namespace handhold {
+
+// Grip mesh of one body, in its frame: for hosts whose shapes are not in a ShapeLibrary. An asset,
+// not state. Written by the host.
+struct BodySurface {
+    std::shared_ptr<const GripMesh> mesh;  // never null
+};
 
 // Input of the hand stages: one hand and the surfaces near it, in the gripped body's frame (_bs). A
 // hand on a moving body is therefore solved exactly like a hand on a body at rest. Not state:

@@ -26,9 +26,15 @@ struct PlayerStart {
     Pose pose_ws;
 };
 // Velocity of the play space, without the tracked motion of the head in it. Written by
-// locomote_players and update_velocities.
+// locomote_players, update_velocities and limit_velocities.
 struct PlayerVelocity {
     Vec3 linear_mps = Vec3::Zero();
+};
+
+// How far contacts moved a player's play space in this frame.
+struct PushBack {
+    Entity player;
+    double distance_m = 0.0;
 };
 
 // Velocity relative to which drag, brake and the release clamp act: that of the body last gripped

@@ -156,6 +156,8 @@ const char* name_of(Fallback reason) {
             return "pull_refused_held";
         case Fallback::pull_lost:
             return "pull_lost";
+        case Fallback::surface_answer_invalid:
+            return "surface_answer_invalid";
         case Fallback::count:
             break;
     }

@@ -102,6 +102,8 @@ enum class Fallback : std::uint8_t {
     pull_refused_heavy,  // the body is heavier than PullTuning::max_mass_kg
     pull_refused_held,   // the body is held, or pulled by another hand
     pull_lost,  // body gone, too far or held, or hand not tracked: the pull ends, the body flies on
+    // Hosts.
+    surface_answer_invalid,  // a host answered a query with numbers that mean nothing: no surface
     count
 };
 
@@ -135,6 +137,10 @@ struct StageStats {
     std::uint64_t islands_pushed = 0;  // islands that ran the backward phase
     std::uint64_t contacts = 0;
     std::uint64_t contact_rounds = 0;     // narrowphase passes inside solve_phases
+    std::uint64_t narrowphase_calls = 0;  // pairs whose contacts were computed, in all passes
+    std::uint64_t bounds_updates = 0;     // colliders whose place in the broadphase was updated
+    std::uint64_t tree_queries = 0;       // searches of the broadphase for pairs
+    std::uint64_t active_bodies = 0;      // bodies and players that the physics stages looked at
     std::uint64_t newton_iterations = 0;  // sum over all islands and phases
     double residual_m = 0.0;              // deepest contact overlap at the end of the frame
     double joint_error_m = 0.0;  // largest distance of a joint's points, or slider limit violation

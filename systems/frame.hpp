@@ -37,11 +37,14 @@ struct FrameCaches {
     CollisionWorld collision;
     FrameGraph graph;
     const GripMeshLibrary* meshes_for_hands = nullptr;
+    // Surfaces that hands and legs find instead of the colliders'. Its object must outlive frames.
+    SurfaceQuery host_surfaces;
     // Assets. Set them again whenever new caches are made.
     std::array<HandRig, k_hand_count> hand_rigs = {builtin_hand_rig(HandSide::left),
                                                    builtin_hand_rig(HandSide::right)};
     std::vector<HandRig> more_hand_rigs;  // for hands with a HandRigChoice
     BodyClips body_clips;                 // empty: no additive clips
+    Column<BodySurface> body_surfaces;    // bodies with a grip mesh of their own
     HandScratch hands;
 };
 
@@ -60,7 +63,7 @@ void step_pose_only(World& world, FrameCaches& caches, const Tuning& tuning,
 
 // Hash of all columns, the clock, the reference velocity and, unless it is zero, gravity.
 // Identifies rows by persistent id, so it is independent of slots, creation order, thread count,
-// build and compiler.
+// build, compiler and processor. Targets that were tried: docs/guide/platforms.md.
 std::uint64_t hash_state(const World& world);
 
 }  // namespace handhold

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/collision/bullet_vector.hpp"
+#include "engine/core/check.hpp"
 #include "engine/core/hash.hpp"
 
 namespace handhold {
@@ -73,6 +74,7 @@ void Broadphase::match_bodies(std::span<const ColliderProxy> proxies) {
     next_bodies_.clear();
     next_bodies_.reserve(std::max(proxies.size(), bodies_.capacity()));
     parked_.reserve(parked_.size() + bodies_.size());
+    changed_.reserve(proxies.size());
     std::size_t previous = 0;
     for (const ColliderProxy& proxy : proxies) {
         if (!has_shape(proxy)) {
@@ -88,6 +90,59 @@ void Broadphase::match_bodies(std::span<const ColliderProxy> proxies) {
         park(bodies_[previous]);
     }
     bodies_.swap(next_bodies_);
+    indices_changed_ = true;
+}
+
+std::size_t Broadphase::find_index(std::uint64_t id) const {
+    const auto found = std::ranges::lower_bound(
+        bodies_, id, {}, [](const BroadphaseBody& body) { return body.proxy.id; });
+    return found != bodies_.end() && found->proxy.id == id
+               ? static_cast<std::size_t>(found - bodies_.begin())
+               : bodies_.size();
+}
+
+void Broadphase::finish_pass() {
+    if (indices_changed_) {
+        for (BroadphaseBody& body : bodies_) {
+            body.is_changed = false;
+        }
+    } else {
+        for (const std::uint32_t index : changed_) {
+            bodies_[index].is_changed = false;
+        }
+    }
+    changed_.clear();
+    indices_changed_ = false;
+}
+
+void Broadphase::replace(BroadphaseBody& body, const ColliderProxy& proxy,
+                         const ShapeExtent& extent) {
+    if (!body.is_changed) {
+        body.is_changed = true;
+        body.was_placed = body.leaf != nullptr;
+        body.old_bounds_ws = body.bounds_ws;
+        changed_.push_back(static_cast<std::uint32_t>(&body - bodies_.data()));
+    }
+    body.proxy = proxy;
+    body.stamp = ++changes_;
+    place(body, extent);
+}
+
+void Broadphase::update_proxies(std::span<const ColliderProxy> proxies,
+                                std::span<const ShapeExtent> extents) {
+    for (const ColliderProxy& proxy : proxies) {
+        const std::size_t index = find_index(proxy.id);
+        HH_CHECK((index < bodies_.size()) == has_shape(proxy),
+                 "set_proxies adds and removes colliders", proxy.id);
+        if (index == bodies_.size() || same_proxy(bodies_[index].proxy, proxy)) {
+            continue;
+        }
+        BroadphaseBody& body = bodies_[index];
+        replace(body, proxy, extents[proxy.shape.index]);
+        if (body.leaf != nullptr) {
+            body.leaf->dataAsInt = static_cast<int>(index);
+        }
+    }
 }
 
 void Broadphase::set_proxies(std::span<const ColliderProxy> proxies,
@@ -101,9 +156,7 @@ void Broadphase::set_proxies(std::span<const ColliderProxy> proxies,
             continue;
         }
         if (!same_proxy(body->proxy, proxy)) {  // also true for a new body: its id is still 0
-            body->proxy = proxy;
-            body->stamp = ++changes_;
-            place(*body, extents[proxy.shape.index]);
+            replace(*body, proxy, extents[proxy.shape.index]);
         }
         if (body->leaf != nullptr) {
             body->leaf->dataAsInt = static_cast<int>(body - bodies_.begin());

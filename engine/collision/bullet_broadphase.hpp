@@ -23,6 +23,10 @@ struct BroadphaseBody {
     // the free bodies with a higher id. isolated_since = 0: no region is cached.
     std::uint64_t isolated_since = 0;
     Bounds isolation_ws;
+    // What the last pass over all pairs saw, kept while the body has changed since.
+    bool is_changed = false;
+    bool was_placed = false;  // the body was in the tree
+    Bounds old_bounds_ws;     // its bounds, if it was
 };
 
 // Scratch memory of one thread's queries. Its content is not used between calls.
@@ -36,9 +40,20 @@ class Broadphase {
     // Replaces all bodies. `proxies` is sorted by id; `extents` is indexed by shape. An unchanged
     // proxy costs only a comparison.
     void set_proxies(std::span<const ColliderProxy> proxies, std::span<const ShapeExtent> extents);
+    // Replaces the bodies with the ids of `proxies`, in any order. The other bodies cost nothing.
+    // Throws PreconditionError if a proxy with a shape has no body, or one without a shape has one.
+    void update_proxies(std::span<const ColliderProxy> proxies,
+                        std::span<const ShapeExtent> extents);
 
     std::span<const BroadphaseBody> bodies() const { return bodies_; }  // sorted by id
+    // Index of the body with this id; bodies().size() if there is none.
+    std::size_t find_index(std::uint64_t id) const;
     std::uint64_t last_change() const { return changes_; }
+    // Bodies that have changed since finish_pass: indices, in the order of their first change.
+    std::span<const std::uint32_t> changed() const { return changed_; }
+    // True if bodies were added or removed since finish_pass: all indices may have changed.
+    bool indices_changed() const { return indices_changed_; }
+    void finish_pass();
     void set_isolated(std::size_t body, const Bounds& box_ws);
     void clear_isolation(std::size_t body) { bodies_[body].isolated_since = 0; }
     // Finds the bodies whose bounds overlap the box: indices into bodies(), ascending. Valid until
@@ -52,6 +67,7 @@ class Broadphase {
     // Makes bodies_ the proxies that have a shape. Bodies that were in bodies_ before keep their
     // data.
     void match_bodies(std::span<const ColliderProxy> proxies);
+    void replace(BroadphaseBody& body, const ColliderProxy& proxy, const ShapeExtent& extent);
     void place(BroadphaseBody& body, const ShapeExtent& extent);
     void park(BroadphaseBody& body);
 
@@ -62,6 +78,8 @@ class Broadphase {
     std::vector<btDbvtNode*> parked_;
     std::uint64_t parked_count_ = 0;  // number of park() calls so far
     std::uint64_t changes_ = 0;
+    std::vector<std::uint32_t> changed_;
+    bool indices_changed_ = true;
 };
 
 }  // namespace handhold

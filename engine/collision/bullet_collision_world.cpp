@@ -4,6 +4,7 @@
 // what is implemented here instead, and why.
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "engine/collision/bullet_world.hpp"
 #include "engine/core/check.hpp"
@@ -87,13 +88,16 @@ void CollisionWorld::Impl::check(std::span<const ColliderProxy> proxies) const {
     for (std::size_t i = 0; i < proxies.size(); ++i) {
         const ColliderProxy& proxy = proxies[i];
         HH_CHECK(proxy.id > (i > 0 ? proxies[i - 1].id : 0), "ids must rise from 1", proxy.id);
-        if (proxy.shape == k_no_shape) {
-            continue;
-        }
-        HH_CHECK(shapes.has(proxy.shape), "no shape with this id", proxy.shape.index);
-        HH_CHECK(!proxy.free || !cache[proxy.shape.index].triangles, "a mesh cannot be free",
-                 proxy.id);
+        check(proxy);
     }
+}
+
+void CollisionWorld::Impl::check(const ColliderProxy& proxy) const {
+    if (proxy.shape == k_no_shape) {
+        return;
+    }
+    HH_CHECK(shapes.has(proxy.shape), "no shape with this id", proxy.shape.index);
+    HH_CHECK(!proxy.free || !cache[proxy.shape.index].triangles, "a mesh cannot be free", proxy.id);
 }
 
 std::optional<Bounds> CollisionWorld::Impl::find_pair(const BroadphaseBody& a,
@@ -169,6 +173,25 @@ void CollisionWorld::set_proxies(std::span<const ColliderProxy> proxies) {
     impl_->update_shapes();
     impl_->check(proxies);
     impl_->broadphase.set_proxies(proxies, impl_->extents);
+    ++impl_->proxy_set;
+}
+
+std::uint64_t CollisionWorld::proxy_set() const { return impl_->proxy_set; }
+
+void CollisionWorld::update_proxies(std::span<const ColliderProxy> proxies) {
+    impl_->update_shapes();
+    for (const ColliderProxy& proxy : proxies) {
+        impl_->check(proxy);
+    }
+    impl_->broadphase.update_proxies(proxies, impl_->extents);
+}
+
+CollisionWork CollisionWorld::take_work() {
+    CollisionWork work = impl_->work;
+    work.bounds_updates = impl_->broadphase.last_change() - impl_->counted_changes;
+    impl_->counted_changes = impl_->broadphase.last_change();
+    impl_->work = {};
+    return work;
 }
 
 int CollisionWorld::broadphase_depth() const { return impl_->broadphase.depth(); }
@@ -177,7 +200,16 @@ void CollisionWorld::set_ignored_pairs(std::span<const IgnoredPair> pairs) {
     for (std::size_t i = 1; i < pairs.size(); ++i) {
         HH_CHECK(pairs[i - 1] <= pairs[i], "pairs must be sorted", pairs[i].id_a);
     }
-    impl_->ignored.assign(pairs.begin(), pairs.end());
+    impl_->ignored_changes.clear();
+    std::ranges::set_symmetric_difference(impl_->ignored, pairs,
+                                          std::back_inserter(impl_->ignored_changes));
+    for (const IgnoredPair& pair : impl_->ignored_changes) {
+        impl_->dirty_ids.push_back(pair.id_a);
+        impl_->dirty_ids.push_back(pair.id_b);
+    }
+    if (!impl_->ignored_changes.empty()) {
+        impl_->ignored.assign(pairs.begin(), pairs.end());
+    }
 }
 
 void CollisionWorld::find_contacts(const ContactLimits& limits,

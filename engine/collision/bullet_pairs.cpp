@@ -8,15 +8,15 @@ namespace {
 
 PairCache::Version version_of(const BroadphaseBody& body) { return {body.proxy.id, body.stamp}; }
 
-// If more bodies than this have changed, one tree query is faster than testing each of them.
-constexpr std::size_t k_max_linear_changes = 128;
+// Bodies spawned in one place would be n^2 pairs. From a body that overlaps others deeply, at most
+// this many pairs with free bodies of higher id are found, the deep ones first. The others follow
+// as these come apart.
+constexpr std::size_t k_max_crowded_pairs = 6;
+// Share of the distance at which two convex bodies can touch, below which they overlap deeply.
+constexpr double k_deep_share = 0.75;
 
-// Bodies spawned in one place would be n^2 pairs. Of the free bodies that overlap a free body so
-// deeply that it contains their centres, or they its, only the first few by id are tested. The
-// others follow as these come apart.
-constexpr std::size_t k_max_deep_pairs = 8;
-
-double smallest_half(const Bounds& box) { return 0.5 * (box.high - box.low).minCoeff(); }
+// Smallest distance of the shape's centre from a side of its box.
+double inner_radius(const Bounds& box) { return box.high.cwiseMin(-box.low).minCoeff(); }
 
 }  // namespace
 
@@ -32,63 +32,170 @@ bool CollisionWorld::Impl::is_pair(const BroadphaseBody& a, const BroadphaseBody
 }
 
 bool CollisionWorld::Impl::is_deep(const BroadphaseBody& a, const BroadphaseBody& b) const {
-    if (!b.proxy.free) {
+    // The centre of a compound may be empty.
+    if (!b.proxy.free || cache[a.proxy.shape.index].parts.size() > 1 ||
+        cache[b.proxy.shape.index].parts.size() > 1) {
         return false;
     }
-    const double depth_m = std::min(smallest_half(extents[a.proxy.shape.index].box),
-                                    smallest_half(extents[b.proxy.shape.index].box));
-    const Vec3 offset = a.proxy.to_ws.position - b.proxy.to_ws.position;
-    return offset.squaredNorm() < depth_m * depth_m;
+    const double depth_m = k_deep_share * (inner_radius(extents[a.proxy.shape.index].box) +
+                                           inner_radius(extents[b.proxy.shape.index].box));
+    // A pair that was deep at the last valid poses was never apart: a sweep between them says
+    // nothing.
+    const Vec3 from = a.proxy.from_ws.position - b.proxy.from_ws.position;
+    const Vec3 to = a.proxy.to_ws.position - b.proxy.to_ws.position;
+    return std::min(from.squaredNorm(), to.squaredNorm()) < depth_m * depth_m;
+}
+
+void CollisionWorld::Impl::mark(std::size_t body, Visit visit, std::size_t slot) {
+    if (!broadphase.bodies()[body].proxy.free || visit <= visit_of_body[body]) {
+        return;
+    }
+    if (visit_of_body[body] == Visit::none) {
+        visits.push_back(body);
+    }
+    visit_of_body[body] = visit;
+    slot_of_visit[body] = static_cast<std::uint32_t>(slot);
+}
+
+// Marks the free bodies whose pairs may differ from the last pass: those that changed, and those
+// near the old or new bounds of a body that changed. Keeps what is near a changed body, because its
+// own search needs it again.
+void CollisionWorld::Impl::mark_near_changes(double margin_m) {
+    const std::span<const BroadphaseBody> bodies = broadphase.bodies();
+    near_changed.clear();
+    near_ends.clear();
+    for (const std::uint32_t index : broadphase.changed()) {
+        const BroadphaseBody& body = bodies[index];
+        const bool is_placed = body.leaf != nullptr;
+        mark(index, Visit::changed, near_ends.size());
+        if (is_placed || body.was_placed) {
+            Bounds box = is_placed ? body.bounds_ws : body.old_bounds_ws;
+            if (body.was_placed) {
+                box.low = box.low.cwiseMin(body.old_bounds_ws.low);
+                box.high = box.high.cwiseMax(body.old_bounds_ws.high);
+            }
+            ++work.tree_queries;
+            for (const std::size_t other :
+                 broadphase.find(box.grown(margin_m), broadphase_scratch)) {
+                near_changed.push_back(other);
+                mark(other, Visit::dirty, 0);
+            }
+        }
+        near_ends.push_back(near_changed.size());
+    }
+}
+
+// Lists the bodies to visit, ascending: those that mark_near_changes marks, and those that had
+// pairs in the last pass. All other bodies have no pairs, as before, and cost nothing.
+void CollisionWorld::Impl::find_visits(double margin_m) {
+    const std::size_t count = broadphase.bodies().size();
+    visits.clear();
+    if (broadphase.indices_changed() || margin_m != last_margin_m) {
+        visit_of_body.assign(count, Visit::none);
+        slot_of_visit.resize(count);
+        last_body_pairs.clear();
+        for (std::size_t i = 0; i < count; ++i) {
+            mark(i, Visit::dirty, 0);
+        }
+        return;
+    }
+    for (std::size_t i = 0; i < last_body_pairs.size(); ++i) {
+        mark(last_body_pairs[i].body, Visit::listed, i);
+    }
+    mark_near_changes(margin_m);
+    for (const std::uint64_t id : dirty_ids) {
+        if (const std::size_t body = broadphase.find_index(id); body < count) {
+            mark(body, Visit::dirty, 0);
+        }
+    }
+    std::ranges::sort(visits);
+}
+
+// Indices of bodies that include all those near the visited body, ascending.
+std::span<const std::size_t> CollisionWorld::Impl::find_candidates(std::size_t body,
+                                                                   const Bounds& reach_ws) {
+    if (visit_of_body[body] != Visit::changed) {
+        ++work.tree_queries;
+        return broadphase.find(reach_ws, broadphase_scratch);
+    }
+    const std::size_t slot = slot_of_visit[body];
+    const std::size_t first = slot > 0 ? near_ends[slot - 1] : 0;
+    return std::span(near_changed).subspan(first, near_ends[slot] - first);
+}
+
+// Adds the pairs with free bodies to those that begin at `first`; ascending.
+void CollisionWorld::Impl::add_free_pairs(std::size_t first) {
+    const auto deep =
+        static_cast<std::size_t>(std::ranges::count(free_pairs, true, &FreePair::deep));
+    const bool is_crowded = deep > 0;
+    std::size_t deep_left = k_max_crowded_pairs;
+    std::size_t others_left = k_max_crowded_pairs - std::min(deep, k_max_crowded_pairs);
+    for (const FreePair& pair : free_pairs) {
+        std::size_t& left = pair.deep ? deep_left : others_left;
+        if (!is_crowded || left > 0) {
+            pairs.push_back(pair.other);
+            left -= left > 0 ? 1 : 0;
+        }
+    }
+    std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end());
 }
 
 // A body that stays inside its isolation box is tested only against bodies that changed since the
 // box was computed.
-void CollisionWorld::Impl::find_pairs(double margin_m) {
-    body_pairs.clear();
-    pairs.clear();
-    find_changed_bodies();
+void CollisionWorld::Impl::search_pairs(std::size_t i, double margin_m) {
     const std::span<const BroadphaseBody> bodies = broadphase.bodies();
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        const BroadphaseBody& a = bodies[i];
-        if (!a.proxy.free || a.leaf == nullptr) {
+    const BroadphaseBody& a = bodies[i];
+    if (a.leaf == nullptr) {
+        return;
+    }
+    const Bounds reach_ws = a.bounds_ws.grown(margin_m);
+    const bool is_isolated = a.isolated_since > 0 && contains(a.isolation_ws, reach_ws);
+    if (!is_isolated) {
+        broadphase.clear_isolation(i);
+    }
+    const std::uint64_t since = is_isolated ? a.isolated_since : 0;
+    const std::size_t first = pairs.size();
+    free_pairs.clear();
+    for (const std::size_t other : find_candidates(i, reach_ws)) {
+        const BroadphaseBody& b = bodies[other];
+        if (b.stamp <= since || b.leaf == nullptr || !overlaps(b.bounds_ws, reach_ws) ||
+            !is_pair(a, b)) {
             continue;
         }
-        const Bounds reach_ws = a.bounds_ws.grown(margin_m);
-        const bool is_isolated = a.isolated_since > 0 && contains(a.isolation_ws, reach_ws);
-        if (!is_isolated) {
-            broadphase.clear_isolation(i);
+        if (b.proxy.free) {
+            free_pairs.push_back({other, is_deep(a, b)});
+        } else {
+            pairs.push_back(other);
         }
-        const std::uint64_t since = is_isolated ? a.isolated_since : 0;
-        const bool use_changed_list = is_isolated && changed_bodies.size() <= k_max_linear_changes;
-        const std::span<const std::size_t> candidates =
-            use_changed_list ? changed_bodies : broadphase.find(reach_ws, broadphase_scratch);
-        const std::size_t first = pairs.size();
-        std::size_t deep_pairs = 0;
-        for (const std::size_t other : candidates) {
-            const BroadphaseBody& b = bodies[other];
-            if (b.stamp > since && overlaps(b.bounds_ws, reach_ws) && is_pair(a, b) &&
-                (!is_deep(a, b) || deep_pairs++ < k_max_deep_pairs)) {
-                pairs.push_back(other);
-            }
-        }
-        if (!is_isolated || pairs.size() > first) {
-            body_pairs.push_back({i, first, pairs.size(), is_isolated});
-        }
+    }
+    add_free_pairs(first);
+    if (!is_isolated || pairs.size() > first) {
+        body_pairs.push_back({i, first, pairs.size(), is_isolated, true});
     }
 }
 
-void CollisionWorld::Impl::find_changed_bodies() {
-    changed_bodies.clear();
-    const std::span<const BroadphaseBody> bodies = broadphase.bodies();
-    std::uint64_t oldest = broadphase.last_change();
-    for (const BroadphaseBody& body : bodies) {
-        oldest = body.isolated_since > 0 ? std::min(oldest, body.isolated_since) : oldest;
-    }
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        if (bodies[i].stamp > oldest && bodies[i].leaf != nullptr) {
-            changed_bodies.push_back(i);
+void CollisionWorld::Impl::find_pairs(double margin_m) {
+    std::swap(body_pairs, last_body_pairs);
+    std::swap(pairs, last_pairs);
+    body_pairs.clear();
+    pairs.clear();
+    std::erase_if(last_body_pairs, [](const BodyPairs& body) { return body.first == body.last; });
+    find_visits(margin_m);
+    for (const std::size_t i : visits) {
+        if (visit_of_body[i] != Visit::listed) {
+            search_pairs(i, margin_m);
+        } else {
+            const BodyPairs& last = last_body_pairs[slot_of_visit[i]];
+            const std::size_t first = pairs.size();
+            pairs.insert(pairs.end(), last_pairs.begin() + static_cast<std::ptrdiff_t>(last.first),
+                         last_pairs.begin() + static_cast<std::ptrdiff_t>(last.last));
+            body_pairs.push_back({i, first, pairs.size(), last.is_isolated, false});
         }
+        visit_of_body[i] = Visit::none;
     }
+    last_margin_m = margin_m;
+    dirty_ids.clear();
+    broadphase.finish_pass();
 }
 
 void CollisionWorld::Impl::look_up_pairs(const ContactLimits& limits) {
@@ -101,6 +208,7 @@ void CollisionWorld::Impl::look_up_pairs(const ContactLimits& limits) {
         for (std::size_t i = of_body.first; i < of_body.last; ++i) {
             pair_results.push_back(
                 {pair_cache.recall(version_of(a), version_of(bodies[pairs[i]]), reach_ws), 0, {}});
+            work.narrowphase_calls += pair_results.back().cached ? 0U : 1U;
         }
     }
 }
@@ -119,7 +227,7 @@ void CollisionWorld::Impl::remember(const BodyPairs& body, std::span<const Conta
 void CollisionWorld::Impl::cache_isolation(const BodyPairs& body, double margin_m) {
     const std::span<const BroadphaseBody> bodies = broadphase.bodies();
     const BroadphaseBody& a = bodies[body.body];
-    if (body.is_isolated) {
+    if (body.is_isolated || !body.is_new) {
         return;
     }
     Bounds box_ws = a.bounds_ws.grown(margin_m + k_isolation_reach_m);
@@ -132,6 +240,7 @@ void CollisionWorld::Impl::cache_isolation(const BodyPairs& body, double margin_
     if (!contains(box_ws, a.bounds_ws.grown(margin_m))) {
         return;
     }
+    ++work.tree_queries;
     for (const std::size_t other : broadphase.find(box_ws, broadphase_scratch)) {
         if (other != body.body && may_enter(box_ws, a, bodies[other])) {
             return;

@@ -25,6 +25,7 @@ struct BodyPairs {
     std::size_t first = 0;
     std::size_t last = 0;
     bool is_isolated = false;  // inside its isolation box: only the pairs listed need a test
+    bool is_new = false;       // searched in this pass, not taken over from the last one
 };
 
 // Isolation boxes are larger than a body's bounds with margin by at most this, on each side.
@@ -37,13 +38,21 @@ struct CollisionWorld::Impl {
     std::shared_ptr<const TriangleTree> tree_of(const std::shared_ptr<const Mesh>& mesh);
 
     void check(std::span<const ColliderProxy> proxies) const;
+    void check(const ColliderProxy& proxy) const;
     bool is_pair(const BroadphaseBody& a, const BroadphaseBody& b) const;
-    // True if one of two free bodies has the other's centre well inside.
+    // True if two convex free bodies overlap by about a quarter of their thickness or more.
     bool is_deep(const BroadphaseBody& a, const BroadphaseBody& b) const;
-    // Fills body_pairs and pairs.
+    void add_free_pairs(std::size_t first);
+    // Fills body_pairs and pairs. Costs nothing for bodies that have no pairs and near which
+    // nothing changed since the last pass.
     void find_pairs(double margin_m);
-    // Fills changed_bodies.
-    void find_changed_bodies();
+    // Why find_pairs visits a body; the higher value wins.
+    enum class Visit : std::uint8_t { none, listed, dirty, changed };
+    void mark(std::size_t body, Visit visit, std::size_t slot);
+    void mark_near_changes(double margin_m);
+    void find_visits(double margin_m);
+    std::span<const std::size_t> find_candidates(std::size_t body, const Bounds& reach_ws);
+    void search_pairs(std::size_t i, double margin_m);
     // If no partner of the body is near, caches a box around the body that no partner reaches into.
     void cache_isolation(const BodyPairs& body, double margin_m);
     bool may_enter(const Bounds& box_ws, const BroadphaseBody& a, const BroadphaseBody& b) const;
@@ -66,12 +75,31 @@ struct CollisionWorld::Impl {
     std::map<const Mesh*, std::weak_ptr<const TriangleTree>> trees;
     Broadphase broadphase;
     std::vector<IgnoredPair> ignored;
+    std::vector<IgnoredPair> ignored_changes;  // scratch of set_ignored_pairs
     // Scratch of find_contacts.
     BroadphaseScratch broadphase_scratch;
-    // Bodies that changed after the oldest cached isolation box was computed.
-    std::vector<std::size_t> changed_bodies;
-    std::vector<BodyPairs> body_pairs;  // one per free body, ascending by id
-    std::vector<std::size_t> pairs;     // indices of the other bodies into broadphase.bodies()
+    std::vector<std::size_t> visits;   // bodies, ascending
+    std::vector<Visit> visit_of_body;  // all none between passes
+    // Changed bodies: index into near_ends. Listed bodies: index into last_body_pairs.
+    std::vector<std::uint32_t> slot_of_visit;
+    struct FreePair {
+        std::size_t other;
+        bool deep;
+    };
+    std::vector<FreePair> free_pairs;  // of one body
+    std::vector<std::size_t>
+        near_changed;                      // bodies near each changed body, one range after another
+    std::vector<std::size_t> near_ends;    // end of each range; in the order of changed()
+    std::vector<std::uint64_t> dirty_ids;  // of colliders whose ignored pairs changed
+    double last_margin_m = 0.0;
+    std::vector<BodyPairs>
+        body_pairs;  // ascending by id; only bodies that were searched or have pairs
+    std::vector<std::size_t> pairs;          // indices of the other bodies into broadphase.bodies()
+    std::vector<BodyPairs> last_body_pairs;  // of the last pass
+    std::vector<std::size_t> last_pairs;
+    CollisionWork work;
+    std::uint64_t proxy_set = 0;
+    std::uint64_t counted_changes = 0;  // changes of the broadphase that take_work has reported
     // One list per entry of body_pairs, so that threads can work in parallel.
     std::vector<std::vector<ContactPoint>> found;
     struct PairResult {

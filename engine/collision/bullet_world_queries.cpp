@@ -2,6 +2,7 @@
 // has its own scratch memory.
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "engine/collision/bullet_sweep.hpp"
 #include "engine/collision/bullet_world.hpp"
@@ -13,6 +14,7 @@ namespace {
 // Scratch memory per thread, not per call: queries allocate nothing after a thread's first ones.
 struct QueryScratch {
     BroadphaseScratch near;
+    std::vector<std::uint64_t> ids;      // for find_near
     ConvexPart sphere{Shape{}, Pose{}};  // for cast_sphere
     TriangleShape triangle;
 };
@@ -39,6 +41,15 @@ void visit_bodies(const Broadphase& broadphase, const Bounds& box,
 }
 
 }  // namespace
+
+std::span<const std::uint64_t> CollisionWorld::find_near(const Vec3& low_ws,
+                                                         const Vec3& high_ws) const {
+    std::vector<std::uint64_t>& ids = query_scratch().ids;
+    ids.clear();
+    visit_bodies(impl_->broadphase, {low_ws, high_ws}, {},
+                 [&ids](const ColliderProxy& proxy) { ids.push_back(proxy.id); });
+    return ids;
+}
 
 std::optional<RayHit> CollisionWorld::cast_ray(const Vec3& from_ws, const Vec3& to_ws,
                                                std::span<const std::uint64_t> skip) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/collision/shape_library.hpp"
+#include "engine/collision/surface_query.hpp"
 #include "engine/math/math.hpp"
 
 // Broadphase, narrowphase and queries, behind an interface without types of the underlying library
@@ -63,21 +64,11 @@ struct ContactLimits {
     double sweep_m = 0.005;
 };
 
-struct RayHit {
-    std::uint64_t id = 0;
-    Vec3 point_ws = Vec3::Zero();
-    // Unit, towards the side that the ray came from, whatever the triangle's winding.
-    Vec3 normal_ws = Vec3::UnitY();
-    double distance_m = 0.0;  // from the ray's start
-};
-
-struct SurfacePoint {
-    std::uint64_t id = 0;
-    Vec3 point_ws = Vec3::Zero();
-    // Unit, from the surface point towards the query point; outward if the two coincide or the
-    // query point is inside.
-    Vec3 normal_ws = Vec3::UnitY();
-    double distance_m = 0.0;  // 0 inside a solid; point_ws is on the surface there too
+// What the world has done: deterministic units of cost.
+struct CollisionWork {
+    std::uint64_t narrowphase_calls = 0;  // pairs whose contacts were computed, not recalled
+    std::uint64_t bounds_updates = 0;     // colliders whose place in the tree was updated
+    std::uint64_t tree_queries = 0;       // of find_contacts
 };
 
 // The BVH of a mesh. Keeps a reference to the mesh, which must outlive it. Any thread.
@@ -89,6 +80,8 @@ std::shared_ptr<const TriangleTree> build_triangle_tree(const Mesh& mesh);
 // called while any call is running.
 class CollisionWorld {
   public:
+    static constexpr bool k_any_thread = true;  // for SurfaceQuery
+
     // Builds the BVH of every mesh. `shapes` must outlive the world.
     explicit CollisionWorld(const ShapeLibrary& shapes);
     ~CollisionWorld();
@@ -109,6 +102,10 @@ class CollisionWorld {
     // valid. An unchanged proxy costs only a comparison. No allocation once the largest number of
     // proxies has been seen.
     void set_proxies(std::span<const ColliderProxy> proxies);
+    // Replaces the proxies with the ids of `proxies`, in any order. All others stay as they are and
+    // cost nothing. Adds and removes no collider: throws PreconditionError if a proxy with a shape
+    // has an unknown id, or one without a shape a known one.
+    void update_proxies(std::span<const ColliderProxy> proxies);
     // Replaces the ignored pairs. `pairs` must be sorted.
     void set_ignored_pairs(std::span<const IgnoredPair> pairs);
 
@@ -133,6 +130,12 @@ class CollisionWorld {
     // kept.
     void find_contacts(const ContactLimits& limits, std::vector<ContactPoint>& contacts);
 
+    // Work since the last call.
+    CollisionWork take_work();
+    // How often set_proxies has run: tells a caller of update_proxies whether the set is still its
+    // own.
+    std::uint64_t proxy_set() const;
+
     // First surface that the segment hits, from outside or inside. Colliders are at their end poses
     // (ColliderProxy::to_ws). Ignores the ids in `skip`.
     std::optional<RayHit> cast_ray(const Vec3& from_ws, const Vec3& to_ws,
@@ -145,6 +148,9 @@ class CollisionWorld {
     // precision).
     std::optional<SurfacePoint> closest_point(const Vec3& point_ws, double max_distance_m,
                                               std::span<const std::uint64_t> skip = {}) const;
+    // Ids of the colliders whose bounds overlap the box, ascending. Valid until the calling
+    // thread's next query.
+    std::span<const std::uint64_t> find_near(const Vec3& low_ws, const Vec3& high_ws) const;
     // Nearest surface point of the collider `id`, at any distance. nullopt if no collider has this
     // id.
     std::optional<SurfacePoint> closest_point_on(std::uint64_t id, const Vec3& point_ws) const;

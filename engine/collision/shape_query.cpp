@@ -118,7 +118,8 @@ void offer_caps(const Ray& ray, double radius, double half_height, Passage& pass
     for (const double side : {-1.0, 1.0}) {
         const double fraction = (side * half_height - ray.from.y()) / ray.along.y();
         const Vec3 point = ray.at(fraction);
-        if (std::hypot(point.x(), point.z()) <= radius * (1.0 + k_edge_tolerance)) {
+        const double reach = radius * (1.0 + k_edge_tolerance);
+        if (point.x() * point.x() + point.z() * point.z() <= reach * reach) {
             passage.offer(fraction, side * Vec3::UnitY());
         }
     }

@@ -31,4 +31,17 @@ void parallel_for(std::size_t count, F& task) {
                  [](void* context, std::size_t index) { (*static_cast<F*>(context))(index); });
 }
 
+// Calls task(slice, first, last) for consecutive ranges of `grain` indices (the last may be
+// shorter) that cover [0, count). The ranges do not depend on the number of threads, so a task may
+// keep counters and scratch memory per slice.
+template <typename F>
+void parallel_slices(std::size_t count, std::size_t grain, F& task) {
+    const std::size_t slices = (count + grain - 1) / grain;
+    auto run = [&](std::size_t slice) {
+        const std::size_t first = slice * grain;
+        task(slice, first, count - first < grain ? count : first + grain);
+    };
+    parallel_for(slices, run);
+}
+
 }  // namespace handhold

@@ -72,7 +72,8 @@ struct ChainFitScratch {
     ChainPatch patch;
     TraceScratch trace;
     DiscScratch disc;
-    std::vector<DiscSegment> cuts;  // all cuts within reach, from the patch
+    // Segments in which the chain's planes cut the gathered triangles of `patch`.
+    std::vector<DiscSegment> cuts;
     std::vector<DiscSegment> segments;
 };
 

@@ -218,7 +218,8 @@ bool AccessorReader::find_block(int view, std::uint64_t offset, const std::strin
                                "expected at least the " + std::to_string(element_bytes) +
                                    " bytes of an element, found " + std::to_string(block.stride));
     }
-    const std::uint64_t end = offset + block.stride * (block.count - 1) + element_bytes;
+    const std::uint64_t end =
+        offset + std::uint64_t{block.stride} * (block.count - 1) + element_bytes;
     if (end > block.bytes.size()) {
         return refusal_.refuse(
             place, "expected elements within the " + std::to_string(block.bytes.size()) +
@@ -238,7 +239,7 @@ bool AccessorReader::read(int accessor, Elements elements, const std::string& pl
     const std::string accessor_place = pointer("accessors", accessor);
     Block block{{},
                 0,
-                found.count,
+                static_cast<std::size_t>(found.count),
                 found.components,
                 found.component_type,
                 found.is_normalized || elements == Elements::weights};
@@ -276,7 +277,7 @@ bool AccessorReader::apply_sparse(const Accessor& accessor, const Block& shape,
     if (!allows(rule_of(Elements::indices), sparse.indices_type)) {
         return refusal_.refuse(place + "/indices/componentType", "expected an unsigned integer");
     }
-    Block places{{}, 0, sparse.count, 1, sparse.indices_type, false};
+    Block places{{}, 0, static_cast<std::size_t>(sparse.count), 1, sparse.indices_type, false};
     Block values = shape;
     values.count = sparse.count;
     if (!find_block(sparse.indices_view, sparse.indices_offset, place + "/indices", places) ||

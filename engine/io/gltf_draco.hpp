@@ -19,8 +19,9 @@ struct DracoRequest {
 
 struct DracoGeometry {
     std::size_t vertices = 0;
-    std::vector<std::uint32_t> indices;      // three per triangle, each below `vertices`
-    std::vector<std::vector<float>> values;  // by request; `components` values per vertex
+    std::vector<std::uint32_t> indices;  // three per triangle, each below `vertices`
+    // One array per DracoRequest, in the same order; each has `components` values per vertex.
+    std::vector<std::vector<float>> values;
 };
 
 // nullopt if the bytes are malformed, lack a requested attribute, or hold more vertices or

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/math/scalar_rotation.hpp"
 #include "engine/math/trigonometry_series.hpp"
@@ -108,6 +109,48 @@ double arc_tangent2(double y, double x) {
     return y < 0.0 ? -angle : angle;
 }
 
+double natural_logarithm(double x) {
+    if (!(x > 0.0) || std::isinf(x)) {
+        return x <= 0.0 ? -std::numeric_limits<double>::infinity() : x;
+    }
+    int exponent = 0;
+    double mantissa = std::frexp(x, &exponent);  // in [0.5, 1)
+    constexpr double k_half_root = 0.70710678118654757;
+    if (mantissa < k_half_root) {
+        mantissa *= 2.0;
+        --exponent;
+    }
+    // ln m = 2 artanh s = 2 (s + s^3 / 3 + ...), s = (m - 1) / (m + 1), |s| < 0.172.
+    const double s = (mantissa - 1.0) / (mantissa + 1.0);
+    const double z = s * s;
+    double sum = 0.0;
+    for (int power = 21; power >= 3; power -= 2) {
+        sum = (sum + 1.0 / power) * z;
+    }
+    // ln 2 = high + low; multiples of `high` up to 2^11 are exact.
+    constexpr double k_ln2_high = 6.93147180369123816490e-01;
+    constexpr double k_ln2_low = 1.90821492927058770002e-10;
+    return exponent * k_ln2_high + (exponent * k_ln2_low + 2.0 * (s + s * sum));
+}
+
+double cube_root(double x) {
+    if (!(x > 0.0) || std::isinf(x)) {
+        return x < 0.0 ? std::numeric_limits<double>::quiet_NaN() : x;
+    }
+    int exponent = 0;
+    double mantissa = std::frexp(x, &exponent);  // in [0.5, 1)
+    while (exponent % 3 != 0) {
+        mantissa *= 0.5;
+        ++exponent;
+    }
+    // Newton's method from a line near the root on [1/8, 1): each step doubles the digits.
+    double root = 0.46 + 0.57 * mantissa;
+    for (int step = 0; step < 6; ++step) {
+        root -= (root - mantissa / (root * root)) * (1.0 / 3.0);
+    }
+    return std::ldexp(root, exponent / 3);
+}
+
 Quat rotation_from_vector(const Vec3& vector_rad) {
     const double angle = vector_rad.norm();
     if (angle < 1e-12) {
@@ -166,10 +209,13 @@ Quat rotation_between(const Vec3& from, const Vec3& to) {
     return Quat((from + to).norm(), vector.x(), vector.y(), vector.z()).normalized();
 }
 
+Quat interpolate(const Quat& a, const Quat& b, double t) {
+    const Vec3 turn = rotation_to_vector(a.conjugate() * b);
+    return (a * rotation_from_vector(t * turn)).normalized();
+}
+
 Pose interpolate(const Pose& a, const Pose& b, double t) {
-    const Vec3 turn = rotation_to_vector(a.rotation.conjugate() * b.rotation);
-    return {a.position + t * (b.position - a.position),
-            (a.rotation * rotation_from_vector(t * turn)).normalized()};
+    return {a.position + t * (b.position - a.position), interpolate(a.rotation, b.rotation, t)};
 }
 
 double smooth_step(double x, double from, double to) {

@@ -5,6 +5,12 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+// Set by the CMake target for the library and its hosts. Eigen's vectorised sums add in an order
+// that depends on the instruction set, and its types have another layout.
+#ifndef EIGEN_DONT_VECTORIZE
+#error "compile with EIGEN_DONT_VECTORIZE, as handhold::runtime does"
+#endif
+
 // The only file of the engine that includes Eigen. Right-handed, +Y up, -Z forward, +X right;
 // metres, seconds, radians. Never use `auto` for an Eigen expression: it would hold references to
 // temporaries.
@@ -83,6 +89,13 @@ inline double sine(double angle_rad) {
 // or infinite; -0.0 counts as 0.0. Returns 0 for (0, 0) and NaN. Deterministic, like sin_cos.
 double arc_tangent2(double y, double x);
 
+// Natural logarithm of a positive finite number, relative error below 1e-15. 0 and negative numbers
+// give -infinity, NaN gives NaN. Deterministic, like sin_cos.
+double natural_logarithm(double x);
+// Cube root of a number >= 0, relative error below 1e-15. Infinity and NaN stay, negative numbers
+// give NaN. Deterministic, like sin_cos.
+double cube_root(double x);
+
 // rotation_from_vector: unit quaternion of the rotation about `vector_rad`, by its length.
 // rotation_to_vector is the inverse and returns the shortest vector, with a length in [0, pi].
 Quat rotation_from_vector(const Vec3& vector_rad);
@@ -97,6 +110,8 @@ Quat rotation_between(const Vec3& from, const Vec3& to);
 // any length but 0. If they are parallel, the roll is arbitrary.
 Quat look_rotation(const Vec3& forward, const Vec3& up);
 
+// Interpolates two rotations along the shorter arc at constant speed, t in [0, 1].
+Quat interpolate(const Quat& a, const Quat& b, double t);
 // Interpolates two poses, t in [0, 1]: positions linearly, rotations along the shorter arc at
 // constant speed.
 Pose interpolate(const Pose& a, const Pose& b, double t);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
 #include <optional>
 #include <thread>
 
@@ -64,9 +66,28 @@ class AllThreads {
     int before_;
 };
 
+// The folder for files that may be deleted at any time; empty if the environment names none.
+std::filesystem::path user_cache_directory() {
+    const auto folder = [](const char* variable) {
+        // NOLINTNEXTLINE(concurrency-mt-unsafe): no thread changes the environment
+        const char* const value = std::getenv(variable);
+        return std::filesystem::path(value != nullptr ? value : "");
+    };
+    // Relative paths count as unset (XDG base directory specification).
+    if (const std::filesystem::path cache = folder("XDG_CACHE_HOME"); cache.is_absolute()) {
+        return cache / "handhold";
+    }
+    if (const std::filesystem::path home = folder("HOME"); home.is_absolute()) {
+        return home / ".cache" / "handhold";
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<Scene> load_scene_with_progress(const std::string& name_or_file) {
+    const std::filesystem::path cache = user_cache_directory();
+    set_grip_mesh_cache(cache.empty() ? cache : cache / "grip_meshes");
     const LoadingBar bar(name_or_file);
     const AllThreads threads;
     return load_scene(name_or_file);

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <functional>
 #include <map>
 #include <new>
 #include <string>
@@ -225,52 +226,83 @@ int list_scenes() {
     return 0;
 }
 
-// Parses the command line and runs the command. Returns the exit status.
-int run_program(int argc, char** argv) {
+// The command line: the options of every command, and what runs the one that was given.
+struct Program {
     CLI::App app{"Handhold: a prototype game of zero-G hands"};
-    app.set_version_flag("--version", "handhold " HANDHOLD_VERSION_TEXT);
-    app.require_subcommand(1);
-    handhold::RunOptions options;
-    CLI::App* const run =
-        app.add_subcommand("run", "Play a session without a window, as fast as it can");
-    add_run_options(*run, options);
-    handhold::PlayOptions play_options;
-    CLI::App* const play = app.add_subcommand(
-        "play", "Play in a window with keyboard, mouse or gamepad, or in a headset");
-    add_play_options(*play, play_options);
-    handhold::ClimbOptions climb_options;
-    CLI::App* const climb =
-        app.add_subcommand("climb", "Record a session of a scripted climber who wanders");
-    add_climb_options(*climb, climb_options);
-    handhold::PictureOptions picture_options;
-    CLI::App* const pictures =
-        app.add_subcommand("pictures", "Draw what is seen from each spawn of a scene");
-    add_picture_options(*pictures, picture_options);
-    handhold::BuildStationOptions station_options;
-    CLI::App* const build_station = app.add_subcommand(
-        "build-station", "Write a station's scene file and its models from a description");
-    build_station->add_option("description", station_options.description,
-                              "A .json; default: the game's own station");
-    build_station->add_option("--out", station_options.out, "A folder")->required();
+    handhold::RunOptions run;
+    handhold::PlayOptions play;
+    handhold::ClimbOptions climb;
+    handhold::PictureOptions pictures;
+    handhold::BuildStationOptions station;
+    handhold::ExportGripOptions grip;
     std::string hands_folder;
-    CLI::App* const export_hands =
-        app.add_subcommand("export-hands", "Write the robot's hands for an animation package");
-    export_hands->add_option("--out", hands_folder, "A folder")->required();
     std::string body_file;
-    CLI::App* const export_body =
-        app.add_subcommand("export-body", "Write the robot's body for an animation package");
-    export_body->add_option("--out", body_file, "A file (.glb)")->required();
-    handhold::ExportGripOptions grip_options;
-    CLI::App* const export_grip = app.add_subcommand(
-        "export-grip", "Write a hand in an authored grip, and what it holds, as a .glb");
-    add_export_grip_options(*export_grip, grip_options);
     std::string grip_file;
     std::string grip_json;
-    CLI::App* const import_grip = app.add_subcommand(
-        "import-grip", "Read such a .glb as a grip for a scene file's \"grips\"");
-    import_grip->add_option("file", grip_file, "The .glb")->required();
-    import_grip->add_option("--out", grip_json, "A .json; default: standard output");
-    const CLI::App* const scenes = app.add_subcommand("scenes", "List the built-in scenes");
+    std::function<int()> chosen;
+
+    CLI::App& add(const char* name, const char* description, std::function<int()> command) {
+        CLI::App* const added = app.add_subcommand(name, description);
+        added->callback([this, command = std::move(command)] { chosen = command; });
+        return *added;
+    }
+};
+
+// Commands that play or draw a scene.
+void add_scene_commands(Program& program) {
+    Program& p = program;
+    add_run_options(p.add("run", "Play a session without a window, as fast as it can",
+                          [&p] { return handhold::run_command(p.run); }),
+                    p.run);
+    add_play_options(
+        p.add("play", "Play in a window with keyboard, mouse or gamepad, or in a headset",
+              [&p] { return handhold::play_command(p.play); }),
+        p.play);
+    add_climb_options(p.add("climb", "Record a session of a scripted climber who wanders",
+                            [&p] { return handhold::climb_command(p.climb); }),
+                      p.climb);
+    add_picture_options(p.add("pictures", "Draw what is seen from each spawn of a scene",
+                              [&p] { return handhold::picture_command(p.pictures); }),
+                        p.pictures);
+    p.add("scenes", "List the built-in scenes", list_scenes);
+}
+
+// Commands that read and write assets.
+void add_asset_commands(Program& program) {
+    Program& p = program;
+    CLI::App& build_station =
+        p.add("build-station", "Write a station's scene file and its models from a description",
+              [&p] { return handhold::build_station_command(p.station); });
+    build_station.add_option("description", p.station.description,
+                             "A .json; default: the game's own station");
+    build_station.add_option("--out", p.station.out, "A folder")->required();
+    p.add("export-hands", "Write the robot's hands for an animation package",
+          [&p] { return handhold::export_hands_command(p.hands_folder); })
+        .add_option("--out", p.hands_folder, "A folder")
+        ->required();
+    p.add("export-body", "Write the robot's body for an animation package",
+          [&p] { return handhold::export_body_command(p.body_file); })
+        .add_option("--out", p.body_file, "A file (.glb)")
+        ->required();
+    add_export_grip_options(
+        p.add("export-grip", "Write a hand in an authored grip, and what it holds, as a .glb",
+              [&p] { return handhold::export_grip_command(p.grip); }),
+        p.grip);
+    CLI::App& import_grip =
+        p.add("import-grip", "Read such a .glb as a grip for a scene file's \"grips\"",
+              [&p] { return handhold::import_grip_command(p.grip_file, p.grip_json); });
+    import_grip.add_option("file", p.grip_file, "The .glb")->required();
+    import_grip.add_option("--out", p.grip_json, "A .json; default: standard output");
+}
+
+// Parses the command line and runs the command. Returns the exit status.
+int run_program(int argc, char** argv) {
+    Program program;
+    CLI::App& app = program.app;
+    app.set_version_flag("--version", "handhold " HANDHOLD_VERSION_TEXT);
+    app.require_subcommand(1);
+    add_scene_commands(program);
+    add_asset_commands(program);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -281,34 +313,7 @@ int run_program(int argc, char** argv) {
                      app.help().c_str());
         return k_exit_usage;
     }
-    if (scenes->parsed()) {
-        return list_scenes();
-    }
-    if (export_body->parsed()) {
-        return handhold::export_body_command(body_file);
-    }
-    if (export_hands->parsed()) {
-        return handhold::export_hands_command(hands_folder);
-    }
-    if (export_grip->parsed()) {
-        return handhold::export_grip_command(grip_options);
-    }
-    if (import_grip->parsed()) {
-        return handhold::import_grip_command(grip_file, grip_json);
-    }
-    if (play->parsed()) {
-        return handhold::play_command(play_options);
-    }
-    if (climb->parsed()) {
-        return handhold::climb_command(climb_options);
-    }
-    if (build_station->parsed()) {
-        return handhold::build_station_command(station_options);
-    }
-    if (pictures->parsed()) {
-        return handhold::picture_command(picture_options);
-    }
-    return handhold::run_command(options);
+    return program.chosen();
 }
 
 // Flushes standard output and reports a failure. Returns the exit status.

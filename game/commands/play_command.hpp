@@ -38,6 +38,6 @@ struct PlayOptions {
 // the exit status: 0; 2, after one line on standard error, if a file is invalid or cannot be
 // written; 3 if there is no window or renderer. The last line on standard output is "state_hash
 // 0x<16 hex digits>".
-int play_command(PlayOptions options);
+int play_command(const PlayOptions& options);
 
 }  // namespace handhold

@@ -1,8 +1,11 @@
 #include "game/commands/run_command.hpp"
 
 #include <cstdio>
+#include <memory>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "engine/core/profile.hpp"
 #include "engine/io/printable.hpp"
@@ -17,30 +20,12 @@
 #include "game/commands/run_shots.hpp"
 #include "game/commands/run_snapshot.hpp"
 #include "game/report/run_summary.hpp"
-#include "game/scene/player_defaults.hpp"
 #include "game/session/interrupt.hpp"
 #include "game/session/session_run.hpp"
 #include "systems/snapshot.hpp"
 
 namespace handhold {
 namespace {
-
-// Climbers need jets to return to a hold, so a scene without jets gets weak ones.
-RunSettings choose_settings(const RunOptions& options, Scene& scene, std::size_t players) {
-    RunSettings settings{options.hz, options.seconds, options.threads};
-    settings.climbers_from = options.climbers ? 0 : recorded_players(options);
-    settings.seed = options.seed;
-    settings.keep_frames = !options.out.empty();
-    settings.should_stop = is_interrupted;
-    if (options.distance_grab) {
-        scene.tuning.pull.reach_m = k_pull_reach_m;
-    }
-    double& jets_mps2 = scene.tuning.locomotion.thruster_mps2;
-    if (players > settings.climbers_from && jets_mps2 == 0.0) {
-        jets_mps2 = k_jets_mps2;
-    }
-    return settings;
-}
 
 RunLog play(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>& players,
             const Recording* recording, const RunSettings& settings, SessionFilm* camera,
@@ -58,93 +43,108 @@ RunLog play(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>
                        });
 }
 
-}  // namespace
+// A session that is ready for its first frame.
+struct PreparedRun {
+    std::optional<OutputFolder> out;  // the folder stays locked until the run ends
+    Scene scene;
+    PlayerModels models;
+    RunSession session;
+    StartPlace place;
+    std::unique_ptr<FrameCaches> caches;
+    std::vector<PlayerEntities> players;
+    std::unique_ptr<SnapshotAssets> assets;
+    RunSettings settings;
 
-int run_command(const RunOptions& options) {
-    const InterruptGuard interrupts;
-    if (options.players > 0 &&
-        static_cast<std::size_t>(options.players) < recorded_players(options)) {
-        return refuse({options.scene, "",
-                       "expected a player for each --input, found " +
-                           std::to_string(options.players) + " players"});
+    const Recording* recording() const { return session.recording ? &*session.recording : nullptr; }
+    double length_s() const { return session_length_s(recording(), settings); }
+};
+
+// Loads what the options name.
+std::optional<FileError> load_files(const RunOptions& options, PreparedRun& run) {
+    Result<Scene> scene = load_scene_with_progress(options.scene);
+    if (!scene) {
+        return scene.error();
     }
-    Result<Scene> loaded = load_scene_with_progress(options.scene);
-    if (!loaded) {
-        return refuse(loaded.error());
-    }
-    Scene& scene = loaded.value();
-    print_notes(scene.notes);
+    run.scene = std::move(scene.value());
+    print_notes(run.scene.notes);
     Result<PlayerModels> models = choose_player_models(options.models);
     if (!models) {
-        return refuse(models.error());
+        return models.error();
     }
-    print_notes(models.value().notes);
-    const Result<RunSession> session = load_session(options, scene);
+    run.models = std::move(models.value());
+    print_notes(run.models.notes);
+    Result<RunSession> session = load_session(options, run.scene);
     if (!session) {
-        return refuse(session.error());
+        return session.error();
     }
-    std::optional<OutputFolder> out;  // the folder stays locked until the run ends
+    run.session = std::move(session.value());
     if (!options.out.empty()) {
         Result<OutputFolder> folder = OutputFolder::open(options.out);
         if (!folder) {
-            return refuse(folder.error());
+            return folder.error();
         }
-        out.emplace(std::move(folder.value()));
+        run.out.emplace(std::move(folder.value()));
     }
-    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
-    caches.body_clips = game_body_clips();
-    const Recording* const recording =
-        session.value().recording ? &*session.value().recording : nullptr;
-    const Result<StartPlace> place = choose_place(options, options.spawn, scene, caches, recording);
+    run.caches = std::make_unique<FrameCaches>(*run.scene.shapes, run.scene.grip_meshes.get());
+    run.caches->body_clips = game_body_clips();
+    return {};
+}
+
+// Adds the players at their places.
+std::optional<FileError> place_players(const RunOptions& options, PreparedRun& run) {
+    Result<StartPlace> place =
+        choose_place(options, options.spawn, run.scene, *run.caches, run.recording());
     if (!place) {
-        return refuse(place.error());
+        return place.error();
     }
+    run.place = std::move(place.value());
     const Result<std::vector<StartPlace>> places =
-        choose_places(options, place.value(), scene, caches, session.value());
+        choose_places(options, run.place, run.scene, *run.caches, run.session);
     if (!places) {
-        return refuse(places.error());
+        return places.error();
     }
     Result<std::vector<PlayerEntities>> players =
-        add_players(scene, caches, places.value(), options);
+        add_players(run.scene, *run.caches, places.value(), options);
     if (!players) {
-        return refuse(players.error());
+        return players.error();
     }
-    warn_of_overlaps(scene, caches, players.value());
-    if (const auto joints = models.value().controller_joints()) {
-        set_controller_joints(*joints, scene.world);
+    run.players = std::move(players.value());
+    warn_of_overlaps(run.scene, *run.caches, run.players);
+    if (const auto joints = run.models.controller_joints()) {
+        set_controller_joints(*joints, run.scene.world);
     }
-    const SnapshotAssets assets(*scene.shapes, scene.name);
-    RunSettings settings = choose_settings(options, scene, players.value().size());
-    for (const Recording& more : session.value().more) {
-        settings.more_recordings.push_back(&more);
-    }
-    if (const auto error =
-            check_length(options, session.value().name, session_length_s(recording, settings))) {
-        return refuse(*error);
-    }
-    if (const auto error =
-            resume_from_snapshot(options, settings, assets, scene, players.value())) {
-        return refuse(*error);
-    }
+    return {};
+}
 
-    if (!options.shots.empty()) {
-        return draw_shots(options, {scene, caches, players.value(), recording, settings},
-                          std::move(models.value()));
+// Checks the session's length and replaces the state by the snapshot of --resume.
+std::optional<FileError> set_start(const RunOptions& options, PreparedRun& run) {
+    run.assets = std::make_unique<SnapshotAssets>(*run.scene.shapes, run.scene.name);
+    run.settings = choose_settings(options, run.players.size(), run.scene);
+    run.settings.should_stop = is_interrupted;
+    for (const Recording& more : run.session.more) {
+        run.settings.more_recordings.push_back(&more);
     }
-    RunFilm film = open_run_film(options, scene, std::move(models.value()),
-                                 session_length_s(recording, settings));
+    if (auto error = check_length(options, run.session.name, run.length_s())) {
+        return error;
+    }
+    return resume_from_snapshot(options, run.settings, *run.assets, run.scene, run.players);
+}
+
+// Plays the session and leaves its files and its summary. Returns the exit status.
+int play_and_report(const RunOptions& options, PreparedRun& run) {
+    RunFilm film = open_run_film(options, run.scene, std::move(run.models), run.length_s());
     if (!options.trace.empty()) {
         start_trace();
     }
     RunTally tally;
-    SnapshotTaker snapshots(options, assets);
-    RunLog log = play(scene, caches, players.value(), recording, settings, film.camera.get(), tally,
-                      snapshots);
+    SnapshotTaker snapshots(options, *run.assets);
+    RunLog log = play(run.scene, *run.caches, run.players, run.recording(), run.settings,
+                      film.camera.get(), tally, snapshots);
     if (const auto error = snapshots.error()) {
         return refuse(*error);
     }
-    log.input = session.value().name;
-    log.spawn = place.value().name;
+    log.input = run.session.name;
+    log.spawn = run.place.name;
     if (!options.trace.empty()) {
         stop_trace();
         if (const auto error = write_trace(options.trace)) {
@@ -164,6 +164,30 @@ int run_command(const RunOptions& options) {
     }
     std::printf("state_hash %s\n", format_hash(log.state_hash).c_str());
     return is_interrupted() ? k_exit_interrupted : 0;
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options) {
+    const InterruptGuard interrupts;
+    if (options.players > 0 &&
+        static_cast<std::size_t>(options.players) < recorded_players(options)) {
+        return refuse({options.scene, "",
+                       "expected a player for each --input, found " +
+                           std::to_string(options.players) + " players"});
+    }
+    PreparedRun run;
+    for (auto* const prepare : {&load_files, &place_players, &set_start}) {
+        if (const auto error = (*prepare)(options, run)) {
+            return refuse(*error);
+        }
+    }
+    if (!options.shots.empty()) {
+        return draw_shots(options,
+                          {run.scene, *run.caches, run.players, run.recording(), run.settings},
+                          std::move(run.models));
+    }
+    return play_and_report(options, run);
 }
 
 }  // namespace handhold

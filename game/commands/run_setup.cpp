@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "engine/io/printable.hpp"
+#include "game/climber/crowd.hpp"
 #include "game/scene/built_in_scenes.hpp"
 #include "game/scene/overlaps.hpp"
+#include "game/scene/player_defaults.hpp"
 #include "game/scene/spawn.hpp"
 
 namespace handhold {
@@ -145,6 +147,21 @@ Result<std::vector<PlayerEntities>> add_players(Scene& scene, FrameCaches& cache
         players.push_back(add_scene_player(scene, start));
     }
     return players;
+}
+
+RunSettings choose_settings(const RunOptions& options, std::size_t players, Scene& scene) {
+    RunSettings settings{options.hz, options.seconds, options.threads};
+    settings.climbers_from = options.climbers ? 0 : recorded_players(options);
+    settings.seed = options.seed;
+    settings.keep_frames = !options.out.empty();
+    if (options.distance_grab) {
+        scene.tuning.pull.reach_m = k_pull_reach_m;
+    }
+    double& jets_mps2 = scene.tuning.locomotion.thruster_mps2;
+    if (players > settings.climbers_from && jets_mps2 == 0.0) {
+        jets_mps2 = k_jets_mps2;
+    }
+    return settings;
 }
 
 void warn_of_overlaps(const Scene& scene, FrameCaches& caches,

@@ -11,6 +11,7 @@
 #include "game/commands/run_command.hpp"
 #include "game/scene/scene.hpp"
 #include "game/session/recording.hpp"
+#include "game/session/session_run.hpp"
 #include "systems/frame.hpp"
 
 // What `handhold run` prepares before the first frame: recordings, start places and players.
@@ -55,6 +56,10 @@ Result<std::vector<StartPlace>> choose_places(const RunOptions& options, const S
 Result<std::vector<PlayerEntities>> add_players(Scene& scene, FrameCaches& caches,
                                                 const std::vector<StartPlace>& places,
                                                 const RunOptions& options);
+
+// How the session of `players` players is run. Climbers need jets to return to a hold, so a scene
+// without jets gets weak ones.
+RunSettings choose_settings(const RunOptions& options, std::size_t players, Scene& scene);
 
 // Warns on standard error of bodies and players that penetrate at the start.
 void warn_of_overlaps(const Scene& scene, FrameCaches& caches,

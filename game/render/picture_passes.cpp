@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "game/render/shaders.hpp"
+#include "game/render/picture_shaders.hpp"
 
 namespace handhold {
 namespace {

@@ -53,7 +53,8 @@ struct Ghost {
     float hidden = 0.35F;         // where geometry hides it
     double hidden_from_m = 0.0;   // distance behind the geometry where `hidden` starts to apply
     double hidden_full_m = 0.01;  // distance where it applies fully; above hidden_from_m
-    bool own_hides = false;       // not drawn where instances with is_own hide it
+    // True: not drawn, not even with `hidden`, where an instance with is_own is in front of it.
+    bool own_hides = false;
 };
 
 // A small lamp without shadow. Its light fades to zero at reach_m, so it hardly leaks through

@@ -12,6 +12,7 @@
 #include "game/render/gl_objects.hpp"
 #include "game/render/gpu_mesh.hpp"
 #include "game/render/picture_passes.hpp"
+#include "game/render/picture_shaders.hpp"
 #include "game/render/shaders.hpp"
 
 namespace handhold {

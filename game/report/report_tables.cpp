@@ -167,6 +167,8 @@ const char* meaning_of(Fallback reason) {
         case Fallback::pull_lost:
             return "The pulled body was destroyed, too far or in another hand, or the hand was "
                    "lost; the pull ended.";
+        case Fallback::surface_answer_invalid:
+            return "A host's surfaces gave numbers that mean nothing; the answer was ignored.";
         case Fallback::count:
             break;
     }

@@ -57,9 +57,10 @@ struct RunSummary {
     double duration_s = 0.0;  // simulated time
     // Frames stepped per second of wall time; 0 if no time was measured.
     double frames_per_s = 0.0;
-    StageStats totals;             // sums of counters and fallbacks; nothing else is set
-    double residual_m = 0.0;       // worst contact overlap
-    double joint_error_m = 0.0;    // worst joint: points, and limits of sliders
+    StageStats totals;        // sums of counters and fallbacks; nothing else is set
+    double residual_m = 0.0;  // worst contact overlap
+    // Worst joint: distance between its two points, or distance beyond a slider's limit.
+    double joint_error_m = 0.0;
     double joint_error_rad = 0.0;  // worst joint: directions and angles
     HandErrorFigures hand_error;
     double push_back_m = 0.0;  // worst frame and player

@@ -10,6 +10,11 @@
 namespace handhold {
 namespace {
 
+std::filesystem::path& grip_mesh_cache() {
+    static std::filesystem::path directory;
+    return directory;
+}
+
 // A level by itself: each mesh node is a static body.
 SceneFile level_scene(const std::filesystem::path& path) {
     SceneFile file;
@@ -55,8 +60,10 @@ void add_grip_meshes(Scene& scene) {
     for (const Collider& collider : scene.world.collider.rows()) {
         of_bodies.push_back(collider.shape);
     }
-    scene.grip_meshes->add(*scene.shapes, of_bodies);
+    scene.grip_meshes->add(*scene.shapes, of_bodies, {}, grip_mesh_cache());
 }
+
+void set_grip_mesh_cache(const std::filesystem::path& directory) { grip_mesh_cache() = directory; }
 
 Result<Scene> load_scene(const std::string& name_or_file) {
     if (std::optional<Scene> scene = make_built_in_scene(name_or_file)) {

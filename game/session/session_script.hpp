@@ -52,7 +52,7 @@ struct SessionScript {
 // until `until_s`; the keys of SessionScript::body must already contain the body's motion.
 struct ScriptedCrawl {
     Vec3 bar_start = Vec3::Zero();  // any point of the bar's axis
-    Vec3 along = Vec3::UnitX();     // unit, the body's direction
+    Vec3 along = Vec3::UnitX();     // unit, along the bar in the direction of travel
     Vec3 away = Vec3::UnitY();
     Vec3 fingers = Vec3::UnitY();
     double palm_off_axis_m = 0.02;  // slightly more than the bar's radius

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/ecs/join.hpp"
+#include "engine/core/parallel.hpp"
 #include "engine/math/scalar_rotation.hpp"
 #include "systems/arm/shared/body_constants.hpp"
 #include "systems/arm/shared/body_view.hpp"
+#include "systems/arm/shared/elbow_direction.hpp"
 #include "systems/arm/shared/estimate_chest.hpp"
-#include "systems/arm/shared/estimate_elbow.hpp"
 #include "systems/arm/shared/level_direction.hpp"
 
 namespace handhold {
@@ -229,14 +229,22 @@ void take_hands(const EstimateArmsIo& io) {
 void estimate_arms(const EstimateArmsIo& io, const ArmTuning& tuning) {
     take_hands(io);
     const Step step = step_of(io.dt_s, tuning);
-    join(
-        io.estimate,
-        [&](Entity, ArmEstimate& out, ArmMemory& memory, const HeadTracking& head,
-            const BodyMeasures& measures) {
-            estimate_player({head.pose_ps, {out.arms[0].hand_ps, out.arms[1].hand_ps}, measures},
-                            step, memory, out);
-        },
-        io.memory, io.head, io.measures);
+    constexpr std::size_t k_players_per_slice = 16;
+    const auto estimate = [&](std::size_t /*slice*/, std::size_t first, std::size_t last) {
+        for (std::size_t row = first; row < last; ++row) {
+            const Entity player = io.estimate.owners()[row];
+            ArmMemory* const memory = io.memory.find(player);
+            const HeadTracking* const head = io.head.find(player);
+            const BodyMeasures* const measures = io.measures.find(player);
+            if (memory != nullptr && head != nullptr && measures != nullptr) {
+                ArmEstimate& out = io.estimate.rows()[row];
+                estimate_player(
+                    {head->pose_ps, {out.arms[0].hand_ps, out.arms[1].hand_ps}, *measures}, step,
+                    *memory, out);
+            }
+        }
+    };
+    parallel_slices(io.estimate.size(), k_players_per_slice, estimate);
 }
 
 }  // namespace handhold

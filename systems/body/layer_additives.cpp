@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "components/body_clip_state.hpp"
+#include "engine/core/parallel.hpp"
 #include "engine/ecs/join.hpp"
 #include "engine/math/scalar_rotation.hpp"
 
@@ -131,6 +132,24 @@ void turn_clavicle(const BodyClips& clips, HandSide side, double arm_m, double r
     }
 }
 
+void layer_player(const LayerAdditivesIo& io, std::size_t row, const AdditiveTuning& tuning) {
+    const Entity player = io.state.owners()[row];
+    BodyClipState& state = io.state.rows()[row];
+    const double speed_mps =
+        (io.velocity.at(player).linear_mps - io.reference.at(player).linear_mps).norm();
+    advance(io.clips, io.dt_s, speed_mps, tuning, state);
+    ClipTurns turns = no_turns();
+    add_turns(io.clips.at(BodyClipName::idle), state.idle_s, tuning.idle, ClipBlend::eased, turns);
+    add_turns(io.clips.at(BodyClipName::push_off), state.push_off_s,
+              tuning.push_off * state.push_off_weight, ClipBlend::eased, turns);
+    add_look(io.clips, io.head.at(player).pose_ps.rotation, io.estimate.at(player).facing_ps,
+             tuning.look, turns);
+    if (std::any_of(turns.begin(), turns.end(),
+                    [](const Vec3& turn) { return turn != Vec3::Zero(); })) {
+        turn_body(turns, io.pose.at(player));
+    }
+}
+
 }  // namespace
 
 void layer_clavicles(const LayerClaviclesIo& io, const AdditiveTuning& additive,
@@ -151,24 +170,13 @@ void layer_clavicles(const LayerClaviclesIo& io, const AdditiveTuning& additive,
 
 void layer_additives(const LayerAdditivesIo& io, const AdditiveTuning& tuning) {
     see_hands(io);
-    for (std::size_t row = 0; row < io.state.size(); ++row) {
-        const Entity player = io.state.owners()[row];
-        BodyClipState& state = io.state.rows()[row];
-        const double speed_mps =
-            (io.velocity.at(player).linear_mps - io.reference.at(player).linear_mps).norm();
-        advance(io.clips, io.dt_s, speed_mps, tuning, state);
-        ClipTurns turns = no_turns();
-        add_turns(io.clips.at(BodyClipName::idle), state.idle_s, tuning.idle, ClipBlend::eased,
-                  turns);
-        add_turns(io.clips.at(BodyClipName::push_off), state.push_off_s,
-                  tuning.push_off * state.push_off_weight, ClipBlend::eased, turns);
-        add_look(io.clips, io.head.at(player).pose_ps.rotation, io.estimate.at(player).facing_ps,
-                 tuning.look, turns);
-        if (std::any_of(turns.begin(), turns.end(),
-                        [](const Vec3& turn) { return turn != Vec3::Zero(); })) {
-            turn_body(turns, io.pose.at(player));
+    constexpr std::size_t k_players_per_slice = 32;
+    const auto layer = [&](std::size_t /*slice*/, std::size_t first, std::size_t last) {
+        for (std::size_t row = first; row < last; ++row) {
+            layer_player(io, row, tuning);
         }
-    }
+    };
+    parallel_slices(io.state.size(), k_players_per_slice, layer);
 }
 
 }  // namespace handhold

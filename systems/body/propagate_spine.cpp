@@ -10,8 +10,7 @@
 #include "engine/anim/deflect_outward.hpp"
 #include "engine/anim/joint_range.hpp"
 #include "engine/anim/quadratic_path.hpp"
-#include "engine/collision/collision_world.hpp"
-#include "engine/ecs/join.hpp"
+#include "engine/core/parallel.hpp"
 #include "engine/math/scalar_rotation.hpp"
 #include "systems/body/shared/fold_body.hpp"
 #include "systems/body/shared/pose_spine.hpp"
@@ -248,7 +247,7 @@ LegContact find_surface_below(const PropagateSpineIo& io, Entity player, const P
     }
     const Vec3 along = path * (1.0 / length);
     const std::array<std::uint64_t, 1> skip = {io.persistent_id->at(player).value};
-    const auto hit = io.collision->cast_ray(
+    const auto hit = io.surfaces.cast_ray(
         transform_point(origin_ws, head_ps),
         transform_point(origin_ws, head_ps + (length + sole_m + k_ahead_m) * along), skip);
     if (!hit) {
@@ -270,7 +269,7 @@ bool is_tracked_floor(const LegContact& contact, const TrackedFloor& floor) {
 
 void touch_surfaces(const PropagateSpineIo& io, Entity player, const Motion& motion,
                     const TrackedFloor& floor, SpineMemory& memory) {
-    if (io.collision == nullptr) {
+    if (!io.surfaces) {
         return;
     }
     const double scale = floor.scale;
@@ -293,41 +292,53 @@ void touch_surfaces(const PropagateSpineIo& io, Entity player, const Motion& mot
     }
 }
 
+void propagate_player(const PropagateSpineIo& io, std::size_t row, const SpineTuning& tuning) {
+    const Entity player = io.pose.owners()[row];
+    SpineMemory& memory = io.memory.at(player);
+    const Pose& origin_ws = io.origin.at(player).pose_ws;
+    const double scale = io.measures.at(player).eye_height_m / k_scale_eye_m;
+    const Pose& chest_ps = io.estimate.at(player).chest_ps;
+    const double floor_m = io.head == nullptr ? 0.0 : io.head->at(player).shift_m.y();
+    const TrackedFloor floor{chest_ps.position.y() - floor_m, scale};
+    const Vec3& reference_ws = io.reference.at(player).linear_mps;
+    const Vec3 own_m = chest_ps.position - memory.chest_ps.position;
+    const Quat to_ps = origin_ws.rotation.conjugate();
+    const Vec3 relative = to_ps * (io.velocity.at(player).linear_mps - reference_ws);
+    if (!memory.known || is_jump(own_m.norm(), io.dt_s)) {
+        rest_at(chest_ps.rotation, scale, io.t_s, memory);
+        memory.known = true;
+        memory.rate_mps = relative;
+        memory.rate_span_s = io.dt_s;
+    } else {
+        // Velocities are relative to the reference velocity. When it changes, they are shifted
+        // so that the absolute velocities stay the same.
+        const Vec3 shift = to_ps * (memory.reference_ws_mps - reference_ws);
+        for (Vec3& velocity : memory.velocity_mps) {
+            velocity += shift;
+        }
+        memory.rate_mps += shift;
+        const Motion motion{io.dt_s, io.t_s, chest_ps, own_m + io.dt_s * relative};
+        touch_surfaces(io, player, motion, floor, memory);
+        play(motion, scale, tuning, memory);
+    }
+    memory.reference_ws_mps = reference_ws;
+    memory.chest_ps = chest_ps;
+    pose_spine(origin_ws * chest_ps, memory, chest_ps, floor, io.pose.at(player));
+}
+
 }  // namespace
 
 void propagate_spine(const PropagateSpineIo& io, const SpineTuning& tuning) {
-    for (std::size_t row = 0; row < io.pose.size(); ++row) {
-        const Entity player = io.pose.owners()[row];
-        SpineMemory& memory = io.memory.at(player);
-        const Pose& origin_ws = io.origin.at(player).pose_ws;
-        const double scale = io.measures.at(player).eye_height_m / k_scale_eye_m;
-        const Pose& chest_ps = io.estimate.at(player).chest_ps;
-        const double floor_m = io.head == nullptr ? 0.0 : io.head->at(player).shift_m.y();
-        const TrackedFloor floor{chest_ps.position.y() - floor_m, scale};
-        const Vec3& reference_ws = io.reference.at(player).linear_mps;
-        const Vec3 own_m = chest_ps.position - memory.chest_ps.position;
-        const Quat to_ps = origin_ws.rotation.conjugate();
-        const Vec3 relative = to_ps * (io.velocity.at(player).linear_mps - reference_ws);
-        if (!memory.known || is_jump(own_m.norm(), io.dt_s)) {
-            rest_at(chest_ps.rotation, scale, io.t_s, memory);
-            memory.known = true;
-            memory.rate_mps = relative;
-            memory.rate_span_s = io.dt_s;
-        } else {
-            // Velocities are relative to the reference velocity. When it changes, they are shifted
-            // so that the absolute velocities stay the same.
-            const Vec3 shift = to_ps * (memory.reference_ws_mps - reference_ws);
-            for (Vec3& velocity : memory.velocity_mps) {
-                velocity += shift;
-            }
-            memory.rate_mps += shift;
-            const Motion motion{io.dt_s, io.t_s, chest_ps, own_m + io.dt_s * relative};
-            touch_surfaces(io, player, motion, floor, memory);
-            play(motion, scale, tuning, memory);
+    constexpr std::size_t k_players_per_slice = 4;
+    const auto propagate = [&](std::size_t /*slice*/, std::size_t first, std::size_t last) {
+        for (std::size_t row = first; row < last; ++row) {
+            propagate_player(io, row, tuning);
         }
-        memory.reference_ws_mps = reference_ws;
-        memory.chest_ps = chest_ps;
-        pose_spine(origin_ws * chest_ps, memory, chest_ps, floor, io.pose.at(player));
+    };
+    if (io.surfaces.any_thread()) {
+        parallel_slices(io.pose.size(), k_players_per_slice, propagate);
+    } else {
+        propagate(0, 0, io.pose.size());
     }
 }
 

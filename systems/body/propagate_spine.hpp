@@ -5,7 +5,7 @@
 #include "components/player.hpp"
 #include "components/spine.hpp"
 #include "components/tracking.hpp"
-#include "engine/collision/collision_world.hpp"
+#include "engine/collision/surface_query.hpp"
 #include "engine/ecs/column.hpp"
 
 namespace handhold {
@@ -20,8 +20,8 @@ struct PropagateSpineIo {
     const Column<ArmEstimate>& estimate;         // in: the chest
     Column<SpineMemory>& memory;                 // in/out
     Column<SpinePose>& pose;                     // out
-    // For contacts of the legs. Set `collision` and the two columns below it, or none of the three.
-    const CollisionWorld* collision = nullptr;  // in
+    // For contacts of the legs. Set `surfaces` and the two columns below it, or none of the three.
+    SurfaceQuery surfaces = {};  // in
     // In: rays start in the head; shift_m is the floor's height.
     const Column<HeadTracking>* head = nullptr;
     // In: so that legs ignore their own player.

@@ -1,5 +1,7 @@
 #include "systems/body/publish_pose.hpp"
 
+#include <algorithm>
+
 #include "components/play_space.hpp"
 
 namespace handhold {
@@ -12,8 +14,8 @@ void publish_pose(const PublishPoseIo& io, const Tuning& tuning) {
         const HeadTracking& head = io.head.at(player);
         out.head_ws = origin_ws * head.pose_ps;
         out.head_center_ws = transform_point(origin_ws, head_center_ps(head, tuning.head));
-        const std::size_t body = find_body(io.frame.graph, io.persistent_id.at(player).value);
-        out.push_back_m = body < io.frame.phase.size() ? io.frame.phase[body].push_back_m : 0.0;
+        const auto push_back = std::ranges::find(io.push_backs, player, &PushBack::player);
+        out.push_back_m = push_back != io.push_backs.end() ? push_back->distance_m : 0.0;
     }
     for (std::size_t row = 0; row < io.owner.size(); ++row) {
         const Entity entity = io.owner.owners()[row];

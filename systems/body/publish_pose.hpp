@@ -1,8 +1,9 @@
 #pragma once
 
+#include <span>
+
 #include "components/authored_grip.hpp"
 #include "components/body.hpp"
-#include "components/frame_graph.hpp"
 #include "components/grab.hpp"
 #include "components/hand.hpp"
 #include "components/player.hpp"
@@ -14,8 +15,7 @@
 namespace handhold {
 
 struct PublishPoseIo {
-    const FrameGraph& frame;                    // in: phase (push_back_m)
-    const Column<PersistentId>& persistent_id;  // in
+    std::span<const PushBack> push_backs;       // in
     const Column<PlayerOrigin>& origin;         // in
     const Column<HeadTracking>& head;           // in
     const Column<HandOwner>& owner;             // in

@@ -55,7 +55,8 @@ class Gatherer {
             add_to_signature(stream, grab.body, out.meshes.back());
             add_nearby_meshes(out, stream);
             out.signature = stream.value() | 1U;  // never 0, which means that there is no body
-        } else if (io_.meshes != nullptr && io_.body_pose.contains(grab.body)) {
+        } else if ((io_.meshes != nullptr || io_.body_surface != nullptr) &&
+                   io_.body_pose.contains(grab.body)) {
             stats_.count(Fallback::body_no_surface);
         }
     }
@@ -68,9 +69,17 @@ class Gatherer {
     }
 
     const GripMesh* mesh_of(Entity body) const {
+        if (!io_.body_pose.contains(body)) {
+            return nullptr;
+        }
+        if (io_.body_surface != nullptr) {
+            if (const BodySurface* const own = io_.body_surface->find(body)) {
+                return own->mesh.get();
+            }
+        }
         const Collider* const collider = io_.collider.find(body);
-        const bool is_known = io_.meshes != nullptr && collider != nullptr &&
-                              io_.body_pose.contains(body) && io_.meshes->has(collider->shape);
+        const bool is_known =
+            io_.meshes != nullptr && collider != nullptr && io_.meshes->has(collider->shape);
         return is_known ? &io_.meshes->at(collider->shape) : nullptr;
     }
 
@@ -97,21 +106,38 @@ class Gatherer {
     void add_nearby_meshes(HandSurroundings& out, HashStream& stream) const {
         const Vec3 palm_ws =
             transform_point(out.body_ws, transform_point(out.wrist_bs, out.rig->palm_center_hs));
-        for (std::size_t i = 0; i < io_.frame.entities.size(); ++i) {
-            const Entity body = io_.frame.entities[i];
-            if (body == out.body || !io_.body_pose.contains(body)) {
-                continue;
+        if (io_.collision == nullptr) {
+            for (const Entity body : io_.bodies) {
+                add_if_near(body, palm_ws, out, stream);
             }
-            const GripMesh* const mesh = mesh_of(body);
-            if (mesh == nullptr) {
-                continue;
+            return;
+        }
+        // Colliders are where the last search for contacts needed them: up to millimetres from
+        // their bodies. Grip meshes differ from their colliders by less than that.
+        constexpr double k_slack_m = 0.05;
+        const Vec3 reach_m = Vec3::Constant(k_hand_length_m + k_slack_m);
+        for (const std::uint64_t id :
+             io_.collision->find_near(palm_ws - reach_m, palm_ws + reach_m)) {
+            const auto proxy = std::ranges::lower_bound(io_.proxies, id, {}, &ColliderProxy::id);
+            const auto i = static_cast<std::size_t>(proxy - io_.proxies.begin());
+            if (proxy != io_.proxies.end() && proxy->id == id) {
+                add_if_near(io_.bodies[i], palm_ws, out, stream);
             }
-            const Pose& pose_ws = io_.body_pose.at(body).pose_ws;
-            const Vec3 palm_bs = inverse_transform_point(pose_ws, palm_ws);
-            if (mesh->contact_bvh.may_be_near(palm_bs, k_hand_length_m)) {
-                out.meshes.push_back({mesh, inverse(out.body_ws) * pose_ws});
-                add_to_signature(stream, body, out.meshes.back());
-            }
+        }
+    }
+
+    void add_if_near(Entity body, const Vec3& palm_ws, HandSurroundings& out,
+                     HashStream& stream) const {
+        const GripMesh* const mesh =
+            body == out.body || !io_.body_pose.contains(body) ? nullptr : mesh_of(body);
+        if (mesh == nullptr) {
+            return;
+        }
+        const Pose& pose_ws = io_.body_pose.at(body).pose_ws;
+        const Vec3 palm_bs = inverse_transform_point(pose_ws, palm_ws);
+        if (mesh->contact_bvh.may_be_near(palm_bs, k_hand_length_m)) {
+            out.meshes.push_back({mesh, inverse(out.body_ws) * pose_ws});
+            add_to_signature(stream, body, out.meshes.back());
         }
     }
 
@@ -121,12 +147,17 @@ class Gatherer {
 
 }  // namespace
 
-void gather_surroundings(const GatherSurroundingsIo& io, StageStats& stats) {
-    io.surroundings.resize(io.owner.size());
+void gather_surroundings(const GatherSurroundingsIo& io, std::size_t first, std::size_t last,
+                         StageStats& stats) {
     const Gatherer gatherer(io, stats);
-    for (std::size_t row = 0; row < io.owner.size(); ++row) {
+    for (std::size_t row = first; row < last; ++row) {
         gatherer.gather(row, io.surroundings[row]);
     }
+}
+
+void gather_surroundings(const GatherSurroundingsIo& io, StageStats& stats) {
+    io.surroundings.resize(io.owner.size());
+    gather_surroundings(io, 0, io.owner.size(), stats);
 }
 
 }  // namespace handhold

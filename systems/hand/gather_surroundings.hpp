@@ -6,12 +6,12 @@
 
 #include "components/authored_grip.hpp"
 #include "components/body.hpp"
-#include "components/frame_graph.hpp"
 #include "components/grab.hpp"
 #include "components/hand_surroundings.hpp"
 #include "components/player.hpp"
 #include "components/stats.hpp"
 #include "components/tracking.hpp"
+#include "engine/collision/collision_world.hpp"
 #include "engine/ecs/column.hpp"
 #include "engine/geometry/grip_mesh_library.hpp"
 
@@ -21,15 +21,16 @@ struct GatherSurroundingsIo {
     // In: grip meshes by shape. Null: hands are not fitted to surfaces.
     const GripMeshLibrary* meshes = nullptr;
     const std::array<HandRig, k_hand_count>& rigs;  // in: by HandSide
-    const FrameGraph& frame;                        // in: entities
-    const Column<PersistentId>& persistent_id;      // in
-    const Column<HandOwner>& owner;                 // in
-    const Column<HandTracking>& hand;               // in: pose_ps, end of the frame
-    const Column<Grab>& grab;                       // in: kind, body, anchor_bs
-    const Column<PlayerOrigin>& origin;             // in: pose_ws, end of the frame
-    const Column<HeadTracking>& head;               // in: pose_ps, for hands on a player's head
-    const Column<BodyPose>& body_pose;              // in: pose_ws, end of the frame
-    const Column<Collider>& collider;               // in: shape, the key into `meshes`
+    // In: the bodies that may be near a hand, in an order that does not depend on slots.
+    std::span<const Entity> bodies;
+    const Column<PersistentId>& persistent_id;  // in
+    const Column<HandOwner>& owner;             // in
+    const Column<HandTracking>& hand;           // in: pose_ps, end of the frame
+    const Column<Grab>& grab;                   // in: kind, body, anchor_bs
+    const Column<PlayerOrigin>& origin;         // in: pose_ws, end of the frame
+    const Column<HeadTracking>& head;           // in: pose_ps, for hands on a player's head
+    const Column<BodyPose>& body_pose;          // in: pose_ws, end of the frame
+    const Column<Collider>& collider;           // in: shape, the key into `meshes`
     // In. HandSurroundings::authored points into this column, so it must not change before the hand
     // stages have run.
     const Column<AuthoredHold>& authored_hold;
@@ -37,6 +38,12 @@ struct GatherSurroundingsIo {
     // In: hands with a rig of their own, and these rigs. Null, or an index beyond: `rigs`.
     const Column<HandRigChoice>* rig_choice = nullptr;
     std::span<const HandRig> more_rigs = {};
+    // In: bodies with a grip mesh of their own, which comes before that of their shape.
+    const Column<BodySurface>* body_surface = nullptr;
+    // In: finds the bodies near a hand among the colliders of `bodies`, which are in the same
+    // order, sorted by id. Null: all bodies are looked at.
+    const CollisionWorld* collision = nullptr;
+    std::span<const ColliderProxy> proxies = {};
 };
 
 // Collects each hand's wrist pose and the surfaces near the hand, in the gripped body's frame. This
@@ -48,5 +55,8 @@ struct GatherSurroundingsIo {
 //
 // Fallbacks counted: body_no_surface.
 void gather_surroundings(const GatherSurroundingsIo& io, StageStats& stats);
+// The same for the rows [first, last) of `owner`. `surroundings` has its size already.
+void gather_surroundings(const GatherSurroundingsIo& io, std::size_t first, std::size_t last,
+                         StageStats& stats);
 
 }  // namespace handhold

@@ -232,6 +232,7 @@ hh_result hh_body_teleport(hh_world* world, hh_body body, hh_pose pose) {
     return call([&] {
         hh_world& host = world_of(world);
         const Entity entity = body_of(host, body);
+        require_idle(host);
         teleport_body(host.world, entity, library_pose(host, entity, checked(pose)));
     });
 }

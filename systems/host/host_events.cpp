@@ -235,8 +235,10 @@ void add_touch_events(hh_world& host) {
                 host.world.render_pose.at(owner.player).hands[index_of(owner.side)].tracked_ws;
             const PalmRay ray = palm_ray(hand_ws, owner.side, host.tuning.hand);
             const std::array own_head = {host.world.persistent_id.at(owner.player).value};
-            const auto found =
-                host.caches.collision.closest_point(ray.palm_ws, k_touch_m, own_head);
+            const SurfaceQuery surfaces = host.caches.host_surfaces
+                                              ? host.caches.host_surfaces
+                                              : SurfaceQuery(host.caches.collision);
+            const auto found = surfaces.closest_point(ray.palm_ws, k_touch_m, own_head);
             touched = found ? find_by_id(host.world, {found->id}) : k_no_entity;
         }
         if (!is_null(touched) && touched != report.touched) {

@@ -100,6 +100,7 @@ hh_result hh_world_players(const hh_world* world, hh_player* players, size_t cap
 hh_result hh_player_teleport(hh_world* world, hh_player player, hh_pose origin) {
     return call([&] {
         hh_world& host = world_of(world);
+        require_idle(host);
         teleport_player(host.world, player_of(host, player), checked(origin));
     });
 }

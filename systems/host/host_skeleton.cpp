@@ -25,8 +25,8 @@ std::size_t joint_of(FingerName finger, HandBone bone) {
     return k_first_finger + (number - 1) * k_joints_of_finger + at;
 }
 
-// The bone of a finger's link: three links begin at a thumb's metacarpal, at a finger's proximal
-// bone.
+// Bone of a finger's link. The last link is the distal bone. The first is the proximal bone, but
+// the metacarpal if a thumb has three links.
 HandBone bone_of_link(const FingerRig& finger, std::uint32_t link) {
     if (link + 1 == finger.link_count) {
         return HandBone::distal;

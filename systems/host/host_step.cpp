@@ -1,9 +1,9 @@
 // Worlds of the C interface: making, stepping, saving (handhold/world.h).
+#include "systems/host/host_step.hpp"
+
 #include <algorithm>
 #include <cstring>
 #include <limits>
-
-#include "systems/host/host_world.hpp"
 
 namespace handhold {
 namespace {
@@ -71,7 +71,8 @@ const hh_player_input& input_at(const hh_player_input* inputs, std::size_t i) {
     return *reinterpret_cast<const hh_player_input*>(bytes + i * inputs->struct_size);
 }
 
-// Fills host.inputs. Nothing else changes.
+}  // namespace
+
 void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std::size_t count) {
     checked(dt_s, k_min_step_s, k_max_step_s, "dt_s must lie in [1e-6, 10]");
     require(count == 0 || inputs != nullptr, HH_ERROR_NULL, "the inputs are null");
@@ -107,8 +108,6 @@ void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std
     }
 }
 
-// Keeps each player's first sample of after the step's end. A player without an input keeps the one
-// that is there.
 void keep_early_samples(hh_world& host, double end_s) {
     constexpr double k_latest_s = 1e9;
     for (const PlayerInput& input : host.inputs) {
@@ -122,11 +121,33 @@ void keep_early_samples(hh_world& host, double end_s) {
     }
 }
 
-using Step = void (*)(World&, FrameCaches&, const Tuning&, const FrameInput&, StageStats&);
+void finish_step(hh_world& host) {
+    host.stats.fallbacks[static_cast<std::size_t>(Fallback::surface_answer_invalid)] +=
+        host.surfaces.take_refused();
+    if (host.may_recycle_shapes) {  // the frame has run without the removed ones
+        host.shapes.recycle_removed();
+        host.may_recycle_shapes = false;
+    }
+}
+
+// Notes the bodies that the frame's hands hold, also through joints, by id.
+void note_held_bodies(hh_world& host) {
+    const FrameGraph& frame = host.caches.graph;
+    host.held_bodies.clear();
+    for (std::size_t i = 0; i < std::min(frame.entities.size(), frame.phase.size()); ++i) {
+        const RigidBody* const body = host.world.body.find(frame.entities[i]);
+        if (frame.phase[i].held && body != nullptr && body->kind == BodyKind::free) {
+            host.held_bodies.push_back(frame.entities[i]);
+        }
+    }
+}
 
 hh_result step_with(hh_world* world, double dt_s, const hh_player_input* inputs, std::size_t count,
-                    Step step, bool makes_events) {
-    hh_result result = call([&] { read_inputs(world_of(world), dt_s, inputs, count); });
+                    HostStep step, bool makes_events) {
+    hh_result result = call([&] {
+        require_idle(world_of(world));
+        read_inputs(*world, dt_s, inputs, count);
+    });
     if (result != HH_OK) {
         return result;
     }
@@ -134,6 +155,7 @@ hh_result step_with(hh_world* world, double dt_s, const hh_player_input* inputs,
     return call(
         [&] {
             hh_world& host = *world;
+            host.velocity_changes.clear();
             begin_events(host);
             if (makes_events) {
                 keep_early_samples(host, host.world.clock.t_s + dt_s);
@@ -142,13 +164,15 @@ hh_result step_with(hh_world* world, double dt_s, const hh_player_input* inputs,
             if (makes_events) {
                 finish_events(host);
             }
-            if (host.may_recycle_shapes) {  // the frame has run without the removed ones
-                host.shapes.recycle_removed();
-                host.may_recycle_shapes = false;
+            if (step == &step_frame) {
+                note_held_bodies(host);
             }
+            finish_step(host);
         },
         HH_ERROR_INTERNAL);
 }
+
+namespace {
 
 const SnapshotAssets& assets_of(hh_world& host) {
     if (!host.assets || host.assets_revision != host.shapes.revision()) {
@@ -250,6 +274,7 @@ hh_result hh_world_hash(const hh_world* world, uint64_t* hash) {
 hh_result hh_world_save(hh_world* world, void* buffer, size_t capacity, size_t* size) {
     return call([&] {
         hh_world& host = world_of(world);
+        require_idle(host);
         require(size != nullptr, HH_ERROR_NULL, "the size is null");
         save_snapshot(host.world, assets_of(host), host.snapshot);
         *size = host.snapshot.size();
@@ -269,6 +294,11 @@ hh_result hh_world_restore(hh_world* world, const void* bytes, size_t size) {
             throw HostError{HH_ERROR_DATA, error->message()};
         }
         sync_index(host.world);
+        host.is_stepping = false;
+        host.hand_constraints.clear();
+        host.player_motions.clear();
+        host.velocity_changes.clear();
+        host.held_bodies.clear();
         forget_events(host);
     });
 }

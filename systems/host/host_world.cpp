@@ -3,7 +3,7 @@
 #include "systems/host/host_hooks.hpp"
 
 hh_world::hh_world(const hh_world_def& def)
-    : settings(def), caches(shapes, def.fits_hands ? &grip_meshes : nullptr) {
+    : settings(def), caches(shapes, def.fits_hands ? &grip_meshes : nullptr), surfaces(world) {
     handhold::head_shape(*this, tuning.head.radius_m);
     ++handhold::world_count();
 }
@@ -53,6 +53,7 @@ Pose from_host_bs(const hh_world& host, Entity body, const Pose& pose_bs) {
 }
 
 std::string new_name(const hh_world& host, const char* name, const char* kind) {
+    require_idle(host);  // it is called to add an entity
     std::string made;
     if (name != nullptr) {
         made = name;
@@ -69,11 +70,13 @@ std::string new_name(const hh_world& host, const char* name, const char* kind) {
 }
 
 void remove_entity(hh_world& host, Entity entity) {
+    require_idle(host);
     const auto forget = [&host](Entity gone) {
         host.user_data.remove(gone);
         host.body_rigs.remove(gone);
         host.hands.remove(gone);
         host.joints.remove(gone);
+        host.caches.body_surfaces.remove(gone);
     };
     sync_index(host.world);
     for (const Entity joint : host.world.joints_by_body.of(entity)) {

@@ -11,8 +11,9 @@
 
 #include "components/world.hpp"
 #include "engine/geometry/grip_mesh_library.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame_of_host.hpp"
 #include "systems/host/host_call.hpp"
+#include "systems/host/host_surfaces.hpp"
 #include "systems/rigs/body_rig.hpp"
 #include "systems/snapshot.hpp"
 
@@ -110,6 +111,20 @@ struct hh_world {
     std::optional<handhold::SnapshotAssets> assets;
     std::uint64_t assets_revision = 0;
     bool may_recycle_shapes = false;  // shapes were removed since the last step
+
+    // Of hosts with physics of their own.
+    handhold::HostSurfaces surfaces;
+    handhold::StageStats search_stats;  // of queries between steps: ignored
+    bool is_stepping = false;           // between hh_world_begin_step and hh_world_end_step
+    double begun_dt_s = 0.0;
+    std::vector<hh_hand_constraint> hand_constraints;
+    std::vector<hh_player_motion> player_motions;
+    std::vector<hh_velocity_change> velocity_changes;
+    std::vector<handhold::Entity> held_bodies;  // free bodies that hands held in the last step
+    std::vector<handhold::SolvedPlayer> solved_players;     // scratch
+    std::vector<handhold::BodyVelocity> solved_velocities;  // scratch, by row
+    std::vector<handhold::BodyVelocity> begun_velocities;   // by row, before hh_world_begin_step
+    std::vector<std::uint8_t> are_placed;                   // by row, since then
 };
 // NOLINTEND(readability-identifier-naming)
 
@@ -122,6 +137,10 @@ inline hh_world& world_of(hh_world* world) {
 inline const hh_world& world_of(const hh_world* world) {
     require(world != nullptr, HH_ERROR_NULL, "the world is null");
     return *world;
+}
+// Throws HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step.
+inline void require_idle(const hh_world& host) {
+    require(!host.is_stepping, HH_ERROR_STATE, "a step has begun: hh_world_end_step comes first");
 }
 inline Entity body_of(const hh_world& host, hh_body body) {
     const Entity entity = entity_of(body);

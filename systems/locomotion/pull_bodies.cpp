@@ -78,8 +78,8 @@ Entity find_pullable_body(const PullBodiesIo& io, Entity hand, const Tuning& tun
     const PalmRay ray = ray_of(io, hand, io.hand.at(hand).edge_ps, tuning.hand);
     const Vec3 along = (ray.to_ws - ray.from_ws).normalized();
     const std::array own_head = {io.persistent_id.at(io.owner.at(hand).player).value};
-    const auto hit = io.collision.cast_sphere(tuning.pull.radius_m, ray.palm_ws,
-                                              ray.palm_ws + tuning.pull.reach_m * along, own_head);
+    const auto hit = io.surfaces.cast_sphere(tuning.pull.radius_m, ray.palm_ws,
+                                             ray.palm_ws + tuning.pull.reach_m * along, own_head);
     const Entity found = hit ? body_of_id(io, hit->id) : k_no_entity;
     if (is_null(found)) {
         return k_no_entity;
@@ -95,7 +95,7 @@ Entity find_pullable_body(const PullBodiesIo& io, Entity hand, const Tuning& tun
 // The centre would not do: a palm in the middle of a ring has nothing to grip, and that of a long
 // pole may be far away.
 Vec3 offset_to_palm(const PullBodiesIo& io, Entity pulled, const Vec3& palm_ws) {
-    const auto near = io.collision.closest_point_on(io.persistent_id.at(pulled).value, palm_ws);
+    const auto near = io.surfaces.closest_point_on(io.persistent_id.at(pulled).value, palm_ws);
     return palm_ws - (near ? near->point_ws : io.body_pose.at(pulled).pose_ws.position);
 }
 

@@ -7,7 +7,7 @@
 #include "components/stats.hpp"
 #include "components/tracking.hpp"
 #include "components/tuning.hpp"
-#include "engine/collision/collision_world.hpp"
+#include "engine/collision/surface_query.hpp"
 #include "engine/ecs/column.hpp"
 #include "systems/locomotion/shared/grab_rules.hpp"
 
@@ -15,7 +15,7 @@ namespace handhold {
 
 struct PullBodiesIo {
     double dt_s = 0.0;                          // in
-    const CollisionWorld& collision;            // in: colliders at the start of the frame
+    SurfaceQuery surfaces;                      // in: at the start of the frame
     const Column<PersistentId>& persistent_id;  // in
     const Column<HandOwner>& owner;             // in
     const Column<HandTracking>& hand;           // in

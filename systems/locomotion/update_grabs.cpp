@@ -6,6 +6,7 @@
 
 #include "components/hand_rows.hpp"
 #include "components/play_space.hpp"
+#include "systems/locomotion/shared/grip_kind.hpp"
 
 namespace handhold {
 namespace {
@@ -15,8 +16,7 @@ GripKind grip_kind(const UpdateGrabsIo& io, Entity gripped, const PhaseTuning& t
     if (body == nullptr) {
         return GripKind::player;
     }
-    const bool is_light = body->kind == BodyKind::free && body->mass_kg < tuning.heavy_body_kg;
-    return is_light ? GripKind::held : GripKind::surface;
+    return grip_kind_of(*body, tuning.heavy_body_kg);
 }
 
 // True if the gripped body or player still exists.
@@ -229,7 +229,7 @@ void release_grabs_out_of_reach(const UpdateGrabsIo& io, const HandTuning& tunin
             palm_ray(io.origin.at(owner.player).pose_ws * hand.start_ps, owner.side, tuning)
                 .palm_ws;
         const auto nearest =
-            io.collision.closest_point_on(io.persistent_id.at(grab.body).value, palm_ws);
+            io.surfaces.closest_point_on(io.persistent_id.at(grab.body).value, palm_ws);
         if (nearest && (nearest->point_ws - palm_ws).norm() > tuning.max_stretch_m &&
             nearest->distance_m > 0.0) {
             release_grab(io, row, Fallback::grip_out_of_reach, stats);

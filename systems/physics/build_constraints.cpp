@@ -40,10 +40,14 @@ void write_rigid(const BuildConstraintsIo& io, Entity entity, const RigidBody& b
 
 void write_bodies(const BuildConstraintsIo& io, const Tuning& tuning) {
     FrameGraph& frame = io.frame;
+    // Decides which bodies are heavy.
+    frame.active.all_changed |= frame.heavy_body_kg != tuning.phases.heavy_body_kg;
+    frame.heavy_body_kg = tuning.phases.heavy_body_kg;
+    frame.active.start_frame(frame.entities.size());
     frame.graph.bodies.resize(frame.entities.size());
-    frame.phase.assign(frame.entities.size(), {});
+    frame.phase.resize(frame.entities.size());
     frame.body_of_row.resize(io.body.size());
-    for (std::uint32_t i = 0; i < frame.entities.size(); ++i) {
+    for (const std::uint32_t i : frame.active.list) {
         const Entity entity = frame.entities[i];
         const std::size_t row = io.body.find_row(entity);
         SolverBody& body = frame.graph.bodies[i];
@@ -51,10 +55,12 @@ void write_bodies(const BuildConstraintsIo& io, const Tuning& tuning) {
         body.id = frame.proxies[i].id;
         if (row == Column<RigidBody>::k_npos) {
             write_player(io, entity, tuning.head, body);
-            continue;
+        } else {
+            frame.body_of_row[row] = i;
+            write_rigid(io, entity, io.body.rows()[row], tuning.phases, body);
         }
-        frame.body_of_row[row] = i;
-        write_rigid(io, entity, io.body.rows()[row], tuning.phases, body);
+        frame.phase[i] = {};
+        frame.phase[i].reached_ws = body.pose_ws;
     }
 }
 
@@ -333,10 +339,12 @@ void propagate_held(const BuildConstraintsIo& io) {
         if (grab.kind != GripKind::held || held == Column<RigidBody>::k_npos) {
             continue;
         }
-        for (std::size_t i = 0; i < io.frame.entities.size(); ++i) {
-            const std::size_t row = io.body.find_row(io.frame.entities[i]);
-            if (row != Column<RigidBody>::k_npos && groups.share_group(row, held)) {
-                io.frame.phase[i].held = true;
+        for (const Joint& joint : io.joint.rows()) {
+            for (const Entity entity : {joint.a, joint.b}) {
+                const std::size_t row = io.body.find_row(entity);
+                if (row != Column<RigidBody>::k_npos && groups.share_group(row, held)) {
+                    io.frame.phase[io.frame.body_of_row[row]].held = true;
+                }
             }
         }
     }

@@ -20,9 +20,12 @@ void bound(double& number) { number = std::abs(number) <= k_farthest_m ? number 
 }  // namespace
 
 void discard_broken_results(const DiscardBrokenResultsIo& io, StageStats& stats) {
-    for (std::size_t row = 0; row < io.body_pose.size(); ++row) {
-        const Entity body = io.body_pose.owners()[row];
-        Pose& pose_ws = io.body_pose.rows()[row].pose_ws;
+    for (const std::uint32_t i : io.frame.active.list) {
+        const Entity body = io.frame.entities[i];
+        if (!io.body_pose.contains(body)) {
+            continue;  // a player
+        }
+        Pose& pose_ws = io.body_pose.at(body).pose_ws;
         BodyVelocity& velocity = io.body_velocity.at(body);
         if (is_good(pose_ws) && is_within(velocity.linear_mps, k_fastest) &&
             is_within(velocity.angular_radps, k_fastest)) {
@@ -43,10 +46,11 @@ void discard_broken_results(const DiscardBrokenResultsIo& io, StageStats& stats)
         velocity_mps.setZero();
         stats.count(Fallback::restored_last_valid_pose);
     }
-    for (std::size_t row = 0; row < io.last_valid.size(); ++row) {
-        LastValidPose& valid = io.last_valid.rows()[row];
-        if (!is_good(valid.pose_ws)) {
-            const BodyPose* const body = io.body_pose.find(io.last_valid.owners()[row]);
+    for (const std::uint32_t i : io.frame.active.list) {
+        LastValidPose* const found = io.last_valid.find(io.frame.entities[i]);
+        if (found != nullptr && !is_good(found->pose_ws)) {
+            LastValidPose& valid = *found;
+            const BodyPose* const body = io.body_pose.find(io.frame.entities[i]);
             valid = body != nullptr ? LastValidPose{body->pose_ws, true}
                                     : LastValidPose{{}, false};  // a head is nowhere again
         }
@@ -58,8 +62,8 @@ void discard_broken_results(const DiscardBrokenResultsIo& io, StageStats& stats)
     for (Grab& grab : io.grab.rows()) {
         bound(grab.error_m);
     }
-    for (FrameGraph::PhaseBody& body : io.frame.phase) {
-        bound(body.push_back_m);
+    for (PushBack& push_back : io.frame.push_backs) {
+        bound(push_back.distance_m);
     }
 }
 

@@ -20,7 +20,7 @@ struct DiscardBrokenResultsIo {
     Column<LastValidPose>& last_valid;        // in, out
     Column<JointState>& joint_state;          // in, out
     Column<Grab>& grab;                       // in, out
-    FrameGraph& frame;                        // in, out: push_back_m
+    FrameGraph& frame;                        // in, out: push_backs
 };
 
 // Extreme masses, moments and distances (1e-12 to 1e15 kg in one chain) may overflow a solve. A

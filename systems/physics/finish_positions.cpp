@@ -11,8 +11,7 @@ namespace {
 
 // --- Restoring penetrating bodies ----------------------------------------------------------------
 
-// With more constraint blocks in heaps, the searches of a restore cost more than a frame can
-// afford.
+// Restoring the bodies of a heap with more constraint blocks costs more than a frame can afford.
 constexpr std::size_t k_max_restore_blocks = 4000;
 // About the length of an arm's jump. A body that was dragged farther while penetrating stays.
 constexpr double k_max_restore_distance_m = 2.0;
@@ -91,18 +90,24 @@ void add_if_penetrating(double restore_depth_m, std::uint32_t index, std::uint32
 
 // Lists the penetrating free bodies, grouped by island; a body without rows makes a group of its
 // own.
-void find_penetrating_bodies(double restore_depth_m, FrameGraph& frame) {
+void find_penetrating_bodies(double restore_depth_m, FrameGraph& frame, StageStats& stats) {
     const ConstraintGraph& graph = frame.graph;
     frame.penetrating_bodies.clear();
     const auto islands = static_cast<std::uint32_t>(graph.islands.size());
     for (std::uint32_t i = 0; i < islands; ++i) {
-        if (worst_overlap_m(frame, graph.islands[i]) >= restore_depth_m) {
+        const Island& island = graph.islands[i];
+        if (worst_overlap_m(frame, island) < restore_depth_m) {
+            continue;
+        }
+        if (island.is_heap && graph.blocks_of(island).size() > k_max_restore_blocks) {
+            stats.count(Fallback::solver_budget);
+        } else {
             for (const std::uint32_t index : graph.bodies_of(graph.islands[i])) {
                 add_if_penetrating(restore_depth_m, index, i, frame);
             }
         }
     }
-    for (std::uint32_t index = 0; index < graph.bodies.size(); ++index) {
+    for (const std::uint32_t index : frame.hidden_overlaps.deep) {
         const auto involves_body = [index](const RowBlock& block) {
             return block.a == index || block.b == index;
         };
@@ -147,14 +152,17 @@ void rebuild_contacts(const FinishPositionsIo& io, const ContactTuning& tuning, 
     std::erase_if(frame.contacts, [&](const ContactPoint& contact) {
         return is_penetrating(contact.id_a) || is_penetrating(contact.id_b);
     });
-    const FoundContacts found = refresh_contacts(
-        {io.collision, frame.proxies, frame.contacts, frame.graph, frame.fresh_contacts},
-        {tuning.margin_m, tuning.sweep_m}, OldPoints::replaced);
-    if (found == FoundContacts::unchanged) {
-        replace_contact_rows(frame.contacts, frame.graph);
-    } else {
-        ++stats.contact_rounds;
+    // A heap that was not searched to the end must be now: without its contacts every pose is
+    // valid.
+    for (const FrameGraph::PenetratingBody& penetrating : frame.penetrating_bodies) {
+        frame.graph.bodies[penetrating.body].is_searched = true;
     }
+    refresh_contacts(
+        {io.collision, frame.proxies, frame.contacts, frame.graph, frame.fresh_contacts,
+         frame.proxy_updates, frame.displaced, frame.active.list},
+        {tuning.margin_m, tuning.sweep_m}, OldPoints::replaced);
+    ++stats.contact_rounds;
+    activate_islands(frame);
 }
 
 // For each island: keeps the restores of all its bodies (counted), or undoes them all. True if any
@@ -194,19 +202,14 @@ bool undo_failed_restores(FrameGraph& frame, StageStats& stats) {
 void restore_penetrating_bodies(const FinishPositionsIo& io, const ContactTuning& tuning,
                                 StageStats& stats) {
     FrameGraph& frame = io.frame;
-    if (heap_block_count(frame.graph) > k_max_restore_blocks) {
-        frame.penetrating_bodies.clear();
-        frame.hidden_overlaps.of_body.resize(frame.graph.bodies.size());
-        for (std::uint32_t i = 0; i < frame.graph.bodies.size(); ++i) {
-            frame.hidden_overlaps.of_body[i] = {0.0, i};
-        }
-        stats.count(Fallback::solver_budget);
-        return;
+    find_missed_overlaps({io.collision, frame.proxies, frame.contacts, frame.graph,
+                          frame.fresh_contacts, frame.proxy_updates, frame.displaced},
+                         {tuning.margin_m, tuning.sweep_m}, frame.active.list,
+                         frame.hidden_overlaps);
+    for (const std::uint32_t i : frame.displaced) {
+        frame.active.add(i);
     }
-    find_missed_overlaps(
-        {io.collision, frame.proxies, frame.contacts, frame.graph, frame.fresh_contacts},
-        {tuning.margin_m, tuning.sweep_m}, frame.hidden_overlaps);
-    find_penetrating_bodies(tuning.restore_depth_m, frame);
+    find_penetrating_bodies(tuning.restore_depth_m, frame, stats);
     if (frame.penetrating_bodies.empty()) {
         return;
     }
@@ -219,11 +222,82 @@ void restore_penetrating_bodies(const FinishPositionsIo& io, const ContactTuning
     }
 }
 
+// --- Players who are pushed out ------------------------------------------------------------------
+
+// Speed at which a player leaves a wall in which they are stuck.
+constexpr double k_eject_mps = 3.0;
+
+// How far the head moves in this frame, with its grips, the play space and tracking, if no contact
+// stops it.
+Vec3 head_motion_m(const FinishPositionsIo& io, std::uint32_t player, const HeadTuning& tuning) {
+    const Entity entity = io.frame.entities[player];
+    const HeadTracking& head = io.head.at(entity);
+    const Pose& predicted_ws = io.origin.at(entity).pose_ws;
+    const Vec3 tracked_ps = transform_point(head.pose_ps, tuning.center_m) -
+                            transform_point(head.start_ps, tuning.center_m);
+    const Vec3 gripped_m = io.frame.phase[player].reached_ws.position - predicted_ws.position;
+    return predicted_ws.rotation * tracked_ps + io.dt_s * io.player_velocity.at(entity).linear_mps +
+           gripped_m;
+}
+
+// A wall in which the head was before this frame, and by how much too far it pushes the head out
+// along its normal.
+struct StuckIn {
+    Vec3 normal = Vec3::Zero();
+    double excess_m = 0.0;
+};
+
+// What approached in this frame, head or wall, is pushed back whole.
+StuckIn stuck_in(const FinishPositionsIo& io, const RowBlock& block, const Vec3& head_motion_m) {
+    const FrameGraph& frame = io.frame;
+    const Pose& wall_ws = frame.graph.bodies[block.b].pose_ws;
+    const ColliderProxy& wall = frame.proxies[block.b];
+    const Vec3 normal = wall_ws.rotation * block.normal_b_bs;
+    const Vec3 wall_motion_m = transform_point(wall.to_ws, block.point_b_bs) -
+                               transform_point(wall.from_ws, block.point_b_bs);
+    const double allowed_m =
+        std::max(0.0, normal.dot(wall_motion_m - head_motion_m)) + k_eject_mps * io.dt_s;
+    const double depth_m =
+        normal.dot(transform_point(wall_ws, block.point_b_bs) -
+                   transform_point(frame.phase[block.a].reached_ws, block.point_a_bs));
+    return {normal, depth_m - allowed_m};
+}
+
+// Walls that close around a head contradict each other until it is past the middle of one. It then
+// has a way out, of any length, and takes it at a bounded speed.
+void limit_pushes(const FinishPositionsIo& io, const HeadTuning& tuning) {
+    FrameGraph& frame = io.frame;
+    for (const std::uint32_t i : frame.active.list) {
+        SolverBody& body = frame.graph.bodies[i];
+        if (body.role != BodyRole::translating) {
+            continue;
+        }
+        const Vec3& reached_m = frame.phase[i].reached_ws.position;
+        Vec3 push_m = body.pose_ws.position - reached_m;
+        if (push_m.norm() <= k_eject_mps * io.dt_s) {
+            continue;
+        }
+        const Vec3 motion_m = head_motion_m(io, i, tuning);
+        StuckIn worst;
+        for (const RowBlock& block : frame.graph.blocks) {
+            if (is_contact(block) && block.a == i &&
+                frame.graph.bodies[block.b].role == BodyRole::fixed) {
+                const StuckIn found = stuck_in(io, block, motion_m);
+                worst = found.excess_m > worst.excess_m ? found : worst;
+            }
+        }
+        const double along_m = worst.normal.dot(push_m);
+        push_m -= worst.normal * std::clamp(along_m, 0.0, worst.excess_m);
+        body.pose_ws.position = reached_m + push_m;
+    }
+}
+
 // --- Results -------------------------------------------------------------------------------------
 
 void write_poses(const FinishPositionsIo& io) {
     FrameGraph& frame = io.frame;
-    for (std::uint32_t i = 0; i < frame.graph.bodies.size(); ++i) {
+    frame.push_backs.clear();
+    for (const std::uint32_t i : frame.active.list) {
         const SolverBody& body = frame.graph.bodies[i];
         if (body.role == BodyRole::fixed) {
             continue;
@@ -231,8 +305,8 @@ void write_poses(const FinishPositionsIo& io) {
         const Entity entity = frame.entities[i];
         if (body.role == BodyRole::translating) {
             io.origin.at(entity).pose_ws.position = body.pose_ws.position;
-            frame.phase[i].push_back_m =
-                (body.pose_ws.position - frame.phase[i].reached_ws.position).norm();
+            frame.push_backs.push_back(
+                {entity, (body.pose_ws.position - frame.phase[i].reached_ws.position).norm()});
         } else {
             io.body_pose.at(entity).pose_ws = body.pose_ws;
         }
@@ -286,18 +360,25 @@ void write_errors(const FinishPositionsIo& io, StageStats& stats) {
     for (std::size_t island = 0; island < io.frame.graph.islands.size(); ++island) {
         write_island_errors(io, island, stats);
     }
-    for (const Overlap& hidden : io.frame.hidden_overlaps.of_body) {
-        stats.residual_m = std::max(stats.residual_m, hidden.depth_m);
+    for (const std::uint32_t i : io.frame.hidden_overlaps.deep) {
+        stats.residual_m = std::max(stats.residual_m, io.frame.hidden_overlaps.of_body[i].depth_m);
     }
 }
 
 }  // namespace
 
-void finish_positions(const FinishPositionsIo& io, const ContactTuning& tuning, StageStats& stats) {
+void finish_positions(const FinishPositionsIo& io, const ContactTuning& tuning,
+                      const HeadTuning& head, StageStats& stats) {
     restore_penetrating_bodies(io, tuning, stats);
+    limit_pushes(io, head);
     write_poses(io);
     write_errors(io, stats);
     stats.contacts += io.frame.contacts.size();
+    const CollisionWork work = io.collision.take_work();
+    stats.narrowphase_calls += work.narrowphase_calls;
+    stats.bounds_updates += work.bounds_updates;
+    stats.tree_queries += work.tree_queries;
+    stats.active_bodies += io.frame.active.list.size();
 }
 
 }  // namespace handhold

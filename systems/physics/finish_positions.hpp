@@ -5,6 +5,7 @@
 #include "components/grab.hpp"
 #include "components/player.hpp"
 #include "components/stats.hpp"
+#include "components/tracking.hpp"
 #include "components/tuning.hpp"
 #include "engine/collision/collision_world.hpp"
 #include "engine/ecs/column.hpp"
@@ -17,18 +18,23 @@
 // Overlaps that its contacts do not show, because it moved farther than sweeps cover
 // (find_missed_overlaps), count too; such a pose does not become the last valid one. A body
 // restored next to a fixed or kinematic body moves with it and enters the velocity solve at its
-// velocity. The bodies of one island are restored together or not at all. Fallbacks counted:
+// velocity. The bodies of one island are restored together or not at all. A player whose head was
+// stuck in a fixed or kinematic body leaves it at 3 m/s at most. Fallbacks counted:
 // restored_last_valid_pose (per island), contacts_unresolved, solver_budget (heaps so large
 // that nothing is restored).
 namespace handhold {
 
 struct FinishPositionsIo {
-    CollisionWorld& collision;     // in/out: proxies of restored bodies, world
-    FrameGraph& frame;             // in/out: graph, contacts; out: phase (push_back_m)
-    Column<BodyPose>& body_pose;   // out, free bodies: world, end of the frame
-    Column<PlayerOrigin>& origin;  // out: world, position only
-    Column<Grab>& grab;            // out: error_m, m
+    CollisionWorld& collision;                      // in/out: proxies of restored bodies, world
+    FrameGraph& frame;                              // in/out: graph, contacts; out: push_backs
+    Column<BodyPose>& body_pose;                    // out, free bodies: world, end of the frame
+    Column<PlayerOrigin>& origin;                   // out: world, position only
+    Column<Grab>& grab;                             // out: error_m, m
+    double dt_s;                                    // in: s
+    const Column<HeadTracking>& head;               // in: play space
+    const Column<PlayerVelocity>& player_velocity;  // in: world, m/s, start of the frame
 };
-void finish_positions(const FinishPositionsIo& io, const ContactTuning& tuning, StageStats& stats);
+void finish_positions(const FinishPositionsIo& io, const ContactTuning& tuning,
+                      const HeadTuning& head, StageStats& stats);
 
 }  // namespace handhold

@@ -41,9 +41,10 @@ ColliderProxy proxy_of(const PlaceCollidersIo& io, Entity entity, const HeadTuni
     return proxy;
 }
 
-}  // namespace
+constexpr std::uint32_t k_no_index = std::numeric_limits<std::uint32_t>::max();
 
-void place_colliders(const PlaceCollidersIo& io, const HeadTuning& tuning) {
+// Lists and places all bodies and players.
+void place_all(const PlaceCollidersIo& io, const HeadTuning& tuning) {
     FrameGraph& frame = io.frame;
     frame.by_id.clear();
     for (const std::span<const Entity> owners : {io.body.owners(), io.origin.owners()}) {
@@ -53,14 +54,82 @@ void place_colliders(const PlaceCollidersIo& io, const HeadTuning& tuning) {
     }
     std::ranges::sort(frame.by_id, {}, &FrameGraph::Identified::id);
     frame.entities.clear();
+    frame.index_of_slot.clear();
     for (const FrameGraph::Identified& identified : frame.by_id) {
+        const std::uint32_t slot = identified.entity.slot;
+        if (slot >= frame.index_of_slot.size()) {
+            frame.index_of_slot.resize(std::size_t{slot} + 1, k_no_index);
+        }
+        frame.index_of_slot[slot] = static_cast<std::uint32_t>(frame.entities.size());
         frame.entities.push_back(identified.entity);
     }
     frame.proxies.clear();
     for (const Entity entity : frame.entities) {
         frame.proxies.push_back(proxy_of(io, entity, tuning));
     }
+    frame.active.reset(frame.entities.size());
+    frame.displaced.clear();
     io.collision.set_proxies(frame.proxies);
+    frame.proxy_set = io.collision.proxy_set();
+}
+
+std::uint32_t index_of(const FrameGraph& frame, Entity entity) {
+    return entity.slot < frame.index_of_slot.size() ? frame.index_of_slot[entity.slot] : k_no_index;
+}
+
+// Notes the bodies whose components changed since the last call, and all players. False if bodies
+// or players were added or removed: then all must be placed.
+bool note_changes(const PlaceCollidersIo& io) {
+    FrameGraph& frame = io.frame;
+    FrameGraph::Watches& watches = frame.watches;
+    const auto note = [&frame](Entity entity) {
+        if (const std::uint32_t i = index_of(frame, entity);
+            i != k_no_index && frame.entities[i] == entity) {
+            frame.active.note(i);
+        }
+    };
+    bool same_ids = true;
+    bool same = watches.persistent_id.update(io.persistent_id,
+                                             [&same_ids](Entity /*entity*/) { same_ids = false; });
+    // Every column is looked at, so that each copy is of this call.
+    same = watches.collider.update(io.collider, note) && same;
+    same = watches.body.update(io.body, note) && same;
+    same = watches.body_pose.update(io.body_pose, note) && same;
+    same = watches.body_start.update(io.body_start, note) && same;
+    same = watches.last_valid.update(io.last_valid, note) && same;
+    same = watches.origin.update(io.origin, note) && same;
+    same = (io.velocity == nullptr || watches.body_velocity.update(*io.velocity, note)) && same;
+    same = (io.filter == nullptr || watches.filter.update(*io.filter, note)) && same;
+    for (const Entity player : io.origin.owners()) {
+        note(player);
+    }
+    return same && same_ids && frame.proxy_set == io.collision.proxy_set();
+}
+
+// Places the noted bodies. False if one has gained or lost its shape.
+bool place_noted(const PlaceCollidersIo& io, const HeadTuning& tuning) {
+    FrameGraph& frame = io.frame;
+    frame.proxy_updates.clear();
+    for (const std::uint32_t i : frame.active.noted) {
+        const ColliderProxy proxy = proxy_of(io, frame.entities[i], tuning);
+        if ((proxy.shape == k_no_shape) != (frame.proxies[i].shape == k_no_shape)) {
+            return false;
+        }
+        frame.proxies[i] = proxy;
+        frame.proxy_updates.push_back(proxy);
+    }
+    frame.displaced.clear();  // the solver noted them
+    io.collision.update_proxies(frame.proxy_updates);
+    return true;
+}
+
+}  // namespace
+
+void place_colliders(const PlaceCollidersIo& io, const HeadTuning& tuning) {
+    if (!note_changes(io) || !place_noted(io, tuning)) {
+        place_all(io, tuning);
+    }
+    io.frame.active.is_tracked = io.velocity != nullptr;
 }
 
 }  // namespace handhold

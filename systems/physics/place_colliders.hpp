@@ -9,9 +9,10 @@
 #include "engine/ecs/column.hpp"
 
 // Lists all bodies and players by persistent id and gives their colliders to the collision world.
-// Runs before stages 2 and 4. A proxy goes from the last valid pose to the current pose; fixed and
-// kinematic bodies from their pose at the start of the frame. A player's collider is the sphere of
-// the head, at the end of the frame; a head that was never tracked takes no part.
+// Runs before stages 2 and 4. Only bodies whose components changed since the last call are placed;
+// the others cost a comparison of bytes. A proxy goes from the last valid pose to the current pose;
+// fixed and kinematic bodies from their pose at the start of the frame. A player's collider is the
+// sphere of the head, at the end of the frame; a head that was never tracked takes no part.
 // Fallbacks counted: none.
 namespace handhold {
 
@@ -28,6 +29,8 @@ struct PlaceCollidersIo {
     CollisionWorld& collision;                        // out: proxies, world
     FrameGraph& frame;                                // out: proxies, entities
     const Column<CollisionFilter>* filter = nullptr;  // in: null or without a row: the default
+    // in: world, m/s and rad/s; null: build_constraints takes all bodies for changed
+    const Column<BodyVelocity>* velocity = nullptr;
 };
 void place_colliders(const PlaceCollidersIo& io, const HeadTuning& tuning);
 

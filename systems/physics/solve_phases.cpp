@@ -15,8 +15,8 @@ constexpr double k_violated_m = 2e-7;
 constexpr double k_touching_m = 1e-5;  // closer contacts may support a body
 // Overlap within a heap from which the hands that press it give way.
 constexpr double k_heap_violated_m = 1e-3;
-// Constraint blocks of heaps that the searches of a frame may find. Beyond, no phase of the frame
-// searches again, because a search visits the whole world.
+// Constraint blocks of a heap that the searches of a frame may find. Beyond, its bodies keep the
+// contacts they have until the next frame; all other islands go on.
 constexpr std::uint64_t k_max_heap_visits = 12'000;
 constexpr int k_max_heap_rounds = 2;  // of a phase; what appears later waits for the next frame
 
@@ -26,7 +26,6 @@ struct Solve {
     const SolvePhasesIo& io;
     const Tuning& tuning;
     StageStats& stats;
-    std::uint64_t& heap_visits;
 
     double violated_m() const { return std::max(k_violated_m, 2.0 * tuning.solver.tolerance_m); }
     ConstraintGraph& graph() const { return io.frame.graph; }
@@ -252,19 +251,45 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
     return frame.island_order.size();
 }
 
+// Counts what the last search cost each heap. Heaps beyond their share are not searched again.
+void count_heap_visits(const Solve& s) {
+    for (const Island& island : s.graph().islands) {
+        if (!island.is_heap) {
+            continue;
+        }
+        std::uint64_t visits =
+            0;  // islands change between searches: the largest count is inherited
+        for (const std::uint32_t i : s.graph().bodies_of(island)) {
+            visits = std::max(visits, s.phase_of(i).visits);
+        }
+        const bool was_searched = visits <= k_max_heap_visits;
+        visits += s.graph().blocks_of(island).size();
+        for (const std::uint32_t i : s.graph().bodies_of(island)) {
+            s.phase_of(i).visits = visits;
+            s.graph().bodies[i].is_searched = visits <= k_max_heap_visits;
+        }
+        if (was_searched && visits > k_max_heap_visits) {
+            s.stats.count(Fallback::solver_budget);
+        }
+    }
+}
+
+bool is_searched(const Solve& s, const Island& island) {
+    return std::ranges::all_of(s.graph().bodies_of(island),
+                               [&s](std::uint32_t i) { return s.graph().bodies[i].is_searched; });
+}
+
 // Sweeps colliders to the solved poses. True if contacts found there overlap.
 bool refresh_contacts(const Solve& s, OldPoints old_points) {
     FrameGraph& frame = s.io.frame;
-    if (s.heap_visits > k_max_heap_visits) {
-        s.stats.count(Fallback::solver_budget);
-        return false;
-    }
-    const FoundContacts found = refresh_contacts(
-        {s.io.collision, frame.proxies, frame.contacts, frame.graph, frame.fresh_contacts},
-        {s.tuning.contact.margin_m, s.tuning.contact.sweep_m}, old_points);
+    const FoundContacts found =
+        refresh_contacts({s.io.collision, frame.proxies, frame.contacts, frame.graph,
+                          frame.fresh_contacts, frame.proxy_updates, frame.displaced},
+                         {s.tuning.contact.margin_m, s.tuning.contact.sweep_m}, old_points);
     if (found != FoundContacts::unchanged) {
+        activate_islands(frame);
         ++s.stats.contact_rounds;
-        s.heap_visits += heap_block_count(frame.graph);
+        count_heap_visits(s);
         clear_errors(s);
     }
     return found == FoundContacts::overlapping;
@@ -275,7 +300,9 @@ template <typename Wanted>
 void solve_rounds(const Solve& s, Phase phase, Wanted&& wanted) {
     for (int round = 0; round < s.tuning.contact.max_rounds; ++round) {
         const auto wanted_now = [&](const Island& island) {
-            return (round < k_max_heap_rounds || !island.is_heap) && wanted(island);
+            const bool may_repeat = round == 0 || !island.is_heap ||
+                                    (round < k_max_heap_rounds && is_searched(s, island));
+            return may_repeat && wanted(island);
         };
         if (solve_islands(s, phase, wanted_now) == 0 ||
             !refresh_contacts(s, round == 0 ? OldPoints::replaced : OldPoints::kept)) {
@@ -291,7 +318,8 @@ void reach(const Solve& s) {
     HH_DETAIL_ZONE("reach");
     solve_islands(s, Phase::reach,
                   [&](const Island& island) { return has_hand_or_joint(s, island); });
-    for (std::uint32_t i = 0; i < s.graph().bodies.size(); ++i) {
+    // build_constraints wrote the poses of all others.
+    for (const std::uint32_t i : s.graph().island_bodies) {
         s.phase_of(i).reached_ws = s.graph().bodies[i].pose_ws;
     }
     refresh_contacts(s, OldPoints::replaced);
@@ -396,9 +424,10 @@ void contradiction(const Solve& s) {
 }  // namespace
 
 void solve_phases(const SolvePhasesIo& io, const Tuning& tuning, StageStats& stats) {
-    std::uint64_t heap_visits = heap_block_count(io.frame.graph);
-    const Solve s{io, tuning, stats, heap_visits};
+    const Solve s{io, tuning, stats};
     clear_errors(s);
+    count_heap_visits(s);
+    activate_islands(io.frame);
     reach(s);
     forward(s);
     relax(s);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 
 #include "engine/core/parallel.hpp"
 #include "engine/solver/model/collider_pose.hpp"
@@ -170,23 +169,10 @@ void book_impulses(const ConstraintGraph& graph, MomentumLedger& ledger) {
         const Vec3 point_ws = is_contact(block) ? transform_point(a.pose_ws, block.point_a_bs)
                                                 : transform_point(b.pose_ws, block.point_b_bs);
         book_impulse(a, point_ws, block.impulse_ws_ns, block.angular_impulse_ws_nms, ledger);
-        book_impulse(b, point_ws, -block.impulse_ws_ns, -block.angular_impulse_ws_nms, ledger);
+        const Vec3 point_b_ws =
+            block.is_impact ? transform_point(b.pose_ws, block.point_b_bs) : point_ws;
+        book_impulse(b, point_b_ws, -block.impulse_ws_ns, -block.angular_impulse_ws_nms, ledger);
     }
-}
-
-bool is_slower(const Vec3& velocity_mps, double limit_mps) {
-    return velocity_mps.squaredNorm() < limit_mps * limit_mps;
-}
-
-// Limits the speed relative to the reference. True if it was exceeded.
-bool clamp_speed(const Vec3& reference_mps, double limit_mps, Vec3& velocity_mps) {
-    const Vec3 relative = velocity_mps - reference_mps;
-    const double speed = relative.norm();
-    if (speed <= limit_mps) {
-        return false;
-    }
-    velocity_mps = reference_mps + relative * (limit_mps / speed);
-    return true;
 }
 
 // Limits the spin of free bodies: impulses on a thin body can spin it without bound.
@@ -201,7 +187,7 @@ Vec3 clamp_spin(const SolverBody& body, double limit_radps, StageStats& stats) {
 
 void write_velocities(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning,
                       StageStats& stats) {
-    for (std::size_t i = 0; i < io.frame.entities.size(); ++i) {
+    for (const std::uint32_t i : io.frame.active.list) {
         const SolverBody& body = io.frame.graph.bodies[i];
         const Entity entity = io.frame.entities[i];
         if (body.role == BodyRole::translating) {
@@ -213,117 +199,21 @@ void write_velocities(const UpdateVelocitiesIo& io, const LocomotionTuning& tuni
     }
 }
 
-// The highest speed, relative to the reference, at the rows of the island's kinematic and heavy
-// bodies: up to there a body's velocity is explained by what drives it.
-double driven_speed(const FrameGraph& frame, const Island& island, const Vec3& reference_mps) {
-    double fastest = 0.0;
-    for (const std::uint32_t i : frame.graph.blocks_of(island)) {
-        const RowBlock& block = frame.graph.blocks[i];
-        for (const std::uint32_t index : {block.a, block.b}) {
-            const SolverBody& body = frame.graph.bodies[index];
-            if (body.role == BodyRole::fixed || body.role == BodyRole::heavy) {
-                const Vec3 arm =
-                    transform_point(frame.graph.bodies[block.a].pose_ws, block.point_a_bs) -
-                    body.pose_ws.position;
-                const Vec3 at_row = body.velocity_mps + body.spin_radps.cross(arm);
-                fastest = std::max(fastest, (at_row - reference_mps).norm());
-            }
-        }
-    }
-    return fastest;
-}
-
-// A push or pull on a player may come from a tracking jump. It must not launch them, neither now
-// nor when the grip breaks in the next frame. Poses stay; speed they had before, or got from a
-// moving support, is kept.
-void clamp_players(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning,
-                   StageStats& stats) {
-    for (const Island& island : io.frame.graph.islands) {
-        for (const std::uint32_t i : io.frame.graph.bodies_of(island)) {
-            const FrameGraph::PhaseBody& info = io.frame.phase[i];
-            if (io.frame.graph.bodies[i].role != BodyRole::translating ||
-                !(info.pushed || info.grips_surface)) {
-                continue;
-            }
-            const Entity player = io.frame.entities[i];
-            const Vec3& reference = io.reference.at(player).linear_mps;
-            const double limit = std::max({tuning.release_speed_max_mps,
-                                           (info.velocity_before_mps - reference).norm(),
-                                           driven_speed(io.frame, island, reference)});
-            if (clamp_speed(reference, limit, io.player_velocity.at(player).linear_mps) &&
-                info.pushed) {
-                stats.count(Fallback::release_speed_clamped);
-            }
-        }
-    }
-}
-
-// A held or pushed body may be torn from the hand in the next frame by a tracking jump, and must
-// not leave at that speed. A held body's pose still follows its hand.
-void clamp_handled_bodies(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning,
-                          StageStats& stats) {
-    const FrameGraph& frame = io.frame;
-    for (const Island& island : frame.graph.islands) {
-        const std::span<const std::uint32_t> blocks = frame.graph.blocks_of(island);
-        const auto hand = std::ranges::find_if(
-            blocks, [&](std::uint32_t i) { return is_drive(frame.graph.blocks[i]); });
-        if (hand == blocks.end()) {
-            continue;
-        }
-        const Entity player = frame.entities[frame.graph.blocks[*hand].a];
-        const Vec3& reference = io.reference.at(player).linear_mps;
-        std::optional<double> driven;  // computed once, and only if a body is fast
-        for (const std::uint32_t i : frame.graph.bodies_of(island)) {
-            if (frame.graph.bodies[i].role != BodyRole::free) {
-                continue;
-            }
-            Vec3& velocity_mps = io.body_velocity.at(frame.entities[i]).linear_mps;
-            if (is_slower(velocity_mps - reference, tuning.object_speed_max_mps)) {
-                continue;  // the common case
-            }
-            const double before = (frame.phase[i].velocity_before_mps - reference).norm();
-            if (!driven) {
-                driven = driven_speed(frame, island, reference);
-            }
-            const double limit = std::max({tuning.object_speed_max_mps, before, *driven});
-            if (clamp_speed(reference, limit, velocity_mps)) {
-                stats.count(Fallback::object_speed_clamped);
-            }
-        }
-    }
-}
-
-void finish_releases(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning,
-                     StageStats& stats) {
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        Grab& grab = io.grab.rows()[row];
-        const Entity player = io.owner.at(io.grab.owners()[row]).player;
-        const Vec3& reference = io.reference.at(player).linear_mps;
-        if (grab.phase != GrabPhase::releasing) {
-            continue;
-        }
-        bool clamped = false;
-        if (grab.kind != GripKind::held) {
-            clamped = clamp_speed(reference, tuning.release_speed_max_mps,
-                                  io.player_velocity.at(player).linear_mps);
-        } else if (!grab.jointed) {
-            // Jointed bodies may be on a moving ship: clamp_handled_bodies accounts for its speed.
-            clamped = clamp_speed(reference, tuning.object_speed_max_mps,
-                                  io.body_velocity.at(grab.body).linear_mps);
-        }
-        if (clamped) {
-            stats.count(Fallback::release_speed_clamped);
-        }
-        grab = {};
-    }
-}
-
 // For each body, the other body of its deepest overlap; its own index if no overlap is too deep.
 void find_overlaps(FrameGraph& frame) {
     const ConstraintGraph& graph = frame.graph;
-    frame.overlap_m.assign(graph.bodies.size(), k_valid_overlap_m);
+    // Entries of bodies that are not active are not read.
+    frame.overlap_m.resize(graph.bodies.size());
     frame.overlaps_with.resize(graph.bodies.size());
-    std::iota(frame.overlaps_with.begin(), frame.overlaps_with.end(), 0U);
+    const auto clear = [&frame](std::uint32_t body) {
+        frame.overlap_m[body] = k_valid_overlap_m;
+        frame.overlaps_with[body] = body;
+    };
+    std::ranges::for_each(frame.active.list, clear);
+    for (const RowBlock& block : graph.blocks) {
+        clear(block.a);
+        clear(block.b);
+    }
     const auto update = [&frame](std::uint32_t body, std::uint32_t other, double depth_m) {
         if (depth_m > frame.overlap_m[body]) {
             frame.overlap_m[body] = depth_m;
@@ -337,7 +227,7 @@ void find_overlaps(FrameGraph& frame) {
             update(block.b, block.a, depth_m);
         }
     }
-    for (std::uint32_t i = 0; i < graph.bodies.size(); ++i) {
+    for (const std::uint32_t i : frame.hidden_overlaps.deep) {
         const Overlap& hidden = frame.hidden_overlaps.of_body[i];
         update(i, hidden.with, hidden.depth_m);
     }
@@ -346,7 +236,7 @@ void find_overlaps(FrameGraph& frame) {
 void write_last_valid(const UpdateVelocitiesIo& io) {
     FrameGraph& frame = io.frame;
     find_overlaps(frame);
-    for (std::uint32_t i = 0; i < frame.entities.size(); ++i) {
+    for (const std::uint32_t i : frame.active.list) {
         LastValidPose* const valid = io.last_valid.find(frame.entities[i]);
         if (valid == nullptr) {
             continue;
@@ -359,6 +249,7 @@ void write_last_valid(const UpdateVelocitiesIo& io) {
             valid->pose_ws = collider_pose(body);
             continue;
         }
+        frame.active.note(i);  // the sweep of the next frame starts elsewhere
         // Penetrating: keep the last valid pose, carried along if the obstacle moves.
         const ColliderProxy& other = frame.proxies[frame.overlaps_with[i]];
         if (frame.graph.bodies[frame.overlaps_with[i]].role == BodyRole::fixed) {
@@ -370,15 +261,12 @@ void write_last_valid(const UpdateVelocitiesIo& io) {
 }  // namespace
 
 void update_velocities(const UpdateVelocitiesIo& io, const Tuning& tuning, StageStats& stats) {
-    for (std::size_t i = 0; i < io.frame.phase.size(); ++i) {
+    for (const std::uint32_t i : io.frame.active.list) {
         io.frame.phase[i].velocity_before_mps = io.frame.graph.bodies[i].velocity_mps;
     }
     solve_islands(io.frame, tuning, stats);
     book_impulses(io.frame.graph, stats.ledger);
     write_velocities(io, tuning.locomotion, stats);
-    clamp_handled_bodies(io, tuning.locomotion, stats);
-    finish_releases(io, tuning.locomotion, stats);
-    clamp_players(io, tuning.locomotion, stats);
     write_last_valid(io);
 }
 

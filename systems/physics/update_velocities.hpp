@@ -2,29 +2,25 @@
 
 #include "components/body.hpp"
 #include "components/frame_graph.hpp"
-#include "components/grab.hpp"
 #include "components/player.hpp"
 #include "components/stats.hpp"
 #include "components/tracking.hpp"
 #include "components/tuning.hpp"
 #include "engine/ecs/column.hpp"
 
-// Solves the velocities of the frame, applies releases and speed limits, books momentum, and
-// records last valid poses. Talk row 7. Stage 9.
+// Solves the velocities of the frame, limits spins, books momentum, and records last valid poses.
+// Talk row 7. Stage 9.
 //
 // One solve over the frame's rows: hands move at their tracked velocities, contacts do not
 // approach. The displacement that depenetration needed never becomes velocity. Fallbacks counted:
-// friction_not_converged, solver_budget, release_speed_clamped, object_speed_clamped.
+// friction_not_converged, solver_budget, object_speed_clamped.
 namespace handhold {
 
 struct UpdateVelocitiesIo {
-    const Column<HandOwner>& owner;              // in
-    const Column<ReferenceVelocity>& reference;  // in: world, m/s
     const Column<HeadTracking>& head;         // in: a head that was never tracked has no valid pose
     FrameGraph& frame;                        // in: rows, phase; out: velocities, impulses
     Column<BodyVelocity>& body_velocity;      // out, free bodies: world, m/s and rad/s
     Column<PlayerVelocity>& player_velocity;  // out: world, m/s
-    Column<Grab>& grab;                       // in/out: grips released in this frame are cleared
     Column<LastValidPose>& last_valid;        // out: world
 };
 void update_velocities(const UpdateVelocitiesIo& io, const Tuning& tuning, StageStats& stats);

@@ -276,7 +276,7 @@ class ShapeFinder {
         }
         const double rest = distance(limb[2], path.back()) / limb_m;
         const double before = distance(path.front(), limb[0]) / limb_m;
-        return std::abs(std::log(upper_m / lower_m)) + std::max(0.0, rest - k_usual_rest) +
+        return std::abs(natural_logarithm(upper_m / lower_m)) + std::max(0.0, rest - k_usual_rest) +
                0.5 * before;
     }
 

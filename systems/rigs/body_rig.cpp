@@ -90,7 +90,7 @@ PlacedBone place_bone(const BodyRig::Carrier& carrier, const RenderPose& render)
 PlacedBone place_neck(const Vec3& from_ws, const Vec3& to_ws, const Quat& chest, const Quat& head) {
     const Vec3 along = to_ws - from_ws;
     const double length = along.norm();
-    const Quat between = chest.slerp(0.5, head);
+    const Quat between = interpolate(chest, head, 0.5);
     if (length < 1e-6) {
         return {{from_ws, between}, 0.0};
     }
@@ -166,7 +166,8 @@ Pose trunk_at(const SpinePose& spine, double along) {
     while (k + 2 < knots.size() && link > knots[k + 1]) {
         ++k;
     }
-    at.rotation = turns[k].slerp((link - knots[k]) / (knots[k + 1] - knots[k]), turns[k + 1]);
+    at.rotation =
+        interpolate(turns[k], turns[k + 1], (link - knots[k]) / (knots[k + 1] - knots[k]));
     return at;
 }
 

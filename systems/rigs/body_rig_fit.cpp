@@ -354,7 +354,8 @@ class BodyFitter {
     const BodyBones& bones_;
     Stance stance_;
     BodyRig rig_;
-    // Index of each joint's carrier; k_none if the joint is not a bone.
+    // Index into rig_.carriers by joint of the figure. k_none: the joint is neither a bone nor part
+    // of a hand, and gets its carrier in find_carrier.
     std::vector<std::size_t> carrier_of_;
     double shortest_m_ = 0.0;
     std::string wrong_;

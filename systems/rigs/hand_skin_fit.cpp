@@ -77,7 +77,8 @@ void fit_finger_skin(const std::vector<Vec3>& positions_hs, const std::vector<Sk
         const Vec3 in_link = inverse_transform_point(frames[link], positions_hs[i]);
         const double along = -in_link.z() / finger.length_m[link];
         if (along > 0.1 && along < 0.9) {
-            distances_m[link].push_back(std::hypot(in_link.x(), in_link.y()));
+            distances_m[link].push_back(
+                std::sqrt(in_link.x() * in_link.x() + in_link.y() * in_link.y()));
         }
         if (link + 1 == finger.link_count) {
             ends_m.push_back(-in_link.z());

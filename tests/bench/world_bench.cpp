@@ -62,5 +62,30 @@ BENCHMARK(destroy_bodies)
     ->Unit(benchmark::kMillisecond)
     ->Complexity();
 
+// A frame in which all bodies rest, far from each other: fixed or free.
+void step_at_rest(benchmark::State& state, BodyKind kind) {
+    ShapeLibrary shapes;
+    World world;
+    add_rocks(static_cast<int>(state.range(0)), shapes.add_sphere(0.1), world);
+    for (RigidBody& body : world.body.rows()) {
+        body.kind = kind;
+    }
+    FrameCaches caches(shapes);
+    StageStats stats;
+    constexpr int k_warm_frames = 3;
+    for (int frame = 0; frame < k_warm_frames; ++frame) {
+        step_frame(world, caches, {}, {}, stats);
+    }
+    for (auto _ : state) {
+        step_frame(world, caches, {}, {}, stats);
+    }
+    state.counters["active_bodies"] = static_cast<double>(stats.active_bodies);
+    state.counters["bounds_updates"] = static_cast<double>(stats.bounds_updates);
+}
+void step_fixed(benchmark::State& state) { step_at_rest(state, BodyKind::fixed); }
+void step_still(benchmark::State& state) { step_at_rest(state, BodyKind::free); }
+BENCHMARK(step_fixed)->Name("world/step_fixed")->Arg(20000)->Unit(benchmark::kMillisecond);
+BENCHMARK(step_still)->Name("world/step_free_at_rest")->Arg(10000)->Unit(benchmark::kMillisecond);
+
 }  // namespace
 }  // namespace handhold

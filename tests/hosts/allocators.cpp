@@ -1,6 +1,6 @@
-// A host with its own operator new, its own allocator in Bullet, and two worlds on two threads: the
-// library takes nothing from it. Prints figures; exit status 0: all blocks came and went as they
-// should.
+// A host with its own operator new, which takes each thread's blocks from that thread's arena, and
+// two worlds on two threads: the shared library uses it for everything. Prints figures; exit status
+// 0: each world's blocks came from its own arena, and went back to it.
 #include <atomic>
 #include <cmath>
 #include <cstdint>
@@ -13,14 +13,20 @@
 
 namespace {
 
-std::atomic<long> g_live{0};
-std::atomic<long> g_all{0};
+// One arena a thread of the host's; arena 0 is everybody else's.
+struct Arena {
+    std::atomic<long> live{0};
+    std::atomic<long> all{0};
+};
+Arena g_arenas[3];
 std::atomic<long> g_foreign{0};
+std::atomic<long> g_strays{0};  // freed by another thread than the one that took it
+thread_local std::uint64_t t_arena = 0;
 
 // Blocks have a mark before them: one that another allocator made is found.
 struct Mark {
     std::uint64_t magic;
-    std::uint64_t unused;
+    std::uint64_t arena;
 };
 constexpr std::uint64_t k_magic = 0x48414e44484f4c44ULL;
 
@@ -30,8 +36,9 @@ void* allocate(std::size_t size) {
         std::abort();
     }
     mark->magic = k_magic;
-    ++g_live;
-    ++g_all;
+    mark->arena = t_arena;
+    ++g_arenas[t_arena].live;
+    ++g_arenas[t_arena].all;
     return mark + 1;
 }
 
@@ -45,7 +52,8 @@ void release(void* memory) {
         return;
     }
     mark->magic = 0;
-    --g_live;
+    g_strays += mark->arena != 0 && mark->arena != t_arena ? 1 : 0;
+    --g_arenas[mark->arena].live;
     std::free(mark);
 }
 
@@ -83,16 +91,26 @@ static std::uint64_t play() {
 
 int main() {
     const std::uint64_t alone = play();
-    const long live_before = g_live;
     std::uint64_t hashes[2] = {};
-    std::thread first([&hashes] { hashes[0] = play(); });
-    std::thread second([&hashes] { hashes[1] = play(); });
+    const auto play_in = [&hashes](std::uint64_t arena) {
+        t_arena = arena;
+        hashes[arena - 1] = play();
+    };
+    const long strays_before = g_strays;
+    std::thread first(play_in, 1);
+    std::thread second(play_in, 2);
     first.join();
     second.join();
     // Blocks that threads keep until they end are gone with them.
-    std::printf("%ld blocks from the host's operator new, %ld more than before, %ld foreign\n",
-                g_all.load(), g_live - live_before, g_foreign.load());
-    const bool is_right = alone != 0 && hashes[0] == alone && hashes[1] == alone && g_all > 1000 &&
-                          g_foreign == 0 && g_live - live_before <= 0;
-    return is_right ? 0 : 1;
+    const long strays = g_strays - strays_before;
+    bool is_right = alone != 0 && hashes[0] == alone && hashes[1] == alone && g_foreign == 0;
+    for (int i : {1, 2}) {
+        is_right = is_right && g_arenas[i].all > 1000 && g_arenas[i].live == 0;
+    }
+    std::printf(
+        "%ld and %ld blocks from the arenas of two threads, %ld and %ld left, %ld freed by "
+        "the other, %ld foreign\n",
+        g_arenas[1].all.load(), g_arenas[2].all.load(), g_arenas[1].live.load(),
+        g_arenas[2].live.load(), strays, g_foreign.load());
+    return is_right && strays == 0 ? 0 : 1;
 }

@@ -1,66 +1,16 @@
 // Every function of the C interface with null pointers, ids that find nothing, NaN, infinities and
 // sizes of other versions: result codes, never a crash, and a world that still steps.
-#include <cmath>
+#include "misuse.hpp"
+
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
-#include <limits>
 #include <vector>
 
-#include <handhold/handhold.hpp>
+#include <handhold/handhold.h>
 
 namespace {
 
-int g_failures = 0;
-int g_calls = 0;
-
-void expect(bool is_right, const char* what, int line) {
-    ++g_calls;
-    if (!is_right) {
-        std::printf("line %d: %s\n", line, what);
-        ++g_failures;
-    }
-}
-#define HH_REFUSED(call) expect((call) != HH_OK, #call, __LINE__)
-#define HH_GIVES(result, call) expect((call) == (result), #call, __LINE__)
-
-constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double k_inf = std::numeric_limits<double>::infinity();
-const hh_pose k_origin = hh_identity_pose();
-
-struct Rng {
-    std::uint64_t state = 1;
-    std::uint64_t next() {
-        state ^= state << 13U;
-        state ^= state >> 7U;
-        state ^= state << 17U;
-        return state;
-    }
-    double number() {  // of any kind
-        switch (next() % 9) {
-            case 0:
-                return k_nan;
-            case 1:
-                return k_inf;
-            case 2:
-                return -k_inf;
-            case 3:
-                return 1e300;
-            case 4:
-                return -1e300;
-            case 5:
-                return 0.0;
-            case 6:
-                return 5e-324;
-            case 7:
-                return -1.0;
-            default:
-                return static_cast<double>(next() % 2000) / 1000.0;
-        }
-    }
-    hh_vec3 vector() { return {number(), number(), number()}; }
-    hh_pose pose() { return {vector(), {number(), number(), number(), number()}}; }
-};
+using namespace misuse;
 
 void misuse_pointers(hh_world* world, hh_body body, hh_player player, hh_joint joint) {
     HH_GIVES(HH_ERROR_NULL, hh_world_create(nullptr, nullptr));

@@ -14,7 +14,9 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 SOURCE = HERE.parent.parent
-HOSTS = ["c99", "no_exceptions", "misuse", "allocators", "streaming"]
+HOSTS = ["c99", "no_exceptions", "misuse", "misuse_physics", "allocators", "streaming"]
+
+OPTIONAL_HOSTS = {"bullet_host": "Bullet in double precision", "ode_host": "Open Dynamics Engine (libode-dev)"}
 
 
 def run(*command, **options) -> str:
@@ -96,6 +98,9 @@ def main() -> int:
     run("cmake", "--build", work / "build")
     for host in HOSTS:
         print(f"{host}: {run(work / 'build' / host).strip().splitlines()[-1]}")
+    for host, what in OPTIONAL_HOSTS.items():
+        program = work / "build" / host
+        print(f"{host}: {run(program).strip() if program.exists() else f'skipped, {what} is missing'}")
     check_pkg_config(prefix, work)
     check_subprojects(work)
     return 0

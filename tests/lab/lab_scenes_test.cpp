@@ -72,6 +72,17 @@ TEST_F(LabScenes, JumpingHandsAndRingsHoldWithoutMovingPlayers) {
 // Every scene and every mass pattern with all four solvers: each runs, or names what it cannot
 // express. The runtime's solver satisfies the joints; the baselines move the player of a reachable
 // chain.
+TEST_F(LabScenes, EverySceneHasBodiesAndFiguresByDefault) {
+    for (const std::string_view scene : scene_names()) {
+        SCOPED_TRACE(scene);
+        EXPECT_FALSE(make_scene(scene, {}).bodies.empty());
+        const Json json = solve(options(std::string(scene), 60));
+        for (const auto& [name, value] : json["scene_figures"].items()) {
+            EXPECT_TRUE(value.is_number()) << name;
+        }
+    }
+}
+
 TEST_F(LabScenes, EverySceneRunsWithEverySolver) {
     const auto run = [&](SolveOptions run_options, const std::string& solver) {
         run_options.solver = solver;
@@ -192,6 +203,39 @@ TEST_F(LabScenes, BouncesAndSlidesFollowTheirClosedForms) {
     EXPECT_LE(claim(solve("bounce"), "restitution_error"), 1e-9);
     const Json slid = solve("slide");
     EXPECT_LE(claim(slid, "sliding_error_mm"), claim(slid, "sliding_step_mm"));
+}
+
+// Within the tolerance of a sweep, a tenth of 5 mm, at slow speeds.
+TEST_F(LabScenes, ImpactsOfBallsFollowNewtonsLaw) {
+    const Json json = solve("impact", 60);
+    EXPECT_LE(claim(json, "impact_velocity_error"), 0.06);
+    EXPECT_LE(json["momentum_residual"].get<double>(), 1e-9);
+}
+
+TEST_F(LabScenes, DebrisKeepsMomentumGainsNoEnergyAndDoesNotOverlap) {
+    SolveOptions run_options = options("debris", 270);
+    run_options.links = 64;
+    const Json json = solve(run_options);
+    EXPECT_LE(claim(json, "energy_gain"), 1e-6);
+    EXPECT_LE(claim(json, "overlap_mm"), 1.0);
+    EXPECT_LE(json["momentum_residual"].get<double>(), 1e-9);
+}
+
+TEST_F(LabScenes, OverlappingBoxesComeApartWithoutSpeed) {
+    SolveOptions run_options = options("overlap", 200);
+    run_options.links = 40;
+    const Json json = solve(run_options);
+    EXPECT_LE(claim(json, "speed_mps"), 1e-6);
+    EXPECT_LE(claim(json, "overlap_left_mm"), 1.0);
+}
+
+// A player leaves a shove no faster than their own hand pushed them.
+TEST_F(LabScenes, PlayersLeaveAShoveAtTheSpeedOfTheirHand) {
+    for (const char* scene : {"shove", "shove_mesh"}) {
+        const Json json = solve(scene, 270);
+        EXPECT_LE(claim(json, "drift_mps"), claim(json, "drift_expected_mps") + 1e-6) << scene;
+        EXPECT_GE(claim(json, "drift_mps"), 0.95 * claim(json, "drift_expected_mps")) << scene;
+    }
 }
 
 TEST_F(LabScenes, BaselineSolversLeaveLargerErrors) {

@@ -1,7 +1,11 @@
 # All dependencies, wrapped into targets whose headers count as system headers, since our warnings are for our code. Measured versions:
 # docs/decisions/ and the distribution's packages.
 
-include(${CMAKE_CURRENT_LIST_DIR}/runtime_dependencies.cmake)
+if(HANDHOLD_SOURCES)
+  include(${CMAKE_CURRENT_LIST_DIR}/dependency_sources.cmake)
+else()
+  include(${CMAKE_CURRENT_LIST_DIR}/runtime_dependencies.cmake)
+endif()
 
 # Bullet's solver: only for the lab, which compares it with ours.
 add_library(handhold_bullet_dynamics INTERFACE)

@@ -9,6 +9,8 @@ endif()
 add_library(handhold::eigen INTERFACE IMPORTED)
 get_target_property(eigen_includes Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
 target_include_directories(handhold::eigen SYSTEM INTERFACE ${eigen_includes})
+# Vectorised sums depend on the instruction set, in their order and so in their last bits; hosts need the same layout of Eigen's types.
+target_compile_definitions(handhold::eigen INTERFACE EIGEN_DONT_VECTORIZE)
 
 # Bullet in double precision. The package's CMake config is broken on Debian 12, and the float and double sets share their headers, so
 # pkg-config is used.
@@ -28,8 +30,13 @@ else()  # elsewhere, such as vcpkg's bullet3[double-precision]
 endif()
 target_compile_definitions(handhold::bullet INTERFACE BT_USE_DOUBLE_PRECISION)
 find_package(box2d REQUIRED)
+if(box2d_VERSION AND NOT box2d_VERSION VERSION_LESS 3)
+  message(FATAL_ERROR "Box2D 2.4 is needed, found ${box2d_VERSION}, whose interface is another one")
+endif()
 find_package(meshoptimizer REQUIRED)
-find_package(TBB REQUIRED)
+if(NOT DEFINED HANDHOLD_THREADS OR HANDHOLD_THREADS)
+  find_package(TBB REQUIRED)
+endif()
 find_package(nlohmann_json REQUIRED)
 
 # Draco decodes KHR_draco_mesh_compression. It is optional: without it the glTF reader refuses files that require the

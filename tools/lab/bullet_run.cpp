@@ -114,6 +114,9 @@ struct BulletRun::Impl {
     }
 
     btCollisionShape* make_shape(const LabBody& body) {
+        if (body.is_ball) {
+            return add_shape(new btSphereShape(body.half_m.x()));
+        }
         if (!body.is_mesh) {
             return add_shape(new btBoxShape(to_bullet(body.half_m)));
         }

@@ -117,9 +117,9 @@ class Artist {
     HandView draw(const DrawnHand& hand, const HandView* other, Image& picture) {
         const HandView bounds = hand_bounds(hand.capsules);
         const double distance_m = 1.02 * bounds.radius_m / std::sin(0.5 * k_fov_rad);
-        const HandView view = choose_hand_view(
-            hand.capsules, hand.wrist.rotation,
-            triangles_near(stage_.meshes, bounds.center, distance_m), distance_m, other);
+        HandView view = choose_hand_view(hand.capsules, hand.wrist.rotation,
+                                         triangles_near(stage_.meshes, bounds.center, distance_m),
+                                         distance_m, other);
         RenderFrame frame = make_frame(view, distance_m);
         frame.instances = stage_.instances;
         if (figures_) {

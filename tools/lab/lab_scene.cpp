@@ -39,6 +39,9 @@ constexpr std::array k_scenes = {
     NamedScene{"slide", &make_slide},
     NamedScene{"hub", &make_hub},
     NamedScene{"heap", &make_heap},
+    NamedScene{"impact", &make_impact},
+    NamedScene{"debris", &make_debris},
+    NamedScene{"overlap", &make_overlap},
 };
 
 Pose body_pose(const LabScene& scene, int body) {
@@ -48,6 +51,9 @@ Pose body_pose(const LabScene& scene, int body) {
 }  // namespace
 
 Vec3 LabBody::inertia_kgm2() const {
+    if (is_ball) {
+        return Vec3::Constant(0.4 * mass_kg * half_m.x() * half_m.x());
+    }
     const Vec3 squares = half_m.cwiseAbs2();
     return mass_kg / 3.0 * (Vec3::Constant(squares.sum()) - squares);
 }

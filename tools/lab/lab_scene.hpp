@@ -36,6 +36,7 @@ struct LabBody {
     bool collides = false;       // has a collider
     // Fixed body: a one-sided mesh of the box's +x face instead of the box.
     bool is_mesh = false;
+    bool is_ball = false;  // a ball of radius half_m.x() instead of the box
     double restitution = 0.0;
     double friction = 0.0;
     PathOfTime drive;  // kinematic body: its pose over time
@@ -154,6 +155,8 @@ struct SceneOptions {
     double hz = 90.0;
     // kinematic: levers, drawers and doors are not pulled beyond their range
     Holder holder = Holder::player;
+
+    int links_or(int count) const { return links > 0 ? links : count; }
 };
 
 // Names of all scenes, in the order of docs/reference/lab.md.

@@ -99,8 +99,9 @@ void RuntimeRun::add_bodies() {
         }
         ShapeId shape = k_no_shape;
         if (body.collides) {
-            shape = body.is_mesh ? shapes_.add_mesh(face_mesh(body.half_m))
-                                 : shapes_.add_box(body.half_m);
+            shape = body.is_mesh   ? shapes_.add_mesh(face_mesh(body.half_m))
+                    : body.is_ball ? shapes_.add_sphere(body.half_m.x())
+                                   : shapes_.add_box(body.half_m);
         }
         bodies_.push_back(
             add_body(world_, {"body/" + body.name, rigid, body.pose_ws, body.velocity, shape}));

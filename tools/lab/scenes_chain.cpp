@@ -91,7 +91,7 @@ void hold_end(LabScene& scene, const PathOfTime& path) {
 
 LabScene make_chain(const SceneOptions& options) {
     LabScene scene;
-    const int links = options.links > 0 ? options.links : 32;
+    const int links = options.links_or(32);
     const double farthest = k_reach_used * k_link_m * links;
     const double swing = std::min(0.3 * farthest, 1.0);
     const std::vector<Vec3> corners = {Vec3(farthest - swing, 0.0, 0.0), Vec3(farthest, 0.0, 0.0),
@@ -108,7 +108,7 @@ LabScene make_chain(const SceneOptions& options) {
 
 LabScene make_teleport(const SceneOptions& options) {
     LabScene scene;
-    const int links = std::max(options.links > 0 ? options.links : 32, 6);
+    const int links = std::max(options.links_or(32), 6);
     const double away = std::min(0.5 * k_link_m * links, 2.0);
     const Vec3 left(away, 0.5, 0.0);
     const Vec3 right(away, -0.5, 0.0);
@@ -124,7 +124,7 @@ LabScene make_teleport(const SceneOptions& options) {
 
 LabScene make_ring(const SceneOptions& options) {
     LabScene scene;
-    const int links = std::max(options.links > 0 ? options.links : 32, 3);
+    const int links = std::max(options.links_or(32), 3);
     const double radius = 0.5 * k_link_m / std::sin(k_pi / links);
     std::vector<Vec3> places;
     for (int i = 0; i <= links; ++i) {
@@ -149,7 +149,7 @@ LabScene make_ring(const SceneOptions& options) {
 
 LabScene make_hub(const SceneOptions& options) {
     LabScene scene;
-    const int arms = options.links > 0 ? options.links : 64;
+    const int arms = options.links_or(64);
     constexpr double k_hub_radius = 0.15;
     LabBody hub;
     hub.name = "hub";

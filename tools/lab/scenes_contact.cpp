@@ -68,13 +68,17 @@ LabScene make_shove(const SceneOptions& /*options*/) {
     LabScene scene = make_rock_before_wall(into_wall);
     scene.players_still_until_s = k_wave_s + k_gap_m / k_hand_speed_mps;
     const double stop_s = k_wave_s + (k_gap_m + k_too_far_m) / k_hand_speed_mps;
-    // While the hand moves into the wall, the player moves away from it by as much. Then the player
-    // drifts on.
+    // While the hand moves into the wall, the player moves away from it by as much. When the hand
+    // stops, nothing holds the player at the wall: they drift on at the speed at which they pushed
+    // themselves off. A rock of 5 kg weighs nothing to them (PhaseTuning::kappa_light_kg).
     scene.watch = [into_wall, stop_s](const FrameRecord& frame, Figures& figures) {
         if (frame.t_s <= stop_s) {
             const Vec3 expected = std::max(0.0, into_wall(frame.t_s) - k_gap_m) * Vec3::UnitX();
             figures.take_worst("push_back_error_mm",
                                1e3 * (frame.poses[2].position - expected).norm());
+        } else if (frame.t_s > stop_s + 2.0 * frame.dt_s) {
+            figures.take_worst("drift_mps", frame.velocities[2].linear_mps.norm());
+            figures.set("drift_expected_mps", k_hand_speed_mps);
         }
     };
     return scene;

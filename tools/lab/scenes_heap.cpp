@@ -1,9 +1,8 @@
-// A held crate that is shoved into a heap of crates before a wall. The overlap of crates is
-// measured here by separating axes, without the runtime's collision code.
+// A held crate that is shoved into a heap of crates before a wall.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "tools/lab/box_overlap.hpp"
 #include "tools/lab/scenes.hpp"
 
 namespace handhold::lab {
@@ -12,37 +11,6 @@ namespace {
 constexpr double k_crate_half_m = 0.1;
 constexpr double k_pitch_m = 2.0 * k_crate_half_m + 0.005;
 constexpr double k_shove_m = 0.6;
-
-// Overlap of two cubes of half size k_crate_half_m along the axis on which it is least, m; below 0
-// if they are apart. The axes are the cubes' normals and the cross products of their edges.
-double overlap_m(const Pose& a, const Pose& b) {
-    const Vec3 offset = b.position - a.position;
-    const double reach_m = 2.0 * std::sqrt(3.0) * k_crate_half_m;
-    if (offset.norm() >= reach_m) {
-        return -1.0;
-    }
-    const Mat3 axes_a = a.rotation.toRotationMatrix();
-    const Mat3 axes_b = b.rotation.toRotationMatrix();
-    double least_m = reach_m;
-    const auto test = [&](const Vec3& axis) {
-        constexpr double k_parallel = 1e-6;
-        const double length = axis.norm();
-        if (length < k_parallel) {
-            return;
-        }
-        const double extents = k_crate_half_m * ((axes_a.transpose() * axis).cwiseAbs().sum() +
-                                                 (axes_b.transpose() * axis).cwiseAbs().sum());
-        least_m = std::min(least_m, (extents - std::abs(axis.dot(offset))) / length);
-    };
-    for (int i = 0; i < 3; ++i) {
-        test(axes_a.col(i));
-        test(axes_b.col(i));
-        for (int j = 0; j < 3; ++j) {
-            test(axes_a.col(i).cross(axes_b.col(j)));
-        }
-    }
-    return least_m;
-}
 
 // Distance of the hand's movement, with rest at both ends.
 double shoved_m(double t_s) {
@@ -78,13 +46,15 @@ LabScene make_heap(const SceneOptions& options) {
     scene.planes.push_back({Vec3::UnitX(), 0.0});
 
     // The largest cube of crates that has at most `links` of them.
-    const int side = static_cast<int>(std::cbrt(static_cast<double>(options.links) + 0.5));
+    const int side = static_cast<int>(std::cbrt(static_cast<double>(options.links_or(32)) + 0.5));
     const double middle = 0.5 * (side - 1);
     const double front_m = side * k_pitch_m + 0.005;
     const Vec3 held(front_m + k_crate_half_m + 0.15, 0.0, 0.0);
     add_crate(scene, 2.0, held);
     for (int i = 0; i < side * side * side; ++i) {
-        const Vec3 cell(i / (side * side), i / side % side - middle, i % side - middle);
+        const int layer = i / (side * side);
+        const int row = i / side % side;
+        const Vec3 cell(layer, row - middle, i % side - middle);
         add_crate(scene, 5.0, k_pitch_m * cell + Vec3(k_crate_half_m + 0.005, 0.0, 0.0));
     }
     scene.players.emplace_back();
@@ -98,10 +68,12 @@ LabScene make_heap(const SceneOptions& options) {
     scene.needs_player = true;
     const std::size_t end = scene.bodies.size();
     scene.watch = [end](const FrameRecord& frame, Figures& figures) {
+        const Vec3 half_m = Vec3::Constant(k_crate_half_m);
         double worst_m = 0.0;
         for (std::size_t a = 1; a < end; ++a) {
             for (std::size_t b = a + 1; b < end; ++b) {
-                worst_m = std::max(worst_m, overlap_m(frame.poses[a], frame.poses[b]));
+                worst_m = std::max(worst_m,
+                                   box_overlap_m(frame.poses[a], half_m, frame.poses[b], half_m));
             }
         }
         figures.take_worst("overlap_mm", 1e3 * worst_m);

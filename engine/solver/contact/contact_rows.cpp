@@ -9,6 +9,26 @@
 namespace handhold {
 namespace {
 
+Vec3 velocity_at(const SolverBody& body, const Vec3& point_bs) {
+    return body.velocity_mps + body.spin_radps.cross(body.pose_ws.rotation * point_bs);
+}
+
+// True if the bodies meet fast and the contact's points are beside each other: a sweep found them
+// where they met. Slower contacts act at one point: bodies that are squeezed must not be turned.
+bool is_impact(const ConstraintGraph& graph, const RowBlock& block) {
+    constexpr double k_slid_m = 1e-3;
+    constexpr double k_fast_mps = 1.0;
+    const SolverBody& a = graph.bodies[block.a];
+    const SolverBody& b = graph.bodies[block.b];
+    const Vec3 normal = b.pose_ws.rotation * block.normal_b_bs;
+    const double approach_mps =
+        normal.dot(velocity_at(b, block.point_b_bs) - velocity_at(a, block.point_a_bs));
+    const Vec3 offset =
+        transform_point(a.pose_ws, block.point_a_bs) - transform_point(b.pose_ws, block.point_b_bs);
+    const double slid_square = (offset - normal * normal.dot(offset)).squaredNorm();
+    return approach_mps > k_fast_mps && slid_square > k_slid_m * k_slid_m;
+}
+
 RowBlock contact_block(const ContactPoint& contact, const ConstraintGraph& graph) {
     const std::size_t a = find_body(graph, contact.id_a);
     const std::size_t b = find_body(graph, contact.id_b);
@@ -22,6 +42,7 @@ RowBlock contact_block(const ContactPoint& contact, const ConstraintGraph& graph
     block.point_a_bs = contact.point_a_bs + graph.bodies[a].collider_offset_bs;
     block.point_b_bs = contact.point_b_bs + graph.bodies[b].collider_offset_bs;
     block.normal_b_bs = contact.normal_b_bs;
+    block.is_impact = is_impact(graph, block);
     block.friction = std::sqrt(graph.bodies[a].friction * graph.bodies[b].friction);
     block.restitution = std::max(graph.bodies[a].restitution, graph.bodies[b].restitution);
     return block;

@@ -2,6 +2,7 @@
 #include "engine/solver/contact/missed_overlaps.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace handhold {
 namespace {
@@ -26,23 +27,25 @@ bool may_be_swept(const ColliderProxy& a, const ColliderProxy& b, double sweep_m
 
 // Sets up the proxies for a query without sweeps: colliders that may have been swept are at rest at
 // their end poses. Marks the movable ones. False if there are none.
-bool prepare_static_query(const MovingContacts& moving, double sweep_m, MissedOverlaps& missed) {
-    missed.proxies.clear();
-    missed.is_suspect.assign(moving.graph.bodies.size(), 0);
+bool prepare_static_query(const MovingContacts& moving, double sweep_m,
+                          std::span<const std::uint32_t> moved, MissedOverlaps& missed) {
+    const std::size_t count = moving.graph.bodies.size();
+    missed.is_marked.resize(std::max(missed.is_marked.size(), count), 0);
+    missed.is_suspect.resize(std::max(missed.is_suspect.size(), count), 0);
     bool any = false;
     const auto mark = [&](std::uint32_t body) {
-        if (missed.proxies.empty()) {
-            missed.proxies.assign(moving.proxies.begin(), moving.proxies.end());
+        if (missed.is_marked[body] == 0) {
+            missed.is_marked[body] = 1;
+            moving.displaced.push_back(body);
         }
-        missed.proxies[body].from_ws = missed.proxies[body].to_ws;
         if (moving.graph.bodies[body].role != BodyRole::fixed) {
             missed.is_suspect[body] = 1;
             any = true;
         }
     };
-    for (std::uint32_t i = 0; i < moving.proxies.size(); ++i) {
-        if (moving.proxies[i].shape != k_no_shape && !moving.graph.bodies[i].in_heap &&
-            may_be_swept(moving.proxies[i], sweep_m)) {
+    for (const std::uint32_t i : moved) {
+        if (i < moving.proxies.size() && moving.proxies[i].shape != k_no_shape &&
+            !moving.graph.bodies[i].in_heap && may_be_swept(moving.proxies[i], sweep_m)) {
             mark(i);
         }
     }
@@ -56,22 +59,21 @@ bool prepare_static_query(const MovingContacts& moving, double sweep_m, MissedOv
     return any;
 }
 
-}  // namespace
-
-void find_missed_overlaps(const MovingContacts& moving, const ContactLimits& limits,
-                          MissedOverlaps& missed) {
-    missed.of_body.resize(moving.graph.bodies.size());
-    for (std::uint32_t i = 0; i < missed.of_body.size(); ++i) {
-        missed.of_body[i] = {0.0, i};
+void query(const MovingContacts& moving, const ContactLimits& limits, MissedOverlaps& missed) {
+    moving.updates.clear();
+    for (const std::uint32_t i : moving.displaced) {
+        moving.updates.push_back(moving.proxies[i]);
+        moving.updates.back().from_ws = moving.updates.back().to_ws;
     }
-    if (!prepare_static_query(moving, limits.sweep_m, missed)) {
-        return;
-    }
-    moving.collision.set_proxies(missed.proxies);
+    moving.collision.update_proxies(moving.updates);
     moving.collision.find_contacts(limits, moving.scratch);
     const auto record = [&missed](std::size_t body, std::size_t other, double depth_m) {
-        if (missed.is_suspect[body] != 0 && depth_m > missed.of_body[body].depth_m) {
-            missed.of_body[body] = {depth_m, static_cast<std::uint32_t>(other)};
+        Overlap& deepest = missed.of_body[body];
+        if (missed.is_suspect[body] != 0 && depth_m > deepest.depth_m) {
+            if (deepest.depth_m == 0.0) {
+                missed.deep.push_back(static_cast<std::uint32_t>(body));
+            }
+            deepest = {depth_m, static_cast<std::uint32_t>(other)};
         }
     };
     for (const ContactPoint& contact : moving.scratch) {
@@ -82,6 +84,44 @@ void find_missed_overlaps(const MovingContacts& moving, const ContactLimits& lim
             record(a, b, -contact.separation_m);
             record(b, a, -contact.separation_m);
         }
+    }
+    std::ranges::sort(missed.deep);
+}
+
+}  // namespace
+
+void MissedOverlaps::clear(std::size_t count) {
+    if (of_body.size() != count) {
+        of_body.resize(count);
+        deep.resize(count);
+        std::iota(deep.begin(), deep.end(), 0U);
+    }
+    for (const std::uint32_t body : deep) {
+        of_body[body] = {0.0, body};
+    }
+    deep.clear();
+}
+
+void find_missed_overlaps(const MovingContacts& moving, const ContactLimits& limits,
+                          std::span<const std::uint32_t> moved, MissedOverlaps& missed) {
+    const std::size_t count = moving.graph.bodies.size();
+    missed.clear(count);
+    const std::size_t first = moving.displaced.size();
+    // All bodies may be displaced; a warm frame allocates nothing.
+    moving.displaced.reserve(2 * count);
+    moving.updates.reserve(2 * count);
+    const bool any = prepare_static_query(moving, limits.sweep_m, moved, missed);
+    if (any) {
+        query(moving, limits, missed);
+    } else {
+        moving.displaced.resize(first);
+    }
+    for (const RowBlock& block : moving.graph.blocks) {
+        missed.is_marked[block.a] = missed.is_marked[block.b] = 0;
+        missed.is_suspect[block.a] = missed.is_suspect[block.b] = 0;
+    }
+    for (const std::uint32_t i : moved) {
+        missed.is_marked[i] = missed.is_suspect[i] = 0;
     }
 }
 

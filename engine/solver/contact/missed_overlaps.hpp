@@ -17,15 +17,21 @@ struct Overlap {
 
 struct MissedOverlaps {
     std::vector<Overlap> of_body;          // out
-    std::vector<ColliderProxy> proxies;    // scratch
-    std::vector<std::uint8_t> is_suspect;  // scratch, by body
+    std::vector<std::uint32_t> deep;       // out: bodies with an overlap, ascending
+    std::vector<std::uint8_t> is_marked;   // scratch, by body; all 0 between calls
+    std::vector<std::uint8_t> is_suspect;  // the same
+
+    // Makes `count` bodies without an overlap.
+    void clear(std::size_t count);
 };
 
 // A sweep reports only the first touch of each pair, and no pair that is merely grazed on the way.
 // A body that leans on another and rotates can therefore end with its far side inside the same
 // body. Queries all bodies that moved by more than `limits.sweep_m`, absolutely or relative to a
 // body they touch, at their current poses. Call after contacts have been refreshed at these poses.
+// `moved`: bodies that may have moved in this frame. The collision world keeps the proxies of the
+// query; moving.displaced lists them.
 void find_missed_overlaps(const MovingContacts& moving, const ContactLimits& limits,
-                          MissedOverlaps& missed);
+                          std::span<const std::uint32_t> moved, MissedOverlaps& missed);
 
 }  // namespace handhold

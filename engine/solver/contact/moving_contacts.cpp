@@ -33,24 +33,33 @@ bool exceeds_contact_motion(const Pose& from, const Pose& to, double limit_m) {
     return translation_m + rotation_rad * 0.5 > limit_m;
 }
 
-// Moves the proxies to the solver's bodies; true if any moved farther than its contacts stay valid.
-// Bodies without a collider are skipped.
-bool move_proxies(const MovingContacts& moving) {
-    bool moved = false;
-    for (std::size_t i = 0; i < moving.graph.bodies.size(); ++i) {
-        const SolverBody& body = moving.graph.bodies[i];
-        if (body.role == BodyRole::fixed || moving.proxies[i].shape == k_no_shape) {
-            continue;
-        }
-        ColliderProxy& proxy = moving.proxies[i];
-        const Pose now = collider_pose(body);
-        const double limit_m = body.in_heap ? k_heap_moved_m : k_moved_m;
-        if (exceeds_contact_motion(proxy.to_ws, now, limit_m)) {
-            proxy.to_ws = now;
-            moved = true;
-        }
+// Moves a body's proxy to the body, if that moved farther than its contacts stay valid. Bodies
+// without a collider are skipped.
+void move_proxy(const MovingContacts& moving, std::uint32_t i) {
+    const SolverBody& body = moving.graph.bodies[i];
+    if (body.role == BodyRole::fixed || !body.is_searched ||
+        moving.proxies[i].shape == k_no_shape) {
+        return;
     }
-    return moved;
+    ColliderProxy& proxy = moving.proxies[i];
+    const Pose now = collider_pose(body);
+    const double limit_m = body.in_heap ? k_heap_moved_m : k_moved_m;
+    if (exceeds_contact_motion(proxy.to_ws, now, limit_m)) {
+        proxy.to_ws = now;
+        moving.updates.push_back(proxy);
+    }
+}
+
+// True if any proxy moved; all that did are in moving.updates.
+bool move_proxies(const MovingContacts& moving) {
+    moving.updates.clear();
+    for (const std::uint32_t i : moving.graph.island_bodies) {
+        move_proxy(moving, i);
+    }
+    for (const std::uint32_t i : moving.also_moved) {
+        move_proxy(moving, i);
+    }
+    return !moving.updates.empty();
 }
 
 auto order_of(const ContactPoint& contact) {
@@ -142,10 +151,14 @@ void merge_contacts(const MovingContacts& moving, OldPoints old_points) {
 
 FoundContacts refresh_contacts(const MovingContacts& moving, const ContactLimits& limits,
                                OldPoints old_points) {
-    if (!move_proxies(moving)) {
+    if (!move_proxies(moving) && moving.also_moved.empty()) {
         return FoundContacts::unchanged;
     }
-    moving.collision.set_proxies(moving.proxies);
+    for (const std::uint32_t i : moving.displaced) {
+        moving.updates.push_back(moving.proxies[i]);
+    }
+    moving.displaced.clear();
+    moving.collision.update_proxies(moving.updates);
     moving.collision.find_contacts(limits, moving.scratch);
     const bool overlaps = std::ranges::any_of(moving.scratch, [](const ContactPoint& contact) {
         return contact.separation_m < -k_new_overlap_m;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/collision/collision_world.hpp"
@@ -20,6 +21,12 @@ struct MovingContacts {
     std::vector<ContactPoint>& contacts;  // in/out; sorted by pair and feature
     ConstraintGraph& graph;               // out: contact blocks, islands
     std::vector<ContactPoint>& scratch;   // scratch; afterwards the previous contacts
+    std::vector<ColliderProxy>& updates;  // scratch: proxies to send to the collision world
+    // In/out: bodies whose proxy in the collision world is not the one in `proxies`.
+    std::vector<std::uint32_t>& displaced;
+    // Bodies outside of all islands that may have moved too. If there are any, contacts are always
+    // searched again.
+    std::span<const std::uint32_t> also_moved = {};
 };
 
 // What happens to the old contact points of a pair for which new ones are found.
@@ -33,8 +40,8 @@ enum class OldPoints : std::uint8_t {
 enum class FoundContacts : std::uint8_t { unchanged, clear, overlapping };
 
 // Finds contacts by sweeping colliders from their last valid poses to the solver's current poses,
-// makes them the graph's contact blocks and rebuilds the islands. Returns `unchanged` and does
-// nothing if no collider moved.
+// makes them the graph's contact blocks and rebuilds the islands. Only bodies of islands move in a
+// solve: the others cost nothing. Returns `unchanged` and does nothing if no collider moved.
 FoundContacts refresh_contacts(const MovingContacts& moving, const ContactLimits& limits,
                                OldPoints old_points);
 

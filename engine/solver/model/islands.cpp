@@ -2,8 +2,6 @@
 #include "engine/solver/model/islands.hpp"
 
 #include <algorithm>
-#include <limits>
-#include <numeric>
 #include <tuple>
 
 #include "engine/core/disjoint_sets.hpp"
@@ -11,27 +9,53 @@
 namespace handhold {
 namespace {
 
-constexpr std::uint32_t k_none = std::numeric_limits<std::uint32_t>::max();
-
 bool is_movable(const SolverBody& body) { return body.role != BodyRole::fixed; }
+
+ConstraintGraph::Tie tie_of(const ConstraintGraph& graph, const RowBlock& block) {
+    return {block.a, block.b, is_movable(graph.bodies[block.a]), is_movable(graph.bodies[block.b])};
+}
+
+void find_members(ConstraintGraph& graph) {
+    graph.is_member.resize(std::max(graph.is_member.size(), graph.bodies.size()), 0);
+    graph.members.clear();
+    const auto add = [&graph](std::uint32_t body) {
+        if (graph.is_member[body] == 0) {
+            graph.is_member[body] = 1;
+            graph.members.push_back(body);
+        }
+    };
+    for (const ConstraintGraph::Tie& tie : graph.ties) {
+        if (tie.moves_a) {
+            add(tie.a);
+        }
+        if (tie.moves_b || !tie.moves_a) {  // two fixed bodies make an island without bodies
+            add(tie.b);
+        }
+    }
+    std::ranges::sort(graph.members);
+    for (const std::uint32_t body : graph.members) {
+        graph.is_member[body] = 0;
+    }
+}
 
 // The smaller index becomes the root, so an island is identified by its first body.
 void unite_blocks(ConstraintGraph& graph) {
     graph.parent.resize(graph.bodies.size());
-    std::iota(graph.parent.begin(), graph.parent.end(), 0U);
+    for (const std::uint32_t body : graph.members) {
+        graph.parent[body] = body;
+    }
     graph.root_of_block.clear();
-    for (const RowBlock& block : graph.blocks) {
-        const bool moves_a = is_movable(graph.bodies[block.a]);
-        if (moves_a && is_movable(graph.bodies[block.b])) {
-            const std::uint32_t root_a = find_root(graph.parent, block.a);
-            const std::uint32_t root_b = find_root(graph.parent, block.b);
+    for (const ConstraintGraph::Tie& tie : graph.ties) {
+        if (tie.moves_a && tie.moves_b) {
+            const std::uint32_t root_a = find_root(graph.parent, tie.a);
+            const std::uint32_t root_b = find_root(graph.parent, tie.b);
             graph.parent[std::max(root_a, root_b)] = std::min(root_a, root_b);
         }
-        graph.root_of_block.push_back(moves_a ? block.a : block.b);
+        graph.root_of_block.push_back(tie.moves_a ? tie.a : tie.b);
     }
     // A root precedes all other members of its set, so one pass makes every body's parent its root.
-    for (std::uint32_t& parent : graph.parent) {
-        parent = graph.parent[parent];
+    for (const std::uint32_t body : graph.members) {
+        graph.parent[body] = graph.parent[graph.parent[body]];
     }
     for (std::uint32_t& root : graph.root_of_block) {
         root = graph.parent[root];
@@ -53,10 +77,9 @@ void place_members(ConstraintGraph& graph) {
     }
     graph.island_bodies.resize(bodies);
     graph.island_blocks.resize(blocks);
-    for (std::uint32_t i = 0; i < graph.bodies.size(); ++i) {
-        const std::uint32_t index = graph.island_of_root[graph.parent[i]];
-        if (is_movable(graph.bodies[i]) && index != k_none) {
-            Island& island = graph.islands[index];
+    for (const std::uint32_t i : graph.members) {
+        if (is_movable(graph.bodies[i])) {
+            Island& island = graph.islands[graph.island_of_root[graph.parent[i]]];
             graph.island_bodies[island.bodies_end++] = i;
         }
     }
@@ -66,26 +89,18 @@ void place_members(ConstraintGraph& graph) {
     }
 }
 
-// True if movability and the bodies of every block are as when the islands were built.
+// True if the bodies of every block, and which of them move, are as when the islands were built.
 bool has_same_topology(const ConstraintGraph& graph) {
-    const auto is_same_body = [](const SolverBody& body, std::uint8_t was_movable) {
-        return is_movable(body) == (was_movable != 0);
-    };
-    const auto is_same_block = [](const RowBlock& block, const std::array<std::uint32_t, 2>& tie) {
-        return block.a == tie[0] && block.b == tie[1];
-    };
-    return std::ranges::equal(graph.bodies, graph.are_movable, is_same_body) &&
-           std::ranges::equal(graph.blocks, graph.block_bodies, is_same_block);
+    return std::ranges::equal(graph.blocks, graph.ties,
+                              [&graph](const RowBlock& block, const ConstraintGraph::Tie& tie) {
+                                  return tie_of(graph, block) == tie;
+                              });
 }
 
 void record_topology(ConstraintGraph& graph) {
-    graph.are_movable.clear();
-    for (const SolverBody& body : graph.bodies) {
-        graph.are_movable.push_back(is_movable(body) ? 1 : 0);
-    }
-    graph.block_bodies.clear();
+    graph.ties.clear();
     for (const RowBlock& block : graph.blocks) {
-        graph.block_bodies.push_back({block.a, block.b});
+        graph.ties.push_back(tie_of(graph, block));
     }
 }
 
@@ -172,22 +187,19 @@ void build_islands(ConstraintGraph& graph) {
         return;
     }
     record_topology(graph);
+    find_members(graph);
     unite_blocks(graph);
     graph.islands.clear();
-    graph.island_of_root.assign(graph.bodies.size(), k_none);
-    for (const std::uint32_t root : graph.root_of_block) {
-        graph.island_of_root[root] = 0;  // marks the island; numbered below
-    }
-    for (std::uint32_t i = 0; i < graph.bodies.size(); ++i) {
-        if (graph.parent[i] == i && graph.island_of_root[i] != k_none) {
+    graph.island_of_root.resize(graph.bodies.size());
+    for (const std::uint32_t i : graph.members) {
+        if (graph.parent[i] == i) {
             graph.island_of_root[i] = static_cast<std::uint32_t>(graph.islands.size());
             graph.islands.push_back({});
         }
     }
-    for (std::uint32_t i = 0; i < graph.bodies.size(); ++i) {
-        const std::uint32_t index = graph.island_of_root[graph.parent[i]];
-        if (is_movable(graph.bodies[i]) && index != k_none) {
-            ++graph.islands[index].bodies_end;
+    for (const std::uint32_t i : graph.members) {
+        if (is_movable(graph.bodies[i])) {
+            ++graph.islands[graph.island_of_root[graph.parent[i]]].bodies_end;
         }
     }
     for (const std::uint32_t root : graph.root_of_block) {
@@ -204,14 +216,6 @@ void sort_largest_first(const ConstraintGraph& graph, std::span<std::uint32_t> i
         const std::size_t blocks_y = graph.blocks_of(graph.islands[y]).size();
         return blocks_x != blocks_y ? blocks_x > blocks_y : x < y;
     });
-}
-
-std::size_t heap_block_count(const ConstraintGraph& graph) {
-    std::size_t count = 0;
-    for (const Island& island : graph.islands) {
-        count += island.is_heap ? graph.blocks_of(island).size() : 0;
-    }
-    return count;
 }
 
 bool is_heap_contact(std::span<const SolverBody> bodies, const RowBlock& block) {

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -49,8 +48,14 @@ struct ConstraintGraph {
     }
 
     // Topology the islands were built from; the islands are kept while it is unchanged.
-    std::vector<std::uint8_t> are_movable;                   // by body
-    std::vector<std::array<std::uint32_t, 2>> block_bodies;  // by block: its two bodies
+    struct Tie {
+        std::uint32_t a = 0;
+        std::uint32_t b = 0;
+        bool moves_a = false;
+        bool moves_b = false;
+        friend bool operator==(const Tie&, const Tie&) = default;
+    };
+    std::vector<Tie> ties;  // by block: its two bodies
 
     // Scratch of sort_blocks and build_islands.
     struct BlockPlace {
@@ -62,8 +67,10 @@ struct ConstraintGraph {
     };
     std::vector<BlockPlace> places;
     std::vector<RowBlock> sorted_blocks;
-    std::vector<std::uint32_t> parent;
-    std::vector<std::uint32_t> island_of_root;
+    std::vector<std::uint32_t> members;         // movable bodies with a block, ascending
+    std::vector<std::uint8_t> is_member;        // by body; all 0 between builds
+    std::vector<std::uint32_t> parent;          // by body; valid for members
+    std::vector<std::uint32_t> island_of_root;  // by body; valid for members
     std::vector<std::uint32_t> root_of_block;
 };
 
@@ -93,8 +100,6 @@ struct IslandErrors {
     double without_drives_m() const { return std::max(joints_m, contacts_m); }
     double worst_m() const { return std::max(drives_m, without_drives_m()); }
 };
-// Blocks of all islands that are heaps.
-std::size_t heap_block_count(const ConstraintGraph& graph);
 // True if all movable bodies of a contact are in a heap.
 bool is_heap_contact(std::span<const SolverBody> bodies, const RowBlock& block);
 IslandErrors island_errors(const ConstraintGraph& graph, const Island& island);

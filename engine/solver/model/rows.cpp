@@ -120,14 +120,19 @@ void append_line_rows(const Quat& frame_a_ws, const Ends& ends, Row row, std::ve
     }
 }
 
+// The normal rotates with b, so b's lever arm reaches to a's point instead of its own. Not after an
+// impact: there a's point has slid on since, and the arm would turn a ball that is hit centrally.
+Vec3 contact_arm_b(const RowBlock& block, const Ends& ends) {
+    return block.is_impact ? ends.arm_b : Vec3(ends.arm_b + ends.error);
+}
+
 void append_contact_row(std::span<const SolverBody> bodies, const RowBlock& block, const Ends& ends,
                         Row row, std::vector<Row>& rows) {
     const Vec3 normal = bodies[block.b].pose_ws.rotation * block.normal_b_bs;
     row.unilateral = true;
     row.linear_a = normal;
     row.angular_a = ends.arm_a.cross(normal);
-    // The normal rotates with b, so b's lever arm reaches to a's point instead of its own.
-    row.angular_b = -(ends.arm_b + ends.error).cross(normal);
+    row.angular_b = -contact_arm_b(block, ends).cross(normal);
     row.residual = normal.dot(ends.error);
     rows.push_back(row);
 }
@@ -266,7 +271,7 @@ std::size_t append_sliding_rows(std::span<const SolverBody> bodies, const RowBlo
         for (int axis = 1; axis < 3; ++axis) {
             row.linear_a = around * Vec3::Unit(axis);
             row.angular_a = ends.arm_a.cross(row.linear_a);
-            row.angular_b = -(ends.arm_b + ends.error).cross(row.linear_a);
+            row.angular_b = -contact_arm_b(block, ends).cross(row.linear_a);
             row.width = axis == 1 ? 2 : 0;
             rows.push_back(row);
         }

@@ -11,6 +11,7 @@
 
 #include "engine/math/flush_denormals.hpp"
 #include "engine/solver/model/geometric_stiffness.hpp"
+#include "engine/solver/model/negligible.hpp"
 #include "engine/solver/newton/load_stepping.hpp"
 #include "engine/solver/newton/newton_rows.hpp"
 #include "engine/solver/newton/regularisation_schedule.hpp"
@@ -355,12 +356,17 @@ NewtonResult solve_heap(const IslandView& island, const NewtonSettings& settings
 NewtonResult solve_positions(const IslandView& island, const NewtonSettings& settings,
                              SolveScratch& scratch) {
     const FlushDenormals flush;
-    if (island.is_heap) {
-        return solve_heap(island, settings, scratch);
-    }
-    return scratch.triads.load(island)
-               ? solve_triads(island, settings, scratch)
-               : iterate(settings, RowSteps(island, settings.max_work, scratch));
+    const auto solve = [&] {
+        if (island.is_heap) {
+            return solve_heap(island, settings, scratch);
+        }
+        return scratch.triads.load(island)
+                   ? solve_triads(island, settings, scratch)
+                   : iterate(settings, RowSteps(island, settings.max_work, scratch));
+    };
+    const NewtonResult result = solve();
+    drop_negligible(island);
+    return result;
 }
 
 }  // namespace handhold

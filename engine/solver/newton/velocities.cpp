@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "engine/math/flush_denormals.hpp"
+#include "engine/solver/model/negligible.hpp"
 #include "engine/solver/newton/triad_velocities.hpp"
 #include "engine/solver/newton/velocity_energy.hpp"
 
@@ -356,11 +357,8 @@ class SweepMethod {
     bool is_heap_;
 };
 
-}  // namespace
-
-VelocityResult solve_velocities(const IslandView& island, const VelocitySettings& settings,
-                                SolveScratch& scratch) {
-    const FlushDenormals flush;
+VelocityResult solve_island(const IslandView& island, const VelocitySettings& settings,
+                            SolveScratch& scratch) {
     if (scratch.triads.resume(island) || scratch.triads.load(island, settings.touch_m)) {
         solve_triad_velocities(island, settings, scratch.triads);
         return {};
@@ -389,6 +387,16 @@ VelocityResult solve_velocities(const IslandView& island, const VelocitySettings
     apply_impulses(island, scratch.lambda, scratch);
     return {.unconverged = !island.is_heap,
             .out_of_work = island.is_heap && sweeps.is_out_of_work()};
+}
+
+}  // namespace
+
+VelocityResult solve_velocities(const IslandView& island, const VelocitySettings& settings,
+                                SolveScratch& scratch) {
+    const FlushDenormals flush;
+    const VelocityResult result = solve_island(island, settings, scratch);
+    drop_negligible(island);
+    return result;
 }
 
 }  // namespace handhold

@@ -5,6 +5,7 @@
 #include "engine/math/processor.hpp"
 #include "engine/solver/packed/triad_bodies.hpp"
 #include "engine/solver/packed/triad_factor.hpp"
+#include "engine/solver/packed/triad_strand_factor.hpp"
 #include "engine/solver/packed/triad_strands.hpp"
 
 namespace handhold {

@@ -139,6 +139,7 @@ class TriadSystem {
         std::uint32_t place = k_no_slot;
     };
 
+    static double sign_of(std::uint32_t end) { return end % 2 == 0 ? 1.0 : -1.0; }
     void read_bodies(const IslandView& island);
     void pack_bodies(const IslandView& island);
     void pack_velocities(const IslandView& island);

@@ -1,4 +1,5 @@
 # An overlay port of this source tree: vcpkg install handhold --overlay-ports=packaging/vcpkg
+# Box2D 2.4 is needed: pin it in your manifest, "overrides": [ { "name": "box2d", "version": "2.4.1" } ].
 get_filename_component(SOURCE_PATH "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
 
 vcpkg_cmake_configure(SOURCE_PATH "${SOURCE_PATH}"

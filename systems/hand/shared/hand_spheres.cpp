@@ -13,11 +13,11 @@ namespace {
 constexpr double k_spacing_m = 0.012;    // largest distance between spheres of one link
 constexpr int k_max_pieces = 6;          // per link
 constexpr double k_extra_gap_m = 0.004;  // links farther away need no extra sphere
-constexpr double k_max_inside_m = 0.03;  // deepest centre inside a solid that is found
+constexpr double k_max_depth_inside_m = 0.03;  // deepest centre inside a solid that is found
 
 double query_radius_m(const HandSphere& sphere) {
     const double reach_m = sphere.is_thumb_tip ? k_thumb_tip_reach_m : k_sphere_reach_m;
-    return std::max(sphere.radius_m + reach_m, k_max_inside_m);
+    return std::max(sphere.radius_m + reach_m, k_max_depth_inside_m);
 }
 
 std::size_t group_of(const HandSphere& sphere) {
@@ -228,7 +228,7 @@ void HandSpheres::query_sphere(HandSphere& sphere, const Vec3& center,
         const Vec3 outward =
             placed.pose.rotation *
             Vec3((m == 0 ? winding_ : 1.0) * placed.mesh->contact.normals[near->triangle]);
-        const bool is_below = near->distance_m < k_max_inside_m &&
+        const bool is_below = near->distance_m < k_max_depth_inside_m &&
                               outward.dot(offset) < -k_min_inside_ratio * near->distance_m;
         double side = is_below ? -1.0 : 1.0;
         if (m == 0) {

@@ -64,7 +64,7 @@ SightLines sight_lines(const GrabSearch& io, Entity hand, const Vec3& palm_ws,
     const Vec3 head_ws = head_center_ws(io, io.owner.at(hand).player, tuning);
     const bool is_known =
         sight.is_known && (is_null(sight.frame) || io.body_pose.contains(sight.frame));
-    return {io.collision, skips.view(),
+    return {io.surfaces, skips.view(),
             is_known ? transform_point(sight_frame_ws(io, sight.frame), sight.outside_bs) : palm_ws,
             head_ws};
 }
@@ -89,10 +89,10 @@ class SurfaceFinder {
 
     // nullopt: nothing in reach, or only what refuses the hand: see refused_by.
     std::optional<GrabTarget> find(double reach_m) {
-        while (offer(io_.collision.cast_ray(ray_.from_ws, ray_.to_ws, skipped_.view()))) {
+        while (offer(io_.surfaces.cast_ray(ray_.from_ws, ray_.to_ws, skipped_.view()))) {
         }
         while (!is_done() && !skipped_.is_full() &&
-               offer(io_.collision.closest_point(ray_.palm_ws, reach_m, skipped_.view()))) {
+               offer(io_.surfaces.closest_point(ray_.palm_ws, reach_m, skipped_.view()))) {
         }
         return best_;
     }
@@ -110,7 +110,7 @@ class SurfaceFinder {
     bool is_done() const { return best_.has_value() && !continues_; }
 
     bool is_hidden(std::uint64_t id, const Vec3& point_ws) const {
-        const auto hit = io_.collision.cast_ray(ray_.palm_ws, point_ws, refusing_.view());
+        const auto hit = io_.surfaces.cast_ray(ray_.palm_ws, point_ws, refusing_.view());
         return hit && hit->id != id;
     }
 
@@ -214,7 +214,7 @@ bool is_blocked(const GrabSearch& io, Entity player, const Vec3& from_ws, const 
         return false;
     }
     const std::array own_head = {io.persistent_id.at(player).value};
-    const auto hit = io.collision.cast_ray(from_ws, to_ws, own_head);
+    const auto hit = io.surfaces.cast_ray(from_ws, to_ws, own_head);
     return hit && hit->id != body_id;
 }
 

@@ -10,7 +10,7 @@
 #include "components/stats.hpp"
 #include "components/tracking.hpp"
 #include "components/tuning.hpp"
-#include "engine/collision/collision_world.hpp"
+#include "engine/collision/surface_query.hpp"
 #include "engine/ecs/column.hpp"
 #include "systems/locomotion/shared/grab_rules.hpp"
 
@@ -19,7 +19,7 @@ namespace handhold {
 
 // Also UpdateGrabsIo. The functions below write `sight` only.
 struct GrabSearch {
-    const CollisionWorld& collision;              // in: colliders at the start of the frame
+    SurfaceQuery surfaces;                        // in: at the start of the frame
     const Column<PersistentId>& persistent_id;    // in
     const Column<HandOwner>& owner;               // in
     const Column<HandTracking>& hand;             // in: edges

@@ -15,7 +15,7 @@ SightLines::Sight sight_between(const SightLines& lines, const Vec3& from_ws, co
         return SightLines::Sight::clear_beyond;
     }
     const auto hit =
-        lines.collision.cast_ray(from_ws, to_ws + (k_beyond_m / length_m) * line, lines.skip);
+        lines.surfaces.cast_ray(from_ws, to_ws + (k_beyond_m / length_m) * line, lines.skip);
     if (!hit) {
         return SightLines::Sight::clear_beyond;
     }
@@ -33,13 +33,13 @@ SightLines::Sight SightLines::sight_of_palm(const Vec3& palm_ws) const {
 // too: a hand that slid along inside a wall grips the wall where it is.
 std::optional<RayHit> SightLines::entry_from(const Vec3& from_ws, const Vec3& palm_ws) const {
     constexpr double k_above_m = 0.01;
-    const auto first = collision.cast_ray(from_ws, palm_ws, skip);
+    const auto first = surfaces.cast_ray(from_ws, palm_ws, skip);
     if (!first) {
         return std::nullopt;
     }
     const double depth_m = (first->point_ws - palm_ws).dot(first->normal_ws);
     const Vec3 above_ws = palm_ws + (depth_m + k_above_m) * first->normal_ws;
-    const auto straight = collision.cast_ray(above_ws, palm_ws, skip);
+    const auto straight = surfaces.cast_ray(above_ws, palm_ws, skip);
     return straight && is_free(from_ws, above_ws) ? straight : first;
 }
 
@@ -54,13 +54,13 @@ std::optional<RayHit> SightLines::entry(const Vec3& palm_ws) const {
 }
 
 bool SightLines::is_free(const Vec3& from_ws, const Vec3& to_ws) const {
-    return !collision.cast_ray(from_ws, to_ws, skip);
+    return !surfaces.cast_ray(from_ws, to_ws, skip);
 }
 
 bool SightLines::sees(const Vec3& from_ws, const Vec3& point_ws, std::uint64_t body_id,
                       Needs needs) const {
     constexpr double k_there_m = 0.01;
-    const auto hit = collision.cast_ray(from_ws, point_ws, skip);
+    const auto hit = surfaces.cast_ray(from_ws, point_ws, skip);
     return !hit || (hit->point_ws - point_ws).norm() <= k_there_m ||
            (needs == Needs::any_point && hit->id == body_id);
 }
@@ -74,10 +74,10 @@ bool SightLines::can_go_round(const Vec3& from_ws, const Vec3& palm_ws,
     if (line.norm() < k_same_m) {
         return false;
     }
-    const auto obstacle = collision.cast_ray(from_ws, palm_ws, skip);
+    const auto obstacle = surfaces.cast_ray(from_ws, palm_ws, skip);
     const bool may_touch = !obstacle || obstacle->id != body_id;
     const auto reaches_palm = [&](const Vec3& beside_ws) {
-        const auto hit = collision.cast_ray(beside_ws, palm_ws, skip);
+        const auto hit = surfaces.cast_ray(beside_ws, palm_ws, skip);
         return !hit || (may_touch && hit->id == body_id);
     };
     const Vec3 side = k_width_m * line.unitOrthogonal();

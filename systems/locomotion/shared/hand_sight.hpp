@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "engine/collision/collision_world.hpp"
+#include "engine/collision/surface_query.hpp"
 #include "engine/math/math.hpp"
 
 namespace handhold {
@@ -12,7 +12,7 @@ namespace handhold {
 // What a hand can get at without crossing a wall. `outside_ws` is where the palm was last known to
 // be outside of walls; the head always is. Bodies in `skip` are no obstacles.
 struct SightLines {
-    const CollisionWorld& collision;
+    SurfaceQuery surfaces;
     std::span<const std::uint64_t> skip;
     Vec3 outside_ws;
     Vec3 head_ws;

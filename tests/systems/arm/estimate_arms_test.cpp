@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "systems/arm/pose_arms.hpp"
-#include "systems/arm/shared/estimate_elbow.hpp"
+#include "systems/arm/shared/elbow_direction.hpp"
 #include "systems/arm/shared/level_direction.hpp"
 #include "tests/systems/frame/column_scene.hpp"
 

@@ -51,8 +51,18 @@ struct Body {
             Vec3(0.0, floor_m + eyes_m - k_eyes_to_chest_m * scale(), 0.0), chest};
         velocity.at(k_player).linear_mps = velocity_mps;
         t_s += dt_s;
-        propagate_spine({dt_s, t_s, origin, velocity, reference, measures, estimate, memory, pose,
-                         nullptr, &head, nullptr},
+        propagate_spine({dt_s,
+                         t_s,
+                         origin,
+                         velocity,
+                         reference,
+                         measures,
+                         estimate,
+                         memory,
+                         pose,
+                         {},
+                         &head,
+                         nullptr},
                         {});
         return pose.at(k_player);
     }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/anim/deflect_outward.hpp"
+#include "engine/collision/collision_world.hpp"
 #include "systems/body/propagate_spine.hpp"
 #include "tests/random.hpp"
 #include "tests/systems/frame/column_scene.hpp"
@@ -60,7 +61,7 @@ struct Body {
         velocity.at(k_player).linear_mps = velocity_mps;
         t_s += dt_s;
         propagate_spine({dt_s, t_s, origin, velocity, reference, measures, estimate, memory, pose,
-                         collision ? &*collision : nullptr, &head, &id},
+                         collision ? SurfaceQuery(*collision) : SurfaceQuery(), &head, &id},
                         {});
         return pose.at(k_player);
     }

@@ -17,8 +17,7 @@ constexpr Entity k_left = entity(1);
 constexpr Entity k_right = entity(2);
 
 struct Publishing {
-    FrameGraph frame;
-    Column<PersistentId> persistent_id;
+    std::vector<PushBack> push_backs;
     Column<PlayerOrigin> origin;
     Column<HeadTracking> head;
     Column<HandOwner> owner;
@@ -33,7 +32,6 @@ struct Publishing {
     explicit Publishing(std::uint64_t seed,
                         std::initializer_list<Entity> hands = {k_left, k_right}) {
         Random random(seed);
-        persistent_id.add(k_player, {7});
         origin.add(k_player, {random.pose()});
         head.add(k_player);
         head.at(k_player).pose_ps = random.pose(1.0);
@@ -49,9 +47,9 @@ struct Publishing {
         hand.at(k_right).pose_ps = random.pose(1.0);
     }
     const RenderPose& run() {
-        publish_pose({frame, persistent_id, origin, head, owner, hand, grab, palm, fingers,
-                      authored_hold, render},
-                     tuning);
+        publish_pose(
+            {push_backs, origin, head, owner, hand, grab, palm, fingers, authored_hold, render},
+            tuning);
         return render.at(k_player);
     }
     const Pose& origin_ws() const { return origin.at(k_player).pose_ws; }
@@ -104,12 +102,7 @@ RC_GTEST_PROP(PublishPose, RayRunsThroughThePalmAlongItsInwardNormal, (std::uint
 TEST(PublishPose, PushBackBelongsToThePlayerAndIsZeroWithoutAnEntry) {
     Publishing scene(4);
     EXPECT_EQ(scene.run().push_back_m, 0.0);
-    scene.frame.graph.bodies.resize(2);
-    scene.frame.graph.bodies[0].id = 3;
-    scene.frame.graph.bodies[1].id = 7;
-    scene.frame.phase.resize(2);
-    scene.frame.phase[0].push_back_m = 9.0;
-    scene.frame.phase[1].push_back_m = 0.25;
+    scene.push_backs = {{entity(9), 9.0}, {k_player, 0.25}};
     EXPECT_EQ(scene.run().push_back_m, 0.25);
 }
 

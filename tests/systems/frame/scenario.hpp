@@ -55,7 +55,10 @@ class Scenario {
     PlayerEntities player;
     double hz = 90.0;
     double sample_hz = 90.0;  // of the devices
-    bool fits_hands = true;   // false: hands are shown as tracked, which is several times as fast
+    // What runs a frame; hosts with physics of their own replace it.
+    std::function<void(World&, FrameCaches&, const Tuning&, const FrameInput&, StageStats&)> frame =
+        &step_frame;
+    bool fits_hands = true;  // false: hands are shown as tracked, which is several times as fast
 
     // Applied to everything added, for moved and rotated worlds.
     Pose frame_ws;
@@ -139,7 +142,7 @@ class Scenario {
             ++next_sample_;
         }
     }
-    void take_step() { step_frame(world, *caches_, tuning, {1.0 / hz, inputs_}, stats); }
+    void take_step() { frame(world, *caches_, tuning, {1.0 / hz, inputs_}, stats); }
     void run(
         double seconds, const std::function<void()>& after_frame = [] {}) {
         const auto frames = static_cast<int>(std::lround(seconds * hz));

@@ -19,7 +19,7 @@ struct OneHand {
     ShapeId box = shapes.add_box(Vec3(0.5, 0.5, 0.5));
     std::array<HandRig, k_hand_count> rigs = {builtin_hand_rig(HandSide::left),
                                               builtin_hand_rig(HandSide::right)};
-    FrameGraph frame;
+    std::vector<Entity> bodies;
     Column<PersistentId> persistent_id;
     Column<HandOwner> owner;
     Column<HandTracking> hand;
@@ -47,7 +47,7 @@ struct OneHand {
     }
 
     const HandSurroundings& gather(const GripMeshLibrary* meshes) {
-        gather_surroundings({meshes, rigs, frame, persistent_id, owner, hand, grab, origin, head,
+        gather_surroundings({meshes, rigs, bodies, persistent_id, owner, hand, grab, origin, head,
                              body_pose, collider, authored_hold, surroundings},
                             stats);
         return surroundings.front();

@@ -243,5 +243,30 @@ TEST(HostOrders, HandGripsAndReleasesWhenToldTo) {
     EXPECT_EQ(scene.log, "grab right;release right by_host;");
 }
 
+// Nothing was stepped in between: the search must not see what the last step saw.
+TEST(HostFindGrip, SeesWhatCameAndWentSinceTheLastStep) {
+    HostScene scene;
+    hh_body_def def = hh::body_def();
+    def.shape = *scene.world.add_box({2.0, 2.0, 0.1});
+    def.pose.position = {0.0, 1.5, -0.6};
+    const hh::Body near = *scene.world.add(def);
+    scene.step(3);
+    const auto find = [&] {
+        hh_surface_hit hit{};
+        EXPECT_EQ(hh_hand_find_grip(scene.world.get(), scene.player, HH_RIGHT, &hit), HH_OK);
+        return hit;
+    };
+    EXPECT_EQ(find().body, near);
+    ASSERT_EQ(hh_body_remove(scene.world.get(), near), HH_OK);
+    ASSERT_EQ(hh_shape_remove(scene.world.get(), def.shape), HH_OK);
+    EXPECT_EQ(find().body.generation, 0U);
+    def.shape = *scene.world.add_box({1.0, 1.0, 0.1});
+    const hh::Body again = *scene.world.add(def);
+    EXPECT_EQ(find().body, again);
+    def.pose.position.z = -5.0;
+    ASSERT_EQ(hh_body_teleport(scene.world.get(), again, def.pose), HH_OK);
+    EXPECT_EQ(find().body.generation, 0U);
+}
+
 }  // namespace
 }  // namespace handhold::host_rules_test

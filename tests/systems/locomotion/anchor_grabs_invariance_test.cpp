@@ -9,7 +9,7 @@
 
 #include "tests/systems/locomotion/anchoring.hpp"
 
-namespace handhold::settle_grabs_test {
+namespace handhold::anchor_grabs_test {
 namespace {
 
 using test::distance;
@@ -27,7 +27,7 @@ constexpr HandState k_hand_states[] = {{GripKind::none, GrabPhase::none, GrabEdg
                                        {GripKind::held, GrabPhase::holding, GrabEdge::none},
                                        {GripKind::held, GrabPhase::releasing, GrabEdge::release}};
 
-void set_state(Settling& scene, Entity hand, const HandState& state, double edge_at) {
+void set_state(Anchoring& scene, Entity hand, const HandState& state, double edge_at) {
     scene.set_grip(hand, state.kind, state.phase, state.kind == GripKind::held ? k_ship : k_wall,
                    scene.grab.at(hand).anchor_bs);
     scene.set_edge(hand, state.edge, edge_at);
@@ -36,18 +36,18 @@ void set_state(Settling& scene, Entity hand, const HandState& state, double edge
 // All pairs of hand states, because a hand-over within one frame must not depend on the order of
 // hands. Poses at button edges lie beside the straight path, as with real samples. Both edges may
 // have the same time.
-RC_GTEST_PROP(SettleGrabs, OrderOfHandsDoesNotMatterInAnyPairOfStates, (std::uint64_t seed)) {
+RC_GTEST_PROP(AnchorGrabs, OrderOfHandsDoesNotMatterInAnyPairOfStates, (std::uint64_t seed)) {
     for (const HandState& left : k_hand_states) {
         for (const HandState& right : k_hand_states) {
             Random random(seed);
-            Settling forth = random_settling(random);
+            Anchoring forth = random_anchoring(random);
             const double left_at = random.between(0.0, 1.0);
             const bool at_once = random.between(0.0, 1.0) < 0.5;
             const double right_at = at_once ? left_at : random.between(0.0, 1.0);
             const Vec3 bend = random.vector(0.01);
             Random again(seed);
-            Settling back = random_settling(again, {k_right, k_left});
-            for (Settling* const scene : {&forth, &back}) {
+            Anchoring back = random_anchoring(again, {k_right, k_left});
+            for (Anchoring* const scene : {&forth, &back}) {
                 set_state(*scene, k_left, left, left_at);
                 set_state(*scene, k_right, right, right_at);
                 scene->hand.at(k_left).edge_ps.position += bend;
@@ -76,7 +76,7 @@ RC_GTEST_PROP(SettleGrabs, OrderOfHandsDoesNotMatterInAnyPairOfStates, (std::uin
 
 // Two players with hands in random states, on a wall and on a ship that is free or attached to a
 // hinge. The order of hands must not matter.
-RC_GTEST_PROP(SettleGrabs, OrderOfTwoPlayersHandsDoesNotMatter, (std::uint64_t seed)) {
+RC_GTEST_PROP(AnchorGrabs, OrderOfTwoPlayersHandsDoesNotMatter, (std::uint64_t seed)) {
     constexpr Entity k_other_player = test::entity(20);
     constexpr Entity k_other_left = test::entity(21);
     constexpr Entity k_other_right = test::entity(22);
@@ -89,7 +89,7 @@ RC_GTEST_PROP(SettleGrabs, OrderOfTwoPlayersHandsDoesNotMatter, (std::uint64_t s
                                     {k_other_left, k_other_player},
                                     {k_other_right, k_other_player}}};
     Random random(seed);
-    const Settling poses = random_settling(random);
+    const Anchoring poses = random_anchoring(random);
     const Pose other_from = random.pose();
     const Vec3 other_way = random.vector(0.05);
     const bool jointed = random.between(0.0, 1.0) < 0.5;
@@ -105,8 +105,8 @@ RC_GTEST_PROP(SettleGrabs, OrderOfTwoPlayersHandsDoesNotMatter, (std::uint64_t s
         ways[i] = random.vector(0.05);
         resumed[i] = random.between(0.0, 1.0) < 0.15;
     }
-    const auto settled = [&](std::span<const std::size_t> order) {
-        Settling scene({});
+    const auto anchored = [&](std::span<const std::size_t> order) {
+        Anchoring scene({});
         scene.move_player(poses.player_start.at(k_player).pose_ws,
                           poses.origin.at(k_player).pose_ws);
         scene.player_start.add(k_other_player, {other_from});
@@ -140,8 +140,8 @@ RC_GTEST_PROP(SettleGrabs, OrderOfTwoPlayersHandsDoesNotMatter, (std::uint64_t s
     std::array<std::size_t, 4> back_order = {3, 2, 1, 0};
     const auto turns = static_cast<std::ptrdiff_t>(random.between(0.0, 3.999));
     std::rotate(back_order.begin(), back_order.begin() + turns, back_order.end());
-    const Settling forth = settled(forth_order);
-    const Settling back = settled(back_order);
+    const Anchoring forth = anchored(forth_order);
+    const Anchoring back = anchored(back_order);
     for (const Listed& listed : hands) {
         const Grab& one = forth.grab.at(listed.hand);
         const Grab& other = back.grab.at(listed.hand);
@@ -154,12 +154,12 @@ RC_GTEST_PROP(SettleGrabs, OrderOfTwoPlayersHandsDoesNotMatter, (std::uint64_t s
     RC_ASSERT(forth.stats.fallbacks == back.stats.fallbacks);
 }
 
-RC_GTEST_PROP(SettleGrabs, MovedAndRotatedWorldGivesTheSameAnchors, (std::uint64_t seed)) {
+RC_GTEST_PROP(AnchorGrabs, MovedAndRotatedWorldGivesTheSameAnchors, (std::uint64_t seed)) {
     Random random(seed);
-    Settling here = random_settling(random);
+    Anchoring here = random_anchoring(random);
     set_state(here, k_left, k_hand_states[2], 0.0);
     set_state(here, k_right, k_hand_states[1], random.between(0.0, 1.0));
-    Settling there = here;
+    Anchoring there = here;
     const Pose moved = random.pose(1e3);
     there.move_player(moved * here.player_start.at(k_player).pose_ws,
                       moved * here.origin.at(k_player).pose_ws);
@@ -174,4 +174,4 @@ RC_GTEST_PROP(SettleGrabs, MovedAndRotatedWorldGivesTheSameAnchors, (std::uint64
 }
 
 }  // namespace
-}  // namespace handhold::settle_grabs_test
+}  // namespace handhold::anchor_grabs_test

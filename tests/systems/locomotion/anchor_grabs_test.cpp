@@ -5,7 +5,7 @@
 
 #include "tests/systems/locomotion/anchoring.hpp"
 
-namespace handhold::settle_grabs_test {
+namespace handhold::anchor_grabs_test {
 namespace {
 
 using test::count_of;
@@ -16,8 +16,8 @@ using test::pose_at;
 // --- Fresh grips ---------------------------------------------------------------------------------
 
 // Half way through the frame, body, origin and hand are at the means of their start and end.
-TEST(SettleGrabs, AnchorIsTheHandInTheBodyAtTheInstantOfTheEdge) {
-    Settling scene;
+TEST(AnchorGrabs, AnchorIsTheHandInTheBodyAtTheInstantOfTheEdge) {
+    Anchoring scene;
     scene.move_player(pose_at(Vec3(1.0, 0.0, 0.0)), pose_at(Vec3(1.2, 0.0, 0.0)));
     scene.move_body(k_ship, pose_at(Vec3(0.0, 5.0, 0.0)), pose_at(Vec3(0.0, 5.4, 0.0)));
     scene.move_hand(k_right, pose_at(Vec3(0.0, 0.0, -1.0)), pose_at(Vec3(0.0, 0.0, -1.2)));
@@ -30,9 +30,9 @@ TEST(SettleGrabs, AnchorIsTheHandInTheBodyAtTheInstantOfTheEdge) {
     EXPECT_EQ(count_of_all(scene.stats), 0U);
 }
 
-RC_GTEST_PROP(SettleGrabs, NewGripHasNoErrorAtItsInstant, (std::uint64_t seed)) {
+RC_GTEST_PROP(AnchorGrabs, NewGripHasNoErrorAtItsInstant, (std::uint64_t seed)) {
     Random random(seed);
-    Settling scene = random_settling(random);
+    Anchoring scene = random_anchoring(random);
     const double t = random.between(0.0, 1.0);
     scene.set_edge(k_left, GrabEdge::onset, t);
     scene.set_grip(k_left, GripKind::held, GrabPhase::fresh, k_ship);
@@ -47,8 +47,8 @@ RC_GTEST_PROP(SettleGrabs, NewGripHasNoErrorAtItsInstant, (std::uint64_t seed)) 
 
 // The right hand holds the wall, so the player is where that hand puts them, not where they were
 // predicted.
-TEST(SettleGrabs, SecondHandsAnchorGoesByTheHandThatAlreadyHolds) {
-    Settling scene;
+TEST(AnchorGrabs, SecondHandsAnchorGoesByTheHandThatAlreadyHolds) {
+    Anchoring scene;
     scene.move_player(pose_at(Vec3::Zero()), pose_at(Vec3(9.0, 9.0, 9.0)));
     scene.move_hand(k_right, pose_at(Vec3(0.3, 1.0, 0.0)), pose_at(Vec3(0.3, 1.0, 0.2)));
     scene.set_grip(k_right, GripKind::surface, GrabPhase::holding, k_wall,
@@ -62,9 +62,9 @@ TEST(SettleGrabs, SecondHandsAnchorGoesByTheHandThatAlreadyHolds) {
 }
 
 // A holding hand that does not move straight: its samples give the path in between.
-TEST(SettleGrabs, SecondHandsAnchorGoesByTheHoldersWayThroughItsSamples) {
+TEST(AnchorGrabs, SecondHandsAnchorGoesByTheHoldersWayThroughItsSamples) {
     for (const double sampled_at : {0.25, 0.5, 0.75}) {
-        Settling scene;
+        Anchoring scene;
         scene.move_hand(k_right, pose_at(Vec3(0.3, 1.0, 0.0)), pose_at(Vec3(0.3, 1.0, 0.2)));
         HandHistory& history = scene.hand_history.at(k_right);
         const double sample_s = k_start_s + sampled_at * k_dt_s;
@@ -86,8 +86,8 @@ TEST(SettleGrabs, SecondHandsAnchorGoesByTheHoldersWayThroughItsSamples) {
     }
 }
 
-TEST(SettleGrabs, GripsKeepTheirAnchorWhileNothingHappens) {
-    Settling scene;
+TEST(AnchorGrabs, GripsKeepTheirAnchorWhileNothingHappens) {
+    Anchoring scene;
     const Pose anchor = pose_at(Vec3(0.1, 0.2, 0.3));
     scene.set_grip(k_right, GripKind::surface, GrabPhase::holding, k_wall, anchor);
     scene.move_hand(k_right, pose_at(Vec3(1.0, 0.0, 0.0)), pose_at(Vec3(1.02, 0.0, 0.0)));
@@ -98,8 +98,8 @@ TEST(SettleGrabs, GripsKeepTheirAnchorWhileNothingHappens) {
     EXPECT_EQ(count_of_all(scene.stats), 0U);
 }
 
-TEST(SettleGrabs, HandsThatHoldNothingAreLeftAlone) {
-    Settling scene;
+TEST(AnchorGrabs, HandsThatHoldNothingAreLeftAlone) {
+    Anchoring scene;
     scene.set_edge(k_right, GrabEdge::release, 0.5);
     scene.run();
     EXPECT_EQ(scene.grab.at(k_right).kind, GripKind::none);
@@ -108,8 +108,8 @@ TEST(SettleGrabs, HandsThatHoldNothingAreLeftAlone) {
 
 // --- Targets -------------------------------------------------------------------------------------
 
-TEST(SettleGrabs, HoldingHandAimsAtItsTrackedPoseWithItsMeanVelocity) {
-    Settling scene;
+TEST(AnchorGrabs, HoldingHandAimsAtItsTrackedPoseWithItsMeanVelocity) {
+    Anchoring scene;
     const Pose from = pose_at(Vec3(1.0, 0.0, 0.0));
     const Pose to{Vec3(1.02, 0.0, -0.01), rotation_about(Vec3::UnitY(), 0.03)};
     scene.move_hand(k_right, from, to);
@@ -122,8 +122,8 @@ TEST(SettleGrabs, HoldingHandAimsAtItsTrackedPoseWithItsMeanVelocity) {
 }
 
 // For the remaining 0.4 of the frame the hand moves on with the velocity of its release.
-TEST(SettleGrabs, OpeningHandCarriesOnWithItsReleaseVelocity) {
-    Settling scene;
+TEST(AnchorGrabs, OpeningHandCarriesOnWithItsReleaseVelocity) {
+    Anchoring scene;
     HandTracking& hand = scene.hand.at(k_right);
     hand.release_velocity_ps_mps = Vec3(1.0, 2.0, 3.0);
     hand.release_spin_ps_radps = Vec3(0.0, 5.0, 0.0);
@@ -143,9 +143,9 @@ TEST(SettleGrabs, OpeningHandCarriesOnWithItsReleaseVelocity) {
 
 // The hands disagree by 2 cm along x about the player's position; together they put the player in
 // the middle.
-TEST(SettleGrabs, HandThatLeavesTwoOnWallsIsGoneAtOnceAndTheOtherStaysWhereItIs) {
+TEST(AnchorGrabs, HandThatLeavesTwoOnWallsIsGoneAtOnceAndTheOtherStaysWhereItIs) {
     for (const Entity leaving : {k_left, k_right}) {
-        Settling scene;
+        Anchoring scene;
         const Entity staying = other_of(leaving);
         scene.move_hand(leaving, pose_at(Vec3(0.3, 1.0, 0.0)), pose_at(Vec3(0.3, 1.0, 0.0)));
         scene.move_hand(staying, pose_at(Vec3(-0.3, 1.0, 0.0)), pose_at(Vec3(-0.3, 1.0, 0.0)));
@@ -166,9 +166,9 @@ TEST(SettleGrabs, HandThatLeavesTwoOnWallsIsGoneAtOnceAndTheOtherStaysWhereItIs)
 
 // The leaving hand opened while it was not tracked, 20 cm from its anchor. The player stays where
 // both hands put them.
-TEST(SettleGrabs, HandThatOpenedUnseenLeavesThePlayerWhereHeIs) {
+TEST(AnchorGrabs, HandThatOpenedUnseenLeavesThePlayerWhereHeIs) {
     for (const Entity leaving : {k_left, k_right}) {
-        Settling scene;
+        Anchoring scene;
         const Entity staying = other_of(leaving);
         for (const Entity hand : {leaving, staying}) {
             scene.move_hand(hand, pose_at(Vec3(0.3, 1.0, 0.0)), pose_at(Vec3(0.3, 1.1, 0.0)));
@@ -186,8 +186,8 @@ TEST(SettleGrabs, HandThatOpenedUnseenLeavesThePlayerWhereHeIs) {
     }
 }
 
-TEST(SettleGrabs, HandThatLeavesABodyHeldByBothIsGoneAtOnce) {
-    Settling scene;
+TEST(AnchorGrabs, HandThatLeavesABodyHeldByBothIsGoneAtOnce) {
+    Anchoring scene;
     scene.move_hand(k_left, pose_at(Vec3(-0.2, 1.0, 0.0)), pose_at(Vec3(-0.2, 1.0, 0.0)));
     scene.set_grip(k_left, GripKind::held, GrabPhase::holding, k_ship,
                    pose_at(Vec3(7.0, 7.0, 7.0)));
@@ -199,181 +199,8 @@ TEST(SettleGrabs, HandThatLeavesABodyHeldByBothIsGoneAtOnce) {
     EXPECT_LT((scene.grab.at(k_left).anchor_bs.position - Vec3(-0.2, 1.0, 0.0)).norm(), 1e-12);
 }
 
-// Hands 40 cm apart on one body, both on their anchors at the frame's start.
-Settling held_by_both(bool two_handed) {
-    Settling scene;
-    for (const Entity hand : {k_left, k_right}) {
-        const Pose pose = pose_at(Vec3(hand == k_left ? -0.2 : 0.2, 1.0, 0.0));
-        scene.move_hand(hand, pose, pose);
-        scene.set_grip(hand, GripKind::held, GrabPhase::holding, k_ship, pose);
-        scene.grab.at(hand).since_s = hand == k_left ? 0.5 : 1.0;
-        scene.grab.at(hand).two_handed = two_handed;
-    }
-    return scene;
-}
-
-TEST(SettleGrabs, TwoHandsLeadABodyTogetherWhereTheyAreApart) {
-    for (const bool before : {false, true}) {
-        for (const double apart_m : {0.03, 0.045, 0.06}) {
-            Settling scene = held_by_both(before);
-            const Pose near = pose_at(Vec3(-0.2 + apart_m, 1.0, 0.0));
-            scene.move_hand(k_right, near, near);
-            scene.run();
-            // Both hands together hold from 5 cm apart on, and until they are 4 cm apart.
-            const bool together = apart_m > (before ? 0.04 : 0.05);
-            EXPECT_EQ(scene.grab.at(k_left).two_handed, together);
-            EXPECT_EQ(scene.grab.at(k_right).two_handed, together);
-            EXPECT_EQ(count_of(scene.stats, Fallback::hands_too_close), together ? 0U : 1U);
-            // Hands that already held together keep their anchors, and the second slides. Otherwise
-            // the second is anchored where it is.
-            const double anchor_x = before && together ? 0.2 : -0.2 + apart_m;
-            EXPECT_NEAR(scene.grab.at(k_right).anchor_bs.position.x(), anchor_x, 1e-12);
-            EXPECT_NEAR(scene.grab.at(k_left).anchor_bs.position.x(), -0.2, 1e-12);
-        }
-    }
-}
-
-TEST(SettleGrabs, HandWhosePartnerIsGoneStartsAfreshWhereItWas) {
-    for (const Entity gone : {k_left, k_right}) {
-        Settling scene = held_by_both(true);
-        const Entity staying = other_of(gone);
-        scene.grab.at(gone) = {};  // stretched too far
-        scene.move_hand(staying, pose_at(Vec3(0.1, 1.2, 0.3)), pose_at(Vec3(0.1, 1.2, 0.4)));
-        scene.run();
-        EXPECT_FALSE(scene.grab.at(staying).two_handed);
-        EXPECT_LT((scene.grab.at(staying).anchor_bs.position - Vec3(0.1, 1.2, 0.3)).norm(), 1e-12);
-        EXPECT_EQ(count_of(scene.stats, Fallback::grip_reanchored), 1U);
-    }
-}
-
-TEST(SettleGrabs, HandsOnWhatHangsOnJointsDoNotLeadTogether) {
-    Settling scene = held_by_both(false);
-    for (const Entity hand : {k_left, k_right}) {
-        scene.grab.at(hand).jointed = true;
-    }
-    scene.run();
-    EXPECT_FALSE(scene.grab.at(k_left).two_handed);
-    EXPECT_EQ(count_of_all(scene.stats), 0U);
-}
-
-// The body follows the hand that holds it, not its predicted velocity. A second hand's anchor is
-// where the body is then.
-TEST(SettleGrabs, SecondHandsAnchorGoesByTheHandThatHoldsTheBody) {
-    Settling scene = held_by_both(false);
-    scene.move_hand(k_left, pose_at(Vec3(-0.2, 1.0, 0.0)), pose_at(Vec3(-0.2, 1.0, 0.2)));
-    scene.move_body(k_ship, {}, pose_at(Vec3(0.0, 0.0, 7.0)));
-    scene.grab.at(k_right).phase = GrabPhase::fresh;
-    scene.set_edge(k_right, GrabEdge::onset, 0.5);
-    scene.run();
-    EXPECT_LT((scene.grab.at(k_right).anchor_bs.position - Vec3(0.2, 1.0, -0.1)).norm(), 1e-12);
-}
-
-// --- Hands of two players ------------------------------------------------------------------------
-
-constexpr Entity k_guest = test::entity(7);
-constexpr Entity k_guest_hand = test::entity(8);
-
-// The first player's left hand holds the ship at its pose of the frame's start, and moves by 0.2 m
-// along z. By prediction alone the ship would fly off. A guest's hand closes on it.
-Settling joined_by_guest(double fraction, bool guest_is_listed_first) {
-    Settling scene({});
-    scene.player_start.add(k_guest);
-    scene.origin.add(k_guest);
-    if (guest_is_listed_first) {
-        scene.add_hand(k_guest, k_guest_hand, HandSide::right);
-        scene.add_hand(k_player, k_left, HandSide::left);
-    } else {
-        scene.add_hand(k_player, k_left, HandSide::left);
-        scene.add_hand(k_guest, k_guest_hand, HandSide::right);
-    }
-    scene.move_body(k_ship, {}, pose_at(Vec3(0.0, 0.0, 7.0)));
-    scene.move_hand(k_left, pose_at(Vec3(-0.2, 1.0, 0.0)), pose_at(Vec3(-0.2, 1.0, 0.2)));
-    scene.move_hand(k_guest_hand, pose_at(Vec3(0.2, 1.0, 0.0)), pose_at(Vec3(0.2, 1.0, 0.0)));
-    scene.set_grip(k_left, GripKind::held, GrabPhase::holding, k_ship,
-                   pose_at(Vec3(-0.2, 1.0, 0.0)));
-    scene.set_grip(k_guest_hand, GripKind::held, GrabPhase::fresh, k_ship);
-    scene.set_edge(k_guest_hand, GrabEdge::onset, fraction);
-    return scene;
-}
-Vec3 guest_anchor(Settling scene) {
-    scene.run();
-    return scene.grab.at(k_guest_hand).anchor_bs.position;
-}
-
-TEST(SettleGrabs, GuestsAnchorGoesByTheHandThatHoldsTheBodyWhoeverIsListedFirst) {
-    for (const bool first : {false, true}) {
-        EXPECT_LT((guest_anchor(joined_by_guest(0.5, first)) - Vec3(0.2, 1.0, -0.1)).norm(), 1e-12);
-        EXPECT_LT((guest_anchor(joined_by_guest(1.0, first)) - Vec3(0.2, 1.0, -0.2)).norm(), 1e-12);
-    }
-}
-
-// Both players' hands close in this frame. The first player's closes after a quarter of it, where
-// the ship is predicted to be; from then on the ship follows that hand. A hand that closes later
-// than the guest's, or at the same time, has no effect on the guest's anchor.
-TEST(SettleGrabs, WhoClosesFirstLeadsWhoeverIsListedFirst) {
-    for (const bool first : {false, true}) {
-        const auto closing_at = [&](double fraction) {
-            Settling scene = joined_by_guest(0.5, first);
-            scene.grab.at(k_left).phase = GrabPhase::fresh;
-            scene.set_edge(k_left, GrabEdge::onset, fraction);
-            return guest_anchor(scene);
-        };
-        const double ship_z = 0.25 * 7.0 + 0.25 * 0.2;
-        EXPECT_LT((closing_at(0.25) - Vec3(0.2, 1.0, -ship_z)).norm(), 1e-12);
-        EXPECT_LT((closing_at(0.5) - Vec3(0.2, 1.0, -3.5)).norm(), 1e-12);
-        EXPECT_LT((closing_at(0.75) - Vec3(0.2, 1.0, -3.5)).norm(), 1e-12);
-    }
-}
-
-// The first player climbs with the other hand: the body that they hold moves with the wall, not
-// with their predicted motion.
-TEST(SettleGrabs, GuestsAnchorGoesByTheWallThatTheHolderHoldsOnTo) {
-    Settling scene = joined_by_guest(0.5, false);
-    scene.add_hand(k_player, k_right, HandSide::right);
-    scene.set_grip(k_right, GripKind::surface, GrabPhase::holding, k_wall, pose_at(Vec3(0, 2, 0)));
-    scene.move_hand(k_right, pose_at(Vec3(0, 2, 0)), pose_at(Vec3(0.0, 2.3, 0.0)));  // moves down
-    scene.move_player({}, pose_at(Vec3(5.0, 0.0, 0.0)));
-    EXPECT_LT((guest_anchor(scene) - Vec3(0.2, 1.15, -0.1)).norm(), 1e-12);
-}
-
-// Two players hold the body already. Only the solver finds its motion, so the anchor is where
-// prediction puts it.
-TEST(SettleGrabs, BodyInTheHandsOfTwoOthersIsWherePredictionHasIt) {
-    constexpr Entity k_third = test::entity(9);
-    constexpr Entity k_third_hand = test::entity(10);
-    Settling scene = joined_by_guest(0.5, false);
-    scene.player_start.add(k_third);
-    scene.origin.add(k_third);
-    scene.add_hand(k_third, k_third_hand, HandSide::left);
-    scene.set_grip(k_third_hand, GripKind::held, GrabPhase::holding, k_ship);
-    EXPECT_LT((guest_anchor(scene) - Vec3(0.2, 1.0, -3.5)).norm(), 1e-12);
-}
-
-// A hand that grips a climber's head is anchored according to the climber's holding hand, too.
-TEST(SettleGrabs, AnchorOnAClimbersHeadGoesByTheWallThatHeHoldsOnTo) {
-    Settling scene = joined_by_guest(0.5, false);
-    scene.head.add(k_player);
-    scene.set_grip(k_left, GripKind::surface, GrabPhase::holding, k_wall,
-                   pose_at(Vec3(-0.2, 1.0, 0.0)));  // the climber moves back by 0.2 m
-    scene.move_player({}, pose_at(Vec3(5.0, 0.0, 0.0)));
-    scene.set_grip(k_guest_hand, GripKind::player, GrabPhase::fresh, k_player);
-    EXPECT_LT((guest_anchor(scene) - Vec3(0.2, 1.0, 0.1)).norm(), 1e-12);
-}
-
-TEST(SettleGrabs, HandsOnDifferentFreeBodiesLeaveEachOtherAlone) {
-    Settling scene;
-    const Pose anchor = pose_at(Vec3(0.1, 0.0, 0.0));
-    scene.set_grip(k_left, GripKind::held, GrabPhase::holding, k_wall, anchor);
-    scene.set_grip(k_right, GripKind::held, GrabPhase::releasing, k_ship);
-    scene.set_edge(k_right, GrabEdge::release, 0.5);
-    scene.run();
-    EXPECT_EQ(scene.grab.at(k_right).phase, GrabPhase::releasing);
-    EXPECT_EQ(scene.grab.at(k_left).anchor_bs.position, anchor.position);
-    EXPECT_EQ(count_of_all(scene.stats), 0U);
-}
-
-TEST(SettleGrabs, HandsThatOpenInOneFrameBothThrow) {
-    Settling scene;
+TEST(AnchorGrabs, HandsThatOpenInOneFrameBothThrow) {
+    Anchoring scene;
     for (const Entity hand : {k_left, k_right}) {
         scene.set_grip(hand, GripKind::surface, GrabPhase::releasing, k_wall);
         scene.set_edge(hand, GrabEdge::release, 0.5);
@@ -386,8 +213,8 @@ TEST(SettleGrabs, HandsThatOpenInOneFrameBothThrow) {
 
 // --- Tracking that comes back --------------------------------------------------------------------
 
-TEST(SettleGrabs, HandFoundAgainTakesItsAnchorWhereItIs) {
-    Settling scene;
+TEST(AnchorGrabs, HandFoundAgainTakesItsAnchorWhereItIs) {
+    Anchoring scene;
     scene.move_player(pose_at(Vec3(0.0, 0.0, 5.0)), pose_at(Vec3(0.0, 0.0, 5.0)));
     scene.move_hand(k_right, pose_at(Vec3(0.7, 1.0, 0.0)), pose_at(Vec3(0.7, 1.0, 0.0)));
     scene.hand.at(k_right).resumed = true;
@@ -400,8 +227,8 @@ TEST(SettleGrabs, HandFoundAgainTakesItsAnchorWhereItIs) {
 
 // Both controllers are tracked again in one frame, each somewhere else. Neither may pull the player
 // along.
-TEST(SettleGrabs, BothHandsFoundAgainAtOnceDoNotMoveThePlayer) {
-    Settling scene;
+TEST(AnchorGrabs, BothHandsFoundAgainAtOnceDoNotMoveThePlayer) {
+    Anchoring scene;
     const Vec3 found[2] = {Vec3(-0.9, 1.0, 0.0), Vec3(0.7, 1.4, 0.0)};
     for (const Entity hand : {k_left, k_right}) {
         const Pose pose = pose_at(found[hand == k_left ? 0 : 1]);
@@ -421,9 +248,9 @@ TEST(SettleGrabs, BothHandsFoundAgainAtOnceDoNotMoveThePlayer) {
 // --- Tracking errors -----------------------------------------------------------------------------
 
 // 0.5 m in 10 ms at 8 m/s at most: the grip slips by 0.42 m, so that the player moves 0.08 m.
-TEST(SettleGrabs, HandFasterThanAHandSlipsByTheRest) {
+TEST(AnchorGrabs, HandFasterThanAHandSlipsByTheRest) {
     for (const GripKind kind : {GripKind::surface, GripKind::held}) {
-        Settling scene;
+        Anchoring scene;
         scene.tuning.tracking.max_hand_speed_mps = 8.0;
         scene.tuning.hand.return_speed_mps = 0.0;
         scene.move_hand(k_right, pose_at(Vec3(0.3, 1.0, 0.0)), pose_at(Vec3(0.3, 1.5, 0.0)));
@@ -438,9 +265,9 @@ TEST(SettleGrabs, HandFasterThanAHandSlipsByTheRest) {
 }
 
 // A slip of 0.42 m at 2 m/s: 20 mm in a frame of 10 ms. A surface stays where it is.
-TEST(SettleGrabs, HeldBodyReturnsByItsSlip) {
+TEST(AnchorGrabs, HeldBodyReturnsByItsSlip) {
     for (const GripKind kind : {GripKind::surface, GripKind::held}) {
-        Settling scene;
+        Anchoring scene;
         scene.move_hand(k_right, pose_at(Vec3(0.3, 1.5, 0.0)), pose_at(Vec3(0.3, 1.5, 0.0)));
         scene.set_grip(k_right, kind, GrabPhase::holding, k_wall, pose_at(Vec3(0.3, 1.42, 0.0)));
         scene.grab.at(k_right).slip_hs.position = Vec3(0.0, -0.42, 0.0);
@@ -453,9 +280,9 @@ TEST(SettleGrabs, HeldBodyReturnsByItsSlip) {
 }
 
 // However often it slips: what the slip undoes is the first anchor.
-RC_GTEST_PROP(SettleGrabs, SlipKeepsTheFirstAnchor, (std::uint64_t seed)) {
+RC_GTEST_PROP(AnchorGrabs, SlipKeepsTheFirstAnchor, (std::uint64_t seed)) {
     Random random(seed);
-    Settling scene;
+    Anchoring scene;
     const Pose first = random.pose();
     scene.set_grip(k_right, GripKind::held, GrabPhase::holding, k_wall, first);
     for (int jump = 0; jump < 5; ++jump) {
@@ -469,4 +296,4 @@ RC_GTEST_PROP(SettleGrabs, SlipKeepsTheFirstAnchor, (std::uint64_t seed)) {
 }
 
 }  // namespace
-}  // namespace handhold::settle_grabs_test
+}  // namespace handhold::anchor_grabs_test

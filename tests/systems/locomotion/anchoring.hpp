@@ -5,7 +5,7 @@
 #include "systems/locomotion/anchor_grabs.hpp"
 #include "tests/systems/frame/column_scene.hpp"
 
-namespace handhold::settle_grabs_test {
+namespace handhold::anchor_grabs_test {
 
 using test::k_left;
 using test::k_player;
@@ -21,7 +21,7 @@ constexpr double k_dt_s = k_end_s - k_start_s;
 constexpr Entity other_of(Entity hand) { return hand == k_left ? k_right : k_left; }
 
 // One player, a wall at rest and a moving ship. Tests set the motion of hands.
-struct Settling {
+struct Anchoring {
     Column<HandOwner> owner;
     Column<HandTracking> hand;
     Column<PlayerStart> player_start;
@@ -38,7 +38,7 @@ struct Settling {
     Column<Grab> grab;
     StageStats stats;
 
-    explicit Settling(std::initializer_list<Entity> hands = {k_left, k_right}) {
+    explicit Anchoring(std::initializer_list<Entity> hands = {k_left, k_right}) {
         tuning.tracking.max_hand_speed_mps = 1e3;  // hands move as far as a test likes
         player_start.add(k_player);
         origin.add(k_player);
@@ -92,9 +92,9 @@ struct Settling {
 };
 
 // Everything moves; the player drifts along a line.
-inline Settling random_settling(Random& random,
-                                std::initializer_list<Entity> hands = {k_left, k_right}) {
-    Settling scene(hands);
+inline Anchoring random_anchoring(Random& random,
+                                  std::initializer_list<Entity> hands = {k_left, k_right}) {
+    Anchoring scene(hands);
     const Pose origin = random.pose();
     scene.move_player(origin, {origin.position + random.vector(0.05), origin.rotation});
     for (const Entity body : {k_wall, k_ship}) {
@@ -112,4 +112,4 @@ inline Settling random_settling(Random& random,
     return scene;
 }
 
-}  // namespace handhold::settle_grabs_test
+}  // namespace handhold::anchor_grabs_test

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/collision/collision_world.hpp"
 #include "tests/systems/frame/column_scene.hpp"
 
 namespace handhold::pull_bodies_test {

@@ -204,13 +204,13 @@ TEST(BuildConstraints, NothingOfTheLastFrameRemains) {
     scene.add_rock(550.0);
     scene.grip(k_right, GripKind::held, k_rock, random);
     scene.run();
-    scene.frame.phase[scene.index_of_body(k_player)].push_back_m = 3.0;
+    scene.frame.phase[scene.index_of_body(k_player)].work = 3;
     scene.grab.at(k_right) = {};
     scene.run();
     EXPECT_TRUE(scene.frame.graph.blocks.empty());
     EXPECT_TRUE(scene.frame.graph.islands.empty());
     EXPECT_EQ(scene.phase(k_player).forward_share, 0.0);
-    EXPECT_EQ(scene.phase(k_player).push_back_m, 0.0);
+    EXPECT_EQ(scene.phase(k_player).work, 0U);
     EXPECT_FALSE(scene.phase(k_rock).held);
 }
 

@@ -65,7 +65,7 @@ inline constexpr std::array<double, 3> k_pole_rest = {{{rest}}};
 {wrist}
 // Inputs: chest_inputs in estimate_chest.cpp. Outputs: turn to the left (rad), middle of the shoulders (m), tangent of the roll.
 {network_text("chest", chest_network)}
-// Inputs: elbow_correction in estimate_elbow.cpp. Outputs: added to elbow_pole.
+// Inputs: elbow_correction in elbow_direction.cpp. Outputs: added to elbow_pole.
 {network_text("elbow", elbow_network)}
 }}  // namespace handhold::body_constants
 // clang-format on

@@ -11,7 +11,7 @@ REACH, FOLLOW_M, CLAVICLE_LIFT, CLAVICLE_SHARE = 0.995, 0.06, 0.35, 0.8
 CLAVICLE_CURVE = ((0.0, 0.7, 0.85, 1.05, 1.2), (0.006, 0.010, 0.018, 0.032, 0.070))
 SCALE_EYE_M = 1.6
 MIRROR = np.array([-1.0, 1.0, 1.0])
-NEAR_SHOULDER, CLEAR = 0.3, 0.7  # estimate_elbow.cpp: k_near_shoulder, k_clear
+NEAR_SHOULDER, CLEAR = 0.3, 0.7  # elbow_direction.cpp: k_near_shoulder, k_clear
 STEP_S = 1.0 / 90.0  # the runtime subdivides longer frames
 
 
@@ -152,7 +152,7 @@ def resting_shoulders(motion, constants, yaw, lean, offset):
     return np.stack([middle - half, middle + half])
 
 
-# ---- the networks' inputs; the order is that of estimate_chest.cpp and estimate_elbow.cpp
+# ---- the networks' inputs; the order is that of estimate_chest.cpp and elbow_direction.cpp
 
 def mirror_of(side):
     return (MIRROR, -1.0) if side == 0 else (np.ones(3), 1.0)

@@ -106,7 +106,11 @@ typedef void (*hh_task)(void* task_context, size_t index);
 
 /* What the process lends the library. Null functions: the library's own.
  * Memory comes from the global operator new, which a program may replace as usual; the shared
- * library then uses the replacement too. */
+ * library and the standard library inside it then use the replacement too, once per process. Apart
+ * from that a world's blocks are taken and given back by the threads that call it, and by those of
+ * parallel_for: a replacement with an arena a thread gives each world its own. A host that uses
+ * Bullet needs its double-precision build, and sets btAlignedAllocSetCustom before the first
+ * world. */
 typedef struct hh_host_hooks {
     uint32_t struct_size;
     void* context; /* passed to each of the functions */

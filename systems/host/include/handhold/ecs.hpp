@@ -8,6 +8,7 @@
 //   ShapeLibrary                                       collision shapes, shared by worlds
 //   GripMeshLibrary                                    meshes that hands are fitted to
 //   step_frame, step_pose_only, hash_state             one frame; a hash of the whole state
+//   begin_host_frame, end_host_frame                   frames around a host's own solver
 //   save_snapshot, restore_snapshot                    rollback and saved games
 //   rigs.hpp, tuning.hpp, files.hpp                    assets and numbers
 //
@@ -24,6 +25,6 @@
 #include "components/world_edit.hpp"
 #include "engine/collision/shape_library.hpp"
 #include "engine/geometry/grip_mesh_library.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame_of_host.hpp"
 #include "systems/input/read_tracking.hpp"
 #include "systems/snapshot.hpp"

@@ -7,5 +7,6 @@
 #include <handhold/level.h>
 #include <handhold/players.h>
 #include <handhold/world.h>
+#include <handhold/your_physics.h>
 
 #endif

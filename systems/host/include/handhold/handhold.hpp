@@ -319,6 +319,56 @@ class World {
     Status step_pose_only(double dt_s, std::span<const hh_player_input> inputs) {
         return hh_world_step_pose_only(world_, dt_s, inputs.data(), inputs.size());
     }
+
+    // Physics of the host's own (your_physics.h). As hh_world_set_surface_query.
+    Status set_surface_query(const hh_surface_query& query) {
+        return hh_world_set_surface_query(world_, &query);
+    }
+    // As hh_body_set_surface.
+    Status set_surface(Body body, const Mesh& mesh) {
+        return hh_body_set_surface(world_, body, mesh.get());
+    }
+    // As hh_world_place_bodies.
+    Status place(std::span<const hh_body_motion> motions) {
+        return hh_world_place_bodies(world_, motions.data(), motions.size());
+    }
+    // As hh_player_place.
+    Status place(Player player, Pose origin, Vec3 velocity_mps = {}) {
+        return hh_player_place(world_, player, origin, velocity_mps);
+    }
+    // As hh_hand_hold.
+    Status hold(Player player, Side side, Body body, const Pose* anchor = nullptr) {
+        return hh_hand_hold(world_, player, side, body, anchor);
+    }
+    // As hh_hand_find_grip.
+    Maybe<hh_surface_hit> find_grip(Player player, Side side) {
+        return make<hh_surface_hit>(
+            [&](hh_surface_hit* hit) { return hh_hand_find_grip(world_, player, side, hit); });
+    }
+    // As hh_world_step_hands.
+    Status step_hands(double dt_s, std::span<const hh_player_input> inputs) {
+        return hh_world_step_hands(world_, dt_s, inputs.data(), inputs.size());
+    }
+    // As hh_world_begin_step.
+    Status begin_step(double dt_s, std::span<const hh_player_input> inputs) {
+        return hh_world_begin_step(world_, dt_s, inputs.data(), inputs.size());
+    }
+    // As hh_world_hand_constraints.
+    std::span<const hh_hand_constraint> hand_constraints() const {
+        return list<hh_hand_constraint>(&hh_world_hand_constraints);
+    }
+    // As hh_world_player_motions.
+    std::span<const hh_player_motion> player_motions() const {
+        return list<hh_player_motion>(&hh_world_player_motions);
+    }
+    // As hh_world_end_step.
+    Status end_step(std::span<const hh_solved_player> players) {
+        return hh_world_end_step(world_, players.data(), players.size());
+    }
+    // As hh_world_velocity_changes.
+    std::span<const hh_velocity_change> velocity_changes() const {
+        return list<hh_velocity_change>(&hh_world_velocity_changes);
+    }
     // As hh_world_time.
     double time_s() const {
         double time_s = 0.0;
@@ -371,6 +421,13 @@ class World {
     }
 
   private:
+    template <typename T>
+    std::span<const T> list(hh_result (*call)(const hh_world*, const T**, std::size_t*)) const {
+        const T* first = nullptr;
+        std::size_t count = 0;
+        return call(world_, &first, &count) == HH_OK ? std::span(first, count)
+                                                     : std::span<const T>();
+    }
     template <typename T, typename Call>
     static Maybe<T> make(const Call& call) {
         T value{};

@@ -1,4 +1,4 @@
-#include "systems/arm/shared/estimate_elbow.hpp"
+#include "systems/arm/shared/elbow_direction.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+#include <vector>
+
+#include "engine/ecs/column.hpp"
+
+namespace handhold {
+
+// Finds the rows of a column that changed since the last look, by comparing bytes with a copy.
+// Columns have no change marks, because their rows may be written through references at any time.
+// Unchanged rows cost the bandwidth of a memcmp. A difference in padding counts as a change.
+template <typename T>
+class ColumnWatch {
+    static_assert(std::is_trivially_destructible_v<T>, "rows are compared as bytes");
+
+  public:
+    // Calls visit(owner) for each row that differs from the last call, and remembers it. Returns
+    // false, without a call of visit, if the owners differ: then every row may have changed.
+    template <typename Visit>
+    bool update(const Column<T>& column, Visit&& visit) {
+        const std::size_t count = column.size();
+        const T* const rows = column.rows().data();
+        const Entity* const owners = column.owners().data();
+        if (count != rows_.size() ||
+            (count > 0 && std::memcmp(owners, owners_.data(), count * sizeof(Entity)) != 0)) {
+            rows_.assign(column.rows().begin(), column.rows().end());
+            owners_.assign(column.owners().begin(), column.owners().end());
+            // Copies as bytes: the padding of assigned rows is unspecified.
+            copy(rows, 0, count);
+            return false;
+        }
+        for (std::size_t begin = 0; begin < count; begin += k_block) {
+            const std::size_t end = std::min(count, begin + k_block);
+            if (differ(rows, begin, end)) {
+                for (std::size_t row = begin; row < end; ++row) {
+                    if (differ(rows, row, row + 1)) {
+                        copy(rows, row, row + 1);
+                        visit(owners[row]);
+                    }
+                }
+            }
+        }
+        return true;
+    }
+
+  private:
+    static constexpr std::size_t k_block = 32;
+
+    const void* bytes_at(std::size_t row) const { return rows_.data() + row; }
+    bool differ(const T* rows, std::size_t begin, std::size_t end) const {
+        return std::memcmp(static_cast<const void*>(rows + begin), bytes_at(begin),
+                           (end - begin) * sizeof(T)) != 0;
+    }
+    void copy(const T* rows, std::size_t begin, std::size_t end) {
+        if (end > begin) {
+            std::memcpy(static_cast<void*>(rows_.data() + begin),
+                        static_cast<const void*>(rows + begin), (end - begin) * sizeof(T));
+        }
+    }
+
+    std::vector<T> rows_;
+    std::vector<Entity> owners_;
+};
+
+}  // namespace handhold

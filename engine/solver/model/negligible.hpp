@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cmath>
+
+#include "engine/solver/model/island_view.hpp"
+
+namespace handhold {
+
+// Sets coordinates and velocities below 1e-250 (SI units) of an island's free bodies to 0. Some
+// processors flush denormals during a solve and others cannot (flush_denormals.hpp); the states
+// would differ in numbers that no one can measure.
+inline void drop_negligible(const IslandView& island) {
+    const auto drop = [](double& value) {
+        constexpr double k_negligible = 1e-250;
+        value = std::abs(value) < k_negligible ? 0.0 : value;
+    };
+    for (const std::uint32_t index : island.island_bodies) {
+        SolverBody& body = island.bodies[index];
+        if (body.role == BodyRole::fixed) {
+            continue;  // other islands read it
+        }
+        for (Eigen::Index axis = 0; axis < 3; ++axis) {
+            drop(body.pose_ws.position[axis]);
+            drop(body.velocity_mps[axis]);
+            drop(body.spin_radps[axis]);
+        }
+        for (double& part : body.pose_ws.rotation.coeffs()) {
+            drop(part);
+        }
+    }
+}
+
+}  // namespace handhold

@@ -1,0 +1,69 @@
+// The player's hands and arms as rounded bones between the joints that the library gives.
+import * as THREE from 'three';
+import { HH_LEFT, HH_LEFT_HAND, HH_LEFT_LOWER_ARM, HH_LEFT_UPPER_ARM, HH_RIGHT, HH_RIGHT_HAND, HH_RIGHT_LOWER_ARM, HH_RIGHT_UPPER_ARM,
+    HH_SPACE_WORLD } from 'handhold';
+
+// Pairs of joints in the order of XR_EXT_hand_tracking.
+const wrist = 1;
+const fingers = [[2, 3, 4, 5], [6, 7, 8, 9, 10], [11, 12, 13, 14, 15], [16, 17, 18, 19, 20], [21, 22, 23, 24, 25]];
+const handBones = fingers.flatMap((joints) => [[wrist, joints[0]], ...joints.slice(1).map((joint, i) => [joints[i], joint])]);
+const armBones = [[HH_LEFT_UPPER_ARM, HH_LEFT_LOWER_ARM], [HH_LEFT_LOWER_ARM, HH_LEFT_HAND], [HH_RIGHT_UPPER_ARM, HH_RIGHT_LOWER_ARM],
+    [HH_RIGHT_LOWER_ARM, HH_RIGHT_HAND]];
+
+const up = new THREE.Vector3(0, 1, 0);
+const from = new THREE.Vector3();
+const to = new THREE.Vector3();
+
+const cylinder = new THREE.CylinderGeometry(1, 1, 1, 10, 1, true);
+const sphere = new THREE.SphereGeometry(1, 10, 8);
+
+// A cylinder with a ball at the end: bones in a row look like capsules.
+function bone(material) {
+    const group = new THREE.Group();
+    group.add(new THREE.Mesh(cylinder, material), new THREE.Mesh(sphere, material));
+    return group;
+}
+function stretch(group, a, b, radius_m) {
+    const [shaft, ball] = group.children;
+    from.copy(a);
+    to.copy(b);
+    ball.position.copy(to);
+    ball.scale.setScalar(radius_m);
+    shaft.position.lerpVectors(from, to, 0.5);
+    to.sub(from);
+    shaft.scale.set(radius_m, Math.max(to.length(), 1e-4), radius_m);
+    shaft.quaternion.setFromUnitVectors(up, to.normalize());
+}
+
+export class Avatar {
+    constructor(scene) {
+        const skin = new THREE.MeshStandardMaterial({ color: 0xd9dfe6, roughness: 0.55 });
+        const sleeve = new THREE.MeshStandardMaterial({ color: 0x37506e, roughness: 0.8 });
+        this.hands = [HH_LEFT, HH_RIGHT].map(() => handBones.map(() => bone(skin)));
+        this.arms = armBones.map(() => bone(sleeve));
+        const marker = (color) => new THREE.Mesh(new THREE.SphereGeometry(0.012), new THREE.MeshBasicMaterial({ color, depthTest: false }));
+        this.tracked = [marker(0xffb020), marker(0xffb020)];
+        this.anchors = [marker(0x30e080), marker(0x30e080)];
+        scene.add(...this.hands.flat(), ...this.arms, ...this.tracked, ...this.anchors);
+    }
+
+    update(world, player, pose, showsGizmos) {
+        for (const side of [HH_LEFT, HH_RIGHT]) {
+            const joints = world.handJoints(player, side, HH_SPACE_WORLD);
+            handBones.forEach(([a, b], i) => {
+                const mesh = this.hands[side][i];
+                mesh.visible = joints[a].is_valid && joints[b].is_valid;
+                if (mesh.visible) {
+                    stretch(mesh, joints[a].pose.position, joints[b].pose.position, Math.max(joints[b].radius_m, 0.006));
+                }
+            });
+            const hand = pose.hands[side];
+            this.tracked[side].visible = showsGizmos;
+            this.tracked[side].position.copy(hand.tracked.position);
+            this.anchors[side].visible = showsGizmos && hand.grip !== 0;
+            this.anchors[side].position.copy(hand.shown.position);
+        }
+        const body = world.bodyJoints(player, HH_SPACE_WORLD);
+        armBones.forEach(([a, b], i) => stretch(this.arms[i], body[a].position, body[b].position, 0.035));
+    }
+}

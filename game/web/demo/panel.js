@@ -1,0 +1,48 @@
+// Live figures: the cost of a step, and what each hand does.
+import { HH_GRIP_AUTHORED, HH_GRIP_HELD, HH_GRIP_NONE, HH_GRIP_PLAYER, HH_GRIP_SURFACE } from 'handhold';
+
+const gripNames = { [HH_GRIP_NONE]: 'open', [HH_GRIP_SURFACE]: 'holds on to', [HH_GRIP_HELD]: 'holds', [HH_GRIP_AUTHORED]: 'holds', [HH_GRIP_PLAYER]: 'holds a player' };
+const k_shown = 90; // steps in the median
+
+export class Panel {
+    #table = document.getElementById('figures');
+    #names;
+    #steps_us = [];
+    #frames = 0;
+
+    constructor(names) {
+        this.#names = names;
+    }
+    get frames() {
+        return this.#frames;
+    }
+    /** Median time of the last steps, microseconds. */
+    get median_us() {
+        return this.#steps_us.toSorted((a, b) => a - b)[Math.floor(this.#steps_us.length / 2)] ?? 0;
+    }
+    update(world, pose, speed_mps) {
+        this.#steps_us.push(world.stats().step_us);
+        if (this.#steps_us.length > k_shown) {
+            this.#steps_us.shift();
+        }
+        if (++this.#frames % 15 !== 0) {
+            return;
+        }
+        const stats = world.stats();
+        const hand = ({ grip, body, is_closed }) =>
+            grip === HH_GRIP_NONE ? (is_closed ? 'closed, grips nothing' : 'open') : `${gripNames[grip]} ${this.#names.get(body.index) ?? ''}`;
+        const rows = [
+            ['step, median', `${(1e-3 * this.median_us).toFixed(2)} ms`],
+            ['speed', `${speed_mps.toFixed(2)} m/s`],
+            ['hand error', `${(1e3 * stats.hand_error_m).toFixed(4)} mm`],
+            ['contacts', stats.contacts],
+            ['left', hand(pose.hands[0])],
+            ['right', hand(pose.hands[1])],
+        ];
+        this.#table.replaceChildren(...rows.map((cells) => {
+            const row = document.createElement('tr');
+            row.append(...cells.map((text) => Object.assign(document.createElement('td'), { textContent: text })));
+            return row;
+        }));
+    }
+}

@@ -1,0 +1,97 @@
+import type {
+    hh_body, hh_body_def, hh_commands, hh_compound_part, hh_event, hh_grip_def, hh_hand_joint, hh_joint, hh_joint_def,
+    hh_player, hh_player_def, hh_player_pose, hh_pose, hh_quat, hh_shape, hh_tracking_sample, hh_vec3, hh_world_def,
+    hh_world_stats,
+} from './structs.js';
+export * from './structs.js';
+
+/** Fields that are left out keep the library's defaults, also inside of structs. */
+export type Given<T> = T extends (infer One)[] ? Given<One>[]
+    : T extends object ? { [Field in keyof T]?: Given<T[Field]> } : T;
+
+export declare class HandholdError extends Error {
+    constructor(result: number, text: string);
+    /** HH_ERROR_... */
+    readonly result: number;
+}
+
+/** Loads the library; without a source: the file beside this module. */
+export declare function loadHandhold(source?: URL | string | BufferSource | WebAssembly.Module): Promise<Handhold>;
+
+/** A mesh made by Handhold.createMesh. */
+export type Mesh = number & { readonly mesh: unique symbol };
+
+export declare class Handhold {
+    private constructor();
+    version(): string;
+    createWorld(definition?: Given<hh_world_def>): World;
+    createMesh(mesh: { positions: ArrayLike<number>; indices: ArrayLike<number>; fits_hands?: boolean }): Mesh;
+    destroyMesh(mesh: Mesh): void;
+}
+
+/** One player's input of one step. */
+export interface PlayerInput {
+    player: hh_player;
+    /** Sorted by time: those since the last step. */
+    samples?: Given<hh_tracking_sample>[];
+    commands?: Given<hh_commands>;
+}
+
+/** Functions throw a HandholdError when the library refuses a call; the call then changed nothing. */
+export declare class World {
+    private constructor();
+    destroy(): void;
+
+    addBox(half_extents_m: hh_vec3): hh_shape;
+    addSphere(radius_m: number): hh_shape;
+    addCapsule(radius_m: number, half_height_m: number): hh_shape;
+    addCylinder(radius_m: number, half_height_m: number): hh_shape;
+    addHull(points: hh_vec3[]): hh_shape;
+    addCompound(parts: Given<hh_compound_part>[]): hh_shape;
+    addMeshShape(mesh: Mesh, scale?: hh_vec3): hh_shape;
+    removeShape(shape: hh_shape): void;
+
+    addBody(definition: Given<hh_body_def>): hh_body;
+    removeBody(body: hh_body): void;
+    findBody(name: string): hh_body;
+    bodies(): hh_body[];
+    bodyPose(body: hh_body): hh_pose;
+    bodyPoses(bodies: hh_body[]): hh_pose[];
+    setBodyVelocity(body: hh_body, velocity_mps: hh_vec3, angular_velocity_radps?: hh_vec3): void;
+    applyImpulse(body: hh_body, impulse_ns: hh_vec3, point: hh_vec3): void;
+    teleportBody(body: hh_body, pose: { position?: hh_vec3; rotation?: hh_quat }): void;
+    moveKinematic(body: hh_body, pose: { position?: hh_vec3; rotation?: hh_quat }): void;
+
+    addJoint(definition: Given<hh_joint_def>): hh_joint;
+    removeJoint(joint: hh_joint): void;
+    jointState(joint: hh_joint): { coordinate: number; speed: number; latched: boolean };
+
+    addPlayer(definition?: Given<hh_player_def>): hh_player;
+    removePlayer(player: hh_player): void;
+    teleportPlayer(player: hh_player, origin: { position?: hh_vec3; rotation?: hh_quat }): void;
+    setHandInController(player: hh_player, side: number, hand_in_controller: { position?: hh_vec3; rotation?: hh_quat } | null): void;
+    playerPose(player: hh_player): hh_player_pose;
+    playerPoses(players: hh_player[]): hh_player_pose[];
+    /** 26 joints as WebXR and XR_EXT_hand_tracking have them, the palm first. */
+    handJoints(player: hh_player, side: number, space: number): hh_hand_joint[];
+    /** By HH_HIPS and the other constants. */
+    bodyJoints(player: hh_player, space: number): hh_pose[];
+    grip(player: hh_player, side: number, body: hh_body): void;
+    releaseHand(player: hh_player, side: number): void;
+    addGrip(body: hh_body, definition: Given<hh_grip_def>): void;
+    setHandRig(player: hh_player, side: number, gltf: Uint8Array | null): void;
+
+    step(dt_s: number, inputs?: PlayerInput[]): void;
+    stepPoseOnly(dt_s: number, inputs?: PlayerInput[]): void;
+    time(): { time_s: number; frame: bigint };
+    events(): hh_event[];
+    hash(): bigint;
+    stats(): hh_world_stats;
+    save(): Uint8Array;
+    restore(bytes: Uint8Array): void;
+
+    setGravity(gravity_mps2: hh_vec3): void;
+    setTuning(name: string, ...values: number[]): void;
+    getTuning(name: string, count?: number): number[];
+    loadTuning(json: string): void;
+}

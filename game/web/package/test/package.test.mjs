@@ -1,0 +1,178 @@
+// The package in Node: `node --test` with HANDHOLD_PACKAGE set to its folder.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { readFileSync } from 'node:fs';
+import { resolve } from 'node:path';
+import { test } from 'node:test';
+import { pathToFileURL } from 'node:url';
+import { playSameScene } from './same_scene.mjs';
+
+const folder = pathToFileURL(resolve(process.env.HANDHOLD_PACKAGE) + '/');
+const handholdModule = await import(new URL('handhold.js', folder));
+const { loadHandhold, HandholdError, structs, HH_DYNAMIC, HH_ERROR_HANDLE, HH_ERROR_VALUE, HH_GRIP_HELD, HH_GRIP_SURFACE, HH_HEAD, HH_HINGE,
+    HH_LEFT, HH_RIGHT, HH_SPACE_WORLD } = handholdModule;
+const { layoutOf } = await import(new URL('memory.js', folder));
+const handhold = await loadHandhold();
+
+const rotation = { x: Math.SQRT1_2, y: 0, z: 0, w: Math.SQRT1_2 };
+function sampleAt(time_s, pull_m = 0.2) {
+    const z = -0.43 + pull_m * Math.min(Math.max(2 * (time_s - 1), 0), 1);
+    return {
+        time_s,
+        head: { position: { x: 0, y: 1.6, z: 0 } },
+        hands: [{ position: { x: -0.2, y: 1.4, z: -0.43 }, rotation }, { position: { x: 0.2, y: 1.4, z }, rotation }],
+        grab: [false, time_s >= 0.5],
+    };
+}
+// A wall before a player whose hands are tracked as wrists.
+function makeWall() {
+    const world = handhold.createWorld();
+    const shape = world.addBox({ x: 2, y: 2, z: 0.1 });
+    const wall = world.addBody({ name: 'wall', shape, pose: { position: { x: 0, y: 1.5, z: -0.6 } } });
+    const player = world.addPlayer({ name: 'you' });
+    world.setHandInController(player, HH_LEFT, {});
+    world.setHandInController(player, HH_RIGHT, {});
+    return { world, wall, player };
+}
+function play({ world, player }, first, last, pull_m) {
+    for (let frame = first; frame <= last; ++frame) {
+        world.step(1 / 90, [{ player, samples: [sampleAt(frame / 90, pull_m)] }]);
+    }
+}
+
+test('every struct has the size that the library expects', () => {
+    // The library refuses a definition, and does not fill in defaults, of another size than its own.
+    for (const kind of Object.keys(structs).filter((one) => structs[one][0][0] === 'struct_size')) {
+        handhold.scratch((m) => {
+            const at = m.take(layoutOf(kind).size + 64);
+            m.bytes(at, layoutOf(kind).size + 64).fill(0xa5);
+            handhold.exports['hh_default_' + kind.slice(3)](at);
+            assert.equal(m.view.getUint32(at, true), layoutOf(kind).size, kind);
+        });
+    }
+});
+
+test('a hand on a wall moves the player as much as it moves towards the body', () => {
+    const scene = makeWall();
+    play(scene, 1, 180, 0.15);
+    const { origin, hands } = scene.world.playerPose(scene.player);
+    assert.equal(hands[HH_RIGHT].grip, HH_GRIP_SURFACE);
+    assert.deepEqual(hands[HH_RIGHT].body, scene.wall);
+    assert.ok(hands[HH_RIGHT].error_m < 1e-6);
+    assert.ok(Math.abs(origin.position.z + 0.15) < 1e-6, `${origin.position.z}`);
+    scene.world.destroy();
+});
+
+test('the twenty lines of the README do what they say', async () => {
+    const text = readFileSync(new URL('../README.md', import.meta.url), 'utf8');
+    const code = text.match(/```js\n([\s\S]*?)```/)[1];
+    assert.ok(code.trim().split('\n').length <= 24);
+    const AsyncFunction = (async () => {}).constructor;
+    const said = [];
+    const body = code.replace(/import \{(.*?)\} from 'handhold';/, 'const {$1} = handholdModule;');
+    await new AsyncFunction('handholdModule', 'console', body)(handholdModule, { log: (...words) => said.push(...words) });
+    assert.ok(said[0] < 1e-6);
+    assert.ok(Math.abs(said[1] + 0.2) < 1e-6);
+});
+
+test('a world goes on from a snapshot bit for bit', () => {
+    const scene = makeWall();
+    play(scene, 1, 90);
+    const saved = scene.world.save();
+    play(scene, 91, 200);
+    const hash = scene.world.hash();
+    scene.world.restore(saved);
+    assert.notEqual(scene.world.hash(), hash);
+    play(scene, 91, 200);
+    assert.equal(scene.world.hash(), hash);
+    assert.equal(scene.world.time().frame, 200n);
+    assert.throws(() => scene.world.restore(saved.slice(0, 100)), HandholdError);
+    scene.world.destroy();
+});
+
+test('what the library refuses is thrown, with its result and text', () => {
+    const { world, player } = makeWall();
+    const before = world.hash();
+    assert.throws(() => world.addSphere(-1), (error) => error.result === HH_ERROR_VALUE && error.message.length > 20);
+    assert.throws(() => world.addBody({ mass_kg: NaN, kind: HH_DYNAMIC }), HandholdError);
+    assert.throws(() => world.bodyPose({ index: 77, generation: 9 }), (error) => error.result === HH_ERROR_HANDLE);
+    assert.throws(() => world.addBody({ weight: 3 }), TypeError);
+    assert.throws(() => world.step(NaN, [{ player }]), HandholdError);
+    assert.equal(world.hash(), before);
+    world.destroy();
+});
+
+test('lists, names and joints come back as they were given', () => {
+    const world = handhold.createWorld({ gravity_mps2: { x: 0, y: -9.81, z: 0 } });
+    const shape = world.addCapsule(0.1, 0.5);
+    const door = world.addBody({ name: 'Tür', kind: HH_DYNAMIC, shape, mass_kg: 3, pose: { position: { x: 1, y: 2, z: 3 } } });
+    const others = Array.from({ length: 50 }, (_, i) =>
+        world.addBody({ kind: HH_DYNAMIC, shape, pose: { position: { x: 10 * i + 20, y: 0, z: 0 } } }));
+    assert.deepEqual(world.findBody('Tür'), door);
+    assert.equal(world.bodies().length, 51);
+    assert.equal(world.bodyPoses(others)[49].position.x, 510);
+    const hinge = world.addJoint({ kind: HH_HINGE, body_b: door, frame: { position: { x: 1, y: 2.6, z: 3 } } });
+    for (let i = 0; i < 45; ++i) {
+        world.step(1 / 90);
+    }
+    assert.ok(Math.abs(world.jointState(hinge).speed) < 100);
+    const fallen = world.bodyPose(others[0]).position.y;
+    assert.ok(Math.abs(fallen + 0.5 * 9.81 * 0.25) < 0.06, `${fallen}`);
+    world.setTuning('hand.reach_m', 0.2);
+    assert.deepEqual(world.getTuning('hand.reach_m'), [0.2]);
+    world.destroy();
+});
+
+test('joints of hands and bodies are those of the shown player', () => {
+    const scene = makeWall();
+    play(scene, 1, 100);
+    const joints = scene.world.handJoints(scene.player, HH_RIGHT, HH_SPACE_WORLD);
+    const { hands, head } = scene.world.playerPose(scene.player);
+    assert.equal(joints.length, 26);
+    assert.deepEqual(joints[1].pose.position, hands[HH_RIGHT].shown.position);
+    const body = scene.world.bodyJoints(scene.player, HH_SPACE_WORLD);
+    const above = body[HH_HEAD].position.y - head.position.y;
+    assert.ok(Math.abs(above) < 0.2, `${above}`);
+    scene.world.destroy();
+});
+
+test('meshes collide', () => {
+    const mesh = handhold.createMesh({ positions: [-1, 0, -1, 1, 0, -1, 0, 0, 1], indices: [0, 2, 1], fits_hands: false });
+    const world = handhold.createWorld({ fits_hands: false, gravity_mps2: { x: 0, y: -10, z: 0 } });
+    world.addBody({ shape: world.addMeshShape(mesh) });
+    handhold.destroyMesh(mesh);
+    const ball = world.addBody({ kind: HH_DYNAMIC, shape: world.addSphere(0.1), pose: { position: { x: 0, y: 0.5, z: 0 } } });
+    for (let i = 0; i < 180; ++i) {
+        world.step(1 / 90);
+    }
+    assert.ok(Math.abs(world.bodyPose(ball).position.y - 0.1) < 0.01);
+    world.destroy();
+});
+
+test('the hash equals that of a native program that makes the same calls', (context) => {
+    const { hash, grips, step_us } = playSameScene(handhold, handholdModule);
+    assert.deepEqual(grips, [HH_GRIP_HELD, HH_GRIP_SURFACE]);
+    context.diagnostic(`median step ${step_us.toFixed(1)} us`);
+    const native = process.env.HANDHOLD_NATIVE_GRIP;
+    if (native === undefined) {
+        context.skip('HANDHOLD_NATIVE_GRIP, the native program, is not set');
+        return;
+    }
+    const said = execFileSync(native, { encoding: 'utf8' });
+    context.diagnostic(`native ${said.trim()}`);
+    assert.equal(hash, said.split(' ')[0]);
+});
+
+test('memory stays as it is over many worlds and steps', () => {
+    const once = () => {
+        const scene = makeWall();
+        play(scene, 1, 20);
+        scene.world.destroy();
+    };
+    once();
+    const before = handhold.exports.memory.buffer.byteLength;
+    for (let i = 0; i < 100; ++i) {
+        once();
+    }
+    assert.equal(handhold.exports.memory.buffer.byteLength, before);
+});

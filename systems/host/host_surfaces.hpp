@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include <handhold/your_physics.h>
+
+#include "components/world.hpp"
+#include "engine/collision/surface_query.hpp"
+
+namespace handhold {
+
+// A host's surfaces behind the queries of SurfaceQuery. Checks what the host answers.
+class HostSurfaces {
+  public:
+    // `world` translates ids; it must outlive this object.
+    explicit HostSurfaces(const World& world) : world_(&world) {}
+    void set(const hh_surface_query& query) { query_ = query; }
+
+    std::optional<RayHit> cast_ray(const Vec3& from_ws, const Vec3& to_ws,
+                                   std::span<const std::uint64_t> skip) const;
+    std::optional<RayHit> cast_sphere(double radius_m, const Vec3& from_ws, const Vec3& to_ws,
+                                      std::span<const std::uint64_t> skip) const;
+    std::optional<SurfacePoint> closest_point(const Vec3& point_ws, double max_distance_m,
+                                              std::span<const std::uint64_t> skip) const;
+    std::optional<SurfacePoint> closest_point_on(std::uint64_t id, const Vec3& point_ws) const;
+
+    // Answers that were ignored since the last call.
+    std::uint64_t take_refused() const;
+
+  private:
+    struct Checked {
+        std::uint64_t id = 0;
+        Vec3 point_ws;
+        Vec3 normal_ws;  // unit
+        double distance_m = 0.0;
+    };
+    std::optional<Checked> check(const hh_surface_hit& hit) const;
+    std::optional<SurfacePoint> surface_point(const hh_surface_hit& hit, const Vec3& point_ws,
+                                              double max_distance_m) const;
+
+    const World* world_;
+    hh_surface_query query_{};
+    mutable std::uint64_t refused_ = 0;
+};
+
+}  // namespace handhold

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "components/body.hpp"
+#include "components/grab.hpp"
+#include "components/player.hpp"
+#include "components/tracking.hpp"
+#include "engine/ecs/column.hpp"
+
+namespace handhold {
+
+struct KeepHoldsIo {
+    Vec3 scene_velocity_mps = Vec3::Zero();     // in: reference of players that hold nothing
+    const Column<HandOwner>& owner;             // in
+    const Column<HandTracking>& hand;           // in: end of the frame
+    const Column<RigidBody>& body;              // in
+    const Column<BodyPose>& body_pose;          // in: end of the frame
+    const Column<BodyVelocity>& body_velocity;  // in
+    const Column<PlayerOrigin>& origin;         // in: end of the frame
+    Column<Grab>& grab;                         // in/out: error_m; cleared if the body is gone
+    Column<ReferenceVelocity>& reference;       // out
+};
+
+// For hosts that decide themselves what each hand holds: ends holds of bodies that are gone, writes
+// how far each hand is from its anchor, and lets the body's drift follow what the player grips.
+void keep_holds(const KeepHoldsIo& io);
+
+}  // namespace handhold

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <span>
+
+#include "components/body.hpp"
+#include "components/frame_graph.hpp"
+#include "components/grab.hpp"
+#include "components/player.hpp"
+#include "engine/ecs/column.hpp"
+
+// Takes what a host's own solver made of the frame's hand constraints, in place of solve_phases,
+// finish_positions and update_velocities.
+//
+// A hand that lets go throws at its release velocity, as after update_velocities: a solver's
+// velocity also contains its corrections of positions. That is done only if the hand was within
+// 1 mm of its anchor at the end; else something stopped the body, and the host's velocity counts.
+// Fallbacks counted: none.
+namespace handhold {
+
+// A player's play space after a host's solver. It does not turn in a solver.
+struct SolvedPlayer {
+    Entity player;
+    Vec3 origin_ws = Vec3::Zero();
+    Vec3 velocity_mps = Vec3::Zero();
+};
+
+struct AcceptSolutionIo {
+    std::span<const SolvedPlayer> players;  // in: players without one move as predicted
+    const Column<BodyPose>& body_pose;      // in: world, by the host's solver
+    Column<BodyVelocity>& body_velocity;    // in/out, thrown bodies: world, m/s and rad/s
+    FrameGraph& frame;                      // in/out: graph, phase; out: push_backs
+    Column<PlayerOrigin>& origin;           // out: world, position only
+    Column<PlayerVelocity>& velocity;       // out: world, m/s
+    Column<Grab>& grab;                     // in: phase; out: error_m, m
+    Column<LastValidPose>& last_valid;      // out: world
+};
+// Returns the largest distance of a hand from its anchor, in metres.
+double accept_solution(const AcceptSolutionIo& io);
+
+}  // namespace handhold

@@ -1,0 +1,137 @@
+#include "systems/physics/limit_velocities.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace handhold {
+namespace {
+
+bool is_slower(const Vec3& velocity_mps, double limit_mps) {
+    return velocity_mps.squaredNorm() < limit_mps * limit_mps;
+}
+
+// Limits the speed relative to the reference. True if it was exceeded.
+bool clamp_speed(const Vec3& reference_mps, double limit_mps, Vec3& velocity_mps) {
+    const Vec3 relative = velocity_mps - reference_mps;
+    const double speed = relative.norm();
+    if (speed <= limit_mps) {
+        return false;
+    }
+    velocity_mps = reference_mps + relative * (limit_mps / speed);
+    return true;
+}
+
+// The highest speed, relative to the reference, at the rows of the island's kinematic and heavy
+// bodies: up to there a body's velocity is explained by what drives it.
+double driven_speed(const FrameGraph& frame, const Island& island, const Vec3& reference_mps) {
+    double fastest = 0.0;
+    for (const std::uint32_t i : frame.graph.blocks_of(island)) {
+        const RowBlock& block = frame.graph.blocks[i];
+        for (const std::uint32_t index : {block.a, block.b}) {
+            const SolverBody& body = frame.graph.bodies[index];
+            if (body.role == BodyRole::fixed || body.role == BodyRole::heavy) {
+                const Vec3 arm =
+                    transform_point(frame.graph.bodies[block.a].pose_ws, block.point_a_bs) -
+                    body.pose_ws.position;
+                const Vec3 at_row = body.velocity_mps + body.spin_radps.cross(arm);
+                fastest = std::max(fastest, (at_row - reference_mps).norm());
+            }
+        }
+    }
+    return fastest;
+}
+
+// A push or pull on a player may come from a tracking jump. It must not launch them, neither now
+// nor when the grip breaks in the next frame. Poses stay; speed they had before, or got from a
+// moving support, is kept.
+void clamp_players(const LimitVelocitiesIo& io, const LocomotionTuning& tuning, StageStats& stats) {
+    for (const Island& island : io.frame.graph.islands) {
+        for (const std::uint32_t i : io.frame.graph.bodies_of(island)) {
+            const FrameGraph::PhaseBody& info = io.frame.phase[i];
+            if (io.frame.graph.bodies[i].role != BodyRole::translating ||
+                !(info.pushed || info.grips_surface)) {
+                continue;
+            }
+            const Entity player = io.frame.entities[i];
+            const Vec3& reference = io.reference.at(player).linear_mps;
+            const double limit = std::max({tuning.release_speed_max_mps,
+                                           (info.velocity_before_mps - reference).norm(),
+                                           driven_speed(io.frame, island, reference)});
+            if (clamp_speed(reference, limit, io.player_velocity.at(player).linear_mps) &&
+                info.pushed) {
+                stats.count(Fallback::release_speed_clamped);
+            }
+        }
+    }
+}
+
+// A held or pushed body may be torn from the hand in the next frame by a tracking jump, and must
+// not leave at that speed. A held body's pose still follows its hand.
+void clamp_handled_bodies(const LimitVelocitiesIo& io, const LocomotionTuning& tuning,
+                          StageStats& stats) {
+    const FrameGraph& frame = io.frame;
+    for (const Island& island : frame.graph.islands) {
+        const std::span<const std::uint32_t> blocks = frame.graph.blocks_of(island);
+        const auto hand = std::ranges::find_if(
+            blocks, [&](std::uint32_t i) { return is_drive(frame.graph.blocks[i]); });
+        if (hand == blocks.end()) {
+            continue;
+        }
+        const Entity player = frame.entities[frame.graph.blocks[*hand].a];
+        const Vec3& reference = io.reference.at(player).linear_mps;
+        std::optional<double> driven;  // computed once, and only if a body is fast
+        for (const std::uint32_t i : frame.graph.bodies_of(island)) {
+            if (frame.graph.bodies[i].role != BodyRole::free) {
+                continue;
+            }
+            Vec3& velocity_mps = io.body_velocity.at(frame.entities[i]).linear_mps;
+            if (is_slower(velocity_mps - reference, tuning.object_speed_max_mps)) {
+                continue;  // the common case
+            }
+            const double before = (frame.phase[i].velocity_before_mps - reference).norm();
+            if (!driven) {
+                driven = driven_speed(frame, island, reference);
+            }
+            const double limit = std::max({tuning.object_speed_max_mps, before, *driven});
+            if (clamp_speed(reference, limit, velocity_mps)) {
+                stats.count(Fallback::object_speed_clamped);
+            }
+        }
+    }
+}
+
+void finish_releases(const LimitVelocitiesIo& io, const LocomotionTuning& tuning,
+                     StageStats& stats) {
+    for (std::size_t row = 0; row < io.grab.size(); ++row) {
+        Grab& grab = io.grab.rows()[row];
+        const Entity player = io.owner.at(io.grab.owners()[row]).player;
+        const Vec3& reference = io.reference.at(player).linear_mps;
+        if (grab.phase != GrabPhase::releasing) {
+            continue;
+        }
+        bool clamped = false;
+        if (grab.kind != GripKind::held) {
+            clamped = clamp_speed(reference, tuning.release_speed_max_mps,
+                                  io.player_velocity.at(player).linear_mps);
+        } else if (!grab.jointed) {
+            // Jointed bodies may be on a moving ship: clamp_handled_bodies accounts for its speed.
+            clamped = clamp_speed(reference, tuning.object_speed_max_mps,
+                                  io.body_velocity.at(grab.body).linear_mps);
+        }
+        if (clamped) {
+            stats.count(Fallback::release_speed_clamped);
+        }
+        grab = {};
+    }
+}
+
+}  // namespace
+
+void limit_velocities(const LimitVelocitiesIo& io, const LocomotionTuning& tuning,
+                      StageStats& stats) {
+    clamp_handled_bodies(io, tuning, stats);
+    finish_releases(io, tuning, stats);
+    clamp_players(io, tuning, stats);
+}
+
+}  // namespace handhold
