@@ -18,6 +18,8 @@ constexpr double k_max_flex_rad = 0.15;
 // Hysteresis: a hand that closes again while it grips changes to the new closing if that costs less
 // than this share of its last fit's cost.
 constexpr double k_change_cost_share = 0.75;
+// Travel of the tracked wrist up to which a fitted hand stays where it is on its surface.
+constexpr double k_stick_m = 1e-3;
 constexpr double k_deep_m = 3e-3;     // a fit that penetrates deeper is counted
 constexpr double k_fist_curl = 0.85;  // share of the range from open to fully curled
 
@@ -67,13 +69,14 @@ HandFit fit_closed(const HandSurroundings& hand, const GripSurface& surface,
     return fit_hand(hand, surface, goal, tuning);
 }
 
-// Starts at last frame's fit, carried along with the tracked wrist.
+// Starts at the last fit, which stays in place in the body's frame.
 HandFit fit_last(const HandSurroundings& hand, const GripSurface& surface, const PalmOffset& offset,
                  const FingerPose& pose, const PalmTuning& tuning) {
     HandFitGoal goal = common_goal(hand, pose);
     const Pose target{offset.target_m, rotation_from_vector(offset.target_turn_rad)};
-    goal.first = {goal.is_wrist_fixed ? held_wrist_bs(hand, offset) : hand.wrist_bs * target,
-                  pose.target};
+    goal.first = {
+        goal.is_wrist_fixed ? held_wrist_bs(hand, offset) : pose.fitted_wrist_bs * target,
+        pose.target};
     goal.is_clear = pose.is_clear;
     goal.rounds = k_rounds;
     goal.max_flex_rad = k_max_flex_rad;
@@ -96,12 +99,17 @@ HandFit best_fit(const HandSurroundings& hand, const GripSurface& surface, const
     return closed.cost < k_change_cost_share * last.cost ? closed : last;
 }
 
+// A hand at rest is fitted until the fit has converged.
+bool sticks(const HandSurroundings& hand, const FingerTuning& tuning, const FingerPose& pose) {
+    const double travel_m = hand_travel_m(pose.fitted_wrist_bs, hand.wrist_bs);
+    return travel_m < tuning.reuse_travel_m ? pose.is_converged
+                                            : hand.authored == nullptr && travel_m < k_stick_m;
+}
+
 void fit_one(const HandSurroundings& hand, const GripSurface& surface, const Tuning& tuning,
              StageStats& stats, PalmOffset& offset, FingerPose& pose) {
-    const bool is_same =
-        !pose.is_newly_closed && pose.fitted_signature == hand.signature &&
-        hand_travel_m(pose.fitted_wrist_bs, hand.wrist_bs) < tuning.finger.reuse_travel_m;
-    if (is_same && pose.is_converged) {
+    if (!pose.is_newly_closed && pose.fitted_signature == hand.signature &&
+        sticks(hand, tuning.finger, pose)) {
         return;
     }
     const HandFit fit = best_fit(hand, surface, tuning, offset, pose);
@@ -122,16 +130,27 @@ void fit_one(const HandSurroundings& hand, const GripSurface& surface, const Tun
     pose.is_converged = fit.is_converged;
 }
 
+// The target wrist relative to the present tracked one: a fitted hand stays on its body.
+Pose target_in_hand(const HandSurroundings& hand, const FingerPose& pose,
+                    const PalmOffset& offset) {
+    const Pose target{offset.target_m, rotation_from_vector(offset.target_turn_rad)};
+    return pose.fitted_body == k_no_entity
+               ? target
+               : inverse(hand.wrist_bs) * (pose.fitted_wrist_bs * target);
+}
+
 // Translation and rotation advance by the same share; rotation counts tilt_cost_m_per_rad metres
 // per radian.
-void follow_palm(double dt_s, const PalmTuning& tuning, PalmOffset& offset) {
-    const Vec3 remaining_m = offset.target_m - offset.shown_m;
-    const Vec3 turn_rad = offset.target_turn_rad - offset.shown_turn_rad;
+void follow_palm(const Pose& target_hs, double dt_s, const PalmTuning& tuning,
+                 PalmOffset& offset) {
+    const Vec3 target_turn_rad = rotation_to_vector(target_hs.rotation);
+    const Vec3 remaining_m = target_hs.position - offset.shown_m;
+    const Vec3 turn_rad = target_turn_rad - offset.shown_turn_rad;
     const double distance_m = remaining_m.norm() + tuning.tilt_cost_m_per_rad * turn_rad.norm();
     const double step_m = tuning.rate_mps * dt_s;
     if (distance_m <= step_m) {
-        offset.shown_m = offset.target_m;
-        offset.shown_turn_rad = offset.target_turn_rad;
+        offset.shown_m = target_hs.position;
+        offset.shown_turn_rad = target_turn_rad;
     } else {
         offset.shown_m += step_m / distance_m * remaining_m;
         offset.shown_turn_rad += step_m / distance_m * turn_rad;
@@ -171,7 +190,7 @@ void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats) {
         } else {
             fit_one(hand, surface, tuning, stats, offset, pose);
         }
-        follow_palm(io.dt_s, tuning.palm, offset);
+        follow_palm(target_in_hand(hand, pose, offset), io.dt_s, tuning.palm, offset);
         for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
             follow_digit(io.dt_s, tuning.finger, pose.target[f], pose.shown[f]);
         }

@@ -66,10 +66,16 @@ class FingerCloser {
         pose.closed_normal_bs = surface.normal_bs;
         pose.is_closed_in_grip = hand.authored != nullptr;
         pose.is_newly_closed = true;
-        for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
-            pose.is_authored[f] = take_authored_pose(hand, wrist_bs, f, pose);
-            if (!pose.is_authored[f]) {
-                close_digit(hand_index, wrist_bs, f, pose);
+        // Thumbs last: they stop at fingers.
+        for (const bool are_thumbs : {false, true}) {
+            for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
+                if ((hand.rig->fingers[f].name == FingerName::thumb) != are_thumbs) {
+                    continue;
+                }
+                pose.is_authored[f] = take_authored_pose(hand, wrist_bs, f, pose);
+                if (!pose.is_authored[f]) {
+                    close_digit(hand_index, wrist_bs, f, pose);
+                }
             }
         }
     }
@@ -121,17 +127,20 @@ class FingerCloser {
         const FingerRig& finger = hand.rig->fingers[f];
         ChainFit fit;
         if (finger.name == FingerName::thumb) {
-            const ClosedThumb thumb = close_thumb({hand, surface, finger, wrist_bs}, settings_,
-                                                  tuning_.thumb, io_.scratch);
+            const DigitCapsules fingers =
+                digit_capsules(*hand.rig, link_frames(*hand.rig, {wrist_bs, pose.closed}));
+            const ClosedThumb thumb = close_thumb({hand, surface, finger, wrist_bs, fingers},
+                                                  settings_, tuning_.thumb, io_.scratch);
             fit = thumb.fit;
             pose.closed[f] = {fit.angle_rad, thumb.opposition_rad};
+            pose.touches[f] = thumb.touches;
         } else {
             const HingeChain chain = finger_chain(finger, 0.0, wrist_bs);
             fit = fit_chain(chain, hand.meshes, chain_seed(hand, surface, chain), settings_,
                             io_.scratch);
             pose.closed[f] = {fit.angle_rad, 0.0};
+            pose.touches[f] = touches(fit);
         }
-        pose.touches[f] = touches(fit);
         pose.is_closed_clear[f] = fit.depth_m < clear_depth_m(finger);
         count_fallback(fit.fallback, stats_);
         if (!io_.traces.empty()) {

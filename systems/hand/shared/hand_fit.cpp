@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/math/penalty_quadratic.hpp"
+#include "systems/hand/shared/digit_gaps.hpp"
 
 namespace handhold {
 namespace {
@@ -16,6 +17,7 @@ constexpr double k_lever_m = 0.05;  // l
 constexpr double k_close = 0.004;
 constexpr double k_touch = 2.0;
 constexpr double k_let_go_m = 0.008;  // g
+constexpr double k_let_go_touching_m = 0.02;
 constexpr double k_tip = 0.02;
 constexpr double k_first = 0.002;
 constexpr double k_first_opposition = 0.02;
@@ -23,7 +25,10 @@ constexpr double k_rest = 2e-5;  // keeps every angle determined
 constexpr double k_rest_of_free_thumb = 0.002;
 constexpr double k_alike = 0.001;
 constexpr double k_alike_if_free = 0.002;  // if one of the two touches nothing
-constexpr double k_couple = 0.001;
+constexpr double k_fan = 0.03;
+constexpr double k_roll = 0.003;
+constexpr double k_roll_ratio = 1.0;
+constexpr double k_couple = 0.003;
 constexpr double k_coupling = 2.0 / 3.0;
 // Stiffness of the inequalities.
 constexpr double k_contact = 2000.0;
@@ -31,7 +36,11 @@ constexpr double k_joint_limit = 500.0;
 constexpr double k_palm_limit = 20.0;
 constexpr double k_bend_limit = 0.3;
 constexpr double k_max_apart_rad = 1.6;
-constexpr double k_max_bend_rad = 2.85;
+constexpr double k_max_bend_rad = 2.75;
+constexpr double k_max_fan_rad = 0.5;
+constexpr double k_fan_limit = 2.0;
+constexpr double k_digit_contact = 500.0;
+constexpr double k_digit_reach_m = 0.03;  // gaps of thumb and fingers farther apart need no row
 constexpr double k_clear_m = 3e-4;  // gap that contacts aim for
 // Largest step of one round: gaps are linearised.
 constexpr double k_max_move_m = 0.02;
@@ -137,6 +146,7 @@ class Fitter {
         }
         add_neighbours();
         add_contacts();
+        add_digit_gaps();
         add_palm_limits();
         double cost = cost_;
         for (std::size_t i = 0; i < row_count_; ++i) {
@@ -181,6 +191,8 @@ class Fitter {
             return;
         }
         add_row(bend_slope(f, -1.0), k_max_bend_rad - bend_rad(f), k_bend_limit * k_lever2);
+        add_square(k_roll * k_lever2, angles.curl_rad[1] - k_roll_ratio * angles.curl_rad[0],
+                   unit(layout_.hinge(f, 1)) + unit(layout_.hinge(f, 0), -k_roll_ratio));
         if (finger.link_count == 3) {
             add_square(k_couple * k_lever2, angles.curl_rad[2] - k_coupling * angles.curl_rad[1],
                        unit(layout_.hinge(f, 2)) + unit(layout_.hinge(f, 1), -k_coupling));
@@ -224,7 +236,7 @@ class Fitter {
     // g^2), as the square that has the same slope here (iteratively reweighted least squares). A
     // gap of 0 is pulled too, so that the wrist does not leave it.
     void add_pull(const HandSphere& sphere, bool touches) {
-        const double ratio = touches ? 0.0 : sphere.gap_m / k_let_go_m;
+        const double ratio = sphere.gap_m / (touches ? k_let_go_touching_m : k_let_go_m);
         const double share = 1.0 / (1.0 + ratio * ratio);
         const double weight = k_touch * share * share;
         add_square(weight, sphere.gap_m, slope_of(sphere));
@@ -253,10 +265,42 @@ class Fitter {
                        pose_.fingers[b].curl_rad[i] - pose_.fingers[a].curl_rad[i],
                        unit(layout_.hinge(b, i)) + unit(layout_.hinge(a, i), -1.0));
         }
+        const Unknowns fan = fan_slope(b, 1.0) + fan_slope(a, -1.0);
+        const double fan_rad = direction_rad(b) - direction_rad(a);
+        add_square(k_fan * k_lever2, fan_rad, fan);
+        add_row(fan, k_max_fan_rad + fan_rad, k_fan_limit * k_lever2);
+        add_row(-fan, k_max_fan_rad - fan_rad, k_fan_limit * k_lever2);
         const Unknowns apart = bend_slope(b, 1.0) + bend_slope(a, -1.0);
         const double apart_rad = bend_rad(b) - bend_rad(a);
         add_row(apart, k_max_apart_rad + apart_rad, k_bend_limit * k_lever2);
         add_row(-apart, k_max_apart_rad - apart_rad, k_bend_limit * k_lever2);
+    }
+
+    // Share of a hinge's angle by which the direction from the knuckle to the tip turns, of a nearly
+    // straight finger: the length beyond the hinge, of the whole length.
+    double direction_share(std::size_t f, std::size_t link) const {
+        const FingerRig& finger = rig_.fingers[f];
+        double whole_m = 0.0;
+        double beyond_m = 0.0;
+        for (std::size_t i = 0; i < finger.link_count; ++i) {
+            whole_m += finger.length_m[i];
+            beyond_m += i < link ? 0.0 : finger.length_m[i];
+        }
+        return beyond_m / whole_m;
+    }
+    double direction_rad(std::size_t f) const {
+        double sum_rad = 0.0;
+        for (std::size_t i = 0; i < rig_.fingers[f].link_count; ++i) {
+            sum_rad += direction_share(f, i) * pose_.fingers[f].curl_rad[i];
+        }
+        return sum_rad;
+    }
+    Unknowns fan_slope(std::size_t f, double sign) const {
+        Unknowns slope = Unknowns::Zero();
+        for (std::size_t i = 0; i < rig_.fingers[f].link_count; ++i) {
+            slope[layout_.hinge(f, i)] = sign * direction_share(f, i);
+        }
+        return slope;
     }
 
     double bend_rad(std::size_t f) const {
@@ -279,6 +323,20 @@ class Fitter {
             if (sphere.has_gap) {
                 add_row(slope_of(sphere), sphere.gap_m - k_clear_m, k_contact);
             }
+        }
+    }
+
+    // Keeps the thumb out of the fingers.
+    void add_digit_gaps() {
+        std::array<DigitGap, k_max_digit_gaps> gaps;
+        const std::size_t count =
+            find_digit_gaps(rig_, digit_capsules(rig_, frames_), k_digit_reach_m, gaps);
+        for (std::size_t i = 0; i < count; ++i) {
+            const DigitGap& pair = gaps[i];
+            Unknowns slope = Unknowns::Zero();
+            add_digit_slope(pair.thumb, pair.thumb_link, pair.on_thumb, pair.away, slope);
+            add_digit_slope(pair.finger, pair.finger_link, pair.on_finger, -pair.away, slope);
+            add_row(slope, pair.gap_m, k_digit_contact);
         }
     }
 
@@ -308,19 +366,23 @@ class Fitter {
         if (sphere.finger == HandSphere::k_palm) {
             return slope;
         }
-        const auto f = static_cast<std::size_t>(sphere.finger);
-        for (std::size_t i = 0; i <= sphere.link; ++i) {
+        add_digit_slope(static_cast<std::size_t>(sphere.finger), sphere.link, sphere.center,
+                        sphere.away, slope);
+        return slope;
+    }
+
+    // Adds how far a point of a link moves along `away` per unit of the digit's angles.
+    void add_digit_slope(std::size_t f, std::size_t link, const Vec3& point, const Vec3& away,
+                         Unknowns& slope) const {
+        for (std::size_t i = 0; i <= link; ++i) {
             const Pose& frame = frames_[f][i];
             const Vec3 axis = frame.rotation * -Vec3::UnitX();
-            slope[layout_.hinge(f, i)] =
-                axis.cross(sphere.center - frame.position).dot(sphere.away);
+            slope[layout_.hinge(f, i)] += axis.cross(point - frame.position).dot(away);
         }
         if (layout_.opposition(f) >= 0) {
             const Vec3 axis = pose_.wrist_bs.rotation * rig_.fingers[f].opposition_axis_hs;
-            slope[layout_.opposition(f)] =
-                axis.cross(sphere.center - frames_[f][0].position).dot(sphere.away);
+            slope[layout_.opposition(f)] += axis.cross(point - frames_[f][0].position).dot(away);
         }
-        return slope;
     }
 
     void add_row(const Unknowns& slope, double value, double weight) {

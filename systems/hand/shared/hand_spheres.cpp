@@ -12,6 +12,7 @@ namespace {
 
 constexpr double k_spacing_m = 0.012;    // largest distance between spheres of one link
 constexpr int k_max_pieces = 6;          // per link
+constexpr double k_keep_travel_m = 5e-4;  // of a centre whose gap is kept
 constexpr double k_extra_gap_m = 0.004;  // links farther away need no extra sphere
 constexpr double k_max_depth_inside_m = 0.03;  // deepest centre inside a solid that is found
 
@@ -118,6 +119,10 @@ void HandSpheres::query(const HandPose& pose, const HandLinkFrames& frames) {
     for (std::size_t i = 0; i < count_; ++i) {
         HandSphere& sphere = spheres_[i];
         if (sphere.is_extra) {
+            if (is_queried_ && keeps_gap(sphere, center_of(sphere, pose, frames))) {
+                nearest = nullptr;
+                continue;
+            }
             sphere.has_gap = false;
             if (nearest != nullptr && nearest->gap_m < k_extra_gap_m) {
                 query_extra(*nearest, sphere, pose, frames);
@@ -133,6 +138,12 @@ void HandSpheres::query(const HandPose& pose, const HandLinkFrames& frames) {
             sphere.gap_m = sphere.searched_gap_m + sphere.away.dot(moved);
             continue;
         }
+        if (is_queried_ && keeps_gap(sphere, center)) {
+            if (nearest == nullptr || sphere.gap_m < nearest->gap_m) {
+                nearest = &sphere;
+            }
+            continue;
+        }
         query_sphere(sphere, center, previous, !is_queried_);
         previous = &sphere;
         if (sphere.has_gap && (nearest == nullptr || sphere.gap_m < nearest->gap_m)) {
@@ -140,6 +151,17 @@ void HandSpheres::query(const HandPose& pose, const HandLinkFrames& frames) {
         }
     }
     is_queried_ = true;
+}
+
+// Moves the gap of a sphere along with its centre if that is near to where it was searched.
+bool HandSpheres::keeps_gap(HandSphere& sphere, const Vec3& center) {
+    const Vec3 moved = center - sphere.searched_center;
+    if (!sphere.has_gap || moved.norm() > k_keep_travel_m) {
+        return false;
+    }
+    sphere.center = center;
+    sphere.gap_m = sphere.searched_gap_m + sphere.away.dot(moved);
+    return true;
 }
 
 // Puts the extra sphere where the axis is nearest to the surface point of the capsule's nearest

@@ -82,6 +82,7 @@ class HandSpheres {
     // `near_sphere`: a sphere nearby, whose triangle bounds the search.
     void query_sphere(HandSphere& sphere, const Vec3& center, const HandSphere* near_sphere,
                       bool is_first);
+    static bool keeps_gap(HandSphere& sphere, const Vec3& center);
     double bound_m(const Vec3& center_ms, double radius_m, const HandSphere& sphere) const;
     void query_extra(const HandSphere& nearest, HandSphere& extra, const HandPose& pose,
                      const HandLinkFrames& frames);
