@@ -100,6 +100,7 @@ class Fitter {
     HandFit run() {
         constexpr double k_gain = 1e-6;  // smallest relative gain that counts
         constexpr double k_gain_m2 = 1e-12;
+        constexpr double k_worthwhile_gain = 0.01;  // relative change that gets another round
         double cost = evaluate();
         HandFit best = described(cost);
         best.is_converged = true;
@@ -113,6 +114,9 @@ class Fitter {
                 best = described(cost);
             }
             best.is_converged = !(cost < before);
+            if (std::abs(now - before) < k_worthwhile_gain * before) {
+                break;
+            }
         }
         return best;
     }
