@@ -69,14 +69,13 @@ HandFit fit_closed(const HandSurroundings& hand, const GripSurface& surface,
     return fit_hand(hand, surface, goal, tuning);
 }
 
-// Starts at the last fit, which stays in place in the body's frame.
+// Starts at the last fit, carried along with the tracked wrist.
 HandFit fit_last(const HandSurroundings& hand, const GripSurface& surface, const PalmOffset& offset,
                  const FingerPose& pose, const PalmTuning& tuning) {
     HandFitGoal goal = common_goal(hand, pose);
     const Pose target{offset.target_m, rotation_from_vector(offset.target_turn_rad)};
-    goal.first = {
-        goal.is_wrist_fixed ? held_wrist_bs(hand, offset) : pose.fitted_wrist_bs * target,
-        pose.target};
+    goal.first = {goal.is_wrist_fixed ? held_wrist_bs(hand, offset) : hand.wrist_bs * target,
+                  pose.target};
     goal.is_clear = pose.is_clear;
     goal.rounds = k_rounds;
     goal.max_flex_rad = k_max_flex_rad;

@@ -9,7 +9,7 @@ namespace handhold {
 namespace {
 
 // Travel of the held palm after which a hand closes again: fingers may reach other parts.
-constexpr double k_close_again_m = 0.03;
+constexpr double k_close_again_m = 0.08;
 constexpr double k_close_again_in_grip_m = 1e-6;  // authored poses are checked where they are
 
 void count_fallback(ChainFallback fallback, StageStats& stats) {
