@@ -20,7 +20,8 @@ struct PropagateSpineIo {
     const Column<ArmEstimate>& estimate;         // in: the chest
     Column<SpineMemory>& memory;                 // in/out
     Column<SpinePose>& pose;                     // out
-    // For contacts of the legs. Set `surfaces` and the two columns below it, or none of the three.
+    // In: for contacts of the legs. Set `surfaces` and the two columns below it, or none of the
+    // three.
     SurfaceQuery surfaces = {};  // in
     // In: rays start in the head; shift_m is the floor's height.
     const Column<HeadTracking>* head = nullptr;

@@ -26,7 +26,8 @@ struct FitHandsIo {
 //
 // A hand that has just closed starts at the palm within its limits and the closed digits
 // (constrain_palms, sweep_fingers). Other hands move on from last frame's fit, carried along with
-// the tracked wrist. A hand that closes again while it grips tries both and changes only if the
+// the tracked wrist; while that has travelled less than 1 mm, the hand stays where it is on its
+// body. A hand that closes again while it grips tries both and changes only if the
 // closing costs less than 75 % of the other. The fit is kept while wrist and surroundings are
 // unchanged and another one would change nothing.
 //

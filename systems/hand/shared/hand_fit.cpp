@@ -16,7 +16,7 @@ constexpr double k_arm_m = 0.08;
 constexpr double k_lever_m = 0.05;  // l
 constexpr double k_close = 0.004;
 constexpr double k_touch = 2.0;
-constexpr double k_let_go_m = 0.008;  // g
+constexpr double k_let_go_m = 0.008;  // g of a digit for which the closing found no contact
 constexpr double k_let_go_touching_m = 0.02;
 constexpr double k_tip = 0.02;
 constexpr double k_first = 0.002;
@@ -27,7 +27,6 @@ constexpr double k_alike = 0.001;
 constexpr double k_alike_if_free = 0.002;  // if one of the two touches nothing
 constexpr double k_fan = 0.03;
 constexpr double k_roll = 0.003;
-constexpr double k_roll_ratio = 1.0;
 constexpr double k_couple = 0.003;
 constexpr double k_coupling = 2.0 / 3.0;
 // Stiffness of the inequalities.
@@ -35,12 +34,12 @@ constexpr double k_contact = 2000.0;
 constexpr double k_joint_limit = 500.0;
 constexpr double k_palm_limit = 20.0;
 constexpr double k_bend_limit = 0.3;
+constexpr double k_fan_limit = 2.0;
+constexpr double k_digit_contact = 500.0;  // of the thumb and a finger
+constexpr double k_digit_reach_m = 0.03;   // digits farther apart need no row
+constexpr double k_max_fan_rad = 0.5;
 constexpr double k_max_apart_rad = 1.6;
 constexpr double k_max_bend_rad = 2.75;
-constexpr double k_max_fan_rad = 0.5;
-constexpr double k_fan_limit = 2.0;
-constexpr double k_digit_contact = 500.0;
-constexpr double k_digit_reach_m = 0.03;  // gaps of thumb and fingers farther apart need no row
 constexpr double k_clear_m = 3e-4;  // gap that contacts aim for
 // Largest step of one round: gaps are linearised.
 constexpr double k_max_move_m = 0.02;
@@ -195,8 +194,8 @@ class Fitter {
             return;
         }
         add_row(bend_slope(f, -1.0), k_max_bend_rad - bend_rad(f), k_bend_limit * k_lever2);
-        add_square(k_roll * k_lever2, angles.curl_rad[1] - k_roll_ratio * angles.curl_rad[0],
-                   unit(layout_.hinge(f, 1)) + unit(layout_.hinge(f, 0), -k_roll_ratio));
+        add_square(k_roll * k_lever2, angles.curl_rad[1] - angles.curl_rad[0],
+                   unit(layout_.hinge(f, 1)) + unit(layout_.hinge(f, 0), -1.0));
         if (finger.link_count == 3) {
             add_square(k_couple * k_lever2, angles.curl_rad[2] - k_coupling * angles.curl_rad[1],
                        unit(layout_.hinge(f, 2)) + unit(layout_.hinge(f, 1), -k_coupling));
@@ -236,8 +235,7 @@ class Fitter {
         }
     }
 
-    // Adds k_touch / 2 * gap^2 for a digit that touches, or else k_touch / 2 * gap^2 / (1 + gap^2 /
-    // g^2), as the square that has the same slope here (iteratively reweighted least squares). A
+    // Adds k_touch / 2 * gap^2 / (1 + gap^2 / g^2), as the square that has the same slope here (iteratively reweighted least squares). A
     // gap of 0 is pulled too, so that the wrist does not leave it.
     void add_pull(const HandSphere& sphere, bool touches) {
         const double ratio = sphere.gap_m / (touches ? k_let_go_touching_m : k_let_go_m);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "beam.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold::fit_hands_test {
 namespace {
@@ -14,6 +15,35 @@ using test::Random;
 using test::wrist_with_palm_at;
 
 constexpr double k_dt_s = 1.0 / 90.0;
+
+Vec3 knuckle_to_tip(const FingerRig& finger, const FingerAngles& angles) {
+    const auto points = finger_points(finger, angles);
+    return points[finger.link_count] - points[0];
+}
+
+// Least gap between a thumb's and a finger's link, sampled every 2 % of their lengths.
+double least_thumb_gap_m(const HandRig& rig, const FingerPose& pose) {
+    constexpr int k_samples = 50;
+    double least_m = 1.0;
+    const auto thumb = finger_points(rig.fingers[0], pose.target[0]);
+    for (std::size_t f = 1; f < rig.fingers.size(); ++f) {
+        const auto finger = finger_points(rig.fingers[f], pose.target[f]);
+        for (std::size_t a = 0; a < rig.fingers[0].link_count; ++a) {
+            for (std::size_t b = 0; b < rig.fingers[f].link_count; ++b) {
+                for (int i = 0; i <= k_samples * k_samples; ++i) {
+                    const double s = static_cast<double>(i % k_samples) / k_samples;
+                    const double t = static_cast<double>(i / k_samples) / k_samples;
+                    const Vec3 on_thumb = thumb[a] + s * (thumb[a + 1] - thumb[a]);
+                    const Vec3 on_finger = finger[b] + t * (finger[b + 1] - finger[b]);
+                    least_m = std::min(least_m, (on_thumb - on_finger).norm() -
+                                                    rig.fingers[0].radius_m[a] -
+                                                    rig.fingers[f].radius_m[b]);
+                }
+            }
+        }
+    }
+    return least_m;
+}
 
 struct FitHands : testing::Test {
     GripMesh beam = build_grip_mesh(test::make_beam());
@@ -100,6 +130,43 @@ TEST_F(FitHands, DigitsStayOnTheSideWhereTheyClosed) {
         }
     }
     EXPECT_GT(pressed, 5);
+}
+
+// Palms at random places around the beam. Oracle: sampled distances between the links' axes.
+TEST_F(FitHands, ThumbStaysOutOfTheFingers) {
+    Random random(2506);
+    int near = 0;
+    for (int i = 0; i < 30; ++i) {
+        const Vec3 up = (Vec3::UnitY() + random.vector(0.5)).normalized();
+        const Vec3 center(random.between(-0.1, 0.1), 0.012, random.between(-0.02, 0.02));
+        FittedHand hand(beam, wrist_with_palm_at(rig, center, up));
+        for (int frame = 0; frame < 5; ++frame) {
+            hand.frame(k_unbudgeted_s);
+        }
+        const double gap_m = least_thumb_gap_m(rig, hand.pose());
+        EXPECT_GT(gap_m, -2e-3) << i;
+        near += gap_m < 2e-3 ? 1 : 0;
+    }
+    EXPECT_GT(near, 3);
+}
+
+// Beside the beam's end, some fingers close around it and others reach nothing.
+TEST_F(FitHands, FingersDoNotFanOut) {
+    Random random(2507);
+    for (int i = 0; i < 20; ++i) {
+        Pose at_end = on_beam;
+        at_end.position.x() += random.between(0.15, 0.22);
+        FittedHand hand(beam, at_end);
+        for (int frame = 0; frame < 5; ++frame) {
+            hand.frame(k_unbudgeted_s);
+        }
+        for (std::size_t f = 2; f < rig.fingers.size(); ++f) {
+            const Vec3 one = knuckle_to_tip(rig.fingers[f - 1], hand.pose().target[f - 1]);
+            const Vec3 other = knuckle_to_tip(rig.fingers[f], hand.pose().target[f]);
+            EXPECT_LT(arc_tangent2(one.cross(other).norm(), one.dot(other)), 40.0 * k_degree)
+                << i << ", finger " << f;
+        }
+    }
 }
 
 // Beyond the beam's end a finger reaches nothing.

@@ -86,8 +86,10 @@ TEST_F(HandSpheresOnFloor, CentreThatCrossesASheetIsInside) {
 }
 
 // Kept gaps must not hide a digit's nearest sphere, nor one about to touch. The beam's edges turn
-// the nearest direction, which kept gaps do not see.
-TEST_F(HandSpheresOnFloor, KeptGapsLeaveTheNearestOnesExact) {
+// the nearest direction, which kept gaps do not see: a distance is convex along a path beside a
+// convex solid, so its linearisation is too small by at most the path's length.
+TEST_F(HandSpheresOnFloor, KeptGapsLeaveTheNearestOnesClose) {
+    constexpr double k_kept_path_m = 1.2e-3;
     const GripMesh beam = build_grip_mesh(test::make_beam());
     FittedHand over(beam, hand.wrist_bs());
     over.search();
@@ -110,7 +112,8 @@ TEST_F(HandSpheresOnFloor, KeptGapsLeaveTheNearestOnesExact) {
             query(fresh, pose);
             for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
                 if (moving.gap_m(f) > 0.0 && std::isfinite(fresh.gap_m(f))) {
-                    EXPECT_NEAR(moving.gap_m(f), fresh.gap_m(f), 1e-12) << i << ", finger " << f;
+                    EXPECT_LE(moving.gap_m(f), fresh.gap_m(f) + 1e-12) << i << ", finger " << f;
+                    EXPECT_GE(moving.gap_m(f), fresh.gap_m(f) - k_kept_path_m) << i;
                 }
             }
             for (std::size_t k = 0; k < fresh.all().size(); ++k) {
@@ -118,7 +121,7 @@ TEST_F(HandSpheresOnFloor, KeptGapsLeaveTheNearestOnesExact) {
                 kept += sphere.center != sphere.searched_center ? 1 : 0;
                 if (!sphere.is_extra && fresh.all()[k].has_gap && fresh.all()[k].gap_m < 3e-3 &&
                     moving.penetration_m() == 0.0) {
-                    EXPECT_NEAR(sphere.gap_m, fresh.all()[k].gap_m, 1e-12) << i;
+                    EXPECT_NEAR(sphere.gap_m, fresh.all()[k].gap_m, k_kept_path_m) << i;
                 }
             }
         }

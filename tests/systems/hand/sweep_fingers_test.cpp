@@ -98,7 +98,7 @@ TEST_F(SweepFingers, ClosesAgainOnlyFarAwayOrElsewhere) {
         (hand.wrist_bs().rotation * rotation_about(Vec3::UnitY(), 0.1)).normalized();
     close(hand);
     EXPECT_FALSE(closes(hand)) << "turned a little";
-    hand.wrist_bs().position.x() += 0.04;
+    hand.wrist_bs().position.x() += 0.1;
     close(hand);
     EXPECT_TRUE(closes(hand)) << "moved along";
     hand.hands.front().body = test::entity(4);
