@@ -140,8 +140,7 @@ Pose target_in_hand(const HandSurroundings& hand, const FingerPose& pose,
 
 // Translation and rotation advance by the same share; rotation counts tilt_cost_m_per_rad metres
 // per radian.
-void follow_palm(const Pose& target_hs, double dt_s, const PalmTuning& tuning,
-                 PalmOffset& offset) {
+void follow_palm(const Pose& target_hs, double dt_s, const PalmTuning& tuning, PalmOffset& offset) {
     const Vec3 target_turn_rad = rotation_to_vector(target_hs.rotation);
     const Vec3 remaining_m = target_hs.position - offset.shown_m;
     const Vec3 turn_rad = target_turn_rad - offset.shown_turn_rad;

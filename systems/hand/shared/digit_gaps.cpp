@@ -27,8 +27,7 @@ std::size_t find_digit_gaps(const HandRig& rig, const DigitCapsules& capsules, d
     const auto add = [&](DigitGap pair) {
         const Capsule& thumb = capsules[pair.thumb][pair.thumb_link];
         const Capsule& finger = capsules[pair.finger][pair.finger_link];
-        std::tie(pair.on_thumb, pair.on_finger) =
-            closest_between_segments(thumb.ends, finger.ends);
+        std::tie(pair.on_thumb, pair.on_finger) = closest_between_segments(thumb.ends, finger.ends);
         const Vec3 offset = pair.on_thumb - pair.on_finger;
         const double distance_m = offset.norm();
         pair.gap_m = distance_m - thumb.radius_m - finger.radius_m;

@@ -6,6 +6,7 @@
 
 #include "engine/math/penalty_quadratic.hpp"
 #include "systems/hand/shared/digit_gaps.hpp"
+#include "systems/hand/shared/hand_unknowns.hpp"
 
 namespace handhold {
 namespace {
@@ -46,40 +47,6 @@ constexpr double k_max_move_m = 0.02;
 constexpr double k_max_turn_rad = 0.3;
 
 constexpr double k_lever2 = k_lever_m * k_lever_m;
-
-// Which unknown is which: 0 to 2 translation, 3 to 5 rotation vector about the palm's centre, then
-// each finger's hinges, followed by its opposition angle if it has one.
-class Layout {
-  public:
-    explicit Layout(const HandRig& rig) {
-        for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
-            const FingerRig& finger = rig.fingers[f];
-            first_[f] = static_cast<int>(count_);
-            count_ += finger.link_count;
-            opposition_[f] = -1;
-            if (finger.lower_opposition_rad < finger.upper_opposition_rad) {
-                opposition_[f] = static_cast<int>(count_++);
-            }
-        }
-    }
-    int hinge(std::size_t finger, std::size_t link) const {
-        return first_[finger] + static_cast<int>(link);
-    }
-    int opposition(std::size_t finger) const { return opposition_[finger]; }  // -1: none
-    std::size_t count() const { return count_; }
-    int end() const { return static_cast<int>(count_); }
-
-  private:
-    std::array<int, k_finger_count> first_ = {};
-    std::array<int, k_finger_count> opposition_ = {};
-    std::size_t count_ = 6;
-};
-
-Unknowns unit(int place, double value = 1.0) {
-    Unknowns slope = Unknowns::Zero();
-    slope[place] = value;
-    return slope;
-}
 
 bool is_thumb(const FingerRig& finger) { return finger.name == FingerName::thumb; }
 
@@ -193,7 +160,8 @@ class Fitter {
         if (is_thumb(finger)) {
             return;
         }
-        add_row(bend_slope(f, -1.0), k_max_bend_rad - bend_rad(f), k_bend_limit * k_lever2);
+        const Unknowns open = layout_.bend(f, -1.0);
+        add_row(open, k_max_bend_rad + along(open), k_bend_limit * k_lever2);
         add_square(k_roll * k_lever2, angles.curl_rad[1] - angles.curl_rad[0],
                    unit(layout_.hinge(f, 1)) + unit(layout_.hinge(f, 0), -1.0));
         if (finger.link_count == 3) {
@@ -235,8 +203,9 @@ class Fitter {
         }
     }
 
-    // Adds k_touch / 2 * gap^2 / (1 + gap^2 / g^2), as the square that has the same slope here (iteratively reweighted least squares). A
-    // gap of 0 is pulled too, so that the wrist does not leave it.
+    // Adds k_touch / 2 * gap^2 / (1 + gap^2 / g^2), as the square that has the same slope here
+    // (iteratively reweighted least squares). A gap of 0 is pulled too, so that the wrist does not
+    // leave it.
     void add_pull(const HandSphere& sphere, bool touches) {
         const double ratio = sphere.gap_m / (touches ? k_let_go_touching_m : k_let_go_m);
         const double share = 1.0 / (1.0 + ratio * ratio);
@@ -267,57 +236,26 @@ class Fitter {
                        pose_.fingers[b].curl_rad[i] - pose_.fingers[a].curl_rad[i],
                        unit(layout_.hinge(b, i)) + unit(layout_.hinge(a, i), -1.0));
         }
-        const Unknowns fan = fan_slope(b, 1.0) + fan_slope(a, -1.0);
-        const double fan_rad = direction_rad(b) - direction_rad(a);
+        const Unknowns fan = layout_.direction(b, 1.0) + layout_.direction(a, -1.0);
+        const double fan_rad = along(fan);
         add_square(k_fan * k_lever2, fan_rad, fan);
         add_row(fan, k_max_fan_rad + fan_rad, k_fan_limit * k_lever2);
         add_row(-fan, k_max_fan_rad - fan_rad, k_fan_limit * k_lever2);
-        const Unknowns apart = bend_slope(b, 1.0) + bend_slope(a, -1.0);
-        const double apart_rad = bend_rad(b) - bend_rad(a);
+        const Unknowns apart = layout_.bend(b, 1.0) + layout_.bend(a, -1.0);
+        const double apart_rad = along(apart);
         add_row(apart, k_max_apart_rad + apart_rad, k_bend_limit * k_lever2);
         add_row(-apart, k_max_apart_rad - apart_rad, k_bend_limit * k_lever2);
     }
 
-    // Share of a hinge's angle by which the direction from the knuckle to the tip turns, of a nearly
-    // straight finger: the length beyond the hinge, of the whole length.
-    double direction_share(std::size_t f, std::size_t link) const {
-        const FingerRig& finger = rig_.fingers[f];
-        double whole_m = 0.0;
-        double beyond_m = 0.0;
-        for (std::size_t i = 0; i < finger.link_count; ++i) {
-            whole_m += finger.length_m[i];
-            beyond_m += i < link ? 0.0 : finger.length_m[i];
-        }
-        return beyond_m / whole_m;
-    }
-    double direction_rad(std::size_t f) const {
+    // Sum of the pose's curls, weighted by `slope`.
+    double along(const Unknowns& slope) const {
         double sum_rad = 0.0;
-        for (std::size_t i = 0; i < rig_.fingers[f].link_count; ++i) {
-            sum_rad += direction_share(f, i) * pose_.fingers[f].curl_rad[i];
+        for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
+            for (std::size_t i = 0; i < rig_.fingers[f].link_count; ++i) {
+                sum_rad += slope[layout_.hinge(f, i)] * pose_.fingers[f].curl_rad[i];
+            }
         }
         return sum_rad;
-    }
-    Unknowns fan_slope(std::size_t f, double sign) const {
-        Unknowns slope = Unknowns::Zero();
-        for (std::size_t i = 0; i < rig_.fingers[f].link_count; ++i) {
-            slope[layout_.hinge(f, i)] = sign * direction_share(f, i);
-        }
-        return slope;
-    }
-
-    double bend_rad(std::size_t f) const {
-        double sum_rad = 0.0;
-        for (std::size_t i = 0; i < rig_.fingers[f].link_count; ++i) {
-            sum_rad += pose_.fingers[f].curl_rad[i];
-        }
-        return sum_rad;
-    }
-    Unknowns bend_slope(std::size_t f, double sign) const {
-        Unknowns slope = Unknowns::Zero();
-        for (std::size_t i = 0; i < rig_.fingers[f].link_count; ++i) {
-            slope[layout_.hinge(f, i)] = sign;
-        }
-        return slope;
     }
 
     void add_contacts() {
@@ -470,7 +408,7 @@ class Fitter {
     const GripSurface& surface_;
     const HandFitGoal& goal_;
     const PalmTuning& tuning_;
-    const Layout layout_;
+    const HandUnknowns layout_;
     HandPose pose_;
     HandSpheres spheres_;
     Vec3 center_ = Vec3::Zero();  // of the palm at pose_

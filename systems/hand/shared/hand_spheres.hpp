@@ -61,11 +61,11 @@ class HandSpheres {
     HandSpheres(const HandSurroundings& hand, const GripSurface& surface,
                 const std::array<bool, k_finger_count>& is_clear);
 
-    // Computes all gaps at a pose. Spheres that have moved less than 1.2 mm since their last search,
-    // or cannot be a digit's nearest, keep its gap, moved along `away`. At the first call, a centre is
-    // inside a solid if it is below the plane of its nearest triangle. Later a centre changes sides
-    // only if its path since the last call crosses a surface of the gripped mesh: windings of open
-    // or broken meshes cannot flip a finger through a wall.
+    // Computes all gaps at a pose. Spheres that have moved less than 1.2 mm since their last
+    // search, or cannot be a digit's nearest, keep its gap, moved along `away`. At the first call,
+    // a centre is inside a solid if it is below the plane of its nearest triangle. Later a centre
+    // changes sides only if its path since the last call crosses a surface of the gripped mesh:
+    // windings of open or broken meshes cannot flip a finger through a wall.
     void query(const HandPose& pose, const HandLinkFrames& frames);
 
     std::span<const HandSphere> all() const { return {spheres_.data(), count_}; }

@@ -114,9 +114,8 @@ ClosedThumb close_thumb(const ClosingThumb& closing, const ChainFitSettings& set
     double best_m = std::numeric_limits<double>::infinity();
     const auto consider = [&](const ClosedThumb& closed) {
         const double cost_m = closer.cost_m(closed);
-        const bool is_nearer =
-            cost_m == best_m &&
-            std::abs(closed.opposition_rad - rest_rad) < std::abs(best.opposition_rad - rest_rad);
+        const bool is_nearer = cost_m == best_m && std::abs(closed.opposition_rad - rest_rad) <
+                                                       std::abs(best.opposition_rad - rest_rad);
         if (cost_m < best_m || is_nearer) {
             best_m = cost_m;
             best = closed;

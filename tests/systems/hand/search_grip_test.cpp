@@ -62,8 +62,7 @@ TEST(SearchGrip, ChoosesSurfaceWithFingerClearance) {
     const auto near = scene.mesh.search_bvh.closest_point({0.0, 0.0, 0.0}, 0.1);
     ASSERT_TRUE(near);
     under.triangle = near->triangle;
-    const Pose fitted_wrist_bs =
-        fit_palm(hand.hands.front(), under, hand.tuning.palm).wrist_bs;
+    const Pose fitted_wrist_bs = fit_palm(hand.hands.front(), under, hand.tuning.palm).wrist_bs;
     ASSERT_GT(find_finger_clearance(hand.hands.front(), fitted_wrist_bs, scene.patch).penetration_m,
               0.005);
     hand.search();
