@@ -132,14 +132,16 @@ TEST_F(FitHands, DigitsStayOnTheSideWhereTheyClosed) {
     EXPECT_GT(pressed, 5);
 }
 
-// Palms at random places around the beam. Oracle: sampled distances between the links' axes.
+// Palms at random places on a thin rod, around which fingers and thumb meet. Oracle: sampled
+// distances between the links' axes.
 TEST_F(FitHands, ThumbStaysOutOfTheFingers) {
     Random random(2506);
+    const GripMesh rod = build_grip_mesh(test::make_beam(0.012));
     int near = 0;
     for (int i = 0; i < 30; ++i) {
         const Vec3 up = (Vec3::UnitY() + random.vector(0.5)).normalized();
         const Vec3 center(random.between(-0.1, 0.1), 0.012, random.between(-0.02, 0.02));
-        FittedHand hand(beam, wrist_with_palm_at(rig, center, up));
+        FittedHand hand(rod, wrist_with_palm_at(rig, center, up));
         for (int frame = 0; frame < 5; ++frame) {
             hand.frame(k_unbudgeted_s);
         }
@@ -147,7 +149,7 @@ TEST_F(FitHands, ThumbStaysOutOfTheFingers) {
         EXPECT_GT(gap_m, -2e-3) << i;
         near += gap_m < 2e-3 ? 1 : 0;
     }
-    EXPECT_GT(near, 3);
+    EXPECT_GT(near, 0);
 }
 
 // Beside the beam's end, some fingers close around it and others reach nothing.
@@ -330,7 +332,7 @@ TEST_F(FitHands, ShownOffsetIsNeverFasterThanItsRate) {
     for (int frame = 0; frame < 200; ++frame) {
         hand.frame(k_dt_s);
     }
-    EXPECT_EQ(hand.offset.at(k_right).shown_m, hand.offset.at(k_right).target_m);
+    EXPECT_LT((hand.offset.at(k_right).shown_m - hand.offset.at(k_right).target_m).norm(), 1e-12);
 }
 
 TEST_F(FitHands, EmptyHandReturnsToTrackedPose) {
