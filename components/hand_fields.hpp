@@ -46,30 +46,6 @@ void visit_fields(const FingerAngles& c, V&& visit) {
     visit("opposition_rad", c.opposition_rad);
 }
 template <typename V>
-void visit_fields(const FingerBackoff& c, V&& visit) {
-    visit("retry_in_m", c.retry_in_m);
-    visit("travel_since_m", c.travel_since_m);
-    visit("failures", c.failures);
-    visit("was_fast_hand", c.was_fast_hand);
-    visit("queued_frames", c.queued_frames);
-}
-template <typename V>
-void visit_fields(const FingerLookahead& c, V&& visit) {
-    visit("retry_in_m", c.retry_in_m);
-    visit("travel_since_m", c.travel_since_m);
-    visit("has_surface_ahead", c.has_surface_ahead);
-    visit("is_known", c.is_known);
-}
-template <typename V>
-void visit_fields(const ThumbSearch& c, V&& visit) {
-    visit("is_running", c.is_running);
-    visit("may_end_early", c.may_end_early);
-    visit("start_step", c.start_step);
-    visit("evaluated_count", c.evaluated_count);
-    visit("cost_m", c.cost_m);
-    visit("needs_depenetration", c.needs_depenetration);
-}
-template <typename V>
 void visit_fields(const HandOwner& c, V&& visit) {
     visit("player", c.player);
     visit("side", c.side);
@@ -154,15 +130,14 @@ void visit_fields(const GripSurface& c, V&& visit) {
 }
 template <typename V>
 void visit_fields(const PalmOffset& c, V&& visit) {
-    visit("shown_m", c.shown_m);
-    visit("shown_turn_rad", c.shown_turn_rad);
+    visit("held_m", c.held_m);
+    visit("held_turn_rad", c.held_turn_rad);
     visit("target_m", c.target_m);
     visit("target_turn_rad", c.target_turn_rad);
-    visit("lift_m", c.lift_m);
-    visit("lift_wrist_bs", c.lift_wrist_bs);
+    visit("shown_m", c.shown_m);
+    visit("shown_turn_rad", c.shown_turn_rad);
     visit("solved_wrist_bs", c.solved_wrist_bs);
     visit("solved_signature", c.solved_signature);
-    visit("solved_lift_m", c.solved_lift_m);
     visit("solved_triangle", c.solved_triangle);
 }
 template <typename V>
@@ -173,23 +148,22 @@ template <typename V>
 void visit_fields(const FingerPose& c, V&& visit) {
     visit("shown", c.shown);
     visit("target", c.target);
-    visit("opening_lag_rad", c.opening_lag_rad);
-    visit("seed_triangle", c.seed_triangle);
-    visit("solved_body", c.solved_body);
-    visit("solved_wrist_bs", c.solved_wrist_bs);
-    visit("solved_signature", c.solved_signature);
-    visit("slow_s", c.slow_s);
-    visit("solved", c.solved);
-    visit("converged", c.converged);
-    visit("thumb_wrist_bs", c.thumb_wrist_bs);
-    visit("thumb_solved", c.thumb_solved);
-    visit("thumb_converged", c.thumb_converged);
-    visit("thumb_search", c.thumb_search);
-    visit("backoff", c.backoff);
-    visit("lookahead", c.lookahead);
-    visit("finger_refit_this_frame", c.finger_refit_this_frame);
-    visit("thumb_refit_pending", c.thumb_refit_pending);
+    visit("closed", c.closed);
+    visit("touches", c.touches);
+    visit("is_closed_clear", c.is_closed_clear);
+    visit("is_authored", c.is_authored);
     visit("authored_pose_rejected", c.authored_pose_rejected);
+    visit("closed_body", c.closed_body);
+    visit("closed_wrist_bs", c.closed_wrist_bs);
+    visit("closed_point_bs", c.closed_point_bs);
+    visit("closed_normal_bs", c.closed_normal_bs);
+    visit("is_closed_in_grip", c.is_closed_in_grip);
+    visit("is_newly_closed", c.is_newly_closed);
+    visit("fitted_body", c.fitted_body);
+    visit("is_clear", c.is_clear);
+    visit("fitted_wrist_bs", c.fitted_wrist_bs);
+    visit("fitted_signature", c.fitted_signature);
+    visit("is_converged", c.is_converged);
 }
 template <typename V>
 void visit_fields(const ControllerToHand& c, V&& visit) {

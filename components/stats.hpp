@@ -31,7 +31,7 @@ enum class Stage : std::uint8_t {
     search_grip,
     constrain_palms,
     sweep_fingers,
-    pose_thumb,
+    fit_hands,
     estimate_arms,
     pose_arms,
     propagate_spine,
@@ -89,8 +89,8 @@ enum class Fallback : std::uint8_t {
     finger_full_search,   // the seeded searches did not suffice: all triangles in reach were tested
     finger_depenetrated,  // the closed finger penetrated: moved to a sample pose
     finger_opened,        // the finger still penetrated: opened step by step
-    finger_no_contact,    // a digit of a gripping hand touches nothing: rest pose
-    palm_lifted,          // the palm was raised because its fingers penetrate
+    finger_no_contact,    // a closing digit touches nothing: it goes with its neighbours
+    hand_penetrates,      // the fitted hand still penetrates by more than 3 mm: shown like that
     body_no_surface,      // the gripped body has no grip mesh: hand shown as tracked
     palm_no_surface,      // no surface near a gripping palm: hand shown as tracked
     // Authored grips.

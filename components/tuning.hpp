@@ -51,8 +51,6 @@ struct PalmTuning {
     std::int32_t evaluations_per_frame = 1;
     double normal_radius_m = 0.03;
     double rate_mps = 0.25;
-    double lift_m = 0.005;
-    double lift_from_depth_m = 0.0015;
 };
 
 // How fingers close on a surface.
@@ -63,17 +61,13 @@ struct FingerTuning {
     double open_step_rad = 0.0436;
     std::int32_t open_steps = 6;
     double close_radps = 9.42;
-    double transition_radps = 15.0;
-    double slow_speed_mps = 0.05;
-    double fast_refit_depth_m = 2e-3;
+    double open_radps = 15.0;
     double reuse_travel_m = 1e-6;
-    std::int32_t refits_per_frame = 2;
 };
 
 // How a thumb's opposition is chosen: the fit of lowest cost.
 struct ThumbTuning {
     std::int32_t opposition_steps = 6;
-    std::int32_t evaluations_per_frame = 2;
     double rest_opposition_rad = 0.26;
     double penetration_cost = 4.0;
     double open_cost_m = 0.012;
@@ -228,11 +222,6 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "Radius around the palm's surface point over which the surface normal is averaged.");
     see("palm.rate_mps", t.palm.rate_mps, "m/s", 0.0, 1e6,
         "Maximum speed at which the shown hand moves relative to the tracked hand.");
-    see("palm.lift_m", t.palm.lift_m, "m", 0.0, 0.1,
-        "Height by which a palm is raised per step while its fingers penetrate; at most three "
-        "steps.");
-    see("palm.lift_from_depth_m", t.palm.lift_from_depth_m, "m", 0.0, 0.1,
-        "Finger penetration depth above which the palm is raised by palm.lift_m.");
     see("finger.plane_offset", t.finger.plane_offset, "", 0.0, 0.99,
         "Distance of a finger's two outer cutting planes from its middle plane, in mean link "
         "radii.");
@@ -246,24 +235,13 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     see("finger.open_steps", t.finger.open_steps, "", 0.0, 64.0,
         "Maximum number of opening steps while a finger is depenetrated; 0: it is never opened.");
     see("finger.close_radps", t.finger.close_radps, "rad/s", 0.0, 1e6,
-        "Maximum closing speed of a shown finger hinge; opening is immediate except "
-        "finger.transition_radps.");
-    see("finger.transition_radps", t.finger.transition_radps, "rad/s", 0.1, 1e6,
-        "Maximum opening speed of a shown digit when a sliding hand changes it to another fit.");
-    see("finger.slow_speed_mps", t.finger.slow_speed_mps, "m/s", 0.0, 10.0,
-        "Wrist speed up to which a hand counts as slow; a slow hand may change to fits that would "
-        "not last in a fast one.");
-    see("finger.fast_refit_depth_m", t.finger.fast_refit_depth_m, "m", 0.0, 0.1,
-        "Penetration depth above which a digit of a fast hand is fitted again from scratch.");
+        "Speed at which shown fingers close, and at which a shown thumb turns.");
+    see("finger.open_radps", t.finger.open_radps, "rad/s", 0.1, 1e6,
+        "Speed at which shown fingers open.");
     see("finger.reuse_travel_m", t.finger.reuse_travel_m, "m", 0.0, 0.01,
         "Wrist travel since the last fit below which palm and fingers keep that fit.");
-    see("finger.refits_per_frame", t.finger.refits_per_frame, "", 1.0, 5.0,
-        "Maximum number of fingers of a hand fitted from scratch per frame; the others are "
-        "queued.");
     see("thumb.opposition_steps", t.thumb.opposition_steps, "", 1.0, 32.0,
         "Number of evenly spaced opposition angles evaluated when a thumb is fitted.");
-    see("thumb.evaluations_per_frame", t.thumb.evaluations_per_frame, "", 1.0, 32.0,
-        "Maximum number of opposition angles evaluated per thumb and frame.");
     see("thumb.rest_opposition_rad", t.thumb.rest_opposition_rad, "rad", -3.2, 3.2,
         "Opposition angle of a thumb in its rest pose.");
     see("thumb.penetration_cost", t.thumb.penetration_cost, "", 0.0, 1e3,

@@ -42,7 +42,7 @@ void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const F
     search_grip(f);
     constrain_palms(f);
     sweep_fingers(f);
-    pose_thumb(f);
+    fit_hands(f);
 
     // Shown body: arms, spine and legs between head and hands.
     estimate_arms(f);

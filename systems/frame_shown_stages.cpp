@@ -12,8 +12,8 @@
 #include "systems/frame_stage_timer.hpp"
 #include "systems/frame_stages.hpp"
 #include "systems/hand/constrain_palms.hpp"
+#include "systems/hand/fit_hands.hpp"
 #include "systems/hand/gather_surroundings.hpp"
-#include "systems/hand/pose_thumb.hpp"
 #include "systems/hand/search_grip.hpp"
 #include "systems/hand/sweep_fingers.hpp"
 
@@ -96,9 +96,8 @@ void constrain_palms(const FrameContext& f) {
     const StageTimer timer(Stage::constrain_palms, f.stats);
     World& w = f.w;
     for_hand_slices(f, [&](HandScratch::Slice& /*slice*/, std::size_t first, std::size_t last) {
-        handhold::constrain_palms(
-            {f.dt_s(), hands_of(f, first, last), w.grip_surface, w.palm_offset, w.palm_pose},
-            f.tuning);
+        handhold::constrain_palms({hands_of(f, first, last), w.grip_surface, w.palm_offset},
+                                  f.tuning);
     });
 }
 
@@ -107,21 +106,19 @@ void sweep_fingers(const FrameContext& f) {
     World& w = f.w;
     for_hand_slices(f, [&](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
         handhold::sweep_fingers(
-            {f.dt_s(), hands_of(f, first, last), w.hand_tracking, w.grip_surface, w.palm_pose,
-             w.palm_offset, w.finger_pose, std::span(f.hands().traces).subspan(first, last - first),
-             slice.fit},
+            {hands_of(f, first, last), w.grip_surface, w.palm_offset, w.finger_pose,
+             std::span(f.hands().traces).subspan(first, last - first), slice.fit},
             f.tuning, slice.stats);
     });
 }
 
-void pose_thumb(const FrameContext& f) {
-    const StageTimer timer(Stage::pose_thumb, f.stats);
+void fit_hands(const FrameContext& f) {
+    const StageTimer timer(Stage::fit_hands, f.stats);
     World& w = f.w;
     for_hand_slices(f, [&](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
-        handhold::pose_thumb(
-            {f.dt_s(), hands_of(f, first, last), w.hand_tracking, w.grip_surface, w.palm_offset,
-             w.finger_pose, std::span(f.hands().traces).subspan(first, last - first), slice.fit},
-            f.tuning, slice.stats);
+        handhold::fit_hands({f.dt_s(), hands_of(f, first, last), w.hand_tracking, w.grip_surface,
+                             w.palm_offset, w.finger_pose, w.palm_pose},
+                            f.tuning, slice.stats);
     });
 }
 
@@ -189,7 +186,7 @@ void show_hands(const FrameContext& f) {
     search_grip(f);
     constrain_palms(f);
     sweep_fingers(f);
-    pose_thumb(f);
+    fit_hands(f);
 }
 
 // Arms, spine and legs between head and hands.

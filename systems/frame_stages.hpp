@@ -51,7 +51,7 @@ void gather_surroundings(const FrameContext& f);
 void search_grip(const FrameContext& f);
 void constrain_palms(const FrameContext& f);
 void sweep_fingers(const FrameContext& f);
-void pose_thumb(const FrameContext& f);
+void fit_hands(const FrameContext& f);
 void estimate_arms(const FrameContext& f);
 void layer_clavicles(const FrameContext& f);
 void pose_arms(const FrameContext& f);

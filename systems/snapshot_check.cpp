@@ -246,37 +246,6 @@ class BreachFinder {
     // is suspended for ever.
     void check_retries() {
         constexpr double k_max_m = 1.0;
-        constexpr std::uint32_t k_max_tries = 1000000;
-        constexpr double k_max_behind_rad = 2.0 * M_PI;
-        for (std::size_t row = 0; row < w_.finger_pose.size(); ++row) {
-            for (const auto& finger : w_.finger_pose.rows()[row].opening_lag_rad) {
-                for (const double opening_lag_rad : finger) {
-                    check(opening_lag_rad >= 0.0 && opening_lag_rad <= k_max_behind_rad,
-                          "finger_pose", w_.finger_pose.owners()[row], ".opening_lag_rad",
-                          "angles in [0, 2 pi]");
-                }
-            }
-            const double slow_s = w_.finger_pose.rows()[row].slow_s;
-            check(slow_s >= 0.0 && slow_s <= 1.0, "finger_pose", w_.finger_pose.owners()[row],
-                  ".slow_s", "at most 1 s");
-            for (const FingerBackoff& backoff : w_.finger_pose.rows()[row].backoff) {
-                check(std::abs(backoff.retry_in_m) <= k_max_m && backoff.travel_since_m >= 0.0 &&
-                          backoff.travel_since_m <= k_max_m && backoff.failures <= k_max_tries &&
-                          backoff.queued_frames <= k_max_tries,
-                      "finger_pose", w_.finger_pose.owners()[row], ".backoff",
-                      "distances within 1 m, at most a million failures or frames");
-            }
-            for (const FingerLookahead& lookahead : w_.finger_pose.rows()[row].lookahead) {
-                check(lookahead.retry_in_m >= 0.0 && lookahead.retry_in_m <= k_max_m &&
-                          lookahead.travel_since_m >= 0.0 && lookahead.travel_since_m <= k_max_m,
-                      "finger_pose", w_.finger_pose.owners()[row], ".lookahead",
-                      "distances in [0, 1] m");
-            }
-            const ThumbSearch& search = w_.finger_pose.rows()[row].thumb_search;
-            check(search.start_step < k_max_tries && search.evaluated_count <= k_max_tries,
-                  "finger_pose", w_.finger_pose.owners()[row], ".thumb_search",
-                  "at most a million steps");
-        }
         for (std::size_t row = 0; row < w_.grip_surface.size(); ++row) {
             const GripSurface& surface = w_.grip_surface.rows()[row];
             check(

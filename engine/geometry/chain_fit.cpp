@@ -43,9 +43,7 @@ class ChainFitter {
             return_to_rest();
             return fit_;
         }
-        if (settings_.searches || !starts_penetrating()) {
-            close_from_open(seed);
-        }
+        close_from_open(seed);
         if (fit_.contact_link == DiscClosure::k_none) {
             return_to_rest();
         }
@@ -74,7 +72,7 @@ class ChainFitter {
     // reach.
     void close_from_open(const ChainSeed& seed) {
         bool is_complete = false;
-        if (settings_.searches && has_start(seed)) {
+        if (has_start(seed)) {
             is_complete = search_cuts(seed);
             close();
         }
@@ -82,20 +80,6 @@ class ChainFitter {
         if (!is_complete || !touches || fit_.depth_m > settings_.search_depth_m) {
             close_over_all_cuts(touches);
         }
-    }
-
-    // True if the open pose already penetrates. Then the fit stays open, because closing would
-    // hardly turn a hinge.
-    bool starts_penetrating() {
-        const ChainDepth depth = depth_of(chain_.open_rad);
-        if (depth.depth_m <= settings_.search_depth_m) {
-            return false;
-        }
-        fit_.angle_rad = chain_.open_rad;
-        fit_.depth_m = depth.depth_m;
-        fit_.contact_link = static_cast<std::int32_t>(depth.link);
-        fit_.fallback = ChainFallback::all_cuts;
-        return true;
     }
 
     // Gathers the triangles in reach and cuts them with the planes.
@@ -215,9 +199,9 @@ class ChainFitter {
     // Best sample poses for a chain that penetrates after closing. A clear pose penetrates less
     // than a given depth.
     struct SamplePoses {
-        std::optional<Angles> touching;           // clear and touching; nearest to near_rad
-        std::optional<Angles> clear;              // clear; nearest to near_rad
-        std::optional<Angles> least_penetrating;  // set only if no pose is clear
+        std::optional<Angles> touching;           // clear and touching, nearest to rest_rad
+        std::optional<Angles> clear;              // clear, nearest to rest_rad
+        std::optional<Angles> least_penetrating;  // if none is clear
         double min_m = 0.0;                       // depth of least_penetrating
     };
 
@@ -234,7 +218,7 @@ class ChainFitter {
         } else if (poses.clear) {
             const bool is_clear = depth_of(chain_.rest_rad).depth_m <= clear_m;
             stay_at_sample(is_clear ? chain_.rest_rad : *poses.clear);
-            if (settings_.recloses_to_touch && fit_.depth_m <= 0.0) {
+            if (fit_.depth_m <= 0.0) {
                 touch_between(fit_.angle_rad, penetrating_rad, depth_of(penetrating_rad).link);
             }
         } else if (poses.least_penetrating) {
@@ -274,16 +258,15 @@ class ChainFitter {
     }
 
     void keep_if_nearer(const Angles& angle_rad, std::optional<Angles>& kept) const {
-        if (!kept || distance_to_near_rad(angle_rad) < distance_to_near_rad(*kept)) {
+        if (!kept || distance_to_rest_rad(angle_rad) < distance_to_rest_rad(*kept)) {
             kept = angle_rad;
         }
     }
 
-    double distance_to_near_rad(const Angles& angle_rad) const {
-        const Angles& near_rad = settings_.near_rad ? *settings_.near_rad : chain_.rest_rad;
+    double distance_to_rest_rad(const Angles& angle_rad) const {
         double off_rad = 0.0;
         for (std::size_t i = 0; i < chain_.link_count; ++i) {
-            off_rad += std::abs(angle_rad[i] - near_rad[i]);
+            off_rad += std::abs(angle_rad[i] - chain_.rest_rad[i]);
         }
         return off_rad;
     }

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,15 +35,6 @@ struct ChainFitSettings {
     double open_step_rad = 0.0;   // opening step of each hinge
     std::int32_t open_steps = 0;  // maximum number of opening steps
     SearchOrder order = SearchOrder::best_first;
-    // Of the clear sample poses, the one nearest to `near_rad` is used; nullopt: nearest to
-    // rest_rad. But if none of them touches anything and the rest pose is clear, the rest pose is
-    // used.
-    std::optional<ChainAngles> near_rad;
-    // If the clear pose used touches nothing, closes the chain from it until it touches.
-    bool recloses_to_touch = true;
-    // False: skips the graph search, uses all cuts, and keeps an open pose that already penetrates.
-    // This is cheaper.
-    bool searches = true;
     bool depenetrates = true;  // false: leaves a penetrating fit as it is
 };
 
@@ -70,11 +60,7 @@ struct ChainFit {
     // the crossing counts as penetrating.
     double depth_m = 0.0;
     ChainFallback fallback = ChainFallback::none;
-    // Refit only (chain_refit.hpp): the chain turned by max_turn_rad before it converged.
-    bool is_turn_limited = false;
-    bool has_look_ahead = false;  // refit only: no surface was near, so the whole range was queried
-    bool has_surface_ahead = false;  // result of that query
-    // Only if ChainFitSettings::depenetrates is false: depenetration would have changed the fit.
+    // Only with ChainFitSettings::depenetrates off: the fit would have been depenetrated.
     bool needs_depenetration = false;
     std::uint32_t discs = 0;   // planes searched
     std::uint32_t pops = 0;    // triangles popped by the graph searches

@@ -136,7 +136,7 @@ std::uint32_t index_of_min(const Float4& values, std::uint32_t count) {
     return min_index;
 }
 
-// Sums the area vectors of triangles that face a side.
+// Sums the area vectors of triangles that face a side, weighted by the cosine of the angle to it.
 class FacingAreas {
   public:
     FacingAreas(const Vec3& side, double max_area_m2)
@@ -158,7 +158,7 @@ class FacingAreas {
         const Float4 facing =
             side_[0] * four.normal[0] + side_[1] * four.normal[1] + side_[2] * four.normal[2];
         const Int4 counts = is_wanted & (facing > zero);
-        const Float4 area = counts ? lower(higher(size, zero), max_area_) : zero;
+        const Float4 area = counts ? facing * lower(higher(size, zero), max_area_) : zero;
         Vec3 sum = Vec3::Zero();
         for (std::uint32_t i = 0; i < count; ++i) {
             sum += static_cast<double>(area[i]) * Vec3(static_cast<double>(four.normal[0][i]),

@@ -48,9 +48,9 @@ class TriangleBvh {
     template <typename Visit>
     void visit_in_sphere(const Vec3& center, double radius_m, Visit&& visit) const;
 
-    // Sums the area vectors of the triangles within radius_m that face `side`. A few triangles
-    // slightly farther away may be included. The length of a vector is twice the triangle's area,
-    // at most max_area_m2. Computed in floats, so errors scale with the mesh's size.
+    // Sums area vectors (twice the area up to max_area_m2, times the cosine of the angle to `side`)
+    // of the triangles within radius_m that face `side`, a unit vector; a few that are slightly
+    // farther away may be included. Computed in floats: errors scale with the mesh's size.
     Vec3 areas_in_sphere(const Vec3& center, double radius_m, const Vec3& side,
                          double max_area_m2) const;
 

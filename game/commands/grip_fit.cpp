@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "systems/hand/constrain_palms.hpp"
-#include "systems/hand/pose_thumb.hpp"
+#include "systems/hand/fit_hands.hpp"
 #include "systems/hand/search_grip.hpp"
 #include "systems/hand/sweep_fingers.hpp"
 
@@ -13,7 +13,7 @@ namespace handhold {
 FittedGrip fit_grip(const GripMesh& mesh, const HandRig& rig, const Pose& wrist_bs,
                     const Tuning& tuning, const AuthoredHand* authored) {
     constexpr double k_at_once_s = std::numeric_limits<double>::infinity();
-    constexpr int k_max_lifts = 4;
+    constexpr int k_max_frames = 40;  // until the fit converges, as that of a hand at rest
     EntityPool entities;
     const Entity hand = entities.create();
     const Entity body = entities.create();
@@ -33,12 +33,10 @@ FittedGrip fit_grip(const GripMesh& mesh, const HandRig& rig, const Pose& wrist_
     ChainFitScratch fit;
     StageStats stats;
     search_grip({k_at_once_s, hands, surface, search}, tuning, stats);
-    for (int lift = 0; lift < k_max_lifts; ++lift) {
-        constrain_palms({k_at_once_s, hands, surface, offset, palm}, tuning);
-        sweep_fingers({k_at_once_s, hands, tracking, surface, palm, offset, fingers, {}, fit},
-                      tuning, stats);
-        pose_thumb({k_at_once_s, hands, tracking, surface, offset, fingers, {}, fit}, tuning,
-                   stats);
+    constrain_palms({hands, surface, offset}, tuning);
+    sweep_fingers({hands, surface, offset, fingers, {}, fit}, tuning, stats);
+    for (int frame = 0; frame < k_max_frames && !fingers.at(hand).is_converged; ++frame) {
+        fit_hands({k_at_once_s, hands, tracking, surface, offset, fingers, palm}, tuning, stats);
     }
     FittedGrip fitted;
     fitted.wrist_bs = palm.at(hand).pose_ws;

@@ -76,7 +76,7 @@ constexpr EnumTexts<Fallback> k_meanings = {{
     {Fallback::finger_opened, "A finger still penetrated something and was opened by a step."},
     {Fallback::finger_no_contact,
      "A finger or thumb of a gripping hand met nothing; it rests in the air."},
-    {Fallback::palm_lifted, "Fingers did not fit; the shown hand was lifted off its surface."},
+    {Fallback::hand_penetrates, "A hand did not fit; it is shown more than 3 mm inside a surface."},
     {Fallback::body_no_surface,
      "A gripped body has no surface for hands; the hand is shown as tracked."},
     {Fallback::palm_no_surface,

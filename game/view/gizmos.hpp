@@ -25,7 +25,7 @@ enum class Gizmo : std::uint8_t {
     search,         // search_grip
     palm_limits,    // constrain_palms
     cuts,           // sweep_fingers
-    fingers,        // sweep_fingers, pose_thumb
+    fingers,        // sweep_fingers, fit_hands
     snap_zones,     // update_grabs
     arms,           // pose_arms
     spine,          // propagate_spine

@@ -137,8 +137,8 @@ void add_cut(const HandSurroundings& hand, const GripSurface& surface, const Fin
     for (std::uint32_t link = 0; link < finger.link_count; ++link) {
         disc.radius_m += finger.length_m[link];
     }
-    const ChainSeed starts = chain_seed(hand, surface, k_no_triangle,
-                                        finger_chain(finger, 0.0, inverse(hand.body_ws) * palm_ws));
+    const ChainSeed starts =
+        chain_seed(hand, surface, finger_chain(finger, 0.0, inverse(hand.body_ws) * palm_ws));
     const CrossingSearch found =
         find_crossing(graph, disc, starts, SearchOrder::best_first, scratch);
     if (found.triangle == k_no_triangle) {

@@ -10,28 +10,23 @@
 namespace handhold {
 
 struct ConstrainPalmsIo {
-    double dt_s = 0.0;                        // in: length of the frame; infinity: no rate limit
     std::span<const HandSurroundings> hands;  // in: body frame (_bs)
     const Column<GripSurface>& surface;       // in: body frame (_bs)
-    Column<PalmOffset>& offset;               // in/out: hand space, metres and radians
-    Column<PalmPose>& palm;                   // out: shown wrist, world space
+    Column<PalmOffset>& offset;               // in/out: held_*, hand space, metres and radians
 };
 
-// Keeps each gripping palm within its height and tilt limits over the gripped surface. Talk rows 16
-// and 18.
+// Holds each gripping palm within its limits over the surface. Talk rows 16 and 18.
 //
-// The limits are PalmTuning::min_height_m, max_height_m and max_angle_rad; also, the palm's
-// capsules must not penetrate. The target is the smallest wrist correction that meets these limits
-// (shared/palm_fit.hpp). It is solved again whenever the hand moves, so that a gripping hand can
-// roll over an edge. The target jumps at edges; the shown offset follows the target at
-// PalmTuning::rate_mps. Only the shown hand moves, never the player.
+// The limits are PalmTuning::min_height_m, max_height_m and max_angle_rad, and no penetration of
+// the palm's capsules. PalmOffset::held_* is the smallest wrist correction that meets them
+// (shared/palm_fit.hpp), solved again whenever the hand moves, so that a hand can roll over an edge
+// while it grips. Fingers close from there, and fit_hands starts from there.
 //
-// The target of a hand in an authored grip is the authored wrist pose. Talk row 10.
+// A palm in an authored grip is held at the authored wrist. Talk row 10.
 //
-// Idempotent: if a hand is tracked exactly at its target, the target moves by at most 0.1 mm.
-// Exception: a lift is always added to the tracked pose.
+// Idempotent: the held pose of a hand tracked at its own held pose stays within 0.1 mm.
 //
-// Counts no fallbacks. A hand without a surface is shown as tracked; search_grip counts it.
+// Fallbacks counted: none. search_grip counts hands without a surface, which are shown as tracked.
 void constrain_palms(const ConstrainPalmsIo& io, const Tuning& tuning);
 
 }  // namespace handhold

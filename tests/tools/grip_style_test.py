@@ -14,14 +14,16 @@ sys.path.insert(0, str(ROOT / "tools" / "lab"))
 import numpy as np
 
 from grips import style
+from grips.grasps import Capsules
 from pages import files
 
 OFF, ON = 15.0, 0.5
 
 
-def flags(gaps, bends, tip=5.0, sync_mm=3.0, sync_deg=5.0):
+def flags(gaps, bends, tip=5.0, sync_mm=3.0, sync_deg=5.0, overlap=-3.0, fan=8.0):
     """Classes of one grasp. gaps: thumb to little, palm; bends: thumb to little."""
-    found = style.flags(np.array([gaps]), np.array([tip]), np.array([bends], float), np.array([sync_mm]), np.array([sync_deg]))
+    found = style.flags(np.array([gaps]), np.array([tip]), np.array([bends], float), np.array([sync_mm]), np.array([sync_deg]),
+                        np.array([overlap]), np.array([fan]))
     return {name for name, flag in found.items() if flag[0]}
 
 
@@ -55,6 +57,10 @@ class Classes(unittest.TestCase):
         self.assertEqual(flags([ON] * 6, self.even, sync_deg=46.0), {"hand_turned"})
         self.assertEqual(flags([ON] * 5 + [-3.1], self.even), {"palm_deep"})
 
+    def test_digits_apart_and_through_each_other(self):
+        self.assertEqual(flags([ON] * 6, self.even, overlap=2.1), {"thumb_through"})
+        self.assertEqual(flags([ON] * 6, self.even, fan=35.1), {"fanned"})
+
     def test_touching_fingers_are_counted(self):
         self.assertEqual(flags([ON, 5, 5, 5, 5, ON], self.even), {"none_touches"})
         self.assertEqual(flags([ON, 5, ON, 5, 5, ON], self.even), {"one_touches"})
@@ -62,6 +68,47 @@ class Classes(unittest.TestCase):
     def test_missing_fingers_break_no_rule(self):
         gaps = [ON, ON, ON, math.inf, math.inf, ON]
         self.assertEqual(flags(gaps, [40, 90, 95, math.nan, math.nan]), set())
+
+
+class Digits(unittest.TestCase):
+    """Capsules of a hand against closed forms."""
+
+    @staticmethod
+    def hand(**parts):
+        capsules = Capsules()
+        for name, points in parts.items():
+            for a, b in zip(points, points[1:]):
+                capsules.add(0, {"finger": name, "a_m": list(a), "b_m": list(b), "radius_m": 0.008}, "test")
+        capsules.pack()
+        return [None], capsules
+
+    def test_distance_of_segments_is_the_least_over_samples(self):
+        rng = np.random.default_rng(7)
+        a, b, c, d = rng.normal(size=(4, 200, 3))
+        b[:20], d[:20] = a[:20] + [1, 0, 0], c[:20] + [2, 0, 0]  # parallel
+        share = np.linspace(0.0, 1.0, 101)
+        first = a[:, None] + share[:, None] * (b - a)[:, None]
+        second = c[:, None] + share[:, None] * (d - c)[:, None]
+        sampled = np.linalg.norm(first[:, :, None] - second[:, None], axis=-1).min((1, 2))
+        found = style.between_segments(a, b, c, d)
+        self.assertTrue((found <= sampled + 1e-9).all())
+        self.assertLess((sampled - found).max(), 0.05)
+
+    def test_thumb_across_a_finger(self):
+        for height, overlap in ((0.010, 6.0), (0.016, 0.0), (0.020, -4.0)):
+            grasps, capsules = self.hand(thumb=[(-0.05, height, -0.03), (0.05, height, -0.03)], index=[(0, 0, 0), (0, 0, -0.04), (0, 0, -0.06)])
+            self.assertAlmostEqual(style.thumb_overlaps_mm(grasps, capsules)[0], overlap)
+
+    def test_fan_is_measured_from_knuckle_to_tip(self):
+        for degrees in (10.0, 80.0):
+            tip = (0.1 * math.sin(math.radians(degrees)), 0.0, -0.1 * math.cos(math.radians(degrees)))
+            grasps, capsules = self.hand(index=[(0, 0, 0), (0, 0.03, -0.03), (0, 0, -0.09)], middle=[(0, 0, 0), (0.01, 0.0, 0.0), tip])
+            self.assertAlmostEqual(style.fans_deg(grasps, capsules)[0], degrees)
+
+    def test_hand_without_thumb_or_neighbours(self):
+        grasps, capsules = self.hand(index=[(0, 0, 0), (0, 0, -0.04)])
+        self.assertEqual(style.thumb_overlaps_mm(grasps, capsules)[0], -math.inf)
+        self.assertEqual(style.fans_deg(grasps, capsules)[0], 0.0)
 
 
 class Bounds(unittest.TestCase):

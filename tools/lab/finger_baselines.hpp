@@ -7,12 +7,13 @@
 #include "engine/geometry/grip_mesh.hpp"
 #include "engine/geometry/hinge_chain.hpp"
 
-// Other methods of closing fingers, as baselines for sweep_fingers and pose_thumb. All arguments of
+// Other methods of closing fingers, as baselines for sweep_fingers and fit_hands. All arguments of
 // one call are in the mesh's frame.
 namespace handhold::lab {
 
 enum class FingerMethod : std::uint8_t {
-    sweep,    // the runtime's method
+    fit,      // the runtime's method
+    closing,  // the runtime's closing without its fit
     talk,     // talk rows 12 to 14, taken literally
     spheres,  // spheres on the bones, moved in steps
 };

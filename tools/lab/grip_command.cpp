@@ -54,7 +54,8 @@ Result<HandRig> load_rig(const GripOptions& options) {
 FingerMethod finger_method_of(const std::string& name) {
     return name == "talk"      ? FingerMethod::talk
            : name == "spheres" ? FingerMethod::spheres
-                               : FingerMethod::sweep;
+           : name == "closing" ? FingerMethod::closing
+                               : FingerMethod::fit;
 }
 
 SearchOrder search_order_of(const std::string& name) {

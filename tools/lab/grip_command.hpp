@@ -15,7 +15,7 @@ struct GripOptions {
     std::string sync = "on";
     std::string search = "astar";
     std::string palm = "least";
-    std::string fingers = "sweep";  // or a baseline: finger_baselines.hpp
+    std::string fingers = "fit";  // or a baseline: finger_baselines.hpp
     double grip_edge_mm = 20.0;
     std::filesystem::path rig_json;  // empty: not written
     // Frames of sliding, and as many of standing still, per hand; 0: none.

@@ -140,6 +140,7 @@ std::string posed_hand_line(std::int64_t id, const HandRig& rig, const PosedHand
     line["us"] = {{"search", posed.us.search_us},
                   {"palm", posed.us.palm_us},
                   {"fingers", posed.us.fingers_us},
+                  {"fit", posed.us.fit_us},
                   {"total", posed.us.total_us()}};
     return line.dump() + "\n";
 }

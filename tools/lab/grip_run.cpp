@@ -9,7 +9,7 @@
 #include "components/tracking.hpp"
 #include "engine/core/profile.hpp"
 #include "systems/hand/constrain_palms.hpp"
-#include "systems/hand/pose_thumb.hpp"
+#include "systems/hand/fit_hands.hpp"
 #include "systems/hand/shared/finger_chain.hpp"
 #include "systems/hand/sweep_fingers.hpp"
 #include "systems/rigs/authored_hand.hpp"
@@ -56,14 +56,9 @@ class OneHand {
 
     void run(const Tuning& tuning, const GripVariant& variant, GripTimes& us) {
         timed(us.search_us, [&] { search(k_at_once_s, tuning, variant); });
-        for (std::int32_t lifts = 0;; ++lifts) {
-            const double lift_before_m = offset_.rows().front().lift_m;
-            timed(us.palm_us, [&] { constrain(k_at_once_s, tuning, variant); });
-            timed(us.fingers_us, [&] { close(k_at_once_s, tuning, variant); });
-            if (!variant.sync || offset_.rows().front().lift_m == lift_before_m) {
-                break;
-            }
-        }
+        timed(us.palm_us, [&] { constrain(tuning, variant); });
+        timed(us.fingers_us, [&] { close(tuning, variant); });
+        timed(us.fit_us, [&] { fit(k_at_once_s, tuning, variant); });
     }
 
     // Runs one frame that reuses the previous frame's results. Returns its time in microseconds.
@@ -73,8 +68,9 @@ class OneHand {
         double us = 0.0;
         timed(us, [&] {
             search(k_frame_s, tuning, variant);
-            constrain(k_frame_s, tuning, variant);
-            close(k_frame_s, tuning, variant);
+            constrain(tuning, variant);
+            close(tuning, variant);
+            fit(k_frame_s, tuning, variant);
         });
         return us;
     }
@@ -97,32 +93,55 @@ class OneHand {
     void search(double dt_s, const Tuning& tuning, const GripVariant& variant) {
         search_grip({dt_s, surroundings_, surface_, search_scratch_}, tuning, stats_, variant.palm);
     }
-    void close(double dt_s, const Tuning& tuning, const GripVariant& variant) {
-        if (variant.fingers == FingerMethod::sweep ||
-            surface_.rows().front().triangle == GripSurface::k_none) {
-            sweep(dt_s, tuning, variant);
-            thumb(dt_s, tuning, variant);
+    static bool is_fitted(const GripVariant& variant) {
+        return variant.fingers == FingerMethod::fit && variant.sync;
+    }
+    bool has_surface() const { return surface_.rows().front().triangle != GripSurface::k_none; }
+
+    void constrain(const Tuning& tuning, const GripVariant& variant) {
+        constrain_palms({surroundings_, surface_, offset_}, tuning);
+        PalmOffset& offset = offset_.rows().front();
+        if (!variant.sync) {
+            offset.held_m = Vec3::Zero();
+            offset.held_turn_rad = Vec3::Zero();
+        }
+        palm_.rows().front().pose_ws = held_wrist_bs(surroundings_.front(), offset);
+    }
+    void close(const Tuning& tuning, const GripVariant& variant) {
+        const bool is_baseline =
+            variant.fingers == FingerMethod::talk || variant.fingers == FingerMethod::spheres;
+        if (!is_baseline || !has_surface()) {
+            sweep_fingers({surroundings_, surface_, offset_, fingers_, traces_, fit_scratch_},
+                          tuning, stats_, variant.order);
             return;
         }
         for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
             close_baseline(f, tuning, variant);
         }
     }
-    // Closes one finger with a baseline method. The target pose is shown at once, because
-    // transitions are not compared.
+    // Other methods than the runtime's show the palm as held and the fingers as closed.
+    void fit(double dt_s, const Tuning& tuning, const GripVariant& variant) {
+        FingerPose& pose = fingers_.rows().front();
+        if (is_fitted(variant) || !has_surface()) {
+            fit_hands({dt_s, surroundings_, tracking_, surface_, offset_, fingers_, palm_}, tuning,
+                      stats_);
+        } else {
+            pose.shown = pose.closed;
+            pose.target = pose.closed;
+        }
+    }
     void close_baseline(std::size_t f, const Tuning& tuning, const GripVariant& variant) {
         const FingerRig& finger = rig_.fingers[f];
-        FingerAngles& shown = fingers_.rows().front().shown[f];
-        shown.opposition_rad = resting_opposition(finger, tuning.thumb);
-        const HingeChain chain = finger_chain(finger, shown.opposition_rad, wrist());
+        FingerAngles& angles = fingers_.rows().front().closed[f];
+        angles.opposition_rad = resting_opposition(finger, tuning.thumb);
+        const HingeChain chain = finger_chain(finger, angles.opposition_rad, wrist());
         const GripSurface& seed_under_palm = surface();
         const ClosedFinger closed =
             variant.fingers == FingerMethod::talk
                 ? close_by_talk(chain, mesh_, {seed_under_palm.triangle, seed_under_palm.point_bs},
                                 variant.order, fit_scratch_)
                 : close_by_spheres(chain, mesh_);
-        shown.curl_rad = closed.angle_rad;
-        fingers_.rows().front().target[f] = shown;
+        angles.curl_rad = closed.angle_rad;
         const bool touches = closed.contact_link != DiscClosure::k_none;
         traces_.front()[f] = {closed.discs,
                               closed.pops,
@@ -131,25 +150,6 @@ class OneHand {
                               touches ? ChainFallback::none : ChainFallback::rest_pose,
                               0.0};
     }
-    void sweep(double dt_s, const Tuning& tuning, const GripVariant& variant) {
-        sweep_fingers({dt_s, surroundings_, tracking_, surface_, palm_, offset_, fingers_, traces_,
-                       fit_scratch_},
-                      tuning, stats_, variant.order);
-    }
-    void thumb(double dt_s, const Tuning& tuning, const GripVariant& variant) {
-        pose_thumb(
-            {dt_s, surroundings_, tracking_, surface_, offset_, fingers_, traces_, fit_scratch_},
-            tuning, stats_, variant.order);
-    }
-    void constrain(double dt_s, const Tuning& tuning, const GripVariant& variant) {
-        constrain_palms({dt_s, surroundings_, surface_, offset_, palm_}, tuning);
-        if (!variant.sync) {
-            const Pose tracked = surroundings_.front().wrist_bs;
-            offset_.rows().front() = {};
-            palm_.rows().front().pose_ws = tracked;
-        }
-    }
-
     const GripMesh& mesh_;
     const HandRig rig_;
     EntityPool entities_;

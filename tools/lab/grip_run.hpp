@@ -20,16 +20,17 @@ struct GripVariant {
     bool sync = true;  // the palm moves to its limits; else it stays at its tracked pose
     SearchOrder order = SearchOrder::best_first;
     GripSearch palm = GripSearch::smallest_sync;
-    // FingerMethod::talk includes the talk's palm fit: three limits, and no depenetration of
-    // knuckles and heel. Only FingerMethod::sweep may lift the palm.
-    FingerMethod fingers = FingerMethod::sweep;
+    // The talk's fingers include its palm fit: three limits and no depenetration of knuckles and
+    // heel. Only the runtime's own method fits the wrist together with the fingers.
+    FingerMethod fingers = FingerMethod::fit;
 };
 
 struct GripTimes {  // microseconds of thread CPU time
     double search_us = 0.0;
     double palm_us = 0.0;
     double fingers_us = 0.0;
-    double total_us() const { return search_us + palm_us + fingers_us; }
+    double fit_us = 0.0;
+    double total_us() const { return search_us + palm_us + fingers_us + fit_us; }
 };
 
 struct PosedHand {
@@ -47,7 +48,7 @@ struct PosedHand {
 };
 
 // Poses a hand that closes at `wrist` (in the mesh's frame) without cached results. Runs the
-// frame's stages in order, shows targets at once, and repeats while fingers lift the palm.
+// frame's stages in order and shows targets at once.
 PosedHand pose_cold_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
                          const Tuning& tuning, const GripVariant& variant);
 
@@ -57,8 +58,8 @@ struct HandSlide {
     double speed_mps = 0.2;   // along the surface, across the fingers; back and forth by 4 cm
 };
 
-// Costs of a hand that reuses its last results: microseconds of thread CPU time per frame, from
-// search_grip to pose_thumb.
+// Costs of a hand that reuses its last solution: microseconds of thread CPU time per frame, from
+// search_grip to fit_hands.
 struct WarmHand {
     std::vector<double> slide_us;
     std::vector<double> stand_us;

@@ -66,7 +66,7 @@ void add_grip_options(CLI::App& grip, lab::GripOptions& options) {
     grip.add_option("--fingers", options.fingers,
                     "How fingers close: the runtime's sweep; the talk taken literally, including "
                     "its palm; or spheres on the bones in 50 steps")
-        ->check(one_of({"sweep", "talk", "spheres"}));
+        ->check(one_of({"fit", "closing", "talk", "spheres"}));
     grip.add_option("--grip-edge-mm", options.grip_edge_mm, "Edge length of the search detail")
         ->check(number_in(1.0, 1000.0));
     grip.add_option("--rig-json", options.rig_json, "Also write the rig");

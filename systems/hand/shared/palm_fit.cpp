@@ -50,15 +50,14 @@ Quat clamp_tilt(const Quat& rotation, const HandRig& rig, const Vec3& normal, do
 // Moves the tracked wrist into the height limits, then into the tilt limit. Tilting about the
 // palm's centre does not change the palm's height.
 Pose clamp_to_limits(const HandSurroundings& hand, const Pose& tracked_bs,
-                     const GripSurface& surface, double lift_m, const PalmTuning& tuning) {
+                     const GripSurface& surface, const PalmTuning& tuning) {
     const HandRig& rig = *hand.rig;
     const Vec3& normal = surface.normal_bs;
     Vec3 center = transform_point(tracked_bs, rig.palm_center_hs);
     center += offset_onto_triangle(hand.meshes.front(), surface.triangle, center);
     const double height_m = (center - surface.point_bs).dot(normal);
     const double wanted_m = std::clamp(height_m, tuning.min_height_m,
-                                       std::max(tuning.min_height_m, tuning.max_height_m)) +
-                            lift_m;
+                                       std::max(tuning.min_height_m, tuning.max_height_m));
     center += (wanted_m - height_m) * normal;
 
     Pose wrist = tracked_bs;
@@ -97,12 +96,12 @@ class PalmGaps {
     std::size_t count_ = 0;
 };
 
-// Adds the limits on height (raised by lift_m) and tilt.
+// Adds the limits on height and tilt.
 void add_limits(const HandSurroundings& hand, const GripSurface& surface, const Pose& wrist,
-                double lift_m, const PalmTuning& tuning, double arm_m, PalmGaps& gaps) {
+                const PalmTuning& tuning, double arm_m, PalmGaps& gaps) {
     const Vec3& normal = surface.normal_bs;
     const Vec3 center = transform_point(wrist, hand.rig->palm_center_hs);
-    const double height_m = (center - surface.point_bs).dot(normal) - lift_m;
+    const double height_m = (center - surface.point_bs).dot(normal);
     const double max_height_m = std::max(tuning.min_height_m, tuning.max_height_m);
     gaps.add_limit({normal, Vec3::Zero(), height_m - tuning.min_height_m});
     gaps.add_limit({-normal, Vec3::Zero(), max_height_m - height_m});
@@ -347,8 +346,8 @@ PalmMove move_between(const Pose& from, const Pose& to, const Vec3& center_hs) {
 // are less than its clearance recheck distance, the surroundings are unchanged, and the same
 // fingers are part of its shape.
 bool is_still_clear(const HandSurroundings& hand, const GripSurface& surface,
-                    const GripSurface& last, double lift_m) {
-    return last.clearance_recheck_in_m > hand_travel_m(last.wrist_bs, hand.wrist_bs) + lift_m &&
+                    const GripSurface& last) {
+    return last.clearance_recheck_in_m > hand_travel_m(last.wrist_bs, hand.wrist_bs) &&
            last.surroundings_signature == hand.signature &&
            last.finger_samples == surface.finger_samples;
 }
@@ -363,20 +362,20 @@ Pose moved_by(const PalmMove& move, const Pose& wrist, const Vec3& center_hs) {
 
 }  // namespace
 
-PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, double lift_m,
-                 const PalmTuning& tuning, const PalmFitSettings& settings) {
+PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, const PalmTuning& tuning,
+                 const PalmFitSettings& settings) {
     const Vec3& center_hs = hand.rig->palm_center_hs;
     const double arm_m = std::max(k_min_arm_m, tuning.rotation_arm_m);
-    const Pose held = clamp_to_limits(hand, hand.wrist_bs, surface, lift_m, tuning);
+    const Pose held = clamp_to_limits(hand, hand.wrist_bs, surface, tuning);
     PalmMove moved;
     const bool is_warm_started = settings.last != nullptr && settings.last->has_fitted_wrist;
     if (is_warm_started) {
         const GripSurface& last = *settings.last;
-        moved = move_between(clamp_to_limits(hand, last.wrist_bs, last, 0.0, tuning),
+        moved = move_between(clamp_to_limits(hand, last.wrist_bs, last, tuning),
                              last.fitted_wrist_bs, center_hs);
     }
     PalmSpheres palm(hand, surface,
-                     is_warm_started && is_still_clear(hand, surface, *settings.last, lift_m));
+                     is_warm_started && is_still_clear(hand, surface, *settings.last));
     PalmGaps gaps;
     Pose wrist = moved_by(moved, held, center_hs);
     PalmFit best = {wrist, palm.query(wrist, gaps), palm.finger_penetration_m()};
@@ -390,7 +389,7 @@ PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, doubl
             break;
         }
         // The limits are added last: the solver corrects them last, so that they hold.
-        add_limits(hand, surface, wrist, lift_m, tuning, arm_m, gaps);
+        add_limits(hand, surface, wrist, tuning, arm_m, gaps);
         const PalmMove before = moved;
         moved = smallest_correction(gaps.all(), moved, arm_m);
         wrist = moved_by(moved, held, center_hs);

@@ -33,7 +33,7 @@ struct PalmFitSettings {
 // Finds the smallest correction of the tracked wrist that brings the palm within its limits over
 // `surface`, without penetration:
 //
-// 1. Limits: moves the palm along the normal into [min_height_m, max_height_m] + lift_m, then tilts
+// 1. Limits: moves the palm along the normal into [min_height_m, max_height_m], then tilts
 //    it about its centre to at most max_angle_rad.
 // 2. Depenetration, if capsules of the palm penetrate: repeatedly solves the linearised problem
 //      minimise |t|^2 + (arm |r|)^2   subject to   gap_i + a_i . t + b_i . r >= 0
@@ -43,7 +43,7 @@ struct PalmFitSettings {
 //
 // Fingers with a sample pose in surface.finger_samples are part of the palm's collision shape.
 // Precondition: the hand has meshes, and `surface` is on the first mesh.
-PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, double lift_m,
-                 const PalmTuning& tuning, const PalmFitSettings& settings = {});
+PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, const PalmTuning& tuning,
+                 const PalmFitSettings& settings = {});
 
 }  // namespace handhold

@@ -19,8 +19,9 @@ PalmFrame palm_in(const Pose& frame, const HandRig& rig, const Pose& wrist_bs) {
     return {transform_point(wrist, rig.palm_center_hs), wrist.rotation * -rig.palm_normal_hs};
 }
 
-// Returns the area-weighted mean normal, as a unit vector, of the triangles within `radius_m` of
-// the point that face `outward`.
+// Returns the mean normal, as a unit vector, of the triangles within `radius_m` of the point that
+// face `outward`, weighted by the area that is seen from there: sides of a beam seen edge-on count
+// nothing, so that the palm does not tilt towards one of them.
 Vec3 mean_normal(const GripMesh& mesh, const Vec3& point, const Vec3& triangle_normal,
                  const Vec3& outward, double radius_m) {
     // Limits the weight of a triangle that extends far outside the sphere.
@@ -130,7 +131,7 @@ FittedPalm PalmFitter::fit_uncached(const Candidate& candidate,
     held.is_warm_started = settings.last != nullptr;
     held.surface = surface_at(candidate);
     held.surface.finger_samples = finger_samples;
-    const PalmFit fit = fit_palm(hand_, held.surface, 0.0, tuning_, settings);
+    const PalmFit fit = fit_palm(hand_, held.surface, tuning_, settings);
     held.surface.fitted_wrist_bs = fit.wrist_bs;
     held.surface.has_fitted_wrist = true;
     held.surface.is_converged = fit.is_converged;

@@ -16,7 +16,7 @@ namespace handhold {
 // A palm has clearance if it penetrates no deeper than this.
 inline constexpr double k_palm_penetration_tolerance_m = 1e-3;
 
-// A surface and the palm's fit to it, without a lift.
+// A surface and the palm's fit to it.
 struct FittedPalm {
     GripSurface surface;
     double penetration_m = 0.0;  // remaining penetration of the palm

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <optional>
 
 #include "engine/geometry/chain_fit.hpp"
 
@@ -29,8 +28,7 @@ inline ChainFitSettings chain_fit_settings() {
             .search_depth_m = 1.2e-3,
             .open_depth_m = 8e-4,
             .open_step_rad = 0.0436,
-            .open_steps = 6,
-            .near_rad = std::nullopt};
+            .open_steps = 6};
 }
 
 }  // namespace handhold::test

@@ -276,13 +276,14 @@ TEST(TriangleBvh, SumsAreasThatFaceSide) {
     const TriangleBvh bvh(mesh.positions, mesh.triangles);
     constexpr double k_max_area_m2 = 0.5;
     for (int i = 0; i < 20; ++i) {
-        const Vec3 side = random.vector(1.0);
+        const Vec3 side = random.vector(1.0).normalized();
         Vec3 expected = Vec3::Zero();
         for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
             const Corners c = corners_of(mesh, t);
             const Vec3 area = (c[1] - c[0]).cross(c[2] - c[0]);
             if (area.dot(side) > 0.0) {
-                expected += std::min(1.0, k_max_area_m2 / area.norm()) * area;
+                expected +=
+                    side.dot(area.normalized()) * std::min(1.0, k_max_area_m2 / area.norm()) * area;
             }
         }
         const Vec3 sum = bvh.areas_in_sphere(Vec3::Zero(), 10.0, side, k_max_area_m2);
@@ -307,10 +308,10 @@ TEST(TriangleBvh, SumsOnlyAreasWithinSphere) {
         const double distance_m = closest_on_triangle(Vec3::Zero(), c).norm();
         const Vec3 area = (c[1] - c[0]).cross(c[2] - c[0]);
         if (area.z() > 0.0 && distance_m <= k_radius_m) {
-            nearer += area;
+            nearer += area.normalized().z() * area;
         }
         if (area.z() > 0.0 && distance_m <= 2.0 * k_radius_m) {
-            within_twice += area;
+            within_twice += area.normalized().z() * area;
         }
     }
     const Vec3 sum = bvh.areas_in_sphere(Vec3::Zero(), k_radius_m, Vec3::UnitZ(), 1e9);

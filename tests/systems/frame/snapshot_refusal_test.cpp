@@ -77,11 +77,11 @@ TEST_F(SnapshotRefuses, AnyDamagedByte) {
 }
 
 TEST_F(SnapshotRefuses, AnotherFormatVersion) {
-    for (const std::uint32_t version : {1U, 2U, 4U}) {  // earlier field names; a later build
+    for (const std::uint32_t version : {1U, 2U, 3U, 5U}) {  // earlier field names; a later build
         SnapshotBytes other(bytes_);
         other.put(8, version);
         expect_refused(other,
-                       "byte 8: expected format version 3, found " + std::to_string(version));
+                       "byte 8: expected format version 4, found " + std::to_string(version));
     }
 }
 
@@ -207,13 +207,6 @@ TEST_F(SnapshotRefuses, RowsWithoutTheirCounterparts) {
         w.arm_memory.rows()[0].looks_ps[1] = Vec3::Zero();
     });
     break_world("calibration[", [](World& w) { w.calibration.rows()[0].held_s = 0.5; });
-    break_world("].opening_lag_rad",
-                [](World& w) { w.finger_pose.rows()[1].opening_lag_rad[2][1] = 1e9; });
-    break_world("].opening_lag_rad",
-                [](World& w) { w.finger_pose.rows()[0].opening_lag_rad[0][0] = -0.1; });
-    break_world("].backoff", [](World& w) { w.finger_pose.rows()[1].backoff[2].retry_in_m = 1e9; });
-    break_world("].lookahead",
-                [](World& w) { w.finger_pose.rows()[1].lookahead[2].travel_since_m = -1.0; });
     break_world("].candidate_recheck_in_m",
                 [](World& w) { w.grip_surface.rows()[0].candidate_recheck_in_m = 1e9; });
     break_world("].clearance_recheck_in_m",
@@ -230,8 +223,6 @@ TEST_F(SnapshotRefuses, RowsWithoutTheirCounterparts) {
         w.grip_surface.rows()[0].evaluated_count = 3;
         w.grip_surface.rows()[0].candidate_count = 2;
     });
-    break_world("].thumb_search",
-                [](World& w) { w.finger_pose.rows()[0].thumb_search.evaluated_count = ~0U; });
     break_world("].push_off_weight",
                 [](World& w) { w.body_clip_state.rows()[0].push_off_weight = 2.0; });
     break_world(".mass_kg", [](World& w) { w.player.rows()[0].mass_kg = -1.0; });

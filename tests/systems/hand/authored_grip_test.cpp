@@ -120,10 +120,8 @@ TEST_F(AuthoredGripRisingPalm, FingersTakeAuthoredPoseIfClearAtTheEnd) {
         FittedHand hand(floor, low);
         hand.tuning.finger.reuse_travel_m = reuse_travel_m;
         hand.hands.front().authored = &grip;
-        hand.frame(dt_s);
         for (const std::size_t f : {0U, 1U}) {
             ASSERT_LT(turn_rad(f), 1.4) << "finger " << f << " misses the floor";
-            EXPECT_NE(hand.pose().target[f].curl_rad, grip.fingers[f].curl_rad) << f;
         }
         for (int frame = 0; frame < 60; ++frame) {
             hand.frame(dt_s);

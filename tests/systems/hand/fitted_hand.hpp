@@ -4,8 +4,9 @@
 
 #include "engine/geometry/grip_mesh.hpp"
 #include "systems/hand/constrain_palms.hpp"
-#include "systems/hand/pose_thumb.hpp"
+#include "systems/hand/fit_hands.hpp"
 #include "systems/hand/search_grip.hpp"
+#include "systems/hand/shared/finger_chain.hpp"
 #include "systems/hand/sweep_fingers.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
 #include "tests/systems/frame/column_scene.hpp"
@@ -64,20 +65,23 @@ struct FittedHand {
     void search(double dt_s = k_unbudgeted_s) {
         search_grip({dt_s, hands, surface, search_scratch}, tuning, stats);
     }
-    void constrain(double dt_s) { constrain_palms({dt_s, hands, surface, offset, palm}, tuning); }
-    void sweep(double dt_s) {
-        sweep_fingers({dt_s, hands, tracking, surface, palm, offset, fingers, traces, fit_scratch},
-                      tuning, stats);
+    // Shows the palm where it is held, until fit() shows the fitted one.
+    void constrain() {
+        constrain_palms({hands, surface, offset}, tuning);
+        palm.at(k_right).pose_ws =
+            hands.front().body_ws * held_wrist_bs(hands.front(), offset.at(k_right));
     }
-    void thumb(double dt_s) {
-        pose_thumb({dt_s, hands, tracking, surface, offset, fingers, traces, fit_scratch}, tuning,
-                   stats);
+    void sweep() {
+        sweep_fingers({hands, surface, offset, fingers, traces, fit_scratch}, tuning, stats);
+    }
+    void fit(double dt_s) {
+        fit_hands({dt_s, hands, tracking, surface, offset, fingers, palm}, tuning, stats);
     }
     void frame(double dt_s) {
         search(dt_s);
-        constrain(dt_s);
-        sweep(dt_s);
-        thumb(dt_s);
+        constrain();
+        sweep();
+        fit(dt_s);
     }
 
     Pose& wrist_bs() { return hands.front().wrist_bs; }

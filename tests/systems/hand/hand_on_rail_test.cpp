@@ -9,7 +9,6 @@ namespace {
 
 using test::FittedHand;
 using test::k_right;
-using test::k_unbudgeted_s;
 using test::wrist_with_palm_at;
 
 constexpr double k_bar_radius_m = 0.017;
@@ -78,7 +77,7 @@ struct ShownPalm {
 
 ShownPalm shown_in_rail(FittedHand& hand, const Pose& rail_bs) {
     hand.search();
-    hand.constrain(k_unbudgeted_s);
+    hand.constrain();
     return {inverse_transform_point(rail_bs, hand.palm_center_bs()),
             rail_bs.rotation.conjugate() * hand.palm_up_bs()};
 }

@@ -62,8 +62,7 @@ TEST(SearchGrip, ChoosesSurfaceWithFingerClearance) {
     const auto near = scene.mesh.search_bvh.closest_point({0.0, 0.0, 0.0}, 0.1);
     ASSERT_TRUE(near);
     under.triangle = near->triangle;
-    const Pose fitted_wrist_bs =
-        fit_palm(hand.hands.front(), under, 0.0, hand.tuning.palm).wrist_bs;
+    const Pose fitted_wrist_bs = fit_palm(hand.hands.front(), under, hand.tuning.palm).wrist_bs;
     ASSERT_GT(find_finger_clearance(hand.hands.front(), fitted_wrist_bs, scene.patch).penetration_m,
               0.005);
     hand.search();
@@ -132,7 +131,7 @@ TEST(SearchGrip, MovesPalmUntilFingersAreClear) {
     GripSurface palm_alone;
     palm_alone.triangle = floor.search_bvh.closest_point({0.013, 0.0, 0.007}, 0.1)->triangle;
     const Pose alone_bs =
-        fit_palm(unbudgeted.hands.front(), palm_alone, 0.0, unbudgeted.tuning.palm).wrist_bs;
+        fit_palm(unbudgeted.hands.front(), palm_alone, unbudgeted.tuning.palm).wrist_bs;
     ASSERT_GT(find_finger_clearance(unbudgeted.hands.front(), alone_bs, patch).penetration_m,
               0.003);
     unbudgeted.search();
@@ -185,11 +184,11 @@ TEST(SearchGrip, BudgetedSearchReachesUnbudgetedResult) {
                   budget >= k_sufficient_budget)
             << budget;
         for (int frame = 0; frame < 60; ++frame) {
-            hand.constrain(test::k_unbudgeted_s);
+            hand.constrain();
             hand.search(k_dt_s);
         }
         const GripSurface found = hand.surface.at(k_right);
-        hand.constrain(test::k_unbudgeted_s);
+        hand.constrain();
         EXPECT_LT((hand.shown_bs().position - found.fitted_wrist_bs.position).norm(), 1e-9);
         EXPECT_LE(scene.penetration_m(hand), k_finger_penetration_tolerance_m);
         EXPECT_LT((found.fitted_wrist_bs.position -

@@ -12,6 +12,7 @@ DRAWS = 1000
 TOUCH_MM, OFF_MM, TIP_OFF_MM, DEEP_MM = 2.0, 10.0, 20.0, 3.0
 STRAIGHT_DEG, CURLED_DEG, FOLDED_DEG, APART_DEG, ASTRAY_DEG, TURNED_DEG = 20.0, 60.0, 165.0, 100.0, 40.0, 45.0
 FAR_MM = 60.0
+THROUGH_MM, FANNED_DEG = 2.0, 35.0
 FOUR = slice(1, 5)
 # class: (title, goal in percent)
 CLASSES = {
@@ -21,6 +22,8 @@ CLASSES = {
     "finger_folded": ("a finger bent by more than 165 degrees", 1.5),
     "thumb_base_only": ("thumb touches by its base only", 2.0),
     "one_straight": ("one straight finger, the others curled", 1.0),
+    "thumb_through": ("thumb and a finger overlap by more than 2 mm", 1.0),
+    "fanned": ("neighbouring fingers point more than 35 degrees apart, knuckle to tip", 10.0),
     "hand_turned": ("hand turned by more than 45 degrees", 0.3),
     "palm_far": ("palm moved by more than 60 mm", 0.3),
     "palm_deep": ("palm deeper than 3 mm", 1.5),
@@ -53,6 +56,54 @@ def thumb_tip_gaps_mm(surface, grasps, capsules):
     return gaps
 
 
+def between_segments(a, b, c, d):
+    """Least distances of segments ab and cd, (..., 3) each: of each end to the other segment, or 0 where the segments cross within their
+    lengths. Source: the minimum of a convex function over a square lies on its border or where its gradient vanishes."""
+    u, v, w = b - a, d - c, a - c
+    uu, vv, uv, uw, vw = ((x * y).sum(-1) for x, y in ((u, u), (v, v), (u, v), (u, w), (v, w)))
+    along = lambda top, bottom: np.clip(np.divide(top, bottom, out=np.zeros_like(top), where=bottom > 1e-18), 0.0, 1.0)
+    distance = lambda s, t: np.linalg.norm(w + s[..., None] * u - t[..., None] * v, axis=-1)
+    zero, one = np.zeros_like(uu), np.ones_like(uu)
+    ends = [distance(zero, along(vw, vv)), distance(one, along(vw + uv, vv)), distance(along(-uw, uu), zero), distance(along(uv - uw, uu), one)]
+    least = np.minimum.reduce(ends)
+    bottom = uu * vv - uv * uv
+    skew = bottom > 1e-12 * uu * vv
+    s = np.divide(uv * vw - vv * uw, bottom, out=zero.copy(), where=skew)
+    t = np.divide(uu * vw - uv * uw, bottom, out=zero.copy(), where=skew)
+    inside = skew & (s >= 0.0) & (s <= 1.0) & (t >= 0.0) & (t <= 1.0)
+    return np.where(inside, np.minimum(least, distance(s, t)), least)
+
+
+def rows_by_part(grasps, capsules):
+    """For each grasp {part: its capsules' rows in order from the base}."""
+    rows = [{} for _ in grasps]
+    for row, (grasp, part) in enumerate(zip(capsules.grasp.tolist(), capsules.part.tolist())):
+        rows[grasp].setdefault(part, []).append(row)
+    return rows
+
+
+def thumb_overlaps_mm(grasps, capsules):
+    """Deepest overlap of a thumb's capsule with a finger's; below 0: the least gap; -infinity without both."""
+    overlaps = np.full(len(grasps), -np.inf)
+    for number, parts in enumerate(rows_by_part(grasps, capsules)):
+        thumb, fingers = parts.get("thumb", []), [row for name in FINGERS[1:] for row in parts.get(name, [])]
+        if thumb and fingers:
+            i, j = (index.ravel() for index in np.meshgrid(thumb, fingers))
+            gap = between_segments(capsules.a[i], capsules.b[i], capsules.a[j], capsules.b[j]) - capsules.radius[i] - capsules.radius[j]
+            overlaps[number] = -1e3 * gap.min()
+    return overlaps
+
+
+def fans_deg(grasps, capsules):
+    """Largest angle between neighbouring fingers' directions, knuckle to tip; 0 without neighbours."""
+    fans = np.zeros(len(grasps))
+    for number, parts in enumerate(rows_by_part(grasps, capsules)):
+        ways = [capsules.b[rows[-1]] - capsules.a[rows[0]] for rows in (parts.get(name) for name in FINGERS[1:]) if rows]
+        for one, other in zip(ways, ways[1:]):
+            fans[number] = max(fans[number], math.degrees(math.atan2(np.linalg.norm(np.cross(one, other)), np.dot(one, other))))
+    return fans
+
+
 def apart(bends):
     """Largest difference of neighbouring fingers' bends, thumbs left out; 0 without neighbours."""
     return np.nan_to_num(np.abs(np.diff(bends[:, FOUR], axis=1)), nan=0.0).max(1)
@@ -67,7 +118,7 @@ def astray(off, bend):
     return (off & known.any(0) & (np.abs(bend - mean) > ASTRAY_DEG)).any(1)
 
 
-def flags(gaps, tips, bends, sync_mm, sync_deg):
+def flags(gaps, tips, bends, sync_mm, sync_deg, overlaps, fans):
     """{class: (grasps,) flags}. gaps: as scoring.part_gaps_mm."""
     four, bend = gaps[:, FOUR], bends[:, FOUR]
     near = np.abs(four) < TOUCH_MM
@@ -82,6 +133,8 @@ def flags(gaps, tips, bends, sync_mm, sync_deg):
         "finger_folded": (bend > FOLDED_DEG).any(1),
         "thumb_base_only": (np.abs(gaps[:, 0]) < TOUCH_MM) & (tips > TIP_OFF_MM),
         "one_straight": (straight.sum(1) == 1) & (curled.sum(1) == there - 1) & (there > 2),
+        "thumb_through": overlaps > THROUGH_MM,
+        "fanned": fans > FANNED_DEG,
         "hand_turned": sync_deg > TURNED_DEG,
         "palm_far": sync_mm > FAR_MM,
         "palm_deep": np.isfinite(gaps[:, 5]) & (gaps[:, 5] < -DEEP_MM),
@@ -129,7 +182,8 @@ def figures(measured):
 def rows_of(surface, grasps, capsules, gaps):
     """Structured array, one row per grasp: every class and sync_mm."""
     sync_mm, sync_deg = (np.array([getattr(grasp, key) for grasp in grasps], float) for key in ("sync_mm", "sync_deg"))
-    classes = flags(gaps, thumb_tip_gaps_mm(surface, grasps, capsules), bends_deg(grasps), sync_mm, sync_deg)
+    classes = flags(gaps, thumb_tip_gaps_mm(surface, grasps, capsules), bends_deg(grasps), sync_mm, sync_deg,
+                    thumb_overlaps_mm(grasps, capsules), fans_deg(grasps, capsules))
     rows = np.zeros(len(grasps), [(name, bool) for name in CLASSES] + [("sync_mm", float)])
     for name, flag in classes.items():
         rows[name] = flag

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "engine/math/math.hpp"
+
+// A small dense quadratic programme whose inequalities are penalties: what cannot be met is shared
+// by least squares, so that a solution always exists.
+namespace handhold {
+
+inline constexpr std::size_t k_max_unknowns = 26;
+inline constexpr std::size_t k_max_penalty_rows = 320;
+
+using Unknowns = Eigen::Matrix<double, static_cast<int>(k_max_unknowns), 1>;
+using UnknownsSquare = Eigen::Matrix<double, static_cast<int>(k_max_unknowns),
+                                     static_cast<int>(k_max_unknowns), Eigen::RowMajor>;
+
+// The row slope . x + value >= 0. A row that is violated by v costs 0.5 * weight * v^2.
+struct PenaltyRow {
+    Unknowns slope = Unknowns::Zero();
+    double value = 0.0;
+    double weight = 1.0;  // > 0
+};
+
+// Minimises 0.5 x^T H x + g^T x + the rows' penalties over the first `count` unknowns; the others
+// stay 0. Newton's method on the violated rows with an exact line search, which ends after finitely
+// many steps because the function is convex and piecewise quadratic (Madsen, Nielsen, A finite
+// smoothing algorithm for linear l1 estimation, 1993, use the same argument). Deterministic, does
+// not allocate. Preconditions: H is symmetric and positive definite, everything is finite, slopes
+// and gradient are 0 beyond the first `count` unknowns, count <= k_max_unknowns,
+// rows.size() <= k_max_penalty_rows.
+Unknowns minimise_penalised(const UnknownsSquare& hessian, const Unknowns& gradient,
+                            std::span<const PenaltyRow> rows, std::size_t count);
+
+}  // namespace handhold

@@ -1,0 +1,199 @@
+#include "systems/hand/fit_hands.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "systems/hand/shared/finger_chain.hpp"
+#include "systems/hand/shared/hand_fit.hpp"
+#include "systems/hand/shared/thumb_closing.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr std::int32_t k_closing_rounds = 6;
+constexpr std::int32_t k_closing_again_rounds = 2;  // of a hand that shows a fit meanwhile
+// A warm fit continues in the next frame.
+constexpr std::int32_t k_rounds = 1;
+constexpr double k_max_flex_rad = 0.15;
+// Hysteresis: a hand that closes again while it grips changes to the new closing if that costs less
+// than this share of its last fit's cost.
+constexpr double k_change_cost_share = 0.75;
+// Travel of the tracked wrist up to which a fitted hand stays where it is on its surface.
+constexpr double k_stick_m = 1e-3;
+constexpr double k_deep_m = 3e-3;     // a fit that penetrates deeper is counted
+constexpr double k_fist_curl = 0.85;  // share of the range from open to fully curled
+
+// Angles of an empty hand's digit.
+FingerAngles empty_angles(const FingerRig& finger, bool is_fist, const ThumbTuning& tuning) {
+    FingerAngles angles;
+    for (std::size_t i = 0; i < finger.link_count; ++i) {
+        const double fist_rad =
+            finger.lower_rad[i] + k_fist_curl * (finger.upper_rad[i] - finger.lower_rad[i]);
+        angles.curl_rad[i] = is_fist ? fist_rad : finger.rest_rad[i];
+    }
+    if (finger.name == FingerName::thumb) {
+        angles.opposition_rad = rest_opposition_rad(finger, tuning);
+    }
+    return angles;
+}
+
+void pose_unsupported_hand(const HandSurroundings& hand, bool is_fist, const ThumbTuning& tuning,
+                           PalmOffset& offset, FingerPose& pose) {
+    offset.target_m = offset.held_m;
+    offset.target_turn_rad = offset.held_turn_rad;
+    for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
+        pose.target[f] = pose.is_authored[f] ? pose.closed[f]
+                                             : empty_angles(hand.rig->fingers[f], is_fist, tuning);
+    }
+    pose.fitted_body = k_no_entity;
+    pose.is_converged = false;
+}
+
+HandFitGoal common_goal(const HandSurroundings& hand, const FingerPose& pose) {
+    HandFitGoal goal;
+    goal.closed = pose.closed;
+    goal.touches = pose.touches;
+    goal.is_fixed = pose.is_authored;
+    goal.is_wrist_fixed = hand.authored != nullptr;
+    return goal;
+}
+
+// Starts at the palm within its limits and the closed digits.
+HandFit fit_closed(const HandSurroundings& hand, const GripSurface& surface,
+                   const PalmOffset& offset, const FingerPose& pose, std::int32_t rounds,
+                   const PalmTuning& tuning) {
+    HandFitGoal goal = common_goal(hand, pose);
+    goal.first = {held_wrist_bs(hand, offset), pose.closed};
+    goal.is_clear = pose.is_closed_clear;
+    goal.rounds = rounds;
+    return fit_hand(hand, surface, goal, tuning);
+}
+
+// Starts at the last fit, carried along with the tracked wrist.
+HandFit fit_last(const HandSurroundings& hand, const GripSurface& surface, const PalmOffset& offset,
+                 const FingerPose& pose, const PalmTuning& tuning) {
+    HandFitGoal goal = common_goal(hand, pose);
+    const Pose target{offset.target_m, rotation_from_vector(offset.target_turn_rad)};
+    goal.first = {goal.is_wrist_fixed ? held_wrist_bs(hand, offset) : hand.wrist_bs * target,
+                  pose.target};
+    goal.is_clear = pose.is_clear;
+    goal.rounds = k_rounds;
+    goal.max_flex_rad = k_max_flex_rad;
+    return fit_hand(hand, surface, goal, tuning);
+}
+
+HandFit best_fit(const HandSurroundings& hand, const GripSurface& surface, const Tuning& tuning,
+                 const PalmOffset& offset, const FingerPose& pose) {
+    if (!pose.is_newly_closed) {
+        return fit_last(hand, surface, offset, pose, tuning.palm);
+    }
+    const bool has_last = pose.fitted_body == hand.body && hand.authored == nullptr;
+    const HandFit closed =
+        fit_closed(hand, surface, offset, pose,
+                   has_last ? k_closing_again_rounds : k_closing_rounds, tuning.palm);
+    if (!has_last) {
+        return closed;
+    }
+    const HandFit last = fit_last(hand, surface, offset, pose, tuning.palm);
+    return closed.cost < k_change_cost_share * last.cost ? closed : last;
+}
+
+// A hand at rest is fitted until the fit has converged.
+bool sticks(const HandSurroundings& hand, const FingerTuning& tuning, const FingerPose& pose) {
+    const double travel_m = hand_travel_m(pose.fitted_wrist_bs, hand.wrist_bs);
+    return travel_m < tuning.reuse_travel_m ? pose.is_converged
+                                            : hand.authored == nullptr && travel_m < k_stick_m;
+}
+
+void fit_one(const HandSurroundings& hand, const GripSurface& surface, const Tuning& tuning,
+             StageStats& stats, PalmOffset& offset, FingerPose& pose) {
+    if (!pose.is_newly_closed && pose.fitted_signature == hand.signature &&
+        sticks(hand, tuning.finger, pose)) {
+        return;
+    }
+    const HandFit fit = best_fit(hand, surface, tuning, offset, pose);
+    const Pose target = inverse(hand.wrist_bs) * fit.pose.wrist_bs;
+    offset.target_m = target.position;
+    offset.target_turn_rad = rotation_to_vector(target.rotation);
+    pose.target = fit.pose.fingers;
+    for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
+        pose.is_clear[f] = fit.gap_m[f] > -clear_depth_m(hand.rig->fingers[f]);
+    }
+    if (pose.is_newly_closed && fit.penetration_m > k_deep_m) {
+        stats.count(Fallback::hand_penetrates);
+    }
+    pose.is_newly_closed = false;
+    pose.fitted_body = hand.body;
+    pose.fitted_wrist_bs = hand.wrist_bs;
+    pose.fitted_signature = hand.signature;
+    pose.is_converged = fit.is_converged;
+}
+
+// The target wrist relative to the present tracked one: a fitted hand stays on its body.
+Pose target_in_hand(const HandSurroundings& hand, const FingerPose& pose,
+                    const PalmOffset& offset) {
+    const Pose target{offset.target_m, rotation_from_vector(offset.target_turn_rad)};
+    return pose.fitted_body == k_no_entity
+               ? target
+               : inverse(hand.wrist_bs) * (pose.fitted_wrist_bs * target);
+}
+
+// Translation and rotation advance by the same share; rotation counts tilt_cost_m_per_rad metres
+// per radian.
+void follow_palm(const Pose& target_hs, double dt_s, const PalmTuning& tuning, PalmOffset& offset) {
+    const Vec3 target_turn_rad = rotation_to_vector(target_hs.rotation);
+    const Vec3 remaining_m = target_hs.position - offset.shown_m;
+    const Vec3 turn_rad = target_turn_rad - offset.shown_turn_rad;
+    const double distance_m = remaining_m.norm() + tuning.tilt_cost_m_per_rad * turn_rad.norm();
+    const double step_m = tuning.rate_mps * dt_s;
+    if (distance_m <= step_m) {
+        offset.shown_m = target_hs.position;
+        offset.shown_turn_rad = target_turn_rad;
+    } else {
+        offset.shown_m += step_m / distance_m * remaining_m;
+        offset.shown_turn_rad += step_m / distance_m * turn_rad;
+    }
+}
+
+void follow_digit(double dt_s, const FingerTuning& tuning, const FingerAngles& target,
+                  FingerAngles& shown) {
+    const double close_rad = dt_s * tuning.close_radps;
+    const double open_rad = dt_s * tuning.open_radps;
+    for (std::size_t i = 0; i < k_max_links; ++i) {
+        shown.curl_rad[i] = std::clamp(target.curl_rad[i], shown.curl_rad[i] - open_rad,
+                                       shown.curl_rad[i] + close_rad);
+    }
+    shown.opposition_rad = std::clamp(target.opposition_rad, shown.opposition_rad - close_rad,
+                                      shown.opposition_rad + close_rad);
+}
+
+Pose shown_wrist_ws(const HandSurroundings& hand, const PalmOffset& offset) {
+    const Pose wrist_ws = hand.body_ws * hand.wrist_bs;
+    const bool is_tracked = offset.shown_m.isZero() && offset.shown_turn_rad.isZero();
+    return is_tracked
+               ? wrist_ws
+               : wrist_ws * Pose{offset.shown_m, rotation_from_vector(offset.shown_turn_rad)};
+}
+
+}  // namespace
+
+void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats) {
+    for (const HandSurroundings& hand : io.hands) {
+        const GripSurface& surface = io.surface.at(hand.hand);
+        PalmOffset& offset = io.offset.at(hand.hand);
+        FingerPose& pose = io.fingers.at(hand.hand);
+        if (surface.triangle == GripSurface::k_none) {
+            const bool is_fist = !hand.is_gripping && io.hand.at(hand.hand).pressed;
+            pose_unsupported_hand(hand, is_fist, tuning.thumb, offset, pose);
+        } else {
+            fit_one(hand, surface, tuning, stats, offset, pose);
+        }
+        follow_palm(target_in_hand(hand, pose, offset), io.dt_s, tuning.palm, offset);
+        for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
+            follow_digit(io.dt_s, tuning.finger, pose.target[f], pose.shown[f]);
+        }
+        io.palm.at(hand.hand).pose_ws = shown_wrist_ws(hand, offset);
+    }
+}
+
+}  // namespace handhold

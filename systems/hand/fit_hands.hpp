@@ -1,0 +1,43 @@
+#pragma once
+
+#include <span>
+
+#include "components/hand.hpp"
+#include "components/hand_surroundings.hpp"
+#include "components/stats.hpp"
+#include "components/tracking.hpp"
+#include "components/tuning.hpp"
+#include "engine/ecs/column.hpp"
+
+namespace handhold {
+
+struct FitHandsIo {
+    double dt_s = 0.0;                        // in: length of the frame; infinity: no rate limit
+    std::span<const HandSurroundings> hands;  // in: body frame (_bs)
+    const Column<HandTracking>& hand;         // in: pressed
+    const Column<GripSurface>& surface;       // in: body frame (_bs)
+    Column<PalmOffset>& offset;               // in: held_*; in/out: target_*, shown_*, hand space
+    Column<FingerPose>& fingers;              // in: closed, touches; in/out: target, shown, radians
+    Column<PalmPose>& palm;                   // out: shown wrist, world space
+};
+
+// Fits wrist, fingers and thumb of each gripping hand together to the surfaces around it
+// (shared/hand_fit.hpp), and shows all hands. Talk rows 10, 16 and 18.
+//
+// A hand that has just closed starts at the palm within its limits and the closed digits
+// (constrain_palms, sweep_fingers). Other hands move on from last frame's fit, carried along with
+// the tracked wrist; while that has travelled less than 1 mm, the hand stays where it is on its
+// body. A hand that closes again while it grips tries both and changes only if the
+// closing costs less than 75 % of the other. The fit is kept while wrist and surroundings are
+// unchanged and another one would change nothing.
+//
+// A palm in an authored grip keeps the authored wrist, and digits with an authored pose keep it.
+// Fingers of an empty hand take the rest pose, or a fist while the player presses the grip.
+//
+// The shown hand follows at PalmTuning::rate_mps, FingerTuning::close_radps (closing) and
+// open_radps (opening). Only the shown hand moves, never the player.
+//
+// Fallbacks counted: hand_penetrates, once per fit that started from a closing.
+void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats);
+
+}  // namespace handhold

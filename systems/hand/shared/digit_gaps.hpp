@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "components/hand_rig.hpp"
+#include "engine/geometry/hinge_chain.hpp"
+#include "systems/hand/shared/hand_spheres.hpp"
+
+// Clearance between a hand's own thumb and fingers. Neighbouring fingers need none: their discs are
+// farther apart than their capsules are thick.
+namespace handhold {
+
+using DigitCapsules = std::array<std::array<Capsule, k_max_links>, k_finger_count>;
+
+// Capsules of all links, in the frame of `frames`.
+DigitCapsules digit_capsules(const HandRig& rig, const HandLinkFrames& frames);
+
+// A thumb's link and a finger's link.
+struct DigitGap {
+    std::size_t thumb = 0;  // into HandRig::fingers, as `finger`
+    std::size_t thumb_link = 0;
+    std::size_t finger = 0;
+    std::size_t finger_link = 0;
+    Vec3 on_thumb = Vec3::Zero();  // the axes' nearest points
+    Vec3 on_finger = Vec3::Zero();
+    Vec3 away = Vec3::Zero();  // unit, from the finger to the thumb
+    double gap_m = 0.0;        // below 0: depth of the overlap
+};
+
+inline constexpr std::size_t k_max_digit_gaps = k_max_links * k_max_links * (k_finger_count - 1);
+
+// Writes the pairs whose gap is at most `within_m`, in order of the rig, and returns their number.
+// Pairs whose axes cross have no direction and are left out.
+std::size_t find_digit_gaps(const HandRig& rig, const DigitCapsules& capsules, double within_m,
+                            std::span<DigitGap, k_max_digit_gaps> gaps);
+
+// Depth by which a thumb's capsules and the fingers' overlap; 0 if they do not.
+double thumb_overlap_m(const HandRig& rig, const DigitCapsules& fingers,
+                       std::span<const Capsule> thumb);
+
+}  // namespace handhold

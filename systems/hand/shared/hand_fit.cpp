@@ -1,0 +1,431 @@
+#include "systems/hand/shared/hand_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/math/penalty_quadratic.hpp"
+#include "systems/hand/shared/digit_gaps.hpp"
+#include "systems/hand/shared/hand_unknowns.hpp"
+
+namespace handhold {
+namespace {
+
+// Weights relative to the wrist's translation; see hand_fit.hpp. Chosen on the choosing seeds of
+// tools/lab/grip_report.
+constexpr double k_arm_m = 0.08;
+constexpr double k_lever_m = 0.05;  // l
+constexpr double k_close = 0.004;
+constexpr double k_touch = 2.0;
+constexpr double k_let_go_m = 0.008;  // g of a digit for which the closing found no contact
+constexpr double k_let_go_touching_m = 0.02;
+constexpr double k_tip = 0.02;
+constexpr double k_first = 0.002;
+constexpr double k_first_opposition = 0.02;
+constexpr double k_rest = 2e-5;  // keeps every angle determined
+constexpr double k_rest_of_free_thumb = 0.002;
+constexpr double k_alike = 0.001;
+constexpr double k_alike_if_free = 0.002;  // if one of the two touches nothing
+constexpr double k_fan = 0.03;
+constexpr double k_roll = 0.003;
+constexpr double k_couple = 0.003;
+constexpr double k_coupling = 2.0 / 3.0;
+// Stiffness of the inequalities.
+constexpr double k_contact = 2000.0;
+constexpr double k_joint_limit = 500.0;
+constexpr double k_palm_limit = 20.0;
+constexpr double k_bend_limit = 0.3;
+constexpr double k_fan_limit = 2.0;
+constexpr double k_digit_contact = 500.0;  // of the thumb and a finger
+constexpr double k_digit_reach_m = 0.03;   // digits farther apart need no row
+constexpr double k_max_fan_rad = 0.5;
+constexpr double k_max_apart_rad = 1.6;
+constexpr double k_max_bend_rad = 2.75;
+constexpr double k_clear_m = 3e-4;  // gap that contacts aim for
+// Largest step of one round: gaps are linearised.
+constexpr double k_max_move_m = 0.02;
+constexpr double k_max_turn_rad = 0.3;
+
+constexpr double k_lever2 = k_lever_m * k_lever_m;
+
+bool is_thumb(const FingerRig& finger) { return finger.name == FingerName::thumb; }
+
+class Fitter {
+  public:
+    Fitter(const HandSurroundings& hand, const GripSurface& surface, const HandFitGoal& goal,
+           const PalmTuning& tuning)
+        : hand_(hand),
+          rig_(*hand.rig),
+          surface_(surface),
+          goal_(goal),
+          tuning_(tuning),
+          layout_(rig_),
+          pose_(goal.first),
+          spheres_(hand, surface, goal.is_clear) {}
+
+    HandFit run() {
+        constexpr double k_gain = 1e-6;  // smallest relative gain that counts
+        constexpr double k_gain_m2 = 1e-12;
+        constexpr double k_worthwhile_gain = 0.01;  // relative change that gets another round
+        double cost = evaluate();
+        HandFit best = described(cost);
+        best.is_converged = true;
+        for (std::int32_t round = 0; round < goal_.rounds; ++round) {
+            step();
+            const double before = cost;
+            const double now = evaluate();
+            const bool is_gain = now < cost - k_gain * cost - k_gain_m2;
+            if (is_gain) {
+                cost = now;
+                best = described(cost);
+            }
+            best.is_converged = !(cost < before);
+            if (std::abs(now - before) < k_worthwhile_gain * before) {
+                break;
+            }
+        }
+        return best;
+    }
+
+  private:
+    HandFit described(double cost) const {
+        HandFit fit;
+        fit.cost = cost;
+        fit.pose = pose_;
+        fit.penetration_m = spheres_.penetration_m();
+        for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
+            fit.gap_m[f] = spheres_.gap_m(f);
+        }
+        return fit;
+    }
+
+    // Builds the problem at the present pose and returns its cost there.
+    double evaluate() {
+        center_ = transform_point(pose_.wrist_bs, rig_.palm_center_hs);
+        frames_ = link_frames(rig_, pose_);
+        spheres_.query(pose_, frames_);
+        row_count_ = 0;
+        hessian_.setZero();
+        gradient_.setZero();
+        cost_ = 0.0;
+        add_wrist();
+        for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
+            add_hinges(f);
+            add_opposition(f);
+            add_attraction(f);
+        }
+        add_neighbours();
+        add_contacts();
+        add_digit_gaps();
+        add_palm_limits();
+        double cost = cost_;
+        for (std::size_t i = 0; i < row_count_; ++i) {
+            const double violation = std::min(0.0, rows_[i].value);
+            cost += 0.5 * rows_[i].weight * violation * violation;
+        }
+        return cost;
+    }
+
+    void add_wrist() {
+        const Vec3 moved = center_ - transform_point(hand_.wrist_bs, rig_.palm_center_hs);
+        const Vec3 turned = rotation_to_vector(
+            (pose_.wrist_bs.rotation * hand_.wrist_bs.rotation.conjugate()).normalized());
+        for (int i = 0; i < 3; ++i) {
+            add_square(1.0, moved[i], unit(i));
+            add_square(k_arm_m * k_arm_m, turned[i], unit(3 + i));
+        }
+    }
+
+    void add_hinges(std::size_t f) {
+        const FingerRig& finger = rig_.fingers[f];
+        const FingerAngles& angles = pose_.fingers[f];
+        const bool is_free_thumb = is_thumb(finger) && !goal_.touches[f];
+        double beyond_m = 0.0;
+        for (std::size_t i = finger.link_count; i-- > 0;) {
+            beyond_m += finger.length_m[i];
+            const int place = layout_.hinge(f, i);
+            const double angle_rad = angles.curl_rad[i];
+            if (goal_.touches[f]) {
+                const double close = is_thumb(finger) ? 0.0 : k_close;
+                add_square(close * beyond_m * beyond_m, angle_rad - finger.upper_rad[i],
+                           unit(place));
+                add_square(k_first * k_lever2, angle_rad - goal_.closed[f].curl_rad[i],
+                           unit(place));
+            }
+            add_square((is_free_thumb ? k_rest_of_free_thumb : k_rest) * k_lever2,
+                       angle_rad - finger.rest_rad[i], unit(place));
+            add_row(unit(place), angle_rad - finger.lower_rad[i], k_joint_limit * k_lever2);
+            add_row(unit(place, -1.0), finger.upper_rad[i] - angle_rad, k_joint_limit * k_lever2);
+        }
+        if (is_thumb(finger)) {
+            return;
+        }
+        const Unknowns open = layout_.bend(f, -1.0);
+        add_row(open, k_max_bend_rad + along(open), k_bend_limit * k_lever2);
+        add_square(k_roll * k_lever2, angles.curl_rad[1] - angles.curl_rad[0],
+                   unit(layout_.hinge(f, 1)) + unit(layout_.hinge(f, 0), -1.0));
+        if (finger.link_count == 3) {
+            add_square(k_couple * k_lever2, angles.curl_rad[2] - k_coupling * angles.curl_rad[1],
+                       unit(layout_.hinge(f, 2)) + unit(layout_.hinge(f, 1), -k_coupling));
+        }
+    }
+
+    void add_opposition(std::size_t f) {
+        const FingerRig& finger = rig_.fingers[f];
+        const int place = layout_.opposition(f);
+        if (place < 0) {
+            return;
+        }
+        const double angle_rad = pose_.fingers[f].opposition_rad;
+        add_square(k_first_opposition * k_lever2, angle_rad - goal_.closed[f].opposition_rad,
+                   unit(place));
+        add_row(unit(place), angle_rad - finger.lower_opposition_rad, k_joint_limit * k_lever2);
+        add_row(unit(place, -1.0), finger.upper_opposition_rad - angle_rad,
+                k_joint_limit * k_lever2);
+    }
+
+    // Draws a digit's nearest sphere to the surface, and a thumb's tip. Knuckles do not count.
+    void add_attraction(std::size_t f) {
+        const HandSphere* nearest = nullptr;
+        for (const HandSphere& sphere : spheres_.all()) {
+            if (sphere.finger != static_cast<std::int32_t>(f) || !sphere.has_gap) {
+                continue;
+            }
+            if (!is_knuckle(sphere) && (nearest == nullptr || sphere.gap_m < nearest->gap_m)) {
+                nearest = &sphere;
+            }
+            if (sphere.is_thumb_tip) {
+                add_square(k_tip, sphere.gap_m, slope_of(sphere));
+            }
+        }
+        if (nearest != nullptr && (goal_.touches[f] || nearest->gap_m < k_sphere_reach_m)) {
+            add_pull(*nearest, goal_.touches[f]);
+        }
+    }
+
+    // Adds k_touch / 2 * gap^2 / (1 + gap^2 / g^2), as the square that has the same slope here
+    // (iteratively reweighted least squares). A gap of 0 is pulled too, so that the wrist does not
+    // leave it.
+    void add_pull(const HandSphere& sphere, bool touches) {
+        const double ratio = sphere.gap_m / (touches ? k_let_go_touching_m : k_let_go_m);
+        const double share = 1.0 / (1.0 + ratio * ratio);
+        const double weight = k_touch * share * share;
+        add_square(weight, sphere.gap_m, slope_of(sphere));
+        cost_ += 0.5 * (k_touch * share - weight) * sphere.gap_m * sphere.gap_m;
+    }
+
+    // Neighbours are fingers next to each other in the rig, thumbs left out.
+    void add_neighbours() {
+        std::size_t before = k_finger_count;
+        for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
+            if (is_thumb(rig_.fingers[f])) {
+                continue;
+            }
+            if (before < k_finger_count) {
+                add_neighbour(before, f);
+            }
+            before = f;
+        }
+    }
+
+    void add_neighbour(std::size_t a, std::size_t b) {
+        const double weight = goal_.touches[a] && goal_.touches[b] ? k_alike : k_alike_if_free;
+        const std::size_t links = std::min(rig_.fingers[a].link_count, rig_.fingers[b].link_count);
+        for (std::size_t i = 0; i < links; ++i) {
+            add_square(weight * k_lever2,
+                       pose_.fingers[b].curl_rad[i] - pose_.fingers[a].curl_rad[i],
+                       unit(layout_.hinge(b, i)) + unit(layout_.hinge(a, i), -1.0));
+        }
+        const Unknowns fan = layout_.direction(b, 1.0) + layout_.direction(a, -1.0);
+        const double fan_rad = along(fan);
+        add_square(k_fan * k_lever2, fan_rad, fan);
+        add_row(fan, k_max_fan_rad + fan_rad, k_fan_limit * k_lever2);
+        add_row(-fan, k_max_fan_rad - fan_rad, k_fan_limit * k_lever2);
+        const Unknowns apart = layout_.bend(b, 1.0) + layout_.bend(a, -1.0);
+        const double apart_rad = along(apart);
+        add_row(apart, k_max_apart_rad + apart_rad, k_bend_limit * k_lever2);
+        add_row(-apart, k_max_apart_rad - apart_rad, k_bend_limit * k_lever2);
+    }
+
+    // Sum of the pose's curls, weighted by `slope`.
+    double along(const Unknowns& slope) const {
+        double sum_rad = 0.0;
+        for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
+            for (std::size_t i = 0; i < rig_.fingers[f].link_count; ++i) {
+                sum_rad += slope[layout_.hinge(f, i)] * pose_.fingers[f].curl_rad[i];
+            }
+        }
+        return sum_rad;
+    }
+
+    void add_contacts() {
+        for (const HandSphere& sphere : spheres_.all()) {
+            if (sphere.has_gap) {
+                add_row(slope_of(sphere), sphere.gap_m - k_clear_m, k_contact);
+            }
+        }
+    }
+
+    // Keeps the thumb out of the fingers.
+    void add_digit_gaps() {
+        std::array<DigitGap, k_max_digit_gaps> gaps;
+        const std::size_t count =
+            find_digit_gaps(rig_, digit_capsules(rig_, frames_), k_digit_reach_m, gaps);
+        for (std::size_t i = 0; i < count; ++i) {
+            const DigitGap& pair = gaps[i];
+            Unknowns slope = Unknowns::Zero();
+            add_digit_slope(pair.thumb, pair.thumb_link, pair.on_thumb, pair.away, slope);
+            add_digit_slope(pair.finger, pair.finger_link, pair.on_finger, -pair.away, slope);
+            add_row(slope, pair.gap_m, k_digit_contact);
+        }
+    }
+
+    void add_palm_limits() {
+        const Vec3& normal = surface_.normal_bs;
+        const double height_m = (center_ - surface_.point_bs).dot(normal);
+        Unknowns slope = Unknowns::Zero();
+        slope.head<3>() = normal;
+        add_row(slope, height_m - tuning_.min_height_m, k_palm_limit);
+        add_row(-slope, std::max(tuning_.min_height_m, tuning_.max_height_m) - height_m,
+                k_palm_limit);
+        const Vec3 up = pose_.wrist_bs.rotation * -rig_.palm_normal_hs;
+        const Vec3 across = up.cross(normal);
+        if (across.norm() > 1e-9) {
+            Unknowns turn = Unknowns::Zero();
+            turn.segment<3>(3) = across.normalized();
+            add_row(turn, tuning_.max_angle_rad - arc_tangent2(across.norm(), up.dot(normal)),
+                    k_palm_limit * k_arm_m * k_arm_m);
+        }
+    }
+
+    // Change of a sphere's gap per unit of every unknown.
+    Unknowns slope_of(const HandSphere& sphere) const {
+        Unknowns slope = Unknowns::Zero();
+        slope.head<3>() = sphere.away;
+        slope.segment<3>(3) = (sphere.center - center_).cross(sphere.away);
+        if (sphere.finger == HandSphere::k_palm) {
+            return slope;
+        }
+        add_digit_slope(static_cast<std::size_t>(sphere.finger), sphere.link, sphere.center,
+                        sphere.away, slope);
+        return slope;
+    }
+
+    // Adds how far a point of a link moves along `away` per unit of the digit's angles.
+    void add_digit_slope(std::size_t f, std::size_t link, const Vec3& point, const Vec3& away,
+                         Unknowns& slope) const {
+        for (std::size_t i = 0; i <= link; ++i) {
+            const Pose& frame = frames_[f][i];
+            const Vec3 axis = frame.rotation * -Vec3::UnitX();
+            slope[layout_.hinge(f, i)] += axis.cross(point - frame.position).dot(away);
+        }
+        if (layout_.opposition(f) >= 0) {
+            const Vec3 axis = pose_.wrist_bs.rotation * rig_.fingers[f].opposition_axis_hs;
+            slope[layout_.opposition(f)] += axis.cross(point - frames_[f][0].position).dot(away);
+        }
+    }
+
+    void add_row(const Unknowns& slope, double value, double weight) {
+        if (row_count_ < rows_.size()) {
+            rows_[row_count_++] = {slope, value, weight};
+        }
+    }
+
+    // Adds weight / 2 * (value + slope . x)^2.
+    void add_square(double weight, double value, const Unknowns& slope) {
+        for (int i = 0; i < layout_.end(); ++i) {
+            if (slope[i] != 0.0) {
+                hessian_.row(i) += weight * slope[i] * slope.transpose();
+            }
+        }
+        gradient_ += weight * value * slope;
+        cost_ += 0.5 * weight * value * value;
+    }
+
+    // Moves by the solution of the problem that evaluate() built.
+    void step() {
+        for (int i = 6; i < layout_.end(); ++i) {
+            add_row(unit(i), goal_.max_flex_rad, k_joint_limit * k_lever2);
+            add_row(unit(i, -1.0), goal_.max_flex_rad, k_joint_limit * k_lever2);
+        }
+        hold_fixed_unknowns();
+        Unknowns change =
+            minimise_penalised(hessian_, gradient_, {rows_.data(), row_count_}, layout_.count());
+        const double move_m = change.head<3>().norm();
+        const double turn_rad = change.segment<3>(3).norm();
+        change *= std::min(k_max_move_m / std::max(k_max_move_m, move_m),
+                           k_max_turn_rad / std::max(k_max_turn_rad, turn_rad));
+        apply(change);
+    }
+
+    void hold_fixed_unknowns() {
+        constexpr double k_held = 1e6;
+        const auto hold = [&](int place) { hessian_(place, place) += k_held; };
+        for (int i = 0; goal_.is_wrist_fixed && i < 6; ++i) {
+            hold(i);
+        }
+        for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
+            for (std::size_t i = 0; goal_.is_fixed[f] && i < rig_.fingers[f].link_count; ++i) {
+                hold(layout_.hinge(f, i));
+            }
+            if (goal_.is_fixed[f] && layout_.opposition(f) >= 0) {
+                hold(layout_.opposition(f));
+            }
+        }
+    }
+
+    void apply(const Unknowns& change) {
+        if (!goal_.is_wrist_fixed) {
+            Pose& wrist = pose_.wrist_bs;
+            wrist.rotation =
+                (rotation_from_vector(change.segment<3>(3)) * wrist.rotation).normalized();
+            wrist.position = center_ + change.head<3>() - wrist.rotation * rig_.palm_center_hs;
+        }
+        for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
+            if (goal_.is_fixed[f]) {
+                continue;
+            }
+            const FingerRig& finger = rig_.fingers[f];
+            FingerAngles& angles = pose_.fingers[f];
+            for (std::size_t i = 0; i < finger.link_count; ++i) {
+                const double flex_rad = std::clamp(change[layout_.hinge(f, i)], -goal_.max_flex_rad,
+                                                   goal_.max_flex_rad);
+                angles.curl_rad[i] = std::clamp(angles.curl_rad[i] + flex_rad, finger.lower_rad[i],
+                                                finger.upper_rad[i]);
+            }
+            if (const int place = layout_.opposition(f); place >= 0) {
+                const double turn_rad =
+                    std::clamp(change[place], -goal_.max_flex_rad, goal_.max_flex_rad);
+                angles.opposition_rad =
+                    std::clamp(angles.opposition_rad + turn_rad, finger.lower_opposition_rad,
+                               finger.upper_opposition_rad);
+            }
+        }
+    }
+
+    const HandSurroundings& hand_;
+    const HandRig& rig_;
+    const GripSurface& surface_;
+    const HandFitGoal& goal_;
+    const PalmTuning& tuning_;
+    const HandUnknowns layout_;
+    HandPose pose_;
+    HandSpheres spheres_;
+    Vec3 center_ = Vec3::Zero();  // of the palm at pose_
+    HandLinkFrames frames_;
+    // The problem at pose_.
+    UnknownsSquare hessian_ = UnknownsSquare::Zero();
+    Unknowns gradient_ = Unknowns::Zero();
+    double cost_ = 0.0;  // of the squares
+    std::array<PenaltyRow, k_max_penalty_rows> rows_;
+    std::size_t row_count_ = 0;
+};
+
+}  // namespace
+
+HandFit fit_hand(const HandSurroundings& hand, const GripSurface& surface, const HandFitGoal& goal,
+                 const PalmTuning& tuning) {
+    return Fitter(hand, surface, goal, tuning).run();
+}
+
+}  // namespace handhold

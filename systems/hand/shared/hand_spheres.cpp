@@ -1,0 +1,297 @@
+#include "systems/hand/shared/hand_spheres.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/collision/closest_point.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr double k_spacing_m = 0.018;          // largest distance between spheres of one link
+constexpr int k_max_pieces = 6;                // per link
+constexpr double k_keep_travel_m = 1.2e-3;     // of a centre whose gap is kept
+constexpr double k_extra_gap_m = 0.005;        // links farther away need no extra sphere
+constexpr double k_max_depth_inside_m = 0.03;  // deepest centre inside a solid that is found
+
+double query_radius_m(const HandSphere& sphere) {
+    const double reach_m = sphere.is_thumb_tip ? k_thumb_tip_reach_m : k_sphere_reach_m;
+    return std::max(sphere.radius_m + reach_m, k_max_depth_inside_m);
+}
+
+std::size_t group_of(const HandSphere& sphere) {
+    return sphere.finger == HandSphere::k_palm ? k_finger_count
+                                               : static_cast<std::size_t>(sphere.finger);
+}
+
+}  // namespace
+
+HandLinkFrames link_frames(const HandRig& rig, const HandPose& pose) {
+    HandLinkFrames frames;
+    for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+        const auto frames_hs = finger_link_frames(rig.fingers[f], pose.fingers[f]);
+        for (std::size_t link = 0; link < rig.fingers[f].link_count; ++link) {
+            frames[f][link] = pose.wrist_bs * frames_hs[link];
+        }
+    }
+    return frames;
+}
+
+HandSpheres::HandSpheres(const HandSurroundings& hand, const GripSurface& surface,
+                         const std::array<bool, k_finger_count>& is_clear)
+    : hand_(hand), is_clear_(is_clear) {
+    const PlacedMesh& placed = hand.meshes.front();
+    const Vec3 wound = placed.pose.rotation * placed.mesh->search.normals[surface.triangle];
+    winding_ = wound.dot(surface.normal_bs) < 0.0 ? -1.0 : 1.0;
+    // Each capsule's extra sphere comes after its others.
+    for (std::size_t i = 0; i < hand.rig->palm.size(); ++i) {
+        const PalmCapsule& capsule = hand.rig->palm[i];
+        HandSphere sphere;
+        sphere.link = i;
+        sphere.radius_m = capsule.radius_m;
+        for (const double share : {0.0, 0.5, 1.0}) {
+            sphere.center_ls = capsule.a_hs + share * (capsule.b_hs - capsule.a_hs);
+            add(sphere);
+        }
+        sphere.is_extra = true;
+        add(sphere);
+    }
+    for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
+        const FingerRig& finger = hand.rig->fingers[f];
+        for (std::size_t link = 0; link < finger.link_count; ++link) {
+            HandSphere sphere;
+            sphere.finger = static_cast<std::int32_t>(f);
+            sphere.link = link;
+            sphere.radius_m = finger.radius_m[link];
+            const int pieces = std::clamp(
+                static_cast<int>(std::ceil(finger.length_m[link] / k_spacing_m)), 1, k_max_pieces);
+            // A later link's first sphere is the previous link's last.
+            for (int i = link == 0 ? 0 : 1; i <= pieces; ++i) {
+                sphere.center_ls = Vec3(0.0, 0.0, -finger.length_m[link] * i / pieces);
+                sphere.is_thumb_tip = finger.name == FingerName::thumb &&
+                                      link + 1 == finger.link_count && i == pieces;
+                add(sphere);
+            }
+            sphere.is_thumb_tip = false;
+            sphere.is_extra = true;
+            add(sphere);
+        }
+    }
+}
+
+void HandSpheres::add(const HandSphere& sphere) {
+    if (count_ < spheres_.size()) {
+        spheres_[count_++] = sphere;
+    }
+}
+
+Vec3 HandSpheres::center_of(const HandSphere& sphere, const HandPose& pose,
+                            const HandLinkFrames& frames) const {
+    const Pose& frame = sphere.finger == HandSphere::k_palm
+                            ? pose.wrist_bs
+                            : frames[static_cast<std::size_t>(sphere.finger)][sphere.link];
+    return transform_point(frame, sphere.center_ls);
+}
+
+std::array<double, k_finger_count + 1> HandSpheres::keep_gaps_m(
+    const HandPose& pose, const HandLinkFrames& frames) const {
+    std::array<double, k_finger_count + 1> nearest_m;
+    nearest_m.fill(std::numeric_limits<double>::infinity());
+    nearest_m[k_finger_count] = k_extra_gap_m;
+    for (const HandSphere& sphere : all()) {
+        if (!sphere.is_extra && is_queried_ && group_of(sphere) < k_finger_count &&
+            !is_knuckle(sphere)) {
+            const Vec3 moved = center_of(sphere, pose, frames) - sphere.searched_center;
+            double& least_m = nearest_m[group_of(sphere)];
+            least_m =
+                std::min(least_m, std::max(sphere.searched_gap_m + moved.norm(), k_extra_gap_m));
+        }
+    }
+    return nearest_m;
+}
+
+void HandSpheres::query(const HandPose& pose, const HandLinkFrames& frames) {
+    const HandSphere* nearest = nullptr;   // of the present capsule
+    const HandSphere* previous = nullptr;  // searched last
+    const auto keep_m = keep_gaps_m(pose, frames);
+    for (std::size_t i = 0; i < count_; ++i) {
+        HandSphere& sphere = spheres_[i];
+        if (sphere.is_extra) {
+            if (is_queried_ && keeps_gap(sphere, center_of(sphere, pose, frames))) {
+                nearest = nullptr;
+                continue;
+            }
+            sphere.has_gap = false;
+            if (nearest != nullptr && nearest->gap_m < k_extra_gap_m) {
+                query_extra(*nearest, sphere, pose, frames);
+            }
+            nearest = nullptr;
+            continue;
+        }
+        const Vec3 center = center_of(sphere, pose, frames);
+        const Vec3 moved = center - sphere.searched_center;
+        if (is_queried_ && sphere.has_gap && !sphere.is_thumb_tip &&
+            sphere.searched_gap_m - moved.norm() > keep_m[group_of(sphere)]) {
+            sphere.center = center;
+            sphere.gap_m = sphere.searched_gap_m + sphere.away.dot(moved);
+            continue;
+        }
+        if (is_queried_ && keeps_gap(sphere, center)) {
+            if (nearest == nullptr || sphere.gap_m < nearest->gap_m) {
+                nearest = &sphere;
+            }
+            continue;
+        }
+        query_sphere(sphere, center, previous, !is_queried_);
+        previous = &sphere;
+        if (sphere.has_gap && (nearest == nullptr || sphere.gap_m < nearest->gap_m)) {
+            nearest = &sphere;
+        }
+    }
+    is_queried_ = true;
+}
+
+// Moves the gap of a sphere along with its centre if that is near to where it was searched.
+bool HandSpheres::keeps_gap(HandSphere& sphere, const Vec3& center) {
+    const Vec3 moved = center - sphere.searched_center;
+    if (!sphere.has_gap || moved.norm() > k_keep_travel_m) {
+        return false;
+    }
+    sphere.center = center;
+    sphere.gap_m = sphere.searched_gap_m + sphere.away.dot(moved);
+    return true;
+}
+
+// Puts the extra sphere where the axis is nearest to the surface point of the capsule's nearest
+// sphere.
+void HandSpheres::query_extra(const HandSphere& nearest, HandSphere& extra, const HandPose& pose,
+                              const HandLinkFrames& frames) {
+    constexpr double k_same_m = 1e-3;
+    const Vec3 point = nearest.center - (nearest.gap_m + nearest.radius_m) * nearest.away;
+    if (extra.finger == HandSphere::k_palm) {
+        const PalmCapsule& capsule = hand_.rig->palm[extra.link];
+        extra.center_ls = closest_on_segment(inverse_transform_point(pose.wrist_bs, point),
+                                             capsule.a_hs, capsule.b_hs);
+    } else {
+        const auto f = static_cast<std::size_t>(extra.finger);
+        const double length_m = hand_.rig->fingers[f].length_m[extra.link];
+        const Vec3 point_ls = inverse_transform_point(frames[f][extra.link], point);
+        extra.center_ls = Vec3(0.0, 0.0, std::clamp(point_ls.z(), -length_m, 0.0));
+    }
+    const Vec3 center = center_of(extra, pose, frames);
+    if ((center - nearest.center).norm() < k_same_m) {
+        return;
+    }
+    extra.searched_center = nearest.searched_center;
+    extra.signed_m = nearest.signed_m;
+    query_sphere(extra, center, &nearest, false);
+}
+
+// 1 outside, -1 inside, before the distance is known.
+double HandSpheres::side_of_gripped(const HandSphere& sphere, const Vec3& center, bool is_below,
+                                    bool is_first) const {
+    if (is_first) {
+        const bool is_clear = sphere.finger != HandSphere::k_palm &&
+                              is_clear_[static_cast<std::size_t>(sphere.finger)];
+        return is_below && !is_clear ? -1.0 : 1.0;
+    }
+    const double side = sphere.signed_m < 0.0 ? -1.0 : 1.0;
+    if ((center - sphere.searched_center).norm() < std::abs(sphere.signed_m)) {
+        return side;  // too short a path to reach the surface
+    }
+    const PlacedMesh& placed = hand_.meshes.front();
+    const bool crosses = placed.mesh->contact_bvh
+                             .cast_ray(inverse_transform_point(placed.pose, sphere.searched_center),
+                                       inverse_transform_point(placed.pose, center))
+                             .has_value();
+    return crosses ? -side : side;
+}
+
+// Returns `radius_m`, or the distance to the triangle that the sphere found last if that is less: a
+// bound of the nearest triangle's distance.
+double HandSpheres::bound_m(const Vec3& center_ms, double radius_m,
+                            const HandSphere& sphere) const {
+    constexpr double k_slack_m = 1e-9;
+    const SurfaceGraph& graph = hand_.meshes.front().mesh->contact;
+    if (sphere.triangle == k_no_triangle) {
+        return radius_m;
+    }
+    const Vec3 on_triangle = closest_on_triangle(center_ms, corners_of(graph, sphere.triangle));
+    return std::min(radius_m, (on_triangle - center_ms).norm() + k_slack_m);
+}
+
+void HandSpheres::query_sphere(HandSphere& sphere, const Vec3& center,
+                               const HandSphere* near_sphere, bool is_first) {
+    // A centre at least this far below its nearest triangle's plane is inside. Beyond an edge, a
+    // centre outside the solid can be slightly below one triangle's plane.
+    constexpr double k_min_inside_ratio = 0.5;
+    constexpr double k_on_surface_m = 1e-9;
+    const double radius_m = query_radius_m(sphere);
+    double signed_m = radius_m;
+    sphere.has_gap = false;
+    sphere.gap_m = std::numeric_limits<double>::infinity();
+    for (std::size_t m = 0; m < hand_.meshes.size(); ++m) {
+        const PlacedMesh& placed = hand_.meshes[m];
+        const Vec3 center_ms = inverse_transform_point(placed.pose, center);
+        double within_m = radius_m;
+        if (m == 0) {
+            within_m = bound_m(center_ms, within_m, sphere);
+            within_m =
+                near_sphere != nullptr ? bound_m(center_ms, within_m, *near_sphere) : within_m;
+            sphere.triangle = k_no_triangle;
+        }
+        const auto near = placed.mesh->contact_bvh.closest_point(center_ms, within_m);
+        if (!near) {
+            continue;
+        }
+        const Vec3 offset = center - transform_point(placed.pose, near->point);
+        const Vec3 outward =
+            placed.pose.rotation *
+            Vec3((m == 0 ? winding_ : 1.0) * placed.mesh->contact.normals[near->triangle]);
+        const bool is_below = near->distance_m < k_max_depth_inside_m &&
+                              outward.dot(offset) < -k_min_inside_ratio * near->distance_m;
+        double side = is_below ? -1.0 : 1.0;
+        if (m == 0) {
+            side = side_of_gripped(sphere, center, is_below, is_first);
+            signed_m = side * near->distance_m;
+            sphere.triangle = near->triangle;
+        }
+        const double gap_m = side * near->distance_m - sphere.radius_m;
+        if (gap_m < sphere.gap_m) {
+            sphere.gap_m = gap_m;
+            sphere.has_gap = true;
+            sphere.away = near->distance_m > k_on_surface_m ? Vec3(side / near->distance_m * offset)
+                                                            : outward;
+        }
+    }
+    sphere.center = center;
+    sphere.searched_center = center;
+    sphere.searched_gap_m = sphere.gap_m;
+    sphere.signed_m = signed_m;
+}
+
+bool is_knuckle(const HandSphere& sphere) {
+    return sphere.finger != HandSphere::k_palm && sphere.link == 0 && sphere.center_ls.isZero();
+}
+
+double HandSpheres::penetration_m() const {
+    double depth_m = 0.0;
+    for (const HandSphere& sphere : all()) {
+        depth_m = std::max(depth_m, sphere.has_gap ? -sphere.gap_m : 0.0);
+    }
+    return depth_m;
+}
+
+double HandSpheres::gap_m(std::size_t finger) const {
+    double gap_m = std::numeric_limits<double>::infinity();
+    for (const HandSphere& sphere : all()) {
+        if (sphere.has_gap && sphere.finger == static_cast<std::int32_t>(finger)) {
+            gap_m = std::min(gap_m, sphere.gap_m);
+        }
+    }
+    return gap_m;
+}
+
+}  // namespace handhold

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "components/hand.hpp"
+#include "components/hand_surroundings.hpp"
+#include "engine/geometry/surface_graph.hpp"
+
+// A hand as spheres along its capsules, and their gaps to the surfaces around it.
+namespace handhold {
+
+// A wrist and all digits. `wrist_bs` is in the frame of HandSurroundings::meshes.
+struct HandPose {
+    Pose wrist_bs;
+    std::array<FingerAngles, k_finger_count> fingers;  // by index into HandRig::fingers
+};
+
+// Frames of all links in the frame of the wrist's parent: hinge at the origin, -Z along the link.
+using HandLinkFrames = std::array<std::array<Pose, k_max_links>, k_finger_count>;
+HandLinkFrames link_frames(const HandRig& rig, const HandPose& pose);
+
+struct HandSphere {
+    static constexpr std::int32_t k_palm = -1;
+    std::int32_t finger = k_palm;  // into HandRig::fingers
+    std::size_t link = 0;          // of that finger, or index into HandRig::palm
+    double radius_m = 0.0;
+    Vec3 center_ls = Vec3::Zero();  // in the link's frame, or in hand space for the palm
+    // An extra sphere where the capsule's axis is nearest to the surface. Without it, an edge could
+    // penetrate between two spheres.
+    bool is_extra = false;
+    bool is_thumb_tip = false;
+
+    // Written by HandSpheres::query.
+    Vec3 center = Vec3::Zero();
+    Vec3 away = Vec3::Zero();  // unit, from the nearest surface point to the centre, out of solids
+    double gap_m = 0.0;        // below 0: penetration depth
+    bool has_gap = false;      // a surface is within reach of the sphere
+    // Of the last search: the centre, its gap (infinity: none), its signed distance to the gripped
+    // mesh, at most the query radius, and the nearest triangle there.
+    Vec3 searched_center = Vec3::Zero();
+    double searched_gap_m = 0.0;
+    double signed_m = 0.0;
+    std::uint32_t triangle = k_no_triangle;
+};
+
+bool is_knuckle(const HandSphere& sphere);
+
+// Gaps up to this are reported. A thumb's tip can be far from a surface that its base touches.
+inline constexpr double k_sphere_reach_m = 0.02;
+inline constexpr double k_thumb_tip_reach_m = 0.06;
+
+class HandSpheres {
+  public:
+    static constexpr std::size_t k_max_count = 128;
+
+    // `is_clear`: by finger, the first queried pose is known to be outside every solid, whatever
+    // the meshes' windings say. Keeps a reference to `hand`. Precondition: the hand has meshes.
+    HandSpheres(const HandSurroundings& hand, const GripSurface& surface,
+                const std::array<bool, k_finger_count>& is_clear);
+
+    // Computes all gaps at a pose. Spheres that have moved less than 1.2 mm since their last
+    // search, or cannot be a digit's nearest, keep its gap, moved along `away`. At the first call,
+    // a centre is inside a solid if it is below the plane of its nearest triangle. Later a centre
+    // changes sides only if its path since the last call crosses a surface of the gripped mesh:
+    // windings of open or broken meshes cannot flip a finger through a wall.
+    void query(const HandPose& pose, const HandLinkFrames& frames);
+
+    std::span<const HandSphere> all() const { return {spheres_.data(), count_}; }
+    double penetration_m() const;            // of the deepest sphere; at least 0
+    double gap_m(std::size_t finger) const;  // smallest of a digit; infinity: none in reach
+
+  private:
+    void add(const HandSphere& sphere);
+    Vec3 center_of(const HandSphere& sphere, const HandPose& pose,
+                   const HandLinkFrames& frames) const;
+    // By digit, and last for the palm: smallest gap that a sphere may have whose last gap is kept.
+    std::array<double, k_finger_count + 1> keep_gaps_m(const HandPose& pose,
+                                                       const HandLinkFrames& frames) const;
+    // `near_sphere`: a sphere nearby, whose triangle bounds the search.
+    void query_sphere(HandSphere& sphere, const Vec3& center, const HandSphere* near_sphere,
+                      bool is_first);
+    static bool keeps_gap(HandSphere& sphere, const Vec3& center);
+    double bound_m(const Vec3& center_ms, double radius_m, const HandSphere& sphere) const;
+    void query_extra(const HandSphere& nearest, HandSphere& extra, const HandPose& pose,
+                     const HandLinkFrames& frames);
+    double side_of_gripped(const HandSphere& sphere, const Vec3& center, bool is_below,
+                           bool is_first) const;
+
+    const HandSurroundings& hand_;
+    std::array<bool, k_finger_count> is_clear_;
+    double winding_ = 1.0;  // -1: the gripped mesh's outside is against its winding
+    bool is_queried_ = false;
+    std::array<HandSphere, k_max_count> spheres_;
+    std::size_t count_ = 0;
+};
+
+}  // namespace handhold

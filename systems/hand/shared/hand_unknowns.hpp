@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "components/hand_rig.hpp"
+#include "engine/math/penalty_quadratic.hpp"
+
+namespace handhold {
+
+// Which unknown is which in the fit of a hand: 0 to 2 translation, 3 to 5 rotation vector about the
+// palm's centre, then each finger's hinges, followed by its opposition angle if it has one.
+class HandUnknowns {
+  public:
+    explicit HandUnknowns(const HandRig& rig);
+
+    int hinge(std::size_t finger, std::size_t link) const {
+        return first_[finger] + static_cast<int>(link);
+    }
+    int opposition(std::size_t finger) const { return opposition_[finger]; }  // -1: none
+    std::size_t count() const { return count_; }
+    int end() const { return static_cast<int>(count_); }
+
+    // `sign` for each of a finger's hinges: the total bend.
+    Unknowns bend(std::size_t finger, double sign) const;
+    // `sign` times the share of each hinge's angle by which the direction from the knuckle to the
+    // tip of a nearly straight finger turns: the length beyond the hinge, of the whole length.
+    Unknowns direction(std::size_t finger, double sign) const;
+
+  private:
+    const HandRig& rig_;
+    std::array<int, k_finger_count> first_ = {};
+    std::array<int, k_finger_count> opposition_ = {};
+    std::size_t count_ = 6;
+};
+
+// 0, but for `value` at one place.
+Unknowns unit(int place, double value = 1.0);
+
+}  // namespace handhold
