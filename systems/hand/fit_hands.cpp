@@ -88,13 +88,12 @@ HandFit best_fit(const HandSurroundings& hand, const GripSurface& surface, const
         return fit_last(hand, surface, offset, pose, tuning.palm);
     }
     const bool has_last = pose.fitted_body == hand.body && hand.authored == nullptr;
-    const HandFit closed =
-        fit_closed(hand, surface, offset, pose,
-                   has_last ? k_closing_again_rounds : k_closing_rounds, tuning.palm);
+    HandFit closed = fit_closed(hand, surface, offset, pose,
+                                has_last ? k_closing_again_rounds : k_closing_rounds, tuning.palm);
     if (!has_last) {
         return closed;
     }
-    const HandFit last = fit_last(hand, surface, offset, pose, tuning.palm);
+    HandFit last = fit_last(hand, surface, offset, pose, tuning.palm);
     return closed.cost < k_change_cost_share * last.cost ? closed : last;
 }
 

@@ -26,6 +26,13 @@ std::size_t group_of(const HandSphere& sphere) {
                                                : static_cast<std::size_t>(sphere.finger);
 }
 
+Vec3 center_of(const HandSphere& sphere, const HandPose& pose, const HandLinkFrames& frames) {
+    const Pose& frame = sphere.finger == HandSphere::k_palm
+                            ? pose.wrist_bs
+                            : frames[static_cast<std::size_t>(sphere.finger)][sphere.link];
+    return transform_point(frame, sphere.center_ls);
+}
+
 }  // namespace
 
 HandLinkFrames link_frames(const HandRig& rig, const HandPose& pose) {
@@ -85,14 +92,6 @@ void HandSpheres::add(const HandSphere& sphere) {
     if (count_ < spheres_.size()) {
         spheres_[count_++] = sphere;
     }
-}
-
-Vec3 HandSpheres::center_of(const HandSphere& sphere, const HandPose& pose,
-                            const HandLinkFrames& frames) const {
-    const Pose& frame = sphere.finger == HandSphere::k_palm
-                            ? pose.wrist_bs
-                            : frames[static_cast<std::size_t>(sphere.finger)][sphere.link];
-    return transform_point(frame, sphere.center_ls);
 }
 
 std::array<double, k_finger_count + 1> HandSpheres::keep_gaps_m(

@@ -74,8 +74,6 @@ class HandSpheres {
 
   private:
     void add(const HandSphere& sphere);
-    Vec3 center_of(const HandSphere& sphere, const HandPose& pose,
-                   const HandLinkFrames& frames) const;
     // By digit, and last for the palm: smallest gap that a sphere may have whose last gap is kept.
     std::array<double, k_finger_count + 1> keep_gaps_m(const HandPose& pose,
                                                        const HandLinkFrames& frames) const;
