@@ -125,11 +125,19 @@ void visit_fields(const ArmPose& c, V&& visit) {
     visit("arms", c.arms);
 }
 template <typename V>
-void visit_fields(const LegContact& c, V&& visit) {
+void visit_fields(const BodyContact& c, V&& visit) {
     visit("touches", c.touches);
     visit("normal_ps", c.normal_ps);
     visit("surface_m", c.surface_m);
-    visit("ankle_m", c.ankle_m);
+}
+template <typename V>
+void visit_fields(const BodyPull& c, V&& visit) {
+    visit("now", c.now);
+    visit("before", c.before);
+    visit("drift_mps", c.drift_mps);
+    visit("grips", c.grips);
+    visit("grips_before", c.grips_before);
+    visit("velocity_mps", c.velocity_mps);
 }
 template <typename V>
 void visit_fields(const SpineMemory& c, V&& visit) {
@@ -147,6 +155,7 @@ void visit_fields(const SpineMemory& c, V&& visit) {
     visit("twist_rad", c.twist_rad);
     visit("angle_rad", c.angle_rad);
     visit("contacts", c.contacts);
+    visit("pull", c.pull);
 }
 template <typename V>
 void visit_fields(const BodyClipState& c, V&& visit) {

@@ -154,7 +154,7 @@ void propagate_spine(const FrameContext& f) {
     handhold::propagate_spine(
         {f.dt_s(), f.end_s(), w.player_origin, w.player_velocity, w.reference_velocity,
          w.body_measures, w.arm_estimate, w.spine_memory, w.spine_pose, f.surfaces(),
-         &w.head_tracking, &w.persistent_id},
+         &w.head_tracking, &w.persistent_id, &w.hand_owner, &w.grab},
         f.tuning.spine);
 }
 

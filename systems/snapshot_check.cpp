@@ -235,7 +235,7 @@ class BreachFinder {
                   ".since_tick_s", "a time in [0, 1] s");
             check(w_.spine_memory.rows()[row].rate_span_s >= 0.0, "spine_memory",
                   w_.spine_memory.owners()[row], ".rate_span_s", "a time >= 0");
-            for (const LegContact& contact : w_.spine_memory.rows()[row].contacts) {
+            for (const BodyContact& contact : w_.spine_memory.rows()[row].contacts) {
                 check(std::abs(contact.normal_ps.norm() - 1.0) < 1e-3, "spine_memory",
                       w_.spine_memory.owners()[row], ".contacts", "unit normals");
             }

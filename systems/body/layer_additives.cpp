@@ -58,10 +58,6 @@ void turn_body(const ClipTurns& turns, SpinePose& pose) {
     }
 }
 
-bool can_push_off(const Grab& grab) {
-    return grab.kind == GripKind::surface || grab.kind == GripKind::player || grab.jointed;
-}
-
 void see_hands(const LayerAdditivesIo& io) {
     for (BodyClipState& state : io.state.rows()) {
         state.was_gripping = state.gripping;

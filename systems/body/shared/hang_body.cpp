@@ -1,0 +1,56 @@
+#include "systems/body/shared/hang_body.hpp"
+
+#include <cmath>
+
+namespace handhold {
+namespace {
+
+double lean_rad(double angle_rad, double strength) {
+    const double faded = angle_rad * (1.0 - smooth_step(angle_rad, 0.5 * k_pi, k_pi));
+    return faded * strength / std::sqrt(1.0 + strength * strength);
+}
+
+// -Y turned by a rotation about a horizontal axis. `turn`: rotation vector with y = 0.
+Vec3 turned_down(const Vec3& turn) {
+    const double angle = std::sqrt(turn.x() * turn.x() + turn.z() * turn.z());
+    if (angle < 1e-12) {
+        return -Vec3::UnitY();
+    }
+    double sine = 0.0;
+    double cosine = 1.0;
+    sin_cos(angle, sine, cosine);
+    const double by = sine / angle;
+    return {by * turn.z(), -cosine, -by * turn.x()};
+}
+
+}  // namespace
+
+void follow_pull(const Vec3& grips, const Vec3& velocity_mps, double tick_s,
+                 const SpineTuning& tuning, BodyPull& pull) {
+    pull.before = pull.now;
+    // The velocity that was gained within the last trail_s: an acceleration without noise.
+    pull.drift_mps += tick_s / (tick_s + tuning.trail_s) * (velocity_mps - pull.drift_mps);
+    const Vec3 gained_mps = velocity_mps - pull.drift_mps;
+    const Vec3 wanted = tuning.grip_pull * grips + tuning.trail_pull_per_mps * gained_mps;
+    pull.now += tick_s / (tick_s + tuning.hang_lag_s) * (wanted - pull.now);
+}
+
+TrunkLean lean_of(const Vec3& pull_cs) {
+    TrunkLean lean;
+    lean.rest_above.fill(-Vec3::UnitY());
+    const double strength = pull_cs.norm();
+    const double aside = std::sqrt(pull_cs.x() * pull_cs.x() + pull_cs.z() * pull_cs.z());
+    if (!(aside > 1e-9)) {
+        return lean;
+    }
+    // The trunk turns from -Y towards -pull, about their common normal.
+    const Vec3 axis = Vec3(pull_cs.z(), 0.0, -pull_cs.x()) * (1.0 / aside);
+    const Vec3 quarter = 0.25 * lean_rad(arc_tangent2(aside, pull_cs.y()), strength) * axis;
+    lean.chest_rad = quarter.x();
+    lean.rest_above[0] = turned_down({quarter.x(), 0.0, 2.0 * quarter.z()});
+    lean.rest_above[1] = turned_down(quarter);
+    lean.rest_above[2] = turned_down(quarter);
+    return lean;
+}
+
+}  // namespace handhold

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+
+#include "components/body_tuning.hpp"
+#include "components/spine.hpp"
+#include "engine/math/math.hpp"
+#include "engine/math/scalar_rotation.hpp"
+
+// In zero-G, the trunk hangs from what pulls the player.
+namespace handhold {
+
+// Advances BodyPull by one tick. `grips`: pull of the gripping hands (grip_pull). `velocity_mps`:
+// of the play space, relative to the reference velocity. Both in play-space axes.
+void follow_pull(const Vec3& grips, const Vec3& velocity_mps, double tick_s,
+                 const SpineTuning& tuning, BodyPull& pull);
+
+// Bend of the trunk: the shown chest turns about its X axis first, then each link of the spine
+// turns against the link above.
+struct TrunkLean {
+    double chest_rad = 0.0;                      // about the chest's X axis
+    std::array<Vec3, k_spine_links> rest_above;  // rest directions in the frames of the links above
+};
+// `pull_cs`: BodyPull::now in the chest's axes, of length p at the angle a from +Y. The trunk turns by
+// a p / sqrt(1 + p^2) from the chest's -Y towards the opposite of the pull: not at all without a pull,
+// and all the way for a strong one. From a = 90 degrees on the bend fades, and is zero at 180 degrees:
+// no trunk folds onto itself, and a pull straight down leaves it straight.
+TrunkLean lean_of(const Vec3& pull_cs);
+
+inline Quat leaning_chest(const Quat& chest, const TrunkLean& lean) {
+    return lean.chest_rad == 0.0 ? chest
+                                 : product(chest, rotation_about(Vec3::UnitX(), lean.chest_rad));
+}
+
+}  // namespace handhold
