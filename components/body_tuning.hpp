@@ -53,9 +53,7 @@ struct SpineTuning {
     double speed_max_mps = 12.0;
     double twist_lag_s = 0.12;
     double twist_limit_rad = 0.35;
-    double grip_pull = 0.6;
-    double trail_pull_per_mps = 0.8;
-    double trail_s = 1.0;
+    double hang = 0.8;
     double hang_lag_s = 0.3;
 };
 
@@ -125,15 +123,11 @@ void visit_body_tuning(TuningType& t, const See& see) {
         "Time constant with which each link's twist follows the link above.");
     see("spine.twist_limit_rad", t.spine.twist_limit_rad, "rad", 0.0, 1.5,
         "Maximum twist of each link against the link above.");
-    see("spine.grip_pull", t.spine.grip_pull, "", 0.0, 10.0,
-        "Pull of a gripping hand at arm's length, which the trunk hangs from; at 1 it weighs as much "
-        "as the posture below the head. 0: off.");
-    see("spine.trail_pull_per_mps", t.spine.trail_pull_per_mps, "s/m", 0.0, 10.0,
-        "Pull per velocity that the player gained lately, behind which the trunk trails; 0: off.");
-    see("spine.trail_s", t.spine.trail_s, "s", 0.01, 100.0,
-        "Time constant with which a constant velocity stops pulling.");
+    see("spine.hang", t.spine.hang, "", 0.0, 10.0,
+        "How far the trunk turns to hang from the gripping hands: at 1, a hand at arm's length turns "
+        "it by 0.7 of the angle. 0: off.");
     see("spine.hang_lag_s", t.spine.hang_lag_s, "s", 0.0, 10.0,
-        "Time constant with which the trunk follows what pulls it.");
+        "Time constant with which the trunk follows the pull of the hands.");
     see("additive.idle", t.additive.idle, "", 0.0, 3.0, "Weight of the idle clip; 0: off.");
     see("additive.push_off", t.additive.push_off, "", 0.0, 3.0,
         "Weight of the push-off clip that plays when the last hand lets go; 0: off.");

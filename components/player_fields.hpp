@@ -134,10 +134,8 @@ template <typename V>
 void visit_fields(const BodyPull& c, V&& visit) {
     visit("now", c.now);
     visit("before", c.before);
-    visit("drift_mps", c.drift_mps);
-    visit("grips", c.grips);
-    visit("grips_before", c.grips_before);
-    visit("velocity_mps", c.velocity_mps);
+    visit("hands", c.hands);
+    visit("hands_before", c.hands_before);
 }
 template <typename V>
 void visit_fields(const SpineMemory& c, V&& visit) {
@@ -164,6 +162,7 @@ void visit_fields(const BodyClipState& c, V&& visit) {
     visit("idle_s", c.idle_s);
     visit("push_off_s", c.push_off_s);
     visit("push_off_weight", c.push_off_weight);
+    visit("outside", c.outside);
 }
 template <typename V>
 void visit_fields(const SpinePose::Leg& c, V&& visit) {

@@ -37,17 +37,13 @@ struct BodyContact {
     double surface_m = 0.0;          // includes the part's thickness
 };
 
-// What pulls a player, in play-space axes: the gripping hands, and the velocity that the player
-// gained lately. Without unit: at 1, pull and posture have equal weight. Advances in ticks.
+// What pulls a player: the gripping hands, as the sum of the lines from the chest to them. Play-space
+// axes, in arm lengths.
 struct BodyPull {
-    Vec3 now = Vec3::Zero();           // low-pass filtered, at the last tick
-    Vec3 before = Vec3::Zero();        // one tick earlier
-    Vec3 drift_mps = Vec3::Zero();     // low-pass filtered velocity of the play space
-    // Sum over the gripping hands, in the last frame and in the one before: from the chest to the
-    // hand, in arm lengths.
-    Vec3 grips = Vec3::Zero();
-    Vec3 grips_before = Vec3::Zero();
-    Vec3 velocity_mps = Vec3::Zero();  // of the play space at the end of the last frame
+    Vec3 now = Vec3::Zero();     // low-pass filtered, times SpineTuning::hang, at the last tick
+    Vec3 before = Vec3::Zero();  // one tick earlier
+    Vec3 hands = Vec3::Zero();   // not filtered, in the last frame
+    Vec3 hands_before = Vec3::Zero();  // one frame earlier
 };
 
 // State of propagate_spine: the hanging chain, before pose_spine folds it for a crouch. Offsets
@@ -81,7 +77,7 @@ struct SpinePose {
         Pose shin_ws;   // origin: knee
         Pose foot_ws;   // origin: ankle; -Z towards the toes
     };
-    Pose chest_ws;                             // leans with the head and what pulls the player
+    Pose chest_ws;                             // leans with the head and the pull
     std::array<Pose, k_spine_links> spine_ws;  // origin: upper end of each link
     Pose pelvis_ws;                            // origin: lower end of the last link
     std::array<Leg, k_hand_count> legs;        // by HandSide

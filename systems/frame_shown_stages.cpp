@@ -163,7 +163,8 @@ void layer_additives(const FrameContext& f) {
     World& w = f.w;
     handhold::layer_additives(
         {f.dt_s(), f.caches.body_clips, w.head_tracking, w.player_velocity, w.reference_velocity,
-         w.hand_owner, w.grab, w.arm_estimate, w.body_clip_state, w.spine_pose},
+         w.hand_owner, w.grab, w.arm_estimate, w.body_clip_state, w.spine_pose, &w.spine_memory,
+         &w.player_origin},
         f.tuning.additive);
 }
 

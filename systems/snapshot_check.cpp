@@ -196,6 +196,8 @@ class BreachFinder {
                   "times >= 0");
             check(state.push_off_weight >= 0.0 && state.push_off_weight <= 1.0, "body_clip_state",
                   owner, ".push_off_weight", "a number in [0, 1]");
+            check(state.outside >= 0.0 && state.outside <= 1.0, "body_clip_state", owner,
+                  ".outside", "a number in [0, 1]");
         }
         for (std::size_t row = 0; row < w_.body_measures.size(); ++row) {
             const BodyMeasures& m = w_.body_measures.rows()[row];

@@ -96,6 +96,20 @@ TickShares tick_shares(const SpineTuning& tuning) {
              range_of(SpineLinkKind::shin, tuning)}};
 }
 
+// Upper limit of a joint. At a surface legs may tuck farther than a swing takes them, as far as a
+// person's do. Afterwards the limit returns with the joint at a limited speed.
+double reached_limit(SpineLinkKind kind, double limit_rad, bool touches, double angle_rad) {
+    constexpr double k_hip_rad = 1.9;
+    constexpr double k_knee_rad = 2.4;
+    constexpr double k_back_radps = 2.0;
+    if (kind == SpineLinkKind::spine) {
+        return limit_rad;
+    }
+    const double widest_rad = kind == SpineLinkKind::thigh ? k_hip_rad : k_knee_rad;
+    return std::max(limit_rad,
+                    touches ? widest_rad : angle_rad - k_back_radps * k_spine_tick_s);
+}
+
 // Applies drag, then the speed limit.
 void slow_down(double drag, double speed_max_mps, BodyLinkVectors& velocity_mps) {
     for (Vec3& velocity : velocity_mps) {
@@ -112,7 +126,6 @@ struct Ticked {
     Vec3 moved_m;  // chest displacement since the last tick
     Vec3 ahead_m;  // chest displacement from this tick to the frame's end
     double share;  // of the frame that has passed; [0, 1]
-    Vec3 velocity_mps;  // of the play space at the frame's end, relative to the reference
 };
 
 void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemory& memory) {
@@ -121,9 +134,8 @@ void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemor
     memory.tick_chest_ps = chest;
     memory.before_m = memory.offset_m;
     BodyPull& pull = memory.pull;
-    follow_pull(pull.grips_before + now.share * (pull.grips - pull.grips_before),
-                pull.velocity_mps + now.share * (now.velocity_mps - pull.velocity_mps),
-                k_spine_tick_s, tuning, pull);
+    follow_pull(pull.hands_before + now.share * (pull.hands - pull.hands_before), k_spine_tick_s,
+                tuning, pull);
     const TrunkLean lean = lean_of(chest.conjugate() * pull.now);
     SpineChain chain{frame_at(leaning_chest(chest, lean)), {}};
     const TickShares shares = tick_shares(tuning);
@@ -139,26 +151,29 @@ void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemor
         towards = distance > 1e-6 ? Vec3(towards * (1.0 / distance)) : link.rest;
         const Vec3& rest = i < k_spine_links ? lean.rest_above[i] : link.rest;
         const Vec3 blend = (1.0 - shares.back) * towards + shares.back * rest;
-        Vec3 returned = blend * (1.0 / blend.norm());
+        const Vec3 returned = blend * (1.0 / blend.norm());
         const BodyContact* const contact = contact_of(memory, i);
-        if (contact != nullptr) {
-            returned = before_surface(returned, base - now.ahead_m, scale * link.length_m, above,
-                                      *contact);
-        }
-        const JointRange& range = shares.range[static_cast<std::size_t>(link.kind)];
+        const Vec3 outside = contact == nullptr
+                                 ? returned
+                                 : before_surface(returned, base - now.ahead_m,
+                                                  scale * link.length_m, above, *contact);
+        JointRange range = shares.range[static_cast<std::size_t>(link.kind)];
+        range.high_rad = reached_limit(link.kind, range.high_rad, contact != nullptr,
+                                       memory.angle_rad[i]);
         const Vec3 allowed = link.kind == SpineLinkKind::shin
-                                 ? clamp_to_hinge(returned, range, memory.angle_rad[i])
-                                 : clamp_to_cone(returned, link.rest, range, memory.angle_rad[i]);
+                                 ? clamp_to_hinge(outside, range, memory.angle_rad[i])
+                                 : clamp_to_cone(outside, link.rest, range, memory.angle_rad[i]);
         memory.offset_m[i] = base + above.axes * ((scale * link.length_m) * allowed);
         // The correction includes the return to rest, so the velocity overshoots the rest pose.
         // Subtracting a share from the parent's velocity (hand_back) damps this.
         Vec3 correction_mps = (memory.offset_m[i] - predicted) * k_ticks_per_s;
-        if (contact != nullptr) {
-            correction_mps -=
-                rebound_mps(contact->normal_ps, memory.velocity_mps[i], correction_mps);
+        if (contact != nullptr && outside != returned) {
+            memory.velocity_mps[i] =
+                touching_mps(contact->normal_ps, memory.velocity_mps[i], correction_mps);
+        } else {
+            memory.velocity_mps[i] += correction_mps;
         }
-        memory.velocity_mps[i] += correction_mps;
-        if (link.parent != k_chest_link) {
+        if (link.parent != k_chest_link && outside == returned) {
             // The pelvis has two thighs; each contributes half.
             const double share = link.kind == SpineLinkKind::thigh ? 0.5 : 1.0;
             memory.velocity_mps[link.parent] -= (share * tuning.hand_back) * correction_mps;
@@ -176,7 +191,6 @@ struct Motion {
     double t_s;  // world clock at the frame's end
     Pose chest_ps;
     Vec3 moved_m;  // chest displacement in this frame relative to the reference, play-space axes
-    Vec3 velocity_mps;  // of the play space, likewise
 };
 
 void play(const Motion& motion, double scale, const SpineTuning& tuning, SpineMemory& memory) {
@@ -189,8 +203,7 @@ void play(const Motion& motion, double scale, const SpineTuning& tuning, SpineMe
         const Vec3 moved_m = memory.moved_m + (path.at(until_s) - path.at(played_s));
         played_s = until_s;
         const Quat chest = between(from, motion.chest_ps.rotation, played_s / span_s);
-        tick({chest, moved_m, path.at(span_s) - path.at(until_s), played_s / span_s,
-              motion.velocity_mps},
+        tick({chest, moved_m, path.at(span_s) - path.at(until_s), played_s / span_s},
              scale, tuning, memory);
         memory.moved_m = Vec3::Zero();
         memory.since_tick_s = 0.0;
@@ -235,7 +248,6 @@ void propagate_player(const PropagateSpineIo& io, std::size_t row, const SpineTu
     if (!memory.known || is_jump(own_m.norm(), io.dt_s)) {
         rest_at(chest_ps.rotation, scale, io.t_s, memory);
         memory.known = true;
-        memory.pull.drift_mps = relative;
         memory.rate_mps = relative;
         memory.rate_span_s = io.dt_s;
     } else {
@@ -246,26 +258,23 @@ void propagate_player(const PropagateSpineIo& io, std::size_t row, const SpineTu
             velocity += shift;
         }
         memory.rate_mps += shift;
-        memory.pull.drift_mps += shift;
-        memory.pull.velocity_mps += shift;
-        const Motion motion{io.dt_s, io.t_s, chest_ps, own_m + io.dt_s * relative, relative};
+        const Motion motion{io.dt_s, io.t_s, chest_ps, own_m + io.dt_s * relative};
         touch_surfaces(io, player, motion, floor, memory);
         play(motion, scale, tuning, memory);
     }
-    memory.pull.velocity_mps = relative;
     memory.reference_ws_mps = reference_ws;
     memory.chest_ps = chest_ps;
     pose_spine(origin_ws * chest_ps, memory, chest_ps, floor, io.pose.at(player));
 }
 
-// Writes the pull of the gripping hands to the players' memories.
-void take_grips(const PropagateSpineIo& io) {
+// Writes BodyPull::hands.
+void take_pulls(const PropagateSpineIo& io) {
     if (io.grab == nullptr) {
         return;
     }
     for (SpineMemory& memory : io.memory.rows()) {
-        memory.pull.grips_before = memory.pull.grips;
-        memory.pull.grips = Vec3::Zero();
+        memory.pull.hands_before = memory.pull.hands;
+        memory.pull.hands = Vec3::Zero();
     }
     for (std::size_t row = 0; row < io.owner->size(); ++row) {
         const Grab* const grab = io.grab->find(io.owner->owners()[row]);
@@ -277,7 +286,7 @@ void take_grips(const PropagateSpineIo& io) {
         const ArmEstimate& estimate = io.estimate.at(owner.player);
         const Vec3 from_chest_m = estimate.arms[index_of(owner.side)].hand_ps.position -
                                   estimate.chest_ps.position;
-        io.memory.at(owner.player).pull.grips +=
+        io.memory.at(owner.player).pull.hands +=
             from_chest_m * (1.0 / (measures.upper_arm_m + measures.forearm_m));
     }
 }
@@ -285,7 +294,7 @@ void take_grips(const PropagateSpineIo& io) {
 }  // namespace
 
 void propagate_spine(const PropagateSpineIo& io, const SpineTuning& tuning) {
-    take_grips(io);
+    take_pulls(io);
     constexpr std::size_t k_players_per_slice = 4;
     const auto propagate = [&](std::size_t /*slice*/, std::size_t first, std::size_t last) {
         for (std::size_t row = first; row < last; ++row) {

@@ -41,9 +41,9 @@ struct PropagateSpineIo {
 // is teleported, the chain moves along rigidly. If the chest jumps, the chain restarts from rest.
 // At most 0.5 s of a frame is simulated.
 //
-// Hanging: the trunk bends towards the opposite of what pulls the player, which is the direction to
-// the gripping hands and the velocity that the player gained lately (hang_body.hpp). Without either,
-// the trunk keeps its posture below the head.
+// Hanging: the trunk turns towards the opposite of the direction to the gripping hands (hang_body.hpp).
+// Loose bodies in the hands pull nothing. Without a grip the trunk keeps its posture below the head,
+// and an acceleration acts through the chain's inertia alone.
 //
 // Contacts: trunk, thighs and shins stay in front of the first surface along each of them, seen from
 // the head's side, and slide along it, within the joint limits (body_contacts.hpp). They apply no

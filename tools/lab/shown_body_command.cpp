@@ -118,12 +118,12 @@ class ShownBody {
 
     // One row for each frame.
     std::string csv() const {
-        std::string text = "frame,trunk_mm,pelvis_mm,thigh_mm,shin_mm\n";
+        std::string text = "frame,trunk_mm,pelvis_mm,thigh_mm,shin_mm,foot_mps\n";
         for (std::size_t i = 0; i < trunk_mm_.values.size(); ++i) {
             std::array<char, 96> row{};
-            std::snprintf(row.data(), row.size(), "%zu,%.2f,%.2f,%.2f,%.2f\n", i + 1,
+            std::snprintf(row.data(), row.size(), "%zu,%.2f,%.2f,%.2f,%.2f,%.2f\n", i + 1,
                           trunk_mm_.values[i], pelvis_mm_.values[i], thigh_mm_.values[i],
-                          shin_mm_.values[i]);
+                          shin_mm_.values[i], i == 0 ? 0.0 : foot_mps_.values[i - 1]);
             text += row.data();
         }
         return text;

@@ -10,11 +10,14 @@
 namespace handhold {
 namespace {
 
-// For an eye height of k_scale_eye_m. The trunk's sphere is smaller than the head's, so that a cast
-// that begins in the head does not begin in a wall.
-constexpr double k_trunk_radius_m = 0.10;
-constexpr double k_thigh_radius_m = 0.07;
+// For an eye height of k_scale_eye_m. Casts are wider, so that a part that rests on a surface finds
+// it again. A cast along the trunk begins in the head and is narrower than the head's sphere; one along
+// a leg begins in the pelvis and is narrower than the trunk.
+constexpr double k_trunk_radius_m = 0.09;
+constexpr double k_thigh_radius_m = 0.065;
 constexpr double k_shin_radius_m = 0.05;
+constexpr double k_cast_wider_m = 0.015;
+constexpr double k_widest_cast_m = 0.105;  // of a player of any size
 constexpr double k_sole_m = 0.11;   // below the ankle
 constexpr double k_ahead_m = 0.15;  // margin for motion until the next search
 
@@ -44,18 +47,7 @@ PartLine line_of(const BodySurroundings& around, const SpineMemory& memory, std:
     if (spine_links()[link].kind == SpineLinkKind::thigh) {
         return {pelvis_m, memory.offset_m[link], scale * k_thigh_radius_m, 0.0};
     }
-    return {memory.offset_m[link - 1], memory.offset_m[link], scale * k_shin_radius_m,
-            scale * k_sole_m};
-}
-
-// The contact of the part above; null: none.
-const BodyContact* above_part(const SpineMemory& memory, std::size_t part) {
-    if (part == 0) {
-        return nullptr;
-    }
-    const bool is_thigh = spine_links()[k_spine_links + part - 1].kind == SpineLinkKind::thigh;
-    const BodyContact& above = memory.contacts[is_thigh ? 0 : part - 1];
-    return above.touches ? &above : nullptr;
+    return {pelvis_m, memory.offset_m[link], scale * k_shin_radius_m, scale * k_sole_m};
 }
 
 // True if the surface coincides with the tracked floor, above which pose_spine folds the body.
@@ -70,9 +62,10 @@ BodyContact find_contact(const BodySurroundings& around, const SpineMemory& memo
                          std::size_t part) {
     const PartLine line = line_of(around, memory, part);
     // A cast that begins behind a surface would find its back.
-    const BodyContact* const above = above_part(memory, part);
-    if (above != nullptr && above->normal_ps.dot(line.from_m) < above->surface_m - line.radius_m) {
-        return *above;
+    const BodyContact& trunk = memory.contacts[0];
+    if (part > 0 && trunk.touches &&
+        trunk.normal_ps.dot(line.from_m) < trunk.surface_m - line.radius_m) {
+        return trunk;
     }
     const Vec3 path = line.to_m - line.from_m;
     const double length_m = path.norm();
@@ -84,9 +77,15 @@ BodyContact find_contact(const BodySurroundings& around, const SpineMemory& memo
         return transform_point(around.origin_ws, around.chest_ps + from_chest_m);
     };
     const std::array<std::uint64_t, 1> skip = {around.own_id};
-    const auto hit = around.surfaces.cast_sphere(
-        line.radius_m, in_world(line.from_m),
-        in_world(line.to_m + (line.beyond_m + k_ahead_m) * along), skip);
+    const Vec3 from_ws = in_world(line.from_m);
+    const Vec3 to_ws = in_world(line.to_m + (line.beyond_m + k_ahead_m) * along);
+    const double radius_m =
+        std::min(line.radius_m + around.floor.scale * k_cast_wider_m, k_widest_cast_m);
+    auto hit = around.surfaces.cast_sphere(radius_m, from_ws, to_ws, skip);
+    if (hit && !(hit->distance_m > 0.0)) {
+        // It begins in a surface, which hides those further along.
+        hit = around.surfaces.cast_ray(from_ws, to_ws, skip);
+    }
     if (!hit) {
         return {};
     }
@@ -124,16 +123,24 @@ const BodyContact* contact_of(const SpineMemory& memory, std::size_t link) {
 
 Vec3 before_surface(const Vec3& towards, const Vec3& base_m, double length_m,
                     const SpineFrame& above, const BodyContact& contact) {
-    constexpr double k_out_mps = 3.0;
+    constexpr double k_out_mps = 2.0;
+    constexpr double k_any_lift = 2.0;
     const double least_m = contact.surface_m - contact.normal_ps.dot(base_m);
-    return deflect_outward(towards, above.axes.transpose() * contact.normal_ps,
-                           least_m / length_m, k_out_mps * k_spine_tick_s / length_m);
+    const Vec3 outside = deflect_outward(towards, above.axes.transpose() * contact.normal_ps,
+                                         least_m / length_m, k_any_lift);
+    const Vec3 turn = outside - towards;
+    const double size = turn.norm();
+    const double most = k_out_mps * k_spine_tick_s / length_m;
+    return size <= most ? outside : (towards + turn * (most / size)).normalized();
 }
 
-Vec3 rebound_mps(const Vec3& normal, const Vec3& velocity_mps, const Vec3& correction_mps) {
+Vec3 touching_mps(const Vec3& normal, const Vec3& velocity_mps, const Vec3& correction_mps) {
+    constexpr double k_kept = 0.85;  // per tick: surfaces are rough
     const double before = normal.dot(velocity_mps);
-    const double after = before + normal.dot(correction_mps);
-    return std::max(0.0, after - std::max(0.0, before)) * normal;
+    const Vec3 corrected_mps = velocity_mps + correction_mps;
+    const double after = normal.dot(corrected_mps);
+    return k_kept *
+           (corrected_mps + (std::clamp(after, 0.0, std::max(0.0, before)) - after) * normal);
 }
 
 }  // namespace handhold

@@ -35,8 +35,8 @@ const BodyContact* contact_of(const SpineMemory& memory, std::size_t link);
 Vec3 before_surface(const Vec3& towards, const Vec3& base_m, double length_m,
                     const SpineFrame& above, const BodyContact& contact);
 
-// Returns the part of a velocity correction that would move a joint away from the surface faster
-// than the joint already does.
-Vec3 rebound_mps(const Vec3& normal, const Vec3& velocity_mps, const Vec3& correction_mps);
+// Returns the velocity of a joint after a correction that a surface took part in. The joint neither
+// moves into the surface, nor away from it faster than before.
+Vec3 touching_mps(const Vec3& normal, const Vec3& velocity_mps, const Vec3& correction_mps);
 
 }  // namespace handhold

@@ -25,14 +25,9 @@ Vec3 turned_down(const Vec3& turn) {
 
 }  // namespace
 
-void follow_pull(const Vec3& grips, const Vec3& velocity_mps, double tick_s,
-                 const SpineTuning& tuning, BodyPull& pull) {
+void follow_pull(const Vec3& hands, double tick_s, const SpineTuning& tuning, BodyPull& pull) {
     pull.before = pull.now;
-    // The velocity that was gained within the last trail_s: an acceleration without noise.
-    pull.drift_mps += tick_s / (tick_s + tuning.trail_s) * (velocity_mps - pull.drift_mps);
-    const Vec3 gained_mps = velocity_mps - pull.drift_mps;
-    const Vec3 wanted = tuning.grip_pull * grips + tuning.trail_pull_per_mps * gained_mps;
-    pull.now += tick_s / (tick_s + tuning.hang_lag_s) * (wanted - pull.now);
+    pull.now += tick_s / (tick_s + tuning.hang_lag_s) * (tuning.hang * hands - pull.now);
 }
 
 TrunkLean lean_of(const Vec3& pull_cs) {

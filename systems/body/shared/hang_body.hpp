@@ -7,13 +7,11 @@
 #include "engine/math/math.hpp"
 #include "engine/math/scalar_rotation.hpp"
 
-// In zero-G, the trunk hangs from what pulls the player.
+// In zero-G, the trunk of a player hangs from the gripping hands.
 namespace handhold {
 
-// Advances BodyPull by one tick. `grips`: pull of the gripping hands (grip_pull). `velocity_mps`:
-// of the play space, relative to the reference velocity. Both in play-space axes.
-void follow_pull(const Vec3& grips, const Vec3& velocity_mps, double tick_s,
-                 const SpineTuning& tuning, BodyPull& pull);
+// Advances BodyPull by one tick. `hands`: as BodyPull::hands, at the tick's time.
+void follow_pull(const Vec3& hands, double tick_s, const SpineTuning& tuning, BodyPull& pull);
 
 // Bend of the trunk: the shown chest turns about its X axis first, then each link of the spine
 // turns against the link above.
