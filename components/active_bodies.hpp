@@ -6,30 +6,30 @@
 
 namespace handhold {
 
-// Which bodies of a frame the physics stages look at, by index into FrameGraph::entities.
-// Everything the stages keep about the others is as they left it, so bodies at rest cost nothing.
+// Indices into FrameGraph::entities of the bodies that the physics stages process in a frame. The
+// data that the stages keep about all other bodies stays unchanged, so bodies at rest cost nothing.
 //
-// place_colliders notes the bodies whose components changed, the solver stages those that they
-// touched. build_constraints turns the noted bodies into those of its frame. If nobody tracks
-// changes, all bodies are.
+// place_colliders notes the bodies whose components changed. The solver stages note the bodies that
+// they touched. build_constraints makes the noted bodies the active bodies of its frame. If
+// place_colliders does not track changes, all bodies are active.
 struct ActiveBodies {
     std::vector<std::uint32_t> list;   // of this frame; without order
     std::vector<std::uint32_t> noted;  // changed since the last build_constraints; without order
     bool is_tracked = false;           // place_colliders ran since the last build_constraints
     bool all_changed = true;
 
-    // Makes room for indices below `count`, and forgets everything.
+    // Reserves memory for indices below `count` and clears both lists.
     void reset(std::size_t count) {
         list.clear();
         noted.clear();
-        // Indices never exceed these, so that the stages allocate nothing.
+        // A list holds each index at most once, so the stages allocate nothing.
         list.reserve(count + 1);
         noted.reserve(count + 1);
         is_listed_.assign(count + 1, 0);
         is_noted_.assign(count + 1, 0);
         all_changed = true;
     }
-    // The body changed: it is active in the next frame that is built.
+    // Notes that the body changed. It becomes active at the next start_frame.
     void note(std::uint32_t body) {
         grow(body);
         if (is_noted_[body] == 0) {
@@ -37,7 +37,8 @@ struct ActiveBodies {
             noted.push_back(body);
         }
     }
-    // The body is active in this frame and, because the solver touches it, in the next.
+    // Makes the body active in this frame. It is active in the next frame too, because the solver
+    // touches it.
     void add(std::uint32_t body) {
         note(body);
         if (is_listed_[body] == 0) {
@@ -45,7 +46,8 @@ struct ActiveBodies {
             list.push_back(body);
         }
     }
-    // Starts a frame of `count` bodies: the noted ones are active.
+    // Starts a frame of `count` bodies. The noted bodies are active, or all if changes are not
+    // tracked.
     void start_frame(std::size_t count) {
         if (is_listed_.size() <= count) {
             reset(count);

@@ -2,7 +2,7 @@
 
 #include "components/world.hpp"
 
-// visit_fields for bodies, joints and movers: fields.hpp.
+// visit_fields for the components of bodies, joints and movers (see fields.hpp).
 namespace handhold {
 
 template <typename V>

@@ -36,8 +36,9 @@ struct JointGroups {
     }
 };
 
-// Data passed between the physics stages within one frame. Not state: without it, the next frame
-// has the same result. What belongs to bodies at rest is kept from frame to frame (ActiveBodies).
+// Data passed between the physics stages within one frame. Not state: without the data of earlier
+// frames, the next frame has the same result. The data of bodies at rest is reused from frame to
+// frame (ActiveBodies).
 struct FrameGraph {
     // One element per body or player, sorted by persistent id. `proxies`, `entities`, `phase` and
     // graph.bodies share this index. The proxy of a body without a collider has shape k_no_shape
@@ -50,7 +51,8 @@ struct FrameGraph {
     };
     std::vector<Identified> by_id;  // scratch of place_colliders
     ActiveBodies active;
-    // What place_colliders saw last: it looks again only at what differs.
+    // Copies of the columns from the last run of place_colliders, which processes only what
+    // changed.
     struct Watches {
         ColumnWatch<PersistentId> persistent_id;
         ColumnWatch<Collider> collider;
@@ -128,7 +130,7 @@ struct FrameGraph {
     std::vector<std::uint32_t> overlaps_with;  // by body: the body that it overlaps; itself if none
 };
 
-// Makes all bodies of islands active: the solver may move them.
+// Makes the bodies of all islands active, because the solver may move them.
 inline void activate_islands(FrameGraph& frame) {
     for (const std::uint32_t body : frame.graph.island_bodies) {
         frame.active.add(body);

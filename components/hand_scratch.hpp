@@ -13,7 +13,7 @@ namespace handhold {
 struct HandScratch {
     std::vector<HandSurroundings> surroundings;                   // by row of HandOwner
     std::vector<std::array<FingerTrace, k_finger_count>> traces;  // by row of HandOwner
-    // The hand stages run on slices of the hands in parallel.
+    // Scratch memory of one slice of the hands. The hand stages process slices in parallel.
     struct Slice {
         StageStats stats;  // only fallbacks
         GripSearchScratch search;

@@ -13,8 +13,8 @@
 
 namespace handhold {
 
-// Grip mesh of one body, in its frame: for hosts whose shapes are not in a ShapeLibrary. An asset,
-// not state. Written by the host.
+// Grip mesh of one body, in the body's frame, for hosts whose shapes are not in a ShapeLibrary. An
+// asset, not state. Written by the host.
 struct BodySurface {
     std::shared_ptr<const GripMesh> mesh;  // never null
 };

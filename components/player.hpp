@@ -31,7 +31,7 @@ struct PlayerVelocity {
     Vec3 linear_mps = Vec3::Zero();
 };
 
-// How far contacts moved a player's play space in this frame.
+// Distance by which contacts moved a player's play space in this frame.
 struct PushBack {
     Entity player;
     double distance_m = 0.0;

@@ -2,7 +2,7 @@
 
 #include "components/world.hpp"
 
-// visit_fields for players, arms, spine and what is rendered: fields.hpp.
+// visit_fields for the components of players, arms, spines and rendering (see fields.hpp).
 namespace handhold {
 
 template <typename V>

@@ -1,167 +1,95 @@
 #include "components/stats.hpp"
 
+#include "engine/core/enum_texts.hpp"
+
 namespace handhold {
+namespace {
 
-const char* name_of(Stage stage) {
-    switch (stage) {
-        case Stage::read_tracking:
-            return "read_tracking";
-        case Stage::calibrate_players:
-            return "calibrate_players";
-        case Stage::group_joints:
-            return "group_joints";
-        case Stage::update_grabs:
-            return "update_grabs";
-        case Stage::locomote_players:
-            return "locomote_players";
-        case Stage::animate_movers:
-            return "animate_movers";
-        case Stage::predict_bodies:
-            return "predict_bodies";
-        case Stage::anchor_grabs:
-            return "anchor_grabs";
-        case Stage::find_contacts:
-            return "find_contacts";
-        case Stage::build_constraints:
-            return "build_constraints";
-        case Stage::solve_phases:
-            return "solve_phases";
-        case Stage::update_velocities:
-            return "update_velocities";
-        case Stage::update_joints:
-            return "update_joints";
-        case Stage::gather_surroundings:
-            return "gather_surroundings";
-        case Stage::search_grip:
-            return "search_grip";
-        case Stage::constrain_palms:
-            return "constrain_palms";
-        case Stage::sweep_fingers:
-            return "sweep_fingers";
-        case Stage::pose_thumb:
-            return "pose_thumb";
-        case Stage::estimate_arms:
-            return "estimate_arms";
-        case Stage::pose_arms:
-            return "pose_arms";
-        case Stage::propagate_spine:
-            return "propagate_spine";
-        case Stage::layer_additives:
-            return "layer_additives";
-        case Stage::publish_pose:
-            return "publish_pose";
-        case Stage::count:
-            break;
-    }
-    return "unknown";
-}
+constexpr EnumTexts<Stage> k_stages = {{
+    {Stage::read_tracking, "read_tracking"},
+    {Stage::calibrate_players, "calibrate_players"},
+    {Stage::group_joints, "group_joints"},
+    {Stage::update_grabs, "update_grabs"},
+    {Stage::locomote_players, "locomote_players"},
+    {Stage::animate_movers, "animate_movers"},
+    {Stage::predict_bodies, "predict_bodies"},
+    {Stage::anchor_grabs, "anchor_grabs"},
+    {Stage::find_contacts, "find_contacts"},
+    {Stage::build_constraints, "build_constraints"},
+    {Stage::solve_phases, "solve_phases"},
+    {Stage::update_velocities, "update_velocities"},
+    {Stage::update_joints, "update_joints"},
+    {Stage::gather_surroundings, "gather_surroundings"},
+    {Stage::search_grip, "search_grip"},
+    {Stage::constrain_palms, "constrain_palms"},
+    {Stage::sweep_fingers, "sweep_fingers"},
+    {Stage::pose_thumb, "pose_thumb"},
+    {Stage::estimate_arms, "estimate_arms"},
+    {Stage::pose_arms, "pose_arms"},
+    {Stage::propagate_spine, "propagate_spine"},
+    {Stage::layer_additives, "layer_additives"},
+    {Stage::publish_pose, "publish_pose"},
+}};
+static_assert(is_in_order(k_stages));
 
-const char* name_of(Fallback reason) {
-    switch (reason) {
-        case Fallback::sample_out_of_order:
-            return "sample_out_of_order";
-        case Fallback::sample_not_finite:
-            return "sample_not_finite";
-        case Fallback::tracking_lost:
-            return "tracking_lost";
-        case Fallback::hand_out_of_reach:
-            return "hand_out_of_reach";
-        case Fallback::head_recentred:
-            return "head_recentred";
-        case Fallback::device_asleep:
-            return "device_asleep";
-        case Fallback::hand_implausible:
-            return "hand_implausible";
-        case Fallback::space_recentred:
-            return "space_recentred";
-        case Fallback::grab_no_surface:
-            return "grab_no_surface";
-        case Fallback::grip_stretched:
-            return "grip_stretched";
-        case Fallback::grip_lost:
-            return "grip_lost";
-        case Fallback::grip_body_gone:
-            return "grip_body_gone";
-        case Fallback::grip_reanchored:
-            return "grip_reanchored";
-        case Fallback::two_hand_grip_ended:
-            return "two_hand_grip_ended";
-        case Fallback::hands_too_close:
-            return "hands_too_close";
-        case Fallback::grab_refused_by_rule:
-            return "grab_refused_by_rule";
-        case Fallback::grab_needs_two_hands:
-            return "grab_needs_two_hands";
-        case Fallback::grip_needs_two_hands:
-            return "grip_needs_two_hands";
-        case Fallback::grip_ended_by_host:
-            return "grip_ended_by_host";
-        case Fallback::grip_out_of_reach:
-            return "grip_out_of_reach";
-        case Fallback::grip_speed_limited:
-            return "grip_speed_limited";
-        case Fallback::grab_out_of_sight:
-            return "grab_out_of_sight";
-        case Fallback::contact_rounds_exhausted:
-            return "contact_rounds_exhausted";
-        case Fallback::contacts_contradict:
-            return "contacts_contradict";
-        case Fallback::contacts_unresolved:
-            return "contacts_unresolved";
-        case Fallback::restored_last_valid_pose:
-            return "restored_last_valid_pose";
-        case Fallback::active_set_not_converged:
-            return "active_set_not_converged";
-        case Fallback::hands_load_stepped:
-            return "hands_load_stepped";
-        case Fallback::load_stepping_failed:
-            return "load_stepping_failed";
-        case Fallback::friction_not_converged:
-            return "friction_not_converged";
-        case Fallback::solver_budget:
-            return "solver_budget";
-        case Fallback::release_speed_clamped:
-            return "release_speed_clamped";
-        case Fallback::object_speed_clamped:
-            return "object_speed_clamped";
-        case Fallback::head_ignores_full:
-            return "head_ignores_full";
-        case Fallback::finger_full_search:
-            return "finger_full_search";
-        case Fallback::finger_depenetrated:
-            return "finger_depenetrated";
-        case Fallback::finger_opened:
-            return "finger_opened";
-        case Fallback::finger_no_contact:
-            return "finger_no_contact";
-        case Fallback::palm_lifted:
-            return "palm_lifted";
-        case Fallback::body_no_surface:
-            return "body_no_surface";
-        case Fallback::palm_no_surface:
-            return "palm_no_surface";
-        case Fallback::authored_grip_occupied:
-            return "authored_grip_occupied";
-        case Fallback::authored_grip_blocked:
-            return "authored_grip_blocked";
-        case Fallback::authored_grip_abandoned:
-            return "authored_grip_abandoned";
-        case Fallback::authored_finger_rejected:
-            return "authored_finger_rejected";
-        case Fallback::pull_refused_fixed:
-            return "pull_refused_fixed";
-        case Fallback::pull_refused_heavy:
-            return "pull_refused_heavy";
-        case Fallback::pull_refused_held:
-            return "pull_refused_held";
-        case Fallback::pull_lost:
-            return "pull_lost";
-        case Fallback::surface_answer_invalid:
-            return "surface_answer_invalid";
-        case Fallback::count:
-            break;
-    }
-    return "unknown";
-}
+constexpr EnumTexts<Fallback> k_fallbacks = {{
+    {Fallback::sample_out_of_order, "sample_out_of_order"},
+    {Fallback::sample_not_finite, "sample_not_finite"},
+    {Fallback::tracking_lost, "tracking_lost"},
+    {Fallback::hand_out_of_reach, "hand_out_of_reach"},
+    {Fallback::head_recentred, "head_recentred"},
+    {Fallback::device_asleep, "device_asleep"},
+    {Fallback::hand_implausible, "hand_implausible"},
+    {Fallback::space_recentred, "space_recentred"},
+    {Fallback::grab_no_surface, "grab_no_surface"},
+    {Fallback::grip_stretched, "grip_stretched"},
+    {Fallback::grip_lost, "grip_lost"},
+    {Fallback::grip_body_gone, "grip_body_gone"},
+    {Fallback::grip_reanchored, "grip_reanchored"},
+    {Fallback::two_hand_grip_ended, "two_hand_grip_ended"},
+    {Fallback::hands_too_close, "hands_too_close"},
+    {Fallback::grab_refused_by_rule, "grab_refused_by_rule"},
+    {Fallback::grab_needs_two_hands, "grab_needs_two_hands"},
+    {Fallback::grip_needs_two_hands, "grip_needs_two_hands"},
+    {Fallback::grip_ended_by_host, "grip_ended_by_host"},
+    {Fallback::grip_out_of_reach, "grip_out_of_reach"},
+    {Fallback::grip_speed_limited, "grip_speed_limited"},
+    {Fallback::grab_out_of_sight, "grab_out_of_sight"},
+    {Fallback::contact_rounds_exhausted, "contact_rounds_exhausted"},
+    {Fallback::contacts_contradict, "contacts_contradict"},
+    {Fallback::contacts_unresolved, "contacts_unresolved"},
+    {Fallback::restored_last_valid_pose, "restored_last_valid_pose"},
+    {Fallback::active_set_not_converged, "active_set_not_converged"},
+    {Fallback::hands_load_stepped, "hands_load_stepped"},
+    {Fallback::load_stepping_failed, "load_stepping_failed"},
+    {Fallback::friction_not_converged, "friction_not_converged"},
+    {Fallback::solver_budget, "solver_budget"},
+    {Fallback::pairs_deferred, "pairs_deferred"},
+    {Fallback::release_speed_clamped, "release_speed_clamped"},
+    {Fallback::object_speed_clamped, "object_speed_clamped"},
+    {Fallback::head_ignores_full, "head_ignores_full"},
+    {Fallback::finger_full_search, "finger_full_search"},
+    {Fallback::finger_depenetrated, "finger_depenetrated"},
+    {Fallback::finger_opened, "finger_opened"},
+    {Fallback::finger_no_contact, "finger_no_contact"},
+    {Fallback::palm_lifted, "palm_lifted"},
+    {Fallback::body_no_surface, "body_no_surface"},
+    {Fallback::palm_no_surface, "palm_no_surface"},
+    {Fallback::authored_grip_occupied, "authored_grip_occupied"},
+    {Fallback::authored_grip_blocked, "authored_grip_blocked"},
+    {Fallback::authored_grip_abandoned, "authored_grip_abandoned"},
+    {Fallback::authored_finger_rejected, "authored_finger_rejected"},
+    {Fallback::pull_refused_fixed, "pull_refused_fixed"},
+    {Fallback::pull_refused_heavy, "pull_refused_heavy"},
+    {Fallback::pull_refused_held, "pull_refused_held"},
+    {Fallback::pull_lost, "pull_lost"},
+    {Fallback::surface_answer_invalid, "surface_answer_invalid"},
+}};
+static_assert(is_in_order(k_fallbacks));
+
+}  // namespace
+
+const char* name_of(Stage stage) { return text_of(k_stages, stage); }
+const char* name_of(Fallback reason) { return text_of(k_fallbacks, reason); }
 
 }  // namespace handhold

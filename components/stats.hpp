@@ -80,6 +80,8 @@ enum class Fallback : std::uint8_t {
     friction_not_converged,  // stick or slip did not converge: last iterate, or sweeps
     // An island spent its WorkBudget: the rest goes on in the next frame.
     solver_budget,
+    // A pair of bodies that overlap deeply waits: CollisionWork::deferred_pairs.
+    pairs_deferred,
     release_speed_clamped,
     object_speed_clamped,
     head_ignores_full,

@@ -37,7 +37,7 @@ struct FrameCaches {
     CollisionWorld collision;
     FrameGraph graph;
     const GripMeshLibrary* meshes_for_hands = nullptr;
-    // Surfaces that hands and legs find instead of the colliders'. Its object must outlive frames.
+    // Surfaces that hands and legs query instead of colliders. The object must outlive every frame.
     SurfaceQuery host_surfaces;
     // Assets. Set them again whenever new caches are made.
     std::array<HandRig, k_hand_count> hand_rigs = {builtin_hand_rig(HandSide::left),
@@ -63,7 +63,7 @@ void step_pose_only(World& world, FrameCaches& caches, const Tuning& tuning,
 
 // Hash of all columns, the clock, the reference velocity and, unless it is zero, gravity.
 // Identifies rows by persistent id, so it is independent of slots, creation order, thread count,
-// build, compiler and processor. Targets that were tried: docs/guide/platforms.md.
+// build, compiler and processor. docs/guide/platforms.md lists the tested targets.
 std::uint64_t hash_state(const World& world);
 
 }  // namespace handhold

@@ -80,7 +80,7 @@ std::optional<GrabTarget> find_grip(World& world, FrameCaches& caches, const Tun
                                     Entity hand, StageStats& stats) {
     const FrameInput no_input;
     const stages::FrameContext f{world, caches, tuning, no_input, stats};
-    // Bodies and shapes may have come, gone or moved since the last step.
+    // Bodies and shapes may have been added, removed or moved since the last step.
     stages::group_joints(f);
     stages::place_colliders(f, Stage::update_grabs);
     const HandTracking& tracking = world.hand_tracking.at(hand);

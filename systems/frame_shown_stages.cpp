@@ -1,4 +1,4 @@
-// The stages of shown hands and bodies: frame_stages.hpp.
+// Stages of frame_stages.hpp that compute the shown hands and bodies.
 #include <algorithm>
 #include <functional>
 
@@ -25,8 +25,8 @@ namespace {
 
 constexpr std::size_t k_hands_per_slice = 8;
 
-// Runs a hand stage on slices of the hands in parallel: stage(slice, first, last). The slices do
-// not depend on the number of threads, and neither do the sums of their counters.
+// Runs a hand stage in parallel on slices of the hands: stage(slice, first, last). Neither the
+// slices nor the sums of their counters depend on the number of threads.
 template <typename HandStage>
 void for_hand_slices(const FrameContext& f, const HandStage& stage) {
     HandScratch& hands = f.hands();

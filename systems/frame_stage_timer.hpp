@@ -7,7 +7,7 @@
 
 namespace handhold::stages {
 
-// Adds a scope's time to its stage, and marks the scope as a zone in traces.
+// Adds the duration of its scope to the stage's time, and marks the scope as a zone in traces.
 class StageTimer {
   public:
     StageTimer(Stage stage, StageStats& stats)

@@ -60,7 +60,8 @@ void group_joints(const FrameContext& f) {
     handhold::group_joints({f.w.joint, f.w.body, f.graph()}, f.tuning.phases);
 }
 
-// Runs twice a frame; its time counts for the stage that needs the colliders.
+// Runs twice per frame. Each run's time is added to `needed_by`, the stage that needs the
+// colliders.
 void place_colliders(const FrameContext& f, Stage needed_by) {
     const StageTimer timer(needed_by, f.stats);
     World& w = f.w;

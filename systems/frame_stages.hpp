@@ -3,10 +3,10 @@
 #include "systems/frame.hpp"
 #include "systems/locomotion/shared/grab_search.hpp"
 
-// The stages over a world's columns, for frame.cpp and frame_of_host.cpp, which decide their order.
+// Runs the stages on a world's columns. frame.cpp and frame_of_host.cpp decide their order.
 namespace handhold::stages {
 
-// Everything that stages may need. One function per stage selects the columns that it gets.
+// The data that stages may need. Each function below passes its stage only the columns it uses.
 struct FrameContext {
     World& w;
     FrameCaches& caches;
@@ -32,7 +32,7 @@ void group_joints(const FrameContext& f);
 void place_colliders(const FrameContext& f, Stage needed_by);
 GrabSearch grab_search(const FrameContext& f);
 void update_grabs(const FrameContext& f);
-// Only HandSight, for frames in which hands grip nothing by themselves.
+// Updates only HandSight, for frames in which hands grip nothing by themselves.
 void update_sights(const FrameContext& f);
 void locomote_players(const FrameContext& f);
 void pull_bodies(const FrameContext& f);

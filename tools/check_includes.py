@@ -53,7 +53,7 @@ LIBRARIES = [
             r"engine/collision/bullet_\w+\.[ch]pp", "engine/collision/bullet_*"),
     library("Box2D", r"box2d/", r"\bb2[A-Z]\w+",
             r"engine/geometry/disc_contact_box2d\.cpp", "engine/geometry/disc_contact_box2d.cpp"),
-    library("TBB", r"tbb/|oneapi/", r"\btbb::", r"engine/core/parallel\.cpp", "engine/core/parallel.cpp"),
+    library("TBB", r"tbb/|oneapi/", r"\btbb::", r"engine/core/parallel_pool\.cpp", "engine/core/parallel_pool.cpp"),
     library("Draco", r"draco/", r"\bdraco::", r"engine/io/gltf_draco\.cpp", "engine/io/gltf_draco.cpp"),
     library("meshoptimizer", r"meshoptimizer", r"\bmeshopt_\w+",
             r"engine/geometry/simplify_meshopt\.cpp|engine/io/gltf_meshopt\.cpp",

@@ -23,7 +23,8 @@ struct BroadphaseBody {
     // the free bodies with a higher id. isolated_since = 0: no region is cached.
     std::uint64_t isolated_since = 0;
     Bounds isolation_ws;
-    // What the last pass over all pairs saw, kept while the body has changed since.
+    // True if the body changed since the last pass over all pairs. Then the next two members hold
+    // its state at that pass.
     bool is_changed = false;
     bool was_placed = false;  // the body was in the tree
     Bounds old_bounds_ws;     // its bounds, if it was
@@ -40,8 +41,9 @@ class Broadphase {
     // Replaces all bodies. `proxies` is sorted by id; `extents` is indexed by shape. An unchanged
     // proxy costs only a comparison.
     void set_proxies(std::span<const ColliderProxy> proxies, std::span<const ShapeExtent> extents);
-    // Replaces the bodies with the ids of `proxies`, in any order. The other bodies cost nothing.
-    // Throws PreconditionError if a proxy with a shape has no body, or one without a shape has one.
+    // Replaces the proxies of the bodies whose ids occur in `proxies`, in any order. The other
+    // bodies cost nothing. Adds and removes no body: throws PreconditionError if a proxy with a
+    // shape has no body, or if one without a shape has a body.
     void update_proxies(std::span<const ColliderProxy> proxies,
                         std::span<const ShapeExtent> extents);
 
@@ -49,7 +51,7 @@ class Broadphase {
     // Index of the body with this id; bodies().size() if there is none.
     std::size_t find_index(std::uint64_t id) const;
     std::uint64_t last_change() const { return changes_; }
-    // Bodies that have changed since finish_pass: indices, in the order of their first change.
+    // Indices of the bodies that changed since finish_pass, in the order of their first change.
     std::span<const std::uint32_t> changed() const { return changed_; }
     // True if bodies were added or removed since finish_pass: all indices may have changed.
     bool indices_changed() const { return indices_changed_; }

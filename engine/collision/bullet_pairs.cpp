@@ -8,14 +8,15 @@ namespace {
 
 PairCache::Version version_of(const BroadphaseBody& body) { return {body.proxy.id, body.stamp}; }
 
-// Bodies spawned in one place would be n^2 pairs. From a body that overlaps others deeply, at most
-// this many pairs with free bodies of higher id are found, the deep ones first. The others follow
-// as these come apart.
+// Limits the number of pairs of bodies that were spawned in one place, which would be n^2. If a
+// body overlaps others deeply, it gets at most this many pairs with free bodies of higher id. Deep
+// pairs come first. The others are found once these bodies have separated.
 constexpr std::size_t k_max_crowded_pairs = 6;
-// Share of the distance at which two convex bodies can touch, below which they overlap deeply.
+// Two convex bodies overlap deeply if the distance of their centres is below this share of the sum
+// of their inner radii.
 constexpr double k_deep_share = 0.75;
 
-// Smallest distance of the shape's centre from a side of its box.
+// Smallest distance from the shape's centre to a side of its bounding box.
 double inner_radius(const Bounds& box) { return box.high.cwiseMin(-box.low).minCoeff(); }
 
 }  // namespace
@@ -39,8 +40,8 @@ bool CollisionWorld::Impl::is_deep(const BroadphaseBody& a, const BroadphaseBody
     }
     const double depth_m = k_deep_share * (inner_radius(extents[a.proxy.shape.index].box) +
                                            inner_radius(extents[b.proxy.shape.index].box));
-    // A pair that was deep at the last valid poses was never apart: a sweep between them says
-    // nothing.
+    // The pair may overlap deeply already at the last valid poses. Then a sweep from there finds no
+    // first impact, so those poses are tested too.
     const Vec3 from = a.proxy.from_ws.position - b.proxy.from_ws.position;
     const Vec3 to = a.proxy.to_ws.position - b.proxy.to_ws.position;
     return std::min(from.squaredNorm(), to.squaredNorm()) < depth_m * depth_m;
@@ -57,9 +58,9 @@ void CollisionWorld::Impl::mark(std::size_t body, Visit visit, std::size_t slot)
     slot_of_visit[body] = static_cast<std::uint32_t>(slot);
 }
 
-// Marks the free bodies whose pairs may differ from the last pass: those that changed, and those
-// near the old or new bounds of a body that changed. Keeps what is near a changed body, because its
-// own search needs it again.
+// Marks the free bodies whose pairs may differ from those of the last pass: bodies that changed,
+// and bodies near the old or new bounds of a changed body. near_changed keeps the bodies near each
+// changed body, for find_candidates.
 void CollisionWorld::Impl::mark_near_changes(double margin_m) {
     const std::span<const BroadphaseBody> bodies = broadphase.bodies();
     near_changed.clear();
@@ -85,8 +86,9 @@ void CollisionWorld::Impl::mark_near_changes(double margin_m) {
     }
 }
 
-// Lists the bodies to visit, ascending: those that mark_near_changes marks, and those that had
-// pairs in the last pass. All other bodies have no pairs, as before, and cost nothing.
+// Lists the bodies to visit, ascending: those marked by mark_near_changes, those that had pairs in
+// the last pass, and those whose ignored pairs changed. If indices or the margin changed, lists all
+// free bodies. Bodies that are not listed still have no pairs, and cost nothing.
 void CollisionWorld::Impl::find_visits(double margin_m) {
     const std::size_t count = broadphase.bodies().size();
     visits.clear();
@@ -111,7 +113,7 @@ void CollisionWorld::Impl::find_visits(double margin_m) {
     std::ranges::sort(visits);
 }
 
-// Indices of bodies that include all those near the visited body, ascending.
+// Returns indices of all bodies near the visited body, and possibly of others; ascending.
 std::span<const std::size_t> CollisionWorld::Impl::find_candidates(std::size_t body,
                                                                    const Bounds& reach_ws) {
     if (visit_of_body[body] != Visit::changed) {
@@ -123,7 +125,8 @@ std::span<const std::size_t> CollisionWorld::Impl::find_candidates(std::size_t b
     return std::span(near_changed).subspan(first, near_ends[slot] - first);
 }
 
-// Adds the pairs with free bodies to those that begin at `first`; ascending.
+// Appends the body's pairs with free bodies to `pairs`, up to the limit. Then sorts the body's
+// pairs, which begin at index `first`.
 void CollisionWorld::Impl::add_free_pairs(std::size_t first) {
     const auto deep =
         static_cast<std::size_t>(std::ranges::count(free_pairs, true, &FreePair::deep));
@@ -132,10 +135,12 @@ void CollisionWorld::Impl::add_free_pairs(std::size_t first) {
     std::size_t others_left = k_max_crowded_pairs - std::min(deep, k_max_crowded_pairs);
     for (const FreePair& pair : free_pairs) {
         std::size_t& left = pair.deep ? deep_left : others_left;
-        if (!is_crowded || left > 0) {
-            pairs.push_back(pair.other);
-            left -= left > 0 ? 1 : 0;
+        if (is_crowded && left == 0) {
+            ++work.deferred_pairs;
+            continue;
         }
+        pairs.push_back(pair.other);
+        left -= left > 0 ? 1 : 0;
     }
     std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end());
 }

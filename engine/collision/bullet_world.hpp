@@ -40,13 +40,13 @@ struct CollisionWorld::Impl {
     void check(std::span<const ColliderProxy> proxies) const;
     void check(const ColliderProxy& proxy) const;
     bool is_pair(const BroadphaseBody& a, const BroadphaseBody& b) const;
-    // True if two convex free bodies overlap by about a quarter of their thickness or more.
+    // True if two convex free bodies overlap by about a quarter of their mean thickness or more.
     bool is_deep(const BroadphaseBody& a, const BroadphaseBody& b) const;
     void add_free_pairs(std::size_t first);
-    // Fills body_pairs and pairs. Costs nothing for bodies that have no pairs and near which
-    // nothing changed since the last pass.
+    // Fills body_pairs and pairs. A body that has no pairs costs nothing if nothing near it changed
+    // since the last pass.
     void find_pairs(double margin_m);
-    // Why find_pairs visits a body; the higher value wins.
+    // Why find_pairs visits a body. If there are several reasons, the highest value is kept.
     enum class Visit : std::uint8_t { none, listed, dirty, changed };
     void mark(std::size_t body, Visit visit, std::size_t slot);
     void mark_near_changes(double margin_m);
@@ -80,7 +80,7 @@ struct CollisionWorld::Impl {
     BroadphaseScratch broadphase_scratch;
     std::vector<std::size_t> visits;   // bodies, ascending
     std::vector<Visit> visit_of_body;  // all none between passes
-    // Changed bodies: index into near_ends. Listed bodies: index into last_body_pairs.
+    // By body. Visit::changed: index into near_ends. Visit::listed: index into last_body_pairs.
     std::vector<std::uint32_t> slot_of_visit;
     struct FreePair {
         std::size_t other;

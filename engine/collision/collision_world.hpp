@@ -64,11 +64,14 @@ struct ContactLimits {
     double sweep_m = 0.005;
 };
 
-// What the world has done: deterministic units of cost.
+// Work of a CollisionWorld, in deterministic units of cost.
 struct CollisionWork {
     std::uint64_t narrowphase_calls = 0;  // pairs whose contacts were computed, not recalled
     std::uint64_t bounds_updates = 0;     // colliders whose place in the tree was updated
     std::uint64_t tree_queries = 0;       // of find_contacts
+    // Pairs that find_contacts left out because one of the two bodies overlaps too many others
+    // deeply. They are found once those bodies have separated.
+    std::uint64_t deferred_pairs = 0;
 };
 
 // The BVH of a mesh. Keeps a reference to the mesh, which must outlive it. Any thread.
@@ -102,9 +105,9 @@ class CollisionWorld {
     // valid. An unchanged proxy costs only a comparison. No allocation once the largest number of
     // proxies has been seen.
     void set_proxies(std::span<const ColliderProxy> proxies);
-    // Replaces the proxies with the ids of `proxies`, in any order. All others stay as they are and
-    // cost nothing. Adds and removes no collider: throws PreconditionError if a proxy with a shape
-    // has an unknown id, or one without a shape a known one.
+    // Replaces the proxies whose ids occur in `proxies`, in any order. All other proxies stay as
+    // they are and cost nothing. Adds and removes no collider: throws PreconditionError if a proxy
+    // with a shape has an unknown id, or if one without a shape has a known id.
     void update_proxies(std::span<const ColliderProxy> proxies);
     // Replaces the ignored pairs. `pairs` must be sorted.
     void set_ignored_pairs(std::span<const IgnoredPair> pairs);
@@ -132,8 +135,8 @@ class CollisionWorld {
 
     // Work since the last call.
     CollisionWork take_work();
-    // How often set_proxies has run: tells a caller of update_proxies whether the set is still its
-    // own.
+    // Number of calls of set_proxies so far. If it has changed since a caller's own set_proxies,
+    // another caller has replaced the proxies.
     std::uint64_t proxy_set() const;
 
     // First surface that the segment hits, from outside or inside. Colliders are at their end poses

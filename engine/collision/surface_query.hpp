@@ -7,13 +7,13 @@
 
 #include "engine/math/math.hpp"
 
-// Queries against surfaces, whoever owns them: a CollisionWorld or a host's engine.
+// Queries against surfaces that belong to a CollisionWorld or to a host's engine.
 namespace handhold {
 
 struct RayHit {
     std::uint64_t id = 0;
     Vec3 point_ws = Vec3::Zero();
-    // Unit, towards the side that the ray came from, whatever the triangle's winding.
+    // Unit vector, on the side that the ray came from, whatever the triangle's winding.
     Vec3 normal_ws = Vec3::UnitY();
     double distance_m = 0.0;  // from the ray's start
 };
@@ -21,15 +21,15 @@ struct RayHit {
 struct SurfacePoint {
     std::uint64_t id = 0;
     Vec3 point_ws = Vec3::Zero();
-    // Unit, from the surface point towards the query point; outward if the two coincide or the
-    // query point is inside.
+    // Unit vector from the surface point towards the query point. Points outward if the two
+    // coincide or if the query point is inside.
     Vec3 normal_ws = Vec3::UnitY();
     double distance_m = 0.0;  // 0 inside a solid; point_ws is on the surface there too
 };
 
-// A reference to an object with the four queries below; CollisionWorld documents them. An object
-// with a member k_any_thread that is true may be asked by several threads at the same time. Does
-// not own the object, which must outlive it. Without an object it finds nothing.
+// A reference to an object with the four queries below; CollisionWorld documents them. The object
+// must outlive the reference. If the object's member k_any_thread is true, several threads may
+// query it at the same time. A reference without an object finds nothing.
 class SurfaceQuery {
   public:
     using Skip = std::span<const std::uint64_t>;
@@ -42,10 +42,10 @@ class SurfaceQuery {
         SurfaceQuery(const Surfaces& surfaces)
         : surfaces_(&surfaces), functions_(&k_functions_of<Surfaces>) {}
 
-    // True if several threads may ask at the same time.
+    // True if several threads may query at the same time.
     bool any_thread() const { return surfaces_ == nullptr || functions_->any_thread; }
 
-    // False if it finds nothing because there is no object.
+    // False if there is no object, so that all queries find nothing.
     explicit operator bool() const { return surfaces_ != nullptr; }
 
     std::optional<RayHit> cast_ray(const Vec3& from_ws, const Vec3& to_ws, Skip skip = {}) const {

@@ -5,21 +5,14 @@
 #include <optional>
 #include <string>
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/partitioner.h>
-#include <tbb/task_arena.h>
-
 #include "engine/core/check.hpp"
+#include "engine/core/parallel_pool.hpp"
 #include "engine/core/thread_sanitizer.hpp"
 
 namespace handhold {
 namespace {
 
-// The threads persist between calls. If `count` is one, there are no threads and TBB is not used.
 struct Workers {
-    std::optional<tbb::global_control> limit;  // allows more threads than cores
-    std::optional<tbb::task_arena> arena;
     int count = 1;
     ParallelBackend backend = nullptr;
     void* backend_context = nullptr;
@@ -63,7 +56,8 @@ struct LentTask {
     }
 };
 
-void run_claimed(Job& job) {
+void run_claimed(void* context, std::size_t /*runner*/) {
+    Job& job = *static_cast<Job*>(context);
     acquire_memory(&job);
     {
         const InTask in_task;
@@ -90,14 +84,8 @@ void set_thread_count(int count) {
     if (count == state.count) {
         return;
     }
-    state.arena.reset();
-    state.limit.reset();
+    resize_pool(count);
     state.count = count;
-    if (count > 1) {
-        const auto threads = static_cast<std::size_t>(count);
-        state.limit.emplace(tbb::global_control::max_allowed_parallelism, threads);
-        state.arena.emplace(count);
-    }
 }
 
 void set_parallel_backend(ParallelBackend backend, void* context) {
@@ -120,15 +108,8 @@ void parallel_for(std::size_t count, void* context, IndexedTask task) {
         return;
     }
     Job job{count, context, task};
-    const std::size_t runners = std::min(count, static_cast<std::size_t>(state.count));
-    // The sanitizer cannot follow how TBB passes these two lambdas to other threads.
-    // Instrumentation resumes in run_claimed.
-    const auto run = [&](std::size_t) __attribute__((no_sanitize("thread"))) { run_claimed(job); };
-    const auto run_all = [&]() __attribute__((no_sanitize("thread"))) {
-        tbb::parallel_for(std::size_t{0}, runners, run, tbb::simple_partitioner());
-    };
     release_memory(&job);
-    state.arena->execute(run_all);
+    run_on_pool(std::min(count, static_cast<std::size_t>(state.count)), &job, &run_claimed);
     acquire_memory(&job);
 }
 

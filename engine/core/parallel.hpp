@@ -2,8 +2,9 @@
 
 #include <cstddef>
 
-// The only file that uses threads. Results must not depend on the number of threads: each index
-// writes its own output, and nothing is summed in order of completion.
+// Tasks on several threads; only parallel_pool.cpp starts threads. Results must not depend on the
+// number of threads: each index writes its own output, and nothing is summed in order of
+// completion.
 namespace handhold {
 
 // Number of threads for parallel_for, including the caller; may exceed the number of cores. Default
@@ -16,7 +17,7 @@ using IndexedTask = void (*)(void* context, std::size_t index);
 // all are done.
 using ParallelBackend = void (*)(void* context, std::size_t count, IndexedTask task,
                                  void* task_context);
-// Replaces the threads of this file; null: back to them. Call between frames only.
+// Replaces the library's own threads; null: back to them. Call between frames only.
 void set_parallel_backend(ParallelBackend backend, void* context);
 
 // Calls task(context, i) once for every i in [0, count) and returns when all are done. Indices

@@ -28,11 +28,12 @@ struct ConvexHull {
 
 constexpr std::size_t k_max_hull_corners = 64;  // so at most 124 faces
 
-// The result does not depend on the points' order. All tolerances are 1e-6 of the diagonal of the
-// points' bounding box. A point that lies outside the hull by less than that adds no corner.
-// Neighbouring triangles whose corners lie in one plane, within twice that, become one face. At
-// most k_max_hull_corners points are taken, farthest first; omitted_m tells how much is cut off.
-// nullopt if all points lie in one plane within the tolerance, or if one is not finite.
+// The result does not depend on the order of the points. The tolerance is 1e-6 of the diagonal of
+// the points' bounding box. A point that lies outside the hull by less than the tolerance adds no
+// corner. Neighbouring triangles become one face if their corners lie in one plane within twice the
+// tolerance. At most k_max_hull_corners points become corners, farthest first; omitted_m is how
+// much is cut off. Returns nullopt if all points lie in one plane within the tolerance, or if one
+// is not finite.
 std::optional<ConvexHull> make_convex_hull(std::span<const Vec3> points);
 
 // The polyhedron transformed by `pose`.

@@ -127,7 +127,7 @@ double natural_logarithm(double x) {
     for (int power = 21; power >= 3; power -= 2) {
         sum = (sum + 1.0 / power) * z;
     }
-    // ln 2 = high + low; multiples of `high` up to 2^11 are exact.
+    // ln 2 = k_ln2_high + k_ln2_low. Integer multiples of k_ln2_high up to 2^11 are exact.
     constexpr double k_ln2_high = 6.93147180369123816490e-01;
     constexpr double k_ln2_low = 1.90821492927058770002e-10;
     return exponent * k_ln2_high + (exponent * k_ln2_low + 2.0 * (s + s * sum));
@@ -143,7 +143,8 @@ double cube_root(double x) {
         mantissa *= 0.5;
         ++exponent;
     }
-    // Newton's method from a line near the root on [1/8, 1): each step doubles the digits.
+    // Newton's method. The start value is a line close to the root on [1/8, 1). Each step doubles
+    // the number of correct digits.
     double root = 0.46 + 0.57 * mantissa;
     for (int step = 0; step < 6; ++step) {
         root -= (root - mantissa / (root * root)) * (1.0 / 3.0);

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-// Set by the CMake target for the library and its hosts. Eigen's vectorised sums add in an order
-// that depends on the instruction set, and its types have another layout.
+// The CMake target sets this macro for the library and its hosts. With vectorisation, the order of
+// Eigen's sums depends on the instruction set, and Eigen's types have another memory layout.
 #ifndef EIGEN_DONT_VECTORIZE
 #error "compile with EIGEN_DONT_VECTORIZE, as handhold::runtime does"
 #endif
@@ -92,8 +92,8 @@ double arc_tangent2(double y, double x);
 // Natural logarithm of a positive finite number, relative error below 1e-15. 0 and negative numbers
 // give -infinity, NaN gives NaN. Deterministic, like sin_cos.
 double natural_logarithm(double x);
-// Cube root of a number >= 0, relative error below 1e-15. Infinity and NaN stay, negative numbers
-// give NaN. Deterministic, like sin_cos.
+// Cube root of a number >= 0, relative error below 1e-15. Returns infinity and NaN unchanged;
+// negative numbers give NaN. Deterministic, like sin_cos.
 double cube_root(double x);
 
 // rotation_from_vector: unit quaternion of the rotation about `vector_rad`, by its length.

@@ -66,7 +66,8 @@ class AllThreads {
     int before_;
 };
 
-// The folder for files that may be deleted at any time; empty if the environment names none.
+// Returns the user's cache folder, whose files may be deleted at any time. Empty if the environment
+// names none.
 std::filesystem::path user_cache_directory() {
     const auto folder = [](const char* variable) {
         // NOLINTNEXTLINE(concurrency-mt-unsafe): no thread changes the environment

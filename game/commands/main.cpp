@@ -226,7 +226,7 @@ int list_scenes() {
     return 0;
 }
 
-// The command line: the options of every command, and what runs the one that was given.
+// The command line: the options of every command, and the function that runs the chosen command.
 struct Program {
     CLI::App app{"Handhold: a prototype game of zero-G hands"};
     handhold::RunOptions run;

@@ -31,8 +31,8 @@ struct PlayProgram {
     std::unique_ptr<Window> window;
 };
 
-// Opens the view of the session, and the window if there is none. nullopt with a reason if there is
-// no graphics.
+// Opens the view of the session, and the window if it is not open yet. If graphics are not
+// available, returns nullopt and sets `why_not`.
 std::optional<PlayerView> open_view(PlayProgram& program, DesktopSession& session,
                                     std::string& why_not) {
     const PlayOptions& options = program.options;
@@ -48,8 +48,8 @@ std::optional<PlayerView> open_view(PlayProgram& program, DesktopSession& sessio
     return view;
 }
 
-// Plays the options' scene until it is left. Returns the exit status, or nullopt if options.scene
-// names another scene to play.
+// Plays the scene that the options name, until the user leaves it. Returns the exit status, or
+// nullopt if options.scene names the next scene to play.
 std::optional<int> play_scene(PlayProgram& program) {
     PlayOptions& options = program.options;
     Result<PlayedScene> loaded = load_played_scene(options);

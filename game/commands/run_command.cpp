@@ -116,7 +116,7 @@ std::optional<FileError> place_players(const RunOptions& options, PreparedRun& r
     return {};
 }
 
-// Checks the session's length and replaces the state by the snapshot of --resume.
+// Chooses the run's settings and checks the session's length. Restores the snapshot of --resume.
 std::optional<FileError> set_start(const RunOptions& options, PreparedRun& run) {
     run.assets = std::make_unique<SnapshotAssets>(*run.scene.shapes, run.scene.name);
     run.settings = choose_settings(options, run.players.size(), run.scene);
@@ -130,7 +130,7 @@ std::optional<FileError> set_start(const RunOptions& options, PreparedRun& run) 
     return resume_from_snapshot(options, run.settings, *run.assets, run.scene, run.players);
 }
 
-// Plays the session and leaves its files and its summary. Returns the exit status.
+// Plays the session, writes its files and prints its summary. Returns the exit status.
 int play_and_report(const RunOptions& options, PreparedRun& run) {
     RunFilm film = open_run_film(options, run.scene, std::move(run.models), run.length_s());
     if (!options.trace.empty()) {

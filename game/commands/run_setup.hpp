@@ -57,8 +57,8 @@ Result<std::vector<PlayerEntities>> add_players(Scene& scene, FrameCaches& cache
                                                 const std::vector<StartPlace>& places,
                                                 const RunOptions& options);
 
-// How the session of `players` players is run. Climbers need jets to return to a hold, so a scene
-// without jets gets weak ones.
+// Chooses the settings for a session of `players` players. Climbers need jets to return to a hold,
+// so a scene without jets gets weak ones.
 RunSettings choose_settings(const RunOptions& options, std::size_t players, Scene& scene);
 
 // Warns on standard error of bodies and players that penetrate at the start.

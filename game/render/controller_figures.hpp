@@ -27,8 +27,8 @@ struct ControllerModels {
     std::array<Pose, k_hand_count> joints() const;
 };
 
-// The built-in model: a wand in the fist. Its pose relative to the hand follows from the tuning
-// (default_controller_to_hand).
+// The built-in model: a wand held in the fist. Its pose relative to the hand follows from the
+// tuning (default_controller_to_hand).
 ControllerModels builtin_controllers(const HandTuning& tuning);
 // `name_or_file`: "builtin", or the file of a profile with its models. Errors name the file, the
 // place in it, and what was expected.

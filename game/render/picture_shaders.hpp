@@ -1,9 +1,9 @@
 #pragma once
 
-// Programs that cover the whole picture: backdrop and the passes after the scene is drawn. Language
-// and spaces: shaders.hpp. Sources: ambient occlusion at half resolution after McGuire et al. 2011
-// ("The Alchemy Screen-Space Ambient Obscurance Algorithm"); the edge filter follows Lottes 2009
-// (FXAA).
+// Shader programs that draw over the whole picture: the backdrop, and the passes after the scene is
+// drawn. Language and spaces: shaders.hpp. Sources: ambient obscurance at half resolution after
+// McGuire et al. 2011 ("The Alchemy Screen-Space Ambient Obscurance Algorithm"); edge filter after
+// Lottes 2009 (FXAA).
 namespace handhold::shaders {
 
 // One triangle that covers the picture, at the far plane.
@@ -51,7 +51,8 @@ vec3 stars(vec3 d) {
     return bright * mix(vec3(1.0, 0.82, 0.65), vec3(0.75, 0.85, 1.0), hash(cell + 3.0));
 }
 
-// The planet is a unit sphere 1.35 from the eye: its limb lies 48 degrees off its centre.
+// The planet is a unit sphere with its centre 1.35 from the eye. Its limb appears 48 degrees from
+// its centre.
 void main() {
     vec3 d = normalize(view_forward + (2.0 * uv.x - 1.0) * view_right + (2.0 * uv.y - 1.0) * view_up);
     const float k_distance = 1.35;
@@ -88,13 +89,14 @@ uniform vec2 texel;         // of depth_map
 uniform float radius_m;
 out vec4 color;
 
-// Centre of the pixel that contains `at`: between two pixels, rounding would pick either one in stripes.
+// Position at the centre of the pixel that contains `at`. Between two pixels, rounding would choose
+// either one and leave stripes.
 vec3 view_at(vec2 at) {
     at = (floor(at / texel) + 0.5) * texel;
     float d = depth_terms.y / (2.0 * texture(depth_map, at).r - 1.0 + depth_terms.x);
     return vec3(((2.0 * at - 1.0) * half_extent + middle) * d, -d);
 }
-// The shorter of the steps to both neighbours, so the slope does not cross an edge.
+// The step to the neighbour that is nearer in depth, so that the slope does not cross an edge.
 vec3 slope(vec3 p, vec2 pixel, vec2 step_uv) {
     vec3 ahead = view_at(pixel + step_uv) - p;
     vec3 behind = p - view_at(pixel - step_uv);
@@ -110,8 +112,8 @@ void main() {
         return;
     }
     vec3 n = normalize(cross(slope(p, pixel, vec2(texel.x, 0.0)), slope(p, pixel, vec2(0.0, texel.y))));
-    // Sixteen rotations in every 4 x 4 pixel block, each once. The smoothing pass averages exactly these, so no pattern
-    // remains on an even surface.
+    // Each block of 4 x 4 pixels uses sixteen rotations, each once. The smoothing pass averages
+    // over 4 x 4 pixels, so no pattern remains on an even surface.
     ivec2 cell = ivec2(gl_FragCoord.xy) & 3;
     float turn = 6.2831853 * (float((7 * (4 * cell.y + cell.x)) & 15) + 0.5) / 16.0;
     float reach_uv = clamp(0.5 * radius_m / (distance_m * half_extent.y), 0.006, 0.16);
@@ -132,7 +134,7 @@ void main() {
 }
 )";
 
-// Light of emissive surfaces, at a quarter of the resolution.
+// Extracts the light of emissive surfaces, at a quarter of the resolution.
 inline constexpr const char* k_glow_fragment = R"(
 in vec2 uv;
 uniform sampler2D picture;
@@ -165,8 +167,8 @@ void main() {
 }
 )";
 
-// Averages the occlusion over blocks of 4 x 4 pixels, in which its noise repeats. Pixels of other
-// surfaces hardly count.
+// Averages the occlusion over 4 x 4 pixels, the period of its noise. Pixels at a different distance
+// get little weight.
 inline constexpr const char* k_smooth_fragment = R"(
 in vec2 uv;
 uniform sampler2D picture;
@@ -188,8 +190,8 @@ void main() {
 }
 )";
 
-// Composes the picture upside down, because rows are read back from the top. With four samples per
-// pixel, the linear filter reads their mean.
+// Composes the picture upside down, because rows are read back from the top. If the scene has four
+// samples per pixel, the linear filter averages them.
 inline constexpr const char* k_composite_fragment = R"(
 in vec2 uv;
 uniform sampler2D picture;
@@ -200,7 +202,7 @@ out vec4 color;
 void main() {
     vec2 at = vec2(uv.x, 1.0 - uv.y);
     vec4 c = texture(picture, at);
-    // The picture is in display space already, where a factor on light becomes its 2.2nd root.
+    // The picture is already in display space. There, a factor on light becomes its 2.2nd root.
     float open = pow(texture(occlusion, at).r, 0.4545);
     vec3 rgb = c.rgb * mix(1.0, open, c.a);
     rgb = 1.0 - (1.0 - rgb) * (1.0 - glow_strength * texture(glow, at).rgb);
@@ -208,9 +210,9 @@ void main() {
 }
 )";
 
-// Anti-aliasing. Where the brightness (in alpha) jumps, averages along the edge, up to four pixels
-// in both directions. If this long average is outside the neighbourhood's range, it has crossed
-// another edge; then the short average is used.
+// Anti-aliasing. Where the brightness (in alpha) changes sharply, averages along the edge, up to
+// four pixels in both directions. If this long average is outside the range of the neighbourhood,
+// it has crossed another edge. The short average is used instead.
 inline constexpr const char* k_edges_fragment = R"(
 in vec2 uv;
 uniform sampler2D picture;

@@ -53,7 +53,8 @@ struct Ghost {
     float hidden = 0.35F;         // where geometry hides it
     double hidden_from_m = 0.0;   // distance behind the geometry where `hidden` starts to apply
     double hidden_full_m = 0.01;  // distance where it applies fully; above hidden_from_m
-    // True: not drawn, not even with `hidden`, where an instance with is_own is in front of it.
+    // True: the ghost is not drawn where an instance with is_own is in front of it. `hidden` does
+    // not apply there.
     bool own_hides = false;
 };
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <initializer_list>
 
+#include "game/report/fallback_meanings.hpp"
 #include "game/report/text.hpp"
 
 namespace handhold {
@@ -54,126 +55,6 @@ std::string make_time_row(const std::string& name, const TimeFigures& times, dou
 }
 
 }  // namespace
-
-const char* meaning_of(Fallback reason) {
-    switch (reason) {
-        case Fallback::sample_out_of_order:
-            return "A tracking sample older than the one before it was ignored.";
-        case Fallback::sample_not_finite:
-            return "A device's pose that was not finite or not a rotation was ignored.";
-        case Fallback::tracking_lost:
-            return "A device sent nothing or invalid poses; its last pose was kept.";
-        case Fallback::hand_out_of_reach:
-            return "A hand was farther from its head than any arm reaches; the sample was "
-                   "ignored.";
-        case Fallback::head_recentred:
-            return "The head's tracking jumped; the player stayed in place in the world.";
-        case Fallback::device_asleep:
-            return "A controller at exactly (0, 0, 0) was ignored: it is not tracked yet.";
-        case Fallback::hand_implausible:
-            return "A sample had a hand move faster than a hand can; it was ignored.";
-        case Fallback::space_recentred:
-            return "Head and hands jumped together: the play space was recentred, nobody moved.";
-        case Fallback::grab_no_surface:
-            return "A hand closed with no surface within reach; it holds nothing.";
-        case Fallback::grip_stretched:
-            return "A hand was pulled farther from its anchor than the stretch allows and let go.";
-        case Fallback::grip_lost:
-            return "A hand was open when its tracking returned; it released without a throw.";
-        case Fallback::grip_body_gone:
-            return "The gripped body was destroyed; the hand let go.";
-        case Fallback::grip_reanchored:
-            return "Tracking returned, or the other hand released: the grip took a new anchor "
-                   "at the hand.";
-        case Fallback::two_hand_grip_ended:
-            return "One of two hands let go; nothing was thrown.";
-        case Fallback::hands_too_close:
-            return "Two hands on one body were too close to turn it; only the first one moved it.";
-        case Fallback::grab_refused_by_rule:
-            return "A hand closed where everything within reach refuses it by a rule or layer.";
-        case Fallback::grab_needs_two_hands:
-            return "One hand closed on a body that only both hands grip; it holds nothing.";
-        case Fallback::grip_needs_two_hands:
-            return "One of both hands left a body that needs two; the other let go.";
-        case Fallback::grip_ended_by_host:
-            return "The host ordered a gripping hand to let go.";
-        case Fallback::grip_out_of_reach:
-            return "After a tracking jump a palm was too far from what it gripped and let go.";
-        case Fallback::grip_speed_limited:
-            return "A gripping hand moved faster than a hand can; its grip slipped by the rest.";
-        case Fallback::grab_out_of_sight:
-            return "A hand closed behind a wall; it did not grip through it.";
-        case Fallback::contact_rounds_exhausted:
-            return "New contacts appeared after the last allowed round; they wait for the next "
-                   "frame.";
-        case Fallback::contacts_contradict:
-            return "The hands' targets contradicted contacts; the hands' rows were dropped.";
-        case Fallback::contacts_unresolved:
-            return "Contacts still overlapped at the end of the frame.";
-        case Fallback::restored_last_valid_pose:
-            return "Bodies stayed inside a surface; they were restored to their last valid "
-                   "pose.";
-        case Fallback::active_set_not_converged:
-            return "A solve ended before the set of pushing contacts converged; some may overlap.";
-        case Fallback::hands_load_stepped:
-            return "Hands jumped too far for one solve; it moved them in load steps.";
-        case Fallback::load_stepping_failed:
-            return "Hands jumped too far for one solve, and load stepping failed "
-                   "too.";
-        case Fallback::friction_not_converged:
-            return "Sticking and sliding contacts did not converge; the result is approximate.";
-        case Fallback::solver_budget:
-            return "Bodies in contact needed more work than a frame allows; the rest went on in "
-                   "the next frame.";
-        case Fallback::release_speed_clamped:
-            return "A release was faster than allowed; its speed was limited.";
-        case Fallback::object_speed_clamped:
-            return "A body moved by hands, or spinning, was faster than allowed; its speed was "
-                   "limited.";
-        case Fallback::head_ignores_full:
-            return "The head passed through more bodies than it remembers; the oldest was "
-                   "forgotten.";
-        case Fallback::finger_full_search:
-            return "A finger's searches failed; it tested every surface within its reach.";
-        case Fallback::finger_depenetrated:
-            return "A finger would have penetrated something, straight or while closing; it was "
-                   "bent until it was clear.";
-        case Fallback::finger_opened:
-            return "A finger still penetrated something and was opened by a step.";
-        case Fallback::finger_no_contact:
-            return "A finger or thumb of a gripping hand met nothing; it rests in the air.";
-        case Fallback::palm_lifted:
-            return "Fingers did not fit; the shown hand was lifted off its surface.";
-        case Fallback::body_no_surface:
-            return "A gripped body has no surface for hands; the hand is shown as tracked.";
-        case Fallback::palm_no_surface:
-            return "A gripping hand had nothing under its palm; it is shown as tracked.";
-        case Fallback::authored_grip_occupied:
-            return "Another hand occupied the authored grip; the hand took the next best.";
-        case Fallback::authored_grip_blocked:
-            return "Something stood between a hand and a grip; the hand took the next best.";
-        case Fallback::authored_grip_abandoned:
-            return "A hand turned far away from its grip; it holds on as to any surface.";
-        case Fallback::authored_finger_rejected:
-            return "An authored finger pose would have penetrated; the finger closed as on any "
-                   "surface.";
-        case Fallback::pull_refused_fixed:
-            return "A distance grab hit a fixed or jointed body; nothing was pulled.";
-        case Fallback::pull_refused_heavy:
-            return "A distance grab hit a body that is too heavy; nothing was pulled.";
-        case Fallback::pull_refused_held:
-            return "A distance grab hit a body that another hand holds or pulls; nothing was "
-                   "pulled.";
-        case Fallback::pull_lost:
-            return "The pulled body was destroyed, too far or in another hand, or the hand was "
-                   "lost; the pull ended.";
-        case Fallback::surface_answer_invalid:
-            return "A host's surfaces gave numbers that mean nothing; the answer was ignored.";
-        case Fallback::count:
-            break;
-    }
-    return "";
-}
 
 std::string make_stage_table(const RunSummary& summary) {
     std::string rows = make_head({"stage"}, {"median µs", "p99 µs", "max µs", "of all time"});

@@ -19,7 +19,4 @@ std::string make_fallback_table(const RunSummary& summary);
 std::string make_momentum_table(const MomentumFigures& momentum);
 std::string make_player_table(const RunSummary& summary);
 
-// A sentence for people: what happened, and what the runtime did instead.
-const char* meaning_of(Fallback reason);
-
 }  // namespace handhold

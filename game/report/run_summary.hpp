@@ -59,7 +59,8 @@ struct RunSummary {
     double frames_per_s = 0.0;
     StageStats totals;        // sums of counters and fallbacks; nothing else is set
     double residual_m = 0.0;  // worst contact overlap
-    // Worst joint: distance between its two points, or distance beyond a slider's limit.
+    // Error of the worst joint: distance between its two points, or distance beyond a slider's
+    // limit.
     double joint_error_m = 0.0;
     double joint_error_rad = 0.0;  // worst joint: directions and angles
     HandErrorFigures hand_error;

@@ -90,8 +90,9 @@ Result<Scene> build_scene(const SceneFile& file, const std::filesystem::path& pa
 // Builds the grip meshes that are missing; call it after adding bodies to a scene. A body without a
 // grip mesh can be gripped, but hands are shown on it as tracked.
 void add_grip_meshes(Scene& scene);
-// Where add_grip_meshes keeps finished meshes between runs (engine/geometry/grip_mesh_cache.hpp).
-// One setting for the process; empty, the default: nowhere. Call it before scenes are loaded.
+// Sets the folder in which add_grip_meshes keeps finished meshes between runs
+// (engine/geometry/grip_mesh_cache.hpp). Empty, the default: meshes are not kept. The setting holds
+// for the whole process. Call it before scenes are loaded.
 void set_grip_mesh_cache(const std::filesystem::path& directory);
 
 // `wanted`, with primes (') appended until the name and those of the player's hands are free.

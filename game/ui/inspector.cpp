@@ -4,7 +4,7 @@
 
 #include <imgui.h>
 
-#include "game/report/report_tables.hpp"
+#include "game/report/fallback_meanings.hpp"
 #include "game/view/explain_hand.hpp"
 
 namespace handhold {

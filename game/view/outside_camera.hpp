@@ -29,9 +29,9 @@ class OutsideCamera {
   private:
     // Offset ahead, up and to the right of the target, metres.
     using Offset = std::array<double, 3>;
-    // Looks at the target from one of the offsets. If a wall is in the way, the camera stays in
-    // front of the wall. Chooses the position farthest from the target; a later offset is chosen
-    // only if its position is at least k_min_gain_m farther than that of the earlier ones.
+    // Looks at the target from one of the offsets. If a wall is in the way, the position is moved
+    // in front of the wall. A later offset is chosen only if its position is farther from the
+    // target by more than k_min_gain_m.
     Pose look_from(std::span<const Offset> offsets, const Vec3& head_ws, const Vec3& target_ws,
                    const Vec3& ahead_ws);
     Vec3 level_ahead(const RenderPose& render) const;

@@ -21,7 +21,8 @@ struct PropagateSpineIo {
     const Column<ArmEstimate>& estimate;         // in: the chest
     Column<SpineMemory>& memory;                 // in/out
     Column<SpinePose>& pose;                     // out
-    // For contacts of trunk and legs. Set `surfaces` and the two columns below it, or none of the three.
+    // In: for contacts of trunk and legs. Set `surfaces` and the two columns below it, or none of the
+    // three.
     SurfaceQuery surfaces = {};  // in
     // In: rays start in the head; shift_m is the floor's height.
     const Column<HeadTracking>* head = nullptr;

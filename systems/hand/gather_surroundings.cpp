@@ -112,8 +112,8 @@ class Gatherer {
             }
             return;
         }
-        // Colliders are where the last search for contacts needed them: up to millimetres from
-        // their bodies. Grip meshes differ from their colliders by less than that.
+        // Colliders are at the poses of the last contact search, up to millimetres from their
+        // bodies. Grip meshes differ from their colliders by less than k_slack_m.
         constexpr double k_slack_m = 0.05;
         const Vec3 reach_m = Vec3::Constant(k_hand_length_m + k_slack_m);
         for (const std::uint64_t id :

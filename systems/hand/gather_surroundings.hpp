@@ -21,7 +21,7 @@ struct GatherSurroundingsIo {
     // In: grip meshes by shape. Null: hands are not fitted to surfaces.
     const GripMeshLibrary* meshes = nullptr;
     const std::array<HandRig, k_hand_count>& rigs;  // in: by HandSide
-    // In: the bodies that may be near a hand, in an order that does not depend on slots.
+    // In: the bodies that may be near a hand, in an order independent of entity slots.
     std::span<const Entity> bodies;
     const Column<PersistentId>& persistent_id;  // in
     const Column<HandOwner>& owner;             // in
@@ -38,10 +38,10 @@ struct GatherSurroundingsIo {
     // In: hands with a rig of their own, and these rigs. Null, or an index beyond: `rigs`.
     const Column<HandRigChoice>* rig_choice = nullptr;
     std::span<const HandRig> more_rigs = {};
-    // In: bodies with a grip mesh of their own, which comes before that of their shape.
+    // In: bodies that have their own grip mesh. It is used instead of the mesh of their shape.
     const Column<BodySurface>* body_surface = nullptr;
-    // In: finds the bodies near a hand among the colliders of `bodies`, which are in the same
-    // order, sorted by id. Null: all bodies are looked at.
+    // In: collision world with the colliders of `bodies`, used to find bodies near a hand.
+    // `proxies` are in the order of `bodies`, sorted by id. Null: every body is tested.
     const CollisionWorld* collision = nullptr;
     std::span<const ColliderProxy> proxies = {};
 };
@@ -55,7 +55,7 @@ struct GatherSurroundingsIo {
 //
 // Fallbacks counted: body_no_surface.
 void gather_surroundings(const GatherSurroundingsIo& io, StageStats& stats);
-// The same for the rows [first, last) of `owner`. `surroundings` has its size already.
+// The same for the rows [first, last) of `owner`. `surroundings` must already have its full size.
 void gather_surroundings(const GatherSurroundingsIo& io, std::size_t first, std::size_t last,
                          StageStats& stats);
 

@@ -1,5 +1,5 @@
-// Hosts with physics of their own (handhold/your_physics.h): surfaces, where bodies and players
-// are, and what hands hold. The step around a host's solver is in host_solver.cpp.
+// C interface for hosts with their own physics (handhold/your_physics.h): surfaces, poses of bodies
+// and players, and what hands hold. host_solver.cpp has the step around a host's solver.
 #include <algorithm>
 #include <iterator>
 #include <vector>

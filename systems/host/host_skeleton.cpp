@@ -25,8 +25,8 @@ std::size_t joint_of(FingerName finger, HandBone bone) {
     return k_first_finger + (number - 1) * k_joints_of_finger + at;
 }
 
-// Bone of a finger's link. The last link is the distal bone. The first is the proximal bone, but
-// the metacarpal if a thumb has three links.
+// Bone for a link of a finger. The last link is the distal bone. The first link is the proximal
+// bone, but in a thumb with three links it is the metacarpal.
 HandBone bone_of_link(const FingerRig& finger, std::uint32_t link) {
     if (link + 1 == finger.link_count) {
         return HandBone::distal;

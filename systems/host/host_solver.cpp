@@ -1,17 +1,18 @@
-// A step around a host's own solver (handhold/your_physics.h): hand constraints out, solved poses
-// in.
+// A step around a host's own solver (handhold/your_physics.h): first passes hand constraints to the
+// host, then takes the solved poses.
 #include <algorithm>
 
 #include "components/play_space.hpp"
 #include "systems/frame_of_host.hpp"
 #include "systems/host/host_step.hpp"
+#include "systems/physics/shared/player_share.hpp"
 
 namespace handhold {
 namespace {
 
-// How heavy the player's body is in the host's solver: pushed_share of update_velocities.
+// Mass of the player's body for the host's solver, in kg. A player who grips no surface counts as
+// heavier than the bodies that they hold (least_player_share).
 double mass_for_host(const hh_world& host, Entity player) {
-    constexpr double k_times_heaviest = 1000.0;
     const FrameGraph& frame = host.caches.graph;
     const double mass_kg = host.world.player.at(player).mass_kg;
     const std::size_t index = find_body(frame.graph, host.world.persistent_id.at(player).value);
@@ -24,7 +25,7 @@ double mass_for_host(const hh_world& host, Entity player) {
             heaviest_kg = std::max(heaviest_kg, frame.graph.bodies[block.b].mass_kg);
         }
     }
-    const double least_share = mass_kg / std::max(k_times_heaviest * heaviest_kg, mass_kg);
+    const double least_share = least_player_share(heaviest_kg, mass_kg);
     return mass_kg / std::max(frame.phase[index].forward_share, least_share);
 }
 
@@ -103,7 +104,8 @@ void collect_begun_step(hh_world& host, double dt_s) {
     }
 }
 
-// What the host did not place rests where it was: a prediction is no motion.
+// Returns free bodies that the host did not place to their pose and velocity at the step's start.
+// Their predicted poses must not count as motion.
 void keep_unplaced_bodies(hh_world& host) {
     World& world = host.world;
     for (std::size_t row = 0; row < world.body.size(); ++row) {
@@ -115,7 +117,7 @@ void keep_unplaced_bodies(hh_world& host) {
     }
 }
 
-// Bodies whose velocity is not what the host's solver gave them.
+// Collects the bodies whose velocity differs from the result of the host's solver.
 void collect_velocity_changes(hh_world& host) {
     const std::vector<BodyVelocity>& solved = host.solved_velocities;
     host.velocity_changes.clear();

@@ -130,7 +130,7 @@ void finish_step(hh_world& host) {
     }
 }
 
-// Notes the bodies that the frame's hands hold, also through joints, by id.
+// Lists the free bodies that hands hold in this frame, directly or through joints; sorted by id.
 void note_held_bodies(hh_world& host) {
     const FrameGraph& frame = host.caches.graph;
     host.held_bodies.clear();

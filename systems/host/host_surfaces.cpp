@@ -10,7 +10,8 @@
 namespace handhold {
 namespace {
 
-// The bodies among the ids; heads of players are no bodies of the host's.
+// The host's handles of the bodies among `ids`. Ids of players' heads are left out, because the
+// host has no bodies for heads.
 struct SkippedBodies {
     SkippedBodies(const World& world, std::span<const std::uint64_t> ids) {
         for (const std::uint64_t id : ids) {

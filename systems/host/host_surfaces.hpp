@@ -11,10 +11,10 @@
 
 namespace handhold {
 
-// A host's surfaces behind the queries of SurfaceQuery. Checks what the host answers.
+// Answers the queries of SurfaceQuery from a host's surfaces, and checks the host's answers.
 class HostSurfaces {
   public:
-    // `world` translates ids; it must outlive this object.
+    // `world` maps ids to bodies. It must outlive this object.
     explicit HostSurfaces(const World& world) : world_(&world) {}
     void set(const hh_surface_query& query) { query_ = query; }
 

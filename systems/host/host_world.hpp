@@ -138,7 +138,7 @@ inline const hh_world& world_of(const hh_world* world) {
     require(world != nullptr, HH_ERROR_NULL, "the world is null");
     return *world;
 }
-// Throws HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step.
+// Throws HH_ERROR_STATE if called between hh_world_begin_step and hh_world_end_step.
 inline void require_idle(const hh_world& host) {
     require(!host.is_stepping, HH_ERROR_STATE, "a step has begun: hh_world_end_step comes first");
 }

@@ -100,9 +100,9 @@ void set_target(const AnchorGrabsIo& io, const HandTracking& hand, Grab& grab) {
     set_target_pose(io, hand.pose_ps, hand, grab);
 }
 
-// Anchor of the hand that stays on a shared hold when the other hand lets go: its pose relative to
-// what it holds, at the instant of release. The poses of the player and of a held free body are
-// those that the two hands gave them together.
+// Returns the new anchor of the hand that stays on a shared hold when the other hand lets go: the
+// staying hand's pose relative to the body it holds, at the instant of release. Uses the poses that
+// both hands together gave to the player and to a held free body.
 Pose staying_anchor_bs(const AnchorGrabsIo& io, const HandPair& leaving, bool leaving_is_first,
                        const PhaseTuning& tuning) {
     const Grab& staying = *leaving.other;
@@ -275,8 +275,8 @@ void anchor_new_grab(const AnchorGrabsIo& io, const HandPair& pair, const PhaseT
 }
 
 // Row of the new grip whose hand closed first in this frame (edge_t_s), or the column's size if no
-// grip is new. The hand that closes first drives the body, and the later one joins it, whatever
-// their order in the column.
+// grip is new. The hand that closes first drives the body. Later hands join it, whatever their
+// order in the column.
 std::size_t earliest_new_grab(const AnchorGrabsIo& io) {
     std::size_t earliest = io.grab.size();
     double edge_t_s = 0.0;

@@ -75,8 +75,9 @@ void start_grab(const UpdateGrabsIo& io, Entity hand, const GrabTarget& target, 
     }
 }
 
-// For a body that only both hands grip, the hand of `row` at `mine`: true if the player's other
-// hand holds it, or is closed on it and grips it from now on.
+// For a body that only both hands together may grip, with the hand of `row` gripping it at `mine`.
+// True if the player's other hand already holds the body, or is closed on it; that hand then grips
+// it.
 bool other_hand_joins(const UpdateGrabsIo& io, std::size_t row, const GrabTarget& mine,
                       const Tuning& tuning, StageStats& stats) {
     const std::size_t other = find_other_hand(io.owner, io.grab, row);

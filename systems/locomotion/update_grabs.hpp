@@ -25,9 +25,10 @@ using UpdateGrabsIo = GrabSearch;  // systems/locomotion/shared/grab_search.hpp
 // two stretched hands only the worse one lets go, of two alike the one that gripped later.
 // A closed hand that pulls a body (pull_bodies) grips it as soon as the body is at the palm.
 //
-// Bodies that refuse the hand by their GrabRule or its player's GrabLayers are passed over. A body
-// for two hands is gripped when the second of them closes on it. A host's orders (GrabOrder) come
-// before hands that close, and ask no rule; but one hand alone never holds a body for two hands.
+// Bodies whose GrabRule, or whose layers by the player's GrabLayers, refuse the hand are skipped. A
+// two-handed body is gripped when the second hand closes on it. A host's orders (GrabOrder) take
+// precedence over closing hands and ignore the rules. But one hand alone never holds a two-handed
+// body.
 void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats);
 
 }  // namespace handhold

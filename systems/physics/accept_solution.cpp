@@ -34,13 +34,14 @@ void write_solved_bodies(const AcceptSolutionIo& io) {
             body.spin_radps = io.body_velocity.at(entity).angular_radps;
         }
         if (LastValidPose* const valid = io.last_valid.find(entity)) {
-            // The proxy of a head that was never tracked has no valid pose.
+            // A head that was never tracked has no valid pose, nor has its proxy.
             *valid = {collider_pose(body), is_valid(frame.proxies[i].to_ws)};
         }
     }
 }
 
-// The velocities with which the released hand and what it held part.
+// Writes the velocity at the release: that of the body if the hand held it, else that of the
+// player.
 void throw_released(const AcceptSolutionIo& io, const RowBlock& block, bool is_welded) {
     SolverBody& player = io.frame.graph.bodies[block.a];
     SolverBody& body = io.frame.graph.bodies[block.b];
@@ -75,7 +76,7 @@ double accept_solution(const AcceptSolutionIo& io) {
         Grab& grab = io.grab.rows()[block.source];
         grab.error_m = block_error_m(io.frame.graph.bodies, point);
         worst_m = std::max(worst_m, grab.error_m);
-        // A hand moves its player only through its grip, so any change is a push or a pull.
+        // The host's solver may have pushed or pulled the player through this grip.
         io.frame.phase[block.a].pushed = true;
         const bool is_free_again = grab.phase == GrabPhase::releasing && !grab.jointed &&
                                    grab.kind != GripKind::player && !grab.two_handed;

@@ -8,16 +8,16 @@
 #include "components/player.hpp"
 #include "engine/ecs/column.hpp"
 
-// Takes what a host's own solver made of the frame's hand constraints, in place of solve_phases,
+// Takes the results of a host's own solver for the frame's hand constraints. Replaces solve_phases,
 // finish_positions and update_velocities.
 //
-// A hand that lets go throws at its release velocity, as after update_velocities: a solver's
-// velocity also contains its corrections of positions. That is done only if the hand was within
-// 1 mm of its anchor at the end; else something stopped the body, and the host's velocity counts.
-// Fallbacks counted: none.
+// A hand that lets go throws at its release velocity, as after update_velocities, because a
+// solver's velocity also contains its position corrections. This applies only if the hand was
+// within 1 mm of its anchor at the end of the frame. Otherwise something stopped the body, and the
+// host's velocity is kept. Fallbacks counted: none.
 namespace handhold {
 
-// A player's play space after a host's solver. It does not turn in a solver.
+// A player's play space after a host's solver. The solver does not rotate it.
 struct SolvedPlayer {
     Entity player;
     Vec3 origin_ws = Vec3::Zero();

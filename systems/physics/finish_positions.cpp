@@ -11,7 +11,7 @@ namespace {
 
 // --- Restoring penetrating bodies ----------------------------------------------------------------
 
-// Restoring the bodies of a heap with more constraint blocks costs more than a frame can afford.
+// Bodies of heaps with more constraint blocks are not restored, because of the cost per frame.
 constexpr std::size_t k_max_restore_blocks = 4000;
 // About the length of an arm's jump. A body that was dragged farther while penetrating stays.
 constexpr double k_max_restore_distance_m = 2.0;
@@ -152,8 +152,8 @@ void rebuild_contacts(const FinishPositionsIo& io, const ContactTuning& tuning, 
     std::erase_if(frame.contacts, [&](const ContactPoint& contact) {
         return is_penetrating(contact.id_a) || is_penetrating(contact.id_b);
     });
-    // A heap that was not searched to the end must be now: without its contacts every pose is
-    // valid.
+    // Colliders of bodies whose is_searched is false would not move to the restored poses. Their
+    // contacts there would be missing, and every restored pose would seem valid.
     for (const FrameGraph::PenetratingBody& penetrating : frame.penetrating_bodies) {
         frame.graph.bodies[penetrating.body].is_searched = true;
     }
@@ -224,11 +224,11 @@ void restore_penetrating_bodies(const FinishPositionsIo& io, const ContactTuning
 
 // --- Players who are pushed out ------------------------------------------------------------------
 
-// Speed at which a player leaves a wall in which they are stuck.
+// Largest speed at which a player who is stuck in a wall is pushed out of it.
 constexpr double k_eject_mps = 3.0;
 
-// How far the head moves in this frame, with its grips, the play space and tracking, if no contact
-// stops it.
+// Displacement of the head in this frame if no contact stops it, in world axes: the sum of grips,
+// play space and tracking.
 Vec3 head_motion_m(const FinishPositionsIo& io, std::uint32_t player, const HeadTuning& tuning) {
     const Entity entity = io.frame.entities[player];
     const HeadTracking& head = io.head.at(entity);
@@ -240,15 +240,16 @@ Vec3 head_motion_m(const FinishPositionsIo& io, std::uint32_t player, const Head
            gripped_m;
 }
 
-// A wall in which the head was before this frame, and by how much too far it pushes the head out
-// along its normal.
+// The push of a wall on the head. `excess_m`: the part of the push along `normal` that is too
+// large; above 0 only if the head was in the wall before this frame.
 struct StuckIn {
     Vec3 normal = Vec3::Zero();
     double excess_m = 0.0;
 };
 
-// What approached in this frame, head or wall, is pushed back whole.
-StuckIn stuck_in(const FinishPositionsIo& io, const RowBlock& block, const Vec3& head_motion_m) {
+// `motion_m`: head_motion_m. The approach of head and wall in this frame is undone in full. Older
+// penetration is reduced at k_eject_mps at most.
+StuckIn stuck_in(const FinishPositionsIo& io, const RowBlock& block, const Vec3& motion_m) {
     const FrameGraph& frame = io.frame;
     const Pose& wall_ws = frame.graph.bodies[block.b].pose_ws;
     const ColliderProxy& wall = frame.proxies[block.b];
@@ -256,15 +257,16 @@ StuckIn stuck_in(const FinishPositionsIo& io, const RowBlock& block, const Vec3&
     const Vec3 wall_motion_m = transform_point(wall.to_ws, block.point_b_bs) -
                                transform_point(wall.from_ws, block.point_b_bs);
     const double allowed_m =
-        std::max(0.0, normal.dot(wall_motion_m - head_motion_m)) + k_eject_mps * io.dt_s;
+        std::max(0.0, normal.dot(wall_motion_m - motion_m)) + k_eject_mps * io.dt_s;
     const double depth_m =
         normal.dot(transform_point(wall_ws, block.point_b_bs) -
                    transform_point(frame.phase[block.a].reached_ws, block.point_a_bs));
     return {normal, depth_m - allowed_m};
 }
 
-// Walls that close around a head contradict each other until it is past the middle of one. It then
-// has a way out, of any length, and takes it at a bounded speed.
+// Limits the push on heads that are stuck in walls. Walls on both sides of a head contradict each
+// other until the head is past the middle of one wall. The solver then finds a way out, which may
+// be long, and the head takes it at a bounded speed.
 void limit_pushes(const FinishPositionsIo& io, const HeadTuning& tuning) {
     FrameGraph& frame = io.frame;
     for (const std::uint32_t i : frame.active.list) {
@@ -378,6 +380,7 @@ void finish_positions(const FinishPositionsIo& io, const ContactTuning& tuning,
     stats.narrowphase_calls += work.narrowphase_calls;
     stats.bounds_updates += work.bounds_updates;
     stats.tree_queries += work.tree_queries;
+    stats.fallbacks[static_cast<std::size_t>(Fallback::pairs_deferred)] += work.deferred_pairs;
     stats.active_bodies += io.frame.active.list.size();
 }
 

@@ -20,8 +20,8 @@
 // restored next to a fixed or kinematic body moves with it and enters the velocity solve at its
 // velocity. The bodies of one island are restored together or not at all. A player whose head was
 // stuck in a fixed or kinematic body leaves it at 3 m/s at most. Fallbacks counted:
-// restored_last_valid_pose (per island), contacts_unresolved, solver_budget (heaps so large
-// that nothing is restored).
+// restored_last_valid_pose (per island), contacts_unresolved (also of a head on its way out),
+// pairs_deferred, solver_budget (heaps so large that nothing is restored).
 namespace handhold {
 
 struct FinishPositionsIo {

@@ -10,7 +10,7 @@ bool is_slower(const Vec3& velocity_mps, double limit_mps) {
     return velocity_mps.squaredNorm() < limit_mps * limit_mps;
 }
 
-// Limits the speed relative to the reference. True if it was exceeded.
+// Limits the speed relative to the reference. Returns true if the limit was exceeded.
 bool clamp_speed(const Vec3& reference_mps, double limit_mps, Vec3& velocity_mps) {
     const Vec3 relative = velocity_mps - reference_mps;
     const double speed = relative.norm();
@@ -21,8 +21,8 @@ bool clamp_speed(const Vec3& reference_mps, double limit_mps, Vec3& velocity_mps
     return true;
 }
 
-// The highest speed, relative to the reference, at the rows of the island's kinematic and heavy
-// bodies: up to there a body's velocity is explained by what drives it.
+// Highest speed, relative to the reference, of the island's kinematic and heavy bodies at their
+// constraints. Up to this speed, such a body may be the cause of another body's velocity.
 double driven_speed(const FrameGraph& frame, const Island& island, const Vec3& reference_mps) {
     double fastest = 0.0;
     for (const std::uint32_t i : frame.graph.blocks_of(island)) {
@@ -41,9 +41,10 @@ double driven_speed(const FrameGraph& frame, const Island& island, const Vec3& r
     return fastest;
 }
 
-// A push or pull on a player may come from a tracking jump. It must not launch them, neither now
-// nor when the grip breaks in the next frame. Poses stay; speed they had before, or got from a
-// moving support, is kept.
+// Limits the velocities of players that were pushed or that grip a surface. A tracking jump may
+// have caused the motion. It must not launch the player, now or when the grip breaks in the next
+// frame. The limit is never below the player's speed before the frame, or the speed of a driven or
+// heavy body in the player's island. Poses do not change.
 void clamp_players(const LimitVelocitiesIo& io, const LocomotionTuning& tuning, StageStats& stats) {
     for (const Island& island : io.frame.graph.islands) {
         for (const std::uint32_t i : io.frame.graph.bodies_of(island)) {
@@ -65,8 +66,9 @@ void clamp_players(const LimitVelocitiesIo& io, const LocomotionTuning& tuning, 
     }
 }
 
-// A held or pushed body may be torn from the hand in the next frame by a tracking jump, and must
-// not leave at that speed. A held body's pose still follows its hand.
+// Limits the velocities of held and pushed bodies. A tracking jump may tear a body from the hand in
+// the next frame, and the body must not leave at the speed of the jump. Poses do not change: a held
+// body still follows its hand.
 void clamp_handled_bodies(const LimitVelocitiesIo& io, const LocomotionTuning& tuning,
                           StageStats& stats) {
     const FrameGraph& frame = io.frame;
@@ -114,7 +116,8 @@ void finish_releases(const LimitVelocitiesIo& io, const LocomotionTuning& tuning
             clamped = clamp_speed(reference, tuning.release_speed_max_mps,
                                   io.player_velocity.at(player).linear_mps);
         } else if (!grab.jointed) {
-            // Jointed bodies may be on a moving ship: clamp_handled_bodies accounts for its speed.
+            // Jointed bodies may be on a moving ship. clamp_handled_bodies allows for the ship's
+            // speed.
             clamped = clamp_speed(reference, tuning.object_speed_max_mps,
                                   io.body_velocity.at(grab.body).linear_mps);
         }

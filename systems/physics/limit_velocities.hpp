@@ -12,8 +12,9 @@
 // players and bodies. Talk row 7. Stage 9, after update_velocities or after a host's own solver.
 //
 // A tracking error must launch neither a player nor a body, now or when the grip breaks. Speeds are
-// relative to the reference velocity. Speed that a body had before the frame, or that a driven or
-// heavy body explains, is kept. Fallbacks counted: release_speed_clamped, object_speed_clamped.
+// relative to the reference velocity. Except at a release, a speed is kept that existed before the
+// frame, or that a driven or heavy body causes. Fallbacks counted: release_speed_clamped,
+// object_speed_clamped.
 namespace handhold {
 
 struct LimitVelocitiesIo {

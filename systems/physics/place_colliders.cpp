@@ -77,8 +77,9 @@ std::uint32_t index_of(const FrameGraph& frame, Entity entity) {
     return entity.slot < frame.index_of_slot.size() ? frame.index_of_slot[entity.slot] : k_no_index;
 }
 
-// Notes the bodies whose components changed since the last call, and all players. False if bodies
-// or players were added or removed: then all must be placed.
+// Notes the bodies whose components changed since the last call, and all players. Returns false if
+// all must be placed: bodies or players were added or removed, or another caller replaced the
+// proxies.
 bool note_changes(const PlaceCollidersIo& io) {
     FrameGraph& frame = io.frame;
     FrameGraph::Watches& watches = frame.watches;
@@ -91,7 +92,7 @@ bool note_changes(const PlaceCollidersIo& io) {
     bool same_ids = true;
     bool same = watches.persistent_id.update(io.persistent_id,
                                              [&same_ids](Entity /*entity*/) { same_ids = false; });
-    // Every column is looked at, so that each copy is of this call.
+    // Compares every column, even after a difference, so that each copy is of this call.
     same = watches.collider.update(io.collider, note) && same;
     same = watches.body.update(io.body, note) && same;
     same = watches.body_pose.update(io.body_pose, note) && same;
@@ -106,7 +107,7 @@ bool note_changes(const PlaceCollidersIo& io) {
     return same && same_ids && frame.proxy_set == io.collision.proxy_set();
 }
 
-// Places the noted bodies. False if one has gained or lost its shape.
+// Places the noted bodies. Returns false if a body has gained or lost its shape.
 bool place_noted(const PlaceCollidersIo& io, const HeadTuning& tuning) {
     FrameGraph& frame = io.frame;
     frame.proxy_updates.clear();

@@ -9,10 +9,11 @@
 #include "engine/ecs/column.hpp"
 
 // Lists all bodies and players by persistent id and gives their colliders to the collision world.
-// Runs before stages 2 and 4. Only bodies whose components changed since the last call are placed;
-// the others cost a comparison of bytes. A proxy goes from the last valid pose to the current pose;
-// fixed and kinematic bodies from their pose at the start of the frame. A player's collider is the
-// sphere of the head, at the end of the frame; a head that was never tracked takes no part.
+// Runs before stages 2 and 4. Places only bodies whose components changed since the last call; for
+// the others it compares bytes. A proxy's motion is from the last valid pose to the current pose.
+// For fixed and kinematic bodies it is from the pose at the start of the frame. A player's collider
+// is the sphere of the head, at the end of the frame. A head that was never tracked has no
+// contacts.
 // Fallbacks counted: none.
 namespace handhold {
 
@@ -29,7 +30,7 @@ struct PlaceCollidersIo {
     CollisionWorld& collision;                        // out: proxies, world
     FrameGraph& frame;                                // out: proxies, entities
     const Column<CollisionFilter>* filter = nullptr;  // in: null or without a row: the default
-    // in: world, m/s and rad/s; null: build_constraints takes all bodies for changed
+    // in: world, m/s and rad/s; null: build_constraints treats all bodies as changed
     const Column<BodyVelocity>* velocity = nullptr;
 };
 void place_colliders(const PlaceCollidersIo& io, const HeadTuning& tuning);

@@ -15,8 +15,9 @@ constexpr double k_violated_m = 2e-7;
 constexpr double k_touching_m = 1e-5;  // closer contacts may support a body
 // Overlap within a heap from which the hands that press it give way.
 constexpr double k_heap_violated_m = 1e-3;
-// Constraint blocks of a heap that the searches of a frame may find. Beyond, its bodies keep the
-// contacts they have until the next frame; all other islands go on.
+// Limit on the constraint blocks of a heap, summed over the contact searches of a frame. Above it,
+// the heap's bodies keep their present contacts until the next frame. Other islands are not
+// affected.
 constexpr std::uint64_t k_max_heap_visits = 12'000;
 constexpr int k_max_heap_rounds = 2;  // of a phase; what appears later waits for the next frame
 
@@ -251,7 +252,8 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
     return frame.island_order.size();
 }
 
-// Counts what the last search cost each heap. Heaps beyond their share are not searched again.
+// Adds the cost of the last contact search to each heap's count. Heaps above k_max_heap_visits are
+// not searched again in this frame.
 void count_heap_visits(const Solve& s) {
     for (const Island& island : s.graph().islands) {
         if (!island.is_heap) {
@@ -318,7 +320,7 @@ void reach(const Solve& s) {
     HH_DETAIL_ZONE("reach");
     solve_islands(s, Phase::reach,
                   [&](const Island& island) { return has_hand_or_joint(s, island); });
-    // build_constraints wrote the poses of all others.
+    // build_constraints wrote reached_ws of all other bodies.
     for (const std::uint32_t i : s.graph().island_bodies) {
         s.phase_of(i).reached_ws = s.graph().bodies[i].pose_ws;
     }
@@ -371,7 +373,8 @@ bool prepare_backward(const Solve& s) {
         mark_pushed(s, island);
         for (const std::uint32_t i : s.graph().bodies_of(island)) {
             SolverBody& body = s.graph().bodies[i];
-            // A budget of its own: a heap that spent forward's must not cost the player exactness.
+            // Backward has its own budget. A heap that used up forward's budget must not make the
+            // player's pose less exact.
             s.phase_of(i).work = 0;
             if (body.role == BodyRole::translating || s.phase_of(i).held) {
                 body.pose_ws = s.phase_of(i).reached_ws;

@@ -7,6 +7,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/solver/model/collider_pose.hpp"
 #include "engine/solver/newton/velocities.hpp"
+#include "systems/physics/shared/player_share.hpp"
 
 namespace handhold {
 namespace {
@@ -54,15 +55,12 @@ double heaviest_free_kg(const FrameGraph& frame, const Island& island) {
 
 // Factor on the inverse mass of a pushed player who shares momentum with no other body. An
 // immovable support pushes players alike, whatever their mass. Light objects that they move must
-// not shake them, as in the forward phase: against those, a player counts as k_times_heaviest times
-// the heaviest.
+// not shake them, as in the forward phase (least_player_share).
 double pushed_share(double heaviest_kg, double mass_kg, const PhaseTuning& tuning) {
-    constexpr double k_times_heaviest = 1000.0;  // with a larger ratio regularisation would show
     const double exchanged =
         smooth_step(heaviest_kg, tuning.kappa_light_kg,
                     std::max(tuning.kappa_heavy_kg, tuning.kappa_light_kg + 1e-9));
-    const double min_share = mass_kg / std::max(k_times_heaviest * heaviest_kg, mass_kg);
-    return std::max(exchanged, min_share);
+    return std::max(exchanged, least_player_share(heaviest_kg, mass_kg));
 }
 
 // Momentum is exchanged with the masses of the phase that moved the island. Players have their true
@@ -162,10 +160,11 @@ void book_impulses(const ConstraintGraph& graph, MomentumLedger& ledger) {
     for (const RowBlock& block : graph.blocks) {
         const SolverBody& a = graph.bodies[block.a];
         const SolverBody& b = graph.bodies[block.b];
-        if (is_object(a) && is_object(b)) {
-            continue;  // both are objects: the sum is zero
+        if (is_object(a) && is_object(b) && !block.is_impact) {
+            continue;  // both are objects, at one point: the sum is zero
         }
-        // Both sides act at one point, as in the rows: a's point for contacts, else b's.
+        // Both sides act at one point, as in the rows: a's point for contacts, else b's. Only fast
+        // impacts have two points.
         const Vec3 point_ws = is_contact(block) ? transform_point(a.pose_ws, block.point_a_bs)
                                                 : transform_point(b.pose_ws, block.point_b_bs);
         book_impulse(a, point_ws, block.impulse_ws_ns, block.angular_impulse_ws_nms, ledger);
@@ -202,7 +201,7 @@ void write_velocities(const UpdateVelocitiesIo& io, const LocomotionTuning& tuni
 // For each body, the other body of its deepest overlap; its own index if no overlap is too deep.
 void find_overlaps(FrameGraph& frame) {
     const ConstraintGraph& graph = frame.graph;
-    // Entries of bodies that are not active are not read.
+    // Entries of inactive bodies are not read.
     frame.overlap_m.resize(graph.bodies.size());
     frame.overlaps_with.resize(graph.bodies.size());
     const auto clear = [&frame](std::uint32_t body) {

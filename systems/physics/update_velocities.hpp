@@ -8,11 +8,11 @@
 #include "components/tuning.hpp"
 #include "engine/ecs/column.hpp"
 
-// Solves the velocities of the frame, limits spins, books momentum, and records last valid poses.
-// Talk row 7. Stage 9.
+// Solves the velocities of the frame, limits spins, enters impulses into stats.ledger, and records
+// last valid poses. Talk row 7. Stage 9.
 //
-// One solve over the frame's rows: hands move at their tracked velocities, contacts do not
-// approach. The displacement that depenetration needed never becomes velocity. Fallbacks counted:
+// One solve over the frame's rows: hands move at their tracked velocities, and bodies in contact do
+// not approach each other. Displacement by depenetration never becomes velocity. Fallbacks counted:
 // friction_not_converged, solver_budget, object_speed_clamped.
 namespace handhold {
 

@@ -355,8 +355,8 @@ class BodyFitter {
     const BodyBones& bones_;
     Stance stance_;
     BodyRig rig_;
-    // Index into rig_.carriers by joint of the figure. k_none: the joint is neither a bone nor part
-    // of a hand, and gets its carrier in find_carrier.
+    // By joint of the figure: index into rig_.carriers of the bone frame that the joint follows.
+    // k_none: the joint is neither a bone nor part of a hand. find_carrier then chooses a frame.
     std::vector<std::size_t> carrier_of_;
     double shortest_m_ = 0.0;
     std::string wrong_;

@@ -17,7 +17,7 @@ struct DrawnHand {
     std::int64_t id = 0;
     Pose wrist;  // as shown
     std::vector<HandCapsule> capsules;
-    // Joint angles by FingerName, for the game's hand; as far as the line has them.
+    // Joint angles of the game's hand, by FingerName. Angles that the line does not give are 0.
     std::array<FingerAngles, k_finger_count> angles;
 };
 

@@ -68,9 +68,10 @@ LabScene make_shove(const SceneOptions& /*options*/) {
     LabScene scene = make_rock_before_wall(into_wall);
     scene.players_still_until_s = k_wave_s + k_gap_m / k_hand_speed_mps;
     const double stop_s = k_wave_s + (k_gap_m + k_too_far_m) / k_hand_speed_mps;
-    // While the hand moves into the wall, the player moves away from it by as much. When the hand
-    // stops, nothing holds the player at the wall: they drift on at the speed at which they pushed
-    // themselves off. A rock of 5 kg weighs nothing to them (PhaseTuning::kappa_light_kg).
+    // While the hand moves into the wall, the player moves away from the wall by the same distance.
+    // When the hand stops, nothing holds the player at the wall. The player keeps the velocity of
+    // the push. The held rock of 5 kg is lighter than PhaseTuning::kappa_light_kg, so its mass does
+    // not affect the player.
     scene.watch = [into_wall, stop_s](const FrameRecord& frame, Figures& figures) {
         if (frame.t_s <= stop_s) {
             const Vec3 expected = std::max(0.0, into_wall(frame.t_s) - k_gap_m) * Vec3::UnitX();

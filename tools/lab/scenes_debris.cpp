@@ -44,8 +44,8 @@ int add_ball(LabScene& scene, double radius_m, double mass_kg, double restitutio
     return scene.add_body(ball);
 }
 
-// Velocities of striker and ball after the impact: along the line of centres by Newton's law,
-// across it unchanged, because the balls have no friction.
+// Velocities of striker and ball after the impact. Along the line of centres they follow Newton's
+// law of restitution. Across it they do not change, because the balls have no friction.
 std::array<Vec3, 2> velocities_after(const Impact& impact) {
     const Vec3 normal(-std::sqrt(1.0 - impact.offset * impact.offset), impact.offset, 0.0);
     const Vec3 before = impact.speed_mps * Vec3::UnitX();
@@ -124,7 +124,7 @@ LabScene make_impact(const SceneOptions& /*options*/) {
     for (const Impact& impact : k_impacts) {
         const Vec3 lane = k_lane_m * static_cast<double>(expected.size()) * Vec3::UnitZ();
         const double aside_m = impact.offset * (k_ball_m + k_striker_m);
-        // A third of the time until the balls must have parted.
+        // The striker reaches the ball after about a third of k_apart_s.
         const double ahead_m = k_ball_m + k_striker_m + 0.3 * k_apart_s * impact.speed_mps;
         add_ball(scene, k_striker_m, impact.striker_kg, impact.restitution,
                  lane + Vec3(-ahead_m, aside_m, 0.0));
@@ -134,7 +134,8 @@ LabScene make_impact(const SceneOptions& /*options*/) {
             expected.push_back(velocity);
         }
     }
-    // Not in spin: bodies are moved out of each other without a velocity.
+    // closed_in_spin stays false: the solver moves overlapping bodies apart without giving them a
+    // velocity, which changes the angular momentum.
     scene.closed_from_s = 0.0;
     scene.watch = [expected](const FrameRecord& frame, Figures& figures) {
         if (frame.t_s < k_apart_s) {
@@ -166,9 +167,10 @@ LabScene make_debris(const SceneOptions& options) {
         scene.bodies.back().velocity = {k_speed_mps * numbers.next_vector(),
                                         k_speed_mps * numbers.next_vector()};
     }
-    // Not in spin: bodies are moved out of each other without a velocity.
+    // closed_in_spin stays false: the solver moves overlapping bodies apart without giving them a
+    // velocity, which changes the angular momentum.
     scene.closed_from_s = 0.0;
-    // Without its own `watch`: a copy of this lambda would hold a copy of itself.
+    // Copied before `watch` is set. Otherwise the lambda would contain a copy of itself.
     const LabScene bodies = scene;
     scene.watch = [bodies, first_j = -1.0](const FrameRecord& frame, Figures& figures) mutable {
         const double energy_j = kinetic_energy_j(bodies, frame);
@@ -188,7 +190,7 @@ LabScene make_overlap(const SceneOptions& options) {
         add_debris(scene, Vec3::Constant(k_half_m), k_place_m * numbers.next_vector(), numbers);
     }
     const LabScene bodies = scene;
-    // Bodies that are pushed apart move, but gain no speed by it.
+    // Depenetration moves the bodies, but must not give them speed.
     scene.watch = [bodies](const FrameRecord& frame, Figures& figures) {
         double speed_mps = 0.0;
         for (const BodyVelocity& velocity : frame.velocities) {

@@ -1,4 +1,4 @@
-// A held crate that is shoved into a heap of crates before a wall.
+// Scene of a held crate that is pushed into a heap of crates in front of a wall.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ constexpr double k_crate_half_m = 0.1;
 constexpr double k_pitch_m = 2.0 * k_crate_half_m + 0.005;
 constexpr double k_shove_m = 0.6;
 
-// Distance of the hand's movement, with rest at both ends.
+// Displacement of the hand, m. The hand is at rest at both ends of the movement.
 double shoved_m(double t_s) {
     constexpr double k_begin_s = 0.2;
     constexpr double k_duration_s = 0.4;
@@ -45,7 +45,7 @@ LabScene make_heap(const SceneOptions& options) {
     scene.add_body(wall);
     scene.planes.push_back({Vec3::UnitX(), 0.0});
 
-    // The largest cube of crates that has at most `links` of them.
+    // Edge length, in crates, of the largest cube with at most `links` crates.
     const int side = static_cast<int>(std::cbrt(static_cast<double>(options.links_or(32)) + 0.5));
     const double middle = 0.5 * (side - 1);
     const double front_m = side * k_pitch_m + 0.005;

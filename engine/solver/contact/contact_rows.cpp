@@ -13,8 +13,9 @@ Vec3 velocity_at(const SolverBody& body, const Vec3& point_bs) {
     return body.velocity_mps + body.spin_radps.cross(body.pose_ws.rotation * point_bs);
 }
 
-// True if the bodies meet fast and the contact's points are beside each other: a sweep found them
-// where they met. Slower contacts act at one point: bodies that are squeezed must not be turned.
+// True if the bodies approach each other fast and the contact's two points are offset along the
+// surface. A sweep found such a contact at the place of the impact. Slower contacts act at one
+// common point, because they must not turn bodies that are squeezed.
 bool is_impact(const ConstraintGraph& graph, const RowBlock& block) {
     constexpr double k_slid_m = 1e-3;
     constexpr double k_fast_mps = 1.0;

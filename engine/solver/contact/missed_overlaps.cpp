@@ -107,7 +107,7 @@ void find_missed_overlaps(const MovingContacts& moving, const ContactLimits& lim
     const std::size_t count = moving.graph.bodies.size();
     missed.clear(count);
     const std::size_t first = moving.displaced.size();
-    // All bodies may be displaced; a warm frame allocates nothing.
+    // Enough for all bodies, so that a warm frame allocates nothing.
     moving.displaced.reserve(2 * count);
     moving.updates.reserve(2 * count);
     const bool any = prepare_static_query(moving, limits.sweep_m, moved, missed);

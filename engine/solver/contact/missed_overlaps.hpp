@@ -29,8 +29,8 @@ struct MissedOverlaps {
 // A body that leans on another and rotates can therefore end with its far side inside the same
 // body. Queries all bodies that moved by more than `limits.sweep_m`, absolutely or relative to a
 // body they touch, at their current poses. Call after contacts have been refreshed at these poses.
-// `moved`: bodies that may have moved in this frame. The collision world keeps the proxies of the
-// query; moving.displaced lists them.
+// `moved`: bodies that may have moved in this frame. Afterwards the collision world still holds the
+// query's proxies, and moving.displaced lists their bodies.
 void find_missed_overlaps(const MovingContacts& moving, const ContactLimits& limits,
                           std::span<const std::uint32_t> moved, MissedOverlaps& missed);
 

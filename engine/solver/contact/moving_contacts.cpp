@@ -33,8 +33,8 @@ bool exceeds_contact_motion(const Pose& from, const Pose& to, double limit_m) {
     return translation_m + rotation_rad * 0.5 > limit_m;
 }
 
-// Moves a body's proxy to the body, if that moved farther than its contacts stay valid. Bodies
-// without a collider are skipped.
+// Moves a body's proxy to the body's pose if the body has moved too far for its contacts to stay
+// valid. Skips bodies without a collider.
 void move_proxy(const MovingContacts& moving, std::uint32_t i) {
     const SolverBody& body = moving.graph.bodies[i];
     if (body.role == BodyRole::fixed || !body.is_searched ||
@@ -50,7 +50,8 @@ void move_proxy(const MovingContacts& moving, std::uint32_t i) {
     }
 }
 
-// True if any proxy moved; all that did are in moving.updates.
+// Moves the proxies of all bodies that may have moved. True if any moved; they are in
+// moving.updates.
 bool move_proxies(const MovingContacts& moving) {
     moving.updates.clear();
     for (const std::uint32_t i : moving.graph.island_bodies) {

@@ -22,10 +22,10 @@ struct MovingContacts {
     ConstraintGraph& graph;               // out: contact blocks, islands
     std::vector<ContactPoint>& scratch;   // scratch; afterwards the previous contacts
     std::vector<ColliderProxy>& updates;  // scratch: proxies to send to the collision world
-    // In/out: bodies whose proxy in the collision world is not the one in `proxies`.
+    // In/out: bodies whose proxy in the collision world differs from the one in `proxies`.
     std::vector<std::uint32_t>& displaced;
-    // Bodies outside of all islands that may have moved too. If there are any, contacts are always
-    // searched again.
+    // Bodies outside all islands that may also have moved. If there are any, contacts are searched
+    // again in any case.
     std::span<const std::uint32_t> also_moved = {};
 };
 
@@ -40,8 +40,9 @@ enum class OldPoints : std::uint8_t {
 enum class FoundContacts : std::uint8_t { unchanged, clear, overlapping };
 
 // Finds contacts by sweeping colliders from their last valid poses to the solver's current poses,
-// makes them the graph's contact blocks and rebuilds the islands. Only bodies of islands move in a
-// solve: the others cost nothing. Returns `unchanged` and does nothing if no collider moved.
+// makes them the graph's contact blocks and rebuilds the islands. Tests only the bodies of islands
+// and also_moved; the other bodies do not move and cost nothing. If also_moved is empty and no
+// collider moved, returns `unchanged` and does nothing.
 FoundContacts refresh_contacts(const MovingContacts& moving, const ContactLimits& limits,
                                OldPoints old_points);
 

@@ -89,7 +89,8 @@ void place_members(ConstraintGraph& graph) {
     }
 }
 
-// True if the bodies of every block, and which of them move, are as when the islands were built.
+// True if every block has the same bodies, and the same bodies can move, as when the islands were
+// built.
 bool has_same_topology(const ConstraintGraph& graph) {
     return std::ranges::equal(graph.blocks, graph.ties,
                               [&graph](const RowBlock& block, const ConstraintGraph::Tie& tie) {

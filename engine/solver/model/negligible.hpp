@@ -6,9 +6,9 @@
 
 namespace handhold {
 
-// Sets coordinates and velocities below 1e-250 (SI units) of an island's free bodies to 0. Some
-// processors flush denormals during a solve and others cannot (flush_denormals.hpp); the states
-// would differ in numbers that no one can measure.
+// Sets coordinates and velocities of an island's free bodies to 0 if they are below 1e-250 (SI
+// units). Some processors flush denormals during a solve, and others cannot (flush_denormals.hpp).
+// Without this, their results would differ in immeasurably small numbers.
 inline void drop_negligible(const IslandView& island) {
     const auto drop = [](double& value) {
         constexpr double k_negligible = 1e-250;

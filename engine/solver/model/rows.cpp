@@ -120,8 +120,9 @@ void append_line_rows(const Quat& frame_a_ws, const Ends& ends, Row row, std::ve
     }
 }
 
-// The normal rotates with b, so b's lever arm reaches to a's point instead of its own. Not after an
-// impact: there a's point has slid on since, and the arm would turn a ball that is hit centrally.
+// Returns b's lever arm. The normal rotates with b, so the arm ends at a's point instead of b's
+// own. After an impact it ends at b's own point: a's point has slid on since the impact, and the
+// longer arm would spin a ball that is hit centrally.
 Vec3 contact_arm_b(const RowBlock& block, const Ends& ends) {
     return block.is_impact ? ends.arm_b : Vec3(ends.arm_b + ends.error);
 }

@@ -41,8 +41,8 @@ struct SolverBody {
     Vec3 inverse_inertia_bs = Vec3::Zero();
     std::uint32_t slot = 0;  // index within its island; written by build_islands
     bool in_heap = false;    // only contacts hold it, and its island is a heap; by build_islands
-    // False: its island has used up the frame's searches for contacts, so its collider stays where
-    // the last search had it.
+    // False if the body's island has used up the contact searches of this frame. The body's
+    // collider then stays at the pose of the last search.
     bool is_searched = true;
 };
 
@@ -87,9 +87,9 @@ struct JointRows {
     double lock_impulse = 0.0;  // out of solve_velocities: impulse that held the lock
 };
 
-// One constraint between two bodies. Drives: a is the driving body (BodyRole::translating), b the
-// one that it drives. Contacts: a has a free collider (if both have, a has the lower id), and the
-// normal is given in b's frame.
+// One constraint between two bodies. Drives: a is the driving body (BodyRole::translating), and b
+// is the driven body. Contacts: a is the body with a free collider (if both have one, the body with
+// the lower id). The normal is given in b's frame.
 struct RowBlock {
     RowKind kind = RowKind::contact;
     std::uint32_t a = 0;  // into ConstraintGraph::bodies
@@ -107,8 +107,9 @@ struct RowBlock {
     // Drives: velocity and spin of the target relative to a, world axes.
     Vec3 drive_velocity_ws_mps = Vec3::Zero();
     Vec3 drive_spin_ws_radps = Vec3::Zero();
-    // Contact: found by a sweep. Its two points coincide at the impact, not at the end of the
-    // frame: each body's lever arm ends at its own point, and the normal does not turn with b.
+    // Contact: a sweep found it. Its two points coincide at the impact, but not at the end of the
+    // frame. Each body's lever arm therefore ends at its own point, and the normal does not rotate
+    // with b.
     bool is_impact = false;
     double restitution = 0.0;  // contact
     double friction = 0.0;     // contact: Coulomb coefficient

@@ -16,10 +16,10 @@ namespace handhold {
 // The step of a heap: joints and drives exactly, contacts by a bounded number of sweeps.
 class SweepSteps {
   public:
-    // The last sweeps, over the stiff rows only (row_sweeps.hpp), end when none changes a residual
-    // by this share of the solver's tolerance or more.
+    // Convergence limit of the last sweeps, over the stiff rows only (row_sweeps.hpp): the largest
+    // change of a residual in one sweep, as a share of the solver's tolerance.
     static constexpr double k_tolerance_ratio = 0.1;
-    // The sweeps before, over all rows, end when none changes a residual by this or more.
+    // Convergence limit of the earlier sweeps, over all rows: the largest change of a residual.
     static constexpr double k_heap_tolerance_m = 1e-6;
     // Longest move of a loose body in a step.
     static constexpr double k_max_loose_move_m = 0.05;

@@ -1,4 +1,4 @@
-// Solver, packed: which constraints of an island are packed, and their loading into lanes.
+// Solver, packed: chooses the constraints of an island to pack, and loads them into lanes.
 #include <algorithm>
 
 #include "engine/solver/packed/triad_system.hpp"
@@ -6,8 +6,8 @@
 namespace handhold {
 namespace {
 
-// True if all rows of the block are bilateral in every state: none may release, slide, stop or give
-// way.
+// True if all rows of the block are equations in every state: none may release, slide, stop or
+// yield.
 bool always_holds(const RowBlock& block) {
     switch (block.kind) {
         case RowKind::drive_point:
@@ -44,7 +44,7 @@ void pack(const SolverBody& from, std::size_t lane, Bodies4& to) {
              to.inverse_inertia_bs);
     pack_velocity(from, lane, to);
 }
-// True if mass and pose are those with which the body was packed or stored.
+// True if the body's mass, inertia and pose equal the values that were packed or stored.
 bool is_as_packed(const SolverBody& from, std::size_t lane, const Bodies4& body) {
     return from.inverse_mass == body.inverse_mass[lane] &&
            is_lane(lane, body.position, from.pose_ws.position) &&
@@ -52,8 +52,8 @@ bool is_as_packed(const SolverBody& from, std::size_t lane, const Bodies4& body)
            (is_lane(lane, body.inverse_inertia_bs, from.inverse_inertia_bs) || !may_turn(from));
 }
 
-// Replaces an immovable body at one end of a constraint: an immovable body located at the anchor
-// point, with the velocity of that point.
+// Returns a substitute for an immovable body at one end of a constraint: an immovable body located
+// at the anchor point, with the velocity of that point.
 SolverBody body_at(const SolverBody& body, const Vec3& point_bs) {
     const Vec3 arm = body.pose_ws.rotation * point_bs;
     SolverBody at;
@@ -76,7 +76,7 @@ void TriadSystem::read_bodies(const IslandView& island) {
 
 void TriadSystem::pack_bodies(const IslandView& island) {
     const TriadPlan& plan = plans_.current();
-    // bodies_ may hold another island, but every lane that is read is written below
+    // bodies_ may still hold another island. Every lane that is read is written below.
     bodies_.resize(plan.group_count());
     for (std::uint32_t place = 0; place < plan.slots().size(); ++place) {
         const std::uint32_t slot = plan.slots()[place];
@@ -112,7 +112,7 @@ void TriadSystem::pack_velocities(const IslandView& island) {
     }
 }
 
-// Adds a triad. Returns false if more than k_hub_nodes triads share a body.
+// Adds a triad. Returns false if one of its bodies then has more than k_hub_nodes triads.
 bool TriadSystem::add(const IslandView& island, std::uint32_t index, bool is_angular) {
     const RowBlock& block = island.blocks[index];
     const bool is_drive = handhold::is_drive(block);
@@ -144,7 +144,7 @@ bool TriadSystem::add(const IslandView& island, std::uint32_t index, bool is_ang
     return fits;
 }
 
-// Resizes the arrays to `triads` triads and the dummy end.
+// Resizes the arrays to `triads` triads. points_ has one more element, for the dummy end.
 void TriadSystem::resize(std::size_t triads) {
     triads_.resize(triads);
     nodes_.resize(triads);

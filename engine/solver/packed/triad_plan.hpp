@@ -57,10 +57,11 @@ class TriadPlan {
     // By place: the slot; k_no_slot where a strand starts at an immovable body.
     std::span<const std::uint32_t> slots() const { return slots_; }
     std::size_t group_count() const { return strands_.row_count() + groups_.size(); }
-    // Ends, as 2 * given node + side, in the order in which bodies are packed. Each entry has one
-    // end for each of four bodies. Each row of a strand pack has two entries: its bodies' ends of
-    // the previous link (first row: of `before`) and of the next link (last row: of `after`). The
-    // entries of ends() follow. k_no_slot: the body in this lane has no such end.
+    // Ends of the packed bodies, as 2 * given node + side. Each entry holds one end for each of
+    // four bodies. Each row of a strand pack has two entries: the ends of its bodies at the
+    // previous link and at the next link. `before` takes the place of the previous link of the
+    // first row, and `after` that of the next link of the last row. The entries of ends() follow.
+    // k_no_slot: the body in this lane has no such end.
     std::span<const Lanes> packed_ends() const { return packed_ends_; }
 
     // Four strands, one per lane. A row holds one body of each strand.

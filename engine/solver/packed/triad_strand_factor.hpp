@@ -1,5 +1,5 @@
-// Solver, packed: J W J^T of strands and its elimination. Included by triad_kernels.cpp only, as
-// triad_strands.hpp is.
+// Solver, packed: computes J W J^T of strands and eliminates their links. Included only by
+// triad_kernels.cpp, as is triad_strands.hpp.
 
 #pragma once
 
@@ -7,7 +7,8 @@
 
 namespace handhold::triads {
 
-// Contribution of a row's bodies to the blocks of their two nodes.
+// Contributions of one row of a strand pack (one body per strand) to J W J^T. Each body couples two
+// nodes: `before` and `after` belong to their diagonal blocks, `between` to the block between them.
 struct WideCoupling {
     WideSymmetric before, after;
     WideMat3 between;  // rows of the node before, columns of the node after
@@ -68,8 +69,8 @@ struct StrandElimination {
     Double4 inverse_sum;
 };
 
-// Eliminates one link of each of four strands. `of_first`: contribution of the links' first bodies
-// to their blocks; at.row: contribution of their second bodies.
+// Eliminates one link of each of four strands. A link's block is the sum of the contributions of
+// its two bodies: `of_first` from the first body, at.row from the second.
 template <bool Carries>
 HH_INLINE void eliminate_link(const WideSymmetric& of_first, double joint_alpha, Links4& links,
                               StrandElimination& at) {
@@ -101,9 +102,9 @@ HH_INLINE bool is_coupling_negligible(const StrandElimination& at) {
     return all_of(square <= (k_negligible * k_negligible) * dot(at.diagonal, at.diagonal));
 }
 
-// Eliminates each link as soon as both its bodies have contributed, so that the next row's product
-// overlaps with the latency of the link's inverse. Returns the first step that is not coupled with
-// `before`.
+// Eliminates the links of a strand pack, each as soon as both its bodies have contributed. The next
+// row's product then overlaps with the latency of the link's inverse. Returns the first step that
+// is not coupled with `before`.
 template <bool HasTurn>
 HH_INLINE std::size_t eliminate_links(const StrandPackRange& part, const StrandPackArrays& of,
                                       double joint_alpha, StrandElimination& at) {
@@ -141,7 +142,7 @@ HH_INLINE void eliminate_strand_pack(const TriadPlan::StrandPack& strand_pack,
                                      const TriadArrays& arrays, Strands4& remainder) {
     const StrandPackArrays of = part_of(strand_pack, arrays);
     const Double4 zero = zero4();
-    // All inertias first, so that their latencies overlap.
+    // Writes all inertias first, so that their latencies overlap.
     for (std::size_t row = part.begin; row < part.end; ++row) {
         write_inertia(strand_pack.row + row, arrays);
     }
@@ -179,8 +180,8 @@ HH_INLINE void eliminate_strands(const TriadArrays& arrays, double joint_alpha) 
     }
 }
 
-// Adds the coupling of `before` with `after` to its block. A block's rows are those of the node
-// that is eliminated first, so some lanes need the transpose.
+// Adds `between`, the coupling of the nodes `before` and `after`, to the block between them. The
+// rows of that block belong to the node that is eliminated first, so some lanes need the transpose.
 HH_INLINE void add_between(const WideMat3& between, const TriadPlan::StrandPack& strand_pack,
                            const TriadArrays& arrays) {
     const WideMat3 turned = transposed(between);
@@ -199,7 +200,7 @@ HH_INLINE void add_between(const WideMat3& between, const TriadPlan::StrandPack&
     }
 }
 
-// Applies the contributions of the eliminated strands to the blocks of the other nodes.
+// Applies the Schur complements of the eliminated strands to the blocks of the remaining nodes.
 HH_INLINE void subtract_strands(const TriadArrays& arrays) {
     const std::span<const TriadPlan::StrandPack> strand_packs = arrays.plan->strand_packs();
     const Double4 zero = zero4();

@@ -1,4 +1,4 @@
-// Solver, packed: evaluation, sequencing of the packed solve, and storing of its results.
+// Solver, packed: evaluates the constraints, runs the packed solve and stores its results.
 #include "engine/solver/packed/triad_system.hpp"
 
 #include <algorithm>

@@ -284,7 +284,7 @@ void RowMatrix::gather_moves(std::span<const double> lambda) {
     }
 }
 
-// Jacobian of one row times the displacements in moves_: J W J^T lambda after gather_moves.
+// Jacobian of one row times the displacements in moves_. After gather_moves: J W J^T lambda.
 double RowMatrix::row_motion(std::size_t row) const {
     const std::uint32_t index = node_of_row_[row];
     const Node& node = nodes_[index];

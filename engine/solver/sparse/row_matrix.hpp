@@ -45,7 +45,7 @@ class RowMatrix {
     std::span<const Twist> moves() const { return moves_; }  // by slot
     // For other moves, of which row_motion then gives J times them.
     std::span<Twist> edit_moves() { return moves_; }
-    // Jacobian of one row times the displacements in moves(): J W J^T lambda after gather_moves.
+    // Jacobian of one row times the displacements in moves(). After gather_moves: J W J^T lambda.
     double row_motion(std::size_t row) const;
 
   private:

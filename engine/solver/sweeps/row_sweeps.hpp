@@ -57,8 +57,9 @@ class RowSweeps {
     // R's diagonal, one value per row, >= 0. Takes effect with the next `factorise`.
     std::span<double> alpha() { return alpha_; }
 
-    // Factorises the matrix of the exact rows E. Computes the responses w_i of the other rows to
-    // impulses, unless that is too expensive: `solve` then satisfies the rows E after each sweep.
+    // Factorises the matrix of the exact rows E. Also computes the responses w_i of the other rows
+    // to impulses, unless that is too expensive. In that case `solve` satisfies the rows E after
+    // each sweep.
     void factorise();
     // Solves for all multipliers with residuals `values`, from zero. Valid until the next call.
     std::span<const double> solve(std::span<const double> values, const SweepLimits& limits);

@@ -169,7 +169,7 @@ inline constexpr BodyNetwork<k_chest_inputs, 24, k_chest_outputs> k_chest_networ
         -0.001848F, 0.0004452F, 0.001973F, 0.001756F, -0.001538F,
     }}};
 
-// Inputs: elbow_correction in elbow_direction.cpp. Outputs: added to elbow_pole.
+// Inputs: see elbow_correction in elbow_direction.cpp. Outputs: correction added to elbow_pole.
 inline constexpr std::size_t k_elbow_inputs = 35;
 inline constexpr std::size_t k_elbow_outputs = 3;
 inline constexpr BodyNetwork<k_elbow_inputs, 16, k_elbow_outputs> k_elbow_network = {

@@ -6,7 +6,7 @@
 
 namespace handhold {
 
-// What restricts which hand may grip which body. A null column restricts nothing.
+// Rules that restrict which hand may grip which body. A null column restricts nothing.
 struct GrabRules {
     const Column<GrabRule>* rule = nullptr;
     const Column<GrabLayers>* layers = nullptr;       // of players
@@ -14,7 +14,7 @@ struct GrabRules {
 
     // The body's rule; null if it has none.
     const GrabRule* rule_of(Entity body) const;
-    // True unless the body's rule or the layers of the hand's player refuse the hand.
+    // False if the body's rule or the layers of the hand's player refuse the hand.
     bool allow(const HandOwner& hand, Entity body) const;
 };
 

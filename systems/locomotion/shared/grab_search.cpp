@@ -75,9 +75,9 @@ bool any_priority(const GrabRules& rules) {
                                [](const GrabRule& rule) { return rule.priority != 0; });
 }
 
-// Searches along the palm ray and then around the palm, seen or not. Passes over surfaces that
-// refuse the hand. Of the others it takes the first, or one of a higher GrabRule::priority that no
-// other surface hides from the palm. Any head but the player's own counts.
+// Searches along the palm ray, then around the palm, without testing visibility. Skips surfaces
+// that refuse the hand. Takes the first other surface, or one of a higher GrabRule::priority that
+// no other surface hides from the palm. Other players' heads count as surfaces.
 class SurfaceFinder {
   public:
     SurfaceFinder(const GrabSearch& io, const HandOwner& owner, const PalmRay& ray)

@@ -10,6 +10,7 @@
 
 #include "engine/io/text_file.hpp"
 #include "game/render/image.hpp"
+#include "game/report/fallback_meanings.hpp"
 #include "game/report/report_tables.hpp"
 #include "tests/game/report/report_log.hpp"
 

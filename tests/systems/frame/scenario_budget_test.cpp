@@ -53,6 +53,7 @@ TEST(ScenarioBudget, APileIsTakenApartOverManyFramesWithoutSpeed) {
     const std::vector<Entity> pile = add_pile(150, s);
     s.add_player_here();
     std::uint64_t budget = 0;
+    std::uint64_t deferred = 0;
     std::uint64_t narrowphase_calls = 0;
     double longest_m = 0.0;
     for (int frame = 0; frame < 500; ++frame) {
@@ -62,6 +63,7 @@ TEST(ScenarioBudget, APileIsTakenApartOverManyFramesWithoutSpeed) {
         }
         s.step();
         budget += s.fallbacks(Fallback::solver_budget);
+        deferred += s.fallbacks(Fallback::pairs_deferred);
         narrowphase_calls = std::max(narrowphase_calls, s.stats.narrowphase_calls);
         EXPECT_LE(fastest_mps(s, pile), 1e-3) << "depenetration must not become velocity";
         for (std::size_t i = 0; i < pile.size(); ++i) {
@@ -69,6 +71,8 @@ TEST(ScenarioBudget, APileIsTakenApartOverManyFramesWithoutSpeed) {
         }
     }
     EXPECT_GT(budget, 0U) << "more than a frame's work was asked for";
+    EXPECT_GT(deferred, 0U) << "more pairs than a body may have at a time";
+    EXPECT_EQ(s.fallbacks(Fallback::pairs_deferred), 0U) << "no pair waits in the end";
     EXPECT_LE(narrowphase_calls, 15'000U);
     EXPECT_LE(longest_m, 6.0 * k_half_m);
     EXPECT_LE(s.stats.residual_m, 1e-3) << "the pile is apart in the end";

@@ -320,7 +320,7 @@ class World {
         return hh_world_step_pose_only(world_, dt_s, inputs.data(), inputs.size());
     }
 
-    // Physics of the host's own (your_physics.h). As hh_world_set_surface_query.
+    // For hosts with their own physics (your_physics.h). As hh_world_set_surface_query.
     Status set_surface_query(const hh_surface_query& query) {
         return hh_world_set_surface_query(world_, &query);
     }

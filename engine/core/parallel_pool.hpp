@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+
+#include "engine/core/parallel.hpp"
+
+// The threads behind parallel_for: TBB's, or none (HANDHOLD_THREADS=OFF). For parallel.cpp.
+namespace handhold {
+
+// Number of threads, including the caller; at least 1. The threads persist between calls.
+void resize_pool(int threads);
+
+// Calls runner(context, i) for i in [0, runners), at the same time as far as threads are free, and
+// returns when all are done. Without threads only the first one is called: runners share the work,
+// so one may do all of it.
+void run_on_pool(std::size_t runners, void* context, IndexedTask runner);
+
+}  // namespace handhold
