@@ -124,7 +124,8 @@ void visit_body_tuning(TuningType& t, const See& see) {
     see("spine.twist_limit_rad", t.spine.twist_limit_rad, "rad", 0.0, 1.5,
         "Maximum twist of each link against the link above.");
     see("spine.hang", t.spine.hang, "", 0.0, 10.0,
-        "How far the trunk turns to hang from the gripping hands: at 1, a hand at arm's length turns "
+        "How far the trunk turns to hang from the gripping hands: at 1, a hand at arm's length "
+        "turns "
         "it by 0.7 of the angle. 0: off.");
     see("spine.hang_lag_s", t.spine.hang_lag_s, "s", 0.0, 10.0,
         "Time constant with which the trunk follows the pull of the hands.");

@@ -27,9 +27,9 @@ inline constexpr std::size_t body_part_of(std::size_t link) {
     return link < k_spine_links ? 0 : link - k_spine_links + 1;
 }
 
-// A surface that a part of the body must not cross: a plane. Let p be the position of a link's lower
-// end relative to the chest at the end of the last frame, in play-space axes. The links of the part
-// keep normal_ps . p >= surface_m. The surface moves with the reference velocity
+// A surface that a part of the body must not cross: a plane. Let p be the position of a link's
+// lower end relative to the chest at the end of the last frame, in play-space axes. The links of
+// the part keep normal_ps . p >= surface_m. The surface moves with the reference velocity
 // (SpineMemory::reference_ws_mps).
 struct BodyContact {
     bool touches = false;
@@ -37,8 +37,8 @@ struct BodyContact {
     double surface_m = 0.0;          // includes the part's thickness
 };
 
-// What pulls a player: the gripping hands, as the sum of the lines from the chest to them. Play-space
-// axes, in arm lengths.
+// What pulls a player: the gripping hands, as the sum of the lines from the chest to them.
+// Play-space axes, in arm lengths.
 struct BodyPull {
     Vec3 now = Vec3::Zero();     // low-pass filtered, times SpineTuning::hang, at the last tick
     Vec3 before = Vec3::Zero();  // one tick earlier

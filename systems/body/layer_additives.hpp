@@ -47,7 +47,8 @@ struct LayerAdditivesIo {
 // The clips are the idle motion, the push-off after the last hand has let go, and those driven by
 // the look direction. Bones keep their lengths, and knees bend only backwards. The simulated chain
 // (SpineMemory) is not affected. At a surface the turns are reduced by a common factor, within a
-// sixth of a second, so that no joint moves farther into it than it already is. Without clips, or with all weights 0, no pose changes.
+// sixth of a second, so that no joint moves farther into it than it already is. Without clips, or
+// with all weights 0, no pose changes.
 void layer_additives(const LayerAdditivesIo& io, const AdditiveTuning& tuning);
 
 }  // namespace handhold

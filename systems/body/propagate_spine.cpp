@@ -106,8 +106,7 @@ double reached_limit(SpineLinkKind kind, double limit_rad, bool touches, double 
         return limit_rad;
     }
     const double widest_rad = kind == SpineLinkKind::thigh ? k_hip_rad : k_knee_rad;
-    return std::max(limit_rad,
-                    touches ? widest_rad : angle_rad - k_back_radps * k_spine_tick_s);
+    return std::max(limit_rad, touches ? widest_rad : angle_rad - k_back_radps * k_spine_tick_s);
 }
 
 // Applies drag, then the speed limit.
@@ -158,8 +157,8 @@ void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemor
                                  : before_surface(returned, base - now.ahead_m,
                                                   scale * link.length_m, above, *contact);
         JointRange range = shares.range[static_cast<std::size_t>(link.kind)];
-        range.high_rad = reached_limit(link.kind, range.high_rad, contact != nullptr,
-                                       memory.angle_rad[i]);
+        range.high_rad =
+            reached_limit(link.kind, range.high_rad, contact != nullptr, memory.angle_rad[i]);
         const Vec3 allowed = link.kind == SpineLinkKind::shin
                                  ? clamp_to_hinge(outside, range, memory.angle_rad[i])
                                  : clamp_to_cone(outside, link.rest, range, memory.angle_rad[i]);
@@ -203,8 +202,8 @@ void play(const Motion& motion, double scale, const SpineTuning& tuning, SpineMe
         const Vec3 moved_m = memory.moved_m + (path.at(until_s) - path.at(played_s));
         played_s = until_s;
         const Quat chest = between(from, motion.chest_ps.rotation, played_s / span_s);
-        tick({chest, moved_m, path.at(span_s) - path.at(until_s), played_s / span_s},
-             scale, tuning, memory);
+        tick({chest, moved_m, path.at(span_s) - path.at(until_s), played_s / span_s}, scale, tuning,
+             memory);
         memory.moved_m = Vec3::Zero();
         memory.since_tick_s = 0.0;
     }
@@ -229,7 +228,8 @@ void touch_surfaces(const PropagateSpineIo& io, Entity player, const Motion& mot
                                   io.origin.at(player).pose_ws,
                                   transform_point(io.head->at(player).pose_ps, in_head_m),
                                   motion.chest_ps.position,
-                                  floor};
+                                  floor,
+                                  io.pose.at(player)};
     find_body_contacts(around, io.t_s, io.dt_s, motion.moved_m, memory);
 }
 
@@ -284,8 +284,8 @@ void take_pulls(const PropagateSpineIo& io) {
         const HandOwner& owner = io.owner->rows()[row];
         const BodyMeasures& measures = io.measures.at(owner.player);
         const ArmEstimate& estimate = io.estimate.at(owner.player);
-        const Vec3 from_chest_m = estimate.arms[index_of(owner.side)].hand_ps.position -
-                                  estimate.chest_ps.position;
+        const Vec3 from_chest_m =
+            estimate.arms[index_of(owner.side)].hand_ps.position - estimate.chest_ps.position;
         io.memory.at(owner.player).pull.hands +=
             from_chest_m * (1.0 / (measures.upper_arm_m + measures.forearm_m));
     }

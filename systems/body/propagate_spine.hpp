@@ -20,9 +20,9 @@ struct PropagateSpineIo {
     const Column<BodyMeasures>& measures;        // in
     const Column<ArmEstimate>& estimate;         // in: the chest
     Column<SpineMemory>& memory;                 // in/out
-    Column<SpinePose>& pose;                     // out
-    // In: for contacts of trunk and legs. Set `surfaces` and the two columns below it, or none of the
-    // three.
+    Column<SpinePose>& pose;                     // out; in: as shown in the last frame
+    // In: for contacts of trunk and legs. Set `surfaces` and the two columns below it, or none of
+    // the three.
     SurfaceQuery surfaces = {};  // in
     // In: rays start in the head; shift_m is the floor's height.
     const Column<HeadTracking>* head = nullptr;
@@ -42,13 +42,13 @@ struct PropagateSpineIo {
 // is teleported, the chain moves along rigidly. If the chest jumps, the chain restarts from rest.
 // At most 0.5 s of a frame is simulated.
 //
-// Hanging: the trunk turns towards the opposite of the direction to the gripping hands (hang_body.hpp).
-// Loose bodies in the hands pull nothing. Without a grip the trunk keeps its posture below the head,
-// and an acceleration acts through the chain's inertia alone.
+// Hanging: the trunk turns towards the opposite of the direction to the gripping hands
+// (hang_body.hpp). Loose bodies in the hands pull nothing. Without a grip the trunk keeps its
+// posture below the head, and an acceleration acts through the chain's inertia alone.
 //
-// Contacts: trunk, thighs and shins stay in front of the first surface along each of them, seen from
-// the head's side, and slide along it, within the joint limits (body_contacts.hpp). They apply no
-// force to it.
+// Contacts: trunk, thighs and shins stay in front of the first surface along each of them, seen
+// from the head's side, and slide along it, within the joint limits (body_contacts.hpp). They apply
+// no force to it.
 //
 // Crouching: the chain hangs straight in SpineMemory; pose_spine folds it above the tracked floor.
 void propagate_spine(const PropagateSpineIo& io, const SpineTuning& tuning);

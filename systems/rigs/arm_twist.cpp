@@ -26,8 +26,8 @@ bool carries_skin(const SkinnedMesh& figure, std::size_t joint) {
         [joint](const SkinWeights& weights) { return weight_of(weights, joint) > 0.0; });
 }
 
-// Finds the joint of a bone that carries its skin. Returns false if several joints along the bone do,
-// or none.
+// Finds the joint of a bone that carries its skin. Returns false if several joints along the bone
+// do, or none.
 bool find_single_joint(const SkinnedMesh& figure, const BodyRig& rig, BodyBone bone, HandSide side,
                        std::size_t& joint) {
     bool is_found = false;

@@ -36,16 +36,16 @@ Quat rolled(const Quat& rotation, double angle_rad) {
     return (rotation * rotation_about(Vec3::UnitZ(), angle_rad)).normalized();
 }
 
-// Rotation of a carrier on the forearm, which follows its share of the hand's twist. The twist counts
-// from that in the file.
+// Rotation of a carrier on the forearm, which follows its share of the hand's twist. The twist
+// counts from that in the file.
 Quat twisted_forearm(const BodyRig::Carrier& carrier, const ArmPose::Arm& arm) {
     const double twist_rad =
         followed_twist(arm.forearm_ws.rotation, arm.hand_ws.rotation, carrier.twist_rad);
     return rolled(arm.forearm_ws.rotation, carrier.along * twist_rad);
 }
 
-// Rotation of a carrier on the upper arm, which follows its share of the twist between the shoulder,
-// where the arm has only swung with the chest as in the file, and the elbow.
+// Rotation of a carrier on the upper arm, which follows its share of the twist between the
+// shoulder, where the arm has only swung with the chest as in the file, and the elbow.
 Quat twisted_upper_arm(const BodyRig::Carrier& carrier, const ArmPose::Arm& arm,
                        const Quat& chest_from_file) {
     const Quat& whole = arm.upper_ws.rotation;
@@ -67,8 +67,8 @@ PlacedBone place_arm(const ArmPose::Arm& arm, const BodyRig::Carrier& carrier,
                     (arm.forearm_ws.position - arm.upper_ws.position).norm()};
         }
         case BodyBone::forearm: {
-            const Quat rotation = carrier.along > 0.0 ? twisted_forearm(carrier, arm)
-                                                      : arm.forearm_ws.rotation;
+            const Quat rotation =
+                carrier.along > 0.0 ? twisted_forearm(carrier, arm) : arm.forearm_ws.rotation;
             return {{arm.forearm_ws.position, rotation},
                     (arm.hand_ws.position - arm.forearm_ws.position).norm()};
         }
@@ -162,8 +162,7 @@ double arm_twist(const Quat& parent, const Quat& child) {
 double followed_twist(const Quat& parent, const Quat& child, double rest_rad) {
     constexpr double k_wholly_rad = 2.0 / 3.0 * k_pi;
     const Quat turn = parent.conjugate() * child;
-    const double twist_rad =
-        std::remainder(arm_twist(parent, child) - rest_rad, 2.0 * k_pi);
+    const double twist_rad = std::remainder(arm_twist(parent, child) - rest_rad, 2.0 * k_pi);
     const double size = std::abs(twist_rad);
     const double followed =
         size <= k_wholly_rad ? size : k_wholly_rad * (k_pi - size) / (k_pi - k_wholly_rad);

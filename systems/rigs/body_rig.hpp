@@ -85,10 +85,10 @@ void pose_skeleton(const BodyRig& rig, const BodyMeasures& measures, const Rende
 // between both. 0 for a bend of 180 degrees.
 double arm_twist(const Quat& parent, const Quat& child);
 
-// The part of a child's twist about the Z axis of `parent` that joints between both follow, relative
-// to the twist `rest_rad` of the figure's file, in radians. Up to 120 degrees to either side it is the
-// whole difference. Beyond that it is less, and at 180 degrees nothing, so that the result is
-// continuous. Fades out if the bend exceeds 120 degrees.
+// The part of a child's twist about the Z axis of `parent` that joints between both follow,
+// relative to the twist `rest_rad` of the figure's file, in radians. Up to 120 degrees to either
+// side it is the whole difference. Beyond that it is less, and at 180 degrees nothing, so that the
+// result is continuous. Fades out if the bend exceeds 120 degrees.
 double followed_twist(const Quat& parent, const Quat& child, double rest_rad);
 
 // Pose of the player's trunk at `along`: 0 is the pelvis, 1 midway between the shoulders.

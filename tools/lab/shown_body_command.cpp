@@ -64,9 +64,9 @@ class Walls {
         for (const Vec3& from : viewpoints) {
             const auto between = collision.cast_ray(from, centre_ws, skip_);
             behind_m = std::min(
-                behind_m,
-                between ? std::max(0.0, between->normal_ws.dot(between->point_ws - centre_ws))
-                        : 0.0);
+                behind_m, between
+                              ? std::max(0.0, between->normal_ws.dot(between->point_ws - centre_ws))
+                              : 0.0);
         }
         if (behind_m > 0.0) {
             return radius_m + behind_m;
@@ -91,8 +91,7 @@ double deepest_m(const Walls& walls, const CollisionWorld& collision,
     for (int i = 0; i < k_points; ++i) {
         const double along = static_cast<double>(i) / (k_points - 1);
         const Vec3 centre = capsule.from_ws + along * (capsule.to_ws - capsule.from_ws);
-        deepest =
-            std::max(deepest, walls.depth_m(collision, viewpoints, centre, capsule.radius_m));
+        deepest = std::max(deepest, walls.depth_m(collision, viewpoints, centre, capsule.radius_m));
     }
     return deepest;
 }
@@ -140,7 +139,6 @@ class ShownBody {
                 {"thigh_depth_mm", spread(thigh_mm_)},
                 {"shin_depth_mm", spread(shin_mm_)},
                 {"trunk_from_grips_deg", spread(from_grips_)},
-                {"trunk_from_acceleration_deg", spread(from_acceleration_)},
                 {"pelvis_mps", spread(pelvis_mps_)},
                 {"foot_mps", spread(foot_mps_)},
                 {"foot_step_mps", spread(foot_step_mps_)}};
@@ -162,20 +160,17 @@ class ShownBody {
         double thigh = 0.0;
         double shin = 0.0;
         for (const SpinePose::Leg& leg : spine.legs) {
-            thigh = std::max(thigh, depth_mm(leg.thigh_ws.position, leg.shin_ws.position,
-                                             k_thigh_radius_m));
-            shin = std::max(
-                shin, depth_mm(leg.shin_ws.position, leg.foot_ws.position, k_shin_radius_m));
+            thigh = std::max(
+                thigh, depth_mm(leg.thigh_ws.position, leg.shin_ws.position, k_thigh_radius_m));
+            shin = std::max(shin,
+                            depth_mm(leg.shin_ws.position, leg.foot_ws.position, k_shin_radius_m));
         }
         thigh_mm_.add(thigh);
         shin_mm_.add(shin);
     }
 
-    // Angles between the line from pelvis to chest and the pull: the mean direction to the gripping
-    // hands, and the origin's acceleration over a fifth of a second.
+    // Angle between the line from pelvis to chest and the mean direction to the gripping hands.
     void take_angles(const World& world, const SpinePose& spine) {
-        constexpr double k_span_s = 0.2;
-        constexpr double k_least_mps = 0.2;
         const Vec3 up = spine.chest_ws.position - spine.pelvis_ws.position;
         Vec3 pull = Vec3::Zero();
         for (std::size_t side = 0; side < k_hand_count; ++side) {
@@ -186,15 +181,6 @@ class ShownBody {
         }
         if (pull.norm() > 0.1) {
             from_grips_.add(angle_deg(up, pull));
-        }
-        velocities_.push_back(world.player_velocity.at(player_).linear_mps -
-                              world.reference_velocity.at(player_).linear_mps);
-        const auto frames = static_cast<std::size_t>(k_span_s * hz_);
-        if (velocities_.size() > frames) {
-            const Vec3 gained = velocities_.back() - velocities_[velocities_.size() - 1 - frames];
-            if (gained.norm() > k_least_mps) {
-                from_acceleration_.add(angle_deg(up, gained));
-            }
         }
     }
 
@@ -220,9 +206,8 @@ class ShownBody {
     std::array<Entity, k_hand_count> hands_;
     double hz_;
     Series trunk_mm_, pelvis_mm_, thigh_mm_, shin_mm_;
-    Series from_grips_, from_acceleration_;
+    Series from_grips_;
     Series pelvis_mps_, foot_mps_, foot_step_mps_;
-    std::vector<Vec3> velocities_;
     std::optional<Vec3> last_pelvis_, last_foot_, last_velocity_;
 };
 

@@ -11,15 +11,15 @@ namespace handhold {
 namespace {
 
 // For an eye height of k_scale_eye_m. Casts are wider, so that a part that rests on a surface finds
-// it again. A cast along the trunk begins in the head and is narrower than the head's sphere; one along
-// a leg begins in the pelvis and is narrower than the trunk.
+// it again. A cast along the trunk begins in the head and is narrower than the head's sphere; one
+// along a leg begins in the pelvis and is narrower than the trunk.
 constexpr double k_trunk_radius_m = 0.09;
 constexpr double k_thigh_radius_m = 0.065;
 constexpr double k_shin_radius_m = 0.05;
 constexpr double k_cast_wider_m = 0.015;
 constexpr double k_widest_cast_m = 0.105;  // of a player of any size
-constexpr double k_sole_m = 0.11;   // below the ankle
-constexpr double k_ahead_m = 0.15;  // margin for motion until the next search
+constexpr double k_sole_m = 0.11;          // below the ankle
+constexpr double k_ahead_m = 0.15;         // margin for motion until the next search
 
 // True if this part is searched in this frame. The phase differs between players and parts.
 bool searches_now(double t_s, double dt_s, std::uint64_t player, std::size_t part) {
@@ -37,17 +37,21 @@ struct PartLine {
     double radius_m;
     double beyond_m;  // how far the part extends beyond to_m
 };
-PartLine line_of(const BodySurroundings& around, const SpineMemory& memory, std::size_t part) {
+PartLine line_of(const BodySurroundings& around, std::size_t part) {
     const double scale = around.floor.scale;
-    const Vec3& pelvis_m = memory.offset_m[k_spine_links - 1];
+    const auto from_chest = [&](const Vec3& point_ws) {
+        return Vec3(around.origin_ws.rotation.conjugate() *
+                    (point_ws - around.shown.chest_ws.position));
+    };
+    const Vec3 pelvis_m = from_chest(around.shown.pelvis_ws.position);
     if (part == 0) {
         return {around.head_ps - around.chest_ps, pelvis_m, scale * k_trunk_radius_m, 0.0};
     }
-    const std::size_t link = k_spine_links + part - 1;
-    if (spine_links()[link].kind == SpineLinkKind::thigh) {
-        return {pelvis_m, memory.offset_m[link], scale * k_thigh_radius_m, 0.0};
+    const SpinePose::Leg& leg = around.shown.legs[(part - 1) / 2];
+    if (spine_links()[k_spine_links + part - 1].kind == SpineLinkKind::thigh) {
+        return {pelvis_m, from_chest(leg.shin_ws.position), scale * k_thigh_radius_m, 0.0};
     }
-    return {pelvis_m, memory.offset_m[link], scale * k_shin_radius_m, scale * k_sole_m};
+    return {pelvis_m, from_chest(leg.foot_ws.position), scale * k_shin_radius_m, scale * k_sole_m};
 }
 
 // True if the surface coincides with the tracked floor, above which pose_spine folds the body.
@@ -60,7 +64,7 @@ bool is_tracked_floor(const Vec3& normal_ps, double surface_m, const TrackedFloo
 
 BodyContact find_contact(const BodySurroundings& around, const SpineMemory& memory,
                          std::size_t part) {
-    const PartLine line = line_of(around, memory, part);
+    const PartLine line = line_of(around, part);
     // A cast that begins behind a surface would find its back.
     const BodyContact& trunk = memory.contacts[0];
     if (part > 0 && trunk.touches &&
@@ -97,8 +101,7 @@ BodyContact find_contact(const BodySurroundings& around, const SpineMemory& memo
     if (legs_fold(pelvis_m) && is_tracked_floor(normal_ps, surface_m, around.floor)) {
         return {};
     }
-    const double thickness_m =
-        std::max(line.radius_m, -line.beyond_m * normal_ps.dot(along));
+    const double thickness_m = std::max(line.radius_m, -line.beyond_m * normal_ps.dot(along));
     return {true, normal_ps, surface_m + thickness_m};
 }
 

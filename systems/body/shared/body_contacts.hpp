@@ -17,6 +17,9 @@ struct BodySurroundings {
     Vec3 head_ps = Vec3::Zero();  // a point well inside the head's collider
     Vec3 chest_ps = Vec3::Zero();
     TrackedFloor floor;
+    // The body as it was shown in the last frame: parts are searched where they are seen, with
+    // clips.
+    const SpinePose& shown;
 };
 
 // Updates SpineMemory::contacts for one frame that ends at t_s. Each part is searched 15 times a
@@ -30,8 +33,8 @@ void find_body_contacts(const BodySurroundings& around, double t_s, double dt_s,
 const BodyContact* contact_of(const SpineMemory& memory, std::size_t link);
 
 // Turns a link's direction, in its parent's frame, until the link's lower end is in front of the
-// surface. The speed of the lower end is limited, so that a link that starts inside a wall moves out
-// without a jump.
+// surface. The speed of the lower end is limited, so that a link that starts inside a wall moves
+// out without a jump.
 Vec3 before_surface(const Vec3& towards, const Vec3& base_m, double length_m,
                     const SpineFrame& above, const BodyContact& contact);
 

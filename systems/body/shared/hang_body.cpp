@@ -6,7 +6,9 @@ namespace handhold {
 namespace {
 
 double lean_rad(double angle_rad, double strength) {
-    const double faded = angle_rad * (1.0 - smooth_step(angle_rad, 0.5 * k_pi, k_pi));
+    constexpr double k_whole_rad = 80.0 / 180.0 * k_pi;
+    constexpr double k_none_rad = 130.0 / 180.0 * k_pi;
+    const double faded = angle_rad * (1.0 - smooth_step(angle_rad, k_whole_rad, k_none_rad));
     return faded * strength / std::sqrt(1.0 + strength * strength);
 }
 

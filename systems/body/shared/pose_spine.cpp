@@ -130,8 +130,8 @@ class BodyFolder {
 void pose_spine(const Pose& chest_ws, const SpineMemory& memory, const Pose& chest_ps,
                 const TrackedFloor& floor, SpinePose& out) {
     // From play-space axes to world axes.
-    const Mat3 to_ws = chest_ws.rotation.toRotationMatrix() *
-                       chest_ps.rotation.toRotationMatrix().transpose();
+    const Mat3 to_ws =
+        chest_ws.rotation.toRotationMatrix() * chest_ps.rotation.toRotationMatrix().transpose();
     const double share = memory.since_tick_s / k_spine_tick_s;
     const Vec3 pull_ps = memory.pull.before + share * (memory.pull.now - memory.pull.before);
     const Quat leaning =

@@ -17,9 +17,7 @@ using test::joints_of;
 using test::k_player;
 using test::Random;
 
-double angle_rad(const Vec3& a, const Vec3& b) {
-    return arc_tangent2(a.cross(b).norm(), a.dot(b));
-}
+double angle_rad(const Vec3& a, const Vec3& b) { return arc_tangent2(a.cross(b).norm(), a.dot(b)); }
 Vec3 trunk_of(const SpinePose& pose) { return pose.pelvis_ws.position - pose.chest_ws.position; }
 
 // A direction above the horizontal, for a gripping hand.
@@ -41,8 +39,8 @@ TEST(HangBody, HandsThatPullOnNothingChangesNoBit) {
     }
 }
 
-// The closed form of lean_of, for pulls up to a right angle from the posture: the trunk's lower link
-// turns by a p / sqrt(1 + p^2).
+// The closed form of lean_of, for pulls up to a right angle from the posture: the trunk's lower
+// link turns by a p / sqrt(1 + p^2).
 TEST(HangBody, LowestLinkTurnsByItsShareOfTheAngle) {
     Random random(3);
     for (int i = 0; i < 300; ++i) {
@@ -144,8 +142,9 @@ TEST(HangBody, TurnedAndMovedWorldsGiveTurnedAndMovedBodies) {
     }
 }
 
-// A grip 90 degrees from the posture begins and ends: no joint is faster than 1.5 m/s relative to the
-// chest, and none changes its velocity by more than 0.25 m/s in a frame.
+// A grip 90 degrees from the posture begins and ends: the pelvis moves at up to 1.2 m/s relative to
+// the chest, feet at up to 3 m/s. The pelvis changes its velocity by at most 0.1 m/s in a frame,
+// feet, which whip, by 1 m/s.
 TEST(HangBody, GripsBeginAndEndWithoutAJump) {
     HangingBody body;
     body.put_hand(HandSide::left, Vec3(-0.1, 0.05, -0.55));
@@ -158,25 +157,31 @@ TEST(HangBody, GripsBeginAndEndWithoutAJump) {
         const std::vector<Vec3> now = joints_of(body.step(1.0 / 90.0));
         for (std::size_t k = 0; k < now.size(); ++k) {
             const Vec3 mps = 90.0 * (now[k] - before[k]);
-            EXPECT_LT(mps.norm(), 1.5) << i;
-            EXPECT_LT((mps - velocity[k]).norm(), 0.25) << i;
+            EXPECT_LT(mps.norm(), k <= k_spine_links ? 1.2 : 3.0) << i;
+            EXPECT_LT((mps - velocity[k]).norm(), k <= k_spine_links ? 0.1 : 1.0) << i;
             velocity[k] = mps;
         }
         before = now;
     }
 }
 
-TEST(HangBody, HangingHardlyDependsOnTheFrameRate) {
-    const auto path = [](int hz) {
+struct Apart {
+    double pelvis_m = 0.0;
+    double foot_m = 0.0;
+};
+// Largest distances after `from_s` between bodies at 36 and at 144 frames a second whose hand
+// moves, and grips from `begin_s` until `end_s`.
+Apart apart_by_rate(double begin_s, double end_s, double from_s) {
+    const auto path = [&](int hz) {
         HangingBody body;
         std::vector<Vec3> at_36;
-        for (int i = 1; i <= 4 * hz; ++i) {
+        for (int i = 1; i <= 8 * hz; ++i) {
             const double t_s = static_cast<double>(i) / hz;
             body.put_hand(HandSide::left,
                           Vec3(0.3 * std::sin(2.0 * t_s), 0.3, -0.4 * std::cos(t_s)));
-            body.grip(HandSide::left, t_s > 0.5 && t_s <= 2.5);
+            body.grip(HandSide::left, t_s > begin_s && t_s <= end_s);
             const SpinePose& pose = body.step(1.0 / hz);
-            if (i % (hz / 36) == 0) {
+            if (i % (hz / 36) == 0 && t_s > from_s) {
                 at_36.push_back(pose.pelvis_ws.position);
                 at_36.push_back(pose.legs[0].foot_ws.position);
             }
@@ -185,17 +190,26 @@ TEST(HangBody, HangingHardlyDependsOnTheFrameRate) {
     };
     const std::vector<Vec3> slow = path(36);
     const std::vector<Vec3> fast = path(144);
-    ASSERT_EQ(slow.size(), fast.size());
-    double pelvis_m = 0.0;
-    double foot_m = 0.0;
+    Apart apart;
     for (std::size_t i = 0; i < slow.size(); i += 2) {
-        pelvis_m = std::max(pelvis_m, (slow[i] - fast[i]).norm());
-        foot_m = std::max(foot_m, (slow[i + 1] - fast[i + 1]).norm());
+        apart.pelvis_m = std::max(apart.pelvis_m, (slow[i] - fast[i]).norm());
+        apart.foot_m = std::max(apart.foot_m, (slow[i + 1] - fast[i + 1]).norm());
     }
-    RecordProperty("pelvis_um", static_cast<int>(1e6 * pelvis_m));
-    RecordProperty("foot_um", static_cast<int>(1e6 * foot_m));
-    EXPECT_LT(pelvis_m, 0.004);
-    EXPECT_LT(foot_m, 0.012);
+    return apart;
+}
+
+TEST(HangBody, HangingHardlyDependsOnTheFrameRate) {
+    const Apart held = apart_by_rate(0.5, 9.0, 5.0);
+    RecordProperty("held_pelvis_um", static_cast<int>(1e6 * held.pelvis_m));
+    RecordProperty("held_foot_um", static_cast<int>(1e6 * held.foot_m));
+    // A grip begins and ends with a frame, which is up to 28 ms long.
+    const Apart edges = apart_by_rate(0.5, 2.5, 0.0);
+    RecordProperty("edges_pelvis_um", static_cast<int>(1e6 * edges.pelvis_m));
+    RecordProperty("edges_foot_um", static_cast<int>(1e6 * edges.foot_m));
+    EXPECT_LT(held.pelvis_m, 0.002);
+    EXPECT_LT(held.foot_m, 0.008);
+    EXPECT_LT(edges.pelvis_m, 0.006);
+    EXPECT_LT(edges.foot_m, 0.03);
 }
 
 }  // namespace

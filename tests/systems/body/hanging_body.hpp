@@ -69,10 +69,10 @@ struct HangingBody {
     }
     const SpinePose& step(double dt_s) {
         t_s += dt_s;
-        propagate_spine({dt_s, t_s, origin, velocity, reference, measures, estimate, memory, pose,
-                         collision ? SurfaceQuery(*collision) : SurfaceQuery(), &head, &id, &owner,
-                         &grab},
-                        {});
+        propagate_spine(
+            {dt_s, t_s, origin, velocity, reference, measures, estimate, memory, pose,
+             collision ? SurfaceQuery(*collision) : SurfaceQuery(), &head, &id, &owner, &grab},
+            {});
         return pose.at(k_player);
     }
     const SpinePose& run(double seconds, double hz = 90.0) {

@@ -1,5 +1,7 @@
 #include "systems/rigs/arm_twist.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "engine/anim/skinning.hpp"
@@ -123,7 +125,7 @@ TEST(FollowedTwist, IsContinuousOverAFullTurn) {
     const Quat forearm = Quat::Identity();
     for (const double bend_rad : {0.0, 1.0, 2.5, 3.14}) {
         const Quat bend = rotation_about(Vec3::UnitX(), bend_rad);
-        double before = 0.0;
+        double before = followed_twist(forearm, bend, 0.4);
         for (int i = 0; i <= 2 * 360; ++i) {
             const double twist_rad = i * k_pi / 360.0;
             const double now =
@@ -192,9 +194,10 @@ TEST(SpreadArmTwist, KeepsExistingTwistJointsWhichTakeTheirShare) {
     figure.add_strip();
     figure.add_skin(0.5, {{twist, 0, 0, 0}, {1, 0, 0, 0}});
     BodyRig rig = figure.fitted();
-    const std::size_t joints = rig.joints.size();
     spread_arm_twist(figure.mesh, rig);
-    EXPECT_EQ(rig.joints.size(), joints);
+    EXPECT_TRUE(std::none_of(rig.joints.begin(), rig.joints.end(), [](const auto& joint) {
+        return joint.name == "RightForeArm_twist_1";
+    }));
     const std::vector<Vec3> now = skin_of(figure, rig, k_half_pi);
     EXPECT_NEAR(std::abs(turned_rad(now.back())), 0.5 * k_half_pi, 1e-6);
     EXPECT_NEAR(turned_rad(now[12]), 0.0, 1e-9);  // bound to the elbow's joint only
