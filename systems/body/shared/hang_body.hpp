@@ -21,8 +21,8 @@ struct TrunkLean {
 };
 // `pull_cs`: BodyPull::now in the chest's axes, of length p at the angle a from +Y. The trunk turns
 // by a p / sqrt(1 + p^2) from the chest's -Y towards the opposite of the pull: not at all without a
-// pull, and all the way for a strong one. From a = 90 degrees on the bend fades, and is zero at 180
-// degrees: no trunk folds onto itself, and a pull straight down leaves it straight.
+// pull, and all the way for a strong one. From a = 80 degrees on the bend fades, and is zero from
+// 130 degrees on: hands below the chest push rather than pull, and no trunk folds onto itself.
 TrunkLean lean_of(const Vec3& pull_cs);
 
 inline Quat leaning_chest(const Quat& chest, const TrunkLean& lean) {
