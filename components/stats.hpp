@@ -77,7 +77,7 @@ enum class Fallback : std::uint8_t {
     active_set_not_converged,
     hands_load_stepped,      // a solve ran out of iterations, then converged by load stepping
     load_stepping_failed,    // load stepping failed too: the first result is kept
-    friction_not_converged,  // stick or slip did not converge: last iterate, or sweeps
+    friction_not_converged,  // stick or slip did not converge: sweeps instead
     // An island spent its WorkBudget: the rest goes on in the next frame.
     solver_budget,
     // A pair of bodies that overlap deeply waits: CollisionWork::deferred_pairs.

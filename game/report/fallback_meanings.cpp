@@ -57,7 +57,8 @@ constexpr EnumTexts<Fallback> k_meanings = {{
     {Fallback::load_stepping_failed,
      "Hands jumped too far for one solve, and load stepping failed too."},
     {Fallback::friction_not_converged,
-     "Sticking and sliding contacts did not converge; the result is approximate."},
+     "Sticking and sliding contacts did not converge; a bounded number of sweeps solved them "
+     "approximately."},
     {Fallback::solver_budget,
      "Bodies in contact needed more work than a frame allows; the rest went on in the next frame."},
     {Fallback::pairs_deferred,

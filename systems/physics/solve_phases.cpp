@@ -327,9 +327,21 @@ void reach(const Solve& s) {
     refresh_contacts(s, OldPoints::replaced);
 }
 
-// True if forward has left a heap deeply violated: relax is next.
-bool is_stuck(const Solve& s, const Island& island) {
+bool is_pushed(const Solve& s, const Island& island) {
+    return std::ranges::any_of(s.graph().bodies_of(island),
+                               [&](std::uint32_t i) { return s.phase_of(i).pushed; });
+}
+
+// True if a heap overlaps deeply and may only come apart by pushing the player. A heap that touches
+// nothing immovable can always give way, if not in this frame then in the next.
+bool presses_player(const Solve& s, const Island& island) {
     return errors_of(s, island).heap_m > k_heap_violated_m &&
+           (is_pushed(s, island) || may_push(s, island));
+}
+
+// True if forward has left such a heap: relax is next.
+bool is_stuck(const Solve& s, const Island& island) {
+    return presses_player(s, island) &&
            std::ranges::any_of(s.graph().bodies_of(island),
                                [&](std::uint32_t i) { return s.phase_of(i).work > 0; });
 }
@@ -351,13 +363,19 @@ void forward(const Solve& s) {
 // so that backward finds the heap free of overlap.
 void relax(const Solve& s) {
     HH_DETAIL_ZONE("relax");
-    solve_rounds(s, Phase::relax, [&](const Island& island) {
-        return errors_of(s, island).heap_m > k_heap_violated_m;
-    });
+    const auto wanted = [&](const Island& island) { return presses_player(s, island); };
+    // Marked before the heap gives way, because it may separate from the wall that it touches now.
+    for (const Island& island : s.graph().islands) {
+        if (wanted(island)) {
+            mark_pushed(s, island);
+        }
+    }
+    solve_rounds(s, Phase::relax, wanted);
 }
 
 bool wants_backward(const Solve& s, const Island& island) {
-    return errors_of(s, island).worst_m() > s.violated_m() && may_push(s, island);
+    return errors_of(s, island).worst_m() > s.violated_m() &&
+           (is_pushed(s, island) || may_push(s, island));
 }
 
 // Marks the islands to push, and restores players and held objects to their reach poses. False if
@@ -385,11 +403,6 @@ bool prepare_backward(const Solve& s) {
     return any;
 }
 
-bool is_pushed(const Solve& s, const Island& island) {
-    return std::ranges::any_of(s.graph().bodies_of(island),
-                               [&](std::uint32_t i) { return s.phase_of(i).pushed; });
-}
-
 void backward(const Solve& s) {
     HH_DETAIL_ZONE("backward");
     if (!prepare_backward(s)) {
@@ -410,7 +423,7 @@ void contradiction(const Solve& s) {
     HH_DETAIL_ZONE("contradiction");
     const auto wanted = [&](const Island& island) {
         const IslandErrors& errors = errors_of(s, island);
-        return errors.without_drives_m() > s.violated_m() || errors.heap_m > k_heap_violated_m;
+        return errors.without_drives_m() > s.violated_m() || presses_player(s, island);
     };
     for (const Island& island : s.graph().islands) {
         if (!wanted(island)) {

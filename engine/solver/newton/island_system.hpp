@@ -40,7 +40,6 @@ struct SolveScratch {
         bool slides = false;
     };
     std::vector<Friction> frictions;
-    bool has_energy_source = false;  // a drive or motor may add energy
     RowSystem system;
     RowSweeps sweeps;  // used instead of `system` if the island is a heap
     std::vector<BoundedRows> bounded;

@@ -60,7 +60,6 @@ void collect_velocity_rows(const IslandView& island, const VelocitySettings& set
                            SolveScratch& scratch) {
     scratch.rows.clear();
     scratch.frictions.clear();
-    scratch.has_energy_source = false;
     scratch.approach_mps.clear();
     for (const std::uint32_t index : island.island_blocks) {
         RowBlock& block = island.blocks[index];
@@ -72,8 +71,6 @@ void collect_velocity_rows(const IslandView& island, const VelocitySettings& set
         if (!counts || !takes_part(island, block)) {
             continue;
         }
-        scratch.has_energy_source =
-            scratch.has_energy_source || is_drive(block) || has_motor(block);
         append_rows(island.bodies, block, index, scratch.rows, settings.touch_m);
         for (std::size_t i = scratch.approach_mps.size(); i < scratch.rows.size(); ++i) {
             const double speed = row_velocity(island, scratch.rows[i]);
@@ -242,14 +239,16 @@ class DirectMethod {
         scratch_.system.assemble(island.bodies, scratch_.inverse_inertia_ws, scratch_.rows);
         regularise(scratch_.rows, settings.regularisation, 1.0, scratch_.system);
     }
-    // False if there is no plausible answer.
+    // False if there is no plausible answer. The last iterate of a stick-slip iteration that did
+    // not converge is none: it may throw bodies.
     bool solve() {
         std::span<const double> lambda;
-        is_unconverged_ = !solve_stick_slip(settings_.friction_passes, scratch_, lambda);
+        const bool converged = solve_stick_slip(settings_.friction_passes, scratch_, lambda) &&
+                               !scratch_.system.is_active_set_unconverged();
         gather_moves(scratch_.system.moves(), scratch_);
         scratch_.lambda.assign(lambda.begin(), lambda.end());
-        if (scratch_.system.is_active_set_unconverged() || !has_contact(scratch_.rows)) {
-            return !scratch_.system.is_active_set_unconverged();
+        if (!converged || !has_contact(scratch_.rows)) {
+            return converged;
         }
         // No velocity satisfies contacts that contradict each other (a jam); stiff rows answer
         // with huge impulses.
@@ -259,7 +258,6 @@ class DirectMethod {
         }
         return longest_move(scratch_) <= k_max_move_ratio * largest;
     }
-    bool is_unconverged() const { return is_unconverged_; }
     // Iterative refinement of the multipliers and of the gathered moves.
     void refine() {
         double previous = std::numeric_limits<double>::infinity();
@@ -310,7 +308,6 @@ class DirectMethod {
     const IslandView& island_;
     const VelocitySettings& settings_;
     SolveScratch& scratch_;
-    bool is_unconverged_ = false;
 };
 
 class SweepMethod {
@@ -376,8 +373,7 @@ VelocityResult solve_island(const IslandView& island, const VelocitySettings& se
             if (!is_blended) {
                 refine_velocities(island, settings, scratch);
             }
-            return {.unconverged = direct.is_unconverged(),
-                    .out_of_work = scratch.system.is_out_of_work()};
+            return {};
         }
     }
     SweepMethod sweeps(island, settings, scratch);
@@ -385,8 +381,9 @@ VelocityResult solve_island(const IslandView& island, const VelocitySettings& se
     limit_energy(
         island, [&] { sweeps.solve(); }, [] {}, scratch);
     apply_impulses(island, scratch.lambda, scratch);
-    return {.unconverged = !island.is_heap,
-            .out_of_work = island.is_heap && sweeps.is_out_of_work()};
+    return {
+        .unconverged = !island.is_heap,
+        .out_of_work = island.is_heap ? sweeps.is_out_of_work() : scratch.system.is_out_of_work()};
 }
 
 }  // namespace

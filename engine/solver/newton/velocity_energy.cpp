@@ -25,12 +25,14 @@ double kinetic_energy(const IslandView& island, const SolveScratch& scratch) {
     return energy;
 }
 
-// Work of the multipliers on the bodies: linear part, J. Residuals still include the restitution
-// of `approach_mps`, or, if it was cleared, nothing.
+// Linear part of the work function, J: the rows' velocities before, relative to what drives and
+// motors ask for, times the multipliers. Restitution is not part of it.
 double linear_work(const SolveScratch& scratch) {
     double work = 0.0;
     for (std::size_t i = 0; i < scratch.rows.size(); ++i) {
-        work += scratch.lambda[i] * (scratch.rows[i].residual - scratch.approach_mps[i]);
+        const bool is_contact_row = scratch.rows[i].group == RowGroup::contact;
+        const double restitution_mps = is_contact_row ? scratch.approach_mps[i] : 0.0;
+        work += scratch.lambda[i] * (scratch.rows[i].residual - restitution_mps);
     }
     return work;
 }
@@ -69,7 +71,7 @@ void clear_restitution(SolveScratch& scratch) {
 bool limit_energy(const IslandView& island, const std::function<void()>& solve,
                   const std::function<void()>& refine, SolveScratch& scratch) {
     constexpr double k_rounding = 1e-10;
-    if (scratch.has_energy_source || !has_contact(scratch.rows)) {
+    if (!has_contact(scratch.rows)) {
         return false;
     }
     const double exchanged = kinetic_energy(island, scratch);

@@ -76,6 +76,74 @@ TEST(Heap, CratesShovedAgainstAWallOverlapByAtMostAMillimetreAndPushThePlayerBac
     }
 }
 
+// A crate in the right hand that is pushed into crates of random sizes and masses before a wall.
+struct RandomShove {
+    double hand_mps = 0.0;  // highest speed of the hand
+
+    RandomShove(std::uint64_t seed, Scenario& s) {
+        Random random(seed);
+        s.fits_hands = false;
+        s.frame_ws = random.pose(5.0);
+        s.add_crate("held", random.between(0.5, 8.0), Vec3(0.3, 1.2 - k_half_m - 0.02, -0.1),
+                    Vec3::Constant(k_half_m));
+        const auto count = [&] { return 1 + static_cast<int>(random.between(0.0, 3.0)); };
+        const int across = count();
+        const int up = count();
+        const int deep = count();
+        const double jitter_m = random.between(0.0, 0.02);
+        const double spacing_m = 2.0 * k_half_m + 2.0 * jitter_m + random.between(0.0, 0.02);
+        const Vec3 first(0.3 - 0.5 * (across - 1) * spacing_m + random.between(-0.1, 0.1),
+                         1.2 - 0.5 * (up - 1) * spacing_m + random.between(-0.1, 0.1), -0.45);
+        for (int i = 0; i < across * up * deep; ++i) {
+            const Vec3 place(i % across, i / across % up, -(i / (across * up)));
+            s.add_crate("crate" + std::to_string(i), random.between(1.0, 10.0),
+                        first + spacing_m * place + random.vector(jitter_m),
+                        Vec3::Constant(k_half_m) + random.vector(0.3 * jitter_m));
+        }
+        s.add_wall("wall", Vec3(3.0, 3.0, 0.1),
+                   Vec3(0.3, 1.2, -0.45 - deep * spacing_m + k_half_m - 0.2));
+        const double friction = random.between(0.0, 1.0);
+        for (const Entity body : s.world.body.owners()) {
+            s.world.body.at(body).friction = friction;
+        }
+        const double way_m = random.between(0.2, 0.8);
+        const double duration_s = random.between(0.1, 0.6);
+        const Vec3 direction = Vec3(random.between(-0.3, 0.3), random.between(-0.3, 0.3), -1.0);
+        const Vec3 way = way_m * direction.normalized();
+        s.script.grabs[1] = [](double) { return true; };
+        s.script.hands[1] = [way, duration_s](double t_s) {
+            return Pose{Vec3(0.3, 1.2, -0.02) + way * ease(t_s, 0.2, 0.2 + duration_s),
+                        Quat::Identity()};
+        };
+        s.add_player_here();
+        hand_mps = 1.5 * way_m / duration_s;
+    }
+};
+
+// Some shoves still end in a contradiction. Of 1,000 others, 23 left more than 0.1 mm at the hand,
+// and none threw a crate at three times the hand's speed.
+TEST(Heap, NearlyAllRandomShovesKeepHandsExactAndThrowNothing) {
+    constexpr int k_shoves = 160;
+    constexpr double k_exact_m = 1e-4;
+    constexpr double k_throw_ratio = 3.0;
+    int inexact = 0;
+    int thrown = 0;
+    for (std::uint64_t seed = 1; seed <= k_shoves; ++seed) {
+        Scenario s;
+        const RandomShove shove(seed, s);
+        double worst_hand_m = 0.0;
+        double fastest_seen_mps = 0.0;
+        s.run(1.2, [&] {
+            worst_hand_m = std::max(worst_hand_m, s.stats.hand_error_m);
+            fastest_seen_mps = std::max(fastest_seen_mps, fastest_mps(s));
+        });
+        inexact += worst_hand_m > k_exact_m ? 1 : 0;
+        thrown += fastest_seen_mps > k_throw_ratio * shove.hand_mps ? 1 : 0;
+    }
+    EXPECT_LE(inexact, 8);  // 14 if heaps were not pushed back after they gave way
+    EXPECT_LE(thrown, 1);   // 3 with iterates of friction that did not converge
+}
+
 TEST(Heap, BodiesSpawnedInOnePlaceComeApartAtRest) {
     Scenario s;
     s.fits_hands = false;
