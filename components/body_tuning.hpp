@@ -54,7 +54,7 @@ struct SpineTuning {
     double twist_lag_s = 0.12;
     double twist_limit_rad = 0.35;
     double hang = 0.8;
-    double hang_lag_s = 0.3;
+    double hang_lag_s = 0.6;
 };
 
 // Weights of the additive clips (systems/rigs/body_clips.hpp); 0: off.
@@ -128,7 +128,7 @@ void visit_body_tuning(TuningType& t, const See& see) {
         "turns "
         "it by 0.7 of the angle. 0: off.");
     see("spine.hang_lag_s", t.spine.hang_lag_s, "s", 0.0, 10.0,
-        "Time constant with which the trunk follows the pull of the hands.");
+        "Mean delay with which the trunk follows the pull of the hands.");
     see("additive.idle", t.additive.idle, "", 0.0, 3.0, "Weight of the idle clip; 0: off.");
     see("additive.push_off", t.additive.push_off, "", 0.0, 3.0,
         "Weight of the push-off clip that plays when the last hand lets go; 0: off.");

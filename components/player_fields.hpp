@@ -134,6 +134,7 @@ template <typename V>
 void visit_fields(const BodyPull& c, V&& visit) {
     visit("now", c.now);
     visit("before", c.before);
+    visit("rate_per_s", c.rate_per_s);
     visit("hands", c.hands);
     visit("hands_before", c.hands_before);
 }

@@ -37,12 +37,13 @@ struct BodyContact {
     double surface_m = 0.0;          // includes the part's thickness
 };
 
-// What pulls a player: the gripping hands, as the sum of the lines from the chest to them.
-// Play-space axes, in arm lengths.
+// What pulls a player: the gripping hands. Play-space axes.
 struct BodyPull {
-    Vec3 now = Vec3::Zero();     // low-pass filtered, times SpineTuning::hang, at the last tick
-    Vec3 before = Vec3::Zero();  // one tick earlier
-    Vec3 hands = Vec3::Zero();   // not filtered, in the last frame
+    Vec3 now = Vec3::Zero();         // followed with a lag, at the last tick; length in [0, 1)
+    Vec3 before = Vec3::Zero();      // one tick earlier
+    Vec3 rate_per_s = Vec3::Zero();  // of `now`
+    // The sum of the lines from the chest to the hands in the last frame, in arm lengths.
+    Vec3 hands = Vec3::Zero();
     Vec3 hands_before = Vec3::Zero();  // one frame earlier
 };
 

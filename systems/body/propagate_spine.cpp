@@ -57,6 +57,7 @@ void rest_at(const Quat& chest, double scale, double t_s, SpineMemory& memory) {
     memory.contacts = {};
     memory.pull.now = Vec3::Zero();
     memory.pull.before = Vec3::Zero();
+    memory.pull.rate_per_s = Vec3::Zero();
     for (std::size_t i = 0; i < k_body_links; ++i) {
         const SpineLink& link = spine_links()[i];
         const SpineFrame& above = frame_above_link(chain, link);

@@ -114,6 +114,7 @@ void add_body_options(CLI::App& body, lab::BodyOptions& options) {
 void add_shown_body_options(CLI::App& shown, lab::ShownBodyOptions& options) {
     shown.add_option("--scene", options.scene, "A built-in scene with a session");
     shown.add_option("--hz", options.hz, "Frames per second")->check(number_in(10.0, 1000.0));
+    shown.add_option("--hang", options.hang, "Overrides spine.hang")->check(number_in(0.0, 10.0));
     shown.add_option("--json", options.json, "Output: figures")->required();
     shown.add_option("--csv", options.csv, "Output: depths in every frame");
 }

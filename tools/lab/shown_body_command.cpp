@@ -221,6 +221,7 @@ int shown_body_command(const ShownBodyOptions& options) {
         return k_exit_usage;
     }
     const Recording recording = *make_built_in_session(scene->session->built_in);
+    scene->tuning.spine.hang = options.hang.value_or(scene->tuning.spine.hang);
     FrameCaches caches(*scene->shapes, scene->grip_meshes.get());
     caches.body_clips = game_body_clips();
     const PlayerEntities player =

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 // `handhold-lab shown-body`: how the bodies that follow players look in a built-in session.
@@ -9,6 +10,7 @@ namespace handhold::lab {
 struct ShownBodyOptions {
     std::string scene = "station";
     double hz = 90.0;
+    std::optional<double> hang;  // SpineTuning::hang; nullopt: as the scene has it
     std::filesystem::path json;
     std::filesystem::path csv;  // empty: none
 };

@@ -5,11 +5,11 @@
 namespace handhold {
 namespace {
 
-double lean_rad(double angle_rad, double strength) {
+// Angle by which a trunk turns whose pull is strong, at `angle_rad` from the chest's +Y.
+double whole_lean_rad(double angle_rad) {
     constexpr double k_whole_rad = 80.0 / 180.0 * k_pi;
     constexpr double k_none_rad = 130.0 / 180.0 * k_pi;
-    const double faded = angle_rad * (1.0 - smooth_step(angle_rad, k_whole_rad, k_none_rad));
-    return faded * strength / std::sqrt(1.0 + strength * strength);
+    return angle_rad * (1.0 - smooth_step(angle_rad, k_whole_rad, k_none_rad));
 }
 
 // -Y turned by a rotation about a horizontal axis. `turn`: rotation vector with y = 0.
@@ -28,8 +28,15 @@ Vec3 turned_down(const Vec3& turn) {
 }  // namespace
 
 void follow_pull(const Vec3& hands, double tick_s, const SpineTuning& tuning, BodyPull& pull) {
+    const Vec3 strength = tuning.hang * hands;
+    const Vec3 wanted = strength * (1.0 / std::sqrt(1.0 + strength.squaredNorm()));
+    // A critically damped spring of rate 2 / lag, integrated implicitly: its mean delay is the lag.
+    const double lag_s = tuning.hang_lag_s;
+    const double slowed_s = lag_s + 2.0 * tick_s;
+    pull.rate_per_s = (lag_s * lag_s * pull.rate_per_s + 4.0 * tick_s * (wanted - pull.now)) *
+                      (1.0 / (slowed_s * slowed_s));
     pull.before = pull.now;
-    pull.now += tick_s / (tick_s + tuning.hang_lag_s) * (tuning.hang * hands - pull.now);
+    pull.now += tick_s * pull.rate_per_s;
 }
 
 TrunkLean lean_of(const Vec3& pull_cs) {
@@ -42,7 +49,7 @@ TrunkLean lean_of(const Vec3& pull_cs) {
     }
     // The trunk turns from -Y towards -pull, about their common normal.
     const Vec3 axis = Vec3(pull_cs.z(), 0.0, -pull_cs.x()) * (1.0 / aside);
-    const Vec3 quarter = 0.25 * lean_rad(arc_tangent2(aside, pull_cs.y()), strength) * axis;
+    const Vec3 quarter = 0.25 * strength * whole_lean_rad(arc_tangent2(aside, pull_cs.y())) * axis;
     lean.chest_rad = quarter.x();
     lean.rest_above[0] = turned_down({quarter.x(), 0.0, 2.0 * quarter.z()});
     lean.rest_above[1] = turned_down(quarter);

@@ -40,11 +40,11 @@ TEST(HangBody, HandsThatPullOnNothingChangesNoBit) {
 }
 
 // The closed form of lean_of, for pulls up to 80 degrees from the posture: the trunk's lower
-// link turns by a p / sqrt(1 + p^2).
+// link turns by a p.
 TEST(HangBody, LowestLinkTurnsByItsShareOfTheAngle) {
     Random random(3);
     for (int i = 0; i < 300; ++i) {
-        const Vec3 pull = random.between(0.0, 3.0) * upper_direction(random);
+        const Vec3 pull = random.between(0.0, 1.0) * upper_direction(random);
         if (angle_rad(pull, Vec3::UnitY()) > 80.0 / 180.0 * k_pi) {
             continue;
         }
@@ -55,9 +55,8 @@ TEST(HangBody, LowestLinkTurnsByItsShareOfTheAngle) {
             down = frame * rest;
             frame = frame * rotation_between(-Vec3::UnitY(), rest);
         }
-        const double p = pull.norm();
         const double turned = angle_rad(down, -Vec3::UnitY());
-        EXPECT_NEAR(turned, angle_rad(pull, Vec3::UnitY()) * p / std::sqrt(1.0 + p * p), 0.05);
+        EXPECT_NEAR(turned, angle_rad(pull, Vec3::UnitY()) * pull.norm(), 0.05);
     }
 }
 
@@ -68,12 +67,12 @@ TEST(HangBody, LeanIsContinuousInThePull) {
                     Vec3(lean.chest_rad, 0.0, 0.0));
     };
     for (int i = 0; i < 2000; ++i) {
-        const Vec3 pull = random.between(0.2, 3.0) * random.direction();
+        const Vec3 pull = random.between(0.2, 1.0) * random.direction();
         const Vec3 near = pull + 1e-4 * random.direction();
         EXPECT_LT((lowest(lean_of(pull)) - lowest(lean_of(near))).norm(), 4e-3);
     }
     // Straight up and straight down, in whose neighbourhood the axis is undefined.
-    for (const double y : {-2.0, 2.0}) {
+    for (const double y : {-0.9, 0.9}) {
         const Vec3 near(1e-4, y, -1e-4);
         EXPECT_LT((lowest(lean_of({0.0, y, 0.0})) - lowest(lean_of(near))).norm(), 4e-3);
     }
@@ -145,9 +144,9 @@ TEST(HangBody, TurnedAndMovedWorldsGiveTurnedAndMovedBodies) {
     }
 }
 
-// A grip 90 degrees from the posture begins and ends: the pelvis moves at up to 1.2 m/s relative to
-// the chest, feet at up to 3 m/s. The pelvis changes its velocity by at most 0.1 m/s in a frame,
-// feet, which whip, by 1 m/s.
+// Grips of straight arms, 90 degrees from the posture, begin and end: the pelvis moves at up to
+// 0.5 m/s relative to the chest, feet at up to 2 m/s. In a frame the pelvis changes its velocity by
+// at most 0.04 m/s, knees and feet by 0.2 m/s.
 TEST(HangBody, GripsBeginAndEndWithoutAJump) {
     HangingBody body;
     body.put_hand(HandSide::left, Vec3(-0.1, 0.05, -0.55));
@@ -160,8 +159,8 @@ TEST(HangBody, GripsBeginAndEndWithoutAJump) {
         const std::vector<Vec3> now = joints_of(body.step(1.0 / 90.0));
         for (std::size_t k = 0; k < now.size(); ++k) {
             const Vec3 mps = 90.0 * (now[k] - before[k]);
-            EXPECT_LT(mps.norm(), k <= k_spine_links ? 1.2 : 3.0) << i;
-            EXPECT_LT((mps - velocity[k]).norm(), k <= k_spine_links ? 0.1 : 1.0) << i;
+            EXPECT_LT(mps.norm(), k <= k_spine_links ? 0.5 : 2.0) << i;
+            EXPECT_LT((mps - velocity[k]).norm(), k <= k_spine_links ? 0.04 : 0.2) << i;
             velocity[k] = mps;
         }
         before = now;
@@ -211,8 +210,8 @@ TEST(HangBody, HangingHardlyDependsOnTheFrameRate) {
     RecordProperty("edges_foot_um", static_cast<int>(1e6 * edges.foot_m));
     EXPECT_LT(held.pelvis_m, 0.002);
     EXPECT_LT(held.foot_m, 0.008);
-    EXPECT_LT(edges.pelvis_m, 0.006);
-    EXPECT_LT(edges.foot_m, 0.03);
+    EXPECT_LT(edges.pelvis_m, 0.004);
+    EXPECT_LT(edges.foot_m, 0.02);
 }
 
 }  // namespace

@@ -27,6 +27,7 @@ struct HangingBody {
     Column<Grab> grab;
     Column<SpineMemory> memory;
     Column<SpinePose> pose;
+    SpineTuning tuning;
     double t_s = 0.0;
 
     HangingBody() {
@@ -72,7 +73,7 @@ struct HangingBody {
         propagate_spine(
             {dt_s, t_s, origin, velocity, reference, measures, estimate, memory, pose,
              collision ? SurfaceQuery(*collision) : SurfaceQuery(), &head, &id, &owner, &grab},
-            {});
+            tuning);
         return pose.at(k_player);
     }
     const SpinePose& run(double seconds, double hz = 90.0) {
