@@ -53,6 +53,8 @@ struct SpineTuning {
     double speed_max_mps = 12.0;
     double twist_lag_s = 0.12;
     double twist_limit_rad = 0.35;
+    double hang = 0.8;
+    double hang_lag_s = 0.6;
 };
 
 // Weights of the additive clips (systems/rigs/body_clips.hpp); 0: off.
@@ -121,6 +123,12 @@ void visit_body_tuning(TuningType& t, const See& see) {
         "Time constant with which each link's twist follows the link above.");
     see("spine.twist_limit_rad", t.spine.twist_limit_rad, "rad", 0.0, 1.5,
         "Maximum twist of each link against the link above.");
+    see("spine.hang", t.spine.hang, "", 0.0, 10.0,
+        "How far the trunk turns to hang from the gripping hands: at 1, a hand at arm's length "
+        "turns "
+        "it by 0.7 of the angle. 0: off.");
+    see("spine.hang_lag_s", t.spine.hang_lag_s, "s", 0.0, 10.0,
+        "Mean delay with which the trunk follows the pull of the hands.");
     see("additive.idle", t.additive.idle, "", 0.0, 3.0, "Weight of the idle clip; 0: off.");
     see("additive.push_off", t.additive.push_off, "", 0.0, 3.0,
         "Weight of the push-off clip that plays when the last hand lets go; 0: off.");

@@ -69,6 +69,10 @@ struct Grab {
     // present one. Identity: none. A held free body returns by it (move_into_hand).
     Pose slip_hs;
 };
+// True if the player can pull on what the hand grips: it does not come along as a loose body does.
+inline bool can_push_off(const Grab& grab) {
+    return grab.kind == GripKind::surface || grab.kind == GripKind::player || grab.jointed;
+}
 inline bool has_slipped(const Grab& grab) {
     return grab.slip_hs.position != Vec3::Zero() || grab.slip_hs.rotation.vec() != Vec3::Zero();
 }

@@ -125,11 +125,18 @@ void visit_fields(const ArmPose& c, V&& visit) {
     visit("arms", c.arms);
 }
 template <typename V>
-void visit_fields(const LegContact& c, V&& visit) {
+void visit_fields(const BodyContact& c, V&& visit) {
     visit("touches", c.touches);
     visit("normal_ps", c.normal_ps);
     visit("surface_m", c.surface_m);
-    visit("ankle_m", c.ankle_m);
+}
+template <typename V>
+void visit_fields(const BodyPull& c, V&& visit) {
+    visit("now", c.now);
+    visit("before", c.before);
+    visit("rate_per_s", c.rate_per_s);
+    visit("hands", c.hands);
+    visit("hands_before", c.hands_before);
 }
 template <typename V>
 void visit_fields(const SpineMemory& c, V&& visit) {
@@ -147,6 +154,7 @@ void visit_fields(const SpineMemory& c, V&& visit) {
     visit("twist_rad", c.twist_rad);
     visit("angle_rad", c.angle_rad);
     visit("contacts", c.contacts);
+    visit("pull", c.pull);
 }
 template <typename V>
 void visit_fields(const BodyClipState& c, V&& visit) {
@@ -155,6 +163,7 @@ void visit_fields(const BodyClipState& c, V&& visit) {
     visit("idle_s", c.idle_s);
     visit("push_off_s", c.push_off_s);
     visit("push_off_weight", c.push_off_weight);
+    visit("outside", c.outside);
 }
 template <typename V>
 void visit_fields(const SpinePose::Leg& c, V&& visit) {

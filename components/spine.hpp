@@ -20,15 +20,31 @@ inline BodyLinkVectors zero_vectors() {
     return zero;
 }
 
-// A surface that a leg must not cross: a plane. Let p be a joint's position relative to the chest
-// at the end of the last frame, in play-space axes. The leg keeps normal_ps . p >= surface_m for
-// the knee, and >= ankle_m for the ankle. The surface moves with the reference velocity
+// Parts of the body that keep in front of surfaces: the trunk, left thigh, left shin, right thigh,
+// right shin.
+inline constexpr std::size_t k_body_parts = 1 + 2 * k_hand_count;
+inline constexpr std::size_t body_part_of(std::size_t link) {
+    return link < k_spine_links ? 0 : link - k_spine_links + 1;
+}
+
+// A surface that a part of the body must not cross: a plane. Let p be the position of a link's
+// lower end relative to the chest at the end of the last frame, in play-space axes. The links of
+// the part keep normal_ps . p >= surface_m. The surface moves with the reference velocity
 // (SpineMemory::reference_ws_mps).
-struct LegContact {
+struct BodyContact {
     bool touches = false;
-    Vec3 normal_ps = Vec3::UnitY();  // unit, towards the head's side
-    double surface_m = 0.0;          // minimum of normal_ps . p for the knee
-    double ankle_m = 0.0;            // the same for the ankle; includes the height of the sole
+    Vec3 normal_ps = Vec3::UnitY();  // unit, out of the surface
+    double surface_m = 0.0;          // includes the part's thickness
+};
+
+// What pulls a player: the gripping hands. Play-space axes.
+struct BodyPull {
+    Vec3 now = Vec3::Zero();         // followed with a lag, at the last tick; length in [0, 1)
+    Vec3 before = Vec3::Zero();      // one tick earlier
+    Vec3 rate_per_s = Vec3::Zero();  // of `now`
+    // The sum of the lines from the chest to the hands in the last frame, in arm lengths.
+    Vec3 hands = Vec3::Zero();
+    Vec3 hands_before = Vec3::Zero();  // one frame earlier
 };
 
 // State of propagate_spine: the hanging chain, before pose_spine folds it for a crouch. Offsets
@@ -51,7 +67,8 @@ struct SpineMemory {
     std::array<double, k_spine_links> twist_rad{};
     // Angle of each link from its rest direction; shins: from the thigh's line.
     std::array<double, k_body_links> angle_rad{};
-    std::array<LegContact, k_hand_count> contacts;  // by HandSide
+    std::array<BodyContact, k_body_parts> contacts;  // by body_part_of
+    BodyPull pull;
 };
 
 // Written by propagate_spine.
@@ -61,7 +78,7 @@ struct SpinePose {
         Pose shin_ws;   // origin: knee
         Pose foot_ws;   // origin: ankle; -Z towards the toes
     };
-    Pose chest_ws;                             // leans with the head
+    Pose chest_ws;                             // leans with the head and the pull
     std::array<Pose, k_spine_links> spine_ws;  // origin: upper end of each link
     Pose pelvis_ws;                            // origin: lower end of the last link
     std::array<Leg, k_hand_count> legs;        // by HandSide

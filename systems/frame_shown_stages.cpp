@@ -151,17 +151,17 @@ void propagate_spine(const FrameContext& f) {
     handhold::propagate_spine(
         {f.dt_s(), f.end_s(), w.player_origin, w.player_velocity, w.reference_velocity,
          w.body_measures, w.arm_estimate, w.spine_memory, w.spine_pose, f.surfaces(),
-         &w.head_tracking, &w.persistent_id},
+         &w.head_tracking, &w.persistent_id, &w.hand_owner, &w.grab},
         f.tuning.spine);
 }
 
 void layer_additives(const FrameContext& f) {
     const StageTimer timer(Stage::layer_additives, f.stats);
     World& w = f.w;
-    handhold::layer_additives(
-        {f.dt_s(), f.caches.body_clips, w.head_tracking, w.player_velocity, w.reference_velocity,
-         w.hand_owner, w.grab, w.arm_estimate, w.body_clip_state, w.spine_pose},
-        f.tuning.additive);
+    handhold::layer_additives({f.dt_s(), f.caches.body_clips, w.head_tracking, w.player_velocity,
+                               w.reference_velocity, w.hand_owner, w.grab, w.arm_estimate,
+                               w.body_clip_state, w.spine_pose, &w.spine_memory, &w.player_origin},
+                              f.tuning.additive);
 }
 
 void publish_pose(const FrameContext& f) {

@@ -196,6 +196,8 @@ class BreachFinder {
                   "times >= 0");
             check(state.push_off_weight >= 0.0 && state.push_off_weight <= 1.0, "body_clip_state",
                   owner, ".push_off_weight", "a number in [0, 1]");
+            check(state.outside >= 0.0 && state.outside <= 1.0, "body_clip_state", owner,
+                  ".outside", "a number in [0, 1]");
         }
         for (std::size_t row = 0; row < w_.body_measures.size(); ++row) {
             const BodyMeasures& m = w_.body_measures.rows()[row];
@@ -235,7 +237,7 @@ class BreachFinder {
                   ".since_tick_s", "a time in [0, 1] s");
             check(w_.spine_memory.rows()[row].rate_span_s >= 0.0, "spine_memory",
                   w_.spine_memory.owners()[row], ".rate_span_s", "a time >= 0");
-            for (const LegContact& contact : w_.spine_memory.rows()[row].contacts) {
+            for (const BodyContact& contact : w_.spine_memory.rows()[row].contacts) {
                 check(std::abs(contact.normal_ps.norm() - 1.0) < 1e-3, "spine_memory",
                       w_.spine_memory.owners()[row], ".contacts", "unit normals");
             }

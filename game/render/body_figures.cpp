@@ -7,7 +7,7 @@
 #include "engine/io/text_file.hpp"
 #include "engine/io/vrm_humanoid.hpp"
 #include "game/render/robot_body.hpp"
-#include "systems/rigs/forearm_twist.hpp"
+#include "systems/rigs/arm_twist.hpp"
 
 namespace handhold {
 namespace {
@@ -60,7 +60,7 @@ BodyModel builtin_body_model() {
     Result<BodyRig> rig = fit_body_rig(model.figure);
     HH_CHECK(rig.ok(), "the robot has a body's joints", rig.ok());
     model.rig = std::move(rig.value());
-    spread_forearm_twist(model.figure, model.rig);
+    spread_arm_twist(model.figure, model.rig);
     return model;
 }
 
@@ -85,7 +85,7 @@ Result<BodyModel> choose_body_model(const std::string& figure_file, const std::s
         return rig.error();
     }
     BodyModel model{std::move(figure.value()), std::move(rig.value())};
-    spread_forearm_twist(model.figure, model.rig);
+    spread_arm_twist(model.figure, model.rig);
     return model;
 }
 

@@ -58,8 +58,63 @@ void turn_body(const ClipTurns& turns, SpinePose& pose) {
     }
 }
 
-bool can_push_off(const Grab& grab) {
-    return grab.kind == GripKind::surface || grab.kind == GripKind::player || grab.jointed;
+// Lower ends of the links, by link.
+BodyLinkVectors ends_of(const SpinePose& pose) {
+    BodyLinkVectors ends;
+    for (std::size_t i = 0; i + 1 < k_spine_links; ++i) {
+        ends[i] = pose.spine_ws[i + 1].position;
+    }
+    ends[k_spine_links - 1] = pose.pelvis_ws.position;
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        ends[k_spine_links + 2 * side] = pose.legs[side].shin_ws.position;
+        ends[k_spine_links + 2 * side + 1] = pose.legs[side].foot_ws.position;
+    }
+    return ends;
+}
+
+// Returns the largest share of a motion for which no link enters its surface, or enters it farther.
+// Exact for straight paths of the joints.
+double share_outside(const BodyLinkVectors& from_ws, const BodyLinkVectors& to_ws,
+                     const SpineMemory& memory, const Vec3& chest_ws, const Quat& to_world) {
+    double share = 1.0;
+    for (std::size_t i = 0; i < k_body_links; ++i) {
+        const BodyContact& contact = memory.contacts[body_part_of(i)];
+        if (!contact.touches) {
+            continue;
+        }
+        const Vec3 normal_ws = to_world * contact.normal_ps;
+        const double inward_m = normal_ws.dot(from_ws[i] - to_ws[i]);
+        const double room_m =
+            std::max(0.0, normal_ws.dot(from_ws[i] - chest_ws) - contact.surface_m);
+        if (inward_m > room_m) {
+            share = std::min(share, room_m / inward_m);
+        }
+    }
+    return share;
+}
+
+// Adds the turns, or the share of them that keeps the body out of surfaces.
+void turn_body_outside(const LayerAdditivesIo& io, Entity player, ClipTurns& turns,
+                       BodyClipState& state, SpinePose& pose) {
+    constexpr double k_less_per_s = 6.0;
+    constexpr double k_more_per_s = 1.0;
+    const SpinePose was = pose;
+    turn_body(turns, pose);
+    if (io.memory == nullptr || io.origin == nullptr) {
+        return;
+    }
+    const double share =
+        share_outside(ends_of(was), ends_of(pose), io.memory->at(player), was.chest_ws.position,
+                      io.origin->at(player).pose_ws.rotation);
+    state.outside = std::clamp(share, state.outside - k_less_per_s * io.dt_s,
+                               state.outside + k_more_per_s * io.dt_s);
+    if (state.outside < 1.0) {
+        for (Vec3& turn : turns) {
+            turn *= state.outside;
+        }
+        pose = was;
+        turn_body(turns, pose);
+    }
 }
 
 void see_hands(const LayerAdditivesIo& io) {
@@ -146,7 +201,7 @@ void layer_player(const LayerAdditivesIo& io, std::size_t row, const AdditiveTun
              tuning.look, turns);
     if (std::any_of(turns.begin(), turns.end(),
                     [](const Vec3& turn) { return turn != Vec3::Zero(); })) {
-        turn_body(turns, io.pose.at(player));
+        turn_body_outside(io, player, turns, state, io.pose.at(player));
     }
 }
 

@@ -37,12 +37,18 @@ struct LayerAdditivesIo {
     const Column<ArmEstimate>& estimate;         // in: facing_ps
     Column<BodyClipState>& state;                // in/out
     Column<SpinePose>& pose;                     // in/out: all bones except the chest
+    // For surfaces: SpineMemory's contacts, and the origins that they are relative to. Set both or
+    // none.
+    const Column<SpineMemory>* memory = nullptr;   // in
+    const Column<PlayerOrigin>* origin = nullptr;  // in
 };
 
 // Stage 15, talk row 24. Adds the turns of the clips to spine and legs, bone by bone from the top.
 // The clips are the idle motion, the push-off after the last hand has let go, and those driven by
 // the look direction. Bones keep their lengths, and knees bend only backwards. The simulated chain
-// (SpineMemory) is not affected. Without clips, or with all weights 0, no pose changes.
+// (SpineMemory) is not affected. At a surface the turns are reduced by a common factor, within a
+// sixth of a second, so that no joint moves farther into it than it already is. Without clips, or
+// with all weights 0, no pose changes.
 void layer_additives(const LayerAdditivesIo& io, const AdditiveTuning& tuning);
 
 }  // namespace handhold

@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/anim/deflect_outward.hpp"
 #include "engine/anim/joint_range.hpp"
 #include "engine/anim/quadratic_path.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/math/scalar_rotation.hpp"
-#include "systems/body/shared/fold_body.hpp"
+#include "systems/body/shared/body_contacts.hpp"
+#include "systems/body/shared/hang_body.hpp"
 #include "systems/body/shared/pose_spine.hpp"
 #include "systems/body/shared/spine_chain.hpp"
 
@@ -55,6 +55,9 @@ void rest_at(const Quat& chest, double scale, double t_s, SpineMemory& memory) {
     memory.since_tick_s = std::fmod(t_s, k_spine_tick_s);
     memory.tick_chest_ps = chest;
     memory.contacts = {};
+    memory.pull.now = Vec3::Zero();
+    memory.pull.before = Vec3::Zero();
+    memory.pull.rate_per_s = Vec3::Zero();
     for (std::size_t i = 0; i < k_body_links; ++i) {
         const SpineLink& link = spine_links()[i];
         const SpineFrame& above = frame_above_link(chain, link);
@@ -94,6 +97,19 @@ TickShares tick_shares(const SpineTuning& tuning) {
              range_of(SpineLinkKind::shin, tuning)}};
 }
 
+// Upper limit of a joint. At a surface legs may tuck farther than a swing takes them, as far as a
+// person's do. Afterwards the limit returns with the joint at a limited speed.
+double reached_limit(SpineLinkKind kind, double limit_rad, bool touches, double angle_rad) {
+    constexpr double k_hip_rad = 1.9;
+    constexpr double k_knee_rad = 2.4;
+    constexpr double k_back_radps = 2.0;
+    if (kind == SpineLinkKind::spine) {
+        return limit_rad;
+    }
+    const double widest_rad = kind == SpineLinkKind::thigh ? k_hip_rad : k_knee_rad;
+    return std::max(limit_rad, touches ? widest_rad : angle_rad - k_back_radps * k_spine_tick_s);
+}
+
 // Applies drag, then the speed limit.
 void slow_down(double drag, double speed_max_mps, BodyLinkVectors& velocity_mps) {
     for (Vec3& velocity : velocity_mps) {
@@ -105,39 +121,11 @@ void slow_down(double drag, double speed_max_mps, BodyLinkVectors& velocity_mps)
     }
 }
 
-// Returns the contact of the leg to which a link belongs; null for the spine and for a leg without
-// contact.
-const LegContact* contact_of(const SpineMemory& memory, std::size_t i) {
-    const LegContact* const contact =
-        i < k_spine_links ? nullptr : &memory.contacts[(i - k_spine_links) / 2];
-    return contact != nullptr && contact->touches ? contact : nullptr;
-}
-
-// Turns a link's direction, in its parent's frame, until the link's lower end is outside the
-// surface. The speed of the lower end is limited, so that a leg that starts inside a wall moves out
-// without a jump.
-Vec3 before_surface(const Vec3& towards, const Vec3& base_m, const SpineLink& link, double scale,
-                    const SpineFrame& above, const LegContact& contact) {
-    constexpr double k_out_mps = 3.0;
-    const double length_m = scale * link.length_m;
-    const double place_m = link.kind == SpineLinkKind::shin ? contact.ankle_m : contact.surface_m;
-    const double least_m = place_m - contact.normal_ps.dot(base_m);
-    return deflect_outward(towards, above.axes.transpose() * contact.normal_ps, least_m / length_m,
-                           k_out_mps * k_spine_tick_s / length_m);
-}
-
-// Returns the part of a velocity correction that would move a joint away from the surface faster
-// than the joint already does.
-Vec3 rebound_mps(const Vec3& normal, const Vec3& velocity_mps, const Vec3& correction_mps) {
-    const double before = normal.dot(velocity_mps);
-    const double after = before + normal.dot(correction_mps);
-    return std::max(0.0, after - std::max(0.0, before)) * normal;
-}
-
 struct Ticked {
     Quat chest;
     Vec3 moved_m;  // chest displacement since the last tick
     Vec3 ahead_m;  // chest displacement from this tick to the frame's end
+    double share;  // of the frame that has passed; [0, 1]
 };
 
 void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemory& memory) {
@@ -145,7 +133,11 @@ void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemor
     pass_twist(memory.tick_chest_ps, chest, tuning, memory);
     memory.tick_chest_ps = chest;
     memory.before_m = memory.offset_m;
-    SpineChain chain{frame_at(chest), {}};
+    BodyPull& pull = memory.pull;
+    follow_pull(pull.hands_before + now.share * (pull.hands - pull.hands_before), k_spine_tick_s,
+                tuning, pull);
+    const TrunkLean lean = lean_of(chest.conjugate() * pull.now);
+    SpineChain chain{frame_at(leaning_chest(chest, lean)), {}};
     const TickShares shares = tick_shares(tuning);
     constexpr double k_ticks_per_s = 1.0 / k_spine_tick_s;
     for (std::size_t i = 0; i < k_body_links; ++i) {
@@ -157,26 +149,31 @@ void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemor
         Vec3 towards = above.axes.transpose() * (predicted - base);
         const double distance = towards.norm();
         towards = distance > 1e-6 ? Vec3(towards * (1.0 / distance)) : link.rest;
-        const Vec3 blend = (1.0 - shares.back) * towards + shares.back * link.rest;
-        Vec3 returned = blend * (1.0 / blend.norm());
-        const LegContact* const contact = contact_of(memory, i);
-        if (contact != nullptr) {
-            returned = before_surface(returned, base - now.ahead_m, link, scale, above, *contact);
-        }
-        const JointRange& range = shares.range[static_cast<std::size_t>(link.kind)];
+        const Vec3& rest = i < k_spine_links ? lean.rest_above[i] : link.rest;
+        const Vec3 blend = (1.0 - shares.back) * towards + shares.back * rest;
+        const Vec3 returned = blend * (1.0 / blend.norm());
+        const BodyContact* const contact = contact_of(memory, i);
+        const Vec3 outside = contact == nullptr
+                                 ? returned
+                                 : before_surface(returned, base - now.ahead_m,
+                                                  scale * link.length_m, above, *contact);
+        JointRange range = shares.range[static_cast<std::size_t>(link.kind)];
+        range.high_rad =
+            reached_limit(link.kind, range.high_rad, contact != nullptr, memory.angle_rad[i]);
         const Vec3 allowed = link.kind == SpineLinkKind::shin
-                                 ? clamp_to_hinge(returned, range, memory.angle_rad[i])
-                                 : clamp_to_cone(returned, link.rest, range, memory.angle_rad[i]);
+                                 ? clamp_to_hinge(outside, range, memory.angle_rad[i])
+                                 : clamp_to_cone(outside, link.rest, range, memory.angle_rad[i]);
         memory.offset_m[i] = base + above.axes * ((scale * link.length_m) * allowed);
         // The correction includes the return to rest, so the velocity overshoots the rest pose.
         // Subtracting a share from the parent's velocity (hand_back) damps this.
         Vec3 correction_mps = (memory.offset_m[i] - predicted) * k_ticks_per_s;
-        if (contact != nullptr) {
-            correction_mps -=
-                rebound_mps(contact->normal_ps, memory.velocity_mps[i], correction_mps);
+        if (contact != nullptr && outside != returned) {
+            memory.velocity_mps[i] =
+                touching_mps(contact->normal_ps, memory.velocity_mps[i], correction_mps);
+        } else {
+            memory.velocity_mps[i] += correction_mps;
         }
-        memory.velocity_mps[i] += correction_mps;
-        if (link.parent != k_chest_link) {
+        if (link.parent != k_chest_link && outside == returned) {
             // The pelvis has two thighs; each contributes half.
             const double share = link.kind == SpineLinkKind::thigh ? 0.5 : 1.0;
             memory.velocity_mps[link.parent] -= (share * tuning.hand_back) * correction_mps;
@@ -206,7 +203,8 @@ void play(const Motion& motion, double scale, const SpineTuning& tuning, SpineMe
         const Vec3 moved_m = memory.moved_m + (path.at(until_s) - path.at(played_s));
         played_s = until_s;
         const Quat chest = between(from, motion.chest_ps.rotation, played_s / span_s);
-        tick({chest, moved_m, path.at(span_s) - path.at(until_s)}, scale, tuning, memory);
+        tick({chest, moved_m, path.at(span_s) - path.at(until_s), played_s / span_s}, scale, tuning,
+             memory);
         memory.moved_m = Vec3::Zero();
         memory.since_tick_s = 0.0;
     }
@@ -218,78 +216,22 @@ void play(const Motion& motion, double scale, const SpineTuning& tuning, SpineMe
     memory.rate_span_s = span_s;
 }
 
-// True if this leg queries surfaces in this frame: 15 times per second of the world clock, with a
-// phase that differs between players and legs.
-bool queries_now(const PropagateSpineIo& io, std::uint64_t player, std::size_t side) {
-    constexpr double k_queries_per_s = 15.0;
-    constexpr std::uint64_t k_phases = 8;
-    const double phase = static_cast<double>(player % k_phases) / static_cast<double>(k_phases) +
-                         0.5 * static_cast<double>(side);
-    return std::floor(io.t_s * k_queries_per_s + phase) !=
-           std::floor((io.t_s - io.dt_s) * k_queries_per_s + phase);
-}
-
-// Finds the first surface on the line from the head to the sole, with the leg as at the last tick.
-// The ray starts in the head because the head is outside all solids; the hips may be inside one.
-LegContact find_surface_below(const PropagateSpineIo& io, Entity player, const Pose& chest_ps,
-                              const Vec3& ankle_m, double scale) {
-    constexpr double k_ahead_m = 0.2;  // margin for motion until the next query
-    const double sole_m = 0.11 * scale;
-    const Pose& origin_ws = io.origin.at(player).pose_ws;
-    // A point well inside the head's collider. The eyes are near its surface, which may touch other
-    // surfaces.
-    const Vec3 in_head_m(0.0, 0.0, 0.08);
-    const Vec3 head_ps = transform_point(io.head->at(player).pose_ps, in_head_m);
-    const Vec3 path = chest_ps.position + ankle_m - head_ps;
-    const double length = path.norm();
-    if (!(length > sole_m)) {
-        return {};
-    }
-    const Vec3 along = path * (1.0 / length);
-    const std::array<std::uint64_t, 1> skip = {io.persistent_id->at(player).value};
-    const auto hit = io.surfaces.cast_ray(
-        transform_point(origin_ws, head_ps),
-        transform_point(origin_ws, head_ps + (length + sole_m + k_ahead_m) * along), skip);
-    if (!hit) {
-        return {};
-    }
-    const Vec3 normal_ps = origin_ws.rotation.conjugate() * hit->normal_ws;
-    const double surface_m =
-        normal_ps.dot(inverse_transform_point(origin_ws, hit->point_ws) - chest_ps.position);
-    return {true, normal_ps, surface_m, surface_m - sole_m * normal_ps.dot(along)};
-}
-
-// True if the contact coincides with the tracked floor. A folded leg stays above that floor anyway.
-bool is_tracked_floor(const LegContact& contact, const TrackedFloor& floor) {
-    constexpr double k_level_cosine = 0.9;
-    constexpr double k_near_m = 0.15;
-    return contact.touches && contact.normal_ps.y() > k_level_cosine &&
-           std::abs(contact.surface_m / contact.normal_ps.y() + floor.chest_m) < k_near_m;
-}
-
+// Looks for surfaces beside the body, if the stage has any.
 void touch_surfaces(const PropagateSpineIo& io, Entity player, const Motion& motion,
                     const TrackedFloor& floor, SpineMemory& memory) {
     if (!io.surfaces) {
         return;
     }
-    const double scale = floor.scale;
-    const double pelvis_m =
-        // Height of the pelvis before folding.
-        (floor.chest_m + memory.offset_m[k_spine_links - 1].y()) / scale;
-    const std::uint64_t id = io.persistent_id->at(player).value;
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
-        LegContact& contact = memory.contacts[side];
-        if (queries_now(io, id, side)) {
-            const Vec3& ankle_m = memory.offset_m[k_spine_links + 2 * side + 1];
-            contact = find_surface_below(io, player, motion.chest_ps, ankle_m, scale);
-            contact.touches =
-                contact.touches && !(legs_fold(pelvis_m) && is_tracked_floor(contact, floor));
-        } else {
-            const double nearer_m = contact.normal_ps.dot(motion.moved_m);
-            contact.surface_m -= nearer_m;
-            contact.ankle_m -= nearer_m;
-        }
-    }
+    // The eyes are near the surface of the head's collider, which may touch other surfaces.
+    const Vec3 in_head_m(0.0, 0.0, 0.08);
+    const BodySurroundings around{io.surfaces,
+                                  io.persistent_id->at(player).value,
+                                  io.origin.at(player).pose_ws,
+                                  transform_point(io.head->at(player).pose_ps, in_head_m),
+                                  motion.chest_ps.position,
+                                  floor,
+                                  io.pose.at(player)};
+    find_body_contacts(around, io.t_s, io.dt_s, motion.moved_m, memory);
 }
 
 void propagate_player(const PropagateSpineIo& io, std::size_t row, const SpineTuning& tuning) {
@@ -326,9 +268,34 @@ void propagate_player(const PropagateSpineIo& io, std::size_t row, const SpineTu
     pose_spine(origin_ws * chest_ps, memory, chest_ps, floor, io.pose.at(player));
 }
 
+// Writes BodyPull::hands.
+void take_pulls(const PropagateSpineIo& io) {
+    if (io.grab == nullptr) {
+        return;
+    }
+    for (SpineMemory& memory : io.memory.rows()) {
+        memory.pull.hands_before = memory.pull.hands;
+        memory.pull.hands = Vec3::Zero();
+    }
+    for (std::size_t row = 0; row < io.owner->size(); ++row) {
+        const Grab* const grab = io.grab->find(io.owner->owners()[row]);
+        if (grab == nullptr || !can_push_off(*grab)) {
+            continue;
+        }
+        const HandOwner& owner = io.owner->rows()[row];
+        const BodyMeasures& measures = io.measures.at(owner.player);
+        const ArmEstimate& estimate = io.estimate.at(owner.player);
+        const Vec3 from_chest_m =
+            estimate.arms[index_of(owner.side)].hand_ps.position - estimate.chest_ps.position;
+        io.memory.at(owner.player).pull.hands +=
+            from_chest_m * (1.0 / (measures.upper_arm_m + measures.forearm_m));
+    }
+}
+
 }  // namespace
 
 void propagate_spine(const PropagateSpineIo& io, const SpineTuning& tuning) {
+    take_pulls(io);
     constexpr std::size_t k_players_per_slice = 4;
     const auto propagate = [&](std::size_t /*slice*/, std::size_t first, std::size_t last) {
         for (std::size_t row = first; row < last; ++row) {

@@ -2,6 +2,7 @@
 
 #include "components/arm.hpp"
 #include "components/body_tuning.hpp"
+#include "components/grab.hpp"
 #include "components/player.hpp"
 #include "components/spine.hpp"
 #include "components/tracking.hpp"
@@ -19,14 +20,17 @@ struct PropagateSpineIo {
     const Column<BodyMeasures>& measures;        // in
     const Column<ArmEstimate>& estimate;         // in: the chest
     Column<SpineMemory>& memory;                 // in/out
-    Column<SpinePose>& pose;                     // out
-    // In: for contacts of the legs. Set `surfaces` and the two columns below it, or none of the
-    // three.
+    Column<SpinePose>& pose;                     // out; in: as shown in the last frame
+    // In: for contacts of trunk and legs. Set `surfaces` and the two columns below it, or none of
+    // the three.
     SurfaceQuery surfaces = {};  // in
     // In: rays start in the head; shift_m is the floor's height.
     const Column<HeadTracking>* head = nullptr;
-    // In: so that legs ignore their own player.
+    // In: so that the body ignores its own player's head.
     const Column<PersistentId>* persistent_id = nullptr;
+    // In: hands that pull the body. Set both or none.
+    const Column<HandOwner>* owner = nullptr;
+    const Column<Grab>* grab = nullptr;
 };
 
 // Stage 14. Simulates spine and legs of every player as a chain of links: motion travels down from
@@ -38,10 +42,13 @@ struct PropagateSpineIo {
 // is teleported, the chain moves along rigidly. If the chest jumps, the chain restarts from rest.
 // At most 0.5 s of a frame is simulated.
 //
-// Contacts: knees and soles stay on the head's side of the first surface between head and sole, and
-// slide along that surface, within the joint limits. They apply no force to it. Each leg queries
-// surfaces 15 times a second; between queries the surface moves with the reference velocity. Clips
-// are added later and ignore surfaces.
+// Hanging: the trunk turns towards the opposite of the direction to the gripping hands
+// (hang_body.hpp). Loose bodies in the hands pull nothing. Without a grip the trunk keeps its
+// posture below the head, and an acceleration acts through the chain's inertia alone.
+//
+// Contacts: trunk, thighs and shins stay in front of the first surface along each of them, seen
+// from the head's side, and slide along it, within the joint limits (body_contacts.hpp). They apply
+// no force to it.
 //
 // Crouching: the chain hangs straight in SpineMemory; pose_spine folds it above the tracked floor.
 void propagate_spine(const PropagateSpineIo& io, const SpineTuning& tuning);

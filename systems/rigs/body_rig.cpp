@@ -31,24 +31,47 @@ double trunk_length(const SpinePose& spine) {
     return length;
 }
 
-// Turns the forearm by the carrier's share of the hand's twist. The twist counts from that in the
-// file.
-Pose twisted(const BodyRig::Carrier& carrier, const ArmPose::Arm& arm) {
-    const double twist_rad =
-        followed_twist(arm.forearm_ws.rotation, arm.hand_ws.rotation) - carrier.twist_rad;
-    const Quat turn = rotation_about(Vec3::UnitZ(), carrier.along * twist_rad);
-    return {arm.forearm_ws.position, (arm.forearm_ws.rotation * turn).normalized()};
+// A rotation turned about its own Z axis.
+Quat rolled(const Quat& rotation, double angle_rad) {
+    return (rotation * rotation_about(Vec3::UnitZ(), angle_rad)).normalized();
 }
 
-PlacedBone place_arm(const ArmPose::Arm& arm, const BodyRig::Carrier& carrier) {
+// Rotation of a carrier on the forearm, which follows its share of the hand's twist. The twist
+// counts from that in the file.
+Quat twisted_forearm(const BodyRig::Carrier& carrier, const ArmPose::Arm& arm) {
+    const double twist_rad =
+        followed_twist(arm.forearm_ws.rotation, arm.hand_ws.rotation, carrier.twist_rad);
+    return rolled(arm.forearm_ws.rotation, carrier.along * twist_rad);
+}
+
+// Rotation of a carrier on the upper arm, which follows its share of the twist between the
+// shoulder, where the arm has only swung with the chest as in the file, and the elbow.
+Quat twisted_upper_arm(const BodyRig::Carrier& carrier, const ArmPose::Arm& arm,
+                       const Quat& chest_from_file) {
+    const Quat& whole = arm.upper_ws.rotation;
+    const double twist_rad = followed_twist(chest_from_file * carrier.rest_ms.rotation, whole, 0.0);
+    return rolled(whole, (carrier.along - 1.0) * twist_rad);
+}
+
+// `chest_from_file`: rotation from the file's frame to the world for what is fixed to the chest.
+PlacedBone place_arm(const ArmPose::Arm& arm, const BodyRig::Carrier& carrier,
+                     const Quat& chest_from_file) {
     switch (carrier.bone) {
         case BodyBone::clavicle:
             return {arm.clavicle_ws, (arm.upper_ws.position - arm.clavicle_ws.position).norm()};
-        case BodyBone::upper_arm:
-            return {arm.upper_ws, (arm.forearm_ws.position - arm.upper_ws.position).norm()};
-        case BodyBone::forearm:
-            return {carrier.along > 0.0 ? twisted(carrier, arm) : arm.forearm_ws,
+        case BodyBone::upper_arm: {
+            const Quat rotation = carrier.along < 1.0
+                                      ? twisted_upper_arm(carrier, arm, chest_from_file)
+                                      : arm.upper_ws.rotation;
+            return {{arm.upper_ws.position, rotation},
+                    (arm.forearm_ws.position - arm.upper_ws.position).norm()};
+        }
+        case BodyBone::forearm: {
+            const Quat rotation =
+                carrier.along > 0.0 ? twisted_forearm(carrier, arm) : arm.forearm_ws.rotation;
+            return {{arm.forearm_ws.position, rotation},
                     (arm.hand_ws.position - arm.forearm_ws.position).norm()};
+        }
         default:
             return {arm.hand_ws, 0.0};
     }
@@ -65,7 +88,8 @@ PlacedBone place_leg(const SpinePose::Leg& leg, BodyBone bone) {
     }
 }
 
-PlacedBone place_bone(const BodyRig::Carrier& carrier, const RenderPose& render) {
+PlacedBone place_bone(const BodyRig::Carrier& carrier, const RenderPose& render,
+                      const Quat& chest_from_file) {
     switch (carrier.bone) {
         case BodyBone::trunk:
             return {trunk_at(render.spine, carrier.along), trunk_length(render.spine)};
@@ -76,7 +100,7 @@ PlacedBone place_bone(const BodyRig::Carrier& carrier, const RenderPose& render)
         case BodyBone::upper_arm:
         case BodyBone::forearm:
         case BodyBone::hand:
-            return place_arm(render.arms.arms[index_of(carrier.side)], carrier);
+            return place_arm(render.arms.arms[index_of(carrier.side)], carrier, chest_from_file);
         case BodyBone::thigh:
         case BodyBone::shin:
         case BodyBone::foot:
@@ -129,17 +153,20 @@ bool is_identity(const Pose& pose) {
 
 }  // namespace
 
-double followed_twist(const Quat& forearm, const Quat& hand) {
+double arm_twist(const Quat& parent, const Quat& child) {
+    const Quat turn = parent.conjugate() * child;
+    // Cosine and sine of half the twist, both times the cosine of half the bend.
+    return 2.0 * arc_tangent2(turn.w() < 0.0 ? -turn.z() : turn.z(), std::abs(turn.w()));
+}
+
+double followed_twist(const Quat& parent, const Quat& child, double rest_rad) {
     constexpr double k_wholly_rad = 2.0 / 3.0 * k_pi;
-    const Quat turn = forearm.conjugate() * hand;
-    // Cosine and sine of half the twist, both times the cosine of half the wrist's bend.
-    const double cosine = std::abs(turn.w());
-    const double sine = turn.w() < 0.0 ? -turn.z() : turn.z();
-    const double twist_rad = 2.0 * arc_tangent2(sine, cosine);
+    const Quat turn = parent.conjugate() * child;
+    const double twist_rad = std::remainder(arm_twist(parent, child) - rest_rad, 2.0 * k_pi);
     const double size = std::abs(twist_rad);
     const double followed =
         size <= k_wholly_rad ? size : k_wholly_rad * (k_pi - size) / (k_pi - k_wholly_rad);
-    const double bent = smooth_step(cosine * cosine + sine * sine, 0.0, 0.25);
+    const double bent = smooth_step(turn.w() * turn.w() + turn.z() * turn.z(), 0.0, 0.25);
     return std::copysign(bent * std::max(followed, 0.0), twist_rad);
 }
 
@@ -177,6 +204,8 @@ void pose_skeleton(const BodyRig& rig, const BodyMeasures& measures, const Rende
     girth.legs = measures.eye_height_m / rig.eye_height_m;
     girth.trunk = measures.shoulder_width_m / rig.shoulder_width_m;
     girth.others = std::min(girth.legs, girth.trunk);
+    const Quat chest_from_file = render.spine.chest_ws.rotation *
+                                 rig.carriers[BodyRig::k_chest].rest_ms.rotation.conjugate();
     out.carrier_ws.resize(rig.carriers.size());
     out.stretched.resize(rig.carriers.size());
     for (std::size_t i = 0; i < rig.carriers.size(); ++i) {
@@ -187,7 +216,7 @@ void pose_skeleton(const BodyRig& rig, const BodyMeasures& measures, const Rende
                       transform_point(out.stretched[BodyRig::k_chest], carrier.rest_ms.position),
                       transform_point(out.stretched[BodyRig::k_head], rig.head_joint_ms),
                       out.carrier_ws[BodyRig::k_chest].rotation, render.head_ws.rotation)
-                : place_bone(carrier, render);
+                : place_bone(carrier, render, chest_from_file);
         out.carrier_ws[i] = placed.frame_ws;
         out.stretched[i] = stretch_onto(carrier, placed, girth);
     }

@@ -36,11 +36,12 @@ struct BodyRig {
         BodyBone bone = BodyBone::trunk;
         HandSide side = HandSide::left;  // limbs only
         // Trunk: position from 0 (pelvis) to 1 (between the shoulders). Forearm: share of the
-        // hand's twist that the joint follows, from 0 (at the elbow) to 1 (at the wrist).
+        // hand's twist that the joint follows, from 0 (at the elbow) to 1 (at the wrist). Upper
+        // arm: share of its own twist, from 0 (at the shoulder) to 1 (at the elbow).
         double along = 0.0;
         Pose rest_ms;            // the bone's frame in the file
         double length_m = 0.0;   // length of the bone; 0: it has no end joint (head and hands)
-        double twist_rad = 0.0;  // forearm: followed_twist of the pose in the file
+        double twist_rad = 0.0;  // forearm: arm_twist of the hand in the file
     };
     struct Joint {
         std::string name;
@@ -74,17 +75,21 @@ struct SkeletonPose {
 // Poses the joints of `rig` like the player's head, chest, arms, hands, spine and legs (talk rows
 // 19 to 23). Bones get the player's lengths. The thickness of the legs scales with the ratio of the
 // eye heights, and that of the trunk with the ratio of the shoulder widths. The other bones use the
-// smaller of these ratios. Joints along a forearm take their share of the hand's twist. A hand
+// smaller of these ratios. Joints along an arm take their share of its twist. A hand
 // joint whose axes are those of hand space equals RenderPose's hand exactly. Allocates only when
 // the vectors of `out` grow.
 void pose_skeleton(const BodyRig& rig, const BodyMeasures& measures, const RenderPose& render,
                    SkeletonPose& out);
 
-// The part of a hand's twist about the forearm's axis that the forearm follows, radians. The twist
-// is 0 if the back of the hand is on the elbow's side. Up to 120 degrees the forearm follows the
-// whole twist. Beyond that it follows less, and at 180 degrees nothing, so that the result is
-// continuous. Fades out if the wrist bends by more than 120 degrees.
-double followed_twist(const Quat& forearm, const Quat& hand);
+// Angle by which `child` is twisted about the Z axis of `parent`, in (-pi, pi], whatever the bend
+// between both. 0 for a bend of 180 degrees.
+double arm_twist(const Quat& parent, const Quat& child);
+
+// The part of a child's twist about the Z axis of `parent` that joints between both follow,
+// relative to the twist `rest_rad` of the figure's file, in radians. Up to 120 degrees to either
+// side it is the whole difference. Beyond that it is less, and at 180 degrees nothing, so that the
+// result is continuous. Fades out if the bend exceeds 120 degrees.
+double followed_twist(const Quat& parent, const Quat& child, double rest_rad);
 
 // Pose of the player's trunk at `along`: 0 is the pelvis, 1 midway between the shoulders.
 Pose trunk_at(const SpinePose& spine, double along);

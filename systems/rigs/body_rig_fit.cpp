@@ -164,7 +164,8 @@ class BodyFitter {
             const Vec3 along = limb_place(side, next) - limb_place(side, bone);
             const double length = checked(along.norm(), {bone, side});
             const Quat turn = look_rotation(along, choose_aside(along, aside, other));
-            add_for(joint(bone), {bone, side, 0.0, {limb_place(side, bone), turn}, length});
+            const double share = bone == BodyBone::upper_arm ? 1.0 : 0.0;
+            add_for(joint(bone), {bone, side, share, {limb_place(side, bone), turn}, length});
         };
         if (bones_.limb(side, BodyBone::clavicle)) {
             add_bone(BodyBone::clavicle, BodyBone::upper_arm, stance_.up_ms, outwards);
@@ -176,7 +177,7 @@ class BodyFitter {
         const Quat turn = look_rotation(fingers, choose_aside(fingers, stance_.up_ms, outwards));
         add_for(hand, {BodyBone::hand, side, 0.0, {place(hand), turn}, 0.0});
         BodyRig::Carrier& forearm = rig_.carriers[carrier_of_[joint(BodyBone::forearm)]];
-        forearm.twist_rad = followed_twist(forearm.rest_ms.rotation, turn);
+        forearm.twist_rad = arm_twist(forearm.rest_ms.rotation, turn);
         for (std::size_t i = 0; i < figure_.joints.size(); ++i) {
             const auto guess = parse_body_joint_name(figure_.joints[i].name);
             const bool is_hand = (guess && !guess->is_part && guess->name.bone == BodyBone::hand) ||

@@ -10,6 +10,7 @@
 #include "tools/lab/grip_command.hpp"
 #include "tools/lab/hands_picture.hpp"
 #include "tools/lab/lab_scene.hpp"
+#include "tools/lab/shown_body_command.hpp"
 #include "tools/lab/solve_command.hpp"
 
 namespace {
@@ -110,6 +111,14 @@ void add_body_options(CLI::App& body, lab::BodyOptions& options) {
         ->check(CLI::IsMember(lab::estimator_names()));
 }
 
+void add_shown_body_options(CLI::App& shown, lab::ShownBodyOptions& options) {
+    shown.add_option("--scene", options.scene, "A built-in scene with a session");
+    shown.add_option("--hz", options.hz, "Frames per second")->check(number_in(10.0, 1000.0));
+    shown.add_option("--hang", options.hang, "Overrides spine.hang")->check(number_in(0.0, 10.0));
+    shown.add_option("--json", options.json, "Output: figures")->required();
+    shown.add_option("--csv", options.csv, "Output: depths in every frame");
+}
+
 }  // namespace
 
 // NOLINTNEXTLINE(bugprone-exception-escape): without memory there is no message to print either
@@ -132,6 +141,10 @@ int main(int argc, char** argv) {
     CLI::App* const body = app.add_subcommand(
         "body", "Estimates chest, shoulders and elbows from recorded heads and hands");
     add_body_options(*body, body_options);
+    lab::ShownBodyOptions shown_options;
+    CLI::App* const shown =
+        app.add_subcommand("shown-body", "Measures trunk and legs in a scene's own session");
+    add_shown_body_options(*shown, shown_options);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -142,6 +155,7 @@ int main(int argc, char** argv) {
                                      : grip->parsed()    ? *grip
                                      : picture->parsed() ? *picture
                                      : body->parsed()    ? *body
+                                     : shown->parsed()   ? *shown
                                                          : app;
         std::fprintf(stderr, "%s\n%s", error.what(), subcommand.help().c_str());
         return k_exit_usage;
@@ -151,6 +165,9 @@ int main(int argc, char** argv) {
     }
     if (body->parsed()) {
         return lab::body_command(body_options);
+    }
+    if (shown->parsed()) {
+        return lab::shown_body_command(shown_options);
     }
     return grip->parsed() ? lab::grip_command(grip_options) : lab::solve_command(options);
 }

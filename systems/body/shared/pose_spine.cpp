@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "engine/anim/deflect_outward.hpp"
+#include "systems/body/shared/hang_body.hpp"
 #include "systems/body/shared/spine_chain.hpp"
 
 namespace handhold {
@@ -128,9 +129,14 @@ class BodyFolder {
 
 void pose_spine(const Pose& chest_ws, const SpineMemory& memory, const Pose& chest_ps,
                 const TrackedFloor& floor, SpinePose& out) {
-    PlacedChain chain{{frame_at(chest_ws.rotation), {}}, {}, {}, {}};
     // From play-space axes to world axes.
-    const Mat3 to_ws = chain.frames.chest.axes * chest_ps.rotation.toRotationMatrix().transpose();
+    const Mat3 to_ws =
+        chest_ws.rotation.toRotationMatrix() * chest_ps.rotation.toRotationMatrix().transpose();
+    const double share = memory.since_tick_s / k_spine_tick_s;
+    const Vec3 pull_ps = memory.pull.before + share * (memory.pull.now - memory.pull.before);
+    const Quat leaning =
+        leaning_chest(chest_ws.rotation, lean_of(chest_ps.rotation.conjugate() * pull_ps));
+    PlacedChain chain{{frame_at(leaning), {}}, {}, {}, {}};
     hang(memory, to_ws, floor.scale, chain);
     const std::array<double, k_hand_count> toes_rad =
         BodyFolder(memory, floor, to_ws * Vec3::UnitY(), chain).fold();
@@ -138,7 +144,7 @@ void pose_spine(const Pose& chest_ws, const SpineMemory& memory, const Pose& che
         return Pose{chest_ws.position + chain.base_m[i], chain.frames.links[i].rotation};
     };
     const auto end_of = [&](std::size_t i) { return Vec3(chest_ws.position + chain.end_m[i]); };
-    out.chest_ws = chest_ws;
+    out.chest_ws = {chest_ws.position, leaning};
     for (std::size_t i = 0; i < k_spine_links; ++i) {
         out.spine_ws[i] = pose_at(i);
     }

@@ -12,8 +12,9 @@ struct TrackedFloor {
 };
 
 // Last step of propagate_spine: writes the chain that is shown. Interpolates between the last two
-// ticks of `memory`, restores the lengths of the bones, and folds the body above the floor
-// (fold_body.hpp). chest_ps and chest_ws are the same pose, in play space and in the world.
+// ticks of `memory`, leans the chest (hang_body.hpp), restores the lengths of the bones, and folds
+// the body above the floor (fold_body.hpp). chest_ps and chest_ws are the same pose, in play space
+// and in the world.
 void pose_spine(const Pose& chest_ws, const SpineMemory& memory, const Pose& chest_ps,
                 const TrackedFloor& floor, SpinePose& out);
 

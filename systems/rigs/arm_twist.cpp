@@ -1,4 +1,4 @@
-#include "systems/rigs/forearm_twist.hpp"
+#include "systems/rigs/arm_twist.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,26 +20,28 @@ double weight_of(const SkinWeights& weights, std::size_t joint) {
     return sum;
 }
 
-// Finds the forearm's joint at the elbow. Returns false if other joints along the forearm carry
-// skin too, or if none does.
-bool find_single_joint(const SkinnedMesh& figure, const BodyRig& rig, HandSide side,
+bool carries_skin(const SkinnedMesh& figure, std::size_t joint) {
+    return std::any_of(
+        figure.weights.begin(), figure.weights.end(),
+        [joint](const SkinWeights& weights) { return weight_of(weights, joint) > 0.0; });
+}
+
+// Finds the joint of a bone that carries its skin. Returns false if several joints along the bone
+// do, or none.
+bool find_single_joint(const SkinnedMesh& figure, const BodyRig& rig, BodyBone bone, HandSide side,
                        std::size_t& joint) {
     bool is_found = false;
     for (std::size_t i = 0; i < rig.joints.size(); ++i) {
         const BodyRig::Carrier& carrier = rig.carriers[rig.joints[i].carrier];
-        if (carrier.bone != BodyBone::forearm || carrier.side != side) {
+        if (carrier.bone != bone || carrier.side != side || !carries_skin(figure, i)) {
             continue;
         }
-        const bool carries =
-            std::any_of(figure.weights.begin(), figure.weights.end(),
-                        [i](const SkinWeights& weights) { return weight_of(weights, i) > 0.0; });
-        if (carries && (carrier.along > 0.0 || is_found)) {
+        const bool is_along = bone == BodyBone::forearm && carrier.along > 0.0;
+        if (is_found || is_along) {
             return false;
         }
-        if (carries) {
-            joint = i;
-            is_found = true;
-        }
+        joint = i;
+        is_found = true;
     }
     return is_found;
 }
@@ -54,8 +56,8 @@ bool is_rigid(const SkinnedMesh& figure, std::size_t joint) {
                         });
 }
 
-// Indices of the elbow's joint and of the added joints, from elbow to wrist.
-using TwistJoints = std::array<std::uint16_t, k_forearm_twists + 1>;
+// Indices of the bone's joint and of the added joints, along the bone.
+using TwistJoints = std::array<std::uint16_t, k_arm_twists + 1>;
 
 // Adds up the joint's weights in one slot of the vertex and returns that slot.
 std::size_t gather_weight(std::size_t joint, SkinWeights& weights) {
@@ -71,11 +73,11 @@ std::size_t gather_weight(std::size_t joint, SkinWeights& weights) {
     return slot;
 }
 
-// Distributes a vertex's weight on the elbow's joint to the two joints between which the vertex
+// Distributes a vertex's weight on the bone's joint to the two joints between which the vertex
 // lies. If the vertex has no free slot for the second joint, the nearer one gets all of it.
 void share_out(const TwistJoints& joints, double along, SkinWeights& weights) {
-    const double place = std::clamp(along, 0.0, 1.0) * static_cast<double>(k_forearm_twists);
-    const auto below = std::min(static_cast<std::size_t>(place), k_forearm_twists - 1);
+    const double place = std::clamp(along, 0.0, 1.0) * static_cast<double>(k_arm_twists);
+    const auto below = std::min(static_cast<std::size_t>(place), k_arm_twists - 1);
     const auto share = static_cast<float>(place - static_cast<double>(below));
     const std::size_t slot = gather_weight(joints[0], weights);
     const auto* const free = std::find_if(weights.weight.begin(), weights.weight.end(),
@@ -92,11 +94,12 @@ void share_out(const TwistJoints& joints, double along, SkinWeights& weights) {
 }
 
 void add_joints(std::size_t joint, SkinnedMesh& figure, BodyRig& rig) {
-    const BodyRig::Carrier forearm = rig.carriers[rig.joints[joint].carrier];
+    const BodyRig::Carrier bone = rig.carriers[rig.joints[joint].carrier];
+    rig.carriers[rig.joints[joint].carrier].along = 0.0;
     TwistJoints joints{static_cast<std::uint16_t>(joint)};
-    for (std::size_t i = 1; i <= k_forearm_twists; ++i) {
-        BodyRig::Carrier carrier = forearm;
-        carrier.along = static_cast<double>(i) / static_cast<double>(k_forearm_twists);
+    for (std::size_t i = 1; i <= k_arm_twists; ++i) {
+        BodyRig::Carrier carrier = bone;
+        carrier.along = static_cast<double>(i) / static_cast<double>(k_arm_twists);
         joints[i] = static_cast<std::uint16_t>(rig.joints.size());
         const std::string name = rig.joints[joint].name + "_twist_" + std::to_string(i);
         const Pose in_bone{Vec3(0.0, 0.0, -carrier.along * carrier.length_m), Quat::Identity()};
@@ -108,25 +111,29 @@ void add_joints(std::size_t joint, SkinnedMesh& figure, BodyRig& rig) {
     }
     for (std::size_t i = 0; i < figure.positions.size(); ++i) {
         if (weight_of(figure.weights[i], joint) > 0.0) {
-            const Vec3 at = inverse_transform_point(forearm.rest_ms, figure.positions[i]);
-            share_out(joints, -at.z() / forearm.length_m, figure.weights[i]);
+            const Vec3 at = inverse_transform_point(bone.rest_ms, figure.positions[i]);
+            share_out(joints, -at.z() / bone.length_m, figure.weights[i]);
         }
     }
 }
 
 }  // namespace
 
-void spread_forearm_twist(SkinnedMesh& figure, BodyRig& rig) {
+void spread_arm_twist(SkinnedMesh& figure, BodyRig& rig) {
     constexpr double k_rigid_share = 0.5;
-    for (const HandSide side : {HandSide::left, HandSide::right}) {
-        std::size_t joint = 0;
-        if (!find_single_joint(figure, rig, side, joint)) {
-            continue;
-        }
-        if (is_rigid(figure, joint)) {
-            rig.carriers[rig.joints[joint].carrier].along = k_rigid_share;
-        } else if (figure.joints.size() + k_forearm_twists <= k_max_skin_joints) {
-            add_joints(joint, figure, rig);
+    for (const BodyBone bone : {BodyBone::upper_arm, BodyBone::forearm}) {
+        for (const HandSide side : {HandSide::left, HandSide::right}) {
+            std::size_t joint = 0;
+            if (!find_single_joint(figure, rig, bone, side, joint)) {
+                continue;
+            }
+            if (!is_rigid(figure, joint)) {
+                if (figure.joints.size() + k_arm_twists <= k_max_skin_joints) {
+                    add_joints(joint, figure, rig);
+                }
+            } else if (bone == BodyBone::forearm) {
+                rig.carriers[rig.joints[joint].carrier].along = k_rigid_share;
+            }
         }
     }
 }

@@ -1,0 +1,149 @@
+#include "systems/body/shared/body_contacts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/anim/deflect_outward.hpp"
+#include "systems/body/shared/fold_body.hpp"
+
+namespace handhold {
+namespace {
+
+// For an eye height of k_scale_eye_m. Casts are wider, so that a part that rests on a surface finds
+// it again. A cast along the trunk begins in the head and is narrower than the head's sphere; one
+// along a leg begins in the pelvis and is narrower than the trunk.
+constexpr double k_trunk_radius_m = 0.09;
+constexpr double k_thigh_radius_m = 0.065;
+constexpr double k_shin_radius_m = 0.05;
+constexpr double k_cast_wider_m = 0.015;
+constexpr double k_widest_cast_m = 0.105;  // of a player of any size
+constexpr double k_sole_m = 0.11;          // below the ankle
+constexpr double k_ahead_m = 0.15;         // margin for motion until the next search
+
+// True if this part is searched in this frame. The phase differs between players and parts.
+bool searches_now(double t_s, double dt_s, std::uint64_t player, std::size_t part) {
+    constexpr double k_per_s = 15.0;
+    constexpr std::uint64_t k_phases = 8;
+    const double phase = static_cast<double>(player % k_phases) / static_cast<double>(k_phases) +
+                         static_cast<double>(part) / static_cast<double>(k_body_parts);
+    return std::floor(t_s * k_per_s + phase) != std::floor((t_s - dt_s) * k_per_s + phase);
+}
+
+// The line along a part, relative to the chest.
+struct PartLine {
+    Vec3 from_m;
+    Vec3 to_m;
+    double radius_m;
+    double beyond_m;  // how far the part extends beyond to_m
+};
+PartLine line_of(const BodySurroundings& around, std::size_t part) {
+    const double scale = around.floor.scale;
+    const auto from_chest = [&](const Vec3& point_ws) {
+        return Vec3(around.origin_ws.rotation.conjugate() *
+                    (point_ws - around.shown.chest_ws.position));
+    };
+    const Vec3 pelvis_m = from_chest(around.shown.pelvis_ws.position);
+    if (part == 0) {
+        return {around.head_ps - around.chest_ps, pelvis_m, scale * k_trunk_radius_m, 0.0};
+    }
+    const SpinePose::Leg& leg = around.shown.legs[(part - 1) / 2];
+    if (spine_links()[k_spine_links + part - 1].kind == SpineLinkKind::thigh) {
+        return {pelvis_m, from_chest(leg.shin_ws.position), scale * k_thigh_radius_m, 0.0};
+    }
+    return {pelvis_m, from_chest(leg.foot_ws.position), scale * k_shin_radius_m, scale * k_sole_m};
+}
+
+// True if the surface coincides with the tracked floor, above which pose_spine folds the body.
+bool is_tracked_floor(const Vec3& normal_ps, double surface_m, const TrackedFloor& floor) {
+    constexpr double k_level_cosine = 0.9;
+    constexpr double k_near_m = 0.15;
+    return normal_ps.y() > k_level_cosine &&
+           std::abs(surface_m / normal_ps.y() + floor.chest_m) < k_near_m;
+}
+
+BodyContact find_contact(const BodySurroundings& around, const SpineMemory& memory,
+                         std::size_t part) {
+    const PartLine line = line_of(around, part);
+    // A cast that begins behind a surface would find its back.
+    const BodyContact& trunk = memory.contacts[0];
+    if (part > 0 && trunk.touches &&
+        trunk.normal_ps.dot(line.from_m) < trunk.surface_m - line.radius_m) {
+        return trunk;
+    }
+    const Vec3 path = line.to_m - line.from_m;
+    const double length_m = path.norm();
+    if (!(length_m > 1e-3)) {
+        return {};
+    }
+    const Vec3 along = path * (1.0 / length_m);
+    const auto in_world = [&](const Vec3& from_chest_m) {
+        return transform_point(around.origin_ws, around.chest_ps + from_chest_m);
+    };
+    const std::array<std::uint64_t, 1> skip = {around.own_id};
+    const Vec3 from_ws = in_world(line.from_m);
+    const Vec3 to_ws = in_world(line.to_m + (line.beyond_m + k_ahead_m) * along);
+    const double radius_m =
+        std::min(line.radius_m + around.floor.scale * k_cast_wider_m, k_widest_cast_m);
+    auto hit = around.surfaces.cast_sphere(radius_m, from_ws, to_ws, skip);
+    if (hit && !(hit->distance_m > 0.0)) {
+        // It begins in a surface, which hides those further along.
+        hit = around.surfaces.cast_ray(from_ws, to_ws, skip);
+    }
+    if (!hit) {
+        return {};
+    }
+    const Vec3 normal_ps = around.origin_ws.rotation.conjugate() * hit->normal_ws;
+    const double surface_m =
+        normal_ps.dot(inverse_transform_point(around.origin_ws, hit->point_ws) - around.chest_ps);
+    const double pelvis_m =  // of the chain before it is folded
+        (around.floor.chest_m + memory.offset_m[k_spine_links - 1].y()) / around.floor.scale;
+    if (legs_fold(pelvis_m) && is_tracked_floor(normal_ps, surface_m, around.floor)) {
+        return {};
+    }
+    const double thickness_m = std::max(line.radius_m, -line.beyond_m * normal_ps.dot(along));
+    return {true, normal_ps, surface_m + thickness_m};
+}
+
+}  // namespace
+
+void find_body_contacts(const BodySurroundings& around, double t_s, double dt_s,
+                        const Vec3& moved_m, SpineMemory& memory) {
+    for (std::size_t part = 0; part < k_body_parts; ++part) {
+        BodyContact& contact = memory.contacts[part];
+        if (searches_now(t_s, dt_s, around.own_id, part)) {
+            contact = find_contact(around, memory, part);
+        } else {
+            contact.surface_m -= contact.normal_ps.dot(moved_m);
+        }
+    }
+}
+
+const BodyContact* contact_of(const SpineMemory& memory, std::size_t link) {
+    const BodyContact& contact = memory.contacts[body_part_of(link)];
+    return contact.touches ? &contact : nullptr;
+}
+
+Vec3 before_surface(const Vec3& towards, const Vec3& base_m, double length_m,
+                    const SpineFrame& above, const BodyContact& contact) {
+    constexpr double k_out_mps = 2.0;
+    constexpr double k_any_lift = 2.0;
+    const double least_m = contact.surface_m - contact.normal_ps.dot(base_m);
+    const Vec3 outside = deflect_outward(towards, above.axes.transpose() * contact.normal_ps,
+                                         least_m / length_m, k_any_lift);
+    const Vec3 turn = outside - towards;
+    const double size = turn.norm();
+    const double most = k_out_mps * k_spine_tick_s / length_m;
+    return size <= most ? outside : (towards + turn * (most / size)).normalized();
+}
+
+Vec3 touching_mps(const Vec3& normal, const Vec3& velocity_mps, const Vec3& correction_mps) {
+    constexpr double k_kept = 0.85;  // per tick: surfaces are rough
+    const double before = normal.dot(velocity_mps);
+    const Vec3 corrected_mps = velocity_mps + correction_mps;
+    const double after = normal.dot(corrected_mps);
+    return k_kept *
+           (corrected_mps + (std::clamp(after, 0.0, std::max(0.0, before)) - after) * normal);
+}
+
+}  // namespace handhold

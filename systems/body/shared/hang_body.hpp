@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+
+#include "components/body_tuning.hpp"
+#include "components/spine.hpp"
+#include "engine/math/math.hpp"
+#include "engine/math/scalar_rotation.hpp"
+
+// In zero-G, the trunk of a player hangs from the gripping hands.
+namespace handhold {
+
+// Advances BodyPull by one tick. `hands`: as BodyPull::hands, at the tick's time. Their sum times
+// SpineTuning::hang has a length p; the pull follows it, shortened to p / sqrt(1 + p^2), without a
+// jump of its velocity and without overshoot.
+void follow_pull(const Vec3& hands, double tick_s, const SpineTuning& tuning, BodyPull& pull);
+
+// Bend of the trunk: the shown chest turns about its X axis first, then each link of the spine
+// turns against the link above.
+struct TrunkLean {
+    double chest_rad = 0.0;                      // about the chest's X axis
+    std::array<Vec3, k_spine_links> rest_above;  // rest directions in the frames of the links above
+};
+// `pull_cs`: BodyPull::now in the chest's axes, of length p < 1 at the angle a from +Y. The trunk
+// turns by a p from the chest's -Y towards the opposite of the pull: not at all without a pull, and
+// nearly all the way for a strong one. From a = 80 degrees on the bend fades, and is zero from
+// 130 degrees on: hands below the chest push rather than pull, and no trunk folds onto itself.
+TrunkLean lean_of(const Vec3& pull_cs);
+
+inline Quat leaning_chest(const Quat& chest, const TrunkLean& lean) {
+    return lean.chest_rad == 0.0 ? chest
+                                 : product(chest, rotation_about(Vec3::UnitX(), lean.chest_rad));
+}
+
+}  // namespace handhold
