@@ -40,6 +40,8 @@ struct FingerRig {
     double upper_opposition_rad = 0.0;
 };
 
+inline constexpr std::size_t k_max_palm_capsules = 12;
+
 // A capsule of the palm, such as a metacarpal, the heel or the ball of the thumb.
 struct PalmCapsule {
     Vec3 a_hs = Vec3::Zero();
@@ -59,8 +61,8 @@ struct RigJoint {
 
 struct HandRig {
     HandSide side = HandSide::right;
-    std::vector<FingerRig> fingers;  // 2 to 5 fingers, each name at most once
-    std::vector<PalmCapsule> palm;
+    std::vector<FingerRig> fingers;                  // 2 to 5 fingers, each name at most once
+    std::vector<PalmCapsule> palm;                   // at most k_max_palm_capsules
     Vec3 palm_center_hs = Vec3(0.0, -0.014, -0.08);  // a point on the palm's skin
     Vec3 palm_normal_hs = -Vec3::UnitY();            // unit, out of the palm
     std::vector<RigJoint> joints;                    // empty: no skin

@@ -28,16 +28,14 @@ namespace handhold {
 namespace {
 
 RunLog play(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>& players,
-            const Recording* recording, const RunSettings& settings, SessionFilm* camera,
-            RunTally& tally, SnapshotTaker& snapshots) {
+            const Recording* recording, const RunSettings& settings, RunFilm& film, RunTally& tally,
+            SnapshotTaker& snapshots) {
     Progress progress("playing " + printable(scene.name, k_max_shown_name));
     const double length_s = session_length_s(recording, settings);
     return run_session(scene, caches, players, recording, settings,
                        [&](const Scene& played, const FrameLog& frame) {
                            snapshots.watch(played, frame.t_s);
-                           if (camera != nullptr) {
-                               camera->watch(frame);
-                           }
+                           film_frame(frame, film);
                            tally.add(frame);
                            progress.show(frame.t_s / length_s);
                        });
@@ -138,8 +136,8 @@ int play_and_report(const RunOptions& options, PreparedRun& run) {
     }
     RunTally tally;
     SnapshotTaker snapshots(options, *run.assets);
-    RunLog log = play(run.scene, *run.caches, run.players, run.recording(), run.settings,
-                      film.camera.get(), tally, snapshots);
+    RunLog log = play(run.scene, *run.caches, run.players, run.recording(), run.settings, film,
+                      tally, snapshots);
     if (const auto error = snapshots.error()) {
         return refuse(*error);
     }
@@ -152,9 +150,7 @@ int play_and_report(const RunOptions& options, PreparedRun& run) {
         }
     }
     if (!options.out.empty()) {
-        std::vector<FilmShot> shots = finish_run_film(film);
-        if (auto error =
-                write_run_output(options.out, log, std::move(film.media), std::move(shots))) {
+        if (const auto error = write_run_output(options.out, log, film)) {
             return refuse(*error);
         }
     }

@@ -14,23 +14,31 @@
 namespace handhold {
 namespace {
 
-std::optional<FileError> write_pictures(const std::filesystem::path& folder,
-                                        std::vector<FilmShot> shots, ReportMedia& media) {
+std::optional<FileError> write_picture(const std::filesystem::path& folder, const FilmShot& shot) {
     std::error_code failure;
     std::filesystem::create_directories(folder / "shots", failure);
     if (failure) {
         return FileError{(folder / "shots").string(), "",
                          "expected a folder that can be made: " + failure.message()};
     }
-    for (FilmShot& shot : shots) {
-        const std::string bytes(shot.png.begin(), shot.png.end());
-        if (auto error =
-                write_file_atomically(folder / "shots" / (file_name(shot.name) + ".png"), bytes)) {
-            return error;
-        }
-        media.pictures.push_back({shot.caption, std::move(shot.png)});
+    return write_file_atomically(folder / "shots" / (file_name(shot.name) + ".png"),
+                                 std::string(shot.png.begin(), shot.png.end()));
+}
+
+// Finishes the video, and takes the pictures into the report.
+void finish_film(RunFilm& film) {
+    if (film.camera == nullptr) {
+        return;
     }
-    return std::nullopt;
+    std::string why_not;
+    for (FilmShot& shot : film.camera->finish(why_not)) {
+        film.media.pictures.push_back({std::move(shot.caption), std::move(shot.png)});
+    }
+    if (why_not.empty()) {
+        film.media.video = "run.mp4";
+    } else {
+        std::printf("no video: %s\n", why_not.c_str());
+    }
 }
 
 }  // namespace
@@ -41,8 +49,9 @@ RunFilm open_run_film(const RunOptions& options, const Scene& scene, PlayerModel
     if (options.out.empty() || !options.pictures) {
         return film;
     }
+    film.folder = options.out;
     FilmSettings settings;
-    settings.video = std::filesystem::path(options.out) / "run.mp4";
+    settings.video = film.folder / "run.mp4";
     settings.models = std::move(models);
     std::string why_not;
     film.camera = SessionFilm::open(scene, session_s, settings, why_not);
@@ -52,24 +61,22 @@ RunFilm open_run_film(const RunOptions& options, const Scene& scene, PlayerModel
     return film;
 }
 
-std::vector<FilmShot> finish_run_film(RunFilm& film) {
+void film_frame(const FrameLog& frame, RunFilm& film) {
     if (film.camera == nullptr) {
-        return {};
+        return;
     }
-    std::string why_not;
-    std::vector<FilmShot> shots = film.camera->finish(why_not);
-    if (why_not.empty()) {
-        film.media.video = "run.mp4";
-    } else {
-        std::printf("no video: %s\n", why_not.c_str());
+    film.camera->watch(frame);
+    const std::vector<FilmShot>& shots = film.camera->shots();
+    for (; film.written < shots.size() && !film.error; ++film.written) {
+        film.error = write_picture(film.folder, shots[film.written]);
     }
-    return shots;
 }
 
 std::optional<FileError> write_run_output(const std::filesystem::path& folder, const RunLog& log,
-                                          ReportMedia media, std::vector<FilmShot> shots) {
-    if (auto error = write_pictures(folder, std::move(shots), media)) {
-        return error;
+                                          RunFilm& film) {
+    finish_film(film);
+    if (film.error) {
+        return film.error;
     }
     if (auto error = write_frames_csv(folder / "frames.csv", log)) {
         return error;
@@ -80,7 +87,7 @@ std::optional<FileError> write_run_output(const std::filesystem::path& folder, c
     if (auto error = write_report_json(folder / "report.json", log)) {
         return error;
     }
-    return write_report_html(folder / "report.html", log, media);
+    return write_report_html(folder / "report.html", log, film.media);
 }
 
 void print_run_summary(const RunLog& log, const RunSummary& summary) {

@@ -19,20 +19,23 @@ namespace handhold {
 
 // The film of a run; `camera` is null if nothing is filmed.
 struct RunFilm {
+    std::filesystem::path folder;
     std::unique_ptr<SessionFilm> camera;
     ReportMedia media;
+    std::size_t written = 0;         // pictures in `folder`
+    std::optional<FileError> error;  // of the first picture that could not be written
 };
 
 // Prints why there are no pictures if they cannot be drawn.
 RunFilm open_run_film(const RunOptions& options, const Scene& scene, PlayerModels models,
                       double session_s);
 
-// Finishes the video and returns the pictures.
-std::vector<FilmShot> finish_run_film(RunFilm& film);
+// Call after each frame. Pictures are written as soon as they are drawn.
+void film_frame(const FrameLog& frame, RunFilm& film);
 
-// Writes the pictures, tables and reports into `folder`.
+// Finishes the video, and writes tables and reports into `folder`.
 std::optional<FileError> write_run_output(const std::filesystem::path& folder, const RunLog& log,
-                                          ReportMedia media, std::vector<FilmShot> shots);
+                                          RunFilm& film);
 
 // Prints the summary to standard output, except for its last line.
 void print_run_summary(const RunLog& log, const RunSummary& summary);

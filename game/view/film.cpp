@@ -116,6 +116,8 @@ std::unique_ptr<SessionFilm> SessionFilm::open(const Scene& scene, double sessio
 
 void SessionFilm::watch(const FrameLog& frame) { impl_->watch(frame); }
 
+const std::vector<FilmShot>& SessionFilm::shots() const { return impl_->shots; }
+
 std::vector<FilmShot> SessionFilm::finish(std::string& why_not) {
     why_not = impl_->video_failure;
     if (impl_->video != nullptr) {

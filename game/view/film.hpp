@@ -44,6 +44,8 @@ class SessionFilm {
 
     // Call after each frame.
     void watch(const FrameLog& frame);
+    // The pictures drawn so far.
+    const std::vector<FilmShot>& shots() const;
     // Finishes the video. Sets `why_not` if a video was requested and could not be written.
     std::vector<FilmShot> finish(std::string& why_not);
 

@@ -1,10 +1,12 @@
 #include "systems/physics/solve_phases.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <vector>
 
-#include "engine/core/parallel.hpp"
 #include "engine/core/profile.hpp"
 #include "engine/solver/contact/moving_contacts.hpp"
+#include "systems/physics/shared/phase_solve.hpp"
 
 namespace handhold {
 namespace {
@@ -20,8 +22,6 @@ constexpr double k_heap_violated_m = 1e-3;
 // affected.
 constexpr std::uint64_t k_max_heap_visits = 12'000;
 constexpr int k_max_heap_rounds = 2;  // of a phase; what appears later waits for the next frame
-
-enum class Phase : std::uint8_t { reach, forward, relax, backward, contradiction };
 
 struct Solve {
     const SolvePhasesIo& io;
@@ -89,167 +89,20 @@ void mark_pushed(const Solve& s, const Island& island) {
     }
 }
 
-// --- Masses of a phase ---------------------------------------------------------------------------
+// --- Rounds of solving and of searching contacts -------------------------------------------------
 
-// Factor on a body's inverse mass in a phase, in [0, 1].
-double share_of(const Solve& s, const Island& island, std::uint32_t index, Phase phase) {
-    const SolverBody& body = s.graph().bodies[index];
-    const FrameGraph::PhaseBody& info = s.phase_of(index);
-    const bool is_held_still = phase == Phase::backward && body.in_heap;
-    switch (body.role) {
-        case BodyRole::fixed:
-            return 0.0;
-        case BodyRole::free:
-            return is_held_still ? 0.0 : 1.0;
-        case BodyRole::heavy:
-            return phase == Phase::forward || phase == Phase::relax || is_held_still ? 0.0 : 1.0;
-        case BodyRole::translating:
-            break;
-    }
-    switch (phase) {
-        case Phase::reach:
-            return info.grips_surface ? 1.0 : info.forward_share;
-        case Phase::forward:
-            return info.grips_surface ? 0.0 : info.forward_share;
-        case Phase::relax:
-            return 0.0;
-        case Phase::backward:
-            return 1.0;
-        case Phase::contradiction:
-            break;
-    }
-    // Without grips only their own collider moves a player, and only if the island may push them.
-    const bool touches = std::ranges::any_of(s.graph().blocks_of(island), [&](std::uint32_t i) {
-        const RowBlock& block = s.graph().blocks[i];
-        return is_contact(block) && (block.a == index || block.b == index);
-    });
-    return touches && info.pushed ? 1.0 : 0.0;
-}
-
-void set_masses(const Solve& s, const Island& island, Phase phase) {
-    for (const std::uint32_t i : s.graph().bodies_of(island)) {
-        SolverBody& body = s.graph().bodies[i];
-        const double share = share_of(s, island, i, phase);
-        body.inverse_mass = share / body.mass_kg;
-        body.inverse_inertia_bs.setZero();
-        if (body.role != BodyRole::translating && share > 0.0) {
-            body.inverse_inertia_bs = share * body.inertia_kgm2.cwiseInverse();
-        }
-    }
-}
-
-// --- Solving many islands ------------------------------------------------------------------------
-
-NewtonSettings settings_of(const Solve& s, Phase phase) {
-    const SolverTuning& tuning = s.tuning.solver;
-    const double hand =
-        phase == Phase::forward ? tuning.forward_drive_regularisation : tuning.drive_regularisation;
-    return {.max_iterations = tuning.max_iterations,
-            .tolerance_m = tuning.tolerance_m,
-            .step_tolerance_m = tuning.step_tolerance_m,
-            .regularisation = {hand, tuning.contact_regularisation, tuning.joint_regularisation},
-            .geometric_stiffness_from_m = tuning.geometric_stiffness_from_m,
-            .load_stepping_from_m = tuning.load_stepping_from_m,
-            // max_* is never below min_*, or below the contacts' initial regularisation.
-            .schedule = {std::max(tuning.max_drive_regularisation, tuning.min_drive_regularisation),
-                         tuning.min_drive_regularisation,
-                         std::max(tuning.max_contact_regularisation, tuning.contact_regularisation),
-                         tuning.regularisation_decrease, tuning.regularisation_increase,
-                         tuning.linear_decrease_steps, tuning.linear_decrease_ratio,
-                         tuning.max_step_rotation_rad, tuning.min_step_scale}};
-}
-
-BlockFilter filter_of(Phase phase) {
-    switch (phase) {
-        case Phase::reach:
-            return BlockFilter::without_contacts;
-        case Phase::relax:
-        case Phase::contradiction:
-            return BlockFilter::without_drives;
-        default:
-            return BlockFilter::all;
-    }
-}
-
-// The errors known from a solve: if it converged with every block, none exceeds its residual.
-std::optional<IslandErrors> errors_after(const IslandView& island, const NewtonResult& result) {
-    const auto counts = [&island](std::uint32_t i) { return takes_part(island, island.blocks[i]); };
-    if (!result.converged || !std::ranges::all_of(island.island_blocks, counts)) {
-        return std::nullopt;
-    }
-    return IslandErrors{result.residual_m, result.residual_m, result.residual_m, 0.0,
-                        result.joints};
-}
-
-// What the island may still spend in this frame. Islands change between the phases: the body that
-// has spent most counts.
-std::uint64_t work_left(const Solve& s, const Island& island) {
-    std::uint64_t spent = 0;
-    for (const std::uint32_t i : s.graph().bodies_of(island)) {
-        spent = std::max(spent, s.phase_of(i).work);
-    }
-    const WorkBudget budget;
-    const std::uint64_t total =
-        budget.positions +
-        budget.per_block * std::min(s.graph().blocks_of(island).size(), budget.max_blocks);
-    return total - std::min(spent, total);
-}
-
-// Solves the islands for which `wanted` is true, largest first, on all threads. Islands share no
-// body, so the result does not depend on the distribution. Returns how many were solved.
+// Solves the islands for which `wanted` is true. Returns how many were solved.
 template <typename Wanted>
 std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
-    FrameGraph& frame = s.io.frame;
-    ConstraintGraph& graph = s.graph();
-    frame.island_order.clear();
-    for (std::uint32_t i = 0; i < graph.islands.size(); ++i) {
-        if (wanted(graph.islands[i])) {
-            frame.island_order.push_back(i);
+    std::vector<std::uint32_t>& chosen = s.io.frame.island_order;
+    chosen.clear();
+    for (std::uint32_t i = 0; i < s.graph().islands.size(); ++i) {
+        if (wanted(s.graph().islands[i])) {
+            chosen.push_back(i);
         }
     }
-    sort_largest_first(graph, frame.island_order);
-    if (frame.island_scratch.size() < graph.islands.size()) {
-        frame.island_scratch.resize(graph.islands.size());
-    }
-    frame.island_results.assign(frame.island_order.size(), {});
-    const NewtonSettings settings = settings_of(s, phase);
-    auto solve_one = [&](std::size_t i) {
-        HH_DETAIL_ZONE("island");
-        const Island& island = graph.islands[frame.island_order[i]];
-        NewtonSettings of_island = settings;
-        of_island.max_work = work_left(s, island);
-        set_masses(s, island, phase);
-        const IslandView view{filter_of(phase),
-                              graph.bodies,
-                              graph.blocks,
-                              graph.bodies_of(island),
-                              graph.blocks_of(island),
-                              graph.revision,
-                              island.is_heap && phase != Phase::backward};
-        const std::uint32_t index = frame.island_order[i];
-        frame.island_results[i] =
-            frame.position_solver(view, of_island, frame.island_scratch[index]);
-        for (const std::uint32_t body : graph.bodies_of(island)) {
-            s.phase_of(body).work += frame.island_results[i].work;
-        }
-        frame.island_errors[index] = errors_after(view, frame.island_results[i]);
-    };
-    parallel_for(frame.island_order.size(), solve_one);
-    for (const NewtonResult& result : frame.island_results) {
-        s.stats.newton_iterations += static_cast<std::uint64_t>(result.iterations);
-        if (result.active_set_unconverged) {
-            s.stats.count(Fallback::active_set_not_converged);
-        }
-        if (result.out_of_work) {
-            s.stats.count(Fallback::solver_budget);
-        }
-        if (result.load_stepping != LoadStepping::none) {
-            s.stats.count(result.load_stepping == LoadStepping::converged
-                              ? Fallback::hands_load_stepped
-                              : Fallback::load_stepping_failed);
-        }
-    }
-    return frame.island_order.size();
+    solve_chosen_islands(phase, s.tuning.solver, s.io.frame, s.stats);
+    return chosen.size();
 }
 
 // Adds the cost of the last contact search to each heap's count. Heaps above k_max_heap_visits are
@@ -332,11 +185,15 @@ bool is_pushed(const Solve& s, const Island& island) {
                                [&](std::uint32_t i) { return s.phase_of(i).pushed; });
 }
 
+// An island that has begun to push stays one, even if what gave way has left the wall since.
+bool pushes_player(const Solve& s, const Island& island) {
+    return is_pushed(s, island) || may_push(s, island);
+}
+
 // True if a heap overlaps deeply and may only come apart by pushing the player. A heap that touches
 // nothing immovable can always give way, if not in this frame then in the next.
 bool presses_player(const Solve& s, const Island& island) {
-    return errors_of(s, island).heap_m > k_heap_violated_m &&
-           (is_pushed(s, island) || may_push(s, island));
+    return errors_of(s, island).heap_m > k_heap_violated_m && pushes_player(s, island);
 }
 
 // True if forward has left such a heap: relax is next.
@@ -374,8 +231,7 @@ void relax(const Solve& s) {
 }
 
 bool wants_backward(const Solve& s, const Island& island) {
-    return errors_of(s, island).worst_m() > s.violated_m() &&
-           (is_pushed(s, island) || may_push(s, island));
+    return errors_of(s, island).worst_m() > s.violated_m() && pushes_player(s, island);
 }
 
 // Marks the islands to push, and restores players and held objects to their reach poses. False if

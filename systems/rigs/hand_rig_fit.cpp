@@ -65,7 +65,7 @@ bool take_palm(const SkinJoint& wrist, HandRig& rig) {
         rig.palm_center_hs = Vec3((*center)[0], (*center)[1], (*center)[2]);
     }
     if (const auto* list = find_numbers(wrist, k_palm_capsules_key)) {
-        if (list->size() % 7 != 0 || list->size() > std::size_t{7} * 64 ||
+        if (list->size() % 7 != 0 || list->size() > 7 * k_max_palm_capsules ||
             !std::all_of(list->begin(), list->end(), is_good)) {
             return false;
         }

@@ -50,6 +50,12 @@ constexpr double k_lever2 = k_lever_m * k_lever_m;
 
 bool is_thumb(const FingerRig& finger) { return finger.name == FingerName::thumb; }
 
+// Rows at most: four per angle (limits and steps), each finger's bend, four per pair of neighbours,
+// gaps, the palm's limits.
+static_assert(4 * (k_max_unknowns - 6) + k_finger_count + 4 * (k_finger_count - 1) +
+                  HandSpheres::k_max_count + k_max_digit_gaps + 3 <=
+              k_max_penalty_rows);
+
 class Fitter {
   public:
     Fitter(const HandSurroundings& hand, const GripSurface& surface, const HandFitGoal& goal,
@@ -326,9 +332,7 @@ class Fitter {
     }
 
     void add_row(const Unknowns& slope, double value, double weight) {
-        if (row_count_ < rows_.size()) {
-            rows_[row_count_++] = {slope, value, weight};
-        }
+        rows_[row_count_++] = {slope, value, weight};
     }
 
     // Adds weight / 2 * (value + slope . x)^2.

@@ -5,13 +5,13 @@
 #include <limits>
 
 #include "engine/collision/closest_point.hpp"
+#include "engine/core/check.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold {
 namespace {
 
 constexpr double k_spacing_m = 0.018;          // largest distance between spheres of one link
-constexpr int k_max_pieces = 6;                // per link
 constexpr double k_keep_travel_m = 1.2e-3;     // of a centre whose gap is kept
 constexpr double k_extra_gap_m = 0.005;        // links farther away need no extra sphere
 constexpr double k_max_depth_inside_m = 0.03;  // deepest centre inside a solid that is found
@@ -49,6 +49,8 @@ HandLinkFrames link_frames(const HandRig& rig, const HandPose& pose) {
 HandSpheres::HandSpheres(const HandSurroundings& hand, const GripSurface& surface,
                          const std::array<bool, k_finger_count>& is_clear)
     : hand_(hand), is_clear_(is_clear) {
+    HH_CHECK(hand.rig->palm.size() <= k_max_palm_capsules, "too many palm capsules",
+             hand.rig->palm.size());
     const PlacedMesh& placed = hand.meshes.front();
     const Vec3 wound = placed.pose.rotation * placed.mesh->search.normals[surface.triangle];
     winding_ = wound.dot(surface.normal_bs) < 0.0 ? -1.0 : 1.0;
@@ -85,12 +87,6 @@ HandSpheres::HandSpheres(const HandSurroundings& hand, const GripSurface& surfac
             sphere.is_extra = true;
             add(sphere);
         }
-    }
-}
-
-void HandSpheres::add(const HandSphere& sphere) {
-    if (count_ < spheres_.size()) {
-        spheres_[count_++] = sphere;
     }
 }
 

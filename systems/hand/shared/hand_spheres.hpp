@@ -54,10 +54,15 @@ inline constexpr double k_thumb_tip_reach_m = 0.06;
 
 class HandSpheres {
   public:
-    static constexpr std::size_t k_max_count = 128;
+    static constexpr int k_max_pieces = 4;  // of a link
+    // A link has a sphere at the end of each piece and an extra one, a digit one more at its base.
+    static constexpr std::size_t k_max_count =
+        k_finger_count * (k_max_links * (std::size_t{k_max_pieces} + 1) + 1) +
+        4 * k_max_palm_capsules;
 
     // `is_clear`: by finger, the first queried pose is known to be outside every solid, whatever
-    // the meshes' windings say. Keeps a reference to `hand`. Precondition: the hand has meshes.
+    // the meshes' windings say. Keeps a reference to `hand`. Precondition: the hand has meshes, and
+    // its rig at most k_max_palm_capsules.
     HandSpheres(const HandSurroundings& hand, const GripSurface& surface,
                 const std::array<bool, k_finger_count>& is_clear);
 
@@ -73,7 +78,7 @@ class HandSpheres {
     double gap_m(std::size_t finger) const;  // smallest of a digit; infinity: none in reach
 
   private:
-    void add(const HandSphere& sphere);
+    void add(const HandSphere& sphere) { spheres_[count_++] = sphere; }
     // By digit, and last for the palm: smallest gap that a sphere may have whose last gap is kept.
     std::array<double, k_finger_count + 1> keep_gaps_m(const HandPose& pose,
                                                        const HandLinkFrames& frames) const;

@@ -34,7 +34,7 @@ class HandUnknowns {
     std::size_t count_ = 6;
 };
 
-// 0, but for `value` at one place.
+// `value` at one place, 0 at all others.
 Unknowns unit(int place, double value = 1.0);
 
 }  // namespace handhold

@@ -1,69 +1,28 @@
 // Legs stay outside surfaces and slide along them.
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "engine/anim/deflect_outward.hpp"
 #include "engine/collision/collision_world.hpp"
-#include "systems/body/propagate_spine.hpp"
 #include "tests/random.hpp"
-#include "tests/systems/frame/column_scene.hpp"
+#include "tests/systems/body/hanging_body.hpp"
 
 namespace handhold::leg_contacts_test {
 namespace {
 
 using test::k_player;
 
-constexpr std::uint64_t k_own_id = 7;
-constexpr std::uint64_t k_wall_id = 9;
 constexpr double k_sole_m = 0.11;
 
-// A player in empty space, or next to a box.
-struct Body {
-    ShapeLibrary shapes;
-    std::optional<CollisionWorld> collision;
-    Column<PlayerOrigin> origin;
-    Column<PlayerVelocity> velocity;
-    Column<ReferenceVelocity> reference;
-    Column<BodyMeasures> measures;
-    Column<HeadTracking> head;
-    Column<PersistentId> id;
-    Column<ArmEstimate> estimate;
-    Column<SpineMemory> memory;
-    Column<SpinePose> pose;
-    double t_s = 0.0;
-
-    Body() {
-        origin.add(k_player);
-        velocity.add(k_player);
-        reference.add(k_player);
-        measures.add(k_player);
-        measures.at(k_player).eye_height_m = k_scale_eye_m;
-        head.add(k_player);
-        head.at(k_player).pose_ps.position = Vec3(0.0, 1.65, -0.08);
-        id.add(k_player, {k_own_id});
-        memory.add(k_player);
-        estimate.add(k_player);
-        pose.add(k_player);
-        estimate.at(k_player).chest_ps.position = Vec3(0.0, 1.4, 0.0);
-    }
-    void put_box(const Vec3& half_m, const Pose& pose_ws) {
-        const ShapeId shape = shapes.add_box(half_m);
-        collision.emplace(shapes);
-        const std::vector<ColliderProxy> proxies = {{k_wall_id, shape, pose_ws, pose_ws, false}};
-        collision->set_proxies(proxies);
-    }
+// Moves at a given velocity; grips nothing.
+struct Body : test::HangingBody {
     const SpinePose& step(const Vec3& velocity_mps, double dt_s) {
         origin.at(k_player).pose_ws.position += dt_s * velocity_mps;
         velocity.at(k_player).linear_mps = velocity_mps;
-        t_s += dt_s;
-        propagate_spine({dt_s, t_s, origin, velocity, reference, measures, estimate, memory, pose,
-                         collision ? SurfaceQuery(*collision) : SurfaceQuery(), &head, &id},
-                        {});
-        return pose.at(k_player);
+        return HangingBody::step(dt_s);
     }
 };
 
@@ -190,7 +149,7 @@ TEST(LegContacts, LegsIgnoreTheirOwnersHead) {
     // a head sphere that contains the whole player.
     const ShapeId shape = body.shapes.add_sphere(3.0);
     body.collision.emplace(body.shapes);
-    const std::vector<ColliderProxy> own = {{k_own_id, shape, {}, {}, true}};
+    const std::vector<ColliderProxy> own = {{Body::k_own_id, shape, {}, {}, true}};
     body.collision->set_proxies(own);
     for (int i = 0; i < 90; ++i) {
         const Vec3 velocity(0.0, 0.0, -1.0);

@@ -140,7 +140,7 @@ TEST(Heap, NearlyAllRandomShovesKeepHandsExactAndThrowNothing) {
         inexact += worst_hand_m > k_exact_m ? 1 : 0;
         thrown += fastest_seen_mps > k_throw_ratio * shove.hand_mps ? 1 : 0;
     }
-    EXPECT_LE(inexact, 8);  // 14 if heaps were not pushed back after they gave way
+    EXPECT_LE(inexact, 8);  // 12 if heaps were not pushed back after they gave way
     EXPECT_LE(thrown, 1);   // 3 with iterates of friction that did not converge
 }
 

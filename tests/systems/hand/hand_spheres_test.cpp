@@ -1,10 +1,12 @@
 #include "systems/hand/shared/hand_spheres.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "beam.hpp"
+#include "engine/core/check.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold::hand_spheres_test {
@@ -33,6 +35,26 @@ struct HandSpheresOnFloor : testing::Test {
         spheres.query(pose, link_frames(rig, pose));
     }
 };
+
+TEST_F(HandSpheresOnFloor, LargestRigHasASphereAtEveryTip) {
+    HandRig large = rig;
+    large.palm.resize(k_max_palm_capsules, rig.palm.front());
+    for (FingerRig& finger : large.fingers) {
+        finger.length_m.fill(0.2);
+    }
+    HandSurroundings around = hand.hands.front();
+    around.rig = &large;
+    const HandSpheres all(around, hand.surface.at(k_right), {});
+    for (std::size_t f = 0; f < large.fingers.size(); ++f) {
+        const std::size_t last = large.fingers[f].link_count - 1;
+        EXPECT_TRUE(std::ranges::any_of(all.all(), [&](const HandSphere& sphere) {
+            return sphere.finger == static_cast<std::int32_t>(f) && sphere.link == last &&
+                   std::abs(sphere.center_ls.z() + 0.2) < 1e-12;
+        })) << f;
+    }
+    large.palm.push_back(rig.palm.front());
+    EXPECT_THROW((HandSpheres{around, hand.surface.at(k_right), {}}), PreconditionError);
+}
 
 TEST_F(HandSpheresOnFloor, GapIsHeightLessRadius) {
     for (const double height_m : {0.002, 0.015, 0.03}) {
