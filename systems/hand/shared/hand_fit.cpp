@@ -15,21 +15,13 @@ namespace {
 // tools/lab/grip_report.
 constexpr double k_arm_m = 0.08;
 constexpr double k_lever_m = 0.05;  // l
-constexpr double k_close = 0.004;
 constexpr double k_touch = 2.0;
-constexpr double k_let_go_m = 0.008;  // g of a digit for which the closing found no contact
-constexpr double k_let_go_touching_m = 0.02;
+constexpr double k_let_go_m = 0.02;  // g
 constexpr double k_tip = 0.02;
 constexpr double k_first = 0.002;
-constexpr double k_first_opposition = 0.02;
 constexpr double k_rest = 2e-5;  // keeps every angle determined
-constexpr double k_rest_of_free_thumb = 0.002;
 constexpr double k_alike = 0.001;
-constexpr double k_alike_if_free = 0.002;  // if one of the two touches nothing
 constexpr double k_fan = 0.03;
-constexpr double k_roll = 0.003;
-constexpr double k_couple = 0.003;
-constexpr double k_coupling = 2.0 / 3.0;
 // Stiffness of the inequalities.
 constexpr double k_contact = 2000.0;
 constexpr double k_joint_limit = 500.0;
@@ -145,34 +137,20 @@ class Fitter {
     void add_hinges(std::size_t f) {
         const FingerRig& finger = rig_.fingers[f];
         const FingerAngles& angles = pose_.fingers[f];
-        const bool is_free_thumb = is_thumb(finger) && !goal_.touches[f];
-        double beyond_m = 0.0;
-        for (std::size_t i = finger.link_count; i-- > 0;) {
-            beyond_m += finger.length_m[i];
+        for (std::size_t i = 0; i < finger.link_count; ++i) {
             const int place = layout_.hinge(f, i);
             const double angle_rad = angles.curl_rad[i];
             if (goal_.touches[f]) {
-                const double close = is_thumb(finger) ? 0.0 : k_close;
-                add_square(close * beyond_m * beyond_m, angle_rad - finger.upper_rad[i],
-                           unit(place));
                 add_square(k_first * k_lever2, angle_rad - goal_.closed[f].curl_rad[i],
                            unit(place));
             }
-            add_square((is_free_thumb ? k_rest_of_free_thumb : k_rest) * k_lever2,
-                       angle_rad - finger.rest_rad[i], unit(place));
+            add_square(k_rest * k_lever2, angle_rad - finger.rest_rad[i], unit(place));
             add_row(unit(place), angle_rad - finger.lower_rad[i], k_joint_limit * k_lever2);
             add_row(unit(place, -1.0), finger.upper_rad[i] - angle_rad, k_joint_limit * k_lever2);
         }
-        if (is_thumb(finger)) {
-            return;
-        }
-        const Unknowns open = layout_.bend(f, -1.0);
-        add_row(open, k_max_bend_rad + along(open), k_bend_limit * k_lever2);
-        add_square(k_roll * k_lever2, angles.curl_rad[1] - angles.curl_rad[0],
-                   unit(layout_.hinge(f, 1)) + unit(layout_.hinge(f, 0), -1.0));
-        if (finger.link_count == 3) {
-            add_square(k_couple * k_lever2, angles.curl_rad[2] - k_coupling * angles.curl_rad[1],
-                       unit(layout_.hinge(f, 2)) + unit(layout_.hinge(f, 1), -k_coupling));
+        if (!is_thumb(finger)) {
+            const Unknowns open = layout_.bend(f, -1.0);
+            add_row(open, k_max_bend_rad + along(open), k_bend_limit * k_lever2);
         }
     }
 
@@ -183,8 +161,7 @@ class Fitter {
             return;
         }
         const double angle_rad = pose_.fingers[f].opposition_rad;
-        add_square(k_first_opposition * k_lever2, angle_rad - goal_.closed[f].opposition_rad,
-                   unit(place));
+        add_square(k_rest * k_lever2, angle_rad - goal_.closed[f].opposition_rad, unit(place));
         add_row(unit(place), angle_rad - finger.lower_opposition_rad, k_joint_limit * k_lever2);
         add_row(unit(place, -1.0), finger.upper_opposition_rad - angle_rad,
                 k_joint_limit * k_lever2);
@@ -205,15 +182,15 @@ class Fitter {
             }
         }
         if (nearest != nullptr && (goal_.touches[f] || nearest->gap_m < k_sphere_reach_m)) {
-            add_pull(*nearest, goal_.touches[f]);
+            add_pull(*nearest);
         }
     }
 
     // Adds k_touch / 2 * gap^2 / (1 + gap^2 / g^2), as the square that has the same slope here
     // (iteratively reweighted least squares). A gap of 0 is pulled too, so that the wrist does not
     // leave it.
-    void add_pull(const HandSphere& sphere, bool touches) {
-        const double ratio = sphere.gap_m / (touches ? k_let_go_touching_m : k_let_go_m);
+    void add_pull(const HandSphere& sphere) {
+        const double ratio = sphere.gap_m / k_let_go_m;
         const double share = 1.0 / (1.0 + ratio * ratio);
         const double weight = k_touch * share * share;
         add_square(weight, sphere.gap_m, slope_of(sphere));
@@ -235,10 +212,9 @@ class Fitter {
     }
 
     void add_neighbour(std::size_t a, std::size_t b) {
-        const double weight = goal_.touches[a] && goal_.touches[b] ? k_alike : k_alike_if_free;
         const std::size_t links = std::min(rig_.fingers[a].link_count, rig_.fingers[b].link_count);
         for (std::size_t i = 0; i < links; ++i) {
-            add_square(weight * k_lever2,
+            add_square(k_alike * k_lever2,
                        pose_.fingers[b].curl_rad[i] - pose_.fingers[a].curl_rad[i],
                        unit(layout_.hinge(b, i)) + unit(layout_.hinge(a, i), -1.0));
         }
