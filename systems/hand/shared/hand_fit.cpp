@@ -16,12 +16,18 @@ namespace {
 constexpr double k_arm_m = 0.08;
 constexpr double k_lever_m = 0.05;  // l
 constexpr double k_touch = 2.0;
-constexpr double k_let_go_m = 0.02;  // g
+constexpr double k_let_go_m = 0.008;  // g of a digit for which the closing found no contact
+constexpr double k_let_go_touching_m = 0.02;
 constexpr double k_tip = 0.02;
 constexpr double k_first = 0.002;
+constexpr double k_first_opposition = 0.02;
 constexpr double k_rest = 2e-5;  // keeps every angle determined
+constexpr double k_rest_of_free_thumb = 0.002;
 constexpr double k_alike = 0.001;
 constexpr double k_fan = 0.03;
+constexpr double k_roll = 0.003;
+constexpr double k_couple = 0.003;
+constexpr double k_coupling = 2.0 / 3.0;
 // Stiffness of the inequalities.
 constexpr double k_contact = 2000.0;
 constexpr double k_joint_limit = 500.0;
@@ -137,6 +143,7 @@ class Fitter {
     void add_hinges(std::size_t f) {
         const FingerRig& finger = rig_.fingers[f];
         const FingerAngles& angles = pose_.fingers[f];
+        const bool is_free_thumb = is_thumb(finger) && !goal_.touches[f];
         for (std::size_t i = 0; i < finger.link_count; ++i) {
             const int place = layout_.hinge(f, i);
             const double angle_rad = angles.curl_rad[i];
@@ -144,13 +151,21 @@ class Fitter {
                 add_square(k_first * k_lever2, angle_rad - goal_.closed[f].curl_rad[i],
                            unit(place));
             }
-            add_square(k_rest * k_lever2, angle_rad - finger.rest_rad[i], unit(place));
+            add_square((is_free_thumb ? k_rest_of_free_thumb : k_rest) * k_lever2,
+                       angle_rad - finger.rest_rad[i], unit(place));
             add_row(unit(place), angle_rad - finger.lower_rad[i], k_joint_limit * k_lever2);
             add_row(unit(place, -1.0), finger.upper_rad[i] - angle_rad, k_joint_limit * k_lever2);
         }
-        if (!is_thumb(finger)) {
-            const Unknowns open = layout_.bend(f, -1.0);
-            add_row(open, k_max_bend_rad + along(open), k_bend_limit * k_lever2);
+        if (is_thumb(finger)) {
+            return;
+        }
+        const Unknowns open = layout_.bend(f, -1.0);
+        add_row(open, k_max_bend_rad + along(open), k_bend_limit * k_lever2);
+        add_square(k_roll * k_lever2, angles.curl_rad[1] - angles.curl_rad[0],
+                   unit(layout_.hinge(f, 1)) + unit(layout_.hinge(f, 0), -1.0));
+        if (finger.link_count == 3) {
+            add_square(k_couple * k_lever2, angles.curl_rad[2] - k_coupling * angles.curl_rad[1],
+                       unit(layout_.hinge(f, 2)) + unit(layout_.hinge(f, 1), -k_coupling));
         }
     }
 
@@ -161,7 +176,8 @@ class Fitter {
             return;
         }
         const double angle_rad = pose_.fingers[f].opposition_rad;
-        add_square(k_rest * k_lever2, angle_rad - goal_.closed[f].opposition_rad, unit(place));
+        add_square(k_first_opposition * k_lever2, angle_rad - goal_.closed[f].opposition_rad,
+                   unit(place));
         add_row(unit(place), angle_rad - finger.lower_opposition_rad, k_joint_limit * k_lever2);
         add_row(unit(place, -1.0), finger.upper_opposition_rad - angle_rad,
                 k_joint_limit * k_lever2);
@@ -182,15 +198,15 @@ class Fitter {
             }
         }
         if (nearest != nullptr && (goal_.touches[f] || nearest->gap_m < k_sphere_reach_m)) {
-            add_pull(*nearest);
+            add_pull(*nearest, goal_.touches[f]);
         }
     }
 
     // Adds k_touch / 2 * gap^2 / (1 + gap^2 / g^2), as the square that has the same slope here
     // (iteratively reweighted least squares). A gap of 0 is pulled too, so that the wrist does not
     // leave it.
-    void add_pull(const HandSphere& sphere) {
-        const double ratio = sphere.gap_m / k_let_go_m;
+    void add_pull(const HandSphere& sphere, bool touches) {
+        const double ratio = sphere.gap_m / (touches ? k_let_go_touching_m : k_let_go_m);
         const double share = 1.0 / (1.0 + ratio * ratio);
         const double weight = k_touch * share * share;
         add_square(weight, sphere.gap_m, slope_of(sphere));

@@ -21,15 +21,17 @@
 //                                                   reaches nothing goes with its neighbours
 //            + fan    sum (l (d_f - d_f+1))^2       and point alike; d: direction from the knuckle
 //                                                   to the tip, linear in the angles
+//            + roll   sum (l (q_2 - q_1))^2         fingers bend in the middle as at the knuckle
+//            + couple sum (l (q_3 - 2/3 q_2))^2     the last hinge bends 2/3 as far as its parent
 //   subject to every capsule's gap >= 0, gaps between thumb and fingers >= 0, joint limits, the
 //   palm's limits on height and tilt, total bends up to 158 degrees, neighbours' total bends within
 //   92 degrees of each other and their directions within 29 degrees
 //
-// l = 5 cm, g = 2 cm. Angles that nothing else determines go to their rest. The inequalities are
-// penalties, stiffer in this order: bends, palm, joints, gaps; what cannot be met is shared. Each
-// round queries the gaps (hand_spheres.hpp), linearises and solves
-// (engine/math/penalty_quadratic.hpp). Source of `alike`: Santello, Flanders, Soechting, Postural
-// hand synergies for tool use, 1998.
+// l = 5 cm, g = 2 cm if the closing found a contact, else 8 mm. The inequalities are penalties,
+// stiffer in this order: bends, palm, joints, gaps; what cannot be met is shared. Each round
+// queries the gaps (hand_spheres.hpp), linearises and solves (engine/math/penalty_quadratic.hpp).
+// Sources: Santello, Flanders, Soechting, Postural hand synergies for tool use, 1998 (fingers bend
+// alike); Rijpkema, Girard, Computer animation of knowledge-based human grasping, 1991 (2/3).
 namespace handhold {
 
 struct HandFitGoal {
