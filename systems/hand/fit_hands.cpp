@@ -154,16 +154,28 @@ void follow_palm(const Pose& target_hs, double dt_s, const PalmTuning& tuning, P
     }
 }
 
+// All angles advance by the same share, the largest within their speeds: an angle that arrived first
+// would swing the digit through the surface.
 void follow_digit(double dt_s, const FingerTuning& tuning, const FingerAngles& target,
                   FingerAngles& shown) {
-    const double close_rad = dt_s * tuning.close_radps;
-    const double open_rad = dt_s * tuning.open_radps;
+    double share = 1.0;
+    const auto limit = [&](double change_rad, double open_radps) {
+        const double most_rad = dt_s * (change_rad < 0.0 ? open_radps : tuning.close_radps);
+        if (std::abs(change_rad) > most_rad) {
+            share = std::min(share, most_rad / std::abs(change_rad));
+        }
+    };
     for (std::size_t i = 0; i < k_max_links; ++i) {
-        shown.curl_rad[i] = std::clamp(target.curl_rad[i], shown.curl_rad[i] - open_rad,
-                                       shown.curl_rad[i] + close_rad);
+        limit(target.curl_rad[i] - shown.curl_rad[i], tuning.open_radps);
     }
-    shown.opposition_rad = std::clamp(target.opposition_rad, shown.opposition_rad - close_rad,
-                                      shown.opposition_rad + close_rad);
+    limit(target.opposition_rad - shown.opposition_rad, tuning.close_radps);
+    const auto advance = [share](double to_rad, double& shown_rad) {
+        shown_rad = share < 1.0 ? shown_rad + share * (to_rad - shown_rad) : to_rad;
+    };
+    for (std::size_t i = 0; i < k_max_links; ++i) {
+        advance(target.curl_rad[i], shown.curl_rad[i]);
+    }
+    advance(target.opposition_rad, shown.opposition_rad);
 }
 
 Pose shown_wrist_ws(const HandSurroundings& hand, const PalmOffset& offset) {
