@@ -154,8 +154,8 @@ void follow_palm(const Pose& target_hs, double dt_s, const PalmTuning& tuning, P
     }
 }
 
-// All angles advance by the same share, the largest within their speeds: an angle that arrived first
-// would swing the digit through the surface.
+// All angles advance by the same share, the largest within their speeds: an angle that arrived
+// first would swing the digit through the surface.
 void follow_digit(double dt_s, const FingerTuning& tuning, const FingerAngles& target,
                   FingerAngles& shown) {
     double share = 1.0;
