@@ -5,6 +5,8 @@
 #include <cstring>
 #include <limits>
 
+#include "systems/input/shared/play_space_tracker.hpp"
+
 namespace handhold {
 namespace {
 
@@ -34,6 +36,7 @@ TrackingSample read_sample(const hh_tracking_sample& sample, double end_s) {
         read.controllers[i].controller_ps =
             tracked_or_invalid(unchecked_pose(sample.hands[i]), sample.hand_tracked[i]);
         read.controllers[i].grab = sample.grab[i];
+        read.controllers[i].squeeze = sample.squeeze[i];
     }
     return read;
 }
@@ -46,6 +49,7 @@ TrackingSample read_sample(const EarlySample& sample) {
         read.controllers[i].controller_ps =
             tracked_or_invalid(sample.controllers_ps[i], sample.tracked[i]);
         read.controllers[i].grab = sample.grab[i];
+        read.controllers[i].squeeze = sample.squeeze[i];
     }
     return read;
 }
@@ -60,6 +64,7 @@ EarlySample early_of(const TrackingSample& sample) {
         early.tracked[i] = is_valid(controller_ps);
         early.controllers_ps[i] = early.tracked[i] ? controller_ps : Pose{};
         early.grab[i] = sample.controllers[i].grab;
+        early.squeeze[i] = squeeze_of(sample.controllers[i]);
     }
     return early;
 }

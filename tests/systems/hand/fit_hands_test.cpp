@@ -378,6 +378,31 @@ TEST_F(FitHands, EmptyHandReturnsToTrackedPose) {
     EXPECT_EQ(hand.palm.at(k_right).pose_ws.position, hand.wrist_bs().position);
 }
 
+TEST_F(FitHands, EmptyHandClosesAsFarAsItsButton) {
+    FittedHand hand(beam, {});
+    let_go(hand);
+    hand.frame(k_unbudgeted_s);
+    const FingerPose rest = hand.pose();
+    hand.tracking.at(k_right).pressed = true;
+    hand.frame(k_unbudgeted_s);
+    const FingerPose fist = hand.pose();
+    hand.tracking.at(k_right).pressed = false;
+    Random random(2103);
+    for (int i = 0; i < 100; ++i) {
+        const double squeeze = random.between(0.0, 1.0);
+        hand.tracking.at(k_right).squeeze = squeeze;
+        hand.frame(k_unbudgeted_s);
+        for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+            for (std::size_t link = 0; link < rig.fingers[f].link_count; ++link) {
+                const double open_rad = rest.shown[f].curl_rad[link];
+                const double wanted_rad =
+                    open_rad + squeeze * (fist.shown[f].curl_rad[link] - open_rad);
+                EXPECT_NEAR(hand.pose().shown[f].curl_rad[link], wanted_rad, 1e-12);
+            }
+        }
+    }
+}
+
 TEST_F(FitHands, EmptyHandTakesRestPoseOrFist) {
     FittedHand hand(beam, {});
     let_go(hand);

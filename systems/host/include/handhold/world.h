@@ -37,6 +37,7 @@ typedef struct hh_tracking_sample {
     bool head_tracked;    /* false: `head` is ignored */
     bool hand_tracked[2]; /* false: the pose is ignored, `grab` counts */
     bool grab[2];         /* a button that closes the hand is down */
+    double squeeze[2];    /* how far it is pressed, [0, 1]: bends the fingers of an empty hand */
 } hh_tracking_sample;
 
 /* Everything tracked, hands open, at time 0. The poses are for you to fill: at the origin they count
