@@ -33,6 +33,8 @@ inline constexpr std::uint32_t k_value_count<GripKind> = 5;
 template <>
 inline constexpr std::uint32_t k_value_count<GrabPhase> = 4;
 template <>
+inline constexpr std::uint32_t k_value_count<BodyPart> = k_gripped_parts;
+template <>
 inline constexpr std::uint32_t k_value_count<JointKind> = 5;
 template <>
 inline constexpr std::uint32_t k_value_count<LegBone> = 2;

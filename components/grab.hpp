@@ -31,8 +31,8 @@ enum class GripKind : std::uint8_t {
     // The hand is in an authored grip (AuthoredHold). Used for display and reports only: the hand's
     // Grab itself has kind surface or held.
     authored = 3,
-    // Another player's head: three constraint rows; both players move in proportion to their
-    // inverse masses.
+    // Another player's head, arm, trunk or leg (BodyHold): three constraint rows; both players move
+    // in proportion to their inverse masses.
     player = 4,
 };
 
@@ -47,7 +47,7 @@ enum class GrabPhase : std::uint8_t {
 
 // Written by update_grabs (kind, phase, body, hit), anchor_grabs (anchor, target, two_handed) and
 // finish_positions (error). _bs is the gripped body's frame; if `body` is another player, the frame
-// of their head.
+// of the part that the hand's BodyHold names, or of their head if the hand has none.
 struct Grab {
     GripKind kind = GripKind::none;
     GrabPhase phase = GrabPhase::none;

@@ -32,6 +32,12 @@ void visit_fields(const AuthoredHold& c, V&& visit) {
     visit("leave_angle_rad", c.leave_angle_rad);
 }
 template <typename V>
+void visit_fields(const BodyHold& c, V&& visit) {
+    visit("part", c.part);
+    visit("start_ps", c.start_ps);
+    visit("pose_ps", c.pose_ps);
+}
+template <typename V>
 void visit_fields(const HandPull& c, V&& visit) {
     visit("body", c.body);
     visit("closed_s", c.closed_s);

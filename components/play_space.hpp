@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/body.hpp"
+#include "components/body_part.hpp"
 #include "components/player.hpp"
 #include "components/tracking.hpp"
 #include "components/tuning.hpp"
@@ -26,11 +27,16 @@ inline PalmRay palm_ray(const Pose& hand_ws, HandSide side, const HandTuning& tu
     return {from_ws, from_ws + tuning.ray_length_m * outward_ws, palm_ws};
 }
 
-// Pose of what a hand grips: a body, or another player's head.
+// Pose of what a hand grips: a body, or another player's part or head. `hold`: the hand's BodyHold;
+// null: it has none.
 inline Pose gripped_pose_ws(const Column<BodyPose>& body_pose, const Column<PlayerOrigin>& origin,
-                            const Column<HeadTracking>& head, Entity gripped) {
-    const BodyPose* const body = body_pose.find(gripped);
-    return body != nullptr ? body->pose_ws : origin.at(gripped).pose_ws * head.at(gripped).pose_ps;
+                            const Column<HeadTracking>& head, Entity gripped,
+                            const BodyHold* hold) {
+    if (const BodyPose* const body = body_pose.find(gripped)) {
+        return body->pose_ws;
+    }
+    return origin.at(gripped).pose_ws *
+           (hold != nullptr ? hold->pose_ps : head.at(gripped).pose_ps);
 }
 
 // Centre of the head's collider.

@@ -27,6 +27,8 @@ struct HandTuning {
     double max_stretch_m = 0.3;
     double max_arm_m = 2.0;
     double return_speed_mps = 2.0;
+    double part_speed_mps = 2.0;
+    double swing_lag_s = 0.2;
 };
 
 // Distance grab: a hand that closes without gripping anything pulls the free body at which its palm
@@ -198,6 +200,12 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "Distance from the head above which a hand sample is ignored as a tracking error.");
     see("hand.return_speed_mps", t.hand.return_speed_mps, "m/s", 0.0, 100.0,
         "Speed at which a held body comes back to its hand after a tracking error.");
+    see("hand.part_speed_mps", t.hand.part_speed_mps, "m/s", 0.0, 100.0,
+        "Greatest speed at which a grip on another player's arm, trunk or leg follows that part, "
+        "relative to the player: neither player moves faster when the shown body changes.");
+    see("hand.swing_lag_s", t.hand.swing_lag_s, "s", 0.0, 10.0,
+        "Time constant with which a grip on another player's trunk or leg follows it; walls and "
+        "swings move those parts, and the grip moves their player.");
     see("palm.min_height_m", t.palm.min_height_m, "m", -0.05, 0.1,
         "Minimum height of a gripping palm's centre above its surface.");
     see("palm.max_height_m", t.palm.max_height_m, "m", -0.05, 0.2,

@@ -9,6 +9,7 @@
 #include "components/authored_grip.hpp"
 #include "components/body.hpp"
 #include "components/body_clip_state.hpp"
+#include "components/body_part.hpp"
 #include "components/calibration.hpp"
 #include "components/grab.hpp"
 #include "components/hand.hpp"
@@ -86,6 +87,7 @@ struct World {
     // Only hands with a controller-to-hand pose of their own; other hands use HandTuning.
     Column<ControllerToHand> controller_to_hand;
     Column<AuthoredHold> authored_hold;  // only hands in an authored grip
+    Column<BodyHold> body_hold;          // only hands on another player's arm, trunk or leg
     Column<HandPull> hand_pull;          // only hands that pull a body from a distance
     Column<EarlySample> early_sample;    // only players with a sample of after the last frame
     Column<GrabLayers> grab_layers;      // only players whose hands do not grip everything
@@ -146,6 +148,7 @@ void visit_columns(WorldType& world, Visit&& visit) {
     visit("finger_pose", world.finger_pose);
     visit("controller_to_hand", world.controller_to_hand);
     visit("authored_hold", world.authored_hold);
+    visit("body_hold", world.body_hold);
     visit("hand_pull", world.hand_pull);
     visit("early_sample", world.early_sample);
     visit("grab_layers", world.grab_layers);

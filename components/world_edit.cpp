@@ -19,6 +19,7 @@ void let_go(World& world, std::size_t row) {
     const Entity hand = world.grab.owners()[row];
     world.grab.rows()[row] = {};
     world.authored_hold.remove(hand);
+    world.body_hold.remove(hand);
     world.hand_pull.remove(hand);
 }
 

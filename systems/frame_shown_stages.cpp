@@ -78,7 +78,8 @@ void gather_surroundings(const FrameContext& f) {
                                   f.caches.more_hand_rigs,
                                   own_surfaces,
                                   has_all_colliders ? &f.collision() : nullptr,
-                                  f.graph().proxies};
+                                  f.graph().proxies,
+                                  &w.body_hold};
     for_hand_slices(f, [&io](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
         handhold::gather_surroundings(io, first, last, slice.stats);
     });
@@ -151,7 +152,7 @@ void propagate_spine(const FrameContext& f) {
     handhold::propagate_spine(
         {f.dt_s(), f.end_s(), w.player_origin, w.player_velocity, w.reference_velocity,
          w.body_measures, w.arm_estimate, w.spine_memory, w.spine_pose, f.surfaces(),
-         &w.head_tracking, &w.persistent_id, &w.hand_owner, &w.grab},
+         &w.head_tracking, &w.persistent_id, &w.hand_owner, &w.grab, &w.body_hold},
         f.tuning.spine);
 }
 

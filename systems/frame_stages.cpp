@@ -91,7 +91,11 @@ GrabSearch grab_search(const FrameContext& f) {
             w.head_ignores,
             {&w.grab_rule, &w.grab_layers, &w.filter},
             &w.grab_order,
-            f.start_s()};
+            f.start_s(),
+            f.dt_s(),
+            &w.render_pose,
+            &w.body_measures,
+            &w.body_hold};
 }
 
 void update_grabs(const FrameContext& f) {
@@ -113,7 +117,7 @@ void locomote_players(const FrameContext& f) {
     handhold::locomote_players(
         {f.dt_s(), w.reference_velocity_mps, w.player_commands, w.head_tracking, w.hand_owner,
          w.hand_tracking, w.grab, w.body_pose, w.body_velocity, w.player_origin, w.player_velocity,
-         w.reference_velocity},
+         w.reference_velocity, &w.body_hold},
         f.tuning.locomotion);
 }
 
@@ -159,10 +163,11 @@ void predict_bodies(const FrameContext& f) {
 void anchor_grabs(const FrameContext& f) {
     const StageTimer timer(Stage::anchor_grabs, f.stats);
     World& w = f.w;
-    handhold::anchor_grabs({f.start_s(), f.end_s(), w.hand_owner, w.hand_tracking, w.hand_history,
-                            w.player_start, w.player_origin, w.head_tracking, w.body_start,
-                            w.body_pose, w.authored_hold, w.body, w.joint, w.joint_state, w.grab},
-                           f.tuning, f.stats);
+    handhold::anchor_grabs(
+        {f.start_s(), f.end_s(), w.hand_owner, w.hand_tracking, w.hand_history, w.player_start,
+         w.player_origin, w.head_tracking, w.body_start, w.body_pose, w.authored_hold, w.body,
+         w.joint, w.joint_state, w.grab, &w.body_hold},
+        f.tuning, f.stats);
 }
 
 // --- Constraints and solve -----------------------------------------------------------------------
@@ -181,7 +186,7 @@ void build_constraints(const FrameContext& f) {
     handhold::build_constraints(
         {f.dt_s(), w.persistent_id, w.body, w.body_pose, w.body_velocity, w.joint, w.joint_state,
          w.player, w.player_origin, w.player_velocity, w.head_tracking, w.hand_owner, w.grab,
-         f.graph()},
+         f.graph(), &w.body_hold},
         f.tuning);
 }
 

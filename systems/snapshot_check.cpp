@@ -316,6 +316,7 @@ class BreachFinder {
     void check_authored() {
         require("authored_grips", w_.authored_grips, "body", w_.body);
         require("authored_hold", w_.authored_hold, "grab", w_.grab);
+        require("body_hold", w_.body_hold, "grab", w_.grab);
         require("hand_pull", w_.hand_pull, "grab", w_.grab);
         for (std::size_t row = 0; row < w_.authored_grips.size(); ++row) {
             check(w_.authored_grips.rows()[row].count <= k_max_authored_grips, "authored_grips",

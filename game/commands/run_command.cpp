@@ -102,7 +102,7 @@ std::optional<FileError> place_players(const RunOptions& options, PreparedRun& r
         return places.error();
     }
     Result<std::vector<PlayerEntities>> players =
-        add_players(run.scene, *run.caches, places.value(), options);
+        add_players(run.scene, *run.caches, places.value(), options, run.session);
     if (!players) {
         return players.error();
     }
@@ -117,7 +117,7 @@ std::optional<FileError> place_players(const RunOptions& options, PreparedRun& r
 // Chooses the run's settings and checks the session's length. Restores the snapshot of --resume.
 std::optional<FileError> set_start(const RunOptions& options, PreparedRun& run) {
     run.assets = std::make_unique<SnapshotAssets>(*run.scene.shapes, run.scene.name);
-    run.settings = choose_settings(options, run.players.size(), run.scene);
+    run.settings = choose_settings(options, run.session, run.players.size(), run.scene);
     run.settings.should_stop = is_interrupted;
     for (const Recording& more : run.session.more) {
         run.settings.more_recordings.push_back(&more);
@@ -167,7 +167,7 @@ int play_and_report(const RunOptions& options, PreparedRun& run) {
 int run_command(const RunOptions& options) {
     const InterruptGuard interrupts;
     if (options.players > 0 &&
-        static_cast<std::size_t>(options.players) < recorded_players(options)) {
+        static_cast<std::size_t>(options.players) < 1 + options.more_inputs.size()) {
         return refuse({options.scene, "",
                        "expected a player for each --input, found " +
                            std::to_string(options.players) + " players"});

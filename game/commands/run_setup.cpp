@@ -25,6 +25,7 @@ Result<RunSession> load_session(const RunOptions& options, const Scene& scene) {
                                  "expected the name of a built-in session, found \"" +
                                      scene.session->built_in + "\""};
             }
+            session.more = make_built_in_partners(scene.session->built_in);
             session.name = "built-in " + scene.session->built_in;
             return session;
         }
@@ -93,13 +94,13 @@ Result<StartPlace> choose_place(const RunOptions& options, const std::string& sp
     return StartPlace{{}, "origin"};
 }
 
-std::size_t recorded_players(const RunOptions& options) { return 1 + options.more_inputs.size(); }
+std::size_t recorded_players(const RunSession& session) { return 1 + session.more.size(); }
 
 Result<std::vector<StartPlace>> choose_places(const RunOptions& options, const StartPlace& first,
                                               const Scene& scene, FrameCaches& caches,
                                               const RunSession& session) {
     std::vector<StartPlace> places = {first};
-    for (std::size_t i = 1; i < recorded_players(options); ++i) {
+    for (std::size_t i = 1; i < recorded_players(session); ++i) {
         if (i - 1 < options.more_spawns.size()) {
             Result<StartPlace> place = choose_place(options, options.more_spawns[i - 1], scene,
                                                     caches, &session.more[i - 1]);
@@ -118,16 +119,17 @@ Result<std::vector<StartPlace>> choose_places(const RunOptions& options, const S
 
 Result<std::vector<PlayerEntities>> add_players(Scene& scene, FrameCaches& caches,
                                                 const std::vector<StartPlace>& places,
-                                                const RunOptions& options) {
+                                                const RunOptions& options,
+                                                const RunSession& session) {
     std::vector<ScenePlayerStart> starts;
-    if (scene.players.size() >= recorded_players(options) && options.spawn.empty() &&
+    if (scene.players.size() >= recorded_players(session) && options.spawn.empty() &&
         options.players == 0) {
         starts = scene.players;
     } else {
         const auto count =
             options.players > 0
                 ? static_cast<std::size_t>(options.players)
-                : std::max(recorded_players(options), static_cast<std::size_t>(1 + scene.climbers));
+                : std::max(recorded_players(session), static_cast<std::size_t>(1 + scene.climbers));
         for (const Pose& origin_ws :
              spread_players(scene, caches, places.front().origin_ws, count, options.seed)) {
             const std::size_t i = starts.size();
@@ -149,9 +151,10 @@ Result<std::vector<PlayerEntities>> add_players(Scene& scene, FrameCaches& cache
     return players;
 }
 
-RunSettings choose_settings(const RunOptions& options, std::size_t players, Scene& scene) {
+RunSettings choose_settings(const RunOptions& options, const RunSession& session,
+                            std::size_t players, Scene& scene) {
     RunSettings settings{options.hz, options.seconds, options.threads};
-    settings.climbers_from = options.climbers ? 0 : recorded_players(options);
+    settings.climbers_from = options.climbers ? 0 : recorded_players(session);
     settings.seed = options.seed;
     settings.keep_frames = !options.out.empty();
     if (options.distance_grab) {

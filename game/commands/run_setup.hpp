@@ -43,7 +43,7 @@ Result<StartPlace> choose_place(const RunOptions& options, const std::string& sp
                                 const Recording* recording);
 
 // The number of players who have recordings; the first player counts even without one.
-std::size_t recorded_players(const RunOptions& options);
+std::size_t recorded_players(const RunSession& session);
 
 // Start places of players with recordings: `first`, then those of --spawn, then the scene's next
 // spawns. Returns fewer places than recordings if the scene has no more spawns.
@@ -55,11 +55,13 @@ Result<std::vector<StartPlace>> choose_places(const RunOptions& options, const S
 // given. Otherwise adds the first players at `places` and spreads the others over the scene.
 Result<std::vector<PlayerEntities>> add_players(Scene& scene, FrameCaches& caches,
                                                 const std::vector<StartPlace>& places,
-                                                const RunOptions& options);
+                                                const RunOptions& options,
+                                                const RunSession& session);
 
 // Chooses the settings for a session of `players` players. Climbers need jets to return to a hold,
 // so a scene without jets gets weak ones.
-RunSettings choose_settings(const RunOptions& options, std::size_t players, Scene& scene);
+RunSettings choose_settings(const RunOptions& options, const RunSession& session,
+                            std::size_t players, Scene& scene);
 
 // Warns on standard error of bodies and players that penetrate at the start.
 void warn_of_overlaps(const Scene& scene, FrameCaches& caches,

@@ -10,6 +10,7 @@
 #include "game/scene/playground.hpp"
 #include "game/scene/reach.hpp"
 #include "game/scene/robot_scene.hpp"
+#include "game/scene/together.hpp"
 #include "game/session/session_script.hpp"
 
 namespace handhold {
@@ -250,13 +251,16 @@ std::optional<Scene> make_bodies_of(std::string_view name) {
     if (name == "crowd") {
         return make_crowd_scene();
     }
+    if (name == "together") {
+        return make_together_scene();
+    }
     return std::nullopt;
 }
 
 }  // namespace
 
 std::vector<std::string_view> built_in_scenes() {
-    return {"station", "ship", "playground", "robot", "crowd", "reach"};
+    return {"station", "ship", "playground", "robot", "crowd", "reach", "together"};
 }
 
 std::optional<Scene> make_built_in_scene(std::string_view name) {
@@ -291,7 +295,18 @@ std::optional<Recording> make_built_in_session(std::string_view name) {
     if (name == "reach") {
         return record_session(reach_script(), tuning);
     }
+    if (name == "together") {
+        return record_session(together_script(), tuning);
+    }
     return std::nullopt;
+}
+
+std::vector<Recording> make_built_in_partners(std::string_view name) {
+    std::vector<Recording> partners;
+    if (name == "together") {
+        partners.push_back(record_session(together_partner_script(), HandTuning()));
+    }
+    return partners;
 }
 
 }  // namespace handhold

@@ -22,5 +22,7 @@ void add_session_spawn(SceneFile& scene);
 // The session `scene.session->built_in` as if a headset had recorded it. nullopt for an unknown
 // name.
 std::optional<Recording> make_built_in_session(std::string_view name);
+// The sessions of the second player, the third, ...; empty: the first plays alone.
+std::vector<Recording> make_built_in_partners(std::string_view name);
 
 }  // namespace handhold

@@ -109,8 +109,8 @@ void explain_grip(const Scene& scene, Entity hand, const Pose& hand_ws, HandStor
             "It closed in the zone of an authored grip, %s: the hand takes that grip's pose.",
             is_named ? grips->second[hold->grip].name.c_str() : "without a name"));
     }
-    const Pose body_ws =
-        gripped_pose_ws(world.body_pose, world.player_origin, world.head_tracking, grab.body);
+    const Pose body_ws = gripped_pose_ws(world.body_pose, world.player_origin, world.head_tracking,
+                                         grab.body, world.body_hold.find(hand));
     story.reasons.push_back(
         format_text("When it closed, the surface was %.1f cm from the wrist.",
                     100.0 * (transform_point(body_ws, grab.hit_bs) - hand_ws.position).norm()));

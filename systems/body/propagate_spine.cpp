@@ -234,6 +234,24 @@ void touch_surfaces(const PropagateSpineIo& io, Entity player, const Motion& mot
     find_body_contacts(around, io.t_s, io.dt_s, motion.moved_m, memory);
 }
 
+// Whether another player's hand holds the trunk or a leg.
+struct Held {
+    bool now = false;
+    bool before = false;  // since before this frame
+};
+Held held(const PropagateSpineIo& io, Entity player) {
+    Held found;
+    for (std::size_t row = 0; io.body_hold != nullptr && row < io.body_hold->size(); ++row) {
+        const Grab& grab = io.grab->at(io.body_hold->owners()[row]);
+        if (grab.kind == GripKind::player && grab.body == player &&
+            swings(io.body_hold->rows()[row].part)) {
+            found.now = true;
+            found.before = found.before || grab.since_s < io.t_s - io.dt_s;
+        }
+    }
+    return found;
+}
+
 void propagate_player(const PropagateSpineIo& io, std::size_t row, const SpineTuning& tuning) {
     const Entity player = io.pose.owners()[row];
     SpineMemory& memory = io.memory.at(player);
@@ -242,7 +260,10 @@ void propagate_player(const PropagateSpineIo& io, std::size_t row, const SpineTu
     const Pose& chest_ps = io.estimate.at(player).chest_ps;
     const double floor_m = io.head == nullptr ? 0.0 : io.head->at(player).shift_m.y();
     const TrackedFloor floor{chest_ps.position.y() - floor_m, scale};
-    const Vec3& reference_ws = io.reference.at(player).linear_mps;
+    const Held is_held = held(io, player);
+    // A held body's velocities are relative to its player's.
+    const Vec3 reference_ws =
+        is_held.now ? io.velocity.at(player).linear_mps : io.reference.at(player).linear_mps;
     const Vec3 own_m = chest_ps.position - memory.chest_ps.position;
     const Quat to_ps = origin_ws.rotation.conjugate();
     const Vec3 relative = to_ps * (io.velocity.at(player).linear_mps - reference_ws);
@@ -253,8 +274,9 @@ void propagate_player(const PropagateSpineIo& io, std::size_t row, const SpineTu
         memory.rate_span_s = io.dt_s;
     } else {
         // Velocities are relative to the reference velocity. When it changes, they are shifted
-        // so that the absolute velocities stay the same.
-        const Vec3 shift = to_ps * (memory.reference_ws_mps - reference_ws);
+        // so that the absolute velocities stay the same. A held body follows its player's changes.
+        const Vec3 shift = is_held.before ? Vec3(Vec3::Zero())
+                                          : Vec3(to_ps * (memory.reference_ws_mps - reference_ws));
         for (Vec3& velocity : memory.velocity_mps) {
             velocity += shift;
         }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/arm.hpp"
+#include "components/body_part.hpp"
 #include "components/body_tuning.hpp"
 #include "components/grab.hpp"
 #include "components/player.hpp"
@@ -31,6 +32,8 @@ struct PropagateSpineIo {
     // In: hands that pull the body. Set both or none.
     const Column<HandOwner>* owner = nullptr;
     const Column<Grab>* grab = nullptr;
+    // In: hands on other players' parts; needs `grab`. Null: nobody is held.
+    const Column<BodyHold>* body_hold = nullptr;
 };
 
 // Stage 14. Simulates spine and legs of every player as a chain of links: motion travels down from
@@ -45,6 +48,9 @@ struct PropagateSpineIo {
 // Hanging: the trunk turns towards the opposite of the direction to the gripping hands
 // (hang_body.hpp). Loose bodies in the hands pull nothing. Without a grip the trunk keeps its
 // posture below the head, and an acceleration acts through the chain's inertia alone.
+//
+// Held by trunk or leg: the body moves as one with its player and does not trail. The grip's anchor
+// is on the body, so a leg that gave way to the pull would feed it.
 //
 // Contacts: trunk, thighs and shins stay in front of the first surface along each of them, seen
 // from the head's side, and slide along it, within the joint limits (body_contacts.hpp). They apply

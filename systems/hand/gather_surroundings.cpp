@@ -38,7 +38,9 @@ class Gatherer {
         if (grab.kind == GripKind::none || !body_exists) {
             return;
         }
-        out.body_ws = gripped_pose_ws(io_.body_pose, io_.origin, io_.head, grab.body);
+        const BodyHold* const hold_on_part =
+            io_.body_hold != nullptr ? io_.body_hold->find(hand) : nullptr;
+        out.body_ws = gripped_pose_ws(io_.body_pose, io_.origin, io_.head, grab.body, hold_on_part);
         out.wrist_bs = grab.anchor_bs;
         if (may_turn_on_grip(grab)) {
             out.wrist_bs.rotation =

@@ -6,6 +6,7 @@
 
 #include "components/authored_grip.hpp"
 #include "components/body.hpp"
+#include "components/body_part.hpp"
 #include "components/grab.hpp"
 #include "components/hand_surroundings.hpp"
 #include "components/player.hpp"
@@ -44,6 +45,7 @@ struct GatherSurroundingsIo {
     // `proxies` are in the order of `bodies`, sorted by id. Null: every body is tested.
     const CollisionWorld* collision = nullptr;
     std::span<const ColliderProxy> proxies = {};
+    const Column<BodyHold>* body_hold = nullptr;  // in: of hands on a player's part
 };
 
 // Collects each hand's wrist pose and the surfaces near the hand, in the gripped body's frame. This

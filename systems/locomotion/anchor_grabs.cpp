@@ -26,7 +26,7 @@ void slip_to(const Pose& anchor_bs, Grab& grab) {
 Pose anchor_at_start_bs(const AnchorGrabsIo& io, Entity player, const HandTracking& hand,
                         const Grab& grab) {
     const GrabInstant start{io, 0.0};
-    return anchor_bs(start.body_ws(grab.body), start.origin_ws(player),
+    return anchor_bs(start.gripped_ws(grab), start.origin_ws(player),
                      hand.resumed ? hand.pose_ps : hand.start_ps);
 }
 void take_anchor_at_start(const AnchorGrabsIo& io, Entity player, const HandTracking& hand,
@@ -109,7 +109,7 @@ Pose staying_anchor_bs(const AnchorGrabsIo& io, const HandPair& leaving, bool le
     const HandTracking& staying_hand = *leaving.other_hand;
     const GrabInstant now{io, fraction_of(io, leaving.hand.edge_t_s)};
     Pose origin_ws = now.origin_ws(leaving.player);
-    Pose body_ws = now.body_ws(staying.body);
+    Pose body_ws = now.gripped_ws(staying);
     if (staying.kind == GripKind::surface) {
         const auto held_origin = [&](const Grab& grab, const Vec3& hand_ps) -> Vec3 {
             return transform_point(now.body_ws(grab.body), grab.anchor_bs.position) -
@@ -261,7 +261,7 @@ void anchor_new_grab(const AnchorGrabsIo& io, const HandPair& pair, const PhaseT
     const Grab* const leading = at_once ? nullptr : pair.other;
     const bool joins = leading != nullptr && leading->phase != GrabPhase::fresh &&
                        share_free_body(pair.grab, *leading);
-    Pose body_ws = now.body_ws(pair.grab.body);
+    Pose body_ws = now.gripped_ws(pair.grab);
     if (pair.grab.jointed) {
         body_ws = hand_driven_body_ws(now, pair.grab.body, tuning);
     } else if (joins) {
@@ -301,7 +301,7 @@ void reanchor_resumed_grab(const AnchorGrabsIo& io, const HandPair& pair, const 
         pair.grab.two_handed = false;
         pair.other->two_handed = false;
     }
-    slip_to(anchor_bs(now.body_ws(pair.grab.body),
+    slip_to(anchor_bs(now.gripped_ws(pair.grab),
                       origin_at(now, pair.player, pair.other, pair.other_hand, tuning),
                       pair.hand.pose_ps),
             pair.grab);
@@ -342,7 +342,7 @@ void limit_hand_speeds(const AnchorGrabsIo& io, double max_speed_mps, StageStats
         }
         const Vec3 rest_ps = travel_ps * (1.0 - max_m / travel_ps.norm());
         const GrabInstant end{io, 1.0};
-        const Vec3 rest_bs = end.body_ws(grab.body).rotation.conjugate() *
+        const Vec3 rest_bs = end.gripped_ws(grab).rotation.conjugate() *
                              (end.origin_ws(pair.player).rotation * rest_ps);
         slip_to({grab.anchor_bs.position + rest_bs, grab.anchor_bs.rotation}, grab);
         stats.count(Fallback::grip_speed_limited);

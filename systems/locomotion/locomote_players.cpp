@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 
 #include "components/hand_rows.hpp"
@@ -59,6 +60,22 @@ void turn_about(PlayerOrigin& origin, const Vec3& pivot_ps, const Quat& turn_ws)
     const Vec3 pivot_ws = transform_point(origin.pose_ws, pivot_ps);
     origin.pose_ws.rotation = (turn_ws * origin.pose_ws.rotation).normalized();
     origin.pose_ws.position = pivot_ws - origin.pose_ws.rotation * pivot_ps;
+}
+
+// Hands on parts of a player who turns stay where they are in the world. From there they follow the
+// parts (update_grabs).
+void keep_holds_in_place(const LocomotePlayersIo& io, Entity player, const Pose& before_ws,
+                         const Pose& now_ws) {
+    const std::span<const Entity> hands =
+        io.body_hold != nullptr ? io.body_hold->owners() : std::span<const Entity>();
+    for (const Entity hand : hands) {
+        if (io.grab.at(hand).body == player) {
+            BodyHold& hold = io.body_hold->at(hand);
+            const Pose turned = inverse(now_ws) * before_ws;
+            hold.start_ps = turned * hold.start_ps;
+            hold.pose_ps = turned * hold.pose_ps;
+        }
+    }
 }
 
 Quat commanded_turn(const LocomotePlayersIo& io, const PlayerCommands& commands,
@@ -131,7 +148,9 @@ void locomote_players(const LocomotePlayersIo& io, const LocomotionTuning& tunin
         const Quat turn = support_turn(io, grips, play_space, tuning) *
                           commanded_turn(io, commands, play_space, tuning);
         if (turn.vec().squaredNorm() > 0.0) {
+            const Pose before_ws = origin.pose_ws;
             turn_about(origin, pivot_ps, turn);
+            keep_holds_in_place(io, player, before_ws, origin.pose_ws);
         }
         const auto* const end = grips.grips.begin() + grips.count;
         if (std::none_of(grips.grips.begin(), end, is_on_surface)) {

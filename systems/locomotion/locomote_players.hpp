@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/body.hpp"
+#include "components/body_part.hpp"
 #include "components/grab.hpp"
 #include "components/player.hpp"
 #include "components/stats.hpp"
@@ -20,9 +21,10 @@ struct LocomotePlayersIo {
     const Column<Grab>& grab;                   // in
     const Column<BodyPose>& body_pose;          // in: at the start of the frame
     const Column<BodyVelocity>& body_velocity;  // in
-    Column<PlayerOrigin>& origin;          // in/out: turned about the gripping hand, else the head
-    Column<PlayerVelocity>& velocity;      // in/out
-    Column<ReferenceVelocity>& reference;  // in/out
+    Column<PlayerOrigin>& origin;           // in/out: turned about the gripping hand, else the head
+    Column<PlayerVelocity>& velocity;       // in/out
+    Column<ReferenceVelocity>& reference;   // in/out
+    Column<BodyHold>* body_hold = nullptr;  // in/out: kept in place when the held player turns
 };
 
 // Stage 2b. Moves players by their commands: snap and smooth turns, brake, thrusters. Updates the

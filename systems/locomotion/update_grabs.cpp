@@ -53,6 +53,43 @@ bool is_at_palm(const GrabTarget& target, const PalmRay& ray) {
     return offset.norm() <= k_touches_m || offset.dot(ray.to_ws - ray.from_ws) <= 0.0;
 }
 
+// Gives the hand a BodyHold if it grips a part of a player, and takes that of an earlier grip away.
+const BodyHold* hold_part(const UpdateGrabsIo& io, Entity hand, const GrabTarget& target) {
+    if (io.body_hold == nullptr) {
+        return nullptr;
+    }
+    io.body_hold->remove(hand);
+    if (!target.part) {
+        return nullptr;
+    }
+    const Pose part_ps = io.bodies().part_ps(target.body, *target.part);
+    return &io.body_hold->add(hand, {*target.part, part_ps, part_ps});
+}
+
+BodyHold* body_hold_of(const UpdateGrabsIo& io, Entity hand) {
+    return io.body_hold != nullptr ? io.body_hold->find(hand) : nullptr;
+}
+
+// Grips on parts follow the shown bodies.
+void follow_parts(const UpdateGrabsIo& io, const HandTuning& tuning) {
+    for (const Entity hand : io.grab.owners()) {
+        BodyHold* const hold = body_hold_of(io, hand);
+        if (hold == nullptr) {
+            continue;
+        }
+        const Grab& grab = io.grab.at(hand);
+        if (grab.kind != GripKind::player || !io.origin.contains(grab.body)) {
+            io.body_hold->remove(hand);
+            continue;
+        }
+        const double share = swings(hold->part) ? io.dt_s / (io.dt_s + tuning.swing_lag_s) : 1.0;
+        hold->start_ps = hold->pose_ps;
+        hold->pose_ps =
+            follow_part(hold->start_ps, io.bodies().part_ps(grab.body, hold->part),
+                        grab.anchor_bs.position, {share, tuning.part_speed_mps * io.dt_s});
+    }
+}
+
 void start_grab(const UpdateGrabsIo& io, Entity hand, const GrabTarget& target, double since_s,
                 Grab& grab, const Tuning& tuning, StageStats& stats) {
     ++stats.grabs_gripped;
@@ -60,7 +97,8 @@ void start_grab(const UpdateGrabsIo& io, Entity hand, const GrabTarget& target, 
     if (target.hold) {
         io.authored_hold.add(hand, *target.hold);
     }
-    const Pose body_ws = gripped_pose_ws(io.body_pose, io.origin, io.head, target.body);
+    const BodyHold* const part = hold_part(io, hand, target);
+    const Pose body_ws = gripped_pose_ws(io.body_pose, io.origin, io.head, target.body, part);
     grab = {};
     grab.kind = grip_kind(io, target.body, tuning.phases);
     grab.jointed =
@@ -147,10 +185,11 @@ std::optional<std::size_t> partner_of(const UpdateGrabsIo& io, std::size_t row) 
 }
 
 // Pose of what is gripped at the start of the frame.
-Pose gripped_start_ws(const UpdateGrabsIo& io, Entity gripped) {
+Pose gripped_start_ws(const UpdateGrabsIo& io, Entity gripped, const BodyHold* hold) {
     const BodyPose* const body = io.body_pose.find(gripped);
     return body != nullptr ? body->pose_ws
-                           : io.origin.at(gripped).pose_ws * io.head.at(gripped).start_ps;
+                           : io.origin.at(gripped).pose_ws *
+                                 (hold != nullptr ? hold->start_ps : io.head.at(gripped).start_ps);
 }
 
 // Lets go now. If the other hand shares the hold, it takes a new anchor where it is before anything
@@ -165,7 +204,8 @@ void release_grab(const UpdateGrabsIo& io, std::size_t row, Fallback reason, Sta
         if (share_hold(grab, staying) && !share_free_body(grab, staying) && is_there(io, staying)) {
             const Pose hand_ws =
                 io.origin.at(io.owner.at(hand).player).pose_ws * io.hand.at(hand).start_ps;
-            staying.anchor_bs = inverse(gripped_start_ws(io, staying.body)) * hand_ws;
+            staying.anchor_bs =
+                inverse(gripped_start_ws(io, staying.body, body_hold_of(io, hand))) * hand_ws;
             staying.error_m = 0.0;
             stats.count(Fallback::grip_reanchored);
         }
@@ -213,6 +253,18 @@ void release_overstretched_grabs(const UpdateGrabsIo& io, double max_stretch_m, 
     }
 }
 
+// On a player's part, the distance is that from the point where the palm was.
+bool is_out_of_reach(const UpdateGrabsIo& io, Entity hand, const Vec3& palm_ws, double reach_m) {
+    const Grab& grab = io.grab.at(hand);
+    if (const BodyHold* const hold = body_hold_of(io, hand)) {
+        const Pose part_ws = gripped_start_ws(io, grab.body, hold);
+        return (transform_point(part_ws, grab.hit_bs) - palm_ws).norm() > reach_m;
+    }
+    const auto nearest =
+        io.surfaces.closest_point_on(io.persistent_id.at(grab.body).value, palm_ws);
+    return nearest && (nearest->point_ws - palm_ws).norm() > reach_m && nearest->distance_m > 0.0;
+}
+
 // After a tracking error the hand may be anywhere. A held free body comes back into it
 // (anchor_grabs). Any other grip ends if the palm is farther than max_stretch_m from the surface.
 void release_grabs_out_of_reach(const UpdateGrabsIo& io, const HandTuning& tuning,
@@ -229,10 +281,7 @@ void release_grabs_out_of_reach(const UpdateGrabsIo& io, const HandTuning& tunin
         const Vec3 palm_ws =
             palm_ray(io.origin.at(owner.player).pose_ws * hand.start_ps, owner.side, tuning)
                 .palm_ws;
-        const auto nearest =
-            io.surfaces.closest_point_on(io.persistent_id.at(grab.body).value, palm_ws);
-        if (nearest && (nearest->point_ws - palm_ws).norm() > tuning.max_stretch_m &&
-            nearest->distance_m > 0.0) {
+        if (is_out_of_reach(io, entity, palm_ws, tuning.max_stretch_m)) {
             release_grab(io, row, Fallback::grip_out_of_reach, stats);
         }
     }
@@ -314,6 +363,7 @@ void carry_out_orders(const UpdateGrabsIo& io, const Tuning& tuning, StageStats&
 
 void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats) {
     release_destroyed_bodies(io, stats);
+    follow_parts(io, tuning.hand);
     release_overstretched_grabs(io, tuning.hand.max_stretch_m, stats);
     release_grabs_out_of_reach(io, tuning.hand, stats);
     for (const Entity hand : io.grab.owners()) {

@@ -78,14 +78,15 @@ RowBlock hand_block(const Grab& grab, const Quat& play_space, std::uint64_t hand
     return block;
 }
 
-// A hand that grips a player's head. The solver moves the gripped player's play space, so the
-// anchor is the head's tracked pose in it. The head's own tracked motion is subtracted from the
-// drive velocity, because it does not move the play space.
-void hold_head(const Grab& grab, const HeadTracking& head, const Quat& play_space, double dt_s,
-               RowBlock& block) {
-    const Pose anchor_ps = head.pose_ps * grab.anchor_bs;
+// A hand that grips a player's head, or the part that `hold` names. The solver moves the gripped
+// player's play space, so the anchor is the pose of head or part in it. Their own motion is
+// subtracted from the drive velocity, because it does not move the play space.
+void hold_player(const Grab& grab, const HeadTracking& head, const BodyHold* hold,
+                 const Quat& play_space, double dt_s, RowBlock& block) {
+    const Pose& start_ps = hold != nullptr ? hold->start_ps : head.start_ps;
+    const Pose anchor_ps = (hold != nullptr ? hold->pose_ps : head.pose_ps) * grab.anchor_bs;
     const Vec3 displacement =
-        anchor_ps.position - transform_point(head.start_ps, grab.anchor_bs.position);
+        anchor_ps.position - transform_point(start_ps, grab.anchor_bs.position);
     block.point_b_bs = anchor_ps.position;
     block.rotation_b_bs = anchor_ps.rotation;
     block.drive_velocity_ws_mps -= play_space * (displacement / dt_s);
@@ -159,8 +160,10 @@ void write_hands(const BuildConstraintsIo& io, const PhaseTuning& tuning) {
         block.b = static_cast<std::uint32_t>(b);
         block.source = static_cast<std::uint32_t>(row);
         if (grab.kind == GripKind::player) {
-            hold_head(grab, io.head.at(grab.body), frame.graph.bodies[b].pose_ws.rotation, io.dt_s,
-                      block);
+            const BodyHold* const hold =
+                io.body_hold != nullptr ? io.body_hold->find(hand) : nullptr;
+            hold_player(grab, io.head.at(grab.body), hold, frame.graph.bodies[b].pose_ws.rotation,
+                        io.dt_s, block);
         }
         if (!share_rows(io, row, block)) {
             continue;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/body.hpp"
+#include "components/body_part.hpp"
 #include "components/frame_graph.hpp"
 #include "components/grab.hpp"
 #include "components/joint.hpp"
@@ -34,6 +35,7 @@ struct BuildConstraintsIo {
     const Column<HandOwner>& owner;                 // in
     const Column<Grab>& grab;  // in: anchors in body frames, targets in play space
     FrameGraph& frame;         // in: proxies, entities, contacts; out: graph, phase
+    const Column<BodyHold>* body_hold = nullptr;  // in: play space, of hands on a player's part
 };
 void build_constraints(const BuildConstraintsIo& io, const Tuning& tuning);
 

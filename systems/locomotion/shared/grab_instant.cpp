@@ -57,6 +57,15 @@ Pose GrabInstant::body_ws(Entity body) const {
     return hand_driven_origin_ws(body) * interpolate(head.start_ps, head.pose_ps, t);
 }
 
+Pose GrabInstant::gripped_ws(const Grab& grab) const {
+    const BodyHold* const hold =
+        io.body_hold != nullptr ? io.body_hold->find(io.grab.owner_of(grab)) : nullptr;
+    if (hold == nullptr || grab.kind != GripKind::player) {
+        return body_ws(grab.body);
+    }
+    return hand_driven_origin_ws(grab.body) * interpolate(hold->start_ps, hold->pose_ps, t);
+}
+
 Pose GrabInstant::origin_ws(Entity player) const {
     return interpolate(io.player_start.at(player).pose_ws, io.origin.at(player).pose_ws, t);
 }

@@ -2,6 +2,7 @@
 
 #include "components/authored_grip.hpp"
 #include "components/body.hpp"
+#include "components/body_part.hpp"
 #include "components/grab.hpp"
 #include "components/joint.hpp"
 #include "components/player.hpp"
@@ -19,19 +20,20 @@ namespace handhold {
 struct GrabFrame {
     double start_s = 0.0;  // in: the frame
     double end_s = 0.0;
-    const Column<HandOwner>& owner;             // in
-    const Column<HandTracking>& hand;           // in
-    const Column<HandHistory>& hand_history;    // in: samples within the frame
-    const Column<PlayerStart>& player_start;    // in
-    const Column<PlayerOrigin>& origin;         // in: predicted
-    const Column<HeadTracking>& head;           // in
-    const Column<BodyStart>& body_start;        // in
-    const Column<BodyPose>& body_pose;          // in: predicted
-    const Column<AuthoredHold>& authored_hold;  // in
-    const Column<RigidBody>& body;              // in
-    const Column<Joint>& joint;                 // in
-    const Column<JointState>& joint_state;      // in: at the frame's start
-    Column<Grab>& grab;                         // in/out: anchor, target, phase, two_handed
+    const Column<HandOwner>& owner;               // in
+    const Column<HandTracking>& hand;             // in
+    const Column<HandHistory>& hand_history;      // in: samples within the frame
+    const Column<PlayerStart>& player_start;      // in
+    const Column<PlayerOrigin>& origin;           // in: predicted
+    const Column<HeadTracking>& head;             // in
+    const Column<BodyStart>& body_start;          // in
+    const Column<BodyPose>& body_pose;            // in: predicted
+    const Column<AuthoredHold>& authored_hold;    // in
+    const Column<RigidBody>& body;                // in
+    const Column<Joint>& joint;                   // in
+    const Column<JointState>& joint_state;        // in: at the frame's start
+    Column<Grab>& grab;                           // in/out: anchor, target, phase, two_handed
+    const Column<BodyHold>* body_hold = nullptr;  // in: of hands on a player's part
 };
 
 // Poses at one instant within the frame; t = 0 is its start, 1 its end.
@@ -41,6 +43,9 @@ struct GrabInstant {
 
     // The predicted pose; for a player, the head's.
     Pose body_ws(Entity body) const;
+    // What the hand grips: as body_ws, but the part of a player that its BodyHold names. `grab` is
+    // a row of `io.grab`.
+    Pose gripped_ws(const Grab& grab) const;
     Pose origin_ws(Entity player) const;
     // `hand` is a row of `io.hand`.
     Pose hand_ps(const HandTracking& hand) const;

@@ -75,9 +75,29 @@ bool any_priority(const GrabRules& rules) {
                                [](const GrabRule& rule) { return rule.priority != 0; });
 }
 
+// A point of a collider, or of another player's part.
+struct FoundSurface {
+    std::uint64_t id = 0;
+    Vec3 point_ws;
+    Vec3 normal_ws;
+    std::optional<BodyPart> part;
+};
+
+// The nearer of the two.
+template <typename ColliderHit>
+std::optional<FoundSurface> nearer(const std::optional<ColliderHit>& collider,
+                                   const std::optional<PartHit>& part) {
+    if (part && (!collider || part->distance_m < collider->distance_m)) {
+        return FoundSurface{part->id, part->point_ws, part->normal_ws, part->part};
+    }
+    return collider ? std::optional(FoundSurface{collider->id, collider->point_ws,
+                                                 collider->normal_ws, std::nullopt})
+                    : std::nullopt;
+}
+
 // Searches along the palm ray, then around the palm, without testing visibility. Skips surfaces
 // that refuse the hand. Takes the first other surface, or one of a higher GrabRule::priority that
-// no other surface hides from the palm. Other players' heads count as surfaces.
+// no other surface hides from the palm. Other players' heads and bodies count as surfaces.
 class SurfaceFinder {
   public:
     SurfaceFinder(const GrabSearch& io, const HandOwner& owner, const PalmRay& ray)
@@ -89,10 +109,9 @@ class SurfaceFinder {
 
     // nullopt: nothing in reach, or only what refuses the hand: see refused_by.
     std::optional<GrabTarget> find(double reach_m) {
-        while (offer(io_.surfaces.cast_ray(ray_.from_ws, ray_.to_ws, skipped_.view()))) {
+        while (offer(on_ray())) {
         }
-        while (!is_done() && !skipped_.is_full() &&
-               offer(io_.surfaces.closest_point(ray_.palm_ws, reach_m, skipped_.view()))) {
+        while (!is_done() && !skipped_.is_full() && offer(near_palm(reach_m))) {
         }
         return best_;
     }
@@ -107,6 +126,17 @@ class SurfaceFinder {
         void add(std::uint64_t id) { ids[count++] = id; }
     };
 
+    std::optional<FoundSurface> on_ray() const {
+        const ShownBodies::Skip skip = skipped_.view();
+        return nearer(io_.surfaces.cast_ray(ray_.from_ws, ray_.to_ws, skip),
+                      io_.bodies().cast_ray(ray_.from_ws, ray_.to_ws, skip));
+    }
+    std::optional<FoundSurface> near_palm(double reach_m) const {
+        const ShownBodies::Skip skip = skipped_.view();
+        return nearer(io_.surfaces.closest_point(ray_.palm_ws, reach_m, skip),
+                      io_.bodies().closest_point(ray_.palm_ws, reach_m, skip));
+    }
+
     bool is_done() const { return best_.has_value() && !continues_; }
 
     bool is_hidden(std::uint64_t id, const Vec3& point_ws) const {
@@ -115,8 +145,7 @@ class SurfaceFinder {
     }
 
     // Takes a surface or passes over it. False if the search must not go on.
-    template <typename Found>
-    bool offer(const Found& found) {
+    bool offer(const std::optional<FoundSurface>& found) {
         const Entity body = found ? owner_of_id(io_, found->id) : k_no_entity;
         if (is_null(body)) {
             return false;
@@ -127,7 +156,7 @@ class SurfaceFinder {
             refused_by_ = body;
             refusing_.add(found->id);
         } else if (!best_ || (priority > priority_ && !is_hidden(found->id, found->point_ws))) {
-            best_ = GrabTarget{body, found->point_ws, found->normal_ws, {}};
+            best_ = GrabTarget{body, found->point_ws, found->normal_ws, {}, found->part};
             priority_ = priority;
         }
         skipped_.add(found->id);

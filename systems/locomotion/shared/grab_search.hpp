@@ -12,6 +12,7 @@
 #include "components/tuning.hpp"
 #include "engine/collision/surface_query.hpp"
 #include "engine/ecs/column.hpp"
+#include "systems/locomotion/shared/body_parts.hpp"
 #include "systems/locomotion/shared/grab_rules.hpp"
 
 // What a closing hand grips.
@@ -19,33 +20,42 @@ namespace handhold {
 
 // Also UpdateGrabsIo. The functions below write `sight` only.
 struct GrabSearch {
-    SurfaceQuery surfaces;                        // in: at the start of the frame
-    const Column<PersistentId>& persistent_id;    // in
-    const Column<HandOwner>& owner;               // in
-    const Column<HandTracking>& hand;             // in: edges
-    const Column<PlayerOrigin>& origin;           // in: at the start of the frame
-    const Column<HeadTracking>& head;             // in: as the colliders have it
-    const Column<RigidBody>& body;                // in
-    const Column<BodyPose>& body_pose;            // in: at the start of the frame
-    const JointGroups& joint_groups;              // in
-    const Column<AuthoredGrips>& authored_grips;  // in
-    const Column<HandPull>& pull;                 // in: of the last frame
-    const Column<ReferenceVelocity>& reference;   // in: of the last frame
-    Column<HandSight>& sight;                     // in/out
-    Column<Grab>& grab;                           // in/out
-    Column<AuthoredHold>& authored_hold;          // in/out: of hands in an authored grip
-    Column<HeadIgnores>& head_ignores;            // in/out: held bodies are added
-    GrabRules rules = {};                         // in
-    Column<GrabOrder>* order = nullptr;           // in/out: carried out and removed
-    double start_s = 0.0;                         // in: of the frame; for orders
+    SurfaceQuery surfaces;                           // in: at the start of the frame
+    const Column<PersistentId>& persistent_id;       // in
+    const Column<HandOwner>& owner;                  // in
+    const Column<HandTracking>& hand;                // in: edges
+    const Column<PlayerOrigin>& origin;              // in: at the start of the frame
+    const Column<HeadTracking>& head;                // in: as the colliders have it
+    const Column<RigidBody>& body;                   // in
+    const Column<BodyPose>& body_pose;               // in: at the start of the frame
+    const JointGroups& joint_groups;                 // in
+    const Column<AuthoredGrips>& authored_grips;     // in
+    const Column<HandPull>& pull;                    // in: of the last frame
+    const Column<ReferenceVelocity>& reference;      // in: of the last frame
+    Column<HandSight>& sight;                        // in/out
+    Column<Grab>& grab;                              // in/out
+    Column<AuthoredHold>& authored_hold;             // in/out: of hands in an authored grip
+    Column<HeadIgnores>& head_ignores;               // in/out: held bodies are added
+    GrabRules rules = {};                            // in
+    Column<GrabOrder>* order = nullptr;              // in/out: carried out and removed
+    double start_s = 0.0;                            // in: of the frame; for orders
+    double dt_s = 0.0;                               // in: of the frame
+    const Column<RenderPose>* shown = nullptr;       // in: of the last frame; null: heads alone
+    const Column<BodyMeasures>* measures = nullptr;  // in
+    Column<BodyHold>* body_hold = nullptr;           // in/out: of hands on a player's part
+
+    ShownBodies bodies() const {
+        return {body_hold != nullptr ? shown : nullptr, measures, persistent_id, origin, head};
+    }
 };
 
-// A point on a body, or on another player's head, that a hand grips.
+// A point on a body, or on another player, that a hand grips.
 struct GrabTarget {
     Entity body;
     Vec3 point_ws;
-    Vec3 normal_ws;                    // unit, out of the solid
-    std::optional<AuthoredHold> hold;  // if it is an authored grip
+    Vec3 normal_ws;                     // unit, out of the solid
+    std::optional<AuthoredHold> hold;   // if it is an authored grip
+    std::optional<BodyPart> part = {};  // of another player; none: their head
 };
 
 // Advances HandSight to the start of the frame.

@@ -51,6 +51,7 @@ World full_world() {
     world.controller_to_hand.add(made.hands[0]);
     world.authored_grips.add(ship);
     world.authored_hold.add(made.hands[0]);
+    world.body_hold.add(made.hands[0]);
     world.hand_pull.add(made.hands[0]);
     world.move_target.add(ship);
     world.gravity_scale.add(other);

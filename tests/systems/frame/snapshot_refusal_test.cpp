@@ -81,7 +81,7 @@ TEST_F(SnapshotRefuses, AnotherFormatVersion) {
         SnapshotBytes other(bytes_);
         other.put(8, version);
         expect_refused(other,
-                       "byte 8: expected format version 4, found " + std::to_string(version));
+                       "byte 8: expected format version 5, found " + std::to_string(version));
     }
 }
 

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "components/body_part.hpp"
+#include "components/player.hpp"
+#include "components/render.hpp"
+#include "components/tracking.hpp"
+#include "engine/ecs/column.hpp"
+#include "engine/math/math.hpp"
+
+// Arms, trunk and legs of shown bodies as capsules that hands can grip.
+namespace handhold {
+
+// The capsule's axis leads from the origin of `frame_ws` to `end_bs` in that frame.
+struct PartCapsule {
+    Pose frame_ws;
+    Vec3 end_bs = Vec3::Zero();
+    double radius_m = 0.0;
+};
+// Where the part was shown in the last frame. Radii scale with the eye height.
+PartCapsule part_capsule(const RenderPose& shown, const BodyMeasures& measures, BodyPart part);
+
+// Moves `from_ps` towards `to_ps`. The point `anchor_bs` of the frame travels on a straight line: a
+// share of the way, [0, 1], and at most `max_m`. The rotation takes the same share of its way.
+struct PartStep {
+    double share = 1.0;
+    double max_m = 0.0;
+};
+Pose follow_part(const Pose& from_ps, const Pose& to_ps, const Vec3& anchor_bs,
+                 const PartStep& step);
+
+// A point on a part. `normal_ws`: unit, outward.
+struct PartHit {
+    std::uint64_t id = 0;  // of the player
+    BodyPart part = BodyPart::left_upper_arm;
+    Vec3 point_ws = Vec3::Zero();
+    Vec3 normal_ws = Vec3::UnitY();
+    double distance_m = 0.0;  // from the ray's start or the query point; negative: inside
+};
+
+// The bodies of all players, as the last frame showed them, at the start of this frame. A null
+// column: no body can be gripped.
+struct ShownBodies {
+    const Column<RenderPose>* shown = nullptr;
+    const Column<BodyMeasures>* measures = nullptr;
+    const Column<PersistentId>& persistent_id;
+    const Column<PlayerOrigin>& origin;
+    const Column<HeadTracking>& head;
+
+    // The part's frame in its player's play space. It is taken relative to the head, so that a
+    // teleport between the frames moves the part too.
+    Pose part_ps(Entity player, BodyPart part) const;
+
+    // Of equally near parts, that of the smallest id. Players in `skip` are passed over. A ray
+    // that starts inside a part does not hit that part.
+    using Skip = std::span<const std::uint64_t>;
+    std::optional<PartHit> cast_ray(const Vec3& from_ws, const Vec3& to_ws, Skip skip) const;
+    std::optional<PartHit> closest_point(const Vec3& point_ws, double max_distance_m,
+                                         Skip skip) const;
+
+  private:
+    template <typename Test>
+    std::optional<PartHit> nearest(const Vec3& near_ws, double within_m, Skip skip,
+                                   const Test& test) const;
+};
+
+}  // namespace handhold
