@@ -49,8 +49,8 @@ struct Ready {
             value_or_exit(choose_place(options, options.spawn, scene, caches, recording()));
         const std::vector<StartPlace> places =
             value_or_exit(choose_places(options, place, scene, caches, session));
-        players = value_or_exit(add_players(scene, caches, places, options));
-        settings = choose_settings(options, players.size(), scene);
+        players = value_or_exit(add_players(scene, caches, places, options, session));
+        settings = choose_settings(options, session, scene);
         settings.keep_frames = false;
     }
     const Recording* recording() const { return session.recording ? &*session.recording : nullptr; }
