@@ -72,6 +72,7 @@ void visit_fields(const HandTracking& c, V&& visit) {
     visit("edge_ps", c.edge_ps);
     visit("pressed", c.pressed);
     visit("raw_pressed", c.raw_pressed);
+    visit("squeeze", c.squeeze);
     visit("release_velocity_ps_mps", c.release_velocity_ps_mps);
     visit("release_spin_ps_radps", c.release_spin_ps_radps);
 }

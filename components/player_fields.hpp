@@ -55,6 +55,7 @@ void visit_fields(const EarlySample& c, V&& visit) {
     visit("head_tracked", c.head_tracked);
     visit("tracked", c.tracked);
     visit("grab", c.grab);
+    visit("squeeze", c.squeeze);
 }
 template <typename V>
 void visit_fields(const HeadIgnores& c, V&& visit) {

@@ -20,7 +20,8 @@ inline constexpr std::size_t index_of(HandSide side) { return static_cast<std::s
 // unit length, or a position of exactly (0, 0, 0).
 struct ControllerSample {
     Pose controller_ps;
-    bool grab = false;  // the button that closes the hand is pressed
+    bool grab = false;     // the button that closes the hand is pressed
+    double squeeze = 0.0;  // how far it is pressed, [0, 1]; bends the fingers of an empty hand
 };
 // Readings of all devices at one time. Input, not state.
 struct TrackingSample {
@@ -96,6 +97,7 @@ struct HandTracking {
     Pose edge_ps;              // the hand at that time
     bool pressed = false;      // after the edge
     bool raw_pressed = false;  // in the last sample
+    double squeeze = 0.0;      // there, [0, 1]
     // At a release: velocity of the hand in play space over TrackingTuning::release_window_s.
     Vec3 release_velocity_ps_mps = Vec3::Zero();
     Vec3 release_spin_ps_radps = Vec3::Zero();
@@ -111,6 +113,7 @@ struct EarlySample {
     bool head_tracked = false;                      // false: the pose says nothing
     std::array<bool, k_hand_count> tracked = {};    // by HandSide
     std::array<bool, k_hand_count> grab = {};       // by HandSide
+    std::array<double, k_hand_count> squeeze = {};  // by HandSide
 };
 
 // The hand's last samples in a ring, for velocities that do not depend on the frame rate. Written

@@ -28,6 +28,28 @@ bool contains(std::span<const std::uint64_t> ids, std::uint64_t id) {
     return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
+// True only if a sphere that moves from the origin by `move` stays away from the triangle: a plane
+// between them, parallel to the triangle or across the line to its centre.
+bool sphere_misses(const Corners& corners, const Vec3& move, double radius_m) {
+    const auto is_between = [&](const Vec3& normal) {
+        const double a = normal.dot(corners[0]);
+        const double b = normal.dot(corners[1]);
+        const double c = normal.dot(corners[2]);
+        const double along = normal.dot(move);
+        const double gap_above = std::min({a, b, c}) - std::max(0.0, along);
+        const double gap_below = std::min(0.0, along) - std::max({a, b, c});
+        const double gap = std::max(gap_above, gap_below);
+        return gap > 0.0 && gap * gap > radius_m * radius_m * normal.squaredNorm();
+    };
+    if (is_between((corners[1] - corners[0]).cross(corners[2] - corners[0]))) {
+        return true;
+    }
+    const Vec3 centre = (corners[0] + corners[1] + corners[2]) * (1.0 / 3.0);
+    const double length2 = move.squaredNorm();
+    const double nearest = length2 > 0.0 ? std::clamp(centre.dot(move) / length2, 0.0, 1.0) : 0.0;
+    return is_between(centre - nearest * move);
+}
+
 // Calls visit(proxy) for bodies whose bounds overlap the box, ascending by id.
 template <typename Visit>
 void visit_bodies(const Broadphase& broadphase, const Bounds& box,
@@ -108,6 +130,9 @@ std::optional<RayHit> CollisionWorld::cast_sphere(double radius_m, const Vec3& f
         const Bounds box = bounds_of(from, from + along).grown(reach_m);
         shape.triangles->visit_box(box, [&](const Corners& corners) {
             const Corners near{corners[0] - from, corners[1] - from, corners[2] - from};
+            if (sphere_misses(near, fraction * along, reach_m)) {
+                return;
+            }
             if (const Vec3 area = area_vector(near); !area.isZero(0.0)) {
                 offer(scratch.triangle.place(near, area / area.norm()));
             }

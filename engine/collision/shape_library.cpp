@@ -106,7 +106,7 @@ ShapeId ShapeLibrary::add_sphere(double radius_m) {
 
 ShapeId ShapeLibrary::add_round(ShapeKind kind, double radius_m, double half_height_m) {
     HH_CHECK(is_size(radius_m), "radius outside of [1e-3, 1e4] m", radius_m);
-    HH_CHECK(is_size(half_height_m), "half height outside of [1e-3, 1e4] m", half_height_m);
+    HH_CHECK(is_size(half_height_m), "half_height_m outside of [1e-3, 1e4] m", half_height_m);
     Shape shape;
     shape.kind = kind;
     shape.radius_m = radius_m;
@@ -124,7 +124,7 @@ ShapeId ShapeLibrary::add_cylinder(double radius_m, double half_height_m) {
 
 ShapeId ShapeLibrary::add_hull(std::span<const Vec3> points) {
     const std::optional<ConvexHull> hull = make_convex_hull(points);
-    HH_CHECK(hull.has_value(), "points without a volume, of how many", points.size());
+    HH_CHECK(hull.has_value(), "the points have no volume; their number", points.size());
     return add_hull(*hull);
 }
 

@@ -78,6 +78,14 @@ class SurfaceQuery {
         bool any_thread;
     };
     template <typename Surfaces>
+    static constexpr bool allows_any_thread() {
+        if constexpr (requires { Surfaces::k_any_thread; }) {
+            return Surfaces::k_any_thread;
+        } else {
+            return false;
+        }
+    }
+    template <typename Surfaces>
     static constexpr Functions k_functions_of = {
         [](const void* surfaces, const Vec3& from_ws, const Vec3& to_ws, Skip skip) {
             return static_cast<const Surfaces*>(surfaces)->cast_ray(from_ws, to_ws, skip);
@@ -94,13 +102,10 @@ class SurfaceQuery {
         [](const void* surfaces, std::uint64_t id, const Vec3& point_ws) {
             return static_cast<const Surfaces*>(surfaces)->closest_point_on(id, point_ws);
         },
-        requires {requires Surfaces::k_any_thread;
-}
-};  // namespace handhold
+        allows_any_thread<Surfaces>()};
 
-const void* surfaces_ = nullptr;
-const Functions* functions_ = nullptr;
-}
-;
+    const void* surfaces_ = nullptr;
+    const Functions* functions_ = nullptr;
+};
 
 }  // namespace handhold

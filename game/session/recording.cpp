@@ -152,7 +152,7 @@ RecordedSample recorded(const TrackingSample& sample) {
     for (std::size_t side = 0; side < k_hand_count; ++side) {
         const ControllerSample& controller = sample.controllers[side];
         out.hands[side] = {controller.controller_ps, controller.grab ? k_button_grip : 0,
-                           controller.grab ? 1.0 : 0.0};
+                           controller.squeeze};
     }
     return out;
 }

@@ -27,7 +27,7 @@ struct RecordedHand {
     // tracked.
     Pose controller;
     int buttons = 0;       // mask of k_button_*, [0, 65535]
-    double trigger = 0.0;  // [0, 1]
+    double trigger = 0.0;  // [0, 1]; ControllerSample::squeeze
 };
 
 struct RecordedSample {

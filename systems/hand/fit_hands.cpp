@@ -23,13 +23,16 @@ constexpr double k_stick_m = 1e-3;
 constexpr double k_deep_m = 3e-3;     // a fit that penetrates deeper is counted
 constexpr double k_fist_curl = 0.85;  // share of the range from open to fully curled
 
-// Angles of an empty hand's digit.
-FingerAngles empty_angles(const FingerRig& finger, bool is_fist, const ThumbTuning& tuning) {
+// How far an empty hand is closed: 0 at rest, 1 in a fist.
+double closed_share(const HandTracking& hand) { return hand.pressed ? 1.0 : hand.squeeze; }
+
+// Angles of an empty hand's digit; `closed` as closed_share.
+FingerAngles empty_angles(const FingerRig& finger, double closed, const ThumbTuning& tuning) {
     FingerAngles angles;
     for (std::size_t i = 0; i < finger.link_count; ++i) {
         const double fist_rad =
             finger.lower_rad[i] + k_fist_curl * (finger.upper_rad[i] - finger.lower_rad[i]);
-        angles.curl_rad[i] = is_fist ? fist_rad : finger.rest_rad[i];
+        angles.curl_rad[i] = finger.rest_rad[i] + closed * (fist_rad - finger.rest_rad[i]);
     }
     if (finger.name == FingerName::thumb) {
         angles.opposition_rad = rest_opposition_rad(finger, tuning);
@@ -37,13 +40,13 @@ FingerAngles empty_angles(const FingerRig& finger, bool is_fist, const ThumbTuni
     return angles;
 }
 
-void pose_unsupported_hand(const HandSurroundings& hand, bool is_fist, const ThumbTuning& tuning,
+void pose_unsupported_hand(const HandSurroundings& hand, double closed, const ThumbTuning& tuning,
                            PalmOffset& offset, FingerPose& pose) {
     offset.target_m = offset.held_m;
     offset.target_turn_rad = offset.held_turn_rad;
     for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
         pose.target[f] = pose.is_authored[f] ? pose.closed[f]
-                                             : empty_angles(hand.rig->fingers[f], is_fist, tuning);
+                                             : empty_angles(hand.rig->fingers[f], closed, tuning);
     }
     pose.fitted_body = k_no_entity;
     pose.is_converged = false;
@@ -154,16 +157,28 @@ void follow_palm(const Pose& target_hs, double dt_s, const PalmTuning& tuning, P
     }
 }
 
+// All angles advance by the same share, the largest within their speeds: an angle that arrived
+// first would swing the digit through the surface.
 void follow_digit(double dt_s, const FingerTuning& tuning, const FingerAngles& target,
                   FingerAngles& shown) {
-    const double close_rad = dt_s * tuning.close_radps;
-    const double open_rad = dt_s * tuning.open_radps;
+    double share = 1.0;
+    const auto limit = [&](double change_rad, double open_radps) {
+        const double most_rad = dt_s * (change_rad < 0.0 ? open_radps : tuning.close_radps);
+        if (std::abs(change_rad) > most_rad) {
+            share = std::min(share, most_rad / std::abs(change_rad));
+        }
+    };
     for (std::size_t i = 0; i < k_max_links; ++i) {
-        shown.curl_rad[i] = std::clamp(target.curl_rad[i], shown.curl_rad[i] - open_rad,
-                                       shown.curl_rad[i] + close_rad);
+        limit(target.curl_rad[i] - shown.curl_rad[i], tuning.open_radps);
     }
-    shown.opposition_rad = std::clamp(target.opposition_rad, shown.opposition_rad - close_rad,
-                                      shown.opposition_rad + close_rad);
+    limit(target.opposition_rad - shown.opposition_rad, tuning.close_radps);
+    const auto advance = [share](double to_rad, double& shown_rad) {
+        shown_rad = share < 1.0 ? shown_rad + share * (to_rad - shown_rad) : to_rad;
+    };
+    for (std::size_t i = 0; i < k_max_links; ++i) {
+        advance(target.curl_rad[i], shown.curl_rad[i]);
+    }
+    advance(target.opposition_rad, shown.opposition_rad);
 }
 
 Pose shown_wrist_ws(const HandSurroundings& hand, const PalmOffset& offset) {
@@ -182,8 +197,8 @@ void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats) {
         PalmOffset& offset = io.offset.at(hand.hand);
         FingerPose& pose = io.fingers.at(hand.hand);
         if (surface.triangle == GripSurface::k_none) {
-            const bool is_fist = !hand.is_gripping && io.hand.at(hand.hand).pressed;
-            pose_unsupported_hand(hand, is_fist, tuning.thumb, offset, pose);
+            const double closed = hand.is_gripping ? 0.0 : closed_share(io.hand.at(hand.hand));
+            pose_unsupported_hand(hand, closed, tuning.thumb, offset, pose);
         } else {
             fit_one(hand, surface, tuning, stats, offset, pose);
         }

@@ -21,13 +21,17 @@ RigidBody rigid_body_of(const hh_world& host, const hh_body_def& def, ShapeId sh
     if (body.kind != BodyKind::free) {
         return body;
     }
+    require(
+        shape == k_no_shape || host.shapes.at(shape).kind != ShapeKind::mesh, HH_ERROR_VALUE,
+        "a mesh is for static and kinematic bodies: a dynamic body needs a solid shape, such as "
+        "a convex hull");
     body.mass_kg = checked(def.mass_kg, world_limits::k_min_mass_kg, world_limits::k_max_mass_kg,
                            "a dynamic body needs a mass within 1e-12 to 1e15 kg");
     body.inertia_kgm2 = checked(def.inertia_kgm2, world_limits::k_max_inertia_kgm2,
                                 "a moment of inertia beyond 1e18 kg m^2, or NaN");
     if (body.inertia_kgm2 == Vec3::Zero()) {
-        require(shape != k_no_shape && host.shapes.at(shape).kind != ShapeKind::mesh,
-                HH_ERROR_VALUE, "without a solid shape a dynamic body needs an inertia");
+        require(shape != k_no_shape, HH_ERROR_VALUE,
+                "without a shape a dynamic body needs an inertia");
         body.inertia_kgm2 = solid_inertia(host.shapes.at(shape), body.mass_kg);
     }
     return body;

@@ -5,6 +5,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include <handhold/base.h>
@@ -23,6 +24,14 @@ struct HostError {
     std::string text;
 };
 
+// For texts that name a value of the call, so that they are made only on failure.
+template <typename MakeText>
+requires std::is_invocable_r_v<std::string, MakeText>
+void require(bool condition, hh_result result, const MakeText& text) {
+    if (!condition) [[unlikely]] {
+        throw HostError{result, text()};
+    }
+}
 inline void require(bool condition, hh_result result, const char* text) {
     if (!condition) [[unlikely]] {
         throw HostError{result, text};
@@ -100,7 +109,8 @@ inline double checked(double number, double low, double high, const char* text) 
 inline Pose checked(const hh_pose& pose) {
     Pose read = unchecked_pose(pose);
     checked(pose.position, world_limits::k_max_coordinate_m, "a position beyond 1e9 m, or NaN");
-    require(is_valid(read), HH_ERROR_VALUE, "a rotation is not a unit quaternion");
+    require(is_valid(read), HH_ERROR_VALUE,
+            "a rotation is not a unit quaternion (hh_identity_pose has one)");
     // Bits of a unit quaternion stay, so that a pose that is read and written back is the same.
     constexpr double k_rounding = 1e-12;
     if (std::abs(read.rotation.squaredNorm() - 1.0) > k_rounding) {
@@ -119,7 +129,10 @@ void write_list(std::size_t size, T* buffer, std::size_t capacity, std::size_t* 
         return;
     }
     require(buffer != nullptr, HH_ERROR_NULL, "the buffer is null");
-    require(size <= capacity, HH_ERROR_CAPACITY, "the buffer is too small");
+    require(size <= capacity, HH_ERROR_CAPACITY, [&] {
+        return "the buffer is too small: it needs " + std::to_string(size) + " elements, it has " +
+               std::to_string(capacity);
+    });
     for (std::size_t i = 0; i < size; ++i) {
         buffer[i] = get(i);
     }

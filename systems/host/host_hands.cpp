@@ -107,7 +107,7 @@ hh_result hh_hand_grip(hh_world* world, hh_player player, hh_side side, hh_body 
         const Entity hand = hand_of(host.world, player_of(host, player), side_of(side));
         const Entity gripped = body_of(host, body);
         require(host.world.hand_tracking.at(hand).state != TrackingState::never, HH_ERROR_STATE,
-                "the hand was never tracked");
+                "the hand was never tracked (a pose at exactly (0, 0, 0) is ignored)");
         order(host, hand, gripped);
     });
 }

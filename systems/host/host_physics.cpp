@@ -139,7 +139,7 @@ hh_result hh_hand_hold(hh_world* world, hh_player player, hh_side side, hh_body 
             anchor_bs = from_host_bs(host, held, checked(*anchor));
         } else {
             require(tracking.state != TrackingState::never, HH_ERROR_STATE,
-                    "the hand was never tracked");
+                    "the hand was never tracked (a pose at exactly (0, 0, 0) is ignored)");
             anchor_bs = inverse(host.world.body_pose.at(held).pose_ws) *
                         (host.world.player_origin.at(owner).pose_ws * tracking.pose_ps);
         }
@@ -164,7 +164,7 @@ hh_result hh_hand_find_grip(hh_world* world, hh_player player, hh_side side, hh_
         const Entity hand = hand_of(host.world, owner, which);
         const HandTracking& tracking = host.world.hand_tracking.at(hand);
         require(tracking.state != TrackingState::never, HH_ERROR_STATE,
-                "the hand was never tracked");
+                "the hand was never tracked (a pose at exactly (0, 0, 0) is ignored)");
         const auto target =
             find_grip(host.world, host.caches, host.tuning, hand, host.search_stats);
         hh_surface_hit found{};

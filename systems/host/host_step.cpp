@@ -5,6 +5,8 @@
 #include <cstring>
 #include <limits>
 
+#include "systems/input/shared/play_space_tracker.hpp"
+
 namespace handhold {
 namespace {
 
@@ -22,14 +24,19 @@ Pose tracked_or_invalid(const Pose& pose, bool is_tracked) {
     return read;
 }
 
-TrackingSample read_sample(const hh_tracking_sample& sample) {
+// A host that computes a step's end in another way than the world's clock, such as by dividing a
+// frame's number, differs from it by rounding.
+TrackingSample read_sample(const hh_tracking_sample& sample, double end_s) {
+    constexpr double k_rounding_s = 1e-6;
+    const bool is_at_end = sample.time_s > end_s && sample.time_s <= end_s + k_rounding_s;
     TrackingSample read;
-    read.t_s = sample.time_s;
+    read.t_s = is_at_end ? end_s : sample.time_s;
     read.head_ps = tracked_or_invalid(unchecked_pose(sample.head), sample.head_tracked);
     for (std::size_t i = 0; i < k_hand_count; ++i) {
         read.controllers[i].controller_ps =
             tracked_or_invalid(unchecked_pose(sample.hands[i]), sample.hand_tracked[i]);
         read.controllers[i].grab = sample.grab[i];
+        read.controllers[i].squeeze = sample.squeeze[i];
     }
     return read;
 }
@@ -42,6 +49,7 @@ TrackingSample read_sample(const EarlySample& sample) {
         read.controllers[i].controller_ps =
             tracked_or_invalid(sample.controllers_ps[i], sample.tracked[i]);
         read.controllers[i].grab = sample.grab[i];
+        read.controllers[i].squeeze = sample.squeeze[i];
     }
     return read;
 }
@@ -56,6 +64,7 @@ EarlySample early_of(const TrackingSample& sample) {
         early.tracked[i] = is_valid(controller_ps);
         early.controllers_ps[i] = early.tracked[i] ? controller_ps : Pose{};
         early.grab[i] = sample.controllers[i].grab;
+        early.squeeze[i] = squeeze_of(sample.controllers[i]);
     }
     return early;
 }
@@ -93,6 +102,7 @@ void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std
         host.inputs.push_back({player, {}, read_commands(input.commands)});
         sample_count += input.sample_count;
     }
+    const double end_s = host.world.clock.t_s + dt_s;
     host.samples.reserve(sample_count + count);  // spans into it must not move
     for (std::size_t i = 0; i < count; ++i) {
         const hh_player_input& input = input_at(inputs, i);
@@ -102,7 +112,7 @@ void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std
             host.samples.push_back(read_sample(*early));
         }
         for (std::size_t j = 0; j < input.sample_count; ++j) {
-            host.samples.push_back(read_sample(input.samples[j]));
+            host.samples.push_back(read_sample(input.samples[j], end_s));
         }
         host.inputs[i].samples = {host.samples.data() + first, host.samples.size() - first};
     }

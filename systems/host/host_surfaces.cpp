@@ -50,8 +50,10 @@ std::optional<RayHit> HostSurfaces::cast_ray(const Vec3& from_ws, const Vec3& to
     }
     const SkippedBodies skipped(*world_, skip);
     hh_surface_hit hit{};
-    if (!query_.cast_ray(query_.context, to_c(from_ws), to_c(to_ws), skipped.bodies.data(),
-                         skipped.count, &hit)) {
+    if (!answer([&] {
+            return query_.cast_ray(query_.context, to_c(from_ws), to_c(to_ws),
+                                   skipped.bodies.data(), skipped.count, &hit);
+        })) {
         return std::nullopt;
     }
     const auto found = check(hit);
@@ -71,8 +73,10 @@ std::optional<RayHit> HostSurfaces::cast_sphere(double radius_m, const Vec3& fro
     }
     const SkippedBodies skipped(*world_, skip);
     hh_surface_hit hit{};
-    if (!query_.cast_sphere(query_.context, radius_m, to_c(from_ws), to_c(to_ws),
-                            skipped.bodies.data(), skipped.count, &hit)) {
+    if (!answer([&] {
+            return query_.cast_sphere(query_.context, radius_m, to_c(from_ws), to_c(to_ws),
+                                      skipped.bodies.data(), skipped.count, &hit);
+        })) {
         return std::nullopt;
     }
     const auto found = check(hit);
@@ -109,8 +113,10 @@ std::optional<SurfacePoint> HostSurfaces::closest_point(const Vec3& point_ws, do
     }
     const SkippedBodies skipped(*world_, skip);
     hh_surface_hit hit{};
-    const bool is_found = query_.closest_point(query_.context, to_c(point_ws), max_distance_m,
-                                               skipped.bodies.data(), skipped.count, &hit);
+    const bool is_found = answer([&] {
+        return query_.closest_point(query_.context, to_c(point_ws), max_distance_m,
+                                    skipped.bodies.data(), skipped.count, &hit);
+    });
     return is_found ? surface_point(hit, point_ws, max_distance_m) : std::nullopt;
 }
 
@@ -122,7 +128,9 @@ std::optional<SurfacePoint> HostSurfaces::closest_point_on(std::uint64_t id,
     }
     hh_surface_hit hit{};
     const hh_body wanted = id_of<hh_body>(body);
-    if (!query_.closest_point_on(query_.context, wanted, to_c(point_ws), &hit)) {
+    if (!answer([&] {
+            return query_.closest_point_on(query_.context, wanted, to_c(point_ws), &hit);
+        })) {
         return std::nullopt;
     }
     hit.body = wanted;

@@ -26,6 +26,8 @@ class HostSurfaces {
                                               std::span<const std::uint64_t> skip) const;
     std::optional<SurfacePoint> closest_point_on(std::uint64_t id, const Vec3& point_ws) const;
 
+    // True while the host answers a query.
+    bool is_asking() const { return is_asking_; }
     // Answers that were ignored since the last call.
     std::uint64_t take_refused() const;
 
@@ -36,6 +38,14 @@ class HostSurfaces {
         Vec3 normal_ws;  // unit
         double distance_m = 0.0;
     };
+    // Returns what ask() returns.
+    template <typename Ask>
+    bool answer(const Ask& ask) const {
+        is_asking_ = true;
+        const bool is_found = ask();
+        is_asking_ = false;
+        return is_found;
+    }
     std::optional<Checked> check(const hh_surface_hit& hit) const;
     std::optional<SurfacePoint> surface_point(const hh_surface_hit& hit, const Vec3& point_ws,
                                               double max_distance_m) const;
@@ -43,6 +53,7 @@ class HostSurfaces {
     const World* world_;
     hh_surface_query query_{};
     mutable std::uint64_t refused_ = 0;
+    mutable bool is_asking_ = false;
 };
 
 }  // namespace handhold

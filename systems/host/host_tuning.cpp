@@ -1,6 +1,9 @@
 // Tuning and statistics of the C interface (handhold/world.h).
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <numeric>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -32,6 +35,12 @@ void write_components(SupportFollow& field, const double* values) {
 }
 void write_components(Vec3& field, const double* values) { field = Vec3(values); }
 
+std::string shown(double number) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%g", number);
+    return text.data();
+}
+
 // Calls use(info, field) for the number with this name.
 template <typename TuningType, typename Use>
 void with_number(TuningType& tuning, const char* name, std::size_t count, const Use& use) {
@@ -46,7 +55,9 @@ void with_number(TuningType& tuning, const char* name, std::size_t count, const 
                 "the number has another count of components");
         use(info, field);
     });
-    require(is_found, HH_ERROR_NAME, "no number has this name");
+    require(is_found, HH_ERROR_NAME, [&] {
+        return std::string("no number is named ") + name + ": hh_tuning_describe lists them";
+    });
 }
 
 }  // namespace
@@ -100,8 +111,10 @@ hh_result hh_world_set_tuning(hh_world* world, const char* name, const double* v
         Tuning changed = host.tuning;
         with_number(changed, name, count, [&](const TuningInfo& info, auto& field) {
             for (std::size_t i = 0; i < count; ++i) {
-                require(values[i] >= info.low && values[i] <= info.high, HH_ERROR_VALUE,
-                        "the value is out of the number's range");
+                require(values[i] >= info.low && values[i] <= info.high, HH_ERROR_VALUE, [&] {
+                    return std::string(info.name) + " must lie in [" + shown(info.low) + ", " +
+                           shown(info.high) + "]";
+                });
             }
             write_components(field, values);
         });

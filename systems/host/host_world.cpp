@@ -65,7 +65,8 @@ std::string new_name(const hh_world& host, const char* name, const char* kind) {
             slot < pool.generations().size() ? pool.generations()[slot] + 1 : 1;
         made = std::string(kind) + "/" + std::to_string(slot) + "." + std::to_string(generation);
     }
-    require(is_null(find_by_name(host.world, made)), HH_ERROR_NAME, "the name is taken");
+    require(is_null(find_by_name(host.world, made)), HH_ERROR_NAME,
+            [&] { return "the name " + made + " is taken"; });
     return made;
 }
 

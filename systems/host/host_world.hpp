@@ -130,8 +130,11 @@ struct hh_world {
 
 namespace handhold {
 
+// For calls that change the world.
 inline hh_world& world_of(hh_world* world) {
     require(world != nullptr, HH_ERROR_NULL, "the world is null");
+    require(!world->surfaces.is_asking(), HH_ERROR_STATE,
+            "the world is asking your surface query: calls inside of it may only read");
     return *world;
 }
 inline const hh_world& world_of(const hh_world* world) {

@@ -1,5 +1,7 @@
 #include "systems/input/read_paused_tracking.hpp"
 
+#include "systems/input/shared/play_space_tracker.hpp"
+
 namespace handhold {
 namespace {
 
@@ -32,6 +34,7 @@ void read_paused_tracking(const ReadPausedTrackingIo& io) {
         }
         const ControllerSample& reading = sample->controllers[index_of(owner.side)];
         hand.raw_pressed = reading.grab;
+        hand.squeeze = squeeze_of(reading);
         hand.state = TrackingState::lost;
         HandHistory& history = io.history.at(entity);
         history.count = history.next = 0;

@@ -150,6 +150,7 @@ struct HandReader {
 
     void read_button(const ControllerSample& reading, double t_s, bool is_believed) {
         hand.raw_pressed = reading.grab;
+        hand.squeeze = squeeze_of(reading);
         // A hand that cannot be seen may let go, but does not close until it is seen again.
         const bool may_begin = has_sample && (is_believed || !reading.grab);
         if (may_begin && reading.grab != hand.pressed && hand.edge == GrabEdge::none) {

@@ -15,7 +15,6 @@ namespace {
 // tools/lab/grip_report.
 constexpr double k_arm_m = 0.08;
 constexpr double k_lever_m = 0.05;  // l
-constexpr double k_close = 0.004;
 constexpr double k_touch = 2.0;
 constexpr double k_let_go_m = 0.008;  // g of a digit for which the closing found no contact
 constexpr double k_let_go_touching_m = 0.02;
@@ -25,7 +24,6 @@ constexpr double k_first_opposition = 0.02;
 constexpr double k_rest = 2e-5;  // keeps every angle determined
 constexpr double k_rest_of_free_thumb = 0.002;
 constexpr double k_alike = 0.001;
-constexpr double k_alike_if_free = 0.002;  // if one of the two touches nothing
 constexpr double k_fan = 0.03;
 constexpr double k_roll = 0.003;
 constexpr double k_couple = 0.003;
@@ -146,15 +144,10 @@ class Fitter {
         const FingerRig& finger = rig_.fingers[f];
         const FingerAngles& angles = pose_.fingers[f];
         const bool is_free_thumb = is_thumb(finger) && !goal_.touches[f];
-        double beyond_m = 0.0;
-        for (std::size_t i = finger.link_count; i-- > 0;) {
-            beyond_m += finger.length_m[i];
+        for (std::size_t i = 0; i < finger.link_count; ++i) {
             const int place = layout_.hinge(f, i);
             const double angle_rad = angles.curl_rad[i];
             if (goal_.touches[f]) {
-                const double close = is_thumb(finger) ? 0.0 : k_close;
-                add_square(close * beyond_m * beyond_m, angle_rad - finger.upper_rad[i],
-                           unit(place));
                 add_square(k_first * k_lever2, angle_rad - goal_.closed[f].curl_rad[i],
                            unit(place));
             }
@@ -235,10 +228,9 @@ class Fitter {
     }
 
     void add_neighbour(std::size_t a, std::size_t b) {
-        const double weight = goal_.touches[a] && goal_.touches[b] ? k_alike : k_alike_if_free;
         const std::size_t links = std::min(rig_.fingers[a].link_count, rig_.fingers[b].link_count);
         for (std::size_t i = 0; i < links; ++i) {
-            add_square(weight * k_lever2,
+            add_square(k_alike * k_lever2,
                        pose_.fingers[b].curl_rad[i] - pose_.fingers[a].curl_rad[i],
                        unit(layout_.hinge(b, i)) + unit(layout_.hinge(a, i), -1.0));
         }

@@ -12,28 +12,26 @@
 //
 //   minimise   |p - p0|^2 + (arm |r|)^2             palm's centre p and rotation vector r from the
 //                                                   tracked wrist (p0, 0)
-//            + close  sum (lever (q - q_closed))^2  digits that touch something stay closed
 //            + touch  sum gap^2 / (1 + gap^2 / g^2)  each digit's smallest gap; a digit that is far
 //                                                   off is let go
 //            + tip    gap^2                         of the thumb's tip
-//            + first  sum (l (q - q_first))^2       angles q near those of the closing
+//            + first  sum (l (q - q_closed))^2      angles q of a digit that touched something when
+//                                                   the hand closed
 //            + alike  sum (l (q_f - q_f+1))^2       neighbouring fingers bend alike: a finger that
 //                                                   reaches nothing goes with its neighbours
 //            + fan    sum (l (d_f - d_f+1))^2       and point alike; d: direction from the knuckle
 //                                                   to the tip, linear in the angles
 //            + roll   sum (l (q_2 - q_1))^2         fingers bend in the middle as at the knuckle
-//            + couple sum (l (q_3 - 2/3 q_2))^2     the last hinge bends 2/3 as far as the one
-//            before
+//            + couple sum (l (q_3 - 2/3 q_2))^2     the last hinge bends 2/3 as far as its parent
 //   subject to every capsule's gap >= 0, gaps between thumb and fingers >= 0, joint limits, the
 //   palm's limits on height and tilt, total bends up to 158 degrees, neighbours' total bends within
 //   92 degrees of each other and their directions within 29 degrees
 //
-// lever is the length beyond a hinge, l = 5 cm, g = 2 cm if the closing found a contact, else 8 mm.
-// The inequalities are penalties, stiffer
-// in this order: bends, palm, joints, gaps; what cannot be met is shared. Each round queries the
-// gaps (hand_spheres.hpp), linearises and solves (engine/math/penalty_quadratic.hpp). Sources:
-// Santello, Flanders, Soechting, Postural hand synergies for tool use, 1998 (fingers bend alike);
-// Rijpkema, Girard, Computer animation of knowledge-based human grasping, 1991 (2/3).
+// l = 5 cm, g = 2 cm if the closing found a contact, else 8 mm. The inequalities are penalties,
+// stiffer in this order: bends, palm, joints, gaps; what cannot be met is shared. Each round
+// queries the gaps (hand_spheres.hpp), linearises and solves (engine/math/penalty_quadratic.hpp).
+// Sources: Santello, Flanders, Soechting, Postural hand synergies for tool use, 1998 (fingers bend
+// alike); Rijpkema, Girard, Computer animation of knowledge-based human grasping, 1991 (2/3).
 namespace handhold {
 
 struct HandFitGoal {

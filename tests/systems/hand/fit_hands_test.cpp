@@ -314,6 +314,35 @@ TEST_F(FitHands, ShownFingersKeepTheirRates) {
     EXPECT_EQ(before.shown[2].curl_rad, rig.fingers[2].rest_rad);
 }
 
+// Angles that arrived one after the other would swing a digit through what it is to touch.
+TEST_F(FitHands, AnglesOfADigitAdvanceByOneShare) {
+    FittedHand hand(beam, on_beam);
+    hand.tuning.finger.close_radps = 2.0;
+    hand.tuning.finger.open_radps = 3.0;
+    int moved = 0;
+    for (int frame = 0; frame < 240; ++frame) {
+        if (frame == 120) {
+            let_go(hand);
+        }
+        const FingerPose before = hand.pose();
+        hand.frame(k_dt_s);
+        const FingerPose& now = hand.pose();
+        for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+            const auto angles = [](const FingerAngles& of) {
+                return Eigen::Vector4d(of.curl_rad[0], of.curl_rad[1], of.curl_rad[2],
+                                       of.opposition_rad);
+            };
+            const Eigen::Vector4d step = angles(now.shown[f]) - angles(before.shown[f]);
+            const Eigen::Vector4d wanted = angles(now.target[f]) - angles(before.shown[f]);
+            if (wanted.norm() > 1e-6) {
+                EXPECT_NEAR(step.dot(wanted), step.norm() * wanted.norm(), 1e-9);
+                ++moved;
+            }
+        }
+    }
+    EXPECT_GT(moved, 100);
+}
+
 TEST_F(FitHands, ShownOffsetIsNeverFasterThanItsRate) {
     FittedHand hand(floor, wrist_with_palm_at(rig, {0.0, -0.02, 0.0}, Vec3::UnitY()));
     Random random(2102);
@@ -347,6 +376,31 @@ TEST_F(FitHands, EmptyHandReturnsToTrackedPose) {
         offset_m = hand.offset.at(k_right).shown_m.norm();
     }
     EXPECT_EQ(hand.palm.at(k_right).pose_ws.position, hand.wrist_bs().position);
+}
+
+TEST_F(FitHands, EmptyHandClosesAsFarAsItsButton) {
+    FittedHand hand(beam, {});
+    let_go(hand);
+    hand.frame(k_unbudgeted_s);
+    const FingerPose rest = hand.pose();
+    hand.tracking.at(k_right).pressed = true;
+    hand.frame(k_unbudgeted_s);
+    const FingerPose fist = hand.pose();
+    hand.tracking.at(k_right).pressed = false;
+    Random random(2103);
+    for (int i = 0; i < 100; ++i) {
+        const double squeeze = random.between(0.0, 1.0);
+        hand.tracking.at(k_right).squeeze = squeeze;
+        hand.frame(k_unbudgeted_s);
+        for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+            for (std::size_t link = 0; link < rig.fingers[f].link_count; ++link) {
+                const double open_rad = rest.shown[f].curl_rad[link];
+                const double wanted_rad =
+                    open_rad + squeeze * (fist.shown[f].curl_rad[link] - open_rad);
+                EXPECT_NEAR(hand.pose().shown[f].curl_rad[link], wanted_rad, 1e-12);
+            }
+        }
+    }
 }
 
 TEST_F(FitHands, EmptyHandTakesRestPoseOrFist) {

@@ -41,6 +41,67 @@ TEST(HostNames, AreKeptAndFound) {
     EXPECT_STREQ(name, "wall");
 }
 
+TEST(HostWrapper, IteratesOverATemporary) {
+    HostScene scene;
+    scene.step();
+    std::size_t valid = 0;
+    for (const hh_hand_joint& joint :
+         *scene.world.hand_joints(scene.player, HH_RIGHT, HH_SPACE_WORLD)) {
+        valid += joint.is_valid ? 1 : 0;
+    }
+    EXPECT_GT(valid, 20U);
+    const auto& hand = *scene.world.hand(scene.player, HH_RIGHT);
+    EXPECT_TRUE(hand.is_tracked);
+}
+
+TEST(HostSamples, StampsMayDifferFromTheClockByRounding) {
+    HostScene scene;
+    scene.add_wall();
+    for (int frame = 1; frame <= 60; ++frame) {
+        hh::Sample sample = scene.sample();
+        sample.time_s = frame / 90.0;
+        sample.grab[HH_RIGHT] = frame >= 54;
+        ASSERT_TRUE(scene.world.step(k_step_s, hh::input(scene.player, {&sample, 1})));
+        EXPECT_EQ(scene.world.hand(scene.player, HH_RIGHT)->is_closed, frame >= 54) << frame;
+    }
+}
+
+// A query that calls back into its world.
+struct CallingBack {
+    hh_world* world = nullptr;
+    hh_result step = HH_OK;
+    hh_result add = HH_OK;
+    hh_result read = HH_ERROR_INTERNAL;
+    int calls = 0;
+};
+bool call_back(void* context, hh_vec3, hh_vec3, const hh_body*, size_t, hh_surface_hit*) {
+    auto& self = *static_cast<CallingBack*>(context);
+    const hh_body_def def = hh_default_body_def();
+    hh_body body{};
+    hh_world_stats stats = hh_default_world_stats();
+    self.step = hh_world_step(self.world, k_step_s, nullptr, 0);
+    self.add = hh_body_add(self.world, &def, &body);
+    self.read = hh_world_get_stats(self.world, &stats);
+    ++self.calls;
+    return false;
+}
+
+TEST(HostSurfaces, AQueryMayReadItsWorldButNotChangeIt) {
+    HostScene scene;
+    CallingBack called{scene.world.get()};
+    hh_surface_query query = hh_default_surface_query();
+    query.context = &called;
+    query.cast_ray = call_back;
+    ASSERT_EQ(hh_world_set_surface_query(scene.world.get(), &query), HH_OK);
+    scene.closed[HH_RIGHT] = true;
+    scene.step(2);
+    ASSERT_GT(called.calls, 0);
+    EXPECT_EQ(called.step, HH_ERROR_STATE);
+    EXPECT_EQ(called.add, HH_ERROR_STATE);
+    EXPECT_EQ(called.read, HH_OK);
+    EXPECT_NEAR(scene.world.time_s(), 2 * k_step_s, 1e-12);
+}
+
 TEST(HostEvents, SayWhyAGripEnded) {
     HostScene scene;
     const hh::Body wall = scene.add_wall();

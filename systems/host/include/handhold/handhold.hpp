@@ -7,6 +7,7 @@
 // Calls return Status, which converts to true on success, or Maybe<T>, which has a value on
 // success. Neither may be ignored.
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <span>
 #include <string_view>
@@ -68,16 +69,22 @@ class [[nodiscard]] Maybe {
     explicit operator bool() const { return static_cast<bool>(status_); }
     // The status of the call.
     Status status() const { return status_; }
-    // The value. Precondition: there is one.
-    const T& operator*() const& { return value_; }
-    // The value. Precondition: there is one.
-    T&& operator*() && { return std::move(value_); }
+    // The value. Precondition: there is one, which assert checks.
+    const T& operator*() const& { return checked(); }
+    // The value itself, so that `for (x : *call())` does not refer to a temporary. Precondition:
+    // there is one.
+    T operator*() && { return (checked(), std::move(value_)); }
     // Member of the value. Precondition: there is one.
-    const T* operator->() const { return &value_; }
+    const T* operator->() const { return &checked(); }
     // The value, or `other` if there is none.
     T value_or(T other) const { return *this ? value_ : std::move(other); }
 
   private:
+    const T& checked() const {
+        assert(status_ && "the call failed: see status().text()");
+        return value_;
+    }
+
     Status status_;
     T value_;
 };
@@ -411,7 +418,11 @@ class World {
         return hh_world_hash(world_, &hash) == HH_OK ? hash : 0;
     }
 
-    // Tuning. `name` ends with a 0.
+    // As hh_world_load_tuning.
+    Status load_tuning(std::string_view json) {
+        return hh_world_load_tuning(world_, json.data(), json.size());
+    }
+    // As hh_world_set_tuning. `name` ends with a 0.
     Status tune(const char* name, double value) {
         return hh_world_set_tuning(world_, name, &value, 1);
     }

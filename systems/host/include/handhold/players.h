@@ -73,9 +73,11 @@ typedef struct hh_hand_state {
     hh_body body;     /* gripped; null: none */
     hh_player other;  /* gripped player; null: none */
     hh_pose tracked;  /* the wrist in the world, as the devices say */
-    hh_pose shown;    /* the wrist to draw: on its anchor while it grips */
+    /* The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres
+     * from it, so that palm and fingers touch. */
+    hh_pose shown;
     hh_pose anchor;   /* the wrist in the frame of what it grips, fixed when it closed */
-    double error_m;   /* distance of wrist and anchor: 0 unless something is in the way */
+    double error_m;   /* distance of the tracked wrist and the anchor: 0 unless hindered */
     hh_vec3 force_impulse_ns; /* by the hand on what it grips, in the last step: for haptics */
     bool is_tracked;
     bool is_closed; /* the button is down */
@@ -155,16 +157,25 @@ typedef enum hh_space {
     HH_SPACE_32_BITS = 0x7fffffff
 } hh_space;
 
+/* Joints as XR_EXT_hand_tracking has them, in its order and with its axes. The parent of palm and
+ * metacarpals is the wrist. */
+typedef enum hh_hand_joint_name {
+    HH_HAND_PALM, HH_HAND_WRIST,
+    HH_THUMB_METACARPAL, HH_THUMB_PROXIMAL, HH_THUMB_DISTAL, HH_THUMB_TIP,
+    HH_INDEX_METACARPAL, HH_INDEX_PROXIMAL, HH_INDEX_INTERMEDIATE, HH_INDEX_DISTAL, HH_INDEX_TIP,
+    HH_MIDDLE_METACARPAL, HH_MIDDLE_PROXIMAL, HH_MIDDLE_INTERMEDIATE, HH_MIDDLE_DISTAL,
+    HH_MIDDLE_TIP,
+    HH_RING_METACARPAL, HH_RING_PROXIMAL, HH_RING_INTERMEDIATE, HH_RING_DISTAL, HH_RING_TIP,
+    HH_LITTLE_METACARPAL, HH_LITTLE_PROXIMAL, HH_LITTLE_INTERMEDIATE, HH_LITTLE_DISTAL,
+    HH_LITTLE_TIP
+} hh_hand_joint_name;
 #define HH_HAND_JOINT_COUNT 26
-/* Joints as XR_EXT_hand_tracking has them, in its order and with its axes: palm, wrist; thumb
- * metacarpal, proximal, distal, tip; index, middle, ring and little metacarpal, proximal,
- * intermediate, distal, tip. The parent of palm and metacarpals is the wrist. */
 typedef struct hh_hand_joint {
     hh_pose pose;
     double radius_m;
     bool is_valid; /* false: the hand's rig has no such joint */
 } hh_hand_joint;
-/* The shown hand's joints: HH_HAND_JOINT_COUNT elements. */
+/* The shown hand's joints: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name. */
 HH_API hh_result hh_player_hand_joints(const hh_world* world, hh_player player, hh_side side,
                                        hh_space space, hh_hand_joint* joints);
 

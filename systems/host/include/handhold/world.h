@@ -26,17 +26,22 @@ HH_API hh_result hh_world_create(const hh_world_def* def, hh_world** world);
 /* Destroys a world and everything in it. Null: nothing happens. */
 HH_API void hh_world_destroy(hh_world* world);
 
-/* One reading of the headset and both controllers. */
+/* One reading of the headset and both controllers. A pose at exactly (0, 0, 0) counts as not
+ * tracked, since runtimes report devices that sleep so. */
 typedef struct hh_tracking_sample {
-    double time_s; /* on the world's clock; later than the sample before, else it is ignored */
+    /* On the world's clock: hh_world_time plus the step for a sample at the step's end. Later than
+     * the sample before, else it is ignored and counted as sample_out_of_order. */
+    double time_s;
     hh_pose head;  /* between the eyes, in play space: the frame that the tracking is given in */
     hh_pose hands[2];     /* controllers, by hh_side; see hh_player_set_hand_in_controller */
     bool head_tracked;    /* false: `head` is ignored */
     bool hand_tracked[2]; /* false: the pose is ignored, `grab` counts */
     bool grab[2];         /* a button that closes the hand is down */
+    double squeeze[2];    /* how far it is pressed, [0, 1]: bends the fingers of an empty hand */
 } hh_tracking_sample;
 
-/* Everything tracked, at the origin, hands open, at time 0. Any thread. */
+/* Everything tracked, hands open, at time 0. The poses are for you to fill: at the origin they count
+ * as not tracked. Any thread. */
 HH_API hh_tracking_sample hh_default_tracking_sample(void);
 
 /* What a player asks for in one step. */
@@ -109,7 +114,7 @@ HH_API hh_result hh_world_get_stats(const hh_world* world, hh_world_stats* stats
  * does the next best instead of what was asked. Any thread. */
 HH_API const char* hh_stage_name(size_t stage);
 HH_API const char* hh_fallback_name(size_t fallback);
-/* Time of each stage in the last step, microseconds, and how often each fallback occurred. `count`
+/* Time of each stage, microseconds, and how often each fallback occurred, in the last step. `count`
  * gets the number of entries; HH_ERROR_CAPACITY if it is more than `capacity`. */
 HH_API hh_result hh_world_stage_times(const hh_world* world, double* us, size_t capacity,
                                       size_t* count);

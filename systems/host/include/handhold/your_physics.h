@@ -34,8 +34,8 @@ typedef struct hh_surface_hit {
 /* Queries against the host's surfaces. Each returns true if it found something, and then fills
  * `hit`. `skip`: bodies that count as not there. Called only inside hh_world_step, _step_hands,
  * _begin_step, _end_step, _step_pose_only and hh_hand_find_grip of this world, by the thread that
- * made that call. Per player and frame: about 2 queries, up to 50 when a hand closes behind walls
- * or among bodies. */
+ * made that call. A query may read the world; calls that change it return HH_ERROR_STATE. Per
+ * player and frame: about 3 queries, up to 50 when a hand closes behind walls or among bodies. */
 typedef struct hh_surface_query {
     uint32_t struct_size;
     void* context; /* passed to each of the functions */
@@ -43,7 +43,8 @@ typedef struct hh_surface_query {
     bool (*cast_ray)(void* context, hh_vec3 from, hh_vec3 to, const hh_body* skip,
                      size_t skip_count, hh_surface_hit* hit);
     /* First impact of a sphere moving along a segment; distance_m: how far its centre has moved.
-     * Only for the distance grab (pull.reach_m above 0); null: none. */
+     * For the distance grab (pull.reach_m above 0), and to keep trunk and legs out of surfaces:
+     * a query a player and frame. Null: neither. */
     bool (*cast_sphere)(void* context, double radius_m, hh_vec3 from, hh_vec3 to,
                         const hh_body* skip, size_t skip_count, hh_surface_hit* hit);
     /* Nearest surface point within max_distance_m; distance_m: 0 inside a solid. */
@@ -82,7 +83,8 @@ HH_API hh_result hh_player_place(hh_world* world, hh_player player, hh_pose orig
 /* ---- The host moves players and decides what hands hold ------------------------------------- */
 
 /* The hand holds `body` from now on; a null id: nothing. `anchor`: the wrist in the body's frame;
- * null: where both are now. Only with hh_world_step_hands. */
+ * null: where both are now. For hosts that use hh_world_step_hands only: the other steps keep the
+ * hold and let the hand pull the player. */
 HH_API hh_result hh_hand_hold(hh_world* world, hh_player player, hh_side side, hh_body body,
                               const hh_pose* anchor);
 /* What the hand would grip if it closed where it is, by the rules of hands that pull players: reach,
@@ -90,8 +92,10 @@ HH_API hh_result hh_hand_hold(hh_world* world, hh_player player, hh_side side, h
  * palm. In every kind of world. HH_ERROR_STATE for a hand that was never tracked. */
 HH_API hh_result hh_hand_find_grip(hh_world* world, hh_player player, hh_side side,
                                    hh_surface_hit* hit);
-/* One frame: reads tracking and shows hands and bodies where the host put them. No query moves a
- * player or a body, and buttons do nothing. Cost: as hh_world_step without physics. */
+/* One frame: reads tracking and shows hands and bodies where the host put them. It moves neither
+ * players nor bodies, and buttons do nothing: place bodies by hh_world_place_bodies. A move ordered
+ * by hh_body_move_kinematic waits for the next step of another kind. Cost: as hh_world_step without
+ * physics. */
 HH_API hh_result hh_world_step_hands(hh_world* world, double dt_s, const hh_player_input* inputs,
                                      size_t input_count);
 
@@ -133,8 +137,10 @@ typedef struct hh_player_motion {
     hh_player player;
     hh_vec3 origin;       /* at the start of the step */
     hh_vec3 velocity_mps; /* there, with what thrusters and drag did */
-    /* For this step. Larger than the player's own while hands move only light bodies, so that those
-     * do not shake the player. */
+    /* For this step. 5,000 kg while hands move only light bodies, so that those do not shake the
+     * player, else the player's own. A light body that cannot give way, such as a crate against a
+     * wall, pushes the player back only if the solver repeats the step with his own mass, or limits
+     * the hand's force by max_force_n; then the hand lags behind. */
     double mass_kg;
     hh_pose head;         /* of the head's centre: from the origin, with the world's axes */
     double head_radius_m; /* the host may let this sphere collide, on the player's body */
