@@ -13,6 +13,7 @@
 #include "engine/collision/collision_world.hpp"
 #include "engine/collision/shape_library.hpp"
 #include "engine/geometry/grip_mesh_library.hpp"
+#include "systems/hand/shared/part_meshes.hpp"
 #include "systems/rigs/body_clips.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
 
@@ -46,6 +47,7 @@ struct FrameCaches {
     BodyClips body_clips;                 // empty: no additive clips
     Column<BodySurface> body_surfaces;    // bodies with a grip mesh of their own
     HandScratch hands;
+    PartMeshes part_meshes;  // of held players' parts; built when a hand grips one
 };
 
 // Steps one frame: a straight line of stage calls, in frame.cpp. `stats` is cleared first. No

@@ -53,33 +53,57 @@ std::span<const HandSurroundings> hands_of(const FrameContext& f, std::size_t fi
 
 }  // namespace
 
+namespace {
+
+// Builds the missing meshes of held parts.
+void add_part_meshes(const FrameContext& f) {
+    const World& w = f.w;
+    for (std::size_t row = 0; row < w.body_hold.size(); ++row) {
+        const Grab& grab = w.grab.at(w.body_hold.owners()[row]);
+        if (grab.kind == GripKind::player && w.render_pose.contains(grab.body)) {
+            f.caches.part_meshes.add(part_capsule(w.render_pose.at(grab.body),
+                                                  w.body_measures.at(grab.body),
+                                                  w.body_hold.rows()[row].part));
+        }
+    }
+}
+
+}  // namespace
+
 void gather_surroundings(const FrameContext& f) {
     const StageTimer timer(Stage::gather_surroundings, f.stats);
     World& w = f.w;
+    if (f.caches.meshes_for_hands != nullptr) {
+        add_part_meshes(f);
+    }
     f.hands().surroundings.resize(w.hand_owner.size());
     f.hands().traces.assign(w.hand_owner.size(), {});
     const Column<BodySurface>* const own_surfaces =
         f.caches.body_surfaces.empty() ? nullptr : &f.caches.body_surfaces;
     const bool has_all_colliders = !f.caches.host_surfaces && own_surfaces == nullptr;
-    const GatherSurroundingsIo io{f.caches.meshes_for_hands,
-                                  f.caches.hand_rigs,
-                                  f.graph().entities,
-                                  w.persistent_id,
-                                  w.hand_owner,
-                                  w.hand_tracking,
-                                  w.grab,
-                                  w.player_origin,
-                                  w.head_tracking,
-                                  w.body_pose,
-                                  w.collider,
-                                  w.authored_hold,
-                                  f.hands().surroundings,
-                                  &w.hand_rig,
-                                  f.caches.more_hand_rigs,
-                                  own_surfaces,
-                                  has_all_colliders ? &f.collision() : nullptr,
-                                  f.graph().proxies,
-                                  &w.body_hold};
+    const GatherSurroundingsIo io{
+        f.caches.meshes_for_hands,
+        f.caches.hand_rigs,
+        f.graph().entities,
+        w.persistent_id,
+        w.hand_owner,
+        w.hand_tracking,
+        w.grab,
+        w.player_origin,
+        w.head_tracking,
+        w.body_pose,
+        w.collider,
+        w.authored_hold,
+        f.hands().surroundings,
+        &w.hand_rig,
+        f.caches.more_hand_rigs,
+        own_surfaces,
+        has_all_colliders ? &f.collision() : nullptr,
+        f.graph().proxies,
+        &w.body_hold,
+        f.caches.meshes_for_hands != nullptr ? &f.caches.part_meshes : nullptr,
+        &w.render_pose,
+        &w.body_measures};
     for_hand_slices(f, [&io](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
         handhold::gather_surroundings(io, first, last, slice.stats);
     });

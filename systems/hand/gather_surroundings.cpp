@@ -39,7 +39,8 @@ class Gatherer {
             return;
         }
         const BodyHold* const hold_on_part =
-            io_.body_hold != nullptr ? io_.body_hold->find(hand) : nullptr;
+            io_.body_hold != nullptr && grab.kind == GripKind::player ? io_.body_hold->find(hand)
+                                                                      : nullptr;
         out.body_ws = gripped_pose_ws(io_.body_pose, io_.origin, io_.head, grab.body, hold_on_part);
         out.wrist_bs = grab.anchor_bs;
         if (may_turn_on_grip(grab)) {
@@ -50,10 +51,16 @@ class Gatherer {
             hold != nullptr && hold->body == grab.body) {
             out.authored = &hold->hand;
         }
-        if (const PlacedMesh gripped = {mesh_of(grab.body), {}}; gripped.mesh != nullptr) {
+        const GripMesh* const mesh = hold_on_part != nullptr
+                                         ? enter_part(*hold_on_part, grab.body, out)
+                                         : mesh_of(grab.body);
+        if (mesh != nullptr) {
             out.body = grab.body;
-            out.meshes.push_back(gripped);
+            out.meshes.push_back({mesh, {}});
             HashStream stream;
+            if (hold_on_part != nullptr) {
+                stream.add(static_cast<std::uint64_t>(hold_on_part->part));
+            }
             add_to_signature(stream, grab.body, out.meshes.back());
             add_nearby_meshes(out, stream);
             out.signature = stream.value() | 1U;  // never 0, which means that there is no body
@@ -68,6 +75,20 @@ class Gatherer {
     // with the hand.
     static bool may_turn_on_grip(const Grab& grab) {
         return grab.kind != GripKind::held || grab.jointed || grab.two_handed;
+    }
+
+    // Returns the mesh of the part that the hand holds, and moves `out` into the mesh's frame.
+    // Null: the hand is not fitted to parts.
+    const GripMesh* enter_part(const BodyHold& hold, Entity player, HandSurroundings& out) const {
+        if (io_.part_meshes == nullptr) {
+            return nullptr;
+        }
+        const PartCapsule capsule =
+            part_capsule(io_.shown->at(player), io_.measures->at(player), hold.part);
+        const Pose frame = PartMeshes::frame_of_mesh(capsule);
+        out.body_ws = out.body_ws * frame;
+        out.wrist_bs = inverse(frame) * out.wrist_bs;
+        return io_.part_meshes->find(capsule);
     }
 
     const GripMesh* mesh_of(Entity body) const {

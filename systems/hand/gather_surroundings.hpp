@@ -15,6 +15,7 @@
 #include "engine/collision/collision_world.hpp"
 #include "engine/ecs/column.hpp"
 #include "engine/geometry/grip_mesh_library.hpp"
+#include "systems/hand/shared/part_meshes.hpp"
 
 namespace handhold {
 
@@ -46,6 +47,11 @@ struct GatherSurroundingsIo {
     const CollisionWorld* collision = nullptr;
     std::span<const ColliderProxy> proxies = {};
     const Column<BodyHold>* body_hold = nullptr;  // in: of hands on a player's part
+    // In: meshes of the parts that hands hold, and the bodies as the last frame showed them. Null:
+    // hands on parts are shown as tracked.
+    const PartMeshes* part_meshes = nullptr;
+    const Column<RenderPose>* shown = nullptr;
+    const Column<BodyMeasures>* measures = nullptr;
 };
 
 // Collects each hand's wrist pose and the surfaces near the hand, in the gripped body's frame. This
@@ -53,7 +59,8 @@ struct GatherSurroundingsIo {
 //
 // The wrist of a gripping hand is at its anchor. Its rotation is the tracked one, unless the
 // gripped object turns with the hand. A body is near if its mesh's bounding box is within 0.25 m of
-// the palm. Heads have no grip mesh: a hand that grips a head is shown as tracked.
+// the palm. Heads have no grip mesh: a hand that grips a head is shown as tracked. A hand on
+// another player's part is fitted to the part's capsule; the body's frame is then the capsule's.
 //
 // Fallbacks counted: body_no_surface.
 void gather_surroundings(const GatherSurroundingsIo& io, StageStats& stats);

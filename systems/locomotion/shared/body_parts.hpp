@@ -10,18 +10,10 @@
 #include "components/tracking.hpp"
 #include "engine/ecs/column.hpp"
 #include "engine/math/math.hpp"
+#include "systems/rigs/body_capsules.hpp"
 
-// Arms, trunk and legs of shown bodies as capsules that hands can grip.
+// Finds the parts of shown bodies that a hand can grip.
 namespace handhold {
-
-// The capsule's axis leads from the origin of `frame_ws` to `end_bs` in that frame.
-struct PartCapsule {
-    Pose frame_ws;
-    Vec3 end_bs = Vec3::Zero();
-    double radius_m = 0.0;
-};
-// Where the part was shown in the last frame. Radii scale with the eye height.
-PartCapsule part_capsule(const RenderPose& shown, const BodyMeasures& measures, BodyPart part);
 
 // Moves `from_ps` towards `to_ps`. The point `anchor_bs` of the frame travels on a straight line: a
 // share of the way, [0, 1], and at most `max_m`. The rotation takes the same share of its way.

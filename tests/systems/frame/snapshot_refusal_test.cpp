@@ -77,7 +77,8 @@ TEST_F(SnapshotRefuses, AnyDamagedByte) {
 }
 
 TEST_F(SnapshotRefuses, AnotherFormatVersion) {
-    for (const std::uint32_t version : {1U, 2U, 3U, 5U}) {  // earlier field names; a later build
+    for (const std::uint32_t version :
+         {1U, 2U, 3U, 4U, 6U}) {  // earlier field names; a later build
         SnapshotBytes other(bytes_);
         other.put(8, version);
         expect_refused(other,

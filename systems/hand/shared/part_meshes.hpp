@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <utility>
+
+#include "engine/geometry/grip_mesh.hpp"
+#include "systems/rigs/body_capsules.hpp"
+
+namespace handhold {
+
+// Grip meshes of the capsules of shown bodies. Lengths are rounded to 1 cm and radii to 1 mm, so
+// that players share meshes and a stretched arm needs few. A cache: a mesh depends on the rounded
+// sizes alone.
+class PartMeshes {
+  public:
+    // Builds the capsule's mesh if it is missing. Not for several threads at once.
+    void add(const PartCapsule& capsule);
+    // Null if it was not added.
+    const GripMesh* find(const PartCapsule& capsule) const;
+    // The mesh's frame in the part's: its origin is the middle of the axis.
+    static Pose frame_of_mesh(const PartCapsule& capsule);
+
+  private:
+    std::map<std::pair<std::int64_t, std::int64_t>, GripMesh> mesh_of_size_;
+};
+
+}  // namespace handhold
