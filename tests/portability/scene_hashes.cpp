@@ -50,7 +50,7 @@ struct Ready {
         const std::vector<StartPlace> places =
             value_or_exit(choose_places(options, place, scene, caches, session));
         players = value_or_exit(add_players(scene, caches, places, options, session));
-        settings = choose_settings(options, session, scene);
+        settings = choose_settings(options, session, players.size(), scene);
         settings.keep_frames = false;
     }
     const Recording* recording() const { return session.recording ? &*session.recording : nullptr; }
