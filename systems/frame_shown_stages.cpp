@@ -51,10 +51,6 @@ std::span<const HandSurroundings> hands_of(const FrameContext& f, std::size_t fi
     return std::span(f.hands().surroundings).subspan(first, last - first);
 }
 
-}  // namespace
-
-namespace {
-
 // Builds the missing meshes of held parts.
 void add_part_meshes(const FrameContext& f) {
     const World& w = f.w;

@@ -76,6 +76,12 @@ std::optional<FileError> load_files(const RunOptions& options, PreparedRun& run)
         return session.error();
     }
     run.session = std::move(session.value());
+    if (options.players > 0 &&
+        static_cast<std::size_t>(options.players) < recorded_players(run.session)) {
+        return FileError{options.scene, "",
+                         "expected a player for each session, found " +
+                             std::to_string(options.players) + " players"};
+    }
     if (!options.out.empty()) {
         Result<OutputFolder> folder = OutputFolder::open(options.out);
         if (!folder) {
@@ -166,12 +172,6 @@ int play_and_report(const RunOptions& options, PreparedRun& run) {
 
 int run_command(const RunOptions& options) {
     const InterruptGuard interrupts;
-    if (options.players > 0 &&
-        static_cast<std::size_t>(options.players) < 1 + options.more_inputs.size()) {
-        return refuse({options.scene, "",
-                       "expected a player for each --input, found " +
-                           std::to_string(options.players) + " players"});
-    }
     PreparedRun run;
     for (auto* const prepare : {&load_files, &place_players, &set_start}) {
         if (const auto error = (*prepare)(options, run)) {

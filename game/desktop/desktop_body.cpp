@@ -175,7 +175,8 @@ TrackingSample DesktopBody::advance(const Scene& scene, const CollisionWorld& co
     for (std::size_t i = 0; i < k_hand_count; ++i) {
         const Pose joint = controller_joint(scene.world, player.hands[i], static_cast<HandSide>(i),
                                             scene.tuning.hand);
-        sample.controllers[i] = {hands_[i].hand_ps * inverse(joint), hands_[i].closed};
+        sample.controllers[i] = {hands_[i].hand_ps * inverse(joint), hands_[i].closed,
+                                 hands_[i].closed ? 1.0 : 0.0};
     }
     return sample;
 }

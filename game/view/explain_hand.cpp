@@ -61,7 +61,7 @@ void explain_reach(const Scene& scene, const CollisionWorld& collision, const Ha
 std::string body_effect_text(const World& world, const Tuning& tuning, const Grab& grab) {
     const RigidBody* const body = world.body.find(grab.body);
     if (body == nullptr) {
-        return "It is another player's head: both players move, by their masses.";
+        return "It is another player: both players move, by their masses.";
     }
     if (body->kind == BodyKind::fixed) {
         return "It is fixed: the hand holds the anchor and the player moves.";

@@ -32,7 +32,8 @@ struct FitHandsIo {
 // unchanged and another one would change nothing.
 //
 // A palm in an authored grip keeps the authored wrist, and digits with an authored pose keep it.
-// Fingers of an empty hand take the rest pose, or a fist while the player presses the grip.
+// Fingers of an empty hand bend from the rest pose as far as the button is pressed that closes the
+// hand; once it counts as pressed the hand is a fist.
 //
 // The shown hand follows at PalmTuning::rate_mps, FingerTuning::close_radps (closing) and
 // open_radps (opening), all angles of a digit by the same share of their way. Only the shown hand

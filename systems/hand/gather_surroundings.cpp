@@ -51,16 +51,13 @@ class Gatherer {
             hold != nullptr && hold->body == grab.body) {
             out.authored = &hold->hand;
         }
+        HashStream stream;
         const GripMesh* const mesh = hold_on_part != nullptr
-                                         ? enter_part(*hold_on_part, grab.body, out)
+                                         ? enter_part(*hold_on_part, grab.body, out, stream)
                                          : mesh_of(grab.body);
         if (mesh != nullptr) {
             out.body = grab.body;
             out.meshes.push_back({mesh, {}});
-            HashStream stream;
-            if (hold_on_part != nullptr) {
-                stream.add(static_cast<std::uint64_t>(hold_on_part->part));
-            }
             add_to_signature(stream, grab.body, out.meshes.back());
             add_nearby_meshes(out, stream);
             out.signature = stream.value() | 1U;  // never 0, which means that there is no body
@@ -79,12 +76,17 @@ class Gatherer {
 
     // Returns the mesh of the part that the hand holds, and moves `out` into the mesh's frame.
     // Null: the hand is not fitted to parts.
-    const GripMesh* enter_part(const BodyHold& hold, Entity player, HandSurroundings& out) const {
+    const GripMesh* enter_part(const BodyHold& hold, Entity player, HandSurroundings& out,
+                               HashStream& stream) const {
         if (io_.part_meshes == nullptr) {
             return nullptr;
         }
         const PartCapsule capsule =
             part_capsule(io_.shown->at(player), io_.measures->at(player), hold.part);
+        const auto [length, radius] = PartMeshes::size_of(capsule);
+        stream.add(static_cast<std::uint64_t>(hold.part));
+        stream.add(length);
+        stream.add(radius);
         const Pose frame = PartMeshes::frame_of_mesh(capsule);
         out.body_ws = out.body_ws * frame;
         out.wrist_bs = inverse(frame) * out.wrist_bs;

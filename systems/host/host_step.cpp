@@ -220,7 +220,13 @@ hh_result hh_world_create(const hh_world_def* wanted, hh_world** world) {
     });
 }
 
-void hh_world_destroy(hh_world* world) { delete world; }
+void hh_world_destroy(hh_world* world) {
+    if (world != nullptr && world->surfaces.is_asking()) {
+        report_failure(HH_ERROR_STATE, "a world cannot be destroyed inside its own surface query");
+        return;
+    }
+    delete world;
+}
 
 hh_tracking_sample hh_default_tracking_sample(void) {
     hh_tracking_sample sample{};

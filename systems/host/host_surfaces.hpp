@@ -41,10 +41,15 @@ class HostSurfaces {
     // Returns what ask() returns.
     template <typename Ask>
     bool answer(const Ask& ask) const {
-        is_asking_ = true;
-        const bool is_found = ask();
-        is_asking_ = false;
-        return is_found;
+        struct Asking {  // ends also if the host throws
+            explicit Asking(bool& flag) : is_asking(flag) { is_asking = true; }
+            ~Asking() { is_asking = false; }
+            Asking(const Asking&) = delete;
+            Asking& operator=(const Asking&) = delete;
+            bool& is_asking;
+        };
+        const Asking asking(is_asking_);
+        return ask();
     }
     std::optional<Checked> check(const hh_surface_hit& hit) const;
     std::optional<SurfacePoint> surface_point(const hh_surface_hit& hit, const Vec3& point_ws,

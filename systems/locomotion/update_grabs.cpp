@@ -253,7 +253,7 @@ void release_overstretched_grabs(const UpdateGrabsIo& io, double max_stretch_m, 
     }
 }
 
-// On a player's part, the distance is that from the point where the palm was.
+// On a player's part, the distance is that from the surface point that was gripped.
 bool is_out_of_reach(const UpdateGrabsIo& io, Entity hand, const Vec3& palm_ws, double reach_m) {
     const Grab& grab = io.grab.at(hand);
     if (const BodyHold* const hold = body_hold_of(io, hand)) {

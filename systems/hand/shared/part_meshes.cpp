@@ -9,19 +9,22 @@ namespace {
 constexpr double k_length_step_m = 0.01;
 constexpr double k_radius_step_m = 0.001;
 
-std::pair<std::int64_t, std::int64_t> size_of(const PartCapsule& capsule) {
+}  // namespace
+
+PartMeshes::Size PartMeshes::size_of(const PartCapsule& capsule) {
     constexpr double k_most_steps = 1e4;
+    // Usual sizes lie exactly between two steps; from frame to frame they differ by rounding.
+    constexpr double k_up = 0.5 + 1e-6;
     const auto steps = [&](double length_m, double step_m) {
-        return std::max<std::int64_t>(1, std::llround(std::min(length_m / step_m, k_most_steps)));
+        const double exact = std::min(length_m / step_m, k_most_steps);
+        return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(exact + k_up));
     };
     return {steps(capsule.end_bs.norm(), k_length_step_m),
             steps(capsule.radius_m, k_radius_step_m)};
 }
 
-}  // namespace
-
 void PartMeshes::add(const PartCapsule& capsule) {
-    const auto size = size_of(capsule);
+    const Size size = size_of(capsule);
     if (mesh_of_size_.contains(size)) {
         return;
     }

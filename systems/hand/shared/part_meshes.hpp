@@ -14,6 +14,9 @@ namespace handhold {
 // sizes alone.
 class PartMeshes {
   public:
+    // Length and radius in steps.
+    using Size = std::pair<std::uint64_t, std::uint64_t>;
+    static Size size_of(const PartCapsule& capsule);
     // Builds the capsule's mesh if it is missing. Not for several threads at once.
     void add(const PartCapsule& capsule);
     // Null if it was not added.
@@ -22,7 +25,7 @@ class PartMeshes {
     static Pose frame_of_mesh(const PartCapsule& capsule);
 
   private:
-    std::map<std::pair<std::int64_t, std::int64_t>, GripMesh> mesh_of_size_;
+    std::map<Size, GripMesh> mesh_of_size_;
 };
 
 }  // namespace handhold

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -100,6 +101,33 @@ TEST(HostSurfaces, AQueryMayReadItsWorldButNotChangeIt) {
     EXPECT_EQ(called.add, HH_ERROR_STATE);
     EXPECT_EQ(called.read, HH_OK);
     EXPECT_NEAR(scene.world.time_s(), 2 * k_step_s, 1e-12);
+}
+
+bool throw_once(void* context, hh_vec3, hh_vec3, const hh_body*, size_t, hh_surface_hit*) {
+    int& calls = *static_cast<int*>(context);
+    if (calls++ == 0) {
+        throw std::runtime_error("the host's ray failed");
+    }
+    return false;
+}
+
+TEST(HostSurfaces, AQueryThatThrowsFailsOneStep) {
+    HostScene scene;
+    scene.step();
+    int calls = 0;
+    hh_surface_query query = hh_default_surface_query();
+    query.context = &calls;
+    query.cast_ray = throw_once;
+    ASSERT_EQ(hh_world_set_surface_query(scene.world.get(), &query), HH_OK);
+    hh::Sample sample = scene.sample();
+    sample.grab[HH_RIGHT] = true;
+    const auto step = [&] {
+        sample.time_s = scene.world.time_s() + k_step_s;
+        return scene.world.step(k_step_s, hh::input(scene.player, {&sample, 1})).result();
+    };
+    EXPECT_EQ(step(), HH_ERROR_INTERNAL);
+    EXPECT_EQ(step(), HH_OK);
+    EXPECT_GT(calls, 0);
 }
 
 TEST(HostEvents, SayWhyAGripEnded) {

@@ -65,7 +65,7 @@ typedef enum hh_grip_kind {
     HH_GRIP_SURFACE = 1,  /* something static, kinematic or heavy: the player moves */
     HH_GRIP_HELD = 2,     /* a dynamic body: it moves with the hand */
     HH_GRIP_AUTHORED = 3, /* in one of the body's authored grips */
-    HH_GRIP_PLAYER = 4    /* another player's head */
+    HH_GRIP_PLAYER = 4    /* another player: head, arm, trunk or leg */
 } hh_grip_kind;
 
 typedef struct hh_hand_state {
@@ -76,7 +76,8 @@ typedef struct hh_hand_state {
     /* The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres
      * from it, so that palm and fingers touch. */
     hh_pose shown;
-    hh_pose anchor;   /* the wrist in the frame of what it grips, fixed when it closed */
+    /* The wrist in the frame of what it grips, fixed when it closed; of a player: of the part. */
+    hh_pose anchor;
     double error_m;   /* distance of the tracked wrist and the anchor: 0 unless hindered */
     hh_vec3 force_impulse_ns; /* by the hand on what it grips, in the last step: for haptics */
     bool is_tracked;

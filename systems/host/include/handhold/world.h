@@ -23,7 +23,8 @@ typedef struct hh_world_def {
 HH_API hh_world_def hh_default_world_def(void);
 /* Makes an empty world. A null `def`: the default. Any thread, at any time. Cost: 0.1 ms. */
 HH_API hh_result hh_world_create(const hh_world_def* def, hh_world** world);
-/* Destroys a world and everything in it. Null: nothing happens. */
+/* Destroys a world and everything in it. Null, or inside the world's own surface query: nothing
+ * happens. */
 HH_API void hh_world_destroy(hh_world* world);
 
 /* One reading of the headset and both controllers. A pose at exactly (0, 0, 0) counts as not
@@ -37,7 +38,7 @@ typedef struct hh_tracking_sample {
     bool head_tracked;    /* false: `head` is ignored */
     bool hand_tracked[2]; /* false: the pose is ignored, `grab` counts */
     bool grab[2];         /* a button that closes the hand is down */
-    double squeeze[2];    /* how far it is pressed, [0, 1]: bends the fingers of an empty hand */
+    double squeeze[2];    /* how far it is pressed, [0, 1]: bends fingers until `grab` closes them */
 } hh_tracking_sample;
 
 /* Everything tracked, hands open, at time 0. The poses are for you to fill: at the origin they count

@@ -44,7 +44,7 @@ typedef struct hh_surface_query {
                      size_t skip_count, hh_surface_hit* hit);
     /* First impact of a sphere moving along a segment; distance_m: how far its centre has moved.
      * For the distance grab (pull.reach_m above 0), and to keep trunk and legs out of surfaces:
-     * a query a player and frame. Null: neither. */
+     * about one query per player and frame. Null: neither. */
     bool (*cast_sphere)(void* context, double radius_m, hh_vec3 from, hh_vec3 to,
                         const hh_body* skip, size_t skip_count, hh_surface_hit* hit);
     /* Nearest surface point within max_distance_m; distance_m: 0 inside a solid. */
