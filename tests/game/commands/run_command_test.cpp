@@ -190,7 +190,7 @@ TEST_F(RunCommand, EveryInputHasAPlayerOfItsOwn) {
     EXPECT_EQ(rows_of_player, (std::array<std::size_t, 3>{frames, frames, 0}));
     options.players = 1;
     EXPECT_EQ(run(options), 2);
-    EXPECT_NE(err_.find("a player for each --input"), std::string::npos) << err_;
+    EXPECT_NE(err_.find("a player for each session"), std::string::npos) << err_;
 }
 
 TEST_F(RunCommand, SamplesYearsApartAreRefusedUnlessTheLengthIsGiven) {
