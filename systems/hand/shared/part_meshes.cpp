@@ -13,7 +13,7 @@ constexpr double k_radius_step_m = 0.001;
 
 PartMeshes::Size PartMeshes::size_of(const PartCapsule& capsule) {
     constexpr double k_most_steps = 1e4;
-    // Usual sizes lie exactly between two steps; from frame to frame they differ by rounding.
+    // Some usual lengths lie exactly between two steps. Measured again, they differ by rounding.
     constexpr double k_up = 0.5 + 1e-6;
     const auto steps = [&](double length_m, double step_m) {
         const double exact = std::min(length_m / step_m, k_most_steps);
