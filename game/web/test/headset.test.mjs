@@ -59,7 +59,7 @@ test('a controller grips the station and pulls the player', { timeout: 550000 },
             emulated.controllers.left.position.set(-0.25, 1.35, -0.3);
             emulated.controllers.right.position.set(0.25, 1.35, -0.3);`);
         await page.goto(`http://127.0.0.1:${server.address().port}/`);
-        await page.waitForFunction('window.demo !== undefined', { timeout: 300000 });
+        await page.waitForFunction('window.demo?.isReady', { timeout: 300000 });
         assert.equal(await page.$eval('#enter', (button) => button.disabled), false);
         await page.$eval('#enter', (button) => button.click());
         await page.waitForFunction('demo.renderer.xr.isPresenting', { timeout: 60000 });
