@@ -6,7 +6,15 @@ import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { HH_BALL, HH_DYNAMIC, HH_HINGE, HH_SLIDER, HH_STATIC } from 'handhold';
 
 const vec = ([x, y, z]) => ({ x, y, z });
-const quat = ([x, y, z, w]) => ({ x, y, z, w });
+// Of unit length, with the roundings of the native game, which multiplies a body's pose by two others.
+const quat = (xyzw) => {
+    const [x, y, z, w] = unit(unit(xyzw));
+    return { x, y, z, w };
+};
+function unit([x, y, z, w]) {
+    const length = Math.sqrt((x * x + y * y) + (z * z + w * w));
+    return [x / length, y / length, z / length, w / length];
+}
 const poseOf = ({ position_m = [0, 0, 0], rotation_xyzw = [0, 0, 0, 1] }) => ({ position: vec(position_m), rotation: quat(rotation_xyzw) });
 const rotationTo = (from, to) => new THREE.Quaternion().setFromUnitVectors(from, to.normalize()).toArray();
 const nextFrame = () => new Promise((resolve) => setTimeout(resolve));

@@ -1,7 +1,9 @@
 // Handhold in a browser: the game's scenes, with mouse and keyboard or a headset. window.demo is for tests.
 //
 // ?scene=station|playground  ?spawn=NAME
-// ?recording=FILE            plays a recorded session at 90 Hz instead, as `handhold run --input FILE` does, with equal path and hash
+// ?recording=FILE            plays a recorded session at 90 Hz instead, as `handhold run --input FILE` does: with equal path.
+//                            Equal hashes need sample times that are not at frame ends (the library takes one up to
+//                            1e-6 s after an end for that end), and &seconds=S beyond the last sample, which is state.
 import * as THREE from 'three';
 import { HH_LEFT, HH_RIGHT, loadHandhold } from 'handhold';
 import { Avatar, loadFigure } from './avatar.js';
@@ -17,15 +19,18 @@ function tell(stage, share) {
 }
 
 const query = new URLSearchParams(location.search);
-const folder = new URL(query.get('scene') === 'playground' ? 'playground/' : 'station/', location.href);
+const sceneName = query.get('scene') === 'playground' ? 'playground' : 'station';
+const folder = new URL(`${sceneName}/`, location.href);
 const loadRecording = async (url) => parseRecording(await (await fetch(url)).text());
 
 const handhold = await loadHandhold();
 const world = handhold.createWorld();
 const level = await loadLevel(handhold, world, new URL('scene.json', folder), tell);
-const spawn = level.spawns.find((one) => one.name === query.get('spawn')) ?? level.spawns[0];
 const recording = query.has('recording') ? await loadRecording(new URL(query.get('recording'), location.href)) : null;
 const recorded = recording && new Playback(recording);
+// Recordings and the climber begin at the first spawn, you beside it.
+const spawnName = query.get('spawn') ?? (recorded ? '' : { station: 'hab', playground: 'drawers' }[sceneName]);
+const spawn = level.spawns.find((one) => one.name === spawnName) ?? level.spawns[0];
 if (!recorded) {
     world.setTuning('locomotion.thruster_mps2', 1.5);
 }
@@ -58,7 +63,7 @@ function makeVignette() {
 // The second player: a scripted climber's session, again and again from its spawn. (handhold climb)
 async function addClimber() {
     const samples = await loadRecording(new URL('climber.csv', folder));
-    const start = startOf(level.spawns.find((one) => one.name === 'hab') ?? level.spawns.at(-1));
+    const start = startOf(level.spawns[0]);
     const id = world.addPlayer({ name: 'climber', origin: start });
     const figure = await loadFigure(level.scene, world, id, new URL('body.glb', location.href));
     const avatar = new Avatar(level.scene);
@@ -104,7 +109,7 @@ const path = []; // the play space's position after each step of a recording
 // Plays a recording in steps of 1/90 s; at its end the panel tells the hash.
 function playRecording(dt_s) {
     const k_step_s = 1 / 90;
-    const steps = Math.max(1, Math.floor(recorded.duration_s * 90 + 1e-3));
+    const steps = Math.max(1, Math.floor(Number(query.get('seconds') ?? recorded.duration_s) * 90 + 1e-3));
     lag_s = Math.min(lag_s + dt_s, 0.5);
     for (; lag_s >= k_step_s && path.length < steps; lag_s -= k_step_s) {
         world.step(k_step_s, [{ player, ...recorded.read(world.time().time_s + k_step_s) }]);
