@@ -112,7 +112,8 @@ int main_of(int count, char** words) {
         --count;
     }
     if (count < 2) {
-        std::fprintf(stderr, "usage: handhold-scenes [--no-body-clips] SECONDS [SCENE [RECORDING]]...\n");
+        std::fprintf(stderr,
+                     "usage: handhold-scenes [--no-body-clips] SECONDS [SCENE [RECORDING]]...\n");
         return 2;
     }
     std::vector<RunOptions> runs;

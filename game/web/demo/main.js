@@ -29,10 +29,13 @@ const level = await loadLevel(handhold, world, new URL('scene.json', folder), te
 const recording = query.has('recording') ? await loadRecording(new URL(query.get('recording'), location.href)) : null;
 const recorded = recording && new Playback(recording);
 // Recordings and the climber begin at the first spawn, you beside it.
-const spawnName = query.get('spawn') ?? (recorded ? '' : { station: 'hab', playground: 'drawers' }[sceneName]);
+const spawnName = query.get('spawn') ?? (recorded ? '' : { station: 'hab', playground: 'locker' }[sceneName]);
 const spawn = level.spawns.find((one) => one.name === spawnName) ?? level.spawns[0];
 if (!recorded) {
     world.setTuning('locomotion.thruster_mps2', 1.5);
+}
+if (!recorded && sceneName === 'playground') {
+    spawn.position.z += 0.5; // the native game's sessions begin within reach of the drawers
 }
 const startOf = ({ position, rotation }) => ({ position, rotation });
 const player = world.addPlayer({ name: 'player0', origin: startOf(spawn) });
@@ -161,9 +164,8 @@ function onFrame(now_ms, frame) {
         }
     }
     const pose = show(dt_s, frame_ms);
-    if (recorded) { // by the recorded eyes
-        rig.worldToLocal(camera.position.copy(pose.head.position));
-        camera.quaternion.copy(rig.quaternion).invert().multiply(pose.head.rotation);
+    if (recorded) { // by the recorded eyes; the camera is at the rig's origin
+        place(rig, pose.head);
     }
     renderer.render(level.scene, camera);
     frame_ms = performance.now() - begin_ms;

@@ -42,9 +42,9 @@ export class Panel {
             grip === HH_GRIP_NONE ? (is_closed ? 'closed, grips nothing' : 'open') : `${gripNames[grip]} ${this.#names.get(body.index) ?? ''}`;
         const rows = [
             ['step, median', `${(1e-3 * this.median_us).toFixed(2)} ms`],
-            ['frame with drawing', `${median(this.#frames_ms).toFixed(2)} ms`],
+            ['frame cost', `${median(this.#frames_ms).toFixed(2)} ms`],
             ['speed', `${speed_mps.toFixed(2)} m/s`],
-            ['hand error', `${(1e3 * stats.hand_error_m).toFixed(4)} mm`],
+            ['hand error', `${(1e3 * Math.max(...pose.hands.map(({ grip, error_m }) => (grip === HH_GRIP_NONE ? 0 : error_m)))).toFixed(4)} mm`],
             ['contacts', stats.contacts],
             ['left', hand(pose.hands[0])],
             ['right', hand(pose.hands[1])],
