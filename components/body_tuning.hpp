@@ -137,7 +137,7 @@ void visit_body_tuning(TuningType& t, const See& see) {
     see("additive.look", t.additive.look, "", 0.0, 3.0,
         "Weight of the clips driven by the head's look direction; 0: off.");
     see("additive.clavicle", t.additive.clavicle, "", 0.0, 3.0,
-        "Weight of the clavicle clip, added to arm.clavicle_share; 0: off.");
+        "Weight of the clavicle clip, whose turn comes on top of arm.clavicle_share; 0: off.");
 }
 
 }  // namespace handhold

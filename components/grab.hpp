@@ -83,7 +83,7 @@ struct HandSight {
     Vec3 outside_bs = Vec3::Zero();  // in `frame`
     Entity frame = k_no_entity;      // body that the player last gripped; null: the world
     bool is_known = false;           // false: the palm counts as outside
-    bool is_clear = true;            // no wall between that point, or the head, and the palm
+    bool is_clear = true;            // no wall from outside_bs, or from the head, to the palm
 };
 
 // Which hands may grip a body. A body without one may be gripped by any hand. Written by the host.

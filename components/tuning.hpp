@@ -202,10 +202,10 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "Speed at which a held body comes back to its hand after a tracking error.");
     see("hand.part_speed_mps", t.hand.part_speed_mps, "m/s", 0.0, 100.0,
         "Greatest speed at which a grip on another player's arm, trunk or leg follows that part, "
-        "relative to the player: neither player moves faster when the shown body changes.");
+        "relative to the player. Limits how fast a jump of the estimated body moves either one.");
     see("hand.swing_lag_s", t.hand.swing_lag_s, "s", 0.0, 10.0,
-        "Time constant with which a grip on another player's trunk or leg follows it; walls and "
-        "swings move those parts, and the grip moves their player.");
+        "Time constant with which a grip on another player's trunk or leg follows that "
+        "part. Damps the feedback: the part moves because the grip moves its player.");
     see("palm.min_height_m", t.palm.min_height_m, "m", -0.05, 0.1,
         "Minimum height of a gripping palm's centre above its surface.");
     see("palm.max_height_m", t.palm.max_height_m, "m", -0.05, 0.2,
@@ -332,8 +332,9 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     see("solver.regularisation_increase", t.solver.regularisation_increase, "", 1.0, 1e6,
         "Factor applied to the hand regularisation after a step that does not reduce the error.");
     see("solver.linear_decrease_steps", t.solver.linear_decrease_steps, "", 1.0, 1000.0,
-        "Number of consecutive full steps of slow decrease that count as one step that reduces the "
-        "error.");
+        "Number of consecutive full Newton steps with only a slow fall of the error after which "
+        "the "
+        "hand regularisation is reduced, as after one fast step.");
     see("solver.linear_decrease_ratio", t.solver.linear_decrease_ratio, "", 0.0, 1.0,
         "Largest share of the error that a step of slow decrease may leave.");
     see("solver.max_step_rotation_rad", t.solver.max_step_rotation_rad, "rad", 1e-3, 3.0,

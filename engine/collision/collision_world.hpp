@@ -91,9 +91,9 @@ class CollisionWorld {
     CollisionWorld(const CollisionWorld&) = delete;
     CollisionWorld& operator=(const CollisionWorld&) = delete;
 
-    // Builds what shapes that were added since the last call need, and drops what removed ones
-    // needed. set_proxies calls it too; a host that calls it first chooses when a mesh's BVH is
-    // built. Costs nothing if the library is unchanged, else a look at each id.
+    // Builds the BVHs of meshes that were added since the last call, and frees those of removed
+    // meshes. set_proxies calls it too; a host that calls it first chooses when BVHs are built.
+    // Costs nothing if the library is unchanged, otherwise one check per id.
     void update_shapes();
     // Offers a mesh's BVH that was built elsewhere, for instance on a loading thread. The next
     // update_shapes uses it if it still exists by then.

@@ -28,7 +28,8 @@ struct ColorRun {
 
 // One mesh node of the file's scene, with all of its instances (EXT_mesh_gpu_instancing).
 struct LevelPart {
-    // In the scene's frame, metres. Its name is the node's; its colour is that of the first run.
+    // In the scene's frame, metres. Its name is the node's; its colour is that of the first of
+    // color_runs.
     Mesh mesh;
     std::string pointer;  // JSON pointer of the node: "/nodes/3"
     // extras.synthetic of the node or its mesh: true if it is not from the model's author.

@@ -27,7 +27,7 @@ struct GripScene {
     std::vector<GltfMaterial> materials;
     std::vector<GltfSurface> object;  // in the frame of the grip
 };
-// The bytes of the .glb. Its hand is the robot's, built for `rig`.
+// Returns the bytes of a .glb file. Its hand is the mesh of the game's robot, built for `rig`.
 std::string write_grip_glb(const GripScene& scene, const HandRig& rig);
 
 // Reads the grip: the wrist relative to the node "object", and the joints' rotations as hinge

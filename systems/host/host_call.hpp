@@ -111,7 +111,8 @@ inline Pose checked(const hh_pose& pose) {
     checked(pose.position, world_limits::k_max_coordinate_m, "a position beyond 1e9 m, or NaN");
     require(is_valid(read), HH_ERROR_VALUE,
             "a rotation is not a unit quaternion (hh_identity_pose has one)");
-    // Bits of a unit quaternion stay, so that a pose that is read and written back is the same.
+    // A quaternion of unit length is not normalised again: a pose that is read and written back
+    // stays equal to the bit.
     constexpr double k_rounding = 1e-12;
     if (std::abs(read.rotation.squaredNorm() - 1.0) > k_rounding) {
         read.rotation.normalize();

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t k_max_restore_blocks = 4000;
 // About the length of an arm's jump. A body that was dragged farther while penetrating stays.
 constexpr double k_max_restore_distance_m = 2.0;
-constexpr double k_max_error_ratio = 0.5;  // of the error before the restore
+constexpr double k_max_error_ratio = 0.5;  // a restore must reduce the error at least to this share
 
 // The worst error of a body's own rows without grips, or of its contacts only.
 double own_error_m(const ConstraintGraph& graph, std::uint32_t body, bool only_contacts) {

@@ -112,8 +112,9 @@ void count_heap_visits(const Solve& s) {
         if (!island.is_heap) {
             continue;
         }
-        std::uint64_t visits =
-            0;  // islands change between searches: the largest count is inherited
+        // Islands merge and split between searches. An island takes the largest count of its
+        // bodies.
+        std::uint64_t visits = 0;
         for (const std::uint32_t i : s.graph().bodies_of(island)) {
             visits = std::max(visits, s.phase_of(i).visits);
         }

@@ -53,9 +53,9 @@ double heaviest_free_kg(const FrameGraph& frame, const Island& island) {
     return heaviest_kg;
 }
 
-// Factor on the inverse mass of a pushed player who shares momentum with no other body. An
-// immovable support pushes players alike, whatever their mass. Light objects that they move must
-// not shake them, as in the forward phase (least_player_share).
+// Factor on the inverse mass of a pushed player who exchanges momentum with no other body. 1 if the
+// island's heaviest free body has kappa_heavy_kg or more. Below that it falls smoothly, at
+// kappa_light_kg down to least_player_share, so that light objects do not shake the player.
 double pushed_share(double heaviest_kg, double mass_kg, const PhaseTuning& tuning) {
     const double exchanged =
         smooth_step(heaviest_kg, tuning.kappa_light_kg,

@@ -8,8 +8,8 @@
 #include "components/spine.hpp"
 #include "engine/math/math.hpp"
 
-// Additive clips (talk row 24): small turns of bones that an animator adds to the estimated body.
-// They depend on time, on the look direction, or on how far a hand reaches. An asset;
+// Additive clips: small turns of bones that an animator adds to the estimated body. They depend on
+// time, on the look direction, or on how far a hand reaches. An asset;
 // docs/reference/body_clips.md describes the file.
 namespace handhold {
 

@@ -90,7 +90,8 @@ void carry_by_handhold() {
         devices.closed[1] = t > 0.3 && t < 1.5;
         devices.wrist[1].x = 0.2 - 0.5 * std::max(0.0, t - 0.5);
         if (!was_held) {
-            scene.engine.place_for_hands(scene.world);  // of all bodies that no hand holds
+            // Sends the poses of the bodies that no hand holds.
+            scene.engine.place_for_hands(scene.world);
         }
         scene.t_s = t;
         const hh::Sample sample = devices.at(t);

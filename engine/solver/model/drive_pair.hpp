@@ -21,13 +21,13 @@ struct DrivePair {
 // Returns the body rotation for which
 // - The line between the anchors is parallel to the line between the drives. If the first drive is
 //   on its anchor, the second drive is on the line through both anchors and may slide along it.
-// - The twists of the two drives against their anchors about that line cancel, each weighted by the
-//   cosine of half the drive's swing out of the line. A drive swung by half a turn has no defined
-//   twist and weight 0.
+// - The rotation about that line is the weighted mean of what the two drives ask for: each drive's
+//   weight is the cosine of half its swing out of the line. A drive swung by half a turn asks for
+//   no defined rotation about the line and has weight 0.
 //
-// `near` selects among rotations a whole turn apart: any rotation within half a turn of both
-// drives' twists. Returns `near` if the drives or the anchors are closer together than a
-// micrometre.
+// Rotations about the line are ambiguous by whole turns. `near`, any rotation within half a turn of
+// what both drives ask for, removes the ambiguity. Returns `near` if the drives or the anchors are
+// closer together than a micrometre.
 Quat rotation_from_drive_pair(const DrivePair& drives, const Quat& near);
 
 }  // namespace handhold

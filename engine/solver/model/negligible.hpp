@@ -17,7 +17,7 @@ inline void drop_negligible(const IslandView& island) {
     for (const std::uint32_t index : island.island_bodies) {
         SolverBody& body = island.bodies[index];
         if (body.role == BodyRole::fixed) {
-            continue;  // other islands read it
+            continue;  // belongs to several islands: never written
         }
         for (Eigen::Index axis = 0; axis < 3; ++axis) {
             drop(body.pose_ws.position[axis]);

@@ -37,7 +37,7 @@ struct Bodies4 {
 // and lever are negative, and the arm points from the anchor point to the body's centre.
 struct Ends4 {
     Wide3 point_bs;  // anchor point times the sign
-    Double4 sign;    // +-1 for point triads, else 0
+    Double4 sign;    // point triads: +1 for side a, -1 for side b; others: 0
     Double4 lever;   // +-k_angle_lever_m for angular triads, else 0
     Wide3 arm;
 };

@@ -214,7 +214,8 @@ void TriadPlan::find_zeros() {
         for (const Lanes* const blocks :
              {&strand_pack.block_before, &strand_pack.block_after, &strand_pack.block_between}) {
             for (const std::uint32_t block : *blocks) {
-                // 2: products must be added to the block, because strands change it too
+                // Strands write to this block as well. A count of 2 says that a product is added to
+                // it; only a block with a count of 1 may be overwritten.
                 counts_[block] += 2;
             }
         }

@@ -95,7 +95,8 @@ class TriadPlan {
         std::uint32_t place = 0;
     };
     std::span<const AnchoredEnd> anchored_ends() const { return anchored_ends_; }
-    // By given node: its index in rest(); k_no_slot if it is in a strand.
+    // For each node passed to build: its index in rest(); k_no_slot if it is in a strand
+    // (strand_plan.hpp).
     std::span<const std::uint32_t> rest_places() const { return strands_.places(); }
 
     // Four bodies in no strand. Each has up to `width` ends (2 * node + side), in the order in
@@ -156,7 +157,8 @@ class TriadPlan {
     std::size_t block_count_ = 0;
 
     // Scratch of build.
-    std::vector<std::uint32_t> counts_;     // ends per slot, then products per block
+    // First the ends of each slot, later the products that write each block.
+    std::vector<std::uint32_t> counts_;
     std::vector<std::uint8_t> is_written_;  // by block
 };
 

@@ -30,8 +30,8 @@ double clavicle_reach_m(double distance) {
 }
 
 // Distances of the hand from the shoulder, in arm lengths, between which the network's correction
-// fades in. Near the shoulder wrists bend most, and the wrists of the fitted data are synthetic:
-// there the talk's form is better for people of other sources.
+// fades in. Near the shoulder wrists bend most, and the training data's wrists are synthetic: there
+// the formula without a network is better for people outside of the training data.
 constexpr double k_near_shoulder = 0.3;
 constexpr double k_clear = 0.7;
 

@@ -53,8 +53,8 @@ Quat chest_lean(const Vec3& head_up_ps) {
 Vec3 chest_facing(const Vec3& look_ps, const Quat& lean_ps, const TrackedBody& body,
                   const BodyAxes& axes, const TurnLimit& limit) {
     using namespace body_constants;
-    // Hands in the leaning chest's axes, turned to the look direction: x right, z back; arm
-    // lengths.
+    // Positions of the hands in arm lengths. Axes: those of the leaning chest, turned to the look
+    // direction (x right, z back).
     const Mat3 lean = lean_ps.toRotationMatrix();
     const double by_arm = 1.0 / arm_length_m(body.measures);
     std::array<Vec3, k_hand_count> hand;

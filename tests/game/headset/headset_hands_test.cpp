@@ -137,7 +137,7 @@ TEST(HeadsetHands, HandClosesAboveOneThresholdAndOpensBelowAnother) {
     EXPECT_FALSE(grabs(0.5, 0.0));
     EXPECT_TRUE(grabs(0.6, 0.0));
     EXPECT_TRUE(grabs(0.4, 0.0));
-    EXPECT_TRUE(grabs(0.0, 0.4));  // the trigger goes on where the squeeze ends
+    EXPECT_TRUE(grabs(0.0, 0.4));  // the trigger keeps the grip when the squeeze ends
     EXPECT_FALSE(grabs(0.3, 0.3));
     EXPECT_FALSE(grabs(0.5, 0.5));
     EXPECT_TRUE(grabs(0.0, 1.0));

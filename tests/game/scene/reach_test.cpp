@@ -35,7 +35,7 @@ class Reach : public ::testing::Test {
     double canister_held_s = 0.0;
     double ball_fastest_mps = 0.0;
     double rail_ghost = 0.0;   // most visible ghost beside the rail,
-    double other_ghost = 0.0;  // and before that, where hands only grip
+    double other_ghost = 0.0;  // most visible ghost before the rail, where hands only grip
 
   private:
     void watch(const PlayerEntities& player, const FrameLog& frame) {

@@ -135,8 +135,8 @@ TEST(BodyGrip, ChangeOfTheShownBodyMovesNobodyFasterThanTheGripFollows) {
     EXPECT_GE(moved, k_draws / 3);  // arms that are held carry the holder along
 }
 
-// An arm that moves slower than the grip follows takes the holder's hand along: the hand is a
-// frame's travel behind.
+// An arm that moves slower than hand.part_speed_mps takes the gripping hand along. The hand lags by
+// the arm's travel in one frame.
 TEST(BodyGrip, HandStaysOnAnArmThatMoves) {
     Draw of_arm = draw(1);
     of_arm.part = BodyPart::left_forearm;

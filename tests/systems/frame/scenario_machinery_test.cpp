@@ -128,7 +128,7 @@ class Machinery {
         return joint;
     }
 
-    // It slides along the rope.
+    // The gantry: a body on a slider joint that is parallel to the rope.
     void plan_gantry() {
         part("gantry", 60.0, Vec3(0.8, 0.05, 0.3), {k_gantry, Quat::Identity()}, Moves::no);
         Joint rail = limited(JointKind::slider, -0.25, 0.25);

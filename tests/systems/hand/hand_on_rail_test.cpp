@@ -99,8 +99,8 @@ TEST(HandOnRail, StaysOnTheSideItReachedFromEvenIfItCrossedTheBar) {
         const RailMeshes meshes(rail_bs);
         for (const HandSide side : {HandSide::left, HandSide::right}) {
             const HandRig rig = builtin_hand_rig(side);
-            // Until the palm's centre leaves the back of the bar. Beyond that nothing tells from
-            // which side it came.
+            // Down to the height at which the palm's centre leaves the back of the bar. Lower palms
+            // may have come from either side.
             for (double height_m = 0.03; height_m > -0.0301; height_m -= 0.005) {
                 const Vec3 center = {
                     random.between(-0.1, 0.1),

@@ -134,7 +134,7 @@ RC_GTEST_PROP(TrackingErrors, FastHandIsBelievedAndItsThrowKeepsItsVelocity, (st
     along.z() = -std::abs(along.z());  // away from the head
     const double speed_mps = random.between(0.5, 16.0);
     const double begin_s = 0.3;
-    const double end_s = begin_s + random.between(0.15, 0.25);  // at its speed; then it goes on
+    const double end_s = begin_s + random.between(0.15, 0.25);  // from here on at speed_mps
     scenario.tuning.hand.max_arm_m = 100.0;
     const auto travel = [&](double t_s) {
         // Constant acceleration, then constant velocity.

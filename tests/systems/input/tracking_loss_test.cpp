@@ -72,7 +72,8 @@ RC_GTEST_PROP(ReadTracking, ReadingsAtRandomAreNeverBelieved, (std::uint64_t see
     }
 }
 
-// A hand accelerates for several samples; nothing that is smooth is ignored, at any rate.
+// A hand that accelerates smoothly over several samples is never ignored as a tracking error,
+// whatever its speed and the rate of samples.
 RC_GTEST_PROP(ReadTracking, SmoothHandOfAnySpeedIsBelieved, (std::uint64_t seed)) {
     Random random(seed);
     Devices devices;

@@ -162,7 +162,8 @@ TEST(AnchorGrabs, BodyInTheHandsOfTwoOthersIsWherePredictionHasIt) {
     EXPECT_LT((guest_anchor(scene) - Vec3(0.2, 1.0, -3.5)).norm(), 1e-12);
 }
 
-// A hand that grips a climber's head is anchored according to the climber's holding hand, too.
+// A hand closes on the head of a climber who holds a wall. Its anchor uses the place to which the
+// climber's own gripping hand moves him, not his simulated pose.
 TEST(AnchorGrabs, AnchorOnAClimbersHeadGoesByTheWallThatHeHoldsOnTo) {
     Anchoring scene = joined_by_guest(0.5, false);
     scene.head.add(k_player);

@@ -74,7 +74,7 @@ void expect_strands_apart(const StrandPlan& plan, const std::vector<RowNode>& no
     EXPECT_TRUE(std::ranges::all_of(rows, [](int count) { return count == 1; }));
 }
 
-// The rest sees each strand as one body.
+// Among the triads that are in no strand, each that joins a strand refers to it as to one body.
 void expect_rest_holds_strands(const StrandPlan& plan, const std::vector<RowNode>& nodes) {
     for (std::size_t i = 0; i < plan.strand_packs().size(); ++i) {
         const StrandPlan::StrandPack& strand_pack = plan.strand_packs()[i];

@@ -1,0 +1,162 @@
+// The hand that is drawn: its rates, and a hand that holds nothing.
+#include <gtest/gtest.h>
+
+#include "beam.hpp"
+#include "systems/hand/fit_hands.hpp"
+
+namespace handhold::shown_hand_test {
+namespace {
+
+using test::FittedHand;
+using test::k_right;
+using test::k_unbudgeted_s;
+using test::Random;
+using test::wrist_with_palm_at;
+
+constexpr double k_dt_s = 1.0 / 90.0;
+
+void let_go(FittedHand& hand) {
+    hand.hands.front().body = k_no_entity;
+    hand.hands.front().is_gripping = false;
+    hand.hands.front().meshes.clear();
+    hand.tracking.at(k_right).pressed = false;
+}
+
+struct ShownHand : testing::Test {
+    GripMesh beam = build_grip_mesh(test::make_beam());
+    GripMesh floor = build_grip_mesh(test::make_floor_mesh());
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    const Pose on_beam = wrist_with_palm_at(rig, {0.003, 0.012, 0.004}, Vec3::UnitY());
+};
+
+TEST_F(ShownHand, ShownFingersKeepTheirRates) {
+    FittedHand hand(beam, on_beam);
+    hand.tuning.finger.close_radps = 2.0;
+    hand.tuning.finger.open_radps = 3.0;
+    FingerPose before = hand.pose();
+    for (int frame = 0; frame < 240; ++frame) {
+        if (frame == 120) {
+            let_go(hand);
+        }
+        hand.frame(k_dt_s);
+        const FingerPose& now = hand.pose();
+        for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+            for (std::size_t i = 0; i < rig.fingers[f].link_count; ++i) {
+                const double step_rad = now.shown[f].curl_rad[i] - before.shown[f].curl_rad[i];
+                EXPECT_LE(step_rad, 2.0 * k_dt_s + 1e-12);
+                EXPECT_GE(step_rad, -3.0 * k_dt_s - 1e-12);
+            }
+        }
+        before = now;
+    }
+    EXPECT_EQ(before.shown[2].curl_rad, rig.fingers[2].rest_rad);
+}
+
+// Angles that arrived one after the other would swing a digit through what it is to touch.
+TEST_F(ShownHand, AnglesOfADigitAdvanceByOneShare) {
+    FittedHand hand(beam, on_beam);
+    hand.tuning.finger.close_radps = 2.0;
+    hand.tuning.finger.open_radps = 3.0;
+    int moved = 0;
+    for (int frame = 0; frame < 240; ++frame) {
+        if (frame == 120) {
+            let_go(hand);
+        }
+        const FingerPose before = hand.pose();
+        hand.frame(k_dt_s);
+        const FingerPose& now = hand.pose();
+        for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+            const auto angles = [](const FingerAngles& of) {
+                return Eigen::Vector4d(of.curl_rad[0], of.curl_rad[1], of.curl_rad[2],
+                                       of.opposition_rad);
+            };
+            const Eigen::Vector4d step = angles(now.shown[f]) - angles(before.shown[f]);
+            const Eigen::Vector4d wanted = angles(now.target[f]) - angles(before.shown[f]);
+            if (wanted.norm() > 1e-6) {
+                EXPECT_NEAR(step.dot(wanted), step.norm() * wanted.norm(), 1e-9);
+                ++moved;
+            }
+        }
+    }
+    EXPECT_GT(moved, 100);
+}
+
+TEST_F(ShownHand, ShownOffsetIsNeverFasterThanItsRate) {
+    FittedHand hand(floor, wrist_with_palm_at(rig, {0.0, -0.02, 0.0}, Vec3::UnitY()));
+    Random random(2102);
+    Vec3 before = Vec3::Zero();
+    for (int frame = 0; frame < 200; ++frame) {
+        if (frame % 20 == 0) {
+            const double y = random.between(-0.03, 0.06);
+            const Vec3 up = (Vec3::UnitY() + random.vector(0.5)).normalized();
+            hand.wrist_bs() = wrist_with_palm_at(rig, {0.0, y, 0.0}, up);
+        }
+        hand.frame(k_dt_s);
+        const Vec3 shown = hand.offset.at(k_right).shown_m;
+        EXPECT_LE((shown - before).norm(), hand.tuning.palm.rate_mps * k_dt_s + 1e-12);
+        before = shown;
+    }
+    for (int frame = 0; frame < 200; ++frame) {
+        hand.frame(k_dt_s);
+    }
+    EXPECT_LT((hand.offset.at(k_right).shown_m - hand.offset.at(k_right).target_m).norm(), 1e-12);
+}
+
+TEST_F(ShownHand, EmptyHandReturnsToTrackedPose) {
+    FittedHand hand(floor, wrist_with_palm_at(rig, {0.0, -0.02, 0.0}, Vec3::UnitY()));
+    hand.frame(k_unbudgeted_s);
+    EXPECT_GT(hand.offset.at(k_right).shown_m.norm(), 0.01);
+    let_go(hand);
+    double offset_m = hand.offset.at(k_right).shown_m.norm();
+    while (offset_m > 0.0) {
+        hand.frame(k_dt_s);
+        ASSERT_LT(hand.offset.at(k_right).shown_m.norm(), offset_m);
+        offset_m = hand.offset.at(k_right).shown_m.norm();
+    }
+    EXPECT_EQ(hand.palm.at(k_right).pose_ws.position, hand.wrist_bs().position);
+}
+
+TEST_F(ShownHand, EmptyHandClosesAsFarAsItsButton) {
+    FittedHand hand(beam, {});
+    let_go(hand);
+    hand.frame(k_unbudgeted_s);
+    const FingerPose rest = hand.pose();
+    hand.tracking.at(k_right).pressed = true;
+    hand.frame(k_unbudgeted_s);
+    const FingerPose fist = hand.pose();
+    hand.tracking.at(k_right).pressed = false;
+    Random random(2103);
+    for (int i = 0; i < 100; ++i) {
+        const double squeeze = random.between(0.0, 1.0);
+        hand.tracking.at(k_right).squeeze = squeeze;
+        hand.frame(k_unbudgeted_s);
+        for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+            for (std::size_t link = 0; link < rig.fingers[f].link_count; ++link) {
+                const double open_rad = rest.shown[f].curl_rad[link];
+                const double wanted_rad =
+                    open_rad + squeeze * (fist.shown[f].curl_rad[link] - open_rad);
+                EXPECT_NEAR(hand.pose().shown[f].curl_rad[link], wanted_rad, 1e-12);
+            }
+        }
+    }
+}
+
+TEST_F(ShownHand, EmptyHandTakesRestPoseOrFist) {
+    FittedHand hand(beam, {});
+    let_go(hand);
+    hand.frame(k_unbudgeted_s);
+    const FingerPose rest = hand.pose();
+    EXPECT_EQ(rest.shown[0].opposition_rad, hand.tuning.thumb.rest_opposition_rad);
+    hand.tracking.at(k_right).pressed = true;
+    hand.frame(k_unbudgeted_s);
+    for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+        EXPECT_EQ(rest.shown[f].curl_rad, rig.fingers[f].rest_rad);
+        for (std::size_t i = 0; i < rig.fingers[f].link_count; ++i) {
+            EXPECT_GT(hand.pose().shown[f].curl_rad[i], rest.shown[f].curl_rad[i]);
+            EXPECT_LE(hand.pose().shown[f].curl_rad[i], rig.fingers[f].upper_rad[i]);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace handhold::shown_hand_test
