@@ -107,14 +107,17 @@ struct FrameGraph {
     std::vector<RowBlock> hand_blocks;
     std::vector<std::uint32_t> island_order;  // islands, largest first
     std::vector<NewtonResult> island_results;
-    // A penetrating body that finish_positions may restore to its last valid pose, with its state
-    // after the phases.
+    // A penetrating body or player that finish_positions may restore to its last valid pose, with
+    // its state after the phases.
     struct PenetratingBody {
         std::uint32_t body = 0;
         // Index into the islands as solve_phases built them (the islands are rebuilt afterwards).
         // Equal to the number of islands if no constraint row involved the body.
         std::uint32_t island = 0;
         double error_m = 0.0;  // largest error of the body's constraint rows, except hand rows
+        // The body that carries it along with its motion in this frame: the fixed or kinematic body
+        // that it penetrates, or a restored body that it overlaps. Itself if none.
+        std::uint32_t carrier = 0;
         Pose pose_ws;
         Vec3 velocity_mps = Vec3::Zero();
         Vec3 spin_radps = Vec3::Zero();

@@ -154,13 +154,13 @@ Entity add_joint(World& world, const JointDescription& description) {
              wrong_number_of(joint.frame_a_bs));
     HH_CHECK(is_in_world(joint.frame_b_bs), "a joint's frame is not valid",
              wrong_number_of(joint.frame_b_bs));
-    HH_CHECK(joint.lower <= joint.upper, "a joint's lower limit is above its upper", joint.lower);
     const JointLatch& latch = joint.latch;
     for (const double coordinate : {joint.lower, joint.upper, latch.at, latch.handle_at}) {
         HH_CHECK(is_in(coordinate, -world_limits::k_max_joint_coordinate,
                        world_limits::k_max_joint_coordinate),
                  "a joint's coordinates must lie within 1e9", coordinate);
     }
+    HH_CHECK(joint.lower <= joint.upper, "a joint's lower limit is above its upper", joint.lower);
     for (const double number : {joint.friction, joint.detent_spacing, joint.detent_strength,
                                 latch.catch_range, latch.strength}) {
         HH_CHECK(is_in(number, 0.0, world_limits::k_max_joint_strength),

@@ -4,7 +4,7 @@
 
 #include "components/play_space.hpp"
 #include "engine/solver/newton/velocities.hpp"
-#include "systems/host/host_world.hpp"
+#include "systems/host/host_impulses.hpp"
 
 namespace handhold {
 namespace {
@@ -16,18 +16,27 @@ HandReport& report_of(hh_world& host, Entity hand) {
     return known != nullptr ? *known : host.hands.add(hand);
 }
 
+struct Gripped {
+    Entity entity;  // a body or a player, which may be removed by now
+    bool is_player = false;
+};
+
+Gripped as_gripped(const hh_world& host, Entity entity) {
+    return {entity, host.world.player.contains(entity)};
+}
+
 hh_event hand_event(const hh_world& host, hh_event_kind kind, hh_reason reason, Entity hand,
-                    Entity what) {
+                    const Gripped& what) {
     const HandOwner& owner = host.world.hand_owner.at(hand);
     hh_event event{};
     event.kind = kind;
     event.reason = reason;
     event.player = id_of<hh_player>(owner.player);
     event.side = owner.side == HandSide::left ? HH_LEFT : HH_RIGHT;
-    if (host.world.player.contains(what)) {
-        event.other = id_of<hh_player>(what);
+    if (what.is_player) {
+        event.other = id_of<hh_player>(what.entity);
     } else {
-        event.body = id_of<hh_body>(what);
+        event.body = id_of<hh_body>(what.entity);
     }
     const RenderPose& shown = host.world.render_pose.at(owner.player);
     event.position = to_c(shown.hands[index_of(owner.side)].shown_ws.position);
@@ -95,14 +104,15 @@ void add_grip_events(hh_world& host) {
             const hh_reason reason = why_let_go(host, hand);
             host.events.push_back(hand_event(host,
                                              is_slip(reason) ? HH_EVENT_SLIPPED : HH_EVENT_RELEASED,
-                                             reason, hand, before.body));
+                                             reason, hand, {before.body, before.is_player}));
         }
         if (grab.kind != GripKind::none && (before.grip == GripKind::none || is_other)) {
-            host.events.push_back(
-                hand_event(host, HH_EVENT_GRABBED, HH_REASON_NONE, hand, grab.body));
+            host.events.push_back(hand_event(host, HH_EVENT_GRABBED, HH_REASON_NONE, hand,
+                                             as_gripped(host, grab.body)));
         }
         before.grip = grab.kind;
         before.body = grab.body;
+        before.is_player = host.world.player.contains(grab.body);
         before.since_s = grab.since_s;
     }
     for (const HandNote& note : host.stats.hand_notes) {
@@ -111,8 +121,8 @@ void add_grip_events(hh_world& host) {
                                 note.reason == Fallback::grab_refused_by_rule ||
                                 note.reason == Fallback::grab_needs_two_hands;
         if (is_refusal && host.world.grab.at(note.hand).kind == GripKind::none) {
-            host.events.push_back(
-                hand_event(host, HH_EVENT_REFUSED, reason_of(note.reason), note.hand, note.body));
+            host.events.push_back(hand_event(host, HH_EVENT_REFUSED, reason_of(note.reason),
+                                             note.hand, as_gripped(host, note.body)));
         }
     }
 }
@@ -121,10 +131,11 @@ void measure_impulses(hh_world& host) {
     for (HandReport& report : host.hands.rows()) {
         report.impulse_ns.setZero();
     }
-    for (const RowBlock& block : host.caches.graph.graph.blocks) {
-        if (is_drive(block) && block.source < host.world.grab.size()) {
-            report_of(host, host.world.grab.owners()[block.source]).impulse_ns -=
-                block.impulse_ws_ns;
+    const std::vector<RowBlock>& blocks = host.caches.graph.graph.blocks;
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        if (is_drive(blocks[i]) && blocks[i].source < host.world.grab.size()) {
+            report_of(host, host.world.grab.owners()[blocks[i].source]).impulse_ns -=
+                reported_impulse_ns(host, i);
         }
     }
 }
@@ -166,14 +177,15 @@ void gather_contacts(hh_world& host) {
     const FrameGraph& frame = host.caches.graph;
     host.last_contacts.swap(host.contacts);
     host.contacts.clear();
-    for (const RowBlock& block : frame.graph.blocks) {
+    for (std::size_t i = 0; i < frame.graph.blocks.size(); ++i) {
+        const RowBlock& block = frame.graph.blocks[i];
         if (!is_contact(block) || block.a >= frame.entities.size() ||
             block.b >= frame.entities.size()) {
             continue;
         }
         const Entity a = frame.entities[block.a];
         const Entity b = frame.entities[block.b];
-        const double impulse_ns = block.impulse_ws_ns.norm();
+        const double impulse_ns = reported_impulse_ns(host, i).norm();
         const double separation_m = contact_separation_m(frame.graph.bodies, block);
         const double near_m = was_in_contact(host, a, b) ? k_end_m : k_begin_m;
         if (impulse_ns < k_least_impulse_ns && separation_m > near_m) {
@@ -242,8 +254,8 @@ void add_touch_events(hh_world& host) {
             touched = found ? find_by_id(host.world, {found->id}) : k_no_entity;
         }
         if (!is_null(touched) && touched != report.touched) {
-            host.events.push_back(
-                hand_event(host, HH_EVENT_TOUCHED, HH_REASON_NONE, hand, touched));
+            host.events.push_back(hand_event(host, HH_EVENT_TOUCHED, HH_REASON_NONE, hand,
+                                             as_gripped(host, touched)));
         }
         report.touched = touched;
     }
@@ -322,8 +334,8 @@ void begin_events(hh_world& host) {
         const Entity hand = host.world.grab.owners()[row];
         HandReport& report = report_of(host, hand);
         if (report.grip != GripKind::none && host.world.grab.rows()[row].kind == GripKind::none) {
-            host.events.push_back(
-                hand_event(host, HH_EVENT_RELEASED, HH_REASON_BY_HOST, hand, report.body));
+            host.events.push_back(hand_event(host, HH_EVENT_RELEASED, HH_REASON_BY_HOST, hand,
+                                             {report.body, report.is_player}));
             report.grip = GripKind::none;
         }
     }
@@ -331,6 +343,7 @@ void begin_events(hh_world& host) {
 
 void finish_events(hh_world& host) {
     add_grip_events(host);
+    limit_impulses(host);
     measure_impulses(host);
     gather_contacts(host);
     add_contact_events(host, HH_EVENT_CONTACT_BEGAN, host.contacts, host.last_contacts);
@@ -349,8 +362,11 @@ void forget_events(hh_world& host) {
     drop_stale(host.joints, host.world.joint);
     for (std::size_t row = 0; row < host.world.grab.size(); ++row) {
         const Grab& grab = host.world.grab.rows()[row];
-        report_of(host, host.world.grab.owners()[row]) = {grab.kind, grab.body, grab.since_s,
-                                                          Vec3::Zero(), k_no_entity};
+        report_of(host, host.world.grab.owners()[row]) = {
+            .grip = grab.kind,
+            .body = grab.body,
+            .is_player = host.world.player.contains(grab.body),
+            .since_s = grab.since_s};
     }
     update_joint_reports(host, false);
 }

@@ -42,6 +42,7 @@ struct BodyRigSlot {
 struct HandReport {
     GripKind grip = GripKind::none;
     Entity body = k_no_entity;
+    bool is_player = false;  // `body` is one
     double since_s = 0.0;
     Vec3 impulse_ns = Vec3::Zero();  // on what it grips
     Entity touched = k_no_entity;    // by the open palm
@@ -104,6 +105,7 @@ struct hh_world {
     std::vector<hh_event> events;
 
     // Scratch of a step.
+    std::vector<double> impulse_shares;  // by constraint block: what is reported of its impulse
     std::vector<handhold::PlayerInput> inputs;
     std::vector<handhold::TrackingSample> samples;
     std::vector<std::byte> snapshot;

@@ -63,11 +63,23 @@ double pushed_share(double heaviest_kg, double mass_kg, const PhaseTuning& tunin
     return std::max(exchanged, least_player_share(heaviest_kg, mass_kg));
 }
 
+// A hand whose player counts as nearly immovable in this frame: it holds a light body, and nothing
+// has pushed the player yet.
+bool has_unyielding_hand(const FrameGraph& frame, const Island& island) {
+    return std::ranges::any_of(frame.graph.blocks_of(island), [&](std::uint32_t i) {
+        const RowBlock& block = frame.graph.blocks[i];
+        return is_drive(block) && !frame.phase[block.a].grips_surface &&
+               !frame.phase[block.a].pushed;
+    });
+}
+
 // Momentum is exchanged with the masses of the phase that moved the island. Players have their true
 // mass if they grip a surface, or were pushed by something that shares momentum. Heavy bodies have
-// theirs if pushed or in an island with a grip or joint.
+// theirs if pushed or in an island with a grip or joint, but stand still before a hand that does
+// not yield: it would give them momentum that no player pays for.
 void set_masses(FrameGraph& frame, const Island& island, const PhaseTuning& tuning) {
-    const bool reached = has_hand_or_joint(frame.graph, island);
+    const bool reached =
+        has_hand_or_joint(frame.graph, island) && !has_unyielding_hand(frame, island);
     const bool shares = shares_momentum(frame, island);
     const double heaviest_kg = heaviest_free_kg(frame, island);
     for (const std::uint32_t i : frame.graph.bodies_of(island)) {

@@ -23,7 +23,7 @@ struct ClutterResult {
     std::uint64_t restored_last_valid_pose = 0;
 };
 
-enum class Clutter : std::uint8_t { boxes, one_mesh };
+enum class Clutter : std::uint8_t { boxes, one_mesh, boxes_and_loose };
 
 // The surface of a box.
 void add_box_sides(const Vec3& half_m, const Pose& pose, Mesh& mesh) {
@@ -57,7 +57,7 @@ void add_clutter(Clutter kind, const Vec3& center, Random& random, Scenario& s) 
                         random.between(0.02, 0.12));
         const Vec3 place = center + random.direction() * random.between(0.35, 0.7);
         const Pose pose{place, random.rotation()};
-        if (kind == Clutter::boxes) {
+        if (kind != Clutter::one_mesh) {
             s.add("box" + std::to_string(i), {}, s.shapes.add_box(half), pose);
         } else {
             add_box_sides(half, pose, *mesh);
@@ -65,6 +65,18 @@ void add_clutter(Clutter kind, const Vec3& center, Random& random, Scenario& s) 
     }
     if (kind == Clutter::one_mesh) {
         s.add("rack", {}, s.shapes.add_mesh(mesh), {});
+    }
+    if (kind == Clutter::boxes_and_loose) {
+        for (int i = 0; i < 30; ++i) {
+            const Vec3 half = Vec3::Constant(random.between(0.02, 0.04));
+            const double mass_kg = random.between(0.3, 20.0);
+            const ShapeId shape = s.shapes.add_box(half);
+            const Entity body = s.add(
+                "loose" + std::to_string(i),
+                {BodyKind::free, mass_kg, solid_inertia(s.shapes.at(shape), mass_kg), 1.0}, shape,
+                {center + random.direction() * random.between(0.2, 0.3), random.rotation()});
+            s.set_motion(body, random.direction() * 5.0, Vec3::Zero());
+        }
     }
 }
 
@@ -111,6 +123,8 @@ ClutterResult drag_through_clutter(std::uint64_t seed, Clutter kind) {
         return t < 0.2 ? Pose{hand, Quat::Identity()} : jumps[jump % jumps.size()];
     };
     ClutterResult result;
+    // Loose boxes may begin in others, and leave them.
+    s.run(kind == Clutter::boxes_and_loose ? 0.3 : 0.0, [] {});
     s.run(4.0, [&] {
         result.worst_overlap_m = std::max(result.worst_overlap_m, s.stats.residual_m);
         if (kind == Clutter::one_mesh) {
@@ -131,6 +145,18 @@ TEST(Clutter, ToolOfAJumpingHandPenetratesNothing) {
         restored_last_valid_pose += result.restored_last_valid_pose;
     }
     EXPECT_GT(restored_last_valid_pose, 0U);  // about 1 frame in 300
+}
+
+// Thirty boxes bounce between the fixed ones. A tool that is restored to its last valid pose may
+// find one of them there.
+TEST(Clutter, LooseBodiesPenetrateNothingEither) {
+    std::uint64_t restored_last_valid_pose = 0;
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+        const ClutterResult result = drag_through_clutter(seed, Clutter::boxes_and_loose);
+        EXPECT_LT(result.worst_overlap_m, 1e-3) << seed;
+        restored_last_valid_pose += result.restored_last_valid_pose;
+    }
+    EXPECT_GT(restored_last_valid_pose, 0U);
 }
 
 // Contacts are found where the tool's motion first touches the mesh. Penetration at its end into

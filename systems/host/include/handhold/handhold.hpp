@@ -6,6 +6,11 @@
 //
 // Calls return Status, which converts to true on success, or Maybe<T>, which has a value on
 // success. Neither may be ignored.
+
+#if !defined(_MSVC_LANG) && __cplusplus < 202002L || defined(_MSVC_LANG) && _MSVC_LANG < 202002L
+#error "handhold.hpp needs C++20 (target_compile_features(... cxx_std_20) or -std=c++20)"
+#endif
+
 #include <array>
 #include <cassert>
 #include <cstddef>

@@ -93,13 +93,15 @@ typedef struct hh_body_def {
 HH_API hh_body_def hh_default_body_def(void);
 /* Adds a body. Cost: constant, whatever else is in the world. */
 HH_API hh_result hh_body_add(hh_world* world, const hh_body_def* def, hh_body* body);
-/* Removes a body with its joints; hands that grip it let go in the next step. */
+/* Removes a body with its joints. Hands that grip it are empty at once; the event follows in the
+ * next step. */
 HH_API hh_result hh_body_remove(hh_world* world, hh_body body);
 HH_API bool hh_body_is_valid(const hh_world* world, hh_body body);
 HH_API hh_result hh_body_find(const hh_world* world, const char* name, hh_body* body);
 /* Valid until a body is added or removed. Empty if the name came only with a snapshot. */
 HH_API hh_result hh_body_name(const hh_world* world, hh_body body, const char** name);
-/* Ids of all bodies; `count` gets their number. HH_ERROR_CAPACITY if it is more than `capacity`. */
+/* Ids of all bodies; `count` gets their number. HH_ERROR_CAPACITY if it is more than `capacity`.
+ * A null buffer of capacity 0: the number only. */
 HH_API hh_result hh_world_bodies(const hh_world* world, hh_body* bodies, size_t capacity,
                                  size_t* count);
 

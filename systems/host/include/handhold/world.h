@@ -58,8 +58,9 @@ typedef struct hh_commands {
 typedef struct hh_player_input {
     uint32_t struct_size;
     hh_player player;
-    /* Sorted by time: those since the last step. One of after this step's end may follow: poses are
-     * interpolated to it, and it is remembered for the next step. None: the devices are silent. */
+    /* Sorted by time: those since the last step. The last one may be later than this step's end:
+     * the poses at the end are then interpolated, and the sample is kept for the next step. None:
+     * the devices are silent. */
     const hh_tracking_sample* samples;
     size_t sample_count;
     hh_commands commands;

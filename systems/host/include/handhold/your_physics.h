@@ -137,10 +137,12 @@ typedef struct hh_player_motion {
     hh_player player;
     hh_vec3 origin;       /* at the start of the step */
     hh_vec3 velocity_mps; /* there, with what thrusters and drag did */
-    /* For this step. 5,000 kg while hands move only light bodies, so that those do not shake the
-     * player, else the player's own. A light body that cannot give way, such as a crate against a
-     * wall, pushes the player back only if the solver repeats the step with his own mass, or limits
-     * the hand's force by max_force_n; then the hand lags behind. */
+    /* For this step. The player's own while a hand grips something static, kinematic or at least
+     * phases.heavy_body_kg. Else 1000 times the heaviest held body, so that light bodies do not
+     * shake the player; for bodies from phases.kappa_light_kg to phases.kappa_heavy_kg it falls to
+     * the player's own. If a held body meets something that does not give way, such as a crate at a
+     * wall, solve the step again with hh_player_def.mass_kg: the player then moves back by what the
+     * body could not move. Without that, hand and wall press against each other without a bound. */
     double mass_kg;
     hh_pose head;         /* of the head's centre: from the origin, with the world's axes */
     double head_radius_m; /* the host may let this sphere collide, on the player's body */
@@ -160,8 +162,8 @@ typedef struct hh_velocity_change {
 } hh_velocity_change;
 
 /* First half of a step: tracking, grips and constraints. Bodies must be placed where they are.
- * Until hh_world_end_step, HH_ERROR_STATE for adding, removing, teleporting, saving and other
- * steps; hh_world_restore forgets the begun step. */
+ * Until hh_world_end_step, HH_ERROR_STATE for adding or removing bodies, joints and players, for
+ * teleporting, saving and other steps; hh_world_restore forgets the begun step. */
 HH_API hh_result hh_world_begin_step(hh_world* world, double dt_s, const hh_player_input* inputs,
                                      size_t input_count);
 /* Of the begun step, at most one a hand, ordered as hands were added. Valid until

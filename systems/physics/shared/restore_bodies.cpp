@@ -1,0 +1,299 @@
+// Physics: bodies that the phases left penetrating.
+#include "systems/physics/shared/restore_bodies.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/solver/contact/contact_rows.hpp"
+#include "engine/solver/contact/moving_contacts.hpp"
+
+namespace handhold {
+namespace {
+
+// Bodies of heaps with more constraint blocks are not restored, because of the cost per frame.
+constexpr std::size_t k_max_restore_blocks = 4000;
+// About the length of an arm's jump. A body that was dragged farther while penetrating stays.
+constexpr double k_max_restore_distance_m = 2.0;
+// Smaller overlaps with a restored body are left to the next frames: restoring a player as well
+// costs the exactness of their hands.
+constexpr double k_joining_depth_m = 1e-3;
+constexpr int k_max_joining_rounds = 3;    // chains of bodies that overlap restored ones
+constexpr double k_max_error_ratio = 0.5;  // a restore must reduce the error at least to this share
+
+// The worst error of a body's own rows without grips, or of its contacts only.
+double own_error_m(const ConstraintGraph& graph, std::uint32_t body, bool only_contacts) {
+    double worst = 0.0;
+    for (const RowBlock& block : graph.blocks) {
+        const bool counts = only_contacts ? is_contact(block) : !is_drive(block);
+        if (counts && (block.a == body || block.b == body)) {
+            worst = std::max(worst, block_error_m(graph.bodies, block));
+        }
+    }
+    return worst;
+}
+
+// The fixed or kinematic body that `body` penetrates most by its contacts; nullopt if none.
+std::optional<std::uint32_t> deepest_fixed_contact(const ConstraintGraph& graph,
+                                                   std::uint32_t body) {
+    std::optional<std::uint32_t> wall;
+    double depth_m = 0.0;
+    for (const RowBlock& block : graph.blocks) {
+        if (!is_contact(block) || (block.a != body && block.b != body)) {
+            continue;
+        }
+        const std::uint32_t other = block.a == body ? block.b : block.a;
+        const double overlap_m = block_error_m(graph.bodies, block);
+        if (graph.bodies[other].role == BodyRole::fixed && overlap_m > depth_m) {
+            depth_m = overlap_m;
+            wall = other;
+        }
+    }
+    return wall;
+}
+
+double hidden_overlap_m(const FrameGraph& frame, std::uint32_t body) {
+    return frame.hidden_overlaps.of_body[body].depth_m;
+}
+
+// The same; if no contact shows one, the body of a hidden overlap.
+std::optional<std::uint32_t> overlapped_fixed_body(const FrameGraph& frame, std::uint32_t body) {
+    const std::optional<std::uint32_t> wall = deepest_fixed_contact(frame.graph, body);
+    const Overlap& hidden = frame.hidden_overlaps.of_body[body];
+    const bool is_wall =
+        hidden.depth_m > 0.0 && frame.graph.bodies[hidden.with].role == BodyRole::fixed;
+    return wall || !is_wall ? wall : std::optional(hidden.with);
+}
+
+// The deepest overlap in an island, hidden overlaps included.
+double worst_overlap_m(const FrameGraph& frame, const Island& island) {
+    const ConstraintGraph& graph = frame.graph;
+    double worst = 0.0;
+    for (const std::uint32_t i : graph.blocks_of(island)) {
+        if (is_contact(graph.blocks[i])) {
+            worst = std::max(worst, block_error_m(graph.bodies, graph.blocks[i]));
+        }
+    }
+    for (const std::uint32_t i : graph.bodies_of(island)) {
+        worst = std::max(worst, hidden_overlap_m(frame, i));
+    }
+    return worst;
+}
+
+void add_if_penetrating(double restore_depth_m, std::uint32_t index, std::uint32_t island,
+                        FrameGraph& frame) {
+    const SolverBody& body = frame.graph.bodies[index];
+    const double hidden_m = hidden_overlap_m(frame, index);
+    if (body.role == BodyRole::free &&
+        std::max(own_error_m(frame.graph, index, true), hidden_m) >= restore_depth_m) {
+        const double error_m = std::max(own_error_m(frame.graph, index, false), hidden_m);
+        const std::uint32_t carrier = overlapped_fixed_body(frame, index).value_or(index);
+        frame.penetrating_bodies.push_back(
+            {index, island, error_m, carrier, body.pose_ws, body.velocity_mps, body.spin_radps});
+    }
+}
+
+// Lists the penetrating free bodies, grouped by island; a body without rows makes a group of its
+// own.
+void find_penetrating_bodies(double restore_depth_m, FrameGraph& frame, StageStats& stats) {
+    const ConstraintGraph& graph = frame.graph;
+    frame.penetrating_bodies.clear();
+    const auto islands = static_cast<std::uint32_t>(graph.islands.size());
+    for (std::uint32_t i = 0; i < islands; ++i) {
+        const Island& island = graph.islands[i];
+        if (worst_overlap_m(frame, island) < restore_depth_m) {
+            continue;
+        }
+        if (island.is_heap && graph.blocks_of(island).size() > k_max_restore_blocks) {
+            stats.count(Fallback::solver_budget);
+        } else {
+            for (const std::uint32_t index : graph.bodies_of(graph.islands[i])) {
+                add_if_penetrating(restore_depth_m, index, i, frame);
+            }
+        }
+    }
+    for (const std::uint32_t index : frame.hidden_overlaps.deep) {
+        const auto involves_body = [index](const RowBlock& block) {
+            return block.a == index || block.b == index;
+        };
+        if (hidden_overlap_m(frame, index) >= restore_depth_m &&
+            std::ranges::none_of(graph.blocks, involves_body)) {
+            add_if_penetrating(restore_depth_m, index, islands + index, frame);
+        }
+    }
+}
+
+// Moves a body or player to its last valid pose, carried along by its carrier.
+void restore_last_valid_pose(const FrameGraph::PenetratingBody& penetrating, FrameGraph& frame) {
+    SolverBody& body = frame.graph.bodies[penetrating.body];
+    Pose valid_ws = frame.proxies[penetrating.body].from_ws;
+    if (penetrating.carrier != penetrating.body) {
+        const SolverBody& carrier = frame.graph.bodies[penetrating.carrier];
+        const ColliderProxy& proxy = frame.proxies[penetrating.carrier];
+        valid_ws = proxy.to_ws * (inverse(proxy.from_ws) * valid_ws);
+        if (carrier.role == BodyRole::fixed) {
+            const Vec3 arm_m = valid_ws.position - carrier.pose_ws.position;
+            body.velocity_mps = carrier.velocity_mps + carrier.spin_radps.cross(arm_m);
+            body.spin_radps = carrier.spin_radps;
+        }
+    }
+    if (body.role == BodyRole::translating) {
+        body.pose_ws.position = valid_ws.position - body.pose_ws.rotation * body.collider_offset_bs;
+    } else {
+        body.pose_ws = valid_ws * Pose{-body.collider_offset_bs, Quat::Identity()};
+    }
+}
+
+void undo_restore(const FrameGraph::PenetratingBody& penetrating, FrameGraph& frame) {
+    SolverBody& body = frame.graph.bodies[penetrating.body];
+    body.pose_ws = penetrating.pose_ws;
+    body.velocity_mps = penetrating.velocity_mps;
+    body.spin_radps = penetrating.spin_radps;
+}
+
+// Contacts found at the penetrating poses are dropped; those at the restored poses are found again.
+void rebuild_contacts(CollisionWorld& collision, FrameGraph& frame, const ContactTuning& tuning,
+                      StageStats& stats) {
+    const auto is_penetrating = [&frame](std::uint64_t id) {
+        return std::ranges::any_of(frame.penetrating_bodies,
+                                   [&](const FrameGraph::PenetratingBody& penetrating) {
+                                       return frame.graph.bodies[penetrating.body].id == id;
+                                   });
+    };
+    std::erase_if(frame.contacts, [&](const ContactPoint& contact) {
+        return is_penetrating(contact.id_a) || is_penetrating(contact.id_b);
+    });
+    // Colliders of bodies whose is_searched is false would not move to the restored poses. Their
+    // contacts there would be missing, and every restored pose would seem valid.
+    for (const FrameGraph::PenetratingBody& penetrating : frame.penetrating_bodies) {
+        frame.graph.bodies[penetrating.body].is_searched = true;
+    }
+    refresh_contacts({collision, frame.proxies, frame.contacts, frame.graph, frame.fresh_contacts,
+                      frame.proxy_updates, frame.displaced, frame.active.list},
+                     {tuning.margin_m, tuning.sweep_m}, OldPoints::replaced);
+    ++stats.contact_rounds;
+    activate_islands(frame);
+}
+
+bool is_improved(const FrameGraph& frame, const FrameGraph::PenetratingBody& penetrating) {
+    const double moved_m =
+        (frame.graph.bodies[penetrating.body].pose_ws.position - penetrating.pose_ws.position)
+            .norm();
+    return moved_m < k_max_restore_distance_m && own_error_m(frame.graph, penetrating.body, false) <
+                                                     k_max_error_ratio * penetrating.error_m;
+}
+
+// For each island: keeps the restores of all its bodies (counted), or undoes them all and drops the
+// bodies from the list. True if any were undone.
+bool undo_failed_restores(FrameGraph& frame, StageStats& stats) {
+    std::vector<FrameGraph::PenetratingBody>& penetrating = frame.penetrating_bodies;
+    auto kept = penetrating.begin();
+    for (auto first = penetrating.begin(); first != penetrating.end();) {
+        const auto last =
+            std::find_if(first, penetrating.end(), [&](const FrameGraph::PenetratingBody& other) {
+                return other.island != first->island;
+            });
+        if (std::all_of(first, last, [&frame](const FrameGraph::PenetratingBody& body) {
+                return is_improved(frame, body);
+            })) {
+            stats.count(Fallback::restored_last_valid_pose);
+            std::for_each(first, last, [&](const FrameGraph::PenetratingBody& body) {
+                frame.hidden_overlaps.of_body[body.body] = {0.0, body.body};
+            });
+            kept = std::move(first, last, kept);
+        } else {
+            std::for_each(first, last, [&](const FrameGraph::PenetratingBody& body) {
+                undo_restore(body, frame);
+            });
+        }
+        first = last;
+    }
+    const bool undone = kept != penetrating.end();
+    penetrating.erase(kept, penetrating.end());
+    return undone;
+}
+
+// Where a body was, another that has moved on may be by now. Lists the free bodies and players that
+// overlap a restored body, to be restored with it. False if there are none.
+bool add_overlapped_by_restored(FrameGraph& frame) {
+    std::vector<FrameGraph::PenetratingBody>& restored = frame.penetrating_bodies;
+    const std::size_t count = restored.size();
+    const auto find = [&restored](std::uint32_t body) {
+        return std::ranges::find(restored, body, &FrameGraph::PenetratingBody::body);
+    };
+    const auto add = [&](std::uint32_t index, std::uint32_t other, double overlap_m) {
+        const SolverBody& body = frame.graph.bodies[index];
+        const bool may_move = body.role == BodyRole::free || body.role == BodyRole::translating;
+        const auto carrier = find(other);
+        if (may_move && carrier != restored.end() && find(index) == restored.end()) {
+            restored.push_back({index, carrier->island, overlap_m, other, body.pose_ws,
+                                body.velocity_mps, body.spin_radps});
+        }
+    };
+    for (const RowBlock& block : frame.graph.blocks) {
+        // Within heaps, small overlaps are left to the next frames.
+        if (!is_contact(block) || is_heap_contact(frame.graph.bodies, block)) {
+            continue;
+        }
+        const double overlap_m = block_error_m(frame.graph.bodies, block);
+        if (overlap_m >= k_joining_depth_m) {
+            add(block.a, block.b, overlap_m);
+            add(block.b, block.a, overlap_m);
+        }
+    }
+    return restored.size() > count;
+}
+
+// Restores what overlaps the restored bodies, or leaves it if that does not help.
+void restore_overlapped_bodies(CollisionWorld& collision, FrameGraph& frame,
+                               const ContactTuning& tuning, StageStats& stats) {
+    std::vector<FrameGraph::PenetratingBody>& restored = frame.penetrating_bodies;
+    const std::size_t count = restored.size();
+    for (int round = 0; round < k_max_joining_rounds; ++round) {
+        const std::size_t first = restored.size();
+        if (!add_overlapped_by_restored(frame)) {
+            break;
+        }
+        for (std::size_t i = first; i < restored.size(); ++i) {
+            restore_last_valid_pose(restored[i], frame);
+        }
+        rebuild_contacts(collision, frame, tuning, stats);
+    }
+    const std::span<const FrameGraph::PenetratingBody> joined = std::span(restored).subspan(count);
+    if (!std::ranges::all_of(joined, [&frame](const FrameGraph::PenetratingBody& body) {
+            return is_improved(frame, body);
+        })) {
+        for (const FrameGraph::PenetratingBody& body : joined) {
+            undo_restore(body, frame);
+        }
+        rebuild_contacts(collision, frame, tuning, stats);
+    }
+}
+
+}  // namespace
+
+void restore_penetrating_bodies(CollisionWorld& collision, FrameGraph& frame,
+                                const ContactTuning& tuning, StageStats& stats) {
+    find_missed_overlaps({collision, frame.proxies, frame.contacts, frame.graph,
+                          frame.fresh_contacts, frame.proxy_updates, frame.displaced},
+                         {tuning.margin_m, tuning.sweep_m}, frame.active.list,
+                         frame.hidden_overlaps);
+    for (const std::uint32_t i : frame.displaced) {
+        frame.active.add(i);
+    }
+    find_penetrating_bodies(tuning.restore_depth_m, frame, stats);
+    if (frame.penetrating_bodies.empty()) {
+        return;
+    }
+    for (const FrameGraph::PenetratingBody& penetrating : frame.penetrating_bodies) {
+        restore_last_valid_pose(penetrating, frame);
+    }
+    rebuild_contacts(collision, frame, tuning, stats);
+    if (undo_failed_restores(frame, stats)) {
+        rebuild_contacts(collision, frame, tuning, stats);
+    }
+    restore_overlapped_bodies(collision, frame, tuning, stats);
+}
+
+}  // namespace handhold
