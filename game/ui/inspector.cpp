@@ -1,17 +1,24 @@
 #include "game/ui/inspector.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
 
 #include <imgui.h>
 
 #include "game/report/fallback_meanings.hpp"
+#include "game/view/explain_fit.hpp"
 #include "game/view/explain_hand.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold {
 namespace {
 
 const ImVec4 k_key_color(0.55F, 0.85F, 1.0F, 1.0F);
 const ImVec4 k_soft(0.62F, 0.66F, 0.70F, 1.0F);
+constexpr double k_listed_cost_m2 = 0.05e-6;
 const ImVec4 k_warm(1.0F, 0.75F, 0.25F, 1.0F);
 
 void show_figure(const char* name, const char* format, double value) {
@@ -113,6 +120,99 @@ void show_story(const char* name, const HandStory& story) {
     ImGui::Spacing();
 }
 
+ImVec4 text_color(FitTerm term) {
+    const Color color = color_of(term);
+    return {color[0], color[1], color[2], 1.0F};
+}
+
+// A part's cells: its gap, then the cost of each listed term, the largest one in its colour.
+struct FitColumn {
+    const char* name;
+    const FitTerms::Costs* cost_m2;
+    double gap_m;  // infinity: no surface in reach
+};
+
+void show_cost(const FitColumn& column, FitTerm term) {
+    const double cost_m2 = (*column.cost_m2)[static_cast<std::size_t>(term)];
+    ImGui::TableNextColumn();
+    if (cost_m2 < k_listed_cost_m2) {
+        ImGui::TextColored(k_soft, "-");
+    } else if (shaping_term(*column.cost_m2) == term) {
+        ImGui::TextColored(text_color(term), "%.1f", 1e6 * cost_m2);
+    } else {
+        ImGui::Text("%.1f", 1e6 * cost_m2);
+    }
+}
+
+void show_terms(std::span<const FitColumn> columns) {
+    const auto row = [&](const char* name, const ImVec4& color) {
+        ImGui::TableNextColumn();
+        ImGui::TextColored(color, "%s", name);
+    };
+    row("gap, mm", k_soft);
+    for (const FitColumn& column : columns) {
+        ImGui::TableNextColumn();
+        if (std::isfinite(column.gap_m)) {
+            ImGui::Text("%.1f", 1e3 * column.gap_m);
+        }
+    }
+    for (std::size_t i = 0; i < k_fit_term_count; ++i) {
+        const bool is_listed = std::ranges::any_of(columns, [&](const FitColumn& column) {
+            return (*column.cost_m2)[i] >= k_listed_cost_m2;
+        });
+        if (is_listed) {
+            const auto term = static_cast<FitTerm>(i);
+            row(name_of(term), text_color(term));
+            for (const FitColumn& column : columns) {
+                show_cost(column, term);
+            }
+        }
+    }
+    row("sum", k_soft);
+    for (const FitColumn& column : columns) {
+        ImGui::TableNextColumn();
+        ImGui::Text("%.1f", 1e6 * sum_of(*column.cost_m2));
+    }
+}
+
+// Shows why a gripping hand is shaped as it is; nothing for other hands.
+void show_fit(const InspectorView& view, Entity hand) {
+    const Scene& scene = view.session.scene();
+    const FrameCaches& caches = view.session.caches();
+    const auto terms = fit_terms_of(scene.world, caches, scene.tuning, hand);
+    if (!terms) {
+        return;
+    }
+    const HandRig& rig =
+        *std::ranges::find(caches.hands.surroundings, hand, &HandSurroundings::hand)->rig;
+    std::vector<FitColumn> columns = {
+        {"palm", &terms->cost_m2[FitTerms::k_palm], std::numeric_limits<double>::infinity()}};
+    for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+        columns.push_back({finger_text(rig.fingers[f].name), &terms->cost_m2[f], terms->gap_m[f]});
+    }
+    for (const FitColumn& column : columns) {
+        if (const auto term = shaping_term(*column.cost_m2)) {
+            ImGui::TextColored(text_color(*term), "%s", column.name);
+            ImGui::SameLine();
+            ImGui::TextColored(k_soft, "%s (%s)", meaning_of(*term), name_of(*term));
+        }
+    }
+    ImGui::PushID(static_cast<int>(hand.slot));
+    if (ImGui::BeginTable("fit", static_cast<int>(columns.size()) + 1,
+                          ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg)) {
+        ImGui::TableNextColumn();
+        ImGui::TextColored(k_soft, "cost, mm^2");
+        for (const FitColumn& column : columns) {
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(column.name);
+        }
+        show_terms(columns);
+        ImGui::EndTable();
+    }
+    ImGui::PopID();
+    ImGui::Spacing();
+}
+
 }  // namespace
 
 void show_frame_page(const InspectorView& view) {
@@ -132,7 +232,9 @@ void show_hands_page(const InspectorView& view) {
     const CollisionWorld& collision = view.session.caches().collision;
     const PlayerEntities& player = view.session.player();
     show_story("Left hand", explain_hand(scene, collision, player.hands[0]));
+    show_fit(view, player.hands[0]);
     show_story("Right hand", explain_hand(scene, collision, player.hands[1]));
+    show_fit(view, player.hands[1]);
     ImGui::Separator();
     const Pose& head_ws = scene.world.render_pose.at(player.player).head_ws;
     const auto pointed =
@@ -147,6 +249,9 @@ void show_hands_page(const InspectorView& view) {
             name_of_entity(scene, owner.player) + ", " + name_of_entity(scene, *hand);
         ImGui::TextColored(k_soft, "Pointed at:");
         show_story(name.c_str(), explain_hand(scene, collision, *hand));
+        if (owner.player != player.player) {
+            show_fit(view, *hand);
+        }
     } else {
         ImGui::TextColored(k_soft, "Look at any hand, and it is explained here.");
     }

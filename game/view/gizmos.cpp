@@ -223,6 +223,9 @@ GizmoInfo info_of(Gizmo gizmo) {
             return {"snap zones", "update_grabs", "where a closing hand snaps to an authored grip"};
         case Gizmo::fingers:
             return {"fingers", "sweep_fingers", "disc of each finger; green where it touches"};
+        case Gizmo::fit:
+            return {"fit", "fit_hands",
+                    "each digit in the colour of its costliest term (page Hands); grey: none"};
         case Gizmo::arms:
             return {"arms", "pose_arms", "arm bones, and the direction of each elbow"};
         case Gizmo::spine:

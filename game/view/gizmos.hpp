@@ -26,6 +26,7 @@ enum class Gizmo : std::uint8_t {
     palm_limits,    // constrain_palms
     cuts,           // sweep_fingers
     fingers,        // sweep_fingers, fit_hands
+    fit,            // fit_hands
     snap_zones,     // update_grabs
     arms,           // pose_arms
     spine,          // propagate_spine

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "engine/geometry/disc_trace.hpp"
+#include "game/view/explain_fit.hpp"
 #include "systems/hand/search_grip.hpp"
 #include "systems/hand/shared/finger_chain.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
@@ -218,6 +219,49 @@ void add_finger(const HandSurroundings& hand, const FingerRig& finger, const Fin
     }
 }
 
+// Draws a capsule's outline, a little outside it.
+void add_capsule(const Vec3& a_ws, const Vec3& b_ws, double radius_m, const Color& color,
+                 std::vector<Line>& out) {
+    constexpr double k_shown_m = 1e-3;
+    const Vec3 axis = b_ws - a_ws;
+    if (axis.norm() < 1e-6) {
+        return;
+    }
+    const Vec3 x = (radius_m + k_shown_m) * axis.unitOrthogonal();
+    const Vec3 y = axis.normalized().cross(x);
+    for (const double share : {0.0, 0.5, 1.0}) {
+        add_arc(a_ws + share * axis, x, y, k_two_pi, color, out);
+    }
+    for (const Vec3& side : {x, y, Vec3(-x), Vec3(-y)}) {
+        out.push_back({a_ws + side, b_ws + side, color, 2.5});
+    }
+}
+
+// Draws each digit and the palm in the colour of the term that most shapes it, and a line from the
+// tracked palm to the shown one.
+void add_fit(const HandSurroundings& hand, const FitTerms& terms, const Pose& palm_ws,
+             const FingerPose& pose, std::vector<Line>& out) {
+    const auto color = [&](std::size_t part) {
+        const auto term = shaping_term(terms.cost_m2[part]);
+        return term ? color_of(*term) : k_at_ease;
+    };
+    const HandRig& rig = *hand.rig;
+    for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+        const auto points = finger_points(rig.fingers[f], pose.shown[f]);
+        for (std::uint32_t link = 0; link < rig.fingers[f].link_count; ++link) {
+            add_capsule(transform_point(palm_ws, points[link]),
+                        transform_point(palm_ws, points[link + 1]), rig.fingers[f].radius_m[link],
+                        color(f), out);
+        }
+    }
+    for (const PalmCapsule& capsule : rig.palm) {
+        add_capsule(transform_point(palm_ws, capsule.a_hs), transform_point(palm_ws, capsule.b_hs),
+                    capsule.radius_m, color(FitTerms::k_palm), out);
+    }
+    out.push_back({transform_point(hand.body_ws * hand.wrist_bs, rig.palm_center_hs),
+                   transform_point(palm_ws, rig.palm_center_hs), color_of(FitTerm::sync), 4.0});
+}
+
 }  // namespace
 
 void add_hand_gizmos(const World& world, const FrameCaches& caches, const Tuning& tuning,
@@ -246,6 +290,11 @@ void add_hand_gizmos(const World& world, const FrameCaches& caches, const Tuning
         for (std::size_t i = 0; shows(Gizmo::fingers) && i < hand.rig->fingers.size(); ++i) {
             add_finger(hand, hand.rig->fingers[i], world.finger_pose.at(hand.hand).shown[i],
                        palm_ws, out);
+        }
+        if (shows(Gizmo::fit)) {
+            if (const auto terms = fit_terms_of(world, caches, tuning, hand.hand)) {
+                add_fit(hand, *terms, palm_ws, world.finger_pose.at(hand.hand), out);
+            }
         }
     }
 }

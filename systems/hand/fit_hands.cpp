@@ -210,4 +210,17 @@ void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats) {
     }
 }
 
+std::optional<FitTerms> shown_fit_terms(const HandSurroundings& hand, const GripSurface& surface,
+                                        const PalmOffset& offset, const FingerPose& pose,
+                                        const PalmTuning& tuning) {
+    if (surface.triangle == GripSurface::k_none || hand.meshes.empty()) {
+        return std::nullopt;
+    }
+    const Pose shown{offset.shown_m, rotation_from_vector(offset.shown_turn_rad)};
+    HandFitGoal goal = common_goal(hand, pose);
+    goal.first = {hand.wrist_bs * shown, pose.shown};
+    goal.is_clear = pose.is_clear;
+    return fit_terms(hand, surface, goal, tuning);
+}
+
 }  // namespace handhold

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "components/hand.hpp"
@@ -8,6 +9,7 @@
 #include "components/tracking.hpp"
 #include "components/tuning.hpp"
 #include "engine/ecs/column.hpp"
+#include "systems/hand/shared/fit_terms.hpp"
 
 namespace handhold {
 
@@ -41,5 +43,11 @@ struct FitHandsIo {
 //
 // Fallbacks counted: hand_penetrates, once per fit that started from a closing.
 void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats);
+
+// Evaluates the objective of the hand as it is shown, term by term and digit by digit, for
+// inspectors; frames do not compute this. Nullopt if the hand is on no surface.
+std::optional<FitTerms> shown_fit_terms(const HandSurroundings& hand, const GripSurface& surface,
+                                        const PalmOffset& offset, const FingerPose& pose,
+                                        const PalmTuning& tuning);
 
 }  // namespace handhold

@@ -116,13 +116,38 @@ TEST_F(GripCommand, WritesEveryFieldOfItsFormat) {
     EXPECT_GT(hand["capsules"].size(), finger_capsules);
 }
 
+// A grip of 21 frames, in which the wrist turns by 0.01 rad a frame.
+std::string turning_grip() {
+    Json grip = {{"recording", "made up"}, {"hand", "right"}, {"us", Json::array()}};
+    for (int frame = 0; frame < 21; ++frame) {
+        const double half_rad = 0.005 * frame;
+        grip["us"].push_back(40.0);
+        grip["wrists"].push_back(
+            {{"position_m", {0.0, 0.0, 0.0}},
+             {"rotation_xyzw", {std::sin(half_rad), 0.0, 0.0, std::cos(half_rad)}}});
+    }
+    return grip.dump() + "\n";
+}
+
+TEST_F(GripCommand, WarmFramesNeedMotionsOfThatLength) {
+    EXPECT_EQ(run(files() + " --warm-frames 20"), 1);
+    EXPECT_FALSE(write_file_atomically(folder_ / "grips.jsonl", turning_grip()));
+    EXPECT_EQ(run(files() + " --warm-frames 21 --motions " + path("grips.jsonl")), 2);
+    EXPECT_NE(err_.find("expected a grip of more than 21 frames"), std::string::npos) << err_;
+    EXPECT_FALSE(write_file_atomically(folder_ / "grips.jsonl", "\n{\"wrists\": 3}\n"));
+    EXPECT_EQ(run(files() + " --warm-frames 20 --motions " + path("grips.jsonl")), 2);
+    EXPECT_NE(err_.find("grips.jsonl: line 2"), std::string::npos) << err_;
+}
+
 TEST_F(GripCommand, WritesEveryWarmFrame) {
-    ASSERT_EQ(run(files() + " --warm-frames 20 --speed-mps 0.3 --warm-json " + path("warm.json")),
+    EXPECT_FALSE(write_file_atomically(folder_ / "grips.jsonl", turning_grip()));
+    ASSERT_EQ(run(files() + " --warm-frames 20 --motions " + path("grips.jsonl") + " --warm-json " +
+                  path("warm.json")),
               0)
         << err_;
     const Json warm = Json::parse(text_of(folder_ / "warm.json"));
     // One of the two hands grips; it has four fingers and a thumb of three joints each.
-    for (const char* const name : {"slide_us", "stand_us"}) {
+    for (const char* const name : {"moving_us", "stand_us"}) {
         ASSERT_EQ(warm[name].size(), 20U) << name;
         for (const Json& us : warm[name]) {
             EXPECT_GT(us.get<double>(), 0.0) << name;

@@ -35,8 +35,8 @@ class Goals(unittest.TestCase):
                  "penetration_mm": {"mean_of_fingers": 0.2, "mean_of_deepest": 0.4},
                  "visited_per_disc": {"median": 2, "p95": 9}, "of_reference": {"four": {"touching": 0.96}, "all": {"touching": 0.94}},
                  "not_finite": 0}
-        slid = {"slide_us": {"median": 70, "p99": 260, "p99_of_meshes": 240}, "stand_us": {"median": 2.1}, "shown_jumps": 0.002, "jumps": 0.011}
-        verdicts = [goal.verdict() for goal in report.goals(whole, None, None, slid, 0.051)]
+        warm_figures = {"moving_us": {"median": 70, "p99": 260, "p99_of_meshes": 240}, "stand_us": {"median": 2.1}, "shown_jumps": 0.002, "jumps": 0.011}
+        verdicts = [goal.verdict() for goal in report.goals(whole, None, None, warm_figures, 0.051)]
         self.assertEqual(verdicts[:18] + verdicts[-1:], ["met", "MISSED", "MISSED", "met", "not run", "MISSED", "met", "MISSED", "met", "MISSED", "MISSED",
                                          "met", "MISSED", "met", "MISSED", "met", "MISSED", "met", "MISSED"])
 
@@ -44,24 +44,40 @@ class Goals(unittest.TestCase):
 class Warm(unittest.TestCase):
     def write(self, folder, **figures):
         path = Path(folder) / "warm.json"
-        path.write_text(json.dumps({"slide_us": [], "stand_us": [], "pops_a_disc": [], "joint_frames": 0, "jumps": 0, "shown_jumps": 0, **figures}))
+        path.write_text(json.dumps({"moving_us": [], "stand_us": [], "pops_a_disc": [], "joint_frames": 0, "jumps": 0, "shown_jumps": 0, **figures}))
         return path
 
     def test_percentiles_cover_all_frames_and_shares_all_joints(self):
         with tempfile.TemporaryDirectory() as folder:
-            one = warm.read(self.write(folder, slide_us=[10.0] * 300, stand_us=[1.0, 3.0, 3.0], joint_frames=300, jumps=6, shown_jumps=3))
-            other = warm.read(self.write(folder, slide_us=[30.0] * 100, joint_frames=100, jumps=2))
+            one = warm.read(self.write(folder, moving_us=[10.0] * 300, stand_us=[1.0, 3.0, 3.0], joint_frames=300, jumps=6, shown_jumps=3))
+            other = warm.read(self.write(folder, moving_us=[30.0] * 100, joint_frames=100, jumps=2))
             empty = warm.read(self.write(folder))
         figures = warm.figures([[one], [other, empty], [empty]])
-        self.assertEqual(figures["slide_us"], {"median": 10.0, "p99": 30.0, "p99_of_meshes": 20.0})
+        self.assertEqual(figures["moving_us"], {"median": 10.0, "p99": 30.0, "p99_of_meshes": 20.0})
         self.assertEqual((figures["stand_us"]["median"], figures["jumps"], figures["shown_jumps"]), (3.0, 0.02, 0.0075))
         self.assertIsNone(warm.figures([[empty]]))
         self.assertIsNone(warm.figures([]))
 
+    def test_recordings_are_played_where_there_are_any(self):
+        with tempfile.TemporaryDirectory() as folder:
+            data, lab, out = Path(folder) / "data", Path(folder) / "lab", Path(folder) / "grips.jsonl"
+            self.assertFalse(warm.record(lab, data, out))
+            for name in ("level/station.glb", "vr_input/b.csv", "vr_input/a.csv"):
+                (data / name).parent.mkdir(parents=True, exist_ok=True)
+                (data / name).write_text("")
+            self.assertRaisesRegex(files.FormatError, "lab: ", warm.record, lab, data, out)
+            lab.write_text('#!/bin/sh\necho "$@" > "$5"\n')
+            lab.chmod(0o700)
+            self.assertTrue(warm.record(lab, data, out))
+            words = out.read_text().split()
+            self.assertEqual((words[0], [Path(word).name for word in words[-2:]]), ("recorded-grips", ["a.csv", "b.csv"]))
+            lab.write_text("#!/bin/sh\necho no level >&2\nexit 2\n")
+            self.assertRaisesRegex(files.FormatError, "exit status 2: no level", warm.record, lab, data, out)
+
     def test_invalid_file_is_refused(self):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "warm.json"
-            for text in ("{", "[]", '{"slide_us": ["x"]}'):
+            for text in ("{", "[]", '{"moving_us": ["x"]}'):
                 path.write_text(text)
                 self.assertRaisesRegex(files.FormatError, "warm.json: expected", warm.read, path)
 

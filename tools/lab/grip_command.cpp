@@ -14,6 +14,7 @@
 #include "systems/rigs/hand_rig_fit.hpp"
 #include "tools/lab/exit_status.hpp"
 #include "tools/lab/grip_files.hpp"
+#include "tools/lab/recorded_grips.hpp"
 
 namespace handhold::lab {
 namespace {
@@ -100,7 +101,7 @@ Value quantile(std::vector<Value> values, double share) {
 }
 
 void append(const WarmHand& one, WarmHand& all) {
-    all.slide_us.insert(all.slide_us.end(), one.slide_us.begin(), one.slide_us.end());
+    all.moving_us.insert(all.moving_us.end(), one.moving_us.begin(), one.moving_us.end());
     all.stand_us.insert(all.stand_us.end(), one.stand_us.begin(), one.stand_us.end());
     all.pops.insert(all.pops.end(), one.pops.begin(), one.pops.end());
     all.joint_frames += one.joint_frames;
@@ -109,29 +110,40 @@ void append(const WarmHand& one, WarmHand& all) {
 }
 
 void print_figures(const WarmHand& all) {
-    std::printf("slide_us median %.1f p99 %.1f\nstand_us median %.2f p99 %.2f\n",
-                quantile(all.slide_us, 0.5), quantile(all.slide_us, 0.99),
+    std::printf("moving_us median %.1f p99 %.1f\nstand_us median %.2f p99 %.2f\n",
+                quantile(all.moving_us, 0.5), quantile(all.moving_us, 0.99),
                 quantile(all.stand_us, 0.5), quantile(all.stand_us, 0.99));
     std::printf("pops_a_disc median %u p95 %u\njumps %u of %u joint-frames, shown %u\n",
                 quantile(all.pops, 0.5), quantile(all.pops, 0.95), all.jumps, all.joint_frames,
                 all.shown_jumps);
 }
 
-std::optional<FileError> slide_all(const GripOptions& options, const GripMesh& mesh,
-                                   const HandRig& rig, const std::vector<Placement>& placements) {
+std::optional<FileError> move_all(const GripOptions& options, const GripMesh& mesh,
+                                  const HandRig& rig, const std::vector<Placement>& placements) {
+    const Result<std::vector<RecordedGrip>> grips = load_recorded_grips(options.motions);
+    if (!grips) {
+        return grips.error();
+    }
+    const auto frames = static_cast<std::size_t>(options.warm_frames);
+    const auto motions = wrist_motions(grips.value(), frames, placements.size());
+    if (motions.size() < placements.size()) {
+        return FileError{
+            options.motions.string(), "",
+            "expected a grip of more than " + std::to_string(frames) + " frames, found none"};
+    }
     WarmHand all;
-    std::string slid;
+    std::string moved;
     Progress progress("warm");
     for (std::size_t i = 0; i < placements.size(); ++i) {
-        const WarmHand one = slide_hand(mesh, rig, placements[i].wrist, {}, variant_of(options),
-                                        {options.warm_frames, options.speed_mps});
+        const WarmHand one =
+            move_hand(mesh, rig, placements[i].wrist, {}, variant_of(options), motions[i]);
         append(one, all);
-        slid += posed_hand_line(placements[i].id, rig, one.slid);
+        moved += posed_hand_line(placements[i].id, rig, one.moved);
         progress.show(static_cast<double>(i + 1) / static_cast<double>(placements.size()));
     }
     print_figures(all);
-    if (!options.slid_out.empty()) {
-        if (auto error = write_file_atomically(options.slid_out, slid)) {
+    if (!options.moved_out.empty()) {
+        if (auto error = write_file_atomically(options.moved_out, moved)) {
             return error;
         }
     }
@@ -170,7 +182,7 @@ int grip_command(const GripOptions& options) {
         return refuse(*error);
     }
     if (options.warm_frames > 0) {
-        if (const auto error = slide_all(options, grip_mesh, rig.value(), placements.value())) {
+        if (const auto error = move_all(options, grip_mesh, rig.value(), placements.value())) {
             return refuse(*error);
         }
     }

@@ -18,10 +18,10 @@ struct GripOptions {
     std::string fingers = "fit";  // or a baseline: finger_baselines.hpp
     double grip_edge_mm = 20.0;
     std::filesystem::path rig_json;  // empty: not written
-    // Frames of sliding, and as many of standing still, per hand; 0: none.
+    // Frames of recorded motion, and as many of standing still, per hand; 0: none.
     int warm_frames = 0;
-    double speed_mps = 0.2;           // speed of sliding
-    std::filesystem::path slid_out;   // hands at the end of the slide; empty: not written
+    std::filesystem::path motions;    // of `recorded-grips`
+    std::filesystem::path moved_out;  // hands at the end of their motion; empty: not written
     std::filesystem::path warm_json;  // figures of every frame; empty: not written
 };
 

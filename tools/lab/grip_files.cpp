@@ -4,7 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "engine/io/json.hpp"
 #include "engine/io/text_file.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
 
@@ -90,12 +89,12 @@ Json fingers_json(const HandRig& rig, const PosedHand& posed) {
 
 }  // namespace
 
-Result<std::vector<Placement>> load_placements(const std::filesystem::path& path) {
-    Result<std::string> text = read_file(path);
+std::optional<FileError> read_json_lines(const std::filesystem::path& path,
+                                         const std::function<void(const JsonValue&)>& read) {
+    const Result<std::string> text = read_file(path);
     if (!text) {
         return text.error();
     }
-    std::vector<Placement> placements;
     std::string_view rest = text.value();
     for (std::size_t line = 1; !rest.empty(); ++line) {
         const std::size_t end = std::min(rest.find('\n'), rest.size());
@@ -109,17 +108,26 @@ Result<std::vector<Placement>> load_placements(const std::filesystem::path& path
         if (!document) {
             return FileError{path.string(), place, document.error().expected};
         }
-        const JsonValue root = document.value().root();
-        Placement placement;
-        placement.id = root["id"].integer(-(1LL << 53), 1LL << 53);
-        constexpr NumberRange k_range = {-1e7, 1e7, false};
-        placement.wrist.position = root["wrist"]["position_m"].vector(k_range);
-        placement.wrist.rotation = root["wrist"]["rotation_xyzw"].rotation();
+        read(document.value().root());
         if (document.value().failed()) {
             const FileError& error = document.value().error();
             return FileError{path.string(), place + error.place, error.expected};
         }
-        placements.push_back(placement);
+    }
+    return std::nullopt;
+}
+
+Result<std::vector<Placement>> load_placements(const std::filesystem::path& path) {
+    std::vector<Placement> placements;
+    const auto error = read_json_lines(path, [&](const JsonValue& root) {
+        Placement& placement = placements.emplace_back();
+        placement.id = root["id"].integer(-(1LL << 53), 1LL << 53);
+        constexpr NumberRange k_range = {-1e7, 1e7, false};
+        placement.wrist.position = root["wrist"]["position_m"].vector(k_range);
+        placement.wrist.rotation = root["wrist"]["rotation_xyzw"].rotation();
+    });
+    if (error) {
+        return *error;
     }
     return placements;
 }
@@ -146,9 +154,9 @@ std::string posed_hand_line(std::int64_t id, const HandRig& rig, const PosedHand
 }
 
 std::string warm_hands_json(const WarmHand& all) {
-    const Json json = {{"slide_us", all.slide_us}, {"stand_us", all.stand_us},
-                       {"pops_a_disc", all.pops},  {"joint_frames", all.joint_frames},
-                       {"jumps", all.jumps},       {"shown_jumps", all.shown_jumps}};
+    const Json json = {{"moving_us", all.moving_us}, {"stand_us", all.stand_us},
+                       {"pops_a_disc", all.pops},    {"joint_frames", all.joint_frames},
+                       {"jumps", all.jumps},         {"shown_jumps", all.shown_jumps}};
     return json.dump() + "\n";
 }
 

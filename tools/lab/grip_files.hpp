@@ -2,15 +2,23 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "components/hand_rig.hpp"
+#include "engine/io/json.hpp"
 #include "engine/io/result.hpp"
 #include "tools/lab/grip_run.hpp"
 
 // File formats of `handhold-lab grip`.
 namespace handhold::lab {
+
+// Reads one JSON value a line; blank lines are skipped. The first error of a value ends the reading
+// and names the line.
+std::optional<FileError> read_json_lines(const std::filesystem::path& path,
+                                         const std::function<void(const JsonValue&)>& read);
 
 struct Placement {
     std::int64_t id = 0;

@@ -13,6 +13,7 @@
 #include "systems/hand/shared/finger_chain.hpp"
 #include "systems/hand/sweep_fingers.hpp"
 #include "systems/rigs/authored_hand.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold::lab {
 namespace {
@@ -165,32 +166,6 @@ class OneHand {
     StageStats stats_;
 };
 
-// A wrist that slides across the fingers, in the plane of the gripped surface.
-class SlidingWrist {
-  public:
-    SlidingWrist(const Pose& wrist, const Vec3& normal, const HandSlide& slide)
-        : from_(wrist), step_m_(slide.speed_mps * k_frame_s) {
-        const Vec3 across = wrist.rotation * Vec3::UnitX();
-        const Vec3 flat = across - across.dot(normal) * normal;
-        along_ = flat.norm() > 1e-6 ? Vec3(flat.normalized()) : across;
-    }
-
-    Pose next() {
-        constexpr double k_max_m = 0.04;
-        if (std::abs(travel_m_ + step_m_) > k_max_m) {
-            step_m_ = -step_m_;
-        }
-        travel_m_ += step_m_;
-        return {from_.position + travel_m_ * along_, from_.rotation};
-    }
-
-  private:
-    Pose from_;
-    Vec3 along_;
-    double step_m_;
-    double travel_m_ = 0.0;
-};
-
 void count_jumps(const HandRig& rig, const FingerPose& before, const FingerPose& after,
                  WarmHand& warm) {
     constexpr double k_jump_rad = std::numbers::pi / 18.0;
@@ -247,8 +222,8 @@ PosedHand pose_cold_hand(const GripMesh& mesh, const HandRig& rig, const Pose& w
     return posed;
 }
 
-WarmHand slide_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
-                    const Tuning& tuning, const GripVariant& variant, const HandSlide& slide) {
+WarmHand move_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
+                   const Tuning& tuning, const GripVariant& variant, std::span<const Pose> motion) {
     OneHand hand(mesh, rig, wrist, variant.fingers);
     GripTimes cold;
     hand.run(tuning, variant, cold);
@@ -256,22 +231,21 @@ WarmHand slide_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
     if (hand.surface().triangle == GripSurface::k_none) {
         return warm;
     }
-    SlidingWrist sliding(wrist, hand.surface().normal_bs, slide);
     Pose at = wrist;
-    for (std::int32_t frame = 0; frame < slide.frames; ++frame) {
-        at = sliding.next();
+    for (const Pose& moved : motion) {
+        at = wrist * (rig.side == HandSide::left ? mirror_hand_pose(moved) : moved);
         const FingerPose before = hand.fingers();
-        warm.slide_us.push_back(hand.run_frame_us(at, tuning, variant));
+        warm.moving_us.push_back(hand.run_frame_us(at, tuning, variant));
         count_jumps(rig, before, hand.fingers(), warm);
         add_pops(hand.traces(), warm);
     }
-    describe(hand, mesh, rig, warm.slid);
+    describe(hand, mesh, rig, warm.moved);
     // First lets the shown palm converge.
     constexpr int k_convergence_frames = 45;
     for (int frame = 0; frame < k_convergence_frames; ++frame) {
         hand.run_frame_us(at, tuning, variant);
     }
-    for (std::int32_t frame = 0; frame < slide.frames; ++frame) {
+    for (std::size_t frame = 0; frame < motion.size(); ++frame) {
         warm.stand_us.push_back(hand.run_frame_us(at, tuning, variant));
     }
     return warm;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -52,21 +53,15 @@ struct PosedHand {
 PosedHand pose_cold_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
                          const Tuning& tuning, const GripVariant& variant);
 
-// Motion of a hand whose costs are measured while it reuses results.
-struct HandSlide {
-    std::int32_t frames = 0;  // of 1/90 s: first sliding, then as many standing still
-    double speed_mps = 0.2;   // along the surface, across the fingers; back and forth by 4 cm
-};
-
 // Costs of a hand that reuses its last solution: microseconds of thread CPU time per frame, from
 // search_grip to fit_hands.
 struct WarmHand {
-    std::vector<double> slide_us;
+    std::vector<double> moving_us;
     std::vector<double> stand_us;
     // Visited triangles per searched disc: one mean for each finger and frame.
     std::vector<std::uint32_t> pops;
-    PosedHand slid;  // in the last sliding frame; without times
-    // While sliding: number of joints of all fingers times number of frames.
+    PosedHand moved;  // in the last moving frame; without times
+    // While moving: number of joints of all fingers times number of frames.
     std::uint32_t joint_frames = 0;
     // Joint frames in which the target angle changed by 10 degrees or more.
     std::uint32_t jumps = 0;
@@ -74,9 +69,10 @@ struct WarmHand {
     std::uint32_t shown_jumps = 0;
 };
 
-// Closes a hand as pose_cold_hand does, then lets it slide and stand still. The result is empty if
-// the hand does not grip.
-WarmHand slide_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
-                    const Tuning& tuning, const GripVariant& variant, const HandSlide& slide);
+// Closes a hand as pose_cold_hand does, then lets it move in frames of 1/90 s and stand still for
+// as many. `motion`: wrists of a right hand relative to `wrist`; a left hand moves mirrored. The
+// result is empty if the hand does not grip.
+WarmHand move_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
+                   const Tuning& tuning, const GripVariant& variant, std::span<const Pose> motion);
 
 }  // namespace handhold::lab

@@ -10,6 +10,7 @@
 #include "tools/lab/grip_command.hpp"
 #include "tools/lab/hands_picture.hpp"
 #include "tools/lab/lab_scene.hpp"
+#include "tools/lab/recorded_grips.hpp"
 #include "tools/lab/shown_body_command.hpp"
 #include "tools/lab/solve_command.hpp"
 
@@ -71,14 +72,16 @@ void add_grip_options(CLI::App& grip, lab::GripOptions& options) {
     grip.add_option("--grip-edge-mm", options.grip_edge_mm, "Edge length of the search detail")
         ->check(number_in(1.0, 1000.0));
     grip.add_option("--rig-json", options.rig_json, "Also write the rig");
-    grip.add_option(
-            "--warm-frames", options.warm_frames,
-            "Also measure each hand warm: this many frames of 1/90 s sliding, then standing")
-        ->check(CLI::Range(0, 100000));
-    grip.add_option("--slid-out", options.slid_out, "Hands at the end of their slide, JSON lines");
+    CLI::Option* const motions = grip.add_option(
+        "--motions", options.motions, "Wrists of recorded grips: the lines of `recorded-grips`");
+    grip.add_option("--warm-frames", options.warm_frames,
+                    "Also measure each hand warm: this many frames of a recorded grip's motion, "
+                    "then standing")
+        ->check(CLI::Range(0, 100000))
+        ->needs(motions);
+    grip.add_option("--moved-out", options.moved_out,
+                    "Hands at the end of their motion, JSON lines");
     grip.add_option("--warm-json", options.warm_json, "Every warm frame's figures, JSON");
-    grip.add_option("--speed-mps", options.speed_mps, "Speed of sliding hands")
-        ->check(number_in(0.0, 10.0));
 }
 
 void add_hands_picture_options(CLI::App& picture, lab::HandsPictureOptions& options) {
@@ -119,6 +122,13 @@ void add_shown_body_options(CLI::App& shown, lab::ShownBodyOptions& options) {
     shown.add_option("--csv", options.csv, "Output: depths in every frame");
 }
 
+void add_recorded_grips_options(CLI::App& recorded, lab::RecordedGripsOptions& options) {
+    recorded.add_option("--scene", options.scene, "A scene or level, as of `handhold run`")
+        ->required();
+    recorded.add_option("--input", options.inputs, "Recorded sessions (.csv)")->required();
+    recorded.add_option("--out", options.out, "Output: one grip a line, JSON")->required();
+}
+
 }  // namespace
 
 // NOLINTNEXTLINE(bugprone-exception-escape): without memory there is no message to print either
@@ -145,18 +155,23 @@ int main(int argc, char** argv) {
     CLI::App* const shown =
         app.add_subcommand("shown-body", "Measures trunk and legs in a scene's own session");
     add_shown_body_options(*shown, shown_options);
+    lab::RecordedGripsOptions recorded_options;
+    CLI::App* const recorded = app.add_subcommand(
+        "recorded-grips", "Measures gripping wrists and the cost of hands in recorded sessions");
+    add_recorded_grips_options(*recorded, recorded_options);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) {
             return app.exit(error);  // --help
         }
-        const CLI::App& subcommand = solve->parsed()     ? *solve
-                                     : grip->parsed()    ? *grip
-                                     : picture->parsed() ? *picture
-                                     : body->parsed()    ? *body
-                                     : shown->parsed()   ? *shown
-                                                         : app;
+        const CLI::App& subcommand = solve->parsed()      ? *solve
+                                     : grip->parsed()     ? *grip
+                                     : picture->parsed()  ? *picture
+                                     : body->parsed()     ? *body
+                                     : shown->parsed()    ? *shown
+                                     : recorded->parsed() ? *recorded
+                                                          : app;
         std::fprintf(stderr, "%s\n%s", error.what(), subcommand.help().c_str());
         return k_exit_usage;
     }
@@ -168,6 +183,9 @@ int main(int argc, char** argv) {
     }
     if (shown->parsed()) {
         return lab::shown_body_command(shown_options);
+    }
+    if (recorded->parsed()) {
+        return lab::recorded_grips_command(recorded_options);
     }
     return grip->parsed() ? lab::grip_command(grip_options) : lab::solve_command(options);
 }

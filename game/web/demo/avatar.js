@@ -1,7 +1,9 @@
-// The player's hands and arms as rounded bones between the joints that the library gives.
+// Players: hands and arms as rounded bones between the joints that the library gives, and the robot's body.
 import * as THREE from 'three';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { place } from './level.js';
 import { HH_LEFT, HH_LEFT_HAND, HH_LEFT_LOWER_ARM, HH_LEFT_UPPER_ARM, HH_RIGHT, HH_RIGHT_HAND, HH_RIGHT_LOWER_ARM, HH_RIGHT_UPPER_ARM,
-    HH_SPACE_WORLD } from 'handhold';
+    HH_SPACE_PARENT, HH_SPACE_WORLD } from 'handhold';
 
 // Pairs of joints in the order of XR_EXT_hand_tracking.
 const wrist = 1;
@@ -44,10 +46,12 @@ export class Avatar {
         const marker = (color) => new THREE.Mesh(new THREE.SphereGeometry(0.012), new THREE.MeshBasicMaterial({ color, depthTest: false }));
         this.tracked = [marker(0xffb020), marker(0xffb020)];
         this.anchors = [marker(0x30e080), marker(0x30e080)];
-        scene.add(...this.hands.flat(), ...this.arms, ...this.tracked, ...this.anchors);
+        // The force of a hand on what it grips: 1 m for 500 N.
+        this.pulls = [HH_LEFT, HH_RIGHT].map(() => new THREE.ArrowHelper(up, new THREE.Vector3(), 1, 0xff5040, 0.05, 0.03));
+        scene.add(...this.hands.flat(), ...this.arms, ...this.tracked, ...this.anchors, ...this.pulls);
     }
 
-    update(world, player, pose, showsGizmos) {
+    update(world, player, pose, showsGizmos, dt_s) {
         for (const side of [HH_LEFT, HH_RIGHT]) {
             const joints = world.handJoints(player, side, HH_SPACE_WORLD);
             handBones.forEach(([a, b], i) => {
@@ -62,8 +66,30 @@ export class Avatar {
             this.tracked[side].position.copy(hand.tracked.position);
             this.anchors[side].visible = showsGizmos && hand.grip !== 0;
             this.anchors[side].position.copy(hand.shown.position);
+            to.copy(hand.force_impulse_ns).divideScalar(500 * dt_s);
+            const length_m = Math.min(to.length(), 1);
+            this.pulls[side].visible = showsGizmos && length_m > 0.02;
+            if (this.pulls[side].visible) {
+                this.pulls[side].position.copy(hand.shown.position);
+                this.pulls[side].setDirection(to.normalize());
+                this.pulls[side].setLength(length_m, 0.05, 0.03);
+            }
         }
         const body = world.bodyJoints(player, HH_SPACE_WORLD);
         armBones.forEach(([a, b], i) => stretch(this.arms[i], body[a].position, body[b].position, 0.035));
     }
+}
+
+/** The robot's body (handhold export-body), whose joints the library poses. */
+export async function loadFigure(scene, world, player, url) {
+    const bytes = await (await fetch(url)).arrayBuffer();
+    world.setBodyRig(player, new Uint8Array(bytes));
+    const { scene: model } = await new GLTFLoader().parseAsync(bytes, '');
+    model.traverse((node) => { node.frustumCulled = false; }); // bounds are those of the rest pose
+    scene.add(model);
+    const bones = world.skeleton(player, HH_SPACE_PARENT).map((_, i) => {
+        const { name } = world.skeletonJoint(player, i);
+        return model.getObjectByName(THREE.PropertyBinding.sanitizeNodeName(name));
+    });
+    return { update: () => world.skeleton(player, HH_SPACE_PARENT).forEach((pose, i) => place(bones[i], pose)) };
 }

@@ -71,7 +71,8 @@ export class Desktop {
 export class Headset {
     #turned = false;
 
-    read(frame, space) {
+    /** turnsSmoothly: the stick turns at a rate, else a flick turns by the tuning's snap angle. */
+    read(frame, space, turnsSmoothly) {
         const viewer = frame.getViewerPose(space);
         const sample = { head_tracked: viewer !== undefined && viewer !== null, hand_tracked: [false, false], grab: [false, false], squeeze: [0, 0], hands: [{}, {}] };
         if (sample.head_tracked) {
@@ -97,7 +98,7 @@ export class Headset {
                 sample.grab[side] = (buttons[0]?.pressed ?? false) || (buttons[1]?.pressed ?? false);
                 sample.squeeze[side] = Math.max(buttons[0]?.value ?? 0, buttons[1]?.value ?? 0);
                 if (side === HH_RIGHT) {
-                    this.#readStick(source.gamepad?.axes ?? [], commands);
+                    this.#readStick(source.gamepad?.axes ?? [], turnsSmoothly, commands);
                 }
                 commands.brake = Math.max(commands.brake ?? 0, buttons[4]?.pressed ? 1 : 0);
             }
@@ -118,9 +119,12 @@ export class Headset {
         const distance = (a, b) => Math.hypot(a.x - b.x, a.y - b.y, a.z - b.z);
         sample.grab[side] = tips.every((tip) => distance(tip.transform.position, palm.transform.position) < 0.085);
     }
-    // A flick to the side turns by the tuning's snap angle.
-    #readStick(axes, commands) {
+    #readStick(axes, turnsSmoothly, commands) {
         const x = axes[2] ?? 0;
+        if (turnsSmoothly) {
+            commands.smooth_turn = Math.abs(x) > 0.15 ? -x : 0;
+            return;
+        }
         if (Math.abs(x) < 0.4) {
             this.#turned = false;
         } else if (Math.abs(x) > 0.7 && !this.#turned) {

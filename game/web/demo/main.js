@@ -1,10 +1,16 @@
-// Handhold in a browser: the game's station, with mouse and keyboard or a headset. window.demo is for tests.
+// Handhold in a browser: the game's scenes, with mouse and keyboard or a headset. window.demo is for tests.
+//
+// ?scene=station|playground  ?spawn=NAME
+// ?recording=FILE            plays a recorded session at 90 Hz instead, as `handhold run --input FILE` does: with equal path.
+//                            Equal hashes need sample times that are not at frame ends (the library takes one up to
+//                            1e-6 s after an end for that end), and &seconds=S beyond the last sample, which is state.
 import * as THREE from 'three';
 import { HH_LEFT, HH_RIGHT, loadHandhold } from 'handhold';
-import { Avatar } from './avatar.js';
+import { Avatar, loadFigure } from './avatar.js';
 import { Desktop, Headset } from './devices.js';
 import { loadLevel, place } from './level.js';
 import { Panel } from './panel.js';
+import { parseRecording, Playback } from './playback.js';
 
 const element = (id) => document.getElementById(id);
 function tell(stage, share) {
@@ -12,13 +18,28 @@ function tell(stage, share) {
     document.querySelector('progress').value = share;
 }
 
+const query = new URLSearchParams(location.search);
+const sceneName = query.get('scene') === 'playground' ? 'playground' : 'station';
+const folder = new URL(`${sceneName}/`, location.href);
+const loadRecording = async (url) => parseRecording(await (await fetch(url)).text());
+
 const handhold = await loadHandhold();
 const world = handhold.createWorld();
-world.setTuning('locomotion.thruster_mps2', 1.5);
-const level = await loadLevel(handhold, world, new URL('station/station.json', location.href), tell);
-const spawnName = new URLSearchParams(location.search).get('spawn');
+const level = await loadLevel(handhold, world, new URL('scene.json', folder), tell);
+const recording = query.has('recording') ? await loadRecording(new URL(query.get('recording'), location.href)) : null;
+const recorded = recording && new Playback(recording);
+// Recordings and the climber begin at the first spawn, you beside it.
+const spawnName = query.get('spawn') ?? (recorded ? '' : { station: 'hab', playground: 'locker' }[sceneName]);
 const spawn = level.spawns.find((one) => one.name === spawnName) ?? level.spawns[0];
-const player = world.addPlayer({ name: 'you', origin: { position: spawn.position, rotation: spawn.rotation } });
+if (!recorded) {
+    world.setTuning('locomotion.thruster_mps2', 1.5);
+}
+if (!recorded && sceneName === 'playground') {
+    spawn.position.z += 0.5; // the native game's sessions begin within reach of the drawers
+}
+const startOf = ({ position, rotation }) => ({ position, rotation });
+const player = world.addPlayer({ name: 'player0', origin: startOf(spawn) });
+const climber = recorded ? null : await addClimber();
 
 const renderer = new THREE.WebGLRenderer({ antialias: true });
 renderer.xr.enabled = true;
@@ -42,6 +63,28 @@ function makeVignette() {
     ring.renderOrder = 10;
     return ring;
 }
+// The second player: a scripted climber's session, again and again from its spawn. (handhold climb)
+async function addClimber() {
+    const samples = await loadRecording(new URL('climber.csv', folder));
+    const start = startOf(level.spawns[0]);
+    const id = world.addPlayer({ name: 'climber', origin: start });
+    const figure = await loadFigure(level.scene, world, id, new URL('body.glb', location.href));
+    const avatar = new Avatar(level.scene);
+    let playback = new Playback(samples);
+    const read = (end_s) => {
+        if (end_s > begin_s + playback.duration_s) {
+            begin_s = end_s;
+            playback = new Playback(samples, begin_s);
+            world.teleportPlayer(id, start);
+        }
+        return { player: id, ...playback.read(end_s) };
+    };
+    let begin_s = 0;
+    return { id, read, update: (showsGizmos, dt_s) => {
+        figure.update();
+        avatar.update(world, id, world.playerPose(id), showsGizmos, dt_s);
+    } };
+}
 function resize() {
     camera.aspect = innerWidth / innerHeight;
     camera.updateProjectionMatrix();
@@ -63,29 +106,76 @@ function chooseHands(usesWrists) {
 }
 
 let last_ms;
-function onFrame(now_ms, frame) {
-    const dt_s = Math.min(Math.max(1e-3 * (now_ms - (last_ms ?? now_ms - 14)), 1 / 250), 1 / 20);
-    last_ms = now_ms;
-    const space = renderer.xr.getReferenceSpace();
-    const inHeadset = renderer.xr.isPresenting && frame !== undefined && frame !== null && space !== null;
-    const { usesWrists, sample, commands } = inHeadset ? headset.read(frame, space) : desktop.read(dt_s);
-    chooseHands(usesWrists);
-    world.step(dt_s, [{ player, samples: [{ ...sample, time_s: world.time().time_s + dt_s }], commands }]);
+let lag_s = 0; // of a played recording behind the clock
+const path = []; // the play space's position after each step of a recording
 
+// Plays a recording in steps of 1/90 s; at its end the panel tells the hash.
+function playRecording(dt_s) {
+    const k_step_s = 1 / 90;
+    const steps = Math.max(1, Math.floor(Number(query.get('seconds') ?? recorded.duration_s) * 90 + 1e-3));
+    lag_s = Math.min(lag_s + dt_s, 0.5);
+    for (; lag_s >= k_step_s && path.length < steps; lag_s -= k_step_s) {
+        world.step(k_step_s, [{ player, ...recorded.read(world.time().time_s + k_step_s) }]);
+        path.push(world.playerPose(player).origin.position);
+        if (path.length === steps) {
+            demo.hash = `0x${world.hash().toString(16).padStart(16, '0')}`;
+            element('help').textContent = `The recording has ended. State hash: ${demo.hash}`;
+        }
+    }
+}
+/** One step of the world with what the devices say. */
+function advance(dt_s, { usesWrists, sample, commands }) {
+    chooseHands(usesWrists);
+    const end_s = world.time().time_s + dt_s;
+    world.step(dt_s, [{ player, samples: [{ ...sample, time_s: end_s }], commands }, climber.read(end_s)]);
+}
+/** Moves what is drawn to where the world has it. */
+function show(dt_s, frame_ms) {
     const pose = world.playerPose(player);
     place(rig, pose.origin);
-    if (!inHeadset) {
-        place(camera, sample.head);
-    }
     world.bodyPoses(level.movers.map((one) => one.body)).forEach((at, i) => place(level.movers[i].object, at));
-    avatar.update(world, player, pose, element('gizmos').checked);
+    const showsGizmos = element('gizmos').checked;
+    avatar.update(world, player, pose, showsGizmos, dt_s);
+    climber?.update(showsGizmos, dt_s);
     const v = pose.velocity_mps;
     const speed_mps = Math.hypot(v.x, v.y, v.z);
     const target = element('vignette').checked ? THREE.MathUtils.clamp((speed_mps - 1) / 2, 0, 0.9) : 0;
     vignette.material.opacity += (target - vignette.material.opacity) * Math.min(1, 6 * dt_s);
     vignette.visible = vignette.material.opacity > 0.01;
-    panel.update(world, pose, speed_mps);
+    panel.update(world, pose, speed_mps, frame_ms);
+    return pose;
+}
+
+let frame_ms = 0;
+function onFrame(now_ms, frame) {
+    const begin_ms = performance.now();
+    const dt_s = Math.min(Math.max(1e-3 * (now_ms - (last_ms ?? now_ms - 14)), 1 / 250), 1 / 20);
+    const wall_s = 1e-3 * (now_ms - (last_ms ?? now_ms));
+    last_ms = now_ms;
+    const space = renderer.xr.getReferenceSpace();
+    const inHeadset = renderer.xr.isPresenting && frame !== undefined && frame !== null && space !== null;
+    if (recorded) {
+        playRecording(wall_s);
+    } else {
+        const devices = inHeadset ? headset.read(frame, space, element('smooth').checked) : desktop.read(dt_s);
+        advance(dt_s, devices);
+        if (!inHeadset) {
+            place(camera, devices.sample.head);
+        }
+    }
+    const pose = show(dt_s, frame_ms);
+    if (recorded) { // by the recorded eyes; the camera is at the rig's origin
+        place(rig, pose.head);
+    }
     renderer.render(level.scene, camera);
+    frame_ms = performance.now() - begin_ms;
+}
+
+// Keeps all files of the page for a later visit without a network.
+async function keepOffline() {
+    await navigator.serviceWorker.register('offline.js');
+    const files = performance.getEntriesByType('resource').map((entry) => entry.name).filter((name) => name.startsWith(location.origin));
+    await (await caches.open('handhold')).addAll([location.href, ...new Set(files)]);
 }
 
 async function offerHeadset() {
@@ -106,6 +196,10 @@ async function offerHeadset() {
 element('loading').remove();
 element('panel').hidden = false;
 element('help').hidden = false;
+window.demo = { handhold, world, player, climber, desktop, level, panel, renderer, path, advance, show };
 renderer.setAnimationLoop(onFrame);
 await offerHeadset();
-window.demo = { handhold, world, player, desktop, level, panel, renderer };
+if ('serviceWorker' in navigator) { // not on plain http
+    demo.isOffline = keepOffline().then(() => true, (error) => console.warn(`not kept for offline use: ${error.message}`));
+}
+demo.isReady = true;

@@ -2,12 +2,22 @@
 import { HH_GRIP_AUTHORED, HH_GRIP_HELD, HH_GRIP_NONE, HH_GRIP_PLAYER, HH_GRIP_SURFACE } from 'handhold';
 
 const gripNames = { [HH_GRIP_NONE]: 'open', [HH_GRIP_SURFACE]: 'holds on to', [HH_GRIP_HELD]: 'holds', [HH_GRIP_AUTHORED]: 'holds', [HH_GRIP_PLAYER]: 'holds a player' };
-const k_shown = 90; // steps in the median
+const k_shown = 90; // frames in the medians
+function keep(list, value) {
+    list.push(value);
+    if (list.length > k_shown) {
+        list.shift();
+    }
+}
+function median(list) {
+    return list.toSorted((a, b) => a - b)[Math.floor(list.length / 2)] ?? 0;
+}
 
 export class Panel {
     #table = document.getElementById('figures');
     #names;
     #steps_us = [];
+    #frames_ms = [];
     #frames = 0;
 
     constructor(names) {
@@ -18,13 +28,12 @@ export class Panel {
     }
     /** Median time of the last steps, microseconds. */
     get median_us() {
-        return this.#steps_us.toSorted((a, b) => a - b)[Math.floor(this.#steps_us.length / 2)] ?? 0;
+        return median(this.#steps_us);
     }
-    update(world, pose, speed_mps) {
-        this.#steps_us.push(world.stats().step_us);
-        if (this.#steps_us.length > k_shown) {
-            this.#steps_us.shift();
-        }
+    /** frame_ms: what the last frame cost with drawing. */
+    update(world, pose, speed_mps, frame_ms) {
+        keep(this.#steps_us, world.stats().step_us);
+        keep(this.#frames_ms, frame_ms);
         if (++this.#frames % 15 !== 0) {
             return;
         }
@@ -33,8 +42,9 @@ export class Panel {
             grip === HH_GRIP_NONE ? (is_closed ? 'closed, grips nothing' : 'open') : `${gripNames[grip]} ${this.#names.get(body.index) ?? ''}`;
         const rows = [
             ['step, median', `${(1e-3 * this.median_us).toFixed(2)} ms`],
+            ['frame cost', `${median(this.#frames_ms).toFixed(2)} ms`],
             ['speed', `${speed_mps.toFixed(2)} m/s`],
-            ['hand error', `${(1e3 * stats.hand_error_m).toFixed(4)} mm`],
+            ['hand error', `${(1e3 * Math.max(...pose.hands.map(({ grip, error_m }) => (grip === HH_GRIP_NONE ? 0 : error_m)))).toFixed(4)} mm`],
             ['contacts', stats.contacts],
             ['left', hand(pose.hands[0])],
             ['right', hand(pose.hands[1])],

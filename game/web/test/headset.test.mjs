@@ -1,15 +1,16 @@
-// The page in headless Chromium with an emulated headset: `node --test` with HANDHOLD_PAGE set to the
-// folder that tools/web makes, and HANDHOLD_NPM to node_modules with puppeteer-core and iwer.
+// The page in headless Chromium with an emulated headset: `node --test` with the variables of page.mjs.
 import assert from 'node:assert/strict';
-import { createRequire } from 'node:module';
 import { readFileSync } from 'node:fs';
-import { join, resolve } from 'node:path';
+import { join } from 'node:path';
 import { test } from 'node:test';
-import { serveFolder } from '../serve.mjs';
+import { npm, withPage } from './page.mjs';
 
-const modules = resolve(process.env.HANDHOLD_NPM);
-const puppeteer = createRequire(join(modules, 'x.js'))('puppeteer-core');
-const emulator = readFileSync(join(modules, 'iwer/build/iwer.min.js'), 'utf8');
+const emulator = readFileSync(join(npm, 'iwer/build/iwer.min.js'), 'utf8') + `;
+    window.emulated = new IWER.XRDevice(IWER.metaQuest3);
+    emulated.installRuntime({ forceInstall: true });
+    emulated.position.set(0, 1.6, 0);
+    emulated.controllers.left.position.set(-0.25, 1.35, -0.3);
+    emulated.controllers.right.position.set(0.25, 1.35, -0.3);`;
 
 // In the page. Lays the right palm on the wall to the right, closes the hand, pulls, and says what happened.
 async function crawl() {
@@ -41,25 +42,7 @@ async function crawl() {
 }
 
 test('a controller grips the station and pulls the player', { timeout: 550000 }, async (context) => {
-    const server = await serveFolder(process.env.HANDHOLD_PAGE, 0);
-    const browser = await puppeteer.launch({
-        executablePath: '/usr/bin/chromium', headless: true, protocolTimeout: 500000,
-        args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-    });
-    try {
-        const page = await browser.newPage();
-        const errors = [];
-        page.on('console', (message) => { if (message.type() === 'error') errors.push(message.text()); });
-        page.on('pageerror', (error) => errors.push(error.message));
-        await page.setViewport({ width: 320, height: 200 });
-        await page.evaluateOnNewDocument(emulator + `;
-            window.emulated = new IWER.XRDevice(IWER.metaQuest3);
-            emulated.installRuntime({ forceInstall: true });
-            emulated.position.set(0, 1.6, 0);
-            emulated.controllers.left.position.set(-0.25, 1.35, -0.3);
-            emulated.controllers.right.position.set(0.25, 1.35, -0.3);`);
-        await page.goto(`http://127.0.0.1:${server.address().port}/`);
-        await page.waitForFunction('window.demo !== undefined', { timeout: 300000 });
+    await withPage('', async ({ page, errors }) => {
         assert.equal(await page.$eval('#enter', (button) => button.disabled), false);
         await page.$eval('#enter', (button) => button.click());
         await page.waitForFunction('demo.renderer.xr.isPresenting', { timeout: 60000 });
@@ -70,11 +53,8 @@ test('a controller grips the station and pulls the player', { timeout: 550000 },
         assert.ok(said.hand.error_m < 1e-6);
         assert.ok(Math.abs(said.moved_m + 0.2) < 1e-3, `moved ${said.moved_m} m`);
         context.diagnostic(`median step ${await page.evaluate(() => demo.panel.median_us)} us`);
-        if (process.env.HANDHOLD_PICTURE) {
-            await page.screenshot({ path: process.env.HANDHOLD_PICTURE });
+        if (process.env.HANDHOLD_PICTURES) {
+            await page.screenshot({ path: join(process.env.HANDHOLD_PICTURES, 'headset.png') });
         }
-    } finally {
-        await browser.close();
-        server.close();
-    }
+    }, { script: emulator });
 });

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/math/penalty_quadratic.hpp"
 #include "systems/hand/shared/digit_gaps.hpp"
+#include "systems/hand/shared/fit_problem.hpp"
 #include "systems/hand/shared/hand_unknowns.hpp"
 
 namespace handhold {
@@ -57,7 +57,7 @@ static_assert(4 * (k_max_unknowns - 6) + k_finger_count + 4 * (k_finger_count - 
 class Fitter {
   public:
     Fitter(const HandSurroundings& hand, const GripSurface& surface, const HandFitGoal& goal,
-           const PalmTuning& tuning)
+           const PalmTuning& tuning, FitTerms* terms = nullptr)
         : hand_(hand),
           rig_(*hand.rig),
           surface_(surface),
@@ -65,7 +65,8 @@ class Fitter {
           tuning_(tuning),
           layout_(rig_),
           pose_(goal.first),
-          spheres_(hand, surface, goal.is_clear) {}
+          spheres_(hand, surface, goal.is_clear),
+          problem_(layout_.end(), terms) {}
 
     HandFit run() {
         constexpr double k_gain = 1e-6;  // smallest relative gain that counts
@@ -91,6 +92,27 @@ class Fitter {
         return best;
     }
 
+    // Builds the problem at the present pose and returns its cost there.
+    double evaluate() {
+        center_ = transform_point(pose_.wrist_bs, rig_.palm_center_hs);
+        frames_ = link_frames(rig_, pose_);
+        spheres_.query(pose_, frames_);
+        problem_.clear();
+        add_wrist();
+        for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
+            add_hinges(f);
+            add_opposition(f);
+            add_attraction(f);
+        }
+        add_neighbours();
+        add_contacts();
+        add_digit_gaps();
+        add_palm_limits();
+        return problem_.cost_m2();
+    }
+
+    double gap_m(std::size_t f) const { return spheres_.gap_m(f); }
+
   private:
     HandFit described(double cost) const {
         HandFit fit;
@@ -103,40 +125,14 @@ class Fitter {
         return fit;
     }
 
-    // Builds the problem at the present pose and returns its cost there.
-    double evaluate() {
-        center_ = transform_point(pose_.wrist_bs, rig_.palm_center_hs);
-        frames_ = link_frames(rig_, pose_);
-        spheres_.query(pose_, frames_);
-        row_count_ = 0;
-        hessian_.setZero();
-        gradient_.setZero();
-        cost_ = 0.0;
-        add_wrist();
-        for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
-            add_hinges(f);
-            add_opposition(f);
-            add_attraction(f);
-        }
-        add_neighbours();
-        add_contacts();
-        add_digit_gaps();
-        add_palm_limits();
-        double cost = cost_;
-        for (std::size_t i = 0; i < row_count_; ++i) {
-            const double violation = std::min(0.0, rows_[i].value);
-            cost += 0.5 * rows_[i].weight * violation * violation;
-        }
-        return cost;
-    }
-
     void add_wrist() {
         const Vec3 moved = center_ - transform_point(hand_.wrist_bs, rig_.palm_center_hs);
         const Vec3 turned = rotation_to_vector(
             (pose_.wrist_bs.rotation * hand_.wrist_bs.rotation.conjugate()).normalized());
         for (int i = 0; i < 3; ++i) {
-            add_square(1.0, moved[i], unit(i));
-            add_square(k_arm_m * k_arm_m, turned[i], unit(3 + i));
+            problem_.add_square({FitTerm::sync, FitTerms::k_palm}, 1.0, moved[i], unit(i));
+            problem_.add_square({FitTerm::sync, FitTerms::k_palm}, k_arm_m * k_arm_m, turned[i],
+                                unit(3 + i));
         }
     }
 
@@ -148,24 +144,30 @@ class Fitter {
             const int place = layout_.hinge(f, i);
             const double angle_rad = angles.curl_rad[i];
             if (goal_.touches[f]) {
-                add_square(k_first * k_lever2, angle_rad - goal_.closed[f].curl_rad[i],
-                           unit(place));
+                problem_.add_square({FitTerm::first, f}, k_first * k_lever2,
+                                    angle_rad - goal_.closed[f].curl_rad[i], unit(place));
             }
-            add_square((is_free_thumb ? k_rest_of_free_thumb : k_rest) * k_lever2,
-                       angle_rad - finger.rest_rad[i], unit(place));
-            add_row(unit(place), angle_rad - finger.lower_rad[i], k_joint_limit * k_lever2);
-            add_row(unit(place, -1.0), finger.upper_rad[i] - angle_rad, k_joint_limit * k_lever2);
+            problem_.add_square({FitTerm::rest, f},
+                                (is_free_thumb ? k_rest_of_free_thumb : k_rest) * k_lever2,
+                                angle_rad - finger.rest_rad[i], unit(place));
+            problem_.add_row({FitTerm::joints, f}, unit(place), angle_rad - finger.lower_rad[i],
+                             k_joint_limit * k_lever2);
+            problem_.add_row({FitTerm::joints, f}, unit(place, -1.0),
+                             finger.upper_rad[i] - angle_rad, k_joint_limit * k_lever2);
         }
         if (is_thumb(finger)) {
             return;
         }
         const Unknowns open = layout_.bend(f, -1.0);
-        add_row(open, k_max_bend_rad + along(open), k_bend_limit * k_lever2);
-        add_square(k_roll * k_lever2, angles.curl_rad[1] - angles.curl_rad[0],
-                   unit(layout_.hinge(f, 1)) + unit(layout_.hinge(f, 0), -1.0));
+        problem_.add_row({FitTerm::bend, f}, open, k_max_bend_rad + along(open),
+                         k_bend_limit * k_lever2);
+        problem_.add_square({FitTerm::roll, f}, k_roll * k_lever2,
+                            angles.curl_rad[1] - angles.curl_rad[0],
+                            unit(layout_.hinge(f, 1)) + unit(layout_.hinge(f, 0), -1.0));
         if (finger.link_count == 3) {
-            add_square(k_couple * k_lever2, angles.curl_rad[2] - k_coupling * angles.curl_rad[1],
-                       unit(layout_.hinge(f, 2)) + unit(layout_.hinge(f, 1), -k_coupling));
+            problem_.add_square({FitTerm::couple, f}, k_couple * k_lever2,
+                                angles.curl_rad[2] - k_coupling * angles.curl_rad[1],
+                                unit(layout_.hinge(f, 2)) + unit(layout_.hinge(f, 1), -k_coupling));
         }
     }
 
@@ -176,11 +178,12 @@ class Fitter {
             return;
         }
         const double angle_rad = pose_.fingers[f].opposition_rad;
-        add_square(k_first_opposition * k_lever2, angle_rad - goal_.closed[f].opposition_rad,
-                   unit(place));
-        add_row(unit(place), angle_rad - finger.lower_opposition_rad, k_joint_limit * k_lever2);
-        add_row(unit(place, -1.0), finger.upper_opposition_rad - angle_rad,
-                k_joint_limit * k_lever2);
+        problem_.add_square({FitTerm::first, f}, k_first_opposition * k_lever2,
+                            angle_rad - goal_.closed[f].opposition_rad, unit(place));
+        problem_.add_row({FitTerm::joints, f}, unit(place), angle_rad - finger.lower_opposition_rad,
+                         k_joint_limit * k_lever2);
+        problem_.add_row({FitTerm::joints, f}, unit(place, -1.0),
+                         finger.upper_opposition_rad - angle_rad, k_joint_limit * k_lever2);
     }
 
     // Draws a digit's nearest sphere to the surface, and a thumb's tip. Knuckles do not count.
@@ -194,23 +197,24 @@ class Fitter {
                 nearest = &sphere;
             }
             if (sphere.is_thumb_tip) {
-                add_square(k_tip, sphere.gap_m, slope_of(sphere));
+                problem_.add_square({FitTerm::tip, f}, k_tip, sphere.gap_m, slope_of(sphere));
             }
         }
         if (nearest != nullptr && (goal_.touches[f] || nearest->gap_m < k_sphere_reach_m)) {
-            add_pull(*nearest, goal_.touches[f]);
+            add_pull(f, *nearest);
         }
     }
 
     // Adds k_touch / 2 * gap^2 / (1 + gap^2 / g^2), as the square that has the same slope here
     // (iteratively reweighted least squares). A gap of 0 is pulled too, so that the wrist does not
     // leave it.
-    void add_pull(const HandSphere& sphere, bool touches) {
-        const double ratio = sphere.gap_m / (touches ? k_let_go_touching_m : k_let_go_m);
+    void add_pull(std::size_t f, const HandSphere& sphere) {
+        const double ratio = sphere.gap_m / (goal_.touches[f] ? k_let_go_touching_m : k_let_go_m);
         const double share = 1.0 / (1.0 + ratio * ratio);
         const double weight = k_touch * share * share;
-        add_square(weight, sphere.gap_m, slope_of(sphere));
-        cost_ += 0.5 * (k_touch * share - weight) * sphere.gap_m * sphere.gap_m;
+        problem_.add_square({FitTerm::touch, f}, weight, sphere.gap_m, slope_of(sphere));
+        problem_.add_constant({FitTerm::touch, f},
+                              0.5 * (k_touch * share - weight) * sphere.gap_m * sphere.gap_m);
     }
 
     // Neighbours are fingers next to each other in the rig, thumbs left out.
@@ -230,19 +234,23 @@ class Fitter {
     void add_neighbour(std::size_t a, std::size_t b) {
         const std::size_t links = std::min(rig_.fingers[a].link_count, rig_.fingers[b].link_count);
         for (std::size_t i = 0; i < links; ++i) {
-            add_square(k_alike * k_lever2,
-                       pose_.fingers[b].curl_rad[i] - pose_.fingers[a].curl_rad[i],
-                       unit(layout_.hinge(b, i)) + unit(layout_.hinge(a, i), -1.0));
+            problem_.add_square({FitTerm::alike, a, b}, k_alike * k_lever2,
+                                pose_.fingers[b].curl_rad[i] - pose_.fingers[a].curl_rad[i],
+                                unit(layout_.hinge(b, i)) + unit(layout_.hinge(a, i), -1.0));
         }
         const Unknowns fan = layout_.direction(b, 1.0) + layout_.direction(a, -1.0);
         const double fan_rad = along(fan);
-        add_square(k_fan * k_lever2, fan_rad, fan);
-        add_row(fan, k_max_fan_rad + fan_rad, k_fan_limit * k_lever2);
-        add_row(-fan, k_max_fan_rad - fan_rad, k_fan_limit * k_lever2);
+        problem_.add_square({FitTerm::fan, a, b}, k_fan * k_lever2, fan_rad, fan);
+        problem_.add_row({FitTerm::apart, a, b}, fan, k_max_fan_rad + fan_rad,
+                         k_fan_limit * k_lever2);
+        problem_.add_row({FitTerm::apart, a, b}, -fan, k_max_fan_rad - fan_rad,
+                         k_fan_limit * k_lever2);
         const Unknowns apart = layout_.bend(b, 1.0) + layout_.bend(a, -1.0);
         const double apart_rad = along(apart);
-        add_row(apart, k_max_apart_rad + apart_rad, k_bend_limit * k_lever2);
-        add_row(-apart, k_max_apart_rad - apart_rad, k_bend_limit * k_lever2);
+        problem_.add_row({FitTerm::apart, a, b}, apart, k_max_apart_rad + apart_rad,
+                         k_bend_limit * k_lever2);
+        problem_.add_row({FitTerm::apart, a, b}, -apart, k_max_apart_rad - apart_rad,
+                         k_bend_limit * k_lever2);
     }
 
     // Sum of the pose's curls, weighted by `slope`.
@@ -259,7 +267,11 @@ class Fitter {
     void add_contacts() {
         for (const HandSphere& sphere : spheres_.all()) {
             if (sphere.has_gap) {
-                add_row(slope_of(sphere), sphere.gap_m - k_clear_m, k_contact);
+                const std::size_t part = sphere.finger == HandSphere::k_palm
+                                             ? FitTerms::k_palm
+                                             : static_cast<std::size_t>(sphere.finger);
+                problem_.add_row({FitTerm::penetration, part}, slope_of(sphere),
+                                 sphere.gap_m - k_clear_m, k_contact);
             }
         }
     }
@@ -274,25 +286,29 @@ class Fitter {
             Unknowns slope = Unknowns::Zero();
             add_digit_slope(pair.thumb, pair.thumb_link, pair.on_thumb, pair.away, slope);
             add_digit_slope(pair.finger, pair.finger_link, pair.on_finger, -pair.away, slope);
-            add_row(slope, pair.gap_m, k_digit_contact);
+            problem_.add_row({FitTerm::overlap, pair.thumb, pair.finger}, slope, pair.gap_m,
+                             k_digit_contact);
         }
     }
 
     void add_palm_limits() {
+        const FitPart part(FitTerm::palm_limits, FitTerms::k_palm);
         const Vec3& normal = surface_.normal_bs;
         const double height_m = (center_ - surface_.point_bs).dot(normal);
         Unknowns slope = Unknowns::Zero();
         slope.head<3>() = normal;
-        add_row(slope, height_m - tuning_.min_height_m, k_palm_limit);
-        add_row(-slope, std::max(tuning_.min_height_m, tuning_.max_height_m) - height_m,
-                k_palm_limit);
+        problem_.add_row(part, slope, height_m - tuning_.min_height_m, k_palm_limit);
+        problem_.add_row(part, -slope,
+                         std::max(tuning_.min_height_m, tuning_.max_height_m) - height_m,
+                         k_palm_limit);
         const Vec3 up = pose_.wrist_bs.rotation * -rig_.palm_normal_hs;
         const Vec3 across = up.cross(normal);
         if (across.norm() > 1e-9) {
             Unknowns turn = Unknowns::Zero();
             turn.segment<3>(3) = across.normalized();
-            add_row(turn, tuning_.max_angle_rad - arc_tangent2(across.norm(), up.dot(normal)),
-                    k_palm_limit * k_arm_m * k_arm_m);
+            problem_.add_row(part, turn,
+                             tuning_.max_angle_rad - arc_tangent2(across.norm(), up.dot(normal)),
+                             k_palm_limit * k_arm_m * k_arm_m);
         }
     }
 
@@ -323,30 +339,15 @@ class Fitter {
         }
     }
 
-    void add_row(const Unknowns& slope, double value, double weight) {
-        rows_[row_count_++] = {slope, value, weight};
-    }
-
-    // Adds weight / 2 * (value + slope . x)^2.
-    void add_square(double weight, double value, const Unknowns& slope) {
-        for (int i = 0; i < layout_.end(); ++i) {
-            if (slope[i] != 0.0) {
-                hessian_.row(i) += weight * slope[i] * slope.transpose();
-            }
-        }
-        gradient_ += weight * value * slope;
-        cost_ += 0.5 * weight * value * value;
-    }
-
     // Moves by the solution of the problem that evaluate() built.
     void step() {
+        const FitPart part(FitTerm::joints, FitTerms::k_palm);  // costs nothing where it starts
         for (int i = 6; i < layout_.end(); ++i) {
-            add_row(unit(i), goal_.max_flex_rad, k_joint_limit * k_lever2);
-            add_row(unit(i, -1.0), goal_.max_flex_rad, k_joint_limit * k_lever2);
+            problem_.add_row(part, unit(i), goal_.max_flex_rad, k_joint_limit * k_lever2);
+            problem_.add_row(part, unit(i, -1.0), goal_.max_flex_rad, k_joint_limit * k_lever2);
         }
         hold_fixed_unknowns();
-        Unknowns change =
-            minimise_penalised(hessian_, gradient_, {rows_.data(), row_count_}, layout_.count());
+        Unknowns change = problem_.solve();
         const double move_m = change.head<3>().norm();
         const double turn_rad = change.segment<3>(3).norm();
         change *= std::min(k_max_move_m / std::max(k_max_move_m, move_m),
@@ -355,17 +356,15 @@ class Fitter {
     }
 
     void hold_fixed_unknowns() {
-        constexpr double k_held = 1e6;
-        const auto hold = [&](int place) { hessian_(place, place) += k_held; };
         for (int i = 0; goal_.is_wrist_fixed && i < 6; ++i) {
-            hold(i);
+            problem_.hold(i);
         }
         for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
             for (std::size_t i = 0; goal_.is_fixed[f] && i < rig_.fingers[f].link_count; ++i) {
-                hold(layout_.hinge(f, i));
+                problem_.hold(layout_.hinge(f, i));
             }
             if (goal_.is_fixed[f] && layout_.opposition(f) >= 0) {
-                hold(layout_.opposition(f));
+                problem_.hold(layout_.opposition(f));
             }
         }
     }
@@ -409,12 +408,7 @@ class Fitter {
     HandSpheres spheres_;
     Vec3 center_ = Vec3::Zero();  // of the palm at pose_
     HandLinkFrames frames_;
-    // The problem at pose_.
-    UnknownsSquare hessian_ = UnknownsSquare::Zero();
-    Unknowns gradient_ = Unknowns::Zero();
-    double cost_ = 0.0;  // of the squares
-    std::array<PenaltyRow, k_max_penalty_rows> rows_;
-    std::size_t row_count_ = 0;
+    FitProblem problem_;  // at pose_
 };
 
 }  // namespace
@@ -422,6 +416,17 @@ class Fitter {
 HandFit fit_hand(const HandSurroundings& hand, const GripSurface& surface, const HandFitGoal& goal,
                  const PalmTuning& tuning) {
     return Fitter(hand, surface, goal, tuning).run();
+}
+
+FitTerms fit_terms(const HandSurroundings& hand, const GripSurface& surface,
+                   const HandFitGoal& goal, const PalmTuning& tuning) {
+    FitTerms terms;
+    Fitter fitter(hand, surface, goal, tuning, &terms);
+    fitter.evaluate();
+    for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
+        terms.gap_m[f] = fitter.gap_m(f);
+    }
+    return terms;
 }
 
 }  // namespace handhold

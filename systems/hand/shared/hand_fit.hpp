@@ -6,6 +6,7 @@
 #include "components/hand.hpp"
 #include "components/hand_surroundings.hpp"
 #include "components/tuning.hpp"
+#include "systems/hand/shared/fit_terms.hpp"
 #include "systems/hand/shared/hand_spheres.hpp"
 
 // One fit of wrist, fingers and thumb to the surfaces around a hand: the stage behind fit_hands.
@@ -23,6 +24,7 @@
 //                                                   to the tip, linear in the angles
 //            + roll   sum (l (q_2 - q_1))^2         fingers bend in the middle as at the knuckle
 //            + couple sum (l (q_3 - 2/3 q_2))^2     the last hinge bends 2/3 as far as its parent
+//            + rest   sum (l (q - q_rest))^2        keeps every angle determined
 //   subject to every capsule's gap >= 0, gaps between thumb and fingers >= 0, joint limits, the
 //   palm's limits on height and tilt, total bends up to 158 degrees, neighbours' total bends within
 //   92 degrees of each other and their directions within 29 degrees
@@ -59,5 +61,10 @@ struct HandFit {
 // meshes, and `surface` is on the first one.
 HandFit fit_hand(const HandSurroundings& hand, const GripSurface& surface, const HandFitGoal& goal,
                  const PalmTuning& tuning);
+
+// The objective's terms at `goal.first`, whose sum is the cost of a fit without rounds. Same
+// preconditions.
+FitTerms fit_terms(const HandSurroundings& hand, const GripSurface& surface,
+                   const HandFitGoal& goal, const PalmTuning& tuning);
 
 }  // namespace handhold

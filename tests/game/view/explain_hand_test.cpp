@@ -1,10 +1,13 @@
 // The inspector's explanation of a hand, compared with what the hand then does.
 #include "game/view/explain_hand.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "game/desktop/desktop_session.hpp"
 #include "game/desktop/play_tally.hpp"
+#include "game/view/explain_fit.hpp"
 #include "game/view/gizmos.hpp"
 #include "tests/game/climber/climber_scene.hpp"
 
@@ -103,7 +106,7 @@ TEST(Gizmos, EachGizmoDrawsLinesAndNoneDrawsNothing) {
     add_gizmos(desk.scene().world, desk.caches(), desk.scene().tuning, k_no_gizmos, lines);
     EXPECT_TRUE(lines.empty());
     for (const Gizmo gizmo : {Gizmo::tracked_hands, Gizmo::palm_rays, Gizmo::grips, Gizmo::islands,
-                              Gizmo::search, Gizmo::palm_limits, Gizmo::fingers}) {
+                              Gizmo::search, Gizmo::palm_limits, Gizmo::fingers, Gizmo::fit}) {
         GizmoSet on = k_no_gizmos;
         on[static_cast<std::size_t>(gizmo)] = true;
         lines.clear();
@@ -150,6 +153,39 @@ TEST(Gizmos, FingerContactsLieOnTheSurface) {
         touches += nearest && nearest->distance_m < 1e-4 && is_short ? 1 : 0;
     }
     EXPECT_GT(touches, 3);
+}
+
+// Only a gripping hand has terms; looking at them changes nothing.
+TEST(Gizmos, FitColoursAreThoseOfTheCostliestTerms) {
+    AtRail desk;
+    DesktopInput grip;
+    grip.grip[0] = true;
+    desk.run(grip, 0.7);
+    const World& world = desk.scene().world;
+    const std::uint64_t hash = hash_state(world);
+    const auto terms_of = [&](HandSide side) {
+        return fit_terms_of(world, desk.caches(), desk.scene().tuning,
+                            desk.player().hands[index_of(side)]);
+    };
+    EXPECT_FALSE(terms_of(HandSide::right));
+    const auto terms = terms_of(HandSide::left);
+    ASSERT_TRUE(terms);
+    GizmoSet on = k_no_gizmos;
+    on[static_cast<std::size_t>(Gizmo::fit)] = true;
+    std::vector<Line> lines;
+    add_gizmos(world, desk.caches(), desk.scene().tuning, on, lines);
+    std::vector<Color> wanted = {color_of(FitTerm::sync)};  // of the palm's line
+    for (const FitTerms::Costs& costs : terms->cost_m2) {
+        const auto term = shaping_term(costs);
+        wanted.push_back(term ? color_of(*term) : k_at_ease);
+    }
+    for (const Color& color : wanted) {
+        EXPECT_TRUE(std::ranges::any_of(lines, [&](const Line& l) { return l.color == color; }));
+    }
+    for (const Line& line : lines) {
+        EXPECT_NE(std::ranges::find(wanted, line.color), wanted.end());
+    }
+    EXPECT_EQ(hash_state(world), hash);
 }
 
 TEST(PlayTally, ClimbedDistanceExcludesDrifting) {

@@ -145,6 +145,11 @@ template <class R, class O>
 constexpr O copy(R&& range, O out) {
     return std::copy(std::begin(range), std::end(range), out);
 }
+template <class R, class O, class F, class P = identity>
+constexpr O copy_if(R&& range, O out, F test, P projection = {}) {
+    return std::copy_if(std::begin(range), std::end(range), out,
+                        ranges::projected_test(test, projection));
+}
 template <class R, class T>
 constexpr void fill(R&& range, const T& value) {
     std::fill(std::begin(range), std::end(range), value);

@@ -80,6 +80,11 @@ export declare class World {
     releaseHand(player: hh_player, side: number): void;
     addGrip(body: hh_body, definition: Given<hh_grip_def>): void;
     setHandRig(player: hh_player, side: number, gltf: Uint8Array | null): void;
+    /** A humanoid skeleton that the player's body drives; its bytes, .glb. */
+    setBodyRig(player: hh_player, gltf: Uint8Array | null): void;
+    /** Poses of that skeleton's joints, in the file's order. */
+    skeleton(player: hh_player, space: number): hh_pose[];
+    skeletonJoint(player: hh_player, joint: number): { name: string; parent: number };
 
     step(dt_s: number, inputs?: PlayerInput[]): void;
     stepPoseOnly(dt_s: number, inputs?: PlayerInput[]): void;

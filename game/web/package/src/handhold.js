@@ -325,6 +325,23 @@ export class World {
         this.#call('player_set_hand_rig', (m) => [this.#one(m, 'hh_player', player), side,
             gltf === null ? 0 : m.takeBytes(gltf), gltf === null ? 0 : gltf.byteLength]);
     }
+    /** The player's body drives the humanoid skeleton of a glTF file, given as bytes; null: none. */
+    setBodyRig(player, gltf) {
+        this.#call('player_set_body_rig', (m) => [this.#one(m, 'hh_player', player),
+            gltf === null ? 0 : m.takeBytes(gltf), gltf === null ? 0 : gltf.byteLength]);
+    }
+    /** Poses of the body rig's joints, in the file's order. */
+    skeleton(player, space) {
+        return this.#list('player_skeleton', 'hh_pose', (m) => [this.#one(m, 'hh_player', player), space]);
+    }
+    /** {name, parent} of a joint of the body rig; parent -1: none. */
+    skeletonJoint(player, joint) {
+        return this.#library.scratch((m) => {
+            const out = m.take(8);
+            this.#checked('player_skeleton_joint', [this.#one(m, 'hh_player', player), joint, out, out + 4]);
+            return { name: m.read('text', out), parent: m.read('i32', out + 4) };
+        });
+    }
 
     // ---- Steps
     /** Steps by dt_s. inputs: [{player, samples: [...], commands: {...}}], at most one a player. */

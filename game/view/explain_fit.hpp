@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "components/tuning.hpp"
+#include "game/render/render_frame.hpp"
+#include "systems/frame.hpp"
+#include "systems/hand/shared/fit_terms.hpp"
+
+// Why a gripping hand is shaped as it is: the terms of its fit (systems/hand/shared/hand_fit.hpp).
+namespace handhold {
+
+// Terms of the shown hand, with the surroundings of the last frame. Nullopt if the hand is on no
+// surface, and right after a restore.
+std::optional<FitTerms> fit_terms_of(const World& world, const FrameCaches& caches,
+                                     const Tuning& tuning, Entity hand);
+
+// A part whose largest term costs less looks as the fit wants: as a palm less than 1 mm off.
+inline constexpr double k_small_cost_m2 = 5e-7;
+
+// The term that most shapes a part; nullopt if all are small.
+std::optional<FitTerm> shaping_term(const FitTerms::Costs& cost_m2);
+Color color_of(FitTerm term);  // the same in gizmos and tables
+inline constexpr Color k_at_ease = {0.75F, 0.75F, 0.8F};
+
+const char* meaning_of(FitTerm term);  // ends a sentence that begins with a digit's name
+
+}  // namespace handhold

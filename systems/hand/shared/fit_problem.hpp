@@ -1,0 +1,93 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "engine/math/penalty_quadratic.hpp"
+#include "systems/hand/shared/fit_terms.hpp"
+
+namespace handhold {
+
+// The term that a square or a row belongs to, and its parts: `a` alone, or half `a` and half `b`.
+struct FitPart {
+    FitPart(FitTerm of, std::size_t only) : term(of), a(only), b(only) {}
+    FitPart(FitTerm of, std::size_t one, std::size_t other) : term(of), a(one), b(other) {}
+
+    FitTerm term;
+    std::size_t a;  // into FitTerms::cost_m2
+    std::size_t b;
+};
+
+// Collects a fit's squares and inequalities, linearised at one pose, and their cost there.
+class FitProblem {
+  public:
+    // `terms`, if not null, gets the costs added by term and part; it outlives the problem.
+    explicit FitProblem(int unknowns, FitTerms* terms) : unknowns_(unknowns), terms_(terms) {}
+
+    void clear() {
+        row_count_ = 0;
+        hessian_.setZero();
+        gradient_.setZero();
+        squares_m2_ = 0.0;
+    }
+    // Adds weight / 2 * (value + slope . x)^2.
+    void add_square(const FitPart& part, double weight, double value, const Unknowns& slope) {
+        for (int i = 0; i < unknowns_; ++i) {
+            if (slope[i] != 0.0) {
+                hessian_.row(i) += weight * slope[i] * slope.transpose();
+            }
+        }
+        gradient_ += weight * value * slope;
+        add_constant(part, 0.5 * weight * value * value);
+    }
+    void add_constant(const FitPart& part, double cost_m2) {
+        squares_m2_ += cost_m2;
+        charge(part, cost_m2);
+    }
+    // Adds the inequality slope . x + value >= 0 as a penalty.
+    void add_row(const FitPart& part, const Unknowns& slope, double value, double weight) {
+        rows_[row_count_++] = {slope, value, weight};
+        charge(part, penalty_m2(rows_[row_count_ - 1]));
+    }
+    // Keeps an unknown where it is.
+    void hold(int place) {
+        constexpr double k_held = 1e6;
+        hessian_(place, place) += k_held;
+    }
+
+    double cost_m2() const {
+        double sum_m2 = squares_m2_;
+        for (std::size_t i = 0; i < row_count_; ++i) {
+            sum_m2 += penalty_m2(rows_[i]);
+        }
+        return sum_m2;
+    }
+    Unknowns solve() const {
+        return minimise_penalised(hessian_, gradient_, {rows_.data(), row_count_},
+                                  static_cast<std::size_t>(unknowns_));
+    }
+
+  private:
+    static double penalty_m2(const PenaltyRow& row) {
+        const double violation = std::min(0.0, row.value);
+        return 0.5 * row.weight * violation * violation;
+    }
+    void charge(const FitPart& part, double cost_m2) {
+        if (terms_ != nullptr) {
+            const auto term = static_cast<std::size_t>(part.term);
+            terms_->cost_m2[part.a][term] += 0.5 * cost_m2;
+            terms_->cost_m2[part.b][term] += 0.5 * cost_m2;
+        }
+    }
+
+    const int unknowns_;
+    FitTerms* const terms_;
+    UnknownsSquare hessian_ = UnknownsSquare::Zero();
+    Unknowns gradient_ = Unknowns::Zero();
+    double squares_m2_ = 0.0;
+    std::array<PenaltyRow, k_max_penalty_rows> rows_;
+    std::size_t row_count_ = 0;
+};
+
+}  // namespace handhold

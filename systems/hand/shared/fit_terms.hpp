@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "components/hand_rig.hpp"
+
+// The objective of a hand's fit, term by term and digit by digit: why a hand looks as it does.
+namespace handhold {
+
+// The terms of hand_fit.hpp. Those from `penetration` on are penalties for inequalities.
+enum class FitTerm : std::uint8_t {
+    sync,         // the palm is away from where it is tracked
+    touch,        // a digit's nearest point is off the surface
+    tip,          // a thumb's tip is off the surface
+    first,        // a digit has left the angles of the closing
+    rest,         // a digit has left its rest pose
+    alike,        // neighbouring fingers bend differently
+    fan,          // neighbouring fingers point differently
+    roll,         // a finger bends in the middle more or less than at the knuckle
+    couple,       // the last hinge bends more or less than 2/3 of its parent
+    penetration,  // a capsule is in a surface, or closer than the contacts' margin
+    overlap,      // thumb and finger are in each other
+    joints,       // an angle is outside its joint's limits
+    bend,         // a finger is folded into itself
+    apart,        // neighbouring fingers bend or point too differently
+    palm_limits,  // the palm is outside its limits on height and tilt
+    count
+};
+
+inline constexpr std::size_t k_fit_term_count = static_cast<std::size_t>(FitTerm::count);
+
+struct FitTerms {
+    static constexpr std::size_t k_palm = k_finger_count;
+    static constexpr std::size_t k_part_count = k_finger_count + 1;
+    using Costs = std::array<double, k_fit_term_count>;
+
+    // Costs by part: the digits by index into HandRig::fingers, and the palm. At least 0, in m^2: a
+    // palm moved by x costs x^2 / 2. Half of a cost that two digits share is each one's.
+    std::array<Costs, k_part_count> cost_m2 = {};
+    // By digit, as HandFit::gap_m.
+    std::array<double, k_finger_count> gap_m = {};
+};
+
+const char* name_of(FitTerm term);
+double sum_of(const FitTerms::Costs& cost_m2);
+double sum_of(const FitTerms& terms);  // the whole objective, as HandFit::cost
+FitTerm largest_of(const FitTerms::Costs& cost_m2);
+
+}  // namespace handhold

@@ -1,0 +1,199 @@
+// The terms of a hand's fit, against the cost that the fit reports and against closed forms.
+#include "systems/hand/shared/fit_terms.hpp"
+
+#include <gtest/gtest.h>
+
+#include "beam.hpp"
+#include "systems/hand/shared/hand_fit.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
+
+namespace handhold::fit_terms_test {
+namespace {
+
+using test::FittedHand;
+using test::k_right;
+using test::k_unbudgeted_s;
+using test::Random;
+using test::wrist_with_palm_at;
+
+constexpr std::size_t k_palm = FitTerms::k_palm;
+
+double cost_of(const FitTerms& terms, std::size_t part, FitTerm term) {
+    return terms.cost_m2.at(part).at(static_cast<std::size_t>(term));
+}
+
+struct FitTermsOfHand : testing::Test {
+    GripMesh beam = build_grip_mesh(test::make_beam());
+    GripMesh floor = build_grip_mesh(test::make_floor_mesh());
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+
+    FingerAngles random_angles(std::size_t f, Random& random) const {
+        FingerAngles angles;
+        const FingerRig& finger = rig.fingers[f];
+        for (std::size_t i = 0; i < finger.link_count; ++i) {
+            angles.curl_rad[i] = random.between(finger.lower_rad[i], finger.upper_rad[i]);
+        }
+        angles.opposition_rad =
+            random.between(finger.lower_opposition_rad, finger.upper_opposition_rad);
+        return angles;
+    }
+    // Near the tracked wrist, with digits bent at random.
+    HandFitGoal random_goal(const Pose& wrist_bs, Random& random) const {
+        HandFitGoal goal;
+        const Vec3 moved_m = random.vector(0.02);
+        goal.first.wrist_bs = {
+            wrist_bs.position + moved_m,
+            (wrist_bs.rotation * rotation_about(random.direction(), 0.2)).normalized()};
+        for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+            goal.closed[f] = random_angles(f, random);
+            goal.first.fingers[f] = random_angles(f, random);
+            goal.touches[f] = random.between(0.0, 1.0) < 0.6;
+            goal.is_clear[f] = random.between(0.0, 1.0) < 0.5;
+        }
+        return goal;
+    }
+    const GripMesh& random_mesh(Random& random) const {
+        return random.between(0.0, 1.0) < 0.5 ? beam : floor;
+    }
+    Pose random_wrist(Random& random) const {
+        const Vec3 up = (Vec3::UnitY() + random.vector(0.5)).normalized();
+        return wrist_with_palm_at(rig, Vec3(0.0, 0.01, 0.0) + random.vector(0.02), up);
+    }
+    static FitTerms terms_of(const FittedHand& hand, const HandFitGoal& goal) {
+        return fit_terms(hand.hands.front(), hand.surface.at(k_right), goal, hand.tuning.palm);
+    }
+};
+
+TEST_F(FitTermsOfHand, TermsSumToTheCostOfTheFit) {
+    Random random(2601);
+    std::array<int, k_fit_term_count> seen = {};
+    for (int i = 0; i < 200; ++i) {
+        FittedHand hand{random_mesh(random), random_wrist(random)};
+        hand.search();
+        HandFitGoal goal = random_goal(hand.hands.front().wrist_bs, random);
+        for (const std::int32_t rounds : {0, 6}) {
+            goal.rounds = rounds;
+            goal.first =
+                fit_hand(hand.hands.front(), hand.surface.at(k_right), goal, hand.tuning.palm).pose;
+            goal.rounds = 0;
+            const double cost_m2 =
+                fit_hand(hand.hands.front(), hand.surface.at(k_right), goal, hand.tuning.palm).cost;
+            const FitTerms terms = terms_of(hand, goal);
+            EXPECT_GT(cost_m2, 0.0);
+            EXPECT_NEAR(sum_of(terms), cost_m2, 1e-12 * cost_m2) << i;
+            for (const FitTerms::Costs& costs : terms.cost_m2) {
+                for (std::size_t term = 0; term < k_fit_term_count; ++term) {
+                    EXPECT_GE(costs[term], 0.0);
+                    seen[term] += costs[term] > 0.0 ? 1 : 0;
+                }
+            }
+        }
+    }
+    for (std::size_t term = 0; term < k_fit_term_count; ++term) {
+        // Angles are drawn, and fitted, within the joints' limits.
+        EXPECT_EQ(seen[term] > 0, static_cast<FitTerm>(term) != FitTerm::joints)
+            << name_of(static_cast<FitTerm>(term));
+    }
+}
+
+// The shown hand is at its target, so its terms are those of the fit.
+TEST_F(FitTermsOfHand, ShownHandHasTheTermsOfItsFit) {
+    Random random(2602);
+    for (int i = 0; i < 20; ++i) {
+        FittedHand hand{random_mesh(random), random_wrist(random)};
+        hand.search();
+        hand.frame(k_unbudgeted_s);
+        const PalmOffset& offset = hand.offset.at(k_right);
+        const auto terms = shown_fit_terms(hand.hands.front(), hand.surface.at(k_right), offset,
+                                           hand.pose(), hand.tuning.palm);
+        ASSERT_TRUE(terms);
+        const Vec3 moved_m =
+            hand.palm_center_bs() - transform_point(hand.wrist_bs(), rig.palm_center_hs);
+        const double turned_m = 0.08 * offset.shown_turn_rad.norm();  // hand_fit.hpp: arm
+        EXPECT_NEAR(cost_of(*terms, k_palm, FitTerm::sync),
+                    0.5 * (moved_m.squaredNorm() + turned_m * turned_m), 1e-9)
+            << i;
+        for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+            EXPECT_EQ(cost_of(*terms, f, FitTerm::sync), 0.0);
+        }
+    }
+}
+
+TEST_F(FitTermsOfHand, HandOnNoSurfaceHasNone) {
+    const FittedHand hand(beam, {});
+    EXPECT_FALSE(shown_fit_terms(hand.hands.front(), {}, {}, {}, hand.tuning.palm));
+}
+
+TEST_F(FitTermsOfHand, ChangeOfOneFingerConcernsItAndItsNeighbours) {
+    Random random(2603);
+    for (int i = 0; i < 60; ++i) {
+        FittedHand hand{random_mesh(random), random_wrist(random)};
+        hand.search();
+        HandFitGoal goal = random_goal(hand.hands.front().wrist_bs, random);
+        const std::size_t changed = 1 + static_cast<std::size_t>(i) % 4;
+        const FitTerms before = terms_of(hand, goal);
+        goal.first.fingers[changed] = random_angles(changed, random);
+        const FitTerms after = terms_of(hand, goal);
+        EXPECT_NE(cost_of(after, changed, FitTerm::roll), cost_of(before, changed, FitTerm::roll));
+        for (std::size_t part = 0; part < FitTerms::k_part_count; ++part) {
+            const bool is_near = part != k_palm && part != 0 &&
+                                 std::max(part, changed) - std::min(part, changed) <= 1;
+            for (std::size_t term = 0; term < k_fit_term_count; ++term) {
+                if (!is_near && static_cast<FitTerm>(term) != FitTerm::overlap) {
+                    EXPECT_EQ(after.cost_m2[part][term], before.cost_m2[part][term])
+                        << i << ": " << part << ", " << name_of(static_cast<FitTerm>(term));
+                }
+            }
+        }
+    }
+}
+
+// A finger whose last hinge bends 2/3 as far as the middle one, and that as far as the knuckle.
+TEST_F(FitTermsOfHand, EvenlyBentFingersCostNothingForTheirShape) {
+    Random random(2604);
+    for (int i = 0; i < 30; ++i) {
+        FittedHand hand{random_mesh(random), random_wrist(random)};
+        hand.search();
+        HandFitGoal goal = random_goal(hand.hands.front().wrist_bs, random);
+        const double bend_rad = random.between(0.1, 1.0);
+        for (std::size_t f = 1; f < rig.fingers.size(); ++f) {
+            goal.first.fingers[f].curl_rad = {bend_rad, bend_rad, bend_rad * 2.0 / 3.0};
+        }
+        const FitTerms terms = terms_of(hand, goal);
+        for (std::size_t f = 1; f < rig.fingers.size(); ++f) {
+            for (const FitTerm term : {FitTerm::roll, FitTerm::couple, FitTerm::alike,
+                                       FitTerm::apart, FitTerm::bend, FitTerm::tip}) {
+                EXPECT_NEAR(cost_of(terms, f, term), 0.0, 1e-20) << name_of(term);
+            }
+        }
+        goal.first.fingers[2].curl_rad[2] += 0.3;
+        EXPECT_GT(cost_of(terms_of(hand, goal), 2, FitTerm::couple), 1e-9);
+    }
+}
+
+// Straight fingers pressed into the floor: their depth is their radius and what they are lowered.
+TEST_F(FitTermsOfHand, PressedFingersNameThePenetration) {
+    Random random(2605);
+    for (int i = 0; i < 30; ++i) {
+        const double lowered_m = random.between(-0.003, 0.003);
+        FittedHand hand(floor, wrist_with_palm_at(rig, {0.0, 0.02, 0.0}, Vec3::UnitY()));
+        hand.search();
+        HandFitGoal goal;
+        goal.first.wrist_bs = hand.wrist_bs();
+        double knuckle_m = 1.0;
+        for (std::size_t f = 1; f < rig.fingers.size(); ++f) {
+            goal.first.fingers[f] = coupled_angles(rig.fingers[f], 0.0);
+            knuckle_m = std::min(
+                knuckle_m, transform_point(hand.wrist_bs(), rig.fingers[f].base_hs.position).y());
+        }
+        goal.first.wrist_bs.position.y() -= knuckle_m + lowered_m;
+        const FitTerms terms = terms_of(hand, goal);
+        for (std::size_t f = 1; f < rig.fingers.size(); ++f) {
+            EXPECT_LT(terms.gap_m[f], -1e-3) << f;
+            EXPECT_EQ(largest_of(terms.cost_m2[f]), FitTerm::penetration) << f;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace handhold::fit_terms_test

@@ -1,0 +1,227 @@
+#include "tools/lab/recorded_grips.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <optional>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/core/profile.hpp"
+#include "engine/io/text_file.hpp"
+#include "game/assets/body_clips_asset.hpp"
+#include "game/commands/loading.hpp"
+#include "game/commands/progress.hpp"
+#include "game/scene/spawn.hpp"
+#include "game/session/session_run.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
+#include "tools/lab/exit_status.hpp"
+#include "tools/lab/grip_files.hpp"
+#include "tools/lab/measure.hpp"
+
+namespace handhold::lab {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double hand_stages_us(const StageStats& stats) {
+    double sum_us = 0.0;
+    for (const Stage stage : {Stage::gather_surroundings, Stage::search_grip,
+                              Stage::constrain_palms, Stage::sweep_fingers, Stage::fit_hands}) {
+        sum_us += stats.stage_us[static_cast<std::size_t>(stage)];
+    }
+    return sum_us;
+}
+
+// Follows a player's hands through a session.
+class GripWatch {
+  public:
+    GripWatch(const PlayerEntities& player, std::string recording)
+        : player_(player), recording_(std::move(recording)) {}
+
+    void take(const World& world, const HandScratch& scratch, const StageStats& stats) {
+        std::array<const HandSurroundings*, k_hand_count> gripping = {};
+        double count = 0.0;
+        for (const HandSurroundings& around : scratch.surroundings) {
+            for (std::size_t side = 0; side < k_hand_count; ++side) {
+                if (around.hand == player_.hands[side] && around.is_gripping &&
+                    !around.meshes.empty()) {
+                    gripping[side] = &around;
+                    count += 1.0;
+                }
+            }
+        }
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            take_hand(world, side, gripping[side], hand_stages_us(stats) / std::max(1.0, count));
+        }
+    }
+
+    std::vector<RecordedGrip> grips;
+
+  private:
+    struct Current {
+        std::size_t grip = 0;  // into grips
+        Entity body = k_no_entity;
+        double since_s = 0.0;
+        Pose first_bs;
+    };
+
+    void take_hand(const World& world, std::size_t side, const HandSurroundings* around,
+                   double us) {
+        std::optional<Current>& current = current_[side];
+        if (around == nullptr) {
+            current.reset();
+            return;
+        }
+        const double since_s = world.grab.at(around->hand).since_s;
+        if (!current || current->body != around->body || current->since_s != since_s) {
+            current = {grips.size(), around->body, since_s, around->wrist_bs};
+            grips.push_back({recording_, side == 0 ? "left" : "right", {}, {}});
+        }
+        const Pose moved = inverse(current->first_bs) * around->wrist_bs;
+        grips[current->grip].wrists.push_back(side == 0 ? mirror_hand_pose(moved) : moved);
+        grips[current->grip].us.push_back(us);
+    }
+
+    PlayerEntities player_;
+    std::string recording_;
+    std::array<std::optional<Current>, k_hand_count> current_;
+};
+
+// Plays a recording from where most of its grabs begin near a surface.
+Result<std::vector<RecordedGrip>> watch(const std::string& scene_file, const std::string& input) {
+    const Result<Recording> recording = load_recording(input);
+    if (!recording) {
+        return recording.error();
+    }
+    Result<Scene> loaded = load_scene_with_progress(scene_file);
+    if (!loaded) {
+        return loaded.error();
+    }
+    Scene& scene = loaded.value();
+    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
+    caches.body_clips = game_body_clips();
+    const Pose origin_ws = find_spawn(scene, caches, recording.value(), k_recorded_hz).origin_ws;
+    const PlayerEntities player = add_scene_player(scene, {"player0", origin_ws, 80.0});
+    GripWatch watched(player, std::filesystem::path(input).filename().string());
+    RunSettings settings;
+    settings.hz = k_recorded_hz;
+    settings.keep_frames = false;
+    run_session(scene, caches, {player}, &recording.value(), settings,
+                [&](const Scene& played, const FrameLog& frame) {
+                    watched.take(played.world, caches.hands, frame.stats);
+                });
+    return std::move(watched.grips);
+}
+
+std::string line_of(const RecordedGrip& grip) {
+    Json wrists = Json::array();
+    for (const Pose& wrist : grip.wrists) {
+        const Vec3& p = wrist.position;
+        const Quat& q = wrist.rotation;
+        wrists.push_back({{"position_m", {p.x(), p.y(), p.z()}},
+                          {"rotation_xyzw", {q.x(), q.y(), q.z(), q.w()}}});
+    }
+    const Json line = {{"recording", grip.recording},
+                       {"hand", grip.hand},
+                       {"us", grip.us},
+                       {"wrists", std::move(wrists)}};
+    return line.dump() + "\n";
+}
+
+void print_figures(const std::vector<RecordedGrip>& grips) {
+    Series speed_mps;
+    Series turn_dps;
+    Series onset_us;
+    Series warm_us;
+    for (const RecordedGrip& grip : grips) {
+        for (std::size_t i = 0; i < grip.wrists.size(); ++i) {
+            (i == 0 ? onset_us : warm_us).add(grip.us[i]);
+            if (i > 0) {
+                const Pose step = inverse(grip.wrists[i - 1]) * grip.wrists[i];
+                speed_mps.add(k_recorded_hz *
+                              (grip.wrists[i].position - grip.wrists[i - 1].position).norm());
+                turn_dps.add(k_recorded_hz / k_degree * rotation_to_vector(step.rotation).norm());
+            }
+        }
+    }
+    std::printf("%zu grips, %zu frames after their first\n", grips.size(), warm_us.values.size());
+    const auto print = [](const char* name, const Series& series) {
+        std::printf("%-22s median %8.3f  90 %% %8.3f  99 %% %8.3f\n", name, series.quantile(0.5),
+                    series.quantile(0.9), series.quantile(0.99));
+    };
+    print("wrist speed, m/s", speed_mps);
+    print("wrist turning, deg/s", turn_dps);
+    print("a warm hand, us", warm_us);
+    print("a closing hand, us", onset_us);
+}
+
+}  // namespace
+
+int recorded_grips_command(const RecordedGripsOptions& options) {
+    set_stage_clock(StageClock::thread_cpu);
+    std::vector<RecordedGrip> grips;
+    Progress progress("recordings");
+    for (std::size_t i = 0; i < options.inputs.size(); ++i) {
+        const Result<std::vector<RecordedGrip>> watched = watch(options.scene, options.inputs[i]);
+        if (!watched) {
+            return refuse(watched.error());
+        }
+        grips.insert(grips.end(), watched.value().begin(), watched.value().end());
+        progress.show(static_cast<double>(i + 1) / static_cast<double>(options.inputs.size()));
+    }
+    print_figures(grips);
+    std::string text;
+    for (const RecordedGrip& grip : grips) {
+        text += line_of(grip);
+    }
+    if (const auto error = write_file_atomically(options.out, text)) {
+        return refuse(*error);
+    }
+    return 0;
+}
+
+std::vector<std::vector<Pose>> wrist_motions(const std::vector<RecordedGrip>& grips,
+                                             std::size_t frames, std::size_t count) {
+    std::vector<std::pair<const RecordedGrip*, std::size_t>> stretches;  // and where they begin
+    for (const RecordedGrip& grip : grips) {
+        for (std::size_t begin = 0; begin + frames < grip.wrists.size(); begin += frames) {
+            stretches.emplace_back(&grip, begin);
+        }
+    }
+    std::vector<std::vector<Pose>> motions;
+    for (std::size_t i = 0; i < count && !stretches.empty(); ++i) {
+        const auto& [grip, begin] = stretches[i * stretches.size() / count];
+        const Pose to_first = inverse(grip->wrists[begin]);
+        std::vector<Pose> motion;
+        for (std::size_t frame = 1; frame <= frames; ++frame) {
+            motion.push_back(to_first * grip->wrists[begin + frame]);
+        }
+        motions.push_back(std::move(motion));
+    }
+    return motions;
+}
+
+Result<std::vector<RecordedGrip>> load_recorded_grips(const std::filesystem::path& path) {
+    std::vector<RecordedGrip> grips;
+    const auto error = read_json_lines(path, [&](const JsonValue& root) {
+        RecordedGrip& grip = grips.emplace_back();
+        grip.recording = root["recording"].text();
+        grip.hand = root["hand"].text();
+        for (const JsonValue& us : root["us"].items()) {
+            grip.us.push_back(us.number(k_not_negative));
+        }
+        for (const JsonValue& wrist : root["wrists"].items()) {
+            constexpr NumberRange k_range = {-1e7, 1e7, false};
+            grip.wrists.push_back(
+                {wrist["position_m"].vector(k_range), wrist["rotation_xyzw"].rotation()});
+        }
+    });
+    if (error) {
+        return *error;
+    }
+    return grips;
+}
+
+}  // namespace handhold::lab
