@@ -14,6 +14,23 @@ namespace {
 
 enum class View { first_person, outside };
 
+// The player nearest to the first one within k_near_m; null if there is none.
+const RenderPose* player_near_first(const World& world) {
+    constexpr double k_near_m = 1.8;  // between the heads
+    const auto& players = world.render_pose.rows();
+    const RenderPose* nearest = nullptr;
+    double nearest_m = k_near_m;
+    for (std::size_t row = 1; row < players.size(); ++row) {
+        const double distance_m =
+            (players[row].head_ws.position - players[0].head_ws.position).norm();
+        if (distance_m < nearest_m) {
+            nearest_m = distance_m;
+            nearest = &players[row];
+        }
+    }
+    return nearest;
+}
+
 }  // namespace
 
 struct SessionFilm::Impl {
@@ -39,7 +56,9 @@ struct SessionFilm::Impl {
         if (view == View::first_person) {
             stage.draw(first.head_ws, fov_rad, 0, image);
         } else {
-            stage.draw(outside.behind(first), fov_rad, std::nullopt, image);
+            const RenderPose* const other = player_near_first(scene.world);
+            stage.draw(other != nullptr ? outside.beside(first, *other) : outside.behind(first),
+                       fov_rad, std::nullopt, image);
         }
     }
 
@@ -58,10 +77,11 @@ struct SessionFilm::Impl {
     }
 
     void watch(const FrameLog& frame) {
-        bool grabbed = false;
+        bool grabbed = false;  // or holds another player
         for (std::size_t side = 0; side < k_hand_count && !frame.players.empty(); ++side) {
             const int grip = frame.players[0].hands[side].grip;
-            grabbed = grabbed || (grip != 0 && last_grip[side] == 0);
+            grabbed = grabbed || (grip != 0 && last_grip[side] == 0) ||
+                      grip == static_cast<int>(GripKind::player);
             last_grip[side] = grip;
         }
         const double interval = session_s / std::max(1, settings.shots / 2);

@@ -26,14 +26,15 @@ struct FilmSettings {
     double video_fps = 24.0;
     double longest_video_s = 40.0;  // the video covers at most this much of the session
     // Maximum number of pictures, spread over the session. If possible, a picture shows a hand that
-    // has just grabbed.
+    // has just grabbed or holds another player.
     int shots = 8;
     std::filesystem::path video;  // empty: no video
     PlayerModels models;
 };
 
 // Pictures and a video of a session, from the player's eyes and from outside, drawn while it is
-// played. Only reads the world.
+// played. The outside view shows the nearest other player too, if one is near. Only reads the
+// world.
 class SessionFilm {
   public:
     // Null, with the reason in `why_not`, if nothing can be drawn on this machine. `scene` must

@@ -76,4 +76,20 @@ Pose OutsideCamera::before(const RenderPose& render) {
     return (camera.position - target_ws).norm() < k_min_m ? behind(render) : camera;
 }
 
+Pose OutsideCamera::beside(const RenderPose& first, const RenderPose& second) {
+    constexpr std::array<Offset, 4> k_offsets = {
+        {{-2.1, 0.3, 0.0}, {-1.8, 0.4, 1.0}, {-1.8, 0.4, -1.0}, {2.1, 0.3, 0.0}}};
+    const Vec3 up = scene_->up_ws;
+    const Vec3& first_ws = first.head_ws.position;
+    const Vec3 between = second.head_ws.position - first_ws;
+    Vec3 across = between.cross(up);
+    const double length = across.norm();
+    if (length < 1e-3) {  // one above the other
+        return behind(first);
+    }
+    across *= (across.dot(level_ahead(first)) < 0.0 ? -1.0 : 1.0) / length;
+    const Vec3 target_ws = first_ws + 0.5 * between - 0.3 * up;
+    return look_from(k_offsets, first_ws, target_ws, across);
+}
+
 }  // namespace handhold

@@ -25,6 +25,8 @@ class OutsideCamera {
     // In front of the player, looking back. The left hand is on the right, as in a photograph. The
     // same as `behind` if walls leave less than 0.6 m.
     Pose before(const RenderPose& render);
+    // From the side of two players, so that both are seen, and the first from behind.
+    Pose beside(const RenderPose& first, const RenderPose& second);
 
   private:
     // Offset ahead, up and to the right of the target, metres.

@@ -41,6 +41,42 @@ ChestInputs chest_inputs(const ChestView& view, HandSide side) {
     return inputs;
 }
 
+// Limits of an arm that reaches across the chest. Angles: of the line from shoulder to hand, from
+// straight ahead towards the other side, seen along the chest's up axis. In body_train, arms that
+// reach more than 0.85 arm lengths away in this view are beyond 45 degrees in 0.3 % of the frames,
+// and beyond 65 degrees in 0.1 %.
+constexpr double k_across_rad = 0.698;       // 40 degrees; beyond, the chest begins to turn
+constexpr double k_across_soft_rad = 0.349;  // turn = excess^2 / (excess + k_across_soft_rad)
+// Beyond these angles the hand may as well be behind the back: the turn fades to zero.
+constexpr double k_across_fades_rad = 1.92;
+constexpr double k_across_ends_rad = 2.618;
+// Distances in that view, in arm lengths, between which the turn fades in. A bent arm reaches
+// farther across.
+constexpr double k_across_bent = 0.9;
+constexpr double k_across_straight = 1.05;
+// The turn fades out if the other hand is inside of its own shoulder by so many arm lengths: then
+// the hands are not on one side.
+constexpr double k_other_inside = 0.2;
+constexpr double k_other_outside = 0.0;
+
+// The turn (rad, >= 0) for an arm that reaches across. Hands from their own shoulders, in the axes
+// of the chest and arm lengths, mirrored so that `hand` is the right one.
+double across_turn(const Vec3& hand, const Vec3& other) {
+    const double distance = std::sqrt(hand.x() * hand.x() + hand.z() * hand.z());
+    const double share = smooth_step(distance, k_across_bent, k_across_straight) *
+                         smooth_step(-other.x(), -k_other_inside, -k_other_outside);
+    if (share == 0.0 || hand.x() >= 0.0) {
+        return 0.0;
+    }
+    const double angle = arc_tangent2(-hand.x(), -hand.z());
+    const double excess = angle - k_across_rad;
+    if (excess <= 0.0) {
+        return 0.0;
+    }
+    const double ahead = 1.0 - smooth_step(angle, k_across_fades_rad, k_across_ends_rad);
+    return share * ahead * excess * excess / (excess + k_across_soft_rad);
+}
+
 }  // namespace
 
 Quat chest_lean(const Vec3& head_up_ps) {
@@ -104,6 +140,24 @@ ChestCorrection chest_correction(const Vec3& facing_ps, const Vec3& look_ps,
         return half * (static_cast<double>(right.values[i]) + static_cast<double>(left.values[i]));
     };
     return {lateral(0), {Vec3(lateral(1), common(2), common(3)), lateral(4)}};
+}
+
+double turn_to_reach_across(const Vec3& facing_ps, const Quat& lean_ps, const Pose& chest_ps,
+                            const TrackedBody& body) {
+    const Mat3 lean = lean_ps.toRotationMatrix();
+    const Vec3 right_ps =
+        (0.5 * body.measures.shoulder_width_m) * (chest_ps.rotation * Vec3::UnitX());
+    const double by_arm = 1.0 / arm_length_m(body.measures);
+    const auto from_shoulder = [&](HandSide side) {
+        const Vec3 shoulder_ps =
+            chest_ps.position + (side == HandSide::right ? 1.0 : -1.0) * right_ps;
+        const Vec3 hand_ps = by_arm * (body.hands_ps[index_of(side)].position - shoulder_ps);
+        return to_facing(facing_ps, lean.transpose() * hand_ps);
+    };
+    const Vec3 left = from_shoulder(HandSide::left);
+    const Vec3 right = from_shoulder(HandSide::right);
+    return across_turn(right, left) - across_turn(mirrored_if_left(left, HandSide::left),
+                                                  mirrored_if_left(right, HandSide::left));
 }
 
 Pose chest_pose(const Vec3& facing_ps, const Quat& lean_ps, const ChestOffset& offset,
