@@ -112,7 +112,7 @@ struct FrameGraph {
     struct PenetratingBody {
         std::uint32_t body = 0;
         // Index into the islands as solve_phases built them (the islands are rebuilt afterwards).
-        // Equal to the number of islands if no constraint row involved the body.
+        // If no constraint row involved the body: a number of its own, above all islands.
         std::uint32_t island = 0;
         double error_m = 0.0;  // largest error of the body's constraint rows, except hand rows
         // The body that carries it along with its motion in this frame: the fixed or kinematic body
@@ -121,8 +121,10 @@ struct FrameGraph {
         Pose pose_ws;
         Vec3 velocity_mps = Vec3::Zero();
         Vec3 spin_radps = Vec3::Zero();
+        bool is_restored = false;  // false if the restore was undone
     };
-    std::vector<PenetratingBody> penetrating_bodies;  // sorted by island
+    // Sorted by island; then what was restored because it overlapped one of these.
+    std::vector<PenetratingBody> penetrating_bodies;
     MissedOverlaps hidden_overlaps;  // written by finish_positions; read by update_velocities
     // Largest errors, by island. After a solve that met all its constraint rows: an upper bound.
     // Otherwise none until something asks for the errors.

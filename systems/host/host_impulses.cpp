@@ -26,20 +26,23 @@ double hand_speed_mps(const ConstraintGraph& graph, const Island& island) {
 bool is_kind_of_drive(const RowBlock& block) { return is_drive(block); }
 bool is_kind_of_contact(const RowBlock& block) { return is_contact(block); }
 
-double impulse_limit_ns(const ConstraintGraph& graph, const Island& island) {
-    double mass_kg = 0.0;
+double impulse_limit_ns(const FrameGraph& frame, const Island& island) {
+    constexpr double k_true_share = 1.0 - 1e-9;  // less is not rounding
+    const ConstraintGraph& graph = frame.graph;
+    const double hand_mps = hand_speed_mps(graph, island);
+    double limit_ns = 0.0;
     bool is_unyielding = false;
     for (const std::uint32_t i : graph.bodies_of(island)) {
         const SolverBody& body = graph.bodies[i];
+        if (body.role == BodyRole::fixed) {
+            continue;
+        }
         const bool is_player = body.role == BodyRole::translating;
-        is_unyielding = is_unyielding || (is_player && body.inverse_mass * body.mass_kg < 1.0);
-        mass_kg += body.role == BodyRole::fixed ? 0.0 : body.mass_kg;
+        is_unyielding =
+            is_unyielding || (is_player && body.inverse_mass * body.mass_kg < k_true_share);
+        limit_ns += body.mass_kg * (frame.phase[i].velocity_before_mps.norm() + hand_mps);
     }
-    if (!is_unyielding) {
-        return k_no_limit;
-    }
-    const double speed_mps = hand_speed_mps(graph, island);
-    return speed_mps > 0.0 ? mass_kg * speed_mps : k_no_limit;
+    return is_unyielding ? limit_ns : k_no_limit;
 }
 
 // Factor for the impulses of one kind in an island: 1, or less if their sum exceeds the limit.
@@ -58,7 +61,7 @@ void limit_impulses(hh_world& host) {
     const ConstraintGraph& graph = host.caches.graph.graph;
     host.impulse_shares.assign(graph.blocks.size(), 1.0);
     for (const Island& island : graph.islands) {
-        const double limit_ns = impulse_limit_ns(graph, island);
+        const double limit_ns = impulse_limit_ns(host.caches.graph, island);
         for (const auto is_kind : {&is_kind_of_drive, &is_kind_of_contact}) {
             const double share = share_within(graph, island, is_kind, limit_ns);
             for (const std::uint32_t i : graph.blocks_of(island)) {

@@ -13,9 +13,9 @@ namespace handhold {
 //
 // A hand that moves a light body does so as if its player could not be moved. In the frame in which
 // that body meets a wall, hand and wall then press against each other without a bound, which moves
-// nothing. What they can exchange is the momentum of the bodies and players of that island at the
-// hands' speed. This is the limit for all hands of the island together, and for all its contacts;
-// other islands have none.
+// nothing. What they can exchange is the momentum of the bodies and players of that island: with
+// the velocities before the velocity solve, and the hands' speed on top. This is the limit for all
+// hands of the island together, and for all its contacts; other islands have none.
 void limit_impulses(hh_world& host);
 
 // The impulse on the block's first body, world axes.

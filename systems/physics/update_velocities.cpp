@@ -68,15 +68,16 @@ double pushed_share(double heaviest_kg, double mass_kg, const PhaseTuning& tunin
 bool has_unyielding_hand(const FrameGraph& frame, const Island& island) {
     return std::ranges::any_of(frame.graph.blocks_of(island), [&](std::uint32_t i) {
         const RowBlock& block = frame.graph.blocks[i];
-        return is_drive(block) && !frame.phase[block.a].grips_surface &&
-               !frame.phase[block.a].pushed;
+        const FrameGraph::PhaseBody& player = frame.phase[block.a];
+        return is_drive(block) && !player.grips_surface && !player.pushed &&
+               player.forward_share < 1.0;
     });
 }
 
 // Momentum is exchanged with the masses of the phase that moved the island. Players have their true
 // mass if they grip a surface, or were pushed by something that shares momentum. Heavy bodies have
-// theirs if pushed or in an island with a grip or joint, but stand still before a hand that does
-// not yield: it would give them momentum that no player pays for.
+// theirs if pushed or in an island with a grip or joint, but stand still in one with a hand that
+// does not yield: it would give them momentum that no player pays for.
 void set_masses(FrameGraph& frame, const Island& island, const PhaseTuning& tuning) {
     const bool reached =
         has_hand_or_joint(frame.graph, island) && !has_unyielding_hand(frame, island);

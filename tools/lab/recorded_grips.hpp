@@ -38,7 +38,7 @@ int recorded_grips_command(const RecordedGripsOptions& options);
 Result<std::vector<RecordedGrip>> load_recorded_grips(const std::filesystem::path& path);
 
 // `count` stretches of `frames` successive wrists, spread evenly over all stretches of the grips;
-// each is relative to its own first wrist. Fewer if there are no grips as long as that.
+// each is relative to its own first wrist. Empty if no grip is as long as that. `frames` > 0.
 std::vector<std::vector<Pose>> wrist_motions(const std::vector<RecordedGrip>& grips,
                                              std::size_t frames, std::size_t count);
 

@@ -106,12 +106,13 @@ function chooseHands(usesWrists) {
 }
 
 let last_ms;
+const k_recorded_step_s = 1 / 90;
 let lag_s = 0; // of a played recording behind the clock
 const path = []; // the play space's position after each step of a recording
 
 // Plays a recording in steps of 1/90 s; at its end the panel tells the hash.
 function playRecording(dt_s) {
-    const k_step_s = 1 / 90;
+    const k_step_s = k_recorded_step_s;
     const steps = Math.max(1, Math.floor(Number(query.get('seconds') ?? recorded.duration_s) * 90 + 1e-3));
     lag_s = Math.min(lag_s + dt_s, 0.5);
     for (; lag_s >= k_step_s && path.length < steps; lag_s -= k_step_s) {
@@ -135,7 +136,7 @@ function show(dt_s, frame_ms) {
     place(rig, pose.origin);
     world.bodyPoses(level.movers.map((one) => one.body)).forEach((at, i) => place(level.movers[i].object, at));
     const showsGizmos = element('gizmos').checked;
-    avatar.update(world, player, pose, showsGizmos, dt_s);
+    avatar.update(world, player, pose, showsGizmos, recorded ? k_recorded_step_s : dt_s);
     climber?.update(showsGizmos, dt_s);
     const v = pose.velocity_mps;
     const speed_mps = Math.hypot(v.x, v.y, v.z);

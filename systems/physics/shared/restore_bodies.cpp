@@ -57,7 +57,8 @@ double hidden_overlap_m(const FrameGraph& frame, std::uint32_t body) {
     return frame.hidden_overlaps.of_body[body].depth_m;
 }
 
-// The same; if no contact shows one, the body of a hidden overlap.
+// The fixed or kinematic body that `body` penetrates most by its contacts; if no contact shows one,
+// the fixed body of a hidden overlap.
 std::optional<std::uint32_t> overlapped_fixed_body(const FrameGraph& frame, std::uint32_t body) {
     const std::optional<std::uint32_t> wall = deepest_fixed_contact(frame.graph, body);
     const Overlap& hidden = frame.hidden_overlaps.of_body[body];
@@ -184,51 +185,45 @@ bool is_improved(const FrameGraph& frame, const FrameGraph::PenetratingBody& pen
                                                      k_max_error_ratio * penetrating.error_m;
 }
 
-// For each island: keeps the restores of all its bodies (counted), or undoes them all and drops the
-// bodies from the list. True if any were undone.
-bool undo_failed_restores(FrameGraph& frame, StageStats& stats) {
-    std::vector<FrameGraph::PenetratingBody>& penetrating = frame.penetrating_bodies;
-    auto kept = penetrating.begin();
-    for (auto first = penetrating.begin(); first != penetrating.end();) {
-        const auto last =
-            std::find_if(first, penetrating.end(), [&](const FrameGraph::PenetratingBody& other) {
-                return other.island != first->island;
-            });
-        if (std::all_of(first, last, [&frame](const FrameGraph::PenetratingBody& body) {
-                return is_improved(frame, body);
-            })) {
-            stats.count(Fallback::restored_last_valid_pose);
-            std::for_each(first, last, [&](const FrameGraph::PenetratingBody& body) {
-                frame.hidden_overlaps.of_body[body.body] = {0.0, body.body};
-            });
-            kept = std::move(first, last, kept);
-        } else {
-            std::for_each(first, last, [&](const FrameGraph::PenetratingBody& body) {
-                undo_restore(body, frame);
-            });
-        }
-        first = last;
+// Undoes the restores of `bodies` in each island in which one of them did not help, and keeps those
+// of the other islands. True if any were undone.
+bool undo_failed_restores(std::span<FrameGraph::PenetratingBody> bodies, FrameGraph& frame) {
+    for (FrameGraph::PenetratingBody& body : bodies) {
+        body.is_restored = is_improved(frame, body);
     }
-    const bool undone = kept != penetrating.end();
-    penetrating.erase(kept, penetrating.end());
+    bool undone = false;
+    for (FrameGraph::PenetratingBody& body : bodies) {
+        const bool fails =
+            std::ranges::any_of(bodies, [&body](const FrameGraph::PenetratingBody& other) {
+                return other.island == body.island && !other.is_restored;
+            });
+        if (fails) {
+            body.is_restored = false;
+            undo_restore(body, frame);
+            undone = true;
+        } else {
+            frame.hidden_overlaps.of_body[body.body] = {0.0, body.body};
+        }
+    }
     return undone;
 }
 
-// Where a body was, another that has moved on may be by now. Lists the free bodies and players that
-// overlap a restored body, to be restored with it. False if there are none.
-bool add_overlapped_by_restored(FrameGraph& frame) {
-    std::vector<FrameGraph::PenetratingBody>& restored = frame.penetrating_bodies;
-    const std::size_t count = restored.size();
-    const auto find = [&restored](std::uint32_t body) {
-        return std::ranges::find(restored, body, &FrameGraph::PenetratingBody::body);
+// Restores free bodies and players that overlap a restored body, and adds them to the list: they
+// may have moved to where it was. False if there are none.
+bool restore_overlapped_bodies(FrameGraph& frame) {
+    std::vector<FrameGraph::PenetratingBody>& listed = frame.penetrating_bodies;
+    const std::size_t count = listed.size();
+    const auto is_listed = [&listed](std::uint32_t body) {
+        return std::ranges::find(listed, body, &FrameGraph::PenetratingBody::body) != listed.end();
     };
     const auto add = [&](std::uint32_t index, std::uint32_t other, double overlap_m) {
         const SolverBody& body = frame.graph.bodies[index];
         const bool may_move = body.role == BodyRole::free || body.role == BodyRole::translating;
-        const auto carrier = find(other);
-        if (may_move && carrier != restored.end() && find(index) == restored.end()) {
-            restored.push_back({index, carrier->island, overlap_m, other, body.pose_ws,
-                                body.velocity_mps, body.spin_radps});
+        const auto carriers = std::span(listed).first(count);
+        const auto carrier = std::ranges::find(carriers, other, &FrameGraph::PenetratingBody::body);
+        if (may_move && carrier != carriers.end() && carrier->is_restored && !is_listed(index)) {
+            listed.push_back({index, carrier->island, overlap_m, other, body.pose_ws,
+                              body.velocity_mps, body.spin_radps, true});
         }
     };
     for (const RowBlock& block : frame.graph.blocks) {
@@ -242,33 +237,10 @@ bool add_overlapped_by_restored(FrameGraph& frame) {
             add(block.b, block.a, overlap_m);
         }
     }
-    return restored.size() > count;
-}
-
-// Restores what overlaps the restored bodies, or leaves it if that does not help.
-void restore_overlapped_bodies(CollisionWorld& collision, FrameGraph& frame,
-                               const ContactTuning& tuning, StageStats& stats) {
-    std::vector<FrameGraph::PenetratingBody>& restored = frame.penetrating_bodies;
-    const std::size_t count = restored.size();
-    for (int round = 0; round < k_max_joining_rounds; ++round) {
-        const std::size_t first = restored.size();
-        if (!add_overlapped_by_restored(frame)) {
-            break;
-        }
-        for (std::size_t i = first; i < restored.size(); ++i) {
-            restore_last_valid_pose(restored[i], frame);
-        }
-        rebuild_contacts(collision, frame, tuning, stats);
+    for (std::size_t i = count; i < listed.size(); ++i) {
+        restore_last_valid_pose(listed[i], frame);
     }
-    const std::span<const FrameGraph::PenetratingBody> joined = std::span(restored).subspan(count);
-    if (!std::ranges::all_of(joined, [&frame](const FrameGraph::PenetratingBody& body) {
-            return is_improved(frame, body);
-        })) {
-        for (const FrameGraph::PenetratingBody& body : joined) {
-            undo_restore(body, frame);
-        }
-        rebuild_contacts(collision, frame, tuning, stats);
-    }
+    return listed.size() > count;
 }
 
 }  // namespace
@@ -286,14 +258,27 @@ void restore_penetrating_bodies(CollisionWorld& collision, FrameGraph& frame,
     if (frame.penetrating_bodies.empty()) {
         return;
     }
-    for (const FrameGraph::PenetratingBody& penetrating : frame.penetrating_bodies) {
+    std::vector<FrameGraph::PenetratingBody>& listed = frame.penetrating_bodies;
+    for (const FrameGraph::PenetratingBody& penetrating : listed) {
         restore_last_valid_pose(penetrating, frame);
     }
     rebuild_contacts(collision, frame, tuning, stats);
-    if (undo_failed_restores(frame, stats)) {
+    if (undo_failed_restores(listed, frame)) {
         rebuild_contacts(collision, frame, tuning, stats);
     }
-    restore_overlapped_bodies(collision, frame, tuning, stats);
+    const std::size_t count = listed.size();
+    for (std::size_t i = 0; i < count; ++i) {  // grouped by island
+        const bool is_first = i == 0 || listed[i - 1].island != listed[i].island;
+        if (is_first && listed[i].is_restored) {
+            stats.count(Fallback::restored_last_valid_pose);
+        }
+    }
+    for (int round = 0; round < k_max_joining_rounds && restore_overlapped_bodies(frame); ++round) {
+        rebuild_contacts(collision, frame, tuning, stats);
+    }
+    if (undo_failed_restores(std::span(listed).subspan(count), frame)) {
+        rebuild_contacts(collision, frame, tuning, stats);
+    }
 }
 
 }  // namespace handhold

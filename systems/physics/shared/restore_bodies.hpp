@@ -9,11 +9,11 @@
 
 namespace handhold {
 
-// Restores free bodies that penetrate something by more than restore_depth_m to their last valid
-// poses, and what they would overlap there with them: bodies, and players by their heads. What
-// stays worse than half of its error is left where the phases put it. Contacts are found again at
-// the restored poses. Writes frame.hidden_overlaps. Fallbacks counted: restored_last_valid_pose,
-// solver_budget.
+// Restores free bodies that penetrate something by restore_depth_m or more to their last valid
+// poses. Then also restores the bodies and players' heads that they would overlap there. In an
+// island where that does not at least halve the error of each of its bodies, all stay where the
+// phases put them. Contacts are found again at the restored poses. Writes frame.hidden_overlaps.
+// Fallbacks counted: restored_last_valid_pose (once an island), solver_budget.
 void restore_penetrating_bodies(CollisionWorld& collision, FrameGraph& frame,
                                 const ContactTuning& tuning, StageStats& stats);
 

@@ -80,9 +80,9 @@ typedef struct hh_hand_state {
     hh_pose anchor;
     double error_m;   /* distance of the tracked wrist and the anchor: 0 unless hindered */
     /* By the hand on what it grips, in the last step: for haptics. 0 if the host's solver moved the
-     * player (hh_world_end_step): that solver knows it. A hand that presses a light body against
-     * something immovable reports at most the momentum of the players and bodies involved at the
-     * hand's speed; contacts alike. */
+     * player (hh_world_end_step): that solver knows it. While hands move only light bodies, hands
+     * and contacts report at most the momentum that the players and bodies involved have, with the
+     * hands' speed on top. */
     hh_vec3 force_impulse_ns;
     bool is_tracked;
     bool is_closed; /* the button is down */
@@ -103,8 +103,8 @@ HH_API hh_result hh_world_player_poses(const hh_world* world, const hh_player* p
 /* In the next step the hand grips `body` where both are, at any distance, whatever the grab rules
  * say; only a body for two hands needs an order for both. No grip begins while the player opens the
  * hand. It holds until hh_hand_release or until the player opens the hand. If the player closes the
- * hand before that, it grips what is in reach instead; with nothing in reach, the grip stays. HH_ERROR_STATE for a hand that was never
- * tracked. */
+ * hand before that, it grips what is in reach instead; with nothing in reach, the grip stays.
+ * HH_ERROR_STATE for a hand that was never tracked. */
 HH_API hh_result hh_hand_grip(hh_world* world, hh_player player, hh_side side, hh_body body);
 /* In the next step the hand lets go, without a throw. It grips again when the player opens and
  * closes it. HH_OK also for an empty hand. */
