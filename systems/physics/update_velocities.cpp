@@ -74,13 +74,20 @@ bool has_unyielding_hand(const FrameGraph& frame, const Island& island) {
     });
 }
 
+bool is_joined(const ConstraintGraph& graph, const Island& island, std::uint32_t body) {
+    return std::ranges::any_of(graph.blocks_of(island), [&](std::uint32_t i) {
+        const RowBlock& block = graph.blocks[i];
+        return !is_contact(block) && (block.a == body || block.b == body);
+    });
+}
+
 // Momentum is exchanged with the masses of the phase that moved the island. Players have their true
 // mass if they grip a surface, or were pushed by something that shares momentum. Heavy bodies have
-// theirs if pushed or in an island with a grip or joint, but stand still in one with a hand that
-// does not yield: it would give them momentum that no player pays for.
+// theirs if pushed or in an island with a grip or joint. If a hand there does not yield, those that
+// only contacts reach stand still: they would get momentum that no player pays for.
 void set_masses(FrameGraph& frame, const Island& island, const PhaseTuning& tuning) {
-    const bool reached =
-        has_hand_or_joint(frame.graph, island) && !has_unyielding_hand(frame, island);
+    const bool reached = has_hand_or_joint(frame.graph, island);
+    const bool is_unyielding = has_unyielding_hand(frame, island);
     const bool shares = shares_momentum(frame, island);
     const double heaviest_kg = heaviest_free_kg(frame, island);
     for (const std::uint32_t i : frame.graph.bodies_of(island)) {
@@ -91,7 +98,8 @@ void set_masses(FrameGraph& frame, const Island& island, const PhaseTuning& tuni
             const double pushed = shares ? 1.0 : pushed_share(heaviest_kg, body.mass_kg, tuning);
             share = info.grips_surface ? 1.0 : info.pushed ? pushed : info.forward_share;
         } else if (body.role == BodyRole::heavy) {
-            share = info.pushed || reached ? 1.0 : 0.0;
+            const bool moves = is_unyielding ? is_joined(frame.graph, island, i) : reached;
+            share = info.pushed || moves ? 1.0 : 0.0;
         }
         body.inverse_mass = share / body.mass_kg;
         body.inverse_inertia_bs.setZero();
