@@ -42,7 +42,10 @@ double impulse_limit_ns(const FrameGraph& frame, const Island& island) {
             is_unyielding || (is_player && body.inverse_mass * body.mass_kg < k_true_share);
         limit_ns += body.mass_kg * (frame.phase[i].velocity_before_mps.norm() + hand_mps);
     }
-    return is_unyielding ? limit_ns : k_no_limit;
+    if (!is_unyielding) {
+        return k_no_limit;
+    }
+    return limit_ns;
 }
 
 // Factor for the impulses of one kind in an island: 1, or less if their sum exceeds the limit.
