@@ -8,7 +8,7 @@ namespace handhold {
 namespace {
 
 constexpr double k_no_limit = std::numeric_limits<double>::infinity();
-constexpr double k_lever_m = 1.0;  // of a hand's rotation, about the size of what hands hold
+constexpr double k_lever_m = 1.0;  // lever of a hand's rotation: no held body is much longer
 
 // Greatest speed at which the island's hands move what they hold.
 double hand_speed_mps(const ConstraintGraph& graph, const Island& island) {

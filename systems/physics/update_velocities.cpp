@@ -68,12 +68,15 @@ double pushed_share(double heaviest_kg, double mass_kg, const PhaseTuning& tunin
 bool has_unyielding_hand(const FrameGraph& frame, const Island& island) {
     return std::ranges::any_of(frame.graph.blocks_of(island), [&](std::uint32_t i) {
         const RowBlock& block = frame.graph.blocks[i];
+        if (!is_drive(block)) {
+            return false;
+        }
         const FrameGraph::PhaseBody& player = frame.phase[block.a];
-        return is_drive(block) && !player.grips_surface && !player.pushed &&
-               player.forward_share < 1.0;
+        return !player.grips_surface && !player.pushed && player.forward_share < 1.0;
     });
 }
 
+// True if a hand or joint acts on the body.
 bool is_joined(const ConstraintGraph& graph, const Island& island, std::uint32_t body) {
     return std::ranges::any_of(graph.blocks_of(island), [&](std::uint32_t i) {
         const RowBlock& block = graph.blocks[i];

@@ -21,13 +21,13 @@ struct DrivePair {
 // Returns the body rotation for which
 // - The line between the anchors is parallel to the line between the drives. If the first drive is
 //   on its anchor, the second drive is on the line through both anchors and may slide along it.
-// - The rotation about that line is the weighted mean of what the two drives ask for: each drive's
-//   weight is the cosine of half its swing out of the line. A drive swung by half a turn asks for
-//   no defined rotation about the line and has weight 0.
+// - The rotation about that line is a weighted mean of the rotations of both drives about it. A
+//   drive's weight is the cosine of half its swing, the angle by which it would tilt that line. A
+//   drive that is swung by half a turn has no rotation about the line, and weight 0.
 //
-// Rotations about the line are ambiguous by whole turns. `near`, any rotation within half a turn of
-// what both drives ask for, removes the ambiguity. Returns `near` if the drives or the anchors are
-// closer together than a micrometre.
+// `near` is any rotation within half a turn of both drives' rotations; it selects among results
+// that differ by whole turns. Returns `near` if the drives or the anchors are closer together than
+// a micrometre.
 Quat rotation_from_drive_pair(const DrivePair& drives, const Quat& near);
 
 }  // namespace handhold

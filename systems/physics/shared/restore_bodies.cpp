@@ -19,7 +19,6 @@ constexpr double k_max_restore_distance_m = 2.0;
 // Smaller overlaps with a restored body are left to the next frames: restoring a player as well
 // costs the exactness of their hands.
 constexpr double k_joining_depth_m = 1e-3;
-constexpr int k_max_joining_rounds = 3;    // chains of bodies that overlap restored ones
 constexpr double k_max_error_ratio = 0.5;  // a restore must reduce the error at least to this share
 
 // The worst error of a body's own rows without grips, or of its contacts only.
@@ -273,9 +272,10 @@ void restore_penetrating_bodies(CollisionWorld& collision, FrameGraph& frame,
             stats.count(Fallback::restored_last_valid_pose);
         }
     }
-    for (int round = 0; round < k_max_joining_rounds && restore_overlapped_bodies(frame); ++round) {
-        rebuild_contacts(collision, frame, tuning, stats);
+    if (!restore_overlapped_bodies(frame)) {
+        return;
     }
+    rebuild_contacts(collision, frame, tuning, stats);
     if (undo_failed_restores(std::span(listed).subspan(count), frame)) {
         rebuild_contacts(collision, frame, tuning, stats);
     }
