@@ -22,6 +22,10 @@ struct AuthoredHand {
     // Indexed by FingerName. False: the finger has no authored pose and closes on the surface.
     std::array<bool, k_finger_count> is_posed = {};
     std::array<FingerAngles, k_finger_count> fingers;
+    // Indexed by FingerName. True: the posed finger moves from `fingers` to `pressed` as far as the
+    // controller's trigger is pressed.
+    std::array<bool, k_finger_count> follows_trigger = {};
+    std::array<FingerAngles, k_finger_count> pressed;
 };
 
 struct AuthoredGrip {

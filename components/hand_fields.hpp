@@ -11,6 +11,8 @@ void visit_fields(const AuthoredHand& c, V&& visit) {
     visit("wrist_bs", c.wrist_bs);
     visit("is_posed", c.is_posed);
     visit("fingers", c.fingers);
+    visit("follows_trigger", c.follows_trigger);
+    visit("pressed", c.pressed);
 }
 template <typename V>
 void visit_fields(const AuthoredGrip& c, V&& visit) {
@@ -73,6 +75,7 @@ void visit_fields(const HandTracking& c, V&& visit) {
     visit("pressed", c.pressed);
     visit("raw_pressed", c.raw_pressed);
     visit("squeeze", c.squeeze);
+    visit("trigger", c.trigger);
     visit("release_velocity_ps_mps", c.release_velocity_ps_mps);
     visit("release_spin_ps_radps", c.release_spin_ps_radps);
 }

@@ -56,6 +56,7 @@ void visit_fields(const EarlySample& c, V&& visit) {
     visit("tracked", c.tracked);
     visit("grab", c.grab);
     visit("squeeze", c.squeeze);
+    visit("trigger", c.trigger);
 }
 template <typename V>
 void visit_fields(const HeadIgnores& c, V&& visit) {

@@ -22,6 +22,9 @@ struct ControllerSample {
     Pose controller_ps;
     bool grab = false;     // the button that closes the hand is pressed
     double squeeze = 0.0;  // how far it is pressed, [0, 1]; bends the fingers of an empty hand
+    // How far the index finger's trigger is pressed, [0, 1]. Bends the index finger of an empty
+    // hand, and the fingers of authored grips that follow the trigger.
+    double trigger = 0.0;
 };
 // Readings of all devices at one time. Input, not state.
 struct TrackingSample {
@@ -98,6 +101,7 @@ struct HandTracking {
     bool pressed = false;      // after the edge
     bool raw_pressed = false;  // in the last sample
     double squeeze = 0.0;      // there, [0, 1]
+    double trigger = 0.0;      // there, [0, 1]
     // At a release: velocity of the hand in play space over TrackingTuning::release_window_s.
     Vec3 release_velocity_ps_mps = Vec3::Zero();
     Vec3 release_spin_ps_radps = Vec3::Zero();
@@ -114,6 +118,7 @@ struct EarlySample {
     std::array<bool, k_hand_count> tracked = {};    // by HandSide
     std::array<bool, k_hand_count> grab = {};       // by HandSide
     std::array<double, k_hand_count> squeeze = {};  // by HandSide
+    std::array<double, k_hand_count> trigger = {};  // by HandSide
 };
 
 // The hand's last samples in a ring, for velocities that do not depend on the frame rate. Written

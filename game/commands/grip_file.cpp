@@ -25,6 +25,8 @@ constexpr const char* k_radius_key = "grip_snap_radius_m";
 constexpr const char* k_angle_key = "grip_snap_angle_deg";
 constexpr const char* k_mirror_key = "grip_mirror_axis";
 constexpr const char* k_posed_key = "grip_posed_fingers";
+// Four angles in degrees: three curls and the opposition; followed by the finger's name.
+constexpr const char* k_pressed_key = "grip_pressed_deg_";
 
 const char* text_of(HandSide side) { return side == HandSide::left ? "left" : "right"; }
 
@@ -114,6 +116,29 @@ class GripNodes {
     std::optional<FileError> error_;
 };
 
+void read_pressed(GripNodes& nodes, const GltfNode* wrist, AuthoredHand& hand) {
+    for (std::size_t f = 0; f < k_finger_count; ++f) {
+        const std::string key =
+            k_pressed_key + std::string(finger_text(static_cast<FingerName>(f)));
+        if (wrist == nullptr || !wrist->numbers.contains(key)) {
+            continue;
+        }
+        const std::vector<double>& angles = wrist->numbers.at(key);
+        const auto is_angle = [](double angle_deg) { return std::abs(angle_deg) <= 180.0; };
+        if (angles.size() != k_max_links + 1 ||
+            !std::all_of(angles.begin(), angles.end(), is_angle)) {
+            nodes.refuse(wrist->pointer + "/extras/" + key,
+                         "expected four angles within 180 degrees: three curls, the opposition");
+            return;
+        }
+        hand.follows_trigger[f] = true;
+        for (std::size_t link = 0; link < k_max_links; ++link) {
+            hand.pressed[f].curl_rad[link] = k_degree * angles[link];
+        }
+        hand.pressed[f].opposition_rad = k_degree * angles[k_max_links];
+    }
+}
+
 void read_numbers(GripNodes& nodes, const GltfNode* wrist, SceneGrip& grip, AuthoredHand& hand) {
     grip.grip.priority =
         static_cast<std::int32_t>(nodes.number(wrist, k_priority_key, 0.0, -100.0, 100.0));
@@ -123,6 +148,7 @@ void read_numbers(GripNodes& nodes, const GltfNode* wrist, SceneGrip& grip, Auth
         nodes.number(wrist, k_angle_key, grip.grip.snap_angle_rad / k_degree, 1e-6, 180.0);
     grip.mirror_axis = static_cast<int>(nodes.number(wrist, k_mirror_key, -1.0, -1.0, 2.0));
     hand.is_posed.fill(true);
+    read_pressed(nodes, wrist, hand);
     if (wrist == nullptr || !wrist->numbers.contains(k_posed_key)) {
         return;
     }
@@ -183,6 +209,17 @@ std::string write_grip_glb(const GripScene& scene, const HandRig& rig) {
         joint.numbers[k_mirror_key] = {static_cast<double>(scene.grip.mirror_axis)};
         for (const bool is_posed : hand.is_posed) {
             joint.numbers[k_posed_key].push_back(is_posed ? 1.0 : 0.0);
+        }
+        for (std::size_t f = 0; f < k_finger_count; ++f) {
+            if (!hand.follows_trigger[f]) {
+                continue;
+            }
+            std::vector<double>& angles =
+                joint.numbers[k_pressed_key + std::string(finger_text(static_cast<FingerName>(f)))];
+            for (const double curl_rad : hand.pressed[f].curl_rad) {
+                angles.push_back(curl_rad / k_degree);
+            }
+            angles.push_back(hand.pressed[f].opposition_rad / k_degree);
         }
     }
     const std::size_t of_hand = made.materials.size();

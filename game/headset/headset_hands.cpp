@@ -78,6 +78,7 @@ TrackingSample read_headset(const HeadsetReading& reading, double t_s, const Han
                 {hand.squeeze, hand.trigger, hand.grip_ps || hand.palm_ps ? 0.0 : hand.curl});
             memory.grabs[i] = closes > (memory.grabs[i] ? k_opens : k_closes);
             controller.squeeze = closes;
+            controller.trigger = hand.trigger;
             const Pose joint =
                 own_joints != nullptr ? (*own_joints)[i] : default_controller_to_hand(side, tuning);
             controller.controller_ps = *hand_ps * inverse(joint);

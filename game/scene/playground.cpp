@@ -166,6 +166,7 @@ void work_gun(double t_s, SessionScript& script) {
     aim(t_s + 2.1, Vec3(-3.20, 1.40, 0.46), 0.5, 0.75);
     aim(t_s + 2.5, Vec3(-3.20, 1.40, 0.46), 0.5, 0.75);
     aim(t_s + 3.4, Vec3(-3.10, 1.38, 0.50), -0.8, 0.2);
+    script.presses.push_back({HandSide::right, t_s + 2.0, t_s + 2.6});
     // After the release, the gun stays where the hand held it.
     const Pose left_at = back * inverse(wrist_in_gun);
     const Pose on_back{transform_point(left_at, Vec3(0.0, 0.076, -0.085)),

@@ -21,21 +21,42 @@ constexpr std::int64_t k_max_priority = 100;
 constexpr std::array<const char*, k_hand_count> k_side_keys = {"left", "right"};  // by HandSide
 constexpr std::array<const char*, 3> k_axes = {"x", "y", "z"};
 
-void read_finger(const JsonValue& value, FingerName name, FingerAngles& angles) {
-    const bool is_thumb = name == FingerName::thumb;
-    if (is_thumb) {
-        value.allow_only({"curl_deg", "opposition_deg"});
-        angles.opposition_rad = k_degree * value["opposition_deg"].number(k_opposition_deg);
-    } else {
-        value.allow_only({"curl_deg"});
+// Keys of a digit's angles; only the thumb has an opposition.
+struct AngleKeys {
+    const char* curl;
+    const char* opposition;
+};
+constexpr AngleKeys k_released_keys = {"curl_deg", "opposition_deg"};
+constexpr AngleKeys k_pressed_keys = {"pressed_curl_deg", "pressed_opposition_deg"};
+
+void read_angles(const JsonValue& value, const AngleKeys& keys, FingerName name,
+                 FingerAngles& angles) {
+    if (name == FingerName::thumb) {
+        angles.opposition_rad = k_degree * value[keys.opposition].number(k_opposition_deg);
     }
-    const std::vector<JsonValue> curls = value["curl_deg"].items();
+    const std::vector<JsonValue> curls = value[keys.curl].items();
     if (curls.size() < 2 || curls.size() > k_max_links) {
-        value["curl_deg"].refuse("2 or 3 angles, the knuckle's first");
+        value[keys.curl].refuse("2 or 3 angles, the knuckle's first");
         return;
     }
     for (std::size_t i = 0; i < curls.size(); ++i) {
         angles.curl_rad[i] = k_degree * curls[i].number(k_curl_deg);
+    }
+}
+
+void read_finger(const JsonValue& value, std::size_t finger, AuthoredHand& hand) {
+    const auto name = static_cast<FingerName>(finger);
+    if (name == FingerName::thumb) {
+        value.allow_only({k_released_keys.curl, k_released_keys.opposition, k_pressed_keys.curl,
+                          k_pressed_keys.opposition});
+    } else {
+        value.allow_only({k_released_keys.curl, k_pressed_keys.curl});
+    }
+    hand.is_posed[finger] = true;
+    read_angles(value, k_released_keys, name, hand.fingers[finger]);
+    if (value[k_pressed_keys.curl].exists() || value[k_pressed_keys.opposition].exists()) {
+        hand.follows_trigger[finger] = true;
+        read_angles(value, k_pressed_keys, name, hand.pressed[finger]);
     }
 }
 
@@ -57,8 +78,7 @@ void read_fingers(const JsonValue& value, AuthoredHand& hand) {
     for (std::size_t f = 0; f < k_finger_count; ++f) {
         const auto name = static_cast<FingerName>(f);
         if (const JsonValue finger = value[finger_text(name)]; finger.exists()) {
-            read_finger(finger, name, hand.fingers[f]);
-            hand.is_posed[f] = true;
+            read_finger(finger, f, hand);
         }
     }
 }
@@ -88,6 +108,18 @@ std::optional<int> read_axis(const JsonValue& value) {
 
 using GripJson = nlohmann::ordered_json;
 
+void write_angles(const FingerAngles& angles, const AngleKeys& keys, FingerName name,
+                  GripJson& finger) {
+    GripJson curls = GripJson::array();
+    for (const double curl_rad : angles.curl_rad) {
+        curls.push_back(curl_rad / k_degree);
+    }
+    finger[keys.curl] = std::move(curls);
+    if (name == FingerName::thumb) {
+        finger[keys.opposition] = angles.opposition_rad / k_degree;
+    }
+}
+
 GripJson hand_json(const AuthoredHand& hand) {
     const Vec3& at = hand.wrist_bs.position;
     const Quat& turn = hand.wrist_bs.rotation;
@@ -99,14 +131,10 @@ GripJson hand_json(const AuthoredHand& hand) {
         if (!hand.is_posed[f]) {
             continue;
         }
-        GripJson curls = GripJson::array();
-        for (const double curl_rad : hand.fingers[f].curl_rad) {
-            curls.push_back(curl_rad / k_degree);
-        }
         GripJson& finger = fingers[finger_text(name)];
-        finger["curl_deg"] = std::move(curls);
-        if (name == FingerName::thumb) {
-            finger["opposition_deg"] = hand.fingers[f].opposition_rad / k_degree;
+        write_angles(hand.fingers[f], k_released_keys, name, finger);
+        if (hand.follows_trigger[f]) {
+            write_angles(hand.pressed[f], k_pressed_keys, name, finger);
         }
     }
     if (fingers.empty()) {

@@ -14,7 +14,8 @@ Playback::Playback(const Recording& recording) {
         for (std::size_t side = 0; side < k_hand_count; ++side) {
             sample.controllers[side].controller_ps = recorded.hands[side].controller;
             sample.controllers[side].grab = (recorded.hands[side].buttons & k_grab_buttons) != 0;
-            sample.controllers[side].squeeze = recorded.hands[side].trigger;
+            sample.controllers[side].squeeze = recorded.hands[side].squeeze;
+            sample.controllers[side].trigger = recorded.hands[side].trigger;
         }
         samples_.push_back(sample);
         calibrates_.push_back(std::ranges::all_of(

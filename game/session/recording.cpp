@@ -31,9 +31,14 @@ constexpr std::array<const char*, k_head_begin + k_pose_cells + 2 * k_hand_cells
     "t",  "hx", "hy",  "hz",  "hqx", "hqy", "hqz",  "hqw",   "lx",
     "ly", "lz", "lqx", "lqy", "lqz", "lqw", "lbtn", "ltrig", "rx",
     "ry", "rz", "rqx", "rqy", "rqz", "rqw", "rbtn", "rtrig"};
+// Columns that older recordings lack; their cells are 0 then. By HandSide, after the others.
+constexpr std::array<const char*, k_hand_count> k_trigger_columns = {"lindex", "rindex"};
 
-// One row's cells in the order of k_columns.
-using Cells = std::array<double, k_columns.size()>;
+// One row's cells in the order of k_columns and k_trigger_columns.
+using Cells = std::array<double, k_columns.size() + k_hand_count>;
+const char* column_name(std::size_t cell) {
+    return cell < k_columns.size() ? k_columns[cell] : k_trigger_columns[cell - k_columns.size()];
+}
 
 // A device that was not tracked.
 Pose lost_pose() {
@@ -52,7 +57,7 @@ class RowReader {
         bool is_good = check(0, std::abs(cells[0]) <= k_max_time_s, "a time within 1e9 s", cells) &&
                        read_pose(cells, k_head_begin, sample.head);
         for (std::size_t hand = 0; hand < sample.hands.size() && is_good; ++hand) {
-            is_good = read_hand(cells, k_hand_begin[hand], sample.hands[hand]);
+            is_good = read_hand(cells, hand, sample.hands[hand]);
         }
         return is_good;
     }
@@ -67,7 +72,7 @@ class RowReader {
   private:
     bool check(std::size_t cell, bool is_good, const char* expected, const Cells& cells) {
         return is_good || refuse(std::string("expected ") + expected + " under \"" +
-                                 k_columns[cell] + "\", found " + std::to_string(cells[cell]));
+                                 column_name(cell) + "\", found " + std::to_string(cells[cell]));
     }
 
     bool read_pose(const Cells& cells, std::size_t begin, Pose& pose) {
@@ -102,20 +107,25 @@ class RowReader {
         return true;
     }
 
-    bool read_hand(const Cells& cells, std::size_t begin, RecordedHand& hand) {
-        const std::size_t buttons = begin + k_pose_cells;
-        const std::size_t trigger = buttons + 1;
+    bool read_hand(const Cells& cells, std::size_t side, RecordedHand& hand) {
+        const std::size_t buttons = k_hand_begin[side] + k_pose_cells;
+        const std::size_t squeeze = buttons + 1;
+        const std::size_t trigger = k_columns.size() + side;
+        const auto is_share = [&](std::size_t cell) {
+            return check(cell, cells[cell] >= 0.0 && cells[cell] <= 1.0, "a number in [0, 1]",
+                         cells);
+        };
         // Written so that NaN fails: NaN is allowed only in poses.
-        if (!read_pose(cells, begin, hand.controller) ||
+        if (!read_pose(cells, k_hand_begin[side], hand.controller) ||
             !check(buttons,
                    cells[buttons] >= 0.0 && cells[buttons] <= k_max_buttons &&
                        cells[buttons] == std::floor(cells[buttons]),
                    "a mask of buttons, an integer in [0, 65535],", cells) ||
-            !check(trigger, cells[trigger] >= 0.0 && cells[trigger] <= 1.0, "a number in [0, 1]",
-                   cells)) {
+            !is_share(squeeze) || !is_share(trigger)) {
             return false;
         }
         hand.buttons = static_cast<int>(cells[buttons]);
+        hand.squeeze = cells[squeeze];
         hand.trigger = cells[trigger];
         return true;
     }
@@ -152,7 +162,7 @@ RecordedSample recorded(const TrackingSample& sample) {
     for (std::size_t side = 0; side < k_hand_count; ++side) {
         const ControllerSample& controller = sample.controllers[side];
         out.hands[side] = {controller.controller_ps, controller.grab ? k_button_grip : 0,
-                           controller.squeeze};
+                           controller.squeeze, controller.trigger};
     }
     return out;
 }
@@ -177,13 +187,22 @@ Result<Recording> parse_recording(std::string_view text, const std::string& file
             file, "",
             "expected at least 2 samples, found " + std::to_string(table.value().row_count())};
     }
+    std::array<std::optional<std::size_t>, k_hand_count> trigger_column;
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        trigger_column[side] = table.value().find_column(k_trigger_columns[side]);
+    }
     Recording recording;
     recording.samples.resize(table.value().row_count());
     RowReader reader(file);
     for (std::size_t row = 0; row < recording.samples.size(); ++row) {
         Cells cells{};
-        for (std::size_t i = 0; i < cells.size(); ++i) {
+        for (std::size_t i = 0; i < k_columns.size(); ++i) {
             cells[i] = table.value().at(row, column_of[i]);
+        }
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            if (trigger_column[side]) {
+                cells[k_columns.size() + side] = table.value().at(row, *trigger_column[side]);
+            }
         }
         RecordedSample& sample = recording.samples[row];
         constexpr std::size_t k_first_line = 2;
@@ -210,13 +229,13 @@ Result<Recording> load_recording(const std::filesystem::path& path) {
 
 std::optional<FileError> save_recording(const std::filesystem::path& path,
                                         const Recording& recording) {
-    // 26 cells of up to 17 digits, so that nearly every recording needs one allocation.
+    // 28 cells of up to 17 digits, so that nearly every recording needs one allocation.
     constexpr std::size_t k_bytes_per_row = 480;
     std::string text;
     text.reserve((recording.samples.size() + 1) * k_bytes_per_row);
-    for (const char* column : k_columns) {
+    for (std::size_t cell = 0; cell < Cells().size(); ++cell) {
         text += text.empty() ? "" : ",";
-        text += column;
+        text += column_name(cell);
     }
     text += '\n';
     for (const RecordedSample& sample : recording.samples) {
@@ -226,6 +245,10 @@ std::optional<FileError> save_recording(const std::filesystem::path& path,
             append_pose(text, hand.controller);
             text += ',';
             text += std::to_string(hand.buttons);
+            text += ',';
+            append_exact(text, hand.squeeze);
+        }
+        for (const RecordedHand& hand : sample.hands) {
             text += ',';
             append_exact(text, hand.trigger);
         }

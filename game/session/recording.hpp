@@ -27,7 +27,8 @@ struct RecordedHand {
     // tracked.
     Pose controller;
     int buttons = 0;       // mask of k_button_*, [0, 65535]
-    double trigger = 0.0;  // [0, 1]; ControllerSample::squeeze
+    double squeeze = 0.0;  // [0, 1]; ControllerSample::squeeze
+    double trigger = 0.0;  // [0, 1]; ControllerSample::trigger
 };
 
 struct RecordedSample {

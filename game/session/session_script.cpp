@@ -125,6 +125,18 @@ Pose head_pose(const SessionScript& script, double t_s, const Vec3& between_hand
     return pose;
 }
 
+double trigger_at(const SessionScript& script, HandSide side, double t_s) {
+    constexpr double k_press_s = 0.15;
+    double pressed = 0.0;
+    for (const ScriptedPress& press : script.presses) {
+        if (press.side == side) {
+            const double inside_s = std::min(t_s - press.from_s, press.until_s - t_s);
+            pressed = std::max(pressed, std::clamp(inside_s / k_press_s, 0.0, 1.0));
+        }
+    }
+    return pressed;
+}
+
 }  // namespace
 
 void add_crawl(const ScriptedCrawl& crawl, SessionScript& script) {
@@ -187,7 +199,8 @@ Recording record_session(const SessionScript& script, const HandTuning& tuning) 
             now.hand.position += 1e-4 * Vec3(sine(phase), sine(1.13 * phase), sine(0.91 * phase));
             sample.hands[s].controller = to_play_space * now.hand * hand_to_controller[s];
             sample.hands[s].buttons = now.holds ? k_button_grip : 0;
-            sample.hands[s].trigger = now.holds ? 1.0 : 0.0;
+            sample.hands[s].squeeze = now.holds ? 1.0 : 0.0;
+            sample.hands[s].trigger = trigger_at(script, side, sample.t_s);
         }
         sample.head = to_play_space * head_pose(script, sample.t_s, between_hands);
         recording.samples.push_back(sample);

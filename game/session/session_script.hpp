@@ -38,6 +38,14 @@ struct ScriptedReach {
     Vec3 fingers = -Vec3::UnitZ();
 };
 
+// The index finger presses its trigger down within 0.15 s from `from_s` on and releases it within
+// 0.15 s before `until_s`.
+struct ScriptedPress {
+    HandSide side = HandSide::left;
+    double from_s = 0.0;
+    double until_s = 0.0;  // at least 0.3 s later
+};
+
 struct SessionScript {
     Quat play_space = Quat::Identity();  // rotation of the play space in the plan's frame
     // Height of the eyes above the play space's floor point at the start.
@@ -46,6 +54,7 @@ struct SessionScript {
     std::vector<ScriptedBody> body;   // by time, first at 0
     std::vector<ScriptedHold> holds;  // sorted by time for each hand, not overlapping
     std::vector<ScriptedReach> reaches;
+    std::vector<ScriptedPress> presses;  // not overlapping
 };
 
 // A body that moves along a bar, hand over hand. add_crawl adds alternating holds from `from_s`

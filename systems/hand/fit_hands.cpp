@@ -6,6 +6,7 @@
 #include "systems/hand/shared/finger_chain.hpp"
 #include "systems/hand/shared/hand_fit.hpp"
 #include "systems/hand/shared/thumb_closing.hpp"
+#include "systems/rigs/authored_hand.hpp"
 
 namespace handhold {
 namespace {
@@ -23,8 +24,13 @@ constexpr double k_stick_m = 1e-3;
 constexpr double k_deep_m = 3e-3;     // a fit that penetrates deeper is counted
 constexpr double k_fist_curl = 0.85;  // share of the range from open to fully curled
 
-// How far an empty hand is closed: 0 at rest, 1 in a fist.
-double closed_share(const HandTracking& hand) { return hand.pressed ? 1.0 : hand.squeeze; }
+// How far a digit of an empty hand is closed: 0 at rest, 1 in a fist.
+double closed_share(const HandTracking& hand, FingerName digit) {
+    if (hand.pressed) {
+        return 1.0;
+    }
+    return digit == FingerName::index ? std::max(hand.squeeze, hand.trigger) : hand.squeeze;
+}
 
 // Angles of an empty hand's digit; `closed` as closed_share.
 FingerAngles empty_angles(const FingerRig& finger, double closed, const ThumbTuning& tuning) {
@@ -40,13 +46,15 @@ FingerAngles empty_angles(const FingerRig& finger, double closed, const ThumbTun
     return angles;
 }
 
-void pose_unsupported_hand(const HandSurroundings& hand, double closed, const ThumbTuning& tuning,
-                           PalmOffset& offset, FingerPose& pose) {
+void pose_unsupported_hand(const HandSurroundings& hand, const HandTracking& tracking,
+                           const ThumbTuning& tuning, PalmOffset& offset, FingerPose& pose) {
     offset.target_m = offset.held_m;
     offset.target_turn_rad = offset.held_turn_rad;
     for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
-        pose.target[f] = pose.is_authored[f] ? pose.closed[f]
-                                             : empty_angles(hand.rig->fingers[f], closed, tuning);
+        const FingerRig& finger = hand.rig->fingers[f];
+        const double closed = hand.is_gripping ? 0.0 : closed_share(tracking, finger.name);
+        pose.target[f] =
+            pose.is_authored[f] ? pose.closed[f] : empty_angles(finger, closed, tuning);
     }
     pose.fitted_body = k_no_entity;
     pose.is_converged = false;
@@ -131,6 +139,16 @@ void fit_one(const HandSurroundings& hand, const GripSurface& surface, const Tun
     pose.is_converged = fit.is_converged;
 }
 
+// Fingers of an authored grip that follow the trigger.
+void follow_trigger(const HandSurroundings& hand, double trigger, FingerPose& pose) {
+    for (std::size_t f = 0; hand.authored != nullptr && f < hand.rig->fingers.size(); ++f) {
+        if (pose.is_authored[f]) {
+            pose.target[f] =
+                triggered_angles(hand.rig->fingers[f], *hand.authored, pose.closed[f], trigger);
+        }
+    }
+}
+
 // The target wrist relative to the present tracked one: a fitted hand stays on its body.
 Pose target_in_hand(const HandSurroundings& hand, const FingerPose& pose,
                     const PalmOffset& offset) {
@@ -197,11 +215,11 @@ void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats) {
         PalmOffset& offset = io.offset.at(hand.hand);
         FingerPose& pose = io.fingers.at(hand.hand);
         if (surface.triangle == GripSurface::k_none) {
-            const double closed = hand.is_gripping ? 0.0 : closed_share(io.hand.at(hand.hand));
-            pose_unsupported_hand(hand, closed, tuning.thumb, offset, pose);
+            pose_unsupported_hand(hand, io.hand.at(hand.hand), tuning.thumb, offset, pose);
         } else {
             fit_one(hand, surface, tuning, stats, offset, pose);
         }
+        follow_trigger(hand, io.hand.at(hand.hand).trigger, pose);
         follow_palm(target_in_hand(hand, pose, offset), io.dt_s, tuning.palm, offset);
         for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
             follow_digit(io.dt_s, tuning.finger, pose.target[f], pose.shown[f]);

@@ -25,6 +25,16 @@ std::string_view text_of_bytes(const void* bytes, std::size_t size) {
     return {static_cast<const char*>(bytes), size};
 }
 
+FingerAngles read_angles(const double (&curl_rad)[k_max_links], double opposition_rad) {
+    constexpr const char* k_text = "an angle of a finger beyond pi, or NaN";
+    FingerAngles angles;
+    for (std::size_t link = 0; link < k_max_links; ++link) {
+        angles.curl_rad[link] = checked(curl_rad[link], -k_pi, k_pi, k_text);
+    }
+    angles.opposition_rad = checked(opposition_rad, -k_pi, k_pi, k_text);
+    return angles;
+}
+
 AuthoredHand read_hand(const hh_world& host, Entity body, const hh_grip_hand& hand) {
     AuthoredHand read;
     read.is_there = hand.is_used;
@@ -38,11 +48,11 @@ AuthoredHand read_hand(const hh_world& host, Entity body, const hh_grip_hand& ha
         if (!from.is_posed) {
             continue;
         }
-        constexpr const char* k_text = "an angle of a finger beyond pi, or NaN";
-        for (std::size_t link = 0; link < k_max_links; ++link) {
-            read.fingers[finger].curl_rad[link] = checked(from.curl_rad[link], -k_pi, k_pi, k_text);
+        read.fingers[finger] = read_angles(from.curl_rad, from.opposition_rad);
+        read.follows_trigger[finger] = from.follows_trigger;
+        if (from.follows_trigger) {
+            read.pressed[finger] = read_angles(from.pressed_curl_rad, from.pressed_opposition_rad);
         }
-        read.fingers[finger].opposition_rad = checked(from.opposition_rad, -k_pi, k_pi, k_text);
     }
     return read;
 }

@@ -95,7 +95,7 @@ std::shared_ptr<const Mesh> copy_mesh(const hh_mesh_def& def) {
         std::memcpy(xyz.data(), at, k_packed);
         for (const float axis : xyz) {
             require(std::abs(static_cast<double>(axis)) <= k_max_position_m, HH_ERROR_VALUE,
-                    "a vertex beyond 1e7 m, or NaN");
+                    [&] { return "vertex " + std::to_string(i) + " lies beyond 1e7 m, or is NaN"; });
         }
         mesh->positions.emplace_back(xyz[0], xyz[1], xyz[2]);
     }
@@ -103,8 +103,9 @@ std::shared_ptr<const Mesh> copy_mesh(const hh_mesh_def& def) {
     for (std::size_t i = 0; i < def.index_count; i += 3) {
         const std::array<std::uint32_t, 3> corners = {def.indices[i], def.indices[i + 1],
                                                       def.indices[i + 2]};
-        require(std::ranges::max(corners) < def.vertex_count, HH_ERROR_VALUE,
-                "an index is not below vertex_count");
+        require(std::ranges::max(corners) < def.vertex_count, HH_ERROR_VALUE, [&] {
+            return "an index of triangle " + std::to_string(i / 3) + " is not below vertex_count";
+        });
         mesh->triangles.push_back(corners);
     }
     return mesh;

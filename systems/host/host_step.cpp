@@ -37,6 +37,7 @@ TrackingSample read_sample(const hh_tracking_sample& sample, double end_s) {
             tracked_or_invalid(unchecked_pose(sample.hands[i]), sample.hand_tracked[i]);
         read.controllers[i].grab = sample.grab[i];
         read.controllers[i].squeeze = sample.squeeze[i];
+        read.controllers[i].trigger = sample.trigger[i];
     }
     return read;
 }
@@ -50,6 +51,7 @@ TrackingSample read_sample(const EarlySample& sample) {
             tracked_or_invalid(sample.controllers_ps[i], sample.tracked[i]);
         read.controllers[i].grab = sample.grab[i];
         read.controllers[i].squeeze = sample.squeeze[i];
+        read.controllers[i].trigger = sample.trigger[i];
     }
     return read;
 }
@@ -64,7 +66,8 @@ EarlySample early_of(const TrackingSample& sample) {
         early.tracked[i] = is_valid(controller_ps);
         early.controllers_ps[i] = early.tracked[i] ? controller_ps : Pose{};
         early.grab[i] = sample.controllers[i].grab;
-        early.squeeze[i] = squeeze_of(sample.controllers[i]);
+        early.squeeze[i] = pressed_share(sample.controllers[i].squeeze);
+        early.trigger[i] = pressed_share(sample.controllers[i].trigger);
     }
     return early;
 }

@@ -34,7 +34,8 @@ void read_paused_tracking(const ReadPausedTrackingIo& io) {
         }
         const ControllerSample& reading = sample->controllers[index_of(owner.side)];
         hand.raw_pressed = reading.grab;
-        hand.squeeze = squeeze_of(reading);
+        hand.squeeze = pressed_share(reading.squeeze);
+        hand.trigger = pressed_share(reading.trigger);
         hand.state = TrackingState::lost;
         HandHistory& history = io.history.at(entity);
         history.count = history.next = 0;

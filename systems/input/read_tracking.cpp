@@ -150,7 +150,8 @@ struct HandReader {
 
     void read_button(const ControllerSample& reading, double t_s, bool is_believed) {
         hand.raw_pressed = reading.grab;
-        hand.squeeze = squeeze_of(reading);
+        hand.squeeze = pressed_share(reading.squeeze);
+        hand.trigger = pressed_share(reading.trigger);
         // A hand that cannot be seen may let go, but does not close until it is seen again.
         const bool may_begin = has_sample && (is_believed || !reading.grab);
         if (may_begin && reading.grab != hand.pressed && hand.edge == GrabEdge::none) {

@@ -14,6 +14,18 @@ Quat half_turn(int axis) {
     return turn;
 }
 
+FingerAngles clamped_angles(const FingerRig& finger, const FingerAngles& wanted) {
+    FingerAngles angles;
+    for (std::size_t i = 0; i < finger.link_count; ++i) {
+        angles.curl_rad[i] = std::clamp(wanted.curl_rad[i], finger.lower_rad[i],
+                                        std::max(finger.lower_rad[i], finger.upper_rad[i]));
+    }
+    angles.opposition_rad =
+        std::clamp(wanted.opposition_rad, finger.lower_opposition_rad,
+                   std::max(finger.lower_opposition_rad, finger.upper_opposition_rad));
+    return angles;
+}
+
 }  // namespace
 
 AuthoredHand mirror_authored_hand(const AuthoredHand& hand, int body_axis) {
@@ -50,14 +62,21 @@ std::optional<FingerAngles> posed_angles(const FingerRig& finger, const Authored
     if (!hand.is_posed[name]) {
         return std::nullopt;
     }
-    FingerAngles angles;
-    for (std::size_t i = 0; i < finger.link_count; ++i) {
-        angles.curl_rad[i] = std::clamp(hand.fingers[name].curl_rad[i], finger.lower_rad[i],
-                                        std::max(finger.lower_rad[i], finger.upper_rad[i]));
+    return clamped_angles(finger, hand.fingers[name]);
+}
+
+FingerAngles triggered_angles(const FingerRig& finger, const AuthoredHand& hand,
+                              const FingerAngles& released, double trigger) {
+    const auto name = static_cast<std::size_t>(finger.name);
+    if (!hand.follows_trigger[name]) {
+        return released;
     }
-    angles.opposition_rad =
-        std::clamp(hand.fingers[name].opposition_rad, finger.lower_opposition_rad,
-                   std::max(finger.lower_opposition_rad, finger.upper_opposition_rad));
+    const FingerAngles pressed = clamped_angles(finger, hand.pressed[name]);
+    FingerAngles angles = released;
+    for (std::size_t i = 0; i < finger.link_count; ++i) {
+        angles.curl_rad[i] += trigger * (pressed.curl_rad[i] - released.curl_rad[i]);
+    }
+    angles.opposition_rad += trigger * (pressed.opposition_rad - released.opposition_rad);
     return angles;
 }
 

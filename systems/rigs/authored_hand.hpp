@@ -24,8 +24,14 @@ GripSync grip_sync(const Pose& hand, const Pose& grip_wrist, const Vec3& palm_ce
 // radian counts as m_per_rad metres. Returns exactly `to` if it is within step_m.
 Pose step_towards(const Pose& from, const Pose& to, double step_m, double m_per_rad);
 
-// Returns the finger angles of a grip, clamped to the finger's limits; none if the grip does not
-// pose this finger.
+// Returns the finger angles of a grip while the trigger is released, clamped to the finger's
+// limits; none if the grip does not pose this finger.
 std::optional<FingerAngles> posed_angles(const FingerRig& finger, const AuthoredHand& hand);
+
+// Angles of a posed finger that follows the trigger: `released` at 0, the grip's pressed angles,
+// clamped to the finger's limits, at 1, linear between. A finger that does not follow the trigger
+// stays at `released`.
+FingerAngles triggered_angles(const FingerRig& finger, const AuthoredHand& hand,
+                              const FingerAngles& released, double trigger);
 
 }  // namespace handhold

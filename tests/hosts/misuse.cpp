@@ -256,6 +256,8 @@ void misuse_numbers(hh_world* world, hh_body body, hh_body kinematic, hh_player 
     hh_grip_def grip = hh_default_grip_def();
     grip.hands[0].is_used = true;
     grip.hands[0].wrist = rng.pose();
+    grip.hands[0].fingers[1].is_posed = grip.hands[0].fingers[1].follows_trigger = true;
+    grip.hands[0].fingers[1].pressed_curl_rad[0] = rng.number();
     grip.snap_radius_m = rng.number();
     (void)hh_body_add_grip(world, kinematic, &grip);
     const double value = rng.number();

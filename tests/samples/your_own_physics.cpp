@@ -17,9 +17,13 @@ struct Box {  // of your engine; its boxes are not turned
     hh::Vec3 half_m;
     hh::Vec3 velocity;
     hh::Body id;
+    bool is_movable = false;
 };
 using Boxes = std::vector<Box>;
 
+hh::Vec3 operator+(hh::Vec3 a, hh::Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+hh::Vec3 operator-(hh::Vec3 a, hh::Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+hh::Vec3 operator*(double s, hh::Vec3 v) { return {s * v.x, s * v.y, s * v.z}; }
 std::array<double, 3> axes(hh::Vec3 v) { return {v.x, v.y, v.z}; }
 
 bool is_skipped(const Box& box, const hh_body* skip, size_t count) {
@@ -55,8 +59,7 @@ bool cast_ray(const Boxes& boxes, hh::Vec3 from, hh::Vec3 to, const hh_body* ski
     constexpr int k_steps = 1000;
     for (int step = 0; step <= k_steps; ++step) {
         const double t = static_cast<double>(step) / k_steps;
-        const hh::Vec3 point{from.x + t * (to.x - from.x), from.y + t * (to.y - from.y),
-                             from.z + t * (to.z - from.z)};
+        const hh::Vec3 point = from + t * (to - from);
         for (const Box& box : boxes) {
             if (!is_skipped(box, skip, count) && closest_on(box, point, 0.0, hit)) {
                 return step > 0;  // a ray from inside finds nothing in this sketch
@@ -100,42 +103,58 @@ hh_surface_query queries(const Boxes& boxes) {
 }
 // [queries]
 
+// Moves a crate by the least way out of the boxes that never move.
+hh::Vec3 way_out(const Boxes& boxes, hh::Vec3 crate, hh::Vec3 half_m) {
+    std::array<double, 3> out = {};
+    for (const Box& box : boxes) {
+        if (box.is_movable) {
+            continue;
+        }
+        std::size_t least = 0;
+        std::array<double, 3> overlap_m = {};
+        for (std::size_t i = 0; i < 3; ++i) {
+            overlap_m[i] = axes(box.half_m)[i] + axes(half_m)[i] -
+                           std::fabs(axes(crate)[i] - axes(box.position)[i]);
+            least = overlap_m[i] < overlap_m[least] ? i : least;
+        }
+        if (overlap_m[least] > 0.0) {
+            out[least] =
+                std::copysign(overlap_m[least], axes(crate)[least] - axes(box.position)[least]);
+        }
+    }
+    return {out[0], out[1], out[2]};
+}
+
 // [solver]
-// Your solver. This one has no contacts: hands on the wall move the player, a crate moves with its
-// hand. A real one gets a joint for each constraint: tests/hosts/ode_hands.cpp does it for ODE.
+// Your solver: hands on the wall move the player, a crate moves with its hand and stops at walls. A
+// real one gets a joint for each constraint: tests/hosts/ode_hands.cpp does it for ODE.
 void solve(const hh::World& world, Boxes& boxes, std::vector<hh_solved_player>& players) {
     players.clear();
     for (const hh_player_motion& motion : world.player_motions()) {
-        hh::Vec3 end{motion.origin.x + k_dt_s * motion.velocity_mps.x,
-                     motion.origin.y + k_dt_s * motion.velocity_mps.y,
-                     motion.origin.z + k_dt_s * motion.velocity_mps.z};
+        hh::Vec3 end = motion.origin + k_dt_s * motion.velocity_mps;
         for (const hh_hand_constraint& hand : world.hand_constraints()) {
             if (hand.player == motion.player && hand.rows == HH_ROWS_POINT) {
-                end = {hand.anchor_end.position.x - hand.target.position.x,
-                       hand.anchor_end.position.y - hand.target.position.y,
-                       hand.anchor_end.position.z - hand.target.position.z};
+                end = hand.anchor_end.position - hand.target.position;
             }
         }
-        players.push_back({motion.player,
-                           end,
-                           {(end.x - motion.origin.x) / k_dt_s, (end.y - motion.origin.y) / k_dt_s,
-                            (end.z - motion.origin.z) / k_dt_s}});
+        players.push_back({motion.player, end, (1.0 / k_dt_s) * (end - motion.origin)});
     }
     for (Box& box : boxes) {
-        hh::Vec3 end{box.position.x + k_dt_s * box.velocity.x,
-                     box.position.y + k_dt_s * box.velocity.y,
-                     box.position.z + k_dt_s * box.velocity.z};
+        hh_solved_player* holder = nullptr;
+        hh::Vec3 end = box.position + k_dt_s * box.velocity;
         for (const hh_hand_constraint& hand : world.hand_constraints()) {
             if (hand.body == box.id && hand.rows == HH_ROWS_WELD) {  // these boxes never turn
-                const hh::Vec3 origin = players.front().origin;
-                end = {origin.x + hand.target.position.x - hand.anchor.position.x,
-                       origin.y + hand.target.position.y - hand.anchor.position.y,
-                       origin.z + hand.target.position.z - hand.anchor.position.z};
+                holder = &players.front();
+                end = holder->origin + hand.target.position - hand.anchor.position;
             }
         }
-        box.velocity = {(end.x - box.position.x) / k_dt_s, (end.y - box.position.y) / k_dt_s,
-                        (end.z - box.position.z) / k_dt_s};
-        box.position = end;
+        const hh::Vec3 out = box.is_movable ? way_out(boxes, end, box.half_m) : hh::Vec3{};
+        if (holder != nullptr) {  // the hand stays exact: the player moves back with the crate
+            holder->origin = holder->origin + out;
+            holder->velocity_mps = holder->velocity_mps + (1.0 / k_dt_s) * out;
+        }
+        box.velocity = (1.0 / k_dt_s) * (end + out - box.position);
+        box.position = end + out;
     }
 }
 // [solver]
@@ -170,21 +189,23 @@ hh::Sample devices_at(double t_s) {
     sample.time_s = t_s;
     sample.head.position.y = 1.6;
     const hh::Quat palm_ahead{std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)};
-    // The left hand throws the crate, the right one pulls on the wall.
-    sample.hands[HH_LEFT] =
-        hh::pose_at({-0.2 - 0.5 * std::fmax(0.0, t_s - 0.5), 1.4, -0.43}, palm_ahead);
+    // The right hand pulls on the wall and lets go. Then the left one presses the crate against the
+    // post, which stops it after 0.2 m of 0.3: the player moves back by the rest, and drifts on.
     const double pulled_m = 0.4 * (std::clamp(t_s, 0.5, 1.0) - 0.5);
+    const double pressed_m = 0.5 * (std::clamp(t_s, 1.2, 1.8) - 1.2);
+    sample.hands[HH_LEFT] = hh::pose_at({-0.2 - pressed_m, 1.4, -0.43}, palm_ahead);
     sample.hands[HH_RIGHT] = hh::pose_at({0.2, 1.4, -0.43 + pulled_m}, palm_ahead);
-    sample.grab[HH_LEFT] = t_s >= 0.2 && t_s < 1.5;
-    sample.grab[HH_RIGHT] = t_s >= 0.2;
+    sample.grab[HH_LEFT] = t_s >= 0.2 && t_s < 1.9;
+    sample.grab[HH_RIGHT] = t_s >= 0.2 && t_s < 1.15;
     return sample;
 }
 
 }  // namespace
 
 int main() {
-    Boxes boxes = {{{1.0, 1.5, -0.6}, {0.9, 2.0, 0.1}, {}, {}},       // a wall
-                   {{-0.2, 1.48, -0.65}, {0.1, 0.1, 0.15}, {}, {}}};  // a crate
+    Boxes boxes = {{{1.0, 1.5, -0.6}, {0.9, 2.0, 0.1}, {}, {}, false},      // a wall
+                   {{-0.6, 1.5, -1.0}, {0.1, 2.0, 0.6}, {}, {}, false},     // a post, to the left
+                   {{-0.2, 1.48, -0.65}, {0.1, 0.1, 0.15}, {}, {}, true}};  // a crate
     // [register]
     hh::World world;
     const hh_surface_query query = queries(boxes);  // boxes must outlive its use
@@ -194,7 +215,7 @@ int main() {
     for (Box& box : boxes) {
         hh_body_def def = hh::body_def();  // without a shape; static unless it says otherwise
         def.pose.position = box.position;
-        if (&box == &boxes.back()) {
+        if (box.is_movable) {
             def.kind = HH_DYNAMIC;
             def.mass_kg = 5.0;
             def.inertia_kgm2 = {0.05, 0.05, 0.05};
@@ -207,12 +228,16 @@ int main() {
         return 1;
     }
     double error_m = 0.0;
+    double pushed_back_m = 0.0;
     for (int frame = 1; frame <= 180; ++frame) {
         const hh::Sample sample = devices_at(frame * k_dt_s);
         if (!step(world, boxes, hh::input(you, {&sample, 1}))) {
             return 1;
         }
         error_m = std::fmax(error_m, world.stats()->hand_error_m);
+        if (frame == 162) {  // the left hand stops
+            pushed_back_m = world.pose(you)->origin.position.x;
+        }
     }
     const hh_player_pose pulled = *world.pose(you);
 
@@ -235,10 +260,14 @@ int main() {
     const hh_hand_state hand = *world.hand(you, HH_RIGHT);  // hand.shown stayed on the wall
     // [locomotion]
 
-    std::printf("hand error %.2g mm, pulled %.3f m, crate at %.3f m/s, %.3f m from the anchor\n",
-                1e3 * error_m, pulled.origin.position.z, boxes.back().velocity.x, hand.error_m);
+    std::printf(
+        "hand error %.2g mm, pulled %.3f m, pushed back %.3f m, crate at %.3f m/s, "
+        "%.3f m from the anchor\n",
+        1e3 * error_m, pulled.origin.position.z, pushed_back_m, boxes.back().velocity.x,
+        hand.error_m);
     const bool is_right = error_m < 1e-9 && std::fabs(pulled.origin.position.z + 0.2) < 1e-9 &&
-                          std::fabs(boxes.back().velocity.x + 0.5) < 1e-6 && hand.body == wall &&
+                          std::fabs(pushed_back_m - 0.1) < 1e-9 &&
+                          std::fabs(boxes.back().velocity.x - 0.5) < 2e-3 && hand.body == wall &&
                           std::fabs(hand.error_m - 0.09) < 1e-9;
     return is_right ? 0 : 1;
 }

@@ -74,7 +74,7 @@ export class Headset {
     /** turnsSmoothly: the stick turns at a rate, else a flick turns by the tuning's snap angle. */
     read(frame, space, turnsSmoothly) {
         const viewer = frame.getViewerPose(space);
-        const sample = { head_tracked: viewer !== undefined && viewer !== null, hand_tracked: [false, false], grab: [false, false], squeeze: [0, 0], hands: [{}, {}] };
+        const sample = { head_tracked: viewer !== undefined && viewer !== null, hand_tracked: [false, false], grab: [false, false], squeeze: [0, 0], trigger: [0, 0], hands: [{}, {}] };
         if (sample.head_tracked) {
             sample.head = transform(viewer.transform);
         }
@@ -97,6 +97,7 @@ export class Headset {
                 const buttons = source.gamepad?.buttons ?? [];
                 sample.grab[side] = (buttons[0]?.pressed ?? false) || (buttons[1]?.pressed ?? false);
                 sample.squeeze[side] = Math.max(buttons[0]?.value ?? 0, buttons[1]?.value ?? 0);
+                sample.trigger[side] = buttons[0]?.value ?? 0;
                 if (side === HH_RIGHT) {
                     this.#readStick(source.gamepad?.axes ?? [], turnsSmoothly, commands);
                 }

@@ -26,7 +26,7 @@ export function parseRecording(text) {
                 time_s: cell.t - first_s,
                 head: isTracked(head) ? head : {}, head_tracked: isTracked(head),
                 hands: hands.map((hand) => (isTracked(hand) ? hand : {})), hand_tracked: hands.map(isTracked),
-                grab: [(cell.lbtn & k_grab) !== 0, (cell.rbtn & k_grab) !== 0], squeeze: [cell.ltrig, cell.rtrig],
+                grab: [(cell.lbtn & k_grab) !== 0, (cell.rbtn & k_grab) !== 0], squeeze: [cell.ltrig, cell.rtrig], trigger: [cell.lindex ?? 0, cell.rindex ?? 0],
             },
         };
     });

@@ -19,10 +19,8 @@ inline bool is_asleep(const ControllerSample& reading) {
 inline bool is_seen(const ControllerSample& reading) {
     return is_trackable(reading.controller_ps) && !is_asleep(reading);
 }
-// How far the button is pressed; 0 if the device says nothing sensible.
-inline double squeeze_of(const ControllerSample& reading) {
-    return reading.squeeze > 0.0 ? std::min(1.0, reading.squeeze) : 0.0;
-}
+// How far a button is pressed, [0, 1]; 0 if `reading` is NaN.
+inline double pressed_share(double reading) { return reading > 0.0 ? std::min(1.0, reading) : 0.0; }
 // True for a sample that is not newer than the last one, or has no time.
 bool is_stale(double t_s, bool has_sample, double last_t_s);
 

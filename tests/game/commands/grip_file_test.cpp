@@ -47,7 +47,7 @@ TEST(SceneGripFile, ReadsEveryField) {
     const Result<SceneFile> scene =
         parse_scene_file(scene_with(R"([{"name": "handle", "right": {"position_m": [0.1, 0.2, 0.3],
             "rotation_xyzw": [0, 0.6, 0, 0.8], "fingers": {
-              "index": {"curl_deg": [10, 20, 30]},
+              "index": {"curl_deg": [10, 20, 30], "pressed_curl_deg": [10, 40, 50]},
               "thumb": {"curl_deg": [1, 2], "opposition_deg": -45}}},
             "mirror": "x", "priority": -3, "snap_radius_m": 0.05, "snap_angle_deg": 90}])"),
                          "a.json");
@@ -64,6 +64,8 @@ TEST(SceneGripFile, ReadsEveryField) {
     EXPECT_NEAR(right.fingers[1].curl_rad[2], 30.0 * k_degree, 1e-15);
     EXPECT_NEAR(right.fingers[0].opposition_rad, -45.0 * k_degree, 1e-15);
     EXPECT_EQ(right.fingers[0].curl_rad[2], 0.0);
+    EXPECT_EQ(right.follows_trigger, (std::array{false, true, false, false, false}));
+    EXPECT_NEAR(right.pressed[1].curl_rad[2], 50.0 * k_degree, 1e-15);
     const AuthoredHand& left = grip.grip.hands[0];
     EXPECT_TRUE(left.is_there);
     EXPECT_EQ(left.wrist_bs.position, Vec3(-0.1, 0.2, 0.3));
@@ -113,6 +115,9 @@ TEST(SceneGripFile, RefusesInvalidGripsWithPointerAndValue) {
         {R"([{"name": "g", "right": {"position_m": [0, 0, 0], "rotation_xyzw": [0, 0, 0, 1],
               "fingers": {"index": {"curl_deg": [10, 20, 0], "opposition_deg": 3}}}}])",
          "/bodies/0/grips/0/right/fingers/index/opposition_deg"},
+        {R"([{"name": "g", "right": {"position_m": [0, 0, 0], "rotation_xyzw": [0, 0, 0, 1],
+              "fingers": {"index": {"curl_deg": [10, 20, 0], "pressed_curl_deg": [200, 0]}}}}])",
+         "/bodies/0/grips/0/right/fingers/index/pressed_curl_deg/0"},
     };
     for (const auto& [grips, expected] : cases) {
         EXPECT_NE(error_of(grips).find(expected), std::string::npos) << grips << "\n"
@@ -150,12 +155,15 @@ TEST(SceneGripFile, WrittenAndReadAgainIsTheSame) {
             const AuthoredHand& before = gun.grips[i].grip.hands[side];
             const AuthoredHand& after = read.grip.hands[side];
             EXPECT_EQ(after.is_posed, before.is_posed);
+            EXPECT_EQ(after.follows_trigger, before.follows_trigger);
             EXPECT_EQ(after.wrist_bs.position, before.wrist_bs.position);
             EXPECT_LT((after.wrist_bs.rotation.coeffs() - before.wrist_bs.rotation.coeffs()).norm(),
                       1e-15);
             for (std::size_t f = 0; f < k_finger_count; ++f) {
                 for (std::size_t link = 0; link < k_max_links; ++link) {
                     EXPECT_NEAR(after.fingers[f].curl_rad[link], before.fingers[f].curl_rad[link],
+                                1e-14);
+                    EXPECT_NEAR(after.pressed[f].curl_rad[link], before.pressed[f].curl_rad[link],
                                 1e-14);
                 }
             }
@@ -216,6 +224,13 @@ TEST_F(GunGrips, RoundTripThroughGltfKeepsEveryLinkWithinAMicrometre) {
                 const AuthoredHand& after = read.value().grip.hands[index_of(other)];
                 ASSERT_TRUE(after.is_there);
                 EXPECT_EQ(after.is_posed, before.is_posed);
+                EXPECT_EQ(after.follows_trigger, before.follows_trigger);
+                for (std::size_t f = 0; f < k_finger_count; ++f) {
+                    for (std::size_t link = 0; link < k_max_links; ++link) {
+                        EXPECT_NEAR(after.pressed[f].curl_rad[link],
+                                    before.pressed[f].curl_rad[link], 1e-12);
+                    }
+                }
                 EXPECT_LT((after.wrist_bs.position - before.wrist_bs.position).norm(), 1e-6);
             }
             const AuthoredHand& hand = read.value().grip.hands[index_of(side)];

@@ -70,6 +70,7 @@ bool are_same_bits(const RecordedSample& a, const RecordedSample& b) {
     for (std::size_t hand = 0; hand < 2; ++hand) {
         result = result && are_same_bits(a.hands[hand].controller, b.hands[hand].controller) &&
                  a.hands[hand].buttons == b.hands[hand].buttons &&
+                 a.hands[hand].squeeze == b.hands[hand].squeeze &&
                  a.hands[hand].trigger == b.hands[hand].trigger;
     }
     return result;
@@ -85,7 +86,8 @@ TEST(Recording, ReadsEveryColumnWhereItBelongs) {
     EXPECT_EQ(sample.head.position, Vec3(1.0, 2.0, 3.0));
     EXPECT_EQ(sample.hands[0].controller.position, Vec3(4.0, 5.0, 6.0));
     EXPECT_EQ(sample.hands[0].buttons, k_button_trigger);
-    EXPECT_EQ(sample.hands[0].trigger, 0.5);
+    EXPECT_EQ(sample.hands[0].squeeze, 0.5);
+    EXPECT_EQ(sample.hands[0].trigger, 0.0);  // no column
     EXPECT_EQ(sample.hands[1].controller.position, Vec3(7.0, 8.0, 9.0));
     EXPECT_EQ(sample.hands[1].buttons, k_button_grip);
     EXPECT_NE(sample.hands[0].buttons & k_grab_buttons, 0);
@@ -117,6 +119,25 @@ TEST(Recording, OrderOfColumnsAndExtraColumnsMakeNoDifference) {
     ASSERT_TRUE(reversed.ok()) << reversed.error().message();
     for (std::size_t i = 0; i < 2; ++i) {
         EXPECT_TRUE(are_same_bits(reversed.value().samples[i], plain.value().samples[i]));
+    }
+}
+
+TEST(Recording, TriggersOutsideTheirRangeAreRefused) {
+    const std::string text = write({row_at("0"), row_at("0.011")});
+    const auto with_triggers = [&](const std::string& right) {
+        std::string lines = text;
+        lines.insert(lines.find('\n'), ",lindex,rindex");
+        lines.insert(lines.find('\n', lines.find('\n') + 1), ",0.25,1");
+        lines.insert(lines.size() - 1, ",0," + right);
+        return lines;
+    };
+    const Result<Recording> good = parse_recording(with_triggers("0.5"), "f.csv");
+    ASSERT_TRUE(good.ok()) << good.error().message();
+    EXPECT_EQ(good.value().samples[0].hands[0].trigger, 0.25);
+    EXPECT_EQ(good.value().samples[1].hands[1].trigger, 0.5);
+    for (const char* bad : {"1.5", "-0.1", "nan"}) {
+        const FileError error = error_of(with_triggers(bad));
+        EXPECT_NE(error.message().find("\"rindex\""), std::string::npos) << error.message();
     }
 }
 
@@ -226,7 +247,9 @@ TEST(Recording, SavedOneLoadsAsTheSameBits) {
                 pose->rotation = Quat(number(0.1, 1), number(-1, 1), number(-1, 1), number(-1, 1));
                 pose->rotation.normalize();
             }
+            sample.hands[0].squeeze = number(0.0, 1.0);
             sample.hands[0].trigger = number(0.0, 1.0);
+            sample.hands[1].trigger = number(0.0, 1.0);
             sample.hands[1].buttons = *rc::gen::inRange(0, 16);
             recording.samples.push_back(sample);
         }

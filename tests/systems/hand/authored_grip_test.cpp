@@ -70,6 +70,44 @@ TEST_F(AuthoredGripOnFloor, FingersTakeAuthoredPoseAtClosingRate) {
     EXPECT_EQ(count_of(hand.stats, Fallback::authored_finger_rejected), 0U);
 }
 
+// Expected: linear between the two authored poses, in the frame of the reading.
+TEST_F(AuthoredGripOnFloor, TriggerFingerFollowsTriggerAndOthersStay) {
+    grip.follows_trigger[1] = true;
+    grip.pressed[1].curl_rad = {0.2, 0.9, 0.6};
+    FittedHand hand(floor, grip.wrist_bs);
+    hand.hands.front().authored = &grip;
+    hand.tracking.at(test::k_right).pressed = true;
+    for (const double trigger : {0.0, 0.25, 1.0, 0.5, 0.0}) {
+        hand.tracking.at(test::k_right).trigger = trigger;
+        hand.frame(k_unbudgeted_s);
+        for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+            for (std::size_t i = 0; i < k_max_links; ++i) {
+                const double open_rad = grip.fingers[f].curl_rad[i];
+                const double wanted_rad =
+                    f == 1 ? open_rad + trigger * (grip.pressed[1].curl_rad[i] - open_rad)
+                           : open_rad;
+                EXPECT_NEAR(hand.pose().shown[f].curl_rad[i], wanted_rad, 1e-12) << f;
+            }
+        }
+    }
+    EXPECT_EQ(count_of(hand.stats, Fallback::authored_finger_rejected), 0U);
+}
+
+TEST_F(AuthoredGripOnFloor, RejectedFingerDoesNotFollowTrigger) {
+    grip.fingers[1].curl_rad = {1.2, 0.3, 0.1};  // through the floor
+    grip.follows_trigger[1] = true;
+    grip.pressed[1].curl_rad = {1.4, 0.9, 0.6};
+    FittedHand hand(floor, grip.wrist_bs);
+    hand.hands.front().authored = &grip;
+    hand.tracking.at(test::k_right).trigger = 1.0;
+    hand.frame(k_unbudgeted_s);
+    EXPECT_EQ(count_of(hand.stats, Fallback::authored_finger_rejected), 1U);
+    const HingeChain chain = finger_chain(rig.fingers[1], 0.0, hand.shown_bs());
+    for (const Capsule& capsule : chain_capsules(chain, hand.pose().shown[1].curl_rad)) {
+        EXPECT_LT(find_penetration(capsule, hand.hands.front().meshes).depth_m, 1.5e-3);
+    }
+}
+
 // Oracle: find_penetration, which has its own tests.
 TEST_F(AuthoredGripOnFloor, PenetratingAuthoredFingerIsFittedAndCounted) {
     grip.fingers[1].curl_rad = {1.2, 0.3, 0.1};  // through the floor

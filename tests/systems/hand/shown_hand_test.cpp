@@ -141,6 +141,30 @@ TEST_F(ShownHand, EmptyHandClosesAsFarAsItsButton) {
     }
 }
 
+TEST_F(ShownHand, TriggerBendsIndexFingerOfEmptyHandOnly) {
+    FittedHand hand(beam, {});
+    let_go(hand);
+    const auto curls = [&](double squeeze, double trigger) {
+        hand.tracking.at(k_right).squeeze = squeeze;
+        hand.tracking.at(k_right).trigger = trigger;
+        hand.frame(k_unbudgeted_s);
+        std::array<double, k_finger_count> sum_rad = {};
+        for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+            const auto& curl_rad = hand.pose().shown[f].curl_rad;
+            sum_rad[static_cast<std::size_t>(rig.fingers[f].name)] =
+                curl_rad[0] + curl_rad[1] + curl_rad[2];
+        }
+        return sum_rad;
+    };
+    constexpr auto k_index = static_cast<std::size_t>(FingerName::index);
+    const auto rest = curls(0.0, 0.0);
+    const auto squeezed = curls(0.6, 0.0);
+    auto expected = rest;
+    expected[k_index] = squeezed[k_index];
+    EXPECT_EQ(curls(0.0, 0.6), expected);
+    EXPECT_EQ(curls(0.6, 0.2), squeezed);
+}
+
 TEST_F(ShownHand, EmptyHandTakesRestPoseOrFist) {
     FittedHand hand(beam, {});
     let_go(hand);

@@ -271,6 +271,54 @@ TEST(HostInput, SamplesOfAfterTheStepAreNotLost) {
     EXPECT_TRUE(scene.hand(HH_RIGHT).is_tracked);
 }
 
+// The samples are of after the step's end: the world keeps them for the next step.
+TEST(HostGrips, IndexFingerOfAnAuthoredGripFollowsTheTrigger) {
+    HostScene scene;
+    hh_body_def def = crate(scene.world, {0.2, 1.4, -0.53});
+    const hh::Body held = *scene.world.add(def);
+    hh_grip_def grip = hh::grip_def();
+    hh_grip_hand& hand = grip.hands[HH_RIGHT];
+    hand.is_used = true;
+    hand.wrist = hh::pose_at({0.0, 0.0, 0.14}, {0.7071067811865476, 0.0, 0.0, 0.7071067811865476});
+    for (hh_finger& finger : hand.fingers) {
+        finger.is_posed = true;
+    }
+    hand.fingers[1].follows_trigger = true;
+    hand.fingers[1].pressed_curl_rad[0] = 0.8;
+    ASSERT_TRUE(scene.world.add_grip(held, grip));
+    const auto tip_after = [&](double trigger) {
+        for (int i = 0; i < 60; ++i) {
+            hh::Sample now = scene.sample();
+            now.time_s += 0.003;
+            now.trigger[HH_RIGHT] = trigger;
+            EXPECT_TRUE(scene.world.step(k_step_s, hh::input(scene.player, {&now, 1})));
+        }
+        EXPECT_EQ(scene.hand(HH_RIGHT).grip, HH_GRIP_AUTHORED);
+        const auto joints = *scene.world.hand_joints(scene.player, HH_RIGHT, HH_SPACE_WORLD);
+        return joints[HH_INDEX_TIP].pose.position;
+    };
+    scene.step();
+    scene.closed[HH_RIGHT] = true;
+    const hh::Vec3 released = tip_after(0.0);
+    const hh::Vec3 half = tip_after(0.5);
+    const hh::Vec3 pressed = tip_after(1.0);
+    EXPECT_GT(distance_m(released, half), 0.02);
+    EXPECT_GT(distance_m(half, pressed), 0.02);
+    EXPECT_LT(distance_m(tip_after(0.0), released), 1e-6);
+}
+
+TEST(HostShapes, BadMeshesNameTheVertexOrTriangle) {
+    const auto error_of = [](const std::vector<float>& xyz, const std::vector<std::uint32_t>& of) {
+        const hh::Mesh mesh(xyz, of);
+        EXPECT_FALSE(mesh.is_valid());
+        return std::string(hh_last_error());
+    };
+    std::vector<float> xyz = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    EXPECT_NE(error_of(xyz, {0, 1, 2, 0, 4, 1}).find("triangle 1 "), std::string::npos);
+    xyz[7] = std::nanf("");
+    EXPECT_NE(error_of(xyz, {0, 1, 2}).find("vertex 2 "), std::string::npos);
+}
+
 TEST(HostShapes, HullsKeepTheFrameInWhichTheHostMadeThem) {
     hh::World world;
     // A box of 0.2 x 0.4 x 0.6 m whose corner is the host's origin.

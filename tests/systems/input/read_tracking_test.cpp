@@ -46,16 +46,19 @@ TEST(ReadTracking, PosesAreHeldWhereNoLaterSampleIsKnown) {
     EXPECT_EQ(devices.left().pose_ps.position, Vec3(2.0, 0.0, 0.0));
 }
 
-TEST(ReadTracking, SqueezeLiesWithinItsRange) {
+TEST(ReadTracking, SqueezeAndTriggerLieWithinTheirRange) {
     for (const auto& [given, read] :
          {std::pair(0.4, 0.4), std::pair(2.0, 1.0), std::pair(-1.0, 0.0), std::pair(k_nan, 0.0),
           std::pair(k_infinity, 1.0)}) {
         Devices devices;
         TrackingSample sample = sample_at(0.01);
         sample.controllers[index_of(HandSide::right)].squeeze = given;
+        sample.controllers[index_of(HandSide::left)].trigger = given;
         devices.step({sample});
         EXPECT_EQ(devices.right().squeeze, read);
+        EXPECT_EQ(devices.right().trigger, 0.0);
         EXPECT_EQ(devices.left().squeeze, 0.0);
+        EXPECT_EQ(devices.left().trigger, read);
     }
 }
 

@@ -223,6 +223,11 @@ typedef struct hh_finger {
     bool is_posed;  /* false: the finger closes on the surface as usual */
     double curl_rad[3]; /* of its hinges, from the palm */
     double opposition_rad; /* thumb */
+    /* The finger moves from these angles to the pressed ones as far as the sample's `trigger` is
+     * pressed. The pressed angles may reach into the body: a trigger gives way. */
+    bool follows_trigger;
+    double pressed_curl_rad[3];
+    double pressed_opposition_rad;
 } hh_finger;
 typedef struct hh_grip_hand {
     bool is_used;  /* false: this hand cannot take the grip */

@@ -39,6 +39,9 @@ typedef struct hh_tracking_sample {
     bool hand_tracked[2]; /* false: the pose is ignored, `grab` counts */
     bool grab[2];         /* a button that closes the hand is down */
     double squeeze[2];    /* how far it is pressed, [0, 1]: bends fingers until `grab` closes them */
+    /* How far the index finger's trigger is pressed, [0, 1]: bends the index finger of an empty hand,
+     * and the fingers of authored grips that follow the trigger. */
+    double trigger[2];
 } hh_tracking_sample;
 
 /* Everything tracked, hands open, at time 0. The poses are for you to fill: at the origin they count

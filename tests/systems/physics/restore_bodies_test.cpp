@@ -1,0 +1,114 @@
+#include "systems/physics/shared/restore_bodies.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "systems/physics/build_constraints.hpp"
+#include "systems/physics/place_colliders.hpp"
+#include "tests/systems/frame/column_scene.hpp"
+
+namespace handhold::restore_bodies_test {
+namespace {
+
+using test::count_of;
+using test::entity;
+using test::k_wall;
+using test::pose_at;
+using test::Random;
+
+constexpr Entity k_stuck = entity(10);
+constexpr Entity k_follower = entity(11);
+constexpr double k_half_m = 0.1;
+
+// Cubes before a wall whose face is at x = 0.
+struct Restoring {
+    ShapeLibrary shapes;
+    ShapeId cube = shapes.add_box(Vec3::Constant(k_half_m));
+    ShapeId slab = shapes.add_box(Vec3(1.0, 4.0, 4.0));
+    Column<PersistentId> persistent_id;
+    Column<Collider> collider;
+    Column<RigidBody> body;
+    Column<BodyPose> body_pose;
+    Column<BodyStart> body_start;
+    Column<BodyVelocity> body_velocity;
+    Column<LastValidPose> last_valid;
+    Column<Joint> joint;
+    Column<JointState> joint_state;
+    Column<PlayerBody> player;
+    Column<PlayerOrigin> origin;
+    Column<PlayerStart> player_start;
+    Column<PlayerVelocity> player_velocity;
+    Column<HeadTracking> head;
+    Column<HandOwner> owner;
+    Column<Grab> grab;
+    CollisionWorld collision{shapes};
+    FrameGraph frame;
+    Tuning tuning;
+    StageStats stats;
+
+    Restoring() { add(k_wall, BodyKind::fixed, slab, Vec3(-1.0, 0.0, 0.0)); }
+    void add(Entity entity, BodyKind kind, ShapeId shape, const Vec3& valid) {
+        persistent_id.add(entity, {100 + std::uint64_t{entity.slot}});
+        collider.add(entity, {shape});
+        body.add(entity, {kind, 1.0, Vec3::Constant(0.01), 0.0});
+        body_pose.add(entity, {pose_at(valid)});
+        body_start.add(entity, {pose_at(valid)});
+        body_velocity.add(entity);
+        last_valid.add(entity, {pose_at(valid), true});
+    }
+    void place() {
+        place_colliders({persistent_id, collider, body, body_pose, body_start, origin, player_start,
+                         head, last_valid, collision, frame},
+                        tuning.head);
+        build_constraints({1.0 / 90.0, persistent_id, body, body_pose, body_velocity, joint,
+                           joint_state, player, origin, player_velocity, head, owner, grab, frame},
+                          tuning);
+    }
+    std::size_t index_of(Entity entity) const {
+        return find_body(frame.graph, persistent_id.at(entity).value);
+    }
+    Vec3 solved_at(Entity entity) const {
+        return frame.graph.bodies[index_of(entity)].pose_ws.position;
+    }
+    void end_phases_at(Entity entity, const Vec3& position) {
+        const std::size_t index = index_of(entity);
+        frame.graph.bodies[index].pose_ws.position = position;
+        frame.proxies[index].to_ws.position = position;
+        frame.active.add(static_cast<std::uint32_t>(index));
+    }
+    void restore() { restore_penetrating_bodies(collision, frame, tuning.contact, stats); }
+};
+
+TEST(RestoreBodies, CubeInWallReturnsToItsLastValidPose) {
+    Restoring scene;
+    const Vec3 valid(0.3, 0.0, 0.0);
+    scene.add(k_stuck, BodyKind::free, scene.cube, valid);
+    scene.place();
+    scene.end_phases_at(k_stuck, Vec3(-0.05, 0.0, 0.0));
+    scene.restore();
+    EXPECT_LT((scene.solved_at(k_stuck) - valid).norm(), 1e-12);
+    EXPECT_EQ(count_of(scene.stats, Fallback::restored_last_valid_pose), 1U);
+}
+
+// One cube ends deep in the wall; another has moved to where the first one returns to.
+TEST(RestoreBodies, NoBodyOverlapsWhereARestoredOneReturnsTo) {
+    Random random(3601);
+    for (int i = 0; i < 100; ++i) {
+        Restoring scene;
+        const Vec3 valid(random.between(0.15, 0.4), random.between(-0.5, 0.5),
+                         random.between(-0.5, 0.5));
+        const Vec3 beside = valid + Vec3(0.3, 0.0, 0.0);
+        scene.add(k_stuck, BodyKind::free, scene.cube, valid);
+        scene.add(k_follower, BodyKind::free, scene.cube, beside);
+        scene.place();
+        scene.end_phases_at(k_stuck, Vec3(-0.35, valid.y(), valid.z()));
+        scene.end_phases_at(k_follower, valid + Vec3(random.between(0.02, 0.18), 0.0, 0.0));
+        scene.restore();
+        EXPECT_LT((scene.solved_at(k_stuck) - valid).norm(), 1e-12);
+        EXPECT_GE(std::abs(scene.solved_at(k_follower).x() - valid.x()), 2.0 * k_half_m - 1e-3);
+    }
+}
+
+}  // namespace
+}  // namespace handhold::restore_bodies_test
