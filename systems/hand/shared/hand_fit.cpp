@@ -24,7 +24,10 @@ constexpr double k_first_opposition = 0.02;
 constexpr double k_rest = 2e-5;  // keeps every angle determined
 constexpr double k_rest_of_free_thumb = 0.002;
 constexpr double k_alike = 0.001;
+constexpr double k_alike_free = 0.2;  // added for a pair of fingers of which one is free
 constexpr double k_fan = 0.03;
+constexpr double k_fan_free = 0.3;
+constexpr double k_free_gap_m = 0.008;  // gap at which a finger counts as half free
 constexpr double k_roll = 0.003;
 constexpr double k_couple = 0.003;
 constexpr double k_coupling = 2.0 / 3.0;
@@ -188,18 +191,13 @@ class Fitter {
 
     // Draws a digit's nearest sphere to the surface, and a thumb's tip. Knuckles do not count.
     void add_attraction(std::size_t f) {
-        const HandSphere* nearest = nullptr;
         for (const HandSphere& sphere : spheres_.all()) {
-            if (sphere.finger != static_cast<std::int32_t>(f) || !sphere.has_gap) {
-                continue;
-            }
-            if (!is_knuckle(sphere) && (nearest == nullptr || sphere.gap_m < nearest->gap_m)) {
-                nearest = &sphere;
-            }
-            if (sphere.is_thumb_tip) {
+            if (sphere.is_thumb_tip && sphere.finger == static_cast<std::int32_t>(f) &&
+                sphere.has_gap) {
                 problem_.add_square({FitTerm::tip, f}, k_tip, sphere.gap_m, slope_of(sphere));
             }
         }
+        const HandSphere* const nearest = spheres_.nearest(f);
         if (nearest != nullptr && (goal_.touches[f] || nearest->gap_m < k_sphere_reach_m)) {
             add_pull(f, *nearest);
         }
@@ -231,16 +229,28 @@ class Fitter {
         }
     }
 
+    // How much of a finger's pose is its neighbours' to decide: 0 if it touches, 1 far off.
+    double free_share(std::size_t f) const {
+        const HandSphere* const nearest = spheres_.nearest(f);
+        if (nearest == nullptr) {
+            return 1.0;
+        }
+        const double ratio = std::max(0.0, nearest->gap_m) / k_free_gap_m;
+        return ratio * ratio / (1.0 + ratio * ratio);
+    }
+
     void add_neighbour(std::size_t a, std::size_t b) {
+        const double free = std::max(free_share(a), free_share(b));
         const std::size_t links = std::min(rig_.fingers[a].link_count, rig_.fingers[b].link_count);
         for (std::size_t i = 0; i < links; ++i) {
-            problem_.add_square({FitTerm::alike, a, b}, k_alike * k_lever2,
+            problem_.add_square({FitTerm::alike, a, b}, (k_alike + k_alike_free * free) * k_lever2,
                                 pose_.fingers[b].curl_rad[i] - pose_.fingers[a].curl_rad[i],
                                 unit(layout_.hinge(b, i)) + unit(layout_.hinge(a, i), -1.0));
         }
         const Unknowns fan = layout_.direction(b, 1.0) + layout_.direction(a, -1.0);
         const double fan_rad = along(fan);
-        problem_.add_square({FitTerm::fan, a, b}, k_fan * k_lever2, fan_rad, fan);
+        problem_.add_square({FitTerm::fan, a, b}, (k_fan + k_fan_free * free) * k_lever2, fan_rad,
+                            fan);
         problem_.add_row({FitTerm::apart, a, b}, fan, k_max_fan_rad + fan_rad,
                          k_fan_limit * k_lever2);
         problem_.add_row({FitTerm::apart, a, b}, -fan, k_max_fan_rad - fan_rad,

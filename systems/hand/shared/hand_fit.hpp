@@ -18,10 +18,12 @@
 //            + tip    gap^2                         of the thumb's tip
 //            + first  sum (l (q - q_closed))^2      angles q of a digit that touched something when
 //                                                   the hand closed
-//            + alike  sum (l (q_f - q_f+1))^2       neighbouring fingers bend alike: a finger that
-//                                                   reaches nothing goes with its neighbours
+//            + alike  sum (l (q_f - q_f+1))^2       neighbouring fingers bend alike
 //            + fan    sum (l (d_f - d_f+1))^2       and point alike; d: direction from the knuckle
-//                                                   to the tip, linear in the angles
+//                                                   to the tip, linear in the angles. Both weigh
+//                                                   more, the farther one of the two is from any
+//                                                   surface: a finger that reaches nothing goes
+//                                                   with its neighbours
 //            + roll   sum (l (q_2 - q_1))^2         fingers bend in the middle as at the knuckle
 //            + couple sum (l (q_3 - 2/3 q_2))^2     the last hinge bends 2/3 as far as its parent
 //            + rest   sum (l (q - q_rest))^2        keeps every angle determined

@@ -271,6 +271,18 @@ bool is_knuckle(const HandSphere& sphere) {
     return sphere.finger != HandSphere::k_palm && sphere.link == 0 && sphere.center_ls.isZero();
 }
 
+const HandSphere* HandSpheres::nearest(std::size_t finger) const {
+    const HandSphere* nearest = nullptr;
+    for (const HandSphere& sphere : all()) {
+        const bool counts = sphere.finger == static_cast<std::int32_t>(finger) && sphere.has_gap &&
+                            !is_knuckle(sphere);
+        if (counts && (nearest == nullptr || sphere.gap_m < nearest->gap_m)) {
+            nearest = &sphere;
+        }
+    }
+    return nearest;
+}
+
 double HandSpheres::penetration_m() const {
     double depth_m = 0.0;
     for (const HandSphere& sphere : all()) {

@@ -74,6 +74,8 @@ class HandSpheres {
     void query(const HandPose& pose, const HandLinkFrames& frames);
 
     std::span<const HandSphere> all() const { return {spheres_.data(), count_}; }
+    // The sphere of a digit with the smallest gap, knuckles left out; null: none in reach.
+    const HandSphere* nearest(std::size_t finger) const;
     double penetration_m() const;            // of the deepest sphere; at least 0
     double gap_m(std::size_t finger) const;  // smallest of a digit; infinity: none in reach
 
