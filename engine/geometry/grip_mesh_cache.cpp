@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <chrono>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 #include <vector>
 
 #include "engine/collision/closest_point.hpp"
 #include "engine/core/hash.hpp"
 #include "engine/geometry/shape_surface.hpp"
+#include "engine/io/text_file.hpp"
 
 namespace handhold {
 namespace {
@@ -144,30 +142,6 @@ std::uint64_t sum_of(const std::vector<std::uint64_t>& words) {
     return hash.value();
 }
 
-std::string read_whole(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
-// Writes to a unique temporary name and renames it when complete.
-void write_whole(const fs::path& file, const std::string& bytes) {
-    std::error_code error;
-    fs::create_directories(file.parent_path(), error);
-    const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
-    const std::uint64_t own =
-        mix64(std::bit_cast<std::uintptr_t>(&bytes)) ^ mix64(static_cast<std::uint64_t>(now));
-    const fs::path part = file.string() + "." + std::to_string(own) + ".part";
-    {
-        std::ofstream stream(part, std::ios::binary);
-        stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-        stream.close();
-        if (stream) {
-            fs::rename(part, file, error);
-        }
-    }
-    fs::remove(part, error);  // still there if writing or renaming failed
-}
-
 std::string file_name(std::uint64_t key) {
     constexpr std::string_view k_digits = "0123456789abcdef";
     std::string name = "grip_";
@@ -250,11 +224,16 @@ GripMesh cached_grip_mesh(const Mesh& mesh, const GripMeshSettings& settings,
     }
     const std::uint64_t key = grip_mesh_key(mesh, settings);
     const fs::path file = directory / file_name(key);
-    if (std::optional<GripMesh> found = read_grip_mesh(read_whole(file), key)) {
-        return *std::move(found);
+    if (const Result<std::string> bytes = read_file(file)) {
+        if (std::optional<GripMesh> found = read_grip_mesh(bytes.value(), key)) {
+            return *std::move(found);
+        }
     }
     GripMesh grip = build_grip_mesh(mesh, settings);
-    write_whole(file, write_grip_mesh(grip, key));
+    std::error_code error;
+    fs::create_directories(directory, error);
+    // A cache that cannot be written is not an error: the next load builds the mesh again.
+    static_cast<void>(write_file_atomically(file, write_grip_mesh(grip, key)));
     return grip;
 }
 

@@ -2,7 +2,6 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <fstream>
 #include <random>
 #include <system_error>
 
@@ -55,9 +54,14 @@ Result<std::string> read_file(const fs::path& path, std::uint64_t max_bytes) {
         return refuse("expected at most " + std::to_string(max_bytes) + " bytes, found " +
                       std::to_string(size));
     }
-    std::ifstream stream(path, std::ios::binary);
     std::string bytes(static_cast<std::size_t>(size), '\0');
-    if (!stream.read(bytes.data(), static_cast<std::streamsize>(size))) {
+    std::FILE* const file = std::fopen(path.string().c_str(), "rb");
+    const bool is_read =
+        file != nullptr && std::fread(bytes.data(), 1, bytes.size(), file) == bytes.size();
+    if (file != nullptr) {
+        std::fclose(file);
+    }
+    if (!is_read) {
         return refuse("expected a readable file of " + std::to_string(size) + " bytes");
     }
     return bytes;

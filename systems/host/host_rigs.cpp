@@ -1,9 +1,10 @@
-// Rigs and authored grips of the C interface (handhold/players.h).
+// Rigs, body clips and authored grips of the C interface (handhold/players.h, handhold/world.h).
 #include <filesystem>
 
 #include "components/world_edit.hpp"
 #include "engine/io/gltf_skin.hpp"
 #include "systems/host/host_world.hpp"
+#include "systems/rigs/body_clips_json.hpp"
 #include "systems/rigs/body_rig_fit.hpp"
 #include "systems/rigs/hand_rig_fit.hpp"
 
@@ -101,6 +102,15 @@ hh_result hh_player_set_body_rig(hh_world* world, hh_player player, const void* 
         auto rig = std::make_unique<BodyRig>(value_or_throw(fit_body_rig(figure)));
         host.body_rigs.remove(entity);
         host.body_rigs.add(entity, {std::move(rig), {}});
+    });
+}
+
+hh_result hh_world_load_body_clips(hh_world* world, const char* json, size_t size) {
+    return call([&] {
+        hh_world& host = world_of(world);
+        host.caches.body_clips = json == nullptr
+                                     ? BodyClips{}
+                                     : value_or_throw(parse_body_clips({json, size}, "body clips"));
     });
 }
 

@@ -31,6 +31,7 @@ void misuse_pointers(hh_world* world, hh_body body, hh_player player, hh_joint j
     HH_GIVES(HH_ERROR_NULL, hh_world_get_tuning(world, "hand.reach_m", nullptr, 1));
     HH_GIVES(HH_ERROR_NULL, hh_world_set_tuning(world, nullptr, nullptr, 1));
     HH_GIVES(HH_ERROR_NULL, hh_world_load_tuning(world, nullptr, 5));
+    HH_GIVES(HH_ERROR_NULL, hh_world_load_body_clips(nullptr, "{}", 2));
     HH_GIVES(HH_ERROR_NULL, hh_shape_add_box(world, {1, 1, 1}, nullptr));
     HH_GIVES(HH_ERROR_NULL, hh_shape_add_sphere(nullptr, 1.0, nullptr));
     HH_GIVES(HH_ERROR_NULL, hh_shape_add_capsule(world, 1.0, 1.0, nullptr));
@@ -274,6 +275,7 @@ void misuse_numbers(hh_world* world, hh_body body, hh_body kinematic, hh_player 
     }
     HH_GIVES(HH_ERROR_NAME, hh_world_set_tuning(world, "no.such", &value, 1));
     HH_GIVES(HH_ERROR_DATA, hh_world_load_tuning(world, "{\"hand\": 3}", 11));
+    HH_GIVES(HH_ERROR_DATA, hh_world_load_body_clips(world, "{\"idle\": 3}", 11));
     HH_GIVES(HH_ERROR_DATA, hh_player_set_hand_rig(world, player, HH_LEFT, "glTF", 4));
     HH_GIVES(HH_ERROR_DATA, hh_player_set_body_rig(world, player, "{}", 2));
 }

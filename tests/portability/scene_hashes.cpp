@@ -1,8 +1,7 @@
 // handhold-scenes: plays the game's scenes without its window and pictures, and prints the state
 // hash of each. tools/cross compares what it prints on two targets.
 //
-// usage: handhold-scenes [--no-body-clips] SECONDS [SCENE [RECORDING]]...
-//   --no-body-clips: without the game's body clips, which hosts of the C interface do not have.
+// usage: handhold-scenes SECONDS [SCENE [RECORDING]]...
 //   Without SCENE: all built-in scenes. "-" as RECORDING: the scene's own session.
 // Prints a line "SCENE 0x<16 hex digits> MEDIAN_US" for each, the median time of a step, and for
 // scenes without scripted climbers a line "SCENE/rollback 0x... 0.0": the second half of the
@@ -41,13 +40,11 @@ T value_or_exit(Result<T> result) {
 
 // A scene with its players, as `handhold run --scene SCENE --input RECORDING` begins.
 struct Ready {
-    Ready(const RunOptions& options, bool has_body_clips)
+    explicit Ready(const RunOptions& options)
         : scene(value_or_exit(load_scene(options.scene))),
           session(value_or_exit(load_session(options, scene))),
           caches(*scene.shapes, scene.grip_meshes.get()) {
-        if (has_body_clips) {
-            caches.body_clips = game_body_clips();
-        }
+        caches.body_clips = game_body_clips();
         const StartPlace place =
             value_or_exit(choose_place(options, options.spawn, scene, caches, recording()));
         const std::vector<StartPlace> places =
@@ -71,8 +68,8 @@ void print_line(const std::string& name, std::uint64_t hash, double step_us) {
 }
 
 // Returns false if a rollback gives another hash.
-bool play(const RunOptions& options, bool has_body_clips) {
-    Ready ready(options, has_body_clips);
+bool play(const RunOptions& options) {
+    Ready ready(options);
     const SnapshotAssets assets(*ready.scene.shapes, ready.scene.name);
     const bool rolls_back = ready.settings.climbers_from >= ready.players.size();
     const double half_s = 0.5 * session_length_s(ready.recording(), ready.settings);
@@ -106,14 +103,8 @@ bool play(const RunOptions& options, bool has_body_clips) {
 }
 
 int main_of(int count, char** words) {
-    const bool has_body_clips = count < 2 || std::string(words[1]) != "--no-body-clips";
-    if (!has_body_clips) {
-        ++words;
-        --count;
-    }
     if (count < 2) {
-        std::fprintf(stderr,
-                     "usage: handhold-scenes [--no-body-clips] SECONDS [SCENE [RECORDING]]...\n");
+        std::fprintf(stderr, "usage: handhold-scenes SECONDS [SCENE [RECORDING]]...\n");
         return 2;
     }
     std::vector<RunOptions> runs;
@@ -132,7 +123,7 @@ int main_of(int count, char** words) {
     bool all_equal = true;
     for (RunOptions& options : runs) {
         options.seconds = std::atof(words[1]);
-        all_equal = play(options, has_body_clips) && all_equal;
+        all_equal = play(options) && all_equal;
     }
     return all_equal ? 0 : 1;
 }

@@ -13,7 +13,7 @@ function(handhold_library_from_sources name alias include_dir)
   add_library(${alias} ALIAS ${name})
   target_include_directories(${name} SYSTEM PUBLIC ${include_dir})
   target_compile_options(${name} PRIVATE -w -ffp-contract=off)
-  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF POSITION_INDEPENDENT_CODE $<NOT:$<BOOL:${EMSCRIPTEN}>>)
 endfunction()
 
 set(bullet ${HANDHOLD_SOURCES}/bullet/src)
@@ -33,3 +33,8 @@ handhold_library_from_sources(handhold_box2d box2d::box2d ${box2d}/include ${box
 file(GLOB meshoptimizer_sources ${HANDHOLD_SOURCES}/meshoptimizer/src/*.cpp)
 handhold_library_from_sources(handhold_meshoptimizer meshoptimizer::meshoptimizer
   ${HANDHOLD_SOURCES}/meshoptimizer/src ${meshoptimizer_sources})
+
+if(HANDHOLD_BUILD_TESTS)
+  add_subdirectory(/usr/src/googletest googletest EXCLUDE_FROM_ALL)  # Debian's package googletest
+  set_target_properties(gtest gtest_main PROPERTIES UNITY_BUILD OFF)
+endif()

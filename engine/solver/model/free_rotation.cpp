@@ -218,7 +218,7 @@ void advance_any_portable(double dt_s, std::span<FreeRotation4> fours) {
     advance_fours<false>(dt_s, fours);
 }
 
-#ifdef __x86_64__
+#ifdef HH_AVX2
 HH_AVX2 void advance_tops_avx2(double dt_s, std::span<FreeRotation4> fours) {
     advance_fours<true>(dt_s, fours);
 }

@@ -49,7 +49,7 @@ HH_INLINE void apply_triads(const TriadArrays& arrays, double scale) {
     triads::apply(arrays, scale);
 }
 
-#ifdef __x86_64__
+#ifdef HH_AVX2
 HH_AVX2 void evaluate_avx2(const TriadArrays& arrays) { evaluate_triads(arrays); }
 HH_AVX2 void evaluate_velocities_avx2(const TriadArrays& arrays) {
     evaluate_triad_velocities(arrays);
@@ -95,7 +95,7 @@ constexpr TriadKernels k_portable{evaluate_portable,        evaluate_velocities_
 }  // namespace
 
 const TriadKernels& triad_kernels() {
-#ifdef __x86_64__
+#ifdef HH_AVX2
     return fastest_vectors() == Vectors::avx2 ? k_avx2 : k_portable;
 #else
     return k_portable;

@@ -25,6 +25,7 @@ const loadRecording = async (url) => parseRecording(await (await fetch(url)).tex
 
 const handhold = await loadHandhold();
 const world = handhold.createWorld();
+world.loadBodyClips(await (await fetch('body_clips.json')).text());
 const level = await loadLevel(handhold, world, new URL('scene.json', folder), tell);
 const recording = query.has('recording') ? await loadRecording(new URL(query.get('recording'), location.href)) : null;
 const recorded = recording && new Playback(recording);

@@ -1,6 +1,5 @@
 // The page plays a recorded session in Chromium; path and hash must equal those of the native game. `node --test` with
-// the variables of page.mjs, and HANDHOLD_BIN: a folder with the native handhold and handhold-scenes. The hash is that of
-// a run without the game's body clips: the C interface has none. They move legs and shoulders, not the path.
+// the variables of page.mjs, and HANDHOLD_BIN: a folder with the native handhold and handhold-scenes.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
@@ -15,7 +14,7 @@ function playNatively(scene, recording) {
     try {
         execFileSync(join(process.env.HANDHOLD_BIN, 'handhold'), ['run', '--scene', scene, '--input', recording, '--seconds', '31', '--out', join(folder, 'out'),
             '--no-pictures']);
-        const said = execFileSync(join(process.env.HANDHOLD_BIN, 'handhold-scenes'), ['--no-body-clips', '31', scene, recording], { encoding: 'utf8' });
+        const said = execFileSync(join(process.env.HANDHOLD_BIN, 'handhold-scenes'), ['31', scene, recording], { encoding: 'utf8' });
         const [header, ...lines] = readFileSync(join(folder, 'out/frames.csv'), 'utf8').trim().split('\n');
         const columns = ['origin_x', 'origin_y', 'origin_z'].map((name) => header.split(',').indexOf(name));
         assert.ok(!columns.includes(-1), header);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -347,6 +349,35 @@ TEST(HostShapes, HullsKeepTheFrameInWhichTheHostMadeThem) {
     EXPECT_GT(distance_m(world.pose(body)->position, {1.0, 2.0, 3.0}), 0.1);
     ASSERT_TRUE(world.teleport(body, hh::pose_at({-1.0, 0.0, 0.0})));
     EXPECT_LT(distance_m(world.pose(body)->position, {-1.0, 0.0, 0.0}), 1e-9);
+}
+
+TEST(HostBodyClips, MoveLegsAndNeverHandsAndBadOnesChangeNothing) {
+    HostScene plain;
+    HostScene clipped;
+    HostScene refused;
+    constexpr std::string_view k_idle =
+        R"({"idle": {"keys": [{"at": 0}, {"at": 1, "left_thigh": [30, 0, 0]}, {"at": 2}]}})";
+    ASSERT_TRUE(clipped.world.load_body_clips(k_idle));
+    EXPECT_EQ(refused.world.load_body_clips(R"({"idle": {"keys": 3}})").result(), HH_ERROR_DATA);
+    EXPECT_NE(std::string(hh_last_error()).find("/idle/keys"), std::string::npos);
+    const auto joints = [](const HostScene& scene) {
+        return *scene.world.body_joints(scene.player, HH_SPACE_WORLD);
+    };
+    const auto apart_m = [&](const HostScene& a, const HostScene& b, hh_body_joint joint) {
+        return distance_m(joints(a)[joint].position, joints(b)[joint].position);
+    };
+    for (HostScene* const scene : {&plain, &clipped, &refused}) {
+        scene->add_wall();
+        scene->step(90);
+    }
+    EXPECT_GT(apart_m(plain, clipped, HH_LEFT_FOOT), 0.1);
+    EXPECT_EQ(apart_m(plain, clipped, HH_RIGHT_HAND), 0.0);
+    EXPECT_EQ(refused.world.hash(), plain.world.hash());
+    ASSERT_TRUE(clipped.world.load_body_clips({}));
+    for (HostScene* const scene : {&plain, &clipped}) {
+        scene->step();
+    }
+    EXPECT_LT(apart_m(plain, clipped, HH_LEFT_FOOT), 1e-9);
 }
 
 // Two players of one world with hands of different sizes.

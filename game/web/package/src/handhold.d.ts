@@ -99,4 +99,6 @@ export declare class World {
     setTuning(name: string, ...values: number[]): void;
     getTuning(name: string, count?: number): number[];
     loadTuning(json: string): void;
+    /** Additive clips of all players' bodies, in the format of docs/reference/body_clips.md; null: none. */
+    loadBodyClips(json: string | null): void;
 }

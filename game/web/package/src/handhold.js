@@ -426,9 +426,16 @@ export class World {
         });
     }
     loadTuning(json) {
-        this.#call('world_load_tuning', (m) => {
-            const bytes = new TextEncoder().encode(json);
-            return [m.takeBytes(bytes), bytes.length];
+        this.#loadText('world_load_tuning', json);
+    }
+    /** Additive clips of all players' bodies (docs/reference/body_clips.md); null: none. */
+    loadBodyClips(json) {
+        this.#loadText('world_load_body_clips', json);
+    }
+    #loadText(name, text) {
+        this.#call(name, (m) => {
+            const bytes = new TextEncoder().encode(text ?? '');
+            return [text === null ? 0 : m.takeBytes(bytes), bytes.length];
         });
     }
 }

@@ -10,7 +10,7 @@ import { playSameScene } from './same_scene.mjs';
 const folder = pathToFileURL(resolve(process.env.HANDHOLD_PACKAGE) + '/');
 const handholdModule = await import(new URL('handhold.js', folder));
 const { loadHandhold, HandholdError, structs, HH_DYNAMIC, HH_ERROR_HANDLE, HH_ERROR_VALUE, HH_GRIP_HELD, HH_GRIP_SURFACE, HH_HEAD, HH_HINGE,
-    HH_LEFT, HH_RIGHT, HH_SPACE_WORLD } = handholdModule;
+    HH_LEFT, HH_LEFT_FOOT, HH_RIGHT, HH_SPACE_WORLD } = handholdModule;
 const { layoutOf } = await import(new URL('memory.js', folder));
 const handhold = await loadHandhold();
 
@@ -133,6 +133,20 @@ test('joints of hands and bodies are those of the shown player', () => {
     const body = scene.world.bodyJoints(scene.player, HH_SPACE_WORLD);
     const above = body[HH_HEAD].position.y - head.position.y;
     assert.ok(Math.abs(above) < 0.2, `${above}`);
+    scene.world.destroy();
+});
+
+test('body clips move legs, and texts that are none are refused', () => {
+    const scene = makeWall();
+    const idle = JSON.stringify({ idle: { keys: [{ at: 0 }, { at: 1, left_thigh: [30, 0, 0] }, { at: 2 }] } });
+    const foot = () => scene.world.bodyJoints(scene.player, HH_SPACE_WORLD)[HH_LEFT_FOOT].position.z;
+    scene.world.loadBodyClips(idle);
+    play(scene, 1, 90);
+    const swung = foot();
+    assert.throws(() => scene.world.loadBodyClips('{"idle": 1}'), HandholdError);
+    scene.world.loadBodyClips(null);
+    play(scene, 91, 91);
+    assert.ok(Math.abs(foot() - swung) > 0.1, `${foot()}, before ${swung}`);
     scene.world.destroy();
 });
 

@@ -427,6 +427,10 @@ class World {
     Status load_tuning(std::string_view json) {
         return hh_world_load_tuning(world_, json.data(), json.size());
     }
+    // As hh_world_load_body_clips. Empty: none.
+    Status load_body_clips(std::string_view json) {
+        return hh_world_load_body_clips(world_, json.empty() ? nullptr : json.data(), json.size());
+    }
     // As hh_world_set_tuning. `name` ends with a 0.
     Status tune(const char* name, double value) {
         return hh_world_set_tuning(world_, name, &value, 1);

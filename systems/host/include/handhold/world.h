@@ -147,6 +147,12 @@ HH_API hh_result hh_world_set_tuning(hh_world* world, const char* name, const do
 /* All numbers from JSON, {"hand": {"reach_m": 0.12}}; those that it lacks get their defaults.
  * HH_ERROR_DATA, with the place, for unknown names and wrong numbers. */
 HH_API hh_result hh_world_load_tuning(hh_world* world, const char* json, size_t size);
+/* The additive body clips of all players, from JSON in the format of docs/reference/body_clips.md:
+ * idling, pushing off, looking round, raising the arms. They rotate spine, legs and clavicles, never
+ * hands. They replace the clips before. Null: none, which is the default. HH_ERROR_DATA, with the
+ * place and no change, for anything else. Clips are not in a snapshot: load the same ones before
+ * you restore. */
+HH_API hh_result hh_world_load_body_clips(hh_world* world, const char* json, size_t size);
 
 #ifdef __cplusplus
 }
