@@ -94,8 +94,9 @@ std::shared_ptr<const Mesh> copy_mesh(const hh_mesh_def& def) {
         std::array<float, 3> xyz{};
         std::memcpy(xyz.data(), at, k_packed);
         for (const float axis : xyz) {
-            require(std::abs(static_cast<double>(axis)) <= k_max_position_m, HH_ERROR_VALUE,
-                    [&] { return "vertex " + std::to_string(i) + " lies beyond 1e7 m, or is NaN"; });
+            require(std::abs(static_cast<double>(axis)) <= k_max_position_m, HH_ERROR_VALUE, [&] {
+                return "vertex " + std::to_string(i) + " lies beyond 1e7 m, or is NaN";
+            });
         }
         mesh->positions.emplace_back(xyz[0], xyz[1], xyz[2]);
     }
