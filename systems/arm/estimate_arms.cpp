@@ -47,8 +47,10 @@ Vec3 estimate_chest(const TrackedBody& body, const BodyAxes& axes, const Step& s
         filtered_ps = reset ? now_ps : follow_look(filtered_ps, now_ps, step.look_shares[i]);
     }
     const Quat lean = chest_lean(trunk.up_ps);
+    const Vec3 up_ps = axes.head.col(1);
     const Vec3 talked_ps =
-        chest_facing(memory.looks_ps[0], chest_lean(axes.head.col(1)), body, axes, step.limit);
+        chest_facing(memory.looks_ps[0], trunk.up_ps == up_ps ? lean : chest_lean(up_ps), body,
+                     axes, step.limit);
     ChestCorrection correction = chest_correction(talked_ps, now_ps, memory.looks_ps, body, axes);
     correction.offset.middle_m *= tuning.learned;
     correction.offset.roll *= tuning.learned;

@@ -45,6 +45,7 @@ ChestInputs chest_inputs(const ChestView& view, HandSide side) {
 // k_nod_rad and turn = excess^2 / (excess + k_nod_soft_rad), so at most the sum of both. Chosen on
 // body_train's train part, where heads look up by more than 15 degrees in 2 % of the frames.
 constexpr double k_nod_rad = 0.2;
+constexpr double k_nod_sine = 0.19866933079506122;  // of k_nod_rad
 constexpr double k_nod_soft_rad = 0.4;
 // The ears from the eyes, for an eye height of k_scale_eye_m.
 constexpr double k_ears_below_m = 0.05;
@@ -93,11 +94,11 @@ TrunkView trunk_view(const TrackedBody& body, const BodyAxes& axes) {
     const Vec3 ahead = -axes.head.col(2);
     TrunkView view{body.head_ps.position, up};
     const double sine_pitch = ahead.y();
-    const double level = std::sqrt(std::max(0.0, 1.0 - sine_pitch * sine_pitch));
-    const double excess = arc_tangent2(sine_pitch, level) - k_nod_rad;
-    if (excess <= 0.0) {
+    if (sine_pitch <= k_nod_sine) {
         return view;
     }
+    const double level = std::sqrt(std::max(0.0, 1.0 - sine_pitch * sine_pitch));
+    const double excess = std::max(0.0, arc_tangent2(sine_pitch, level) - k_nod_rad);
     double sine = 0.0;
     double cosine = 1.0;
     sin_cos(excess * excess / (excess + k_nod_soft_rad), sine, cosine);
