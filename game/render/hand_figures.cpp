@@ -88,24 +88,25 @@ HandFigures::HandFigures(HandModels models, Renderer& renderer) : models_(std::m
         for (const HandPart& part : make_robot_hand(models_[side].rig)) {
             Look look;
             look.gloss = figure_gloss(part.material);
-            parts_[side].push_back({part.finger, part.link, renderer.add_mesh(part.mesh), look});
+            parts_[side].push_back(
+                {part.finger, part.link, renderer.add_mesh(part.mesh), look, part.is_cuff});
         }
     }
 }
 
 void HandFigures::begin() { used_.fill(0); }
 
-void HandFigures::add(HandSide side, const Pose& wrist_ws,
+void HandFigures::add(HandSide side, const Pose& wrist_ws, const Quat& forearm_ws,
                       const std::array<FingerAngles, k_finger_count>& fingers, Renderer& renderer,
                       RenderFrame& frame) {
     if (models_[index_of(side)].skin) {
         add_skin(side, wrist_ws, fingers, renderer, frame);
     } else {
-        add_parts(side, wrist_ws, fingers, frame);
+        add_parts(side, wrist_ws, forearm_ws, fingers, frame);
     }
 }
 
-void HandFigures::add_parts(HandSide side, const Pose& wrist_ws,
+void HandFigures::add_parts(HandSide side, const Pose& wrist_ws, const Quat& forearm_ws,
                             const std::array<FingerAngles, k_finger_count>& fingers,
                             RenderFrame& frame) const {
     const HandRig& rig = models_[index_of(side)].rig;
@@ -116,8 +117,10 @@ void HandFigures::add_parts(HandSide side, const Pose& wrist_ws,
             link = wrist_ws * link;
         }
     }
+    const Pose cuff_ws{wrist_ws.position, forearm_ws};
     for (const Part& part : parts_[index_of(side)]) {
-        const Pose& at = part.finger == RigJoint::k_palm
+        const Pose& at = part.is_cuff ? cuff_ws
+                         : part.finger == RigJoint::k_palm
                              ? wrist_ws
                              : links_ws[static_cast<std::size_t>(part.finger)][part.link];
         frame.instances.push_back({part.mesh, at, std::nullopt, part.look});

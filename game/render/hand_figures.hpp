@@ -43,6 +43,12 @@ class HandFigures {
     void begin();  // starts a new picture
     void add(HandSide side, const Pose& wrist_ws,
              const std::array<FingerAngles, k_finger_count>& fingers, Renderer& renderer,
+             RenderFrame& frame) {
+        add(side, wrist_ws, wrist_ws.rotation, fingers, renderer, frame);
+    }
+    // `forearm_ws`: rotation of the forearm (-Z to the hand), with which the robot's cuff turns.
+    void add(HandSide side, const Pose& wrist_ws, const Quat& forearm_ws,
+             const std::array<FingerAngles, k_finger_count>& fingers, Renderer& renderer,
              RenderFrame& frame);
 
     const HandRig& rig(HandSide side) const { return models_[index_of(side)].rig; }
@@ -54,11 +60,12 @@ class HandFigures {
         std::uint32_t link = 0;
         MeshId mesh{};
         Look look;
+        bool is_cuff = false;
     };
     // A skin deforms, so every hand of a picture has its own copies, one per colour.
     using SkinCopy = std::vector<MeshId>;
 
-    void add_parts(HandSide side, const Pose& wrist_ws,
+    void add_parts(HandSide side, const Pose& wrist_ws, const Quat& forearm_ws,
                    const std::array<FingerAngles, k_finger_count>& fingers,
                    RenderFrame& frame) const;
     void add_skin(HandSide side, const Pose& wrist_ws,

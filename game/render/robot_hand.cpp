@@ -86,7 +86,7 @@ void add_parts(const FigureKit& kit, std::int32_t finger, std::uint32_t link,
         const auto material = static_cast<FigureMaterial>(i);
         Mesh mesh = kit.finish(material, name);
         if (!mesh.triangles.empty()) {
-            parts.push_back({finger, link, material, std::move(mesh)});
+            parts.push_back({finger, link, material, std::move(mesh), false});
         }
     }
 }
@@ -120,6 +120,11 @@ std::vector<HandPart> make_robot_hand(const HandRig& rig) {
         palm.mirror();
     }
     add_parts(palm, RigJoint::k_palm, 0, side + "/palm", parts);
+    const std::size_t first_of_cuff = parts.size();
+    add_parts(build_robot_cuff(), RigJoint::k_palm, 0, side + "/cuff", parts);
+    for (std::size_t i = first_of_cuff; i < parts.size(); ++i) {
+        parts[i].is_cuff = true;
+    }
     for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
         const FingerRig& finger = rig.fingers[i];
         for (std::uint32_t link = 0; link < finger.link_count; ++link) {

@@ -1,6 +1,6 @@
 // The palm of the robot's hand: a body between knuckles and wrist, a ridge over each metacarpal,
-// pads below, a socket for the thumb, and the wrist's cuff. Built in hand space rotated half a turn
-// about Y: fingers along +Z, a right hand's thumb at +X.
+// pads below, a socket for the thumb; and the cuff behind the wrist. Built in hand space rotated
+// half a turn about Y: fingers along +Z, a right hand's thumb at +X.
 #include <algorithm>
 
 #include "game/render/primitives.hpp"
@@ -138,8 +138,10 @@ void add_thumb_socket(FigureKit& kit, const FingerRig& thumb, const PalmFigures&
     kit.add(shell, make_capsule(inner, base - 0.45 * r * axis, 0.96 * r, 18));
 }
 
-void add_wrist(FigureKit& kit) {
-    kit.add(joint, make_sphere(0.0195, 20), {Vec3(0.0, -0.001, 0.003), Quat::Identity()});
+}  // namespace
+
+FigureKit build_robot_cuff() {
+    FigureKit kit;
     const std::array<ProfilePoint, 7> cuff = {{{0.0245, -0.036},
                                                {0.0285, -0.033},
                                                {0.0295, -0.018},
@@ -150,9 +152,8 @@ void add_wrist(FigureKit& kit) {
     kit.add(shell, make_revolved(cuff, 28), {Vec3(0.0, -0.001, 0.0), Quat::Identity()});
     kit.add(accent, make_torus(0.0291, 0.0019, 32, 8),
             {Vec3(0.0, -0.001, -0.024), Quat::Identity()});
+    return kit.placed(figure_forward());
 }
-
-}  // namespace
 
 FigureKit build_robot_palm(const HandRig& right_rig) {
     FigureKit kit;
@@ -168,7 +169,7 @@ FigureKit build_robot_palm(const HandRig& right_rig) {
             add_thumb_socket(kit, finger, palm);
         }
     }
-    add_wrist(kit);
+    kit.add(joint, make_sphere(0.0195, 20), {Vec3(0.0, -0.001, 0.003), Quat::Identity()});
     return kit.placed(figure_forward());
 }
 

@@ -63,11 +63,11 @@ ControlValues PlayerView::controls_of(std::size_t row, HandSide side) const {
     return k_controls_at_rest;
 }
 
-void PlayerView::add_hand(HandSide side, const RenderPose::Hand& hand,
+void PlayerView::add_hand(HandSide side, const RenderPose::Hand& hand, const Quat& forearm_ws,
                           const ControlValues& controls, RenderFrame& frame) {
     const bool holds_controller = controllers_.has_value() && hand.grip == GripKind::none;
-    hands_.add(side, hand.shown_ws, holds_controller ? controllers_->fingers(side) : hand.fingers,
-               renderer_, frame);
+    hands_.add(side, hand.shown_ws, forearm_ws,
+               holds_controller ? controllers_->fingers(side) : hand.fingers, renderer_, frame);
     if (holds_controller) {
         controllers_->add(side, hand.shown_ws, controls, frame);
     }
@@ -157,7 +157,8 @@ void PlayerView::add_player(std::size_t row, BodyFigures::Seen seen, RenderFrame
         const RenderPose::Hand& hand = render.hands[index_of(side)];
         const bool grips = hand.grip != GripKind::none;
         const std::size_t first = frame.instances.size();
-        add_hand(side, hand, controls_of(row, side), frame);
+        add_hand(side, hand, render.arms.arms[index_of(side)].forearm_ws.rotation,
+                 controls_of(row, side), frame);
         if (seen == BodyFigures::Seen::by_himself && !grips) {
             add_penetrating_hands(first, frame);
         }

@@ -51,8 +51,8 @@ class PlayerView {
     RenderFrame make_frame(const Camera& camera, std::optional<std::size_t> without_head,
                            std::span<const Line> marks);
     void add_player(std::size_t row, BodyFigures::Seen seen, RenderFrame& frame);
-    void add_hand(HandSide side, const RenderPose::Hand& hand, const ControlValues& controls,
-                  RenderFrame& frame);
+    void add_hand(HandSide side, const RenderPose::Hand& hand, const Quat& forearm_ws,
+                  const ControlValues& controls, RenderFrame& frame);
     ControlValues controls_of(std::size_t row, HandSide side) const;
     void add_pull(Entity hand, const RenderPose::Hand& shown, RenderFrame& frame) const;
     void add_ghost_of(HandSide side, const Pose& wrist_ws,

@@ -40,14 +40,17 @@ Step step_of(double dt_s, const ArmTuning& tuning) {
 Vec3 estimate_chest(const TrackedBody& body, const BodyAxes& axes, const Step& step, bool reset,
                     ArmMemory& memory, ArmEstimate& out) {
     const ArmTuning& tuning = step.tuning;
-    const Vec3 up_ps = axes.head.col(1);
-    Vec3 now_ps = level_look(-axes.head.col(2), up_ps);
+    const TrunkView trunk = trunk_view(body, axes);
+    Vec3 now_ps = level_look(-axes.head.col(2), axes.head.col(1));
     for (std::size_t i = 0; i < k_look_filters; ++i) {
         Vec3& filtered_ps = memory.looks_ps[i];
         filtered_ps = reset ? now_ps : follow_look(filtered_ps, now_ps, step.look_shares[i]);
     }
-    const Quat lean = chest_lean(up_ps);
-    const Vec3 talked_ps = chest_facing(memory.looks_ps[0], lean, body, axes, step.limit);
+    const Quat lean = chest_lean(trunk.up_ps);
+    const Vec3 up_ps = axes.head.col(1);
+    const Vec3 talked_ps =
+        chest_facing(memory.looks_ps[0], trunk.up_ps == up_ps ? lean : chest_lean(up_ps), body,
+                     axes, step.limit);
     ChestCorrection correction = chest_correction(talked_ps, now_ps, memory.looks_ps, body, axes);
     correction.offset.middle_m *= tuning.learned;
     correction.offset.roll *= tuning.learned;
@@ -57,7 +60,7 @@ Vec3 estimate_chest(const TrackedBody& body, const BodyAxes& axes, const Step& s
     const Vec3 corrected_ps = turned_left(talked_ps, cosine, sine);
     Vec3 wanted_ps = corrected_ps;
     const double across_rad = turn_to_reach_across(
-        corrected_ps, lean, chest_pose(corrected_ps, lean, correction.offset, body, up_ps), body);
+        corrected_ps, lean, chest_pose(corrected_ps, lean, correction.offset, body, trunk), body);
     if (across_rad != 0.0) {
         sin_cos(across_rad, sine, cosine);
         wanted_ps = turned_left(corrected_ps, cosine, sine);
@@ -74,7 +77,7 @@ Vec3 estimate_chest(const TrackedBody& body, const BodyAxes& axes, const Step& s
         chest.roll += step.chest_share * (correction.offset.roll - chest.roll);
     }
     out.facing_ps = memory.facing_ps;
-    out.chest_ps = chest_pose(out.facing_ps, lean, memory.chest, body, up_ps);
+    out.chest_ps = chest_pose(out.facing_ps, lean, memory.chest, body, trunk);
     return now_ps;
 }
 
@@ -83,7 +86,7 @@ ArmLine line_of(const Vec3& facing, const Vec3& rest_ps, const Vec3& hand_ps, do
                 const ArmMemory::Arm& memory, const ArmTuning& tuning) {
     const Vec3 hand_ts = to_facing(facing, hand_ps - rest_ps);
     Vec3 shoulder_ts = clavicle_shift(hand_ts / arm_m, tuning);
-    shoulder_ts += shoulder_follow(hand_ts - shoulder_ts, arm_m, tuning);
+    shoulder_ts += shoulder_follow(hand_ts - shoulder_ts, arm_m, shoulder_ts.norm(), tuning);
     const Vec3 reach_ts = hand_ts - shoulder_ts;
     const double distance_m = reach_ts.norm();
     return {shoulder_ts, reach_ts, distance_m,

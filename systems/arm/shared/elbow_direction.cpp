@@ -46,11 +46,12 @@ Vec3 clavicle_shift(const Vec3& hand, const ArmTuning& tuning) {
            (reach_m / std::max(distance, 0.3));
 }
 
-Vec3 shoulder_follow(const Vec3& hand_m, double arm_m, const ArmTuning& tuning) {
+Vec3 shoulder_follow(const Vec3& hand_m, double arm_m, double shifted_m, const ArmTuning& tuning) {
     const double distance = hand_m.norm();
     const double beyond = distance - tuning.reach * arm_m;
-    return beyond <= 0.0 ? Vec3(Vec3::Zero())
-                         : Vec3(hand_m * (std::min(beyond, tuning.shoulder_follow_m) / distance));
+    const double most_m = tuning.shoulder_follow_m - shifted_m;
+    return beyond <= 0.0 || most_m <= 0.0 ? Vec3(Vec3::Zero())
+                                          : Vec3(hand_m * (std::min(beyond, most_m) / distance));
 }
 
 Vec3 elbow_pole(const BodyView& view, HandSide side) {

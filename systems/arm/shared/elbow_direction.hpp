@@ -17,8 +17,9 @@ namespace handhold {
 Vec3 clavicle_shift(const Vec3& hand, const ArmTuning& tuning);
 
 // Displacement of the shoulder towards a hand that the arm does not reach. `hand_m`: position
-// relative to the shoulder.
-Vec3 shoulder_follow(const Vec3& hand_m, double arm_m, const ArmTuning& tuning);
+// relative to the shoulder. `shifted_m`: by how much the clavicle has displaced it already; both
+// together are at most ArmTuning::shoulder_follow_m, or what the clavicle alone displaces.
+Vec3 shoulder_follow(const Vec3& hand_m, double arm_m, double shifted_m, const ArmTuning& tuning);
 
 // The line from a shoulder to its hand.
 struct ArmLine {

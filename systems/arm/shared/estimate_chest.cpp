@@ -41,6 +41,16 @@ ChestInputs chest_inputs(const ChestView& view, HandSide side) {
     return inputs;
 }
 
+// Limits of the pitch that the trunk follows: it follows pitch - turn, with the excess over
+// k_nod_rad and turn = excess^2 / (excess + k_nod_soft_rad), so at most the sum of both. Chosen on
+// body_train's train part, where heads look up by more than 15 degrees in 2 % of the frames.
+constexpr double k_nod_rad = 0.2;
+constexpr double k_nod_sine = 0.19866933079506122;  // of k_nod_rad
+constexpr double k_nod_soft_rad = 0.4;
+// The ears from the eyes, for an eye height of k_scale_eye_m.
+constexpr double k_ears_below_m = 0.05;
+constexpr double k_ears_behind_m = 0.08;
+
 // Limits of an arm that reaches across the chest. Angles: of the line from shoulder to hand, from
 // straight ahead towards the other side, seen along the chest's up axis. In body_train, arms that
 // reach more than 0.85 arm lengths away in this view are beyond 45 degrees in 0.3 % of the frames,
@@ -79,9 +89,30 @@ double across_turn(const Vec3& hand, const Vec3& other) {
 
 }  // namespace
 
-Quat chest_lean(const Vec3& head_up_ps) {
+TrunkView trunk_view(const TrackedBody& body, const BodyAxes& axes) {
+    const Vec3 up = axes.head.col(1);
+    const Vec3 ahead = -axes.head.col(2);
+    TrunkView view{body.head_ps.position, up};
+    const double sine_pitch = ahead.y();
+    if (sine_pitch <= k_nod_sine) {
+        return view;
+    }
+    const double level = std::sqrt(std::max(0.0, 1.0 - sine_pitch * sine_pitch));
+    const double excess = std::max(0.0, arc_tangent2(sine_pitch, level) - k_nod_rad);
+    double sine = 0.0;
+    double cosine = 1.0;
+    sin_cos(excess * excess / (excess + k_nod_soft_rad), sine, cosine);
+    const double scale = body.measures.eye_height_m / k_scale_eye_m;
+    view.up_ps = cosine * up + sine * ahead;
+    const Vec3 ahead_then = cosine * ahead - sine * up;
+    view.eyes_ps +=
+        scale * (k_ears_below_m * (view.up_ps - up) + k_ears_behind_m * (ahead_then - ahead));
+    return view;
+}
+
+Quat chest_lean(const Vec3& up_ps) {
     constexpr double k_share = body_constants::k_lean;
-    const Vec3 up = (1.0 - k_share) * Vec3::UnitY() + k_share * head_up_ps;
+    const Vec3 up = (1.0 - k_share) * Vec3::UnitY() + k_share * up_ps;
     const double length = up.norm();
     return length > 0.1 ? rotation_between(Vec3::UnitY(), up / length) : Quat::Identity();
 }
@@ -161,7 +192,7 @@ double turn_to_reach_across(const Vec3& facing_ps, const Quat& lean_ps, const Po
 }
 
 Pose chest_pose(const Vec3& facing_ps, const Quat& lean_ps, const ChestOffset& offset,
-                const TrackedBody& body, const Vec3& head_up_ps) {
+                const TrackedBody& body, const TrunkView& trunk) {
     using namespace body_constants;
     const Quat level = product(lean_ps, level_rotation(facing_ps));
     const double scale = body.measures.eye_height_m / k_scale_eye_m;
@@ -170,8 +201,7 @@ Pose chest_pose(const Vec3& facing_ps, const Quat& lean_ps, const ChestOffset& o
     // tan(a / 2) = tan a / (1 + sqrt(1 + tan^2 a))
     const Quat rolled =
         product(level, unit_quat(1.0 + std::sqrt(1.0 + roll * roll), 0.0, 0.0, roll));
-    return {body.head_ps.position +
-                scale * (level.toRotationMatrix() * from_neck - k_neck_m * head_up_ps),
+    return {trunk.eyes_ps + scale * (level.toRotationMatrix() * from_neck - k_neck_m * trunk.up_ps),
             rolled};
 }
 

@@ -12,9 +12,17 @@
 // Constants: body_constants.hpp, fitted by tools/lab/fit_body.
 namespace handhold {
 
+// The head as the trunk follows it. If the head looks up by more than about 20 degrees, it turns
+// about the ears alone, and the trunk does not follow. Otherwise the eyes and the head's up axis.
+struct TrunkView {
+    Vec3 eyes_ps;
+    Vec3 up_ps;
+};
+TrunkView trunk_view(const TrackedBody& body, const BodyAxes& axes);
+
 // Lean of the chest: the rotation from the play space's up towards the head's up, by a fitted
-// share.
-Quat chest_lean(const Vec3& head_up_ps);
+// share. `up_ps`: TrunkView::up_ps.
+Quat chest_lean(const Vec3& up_ps);
 
 // Level direction in which the chest faces, in the talk's form. The chest turns from `look_ps`
 // towards the mean position of the hands, turns perpendicular to the line between them, and follows
@@ -42,6 +50,6 @@ double turn_to_reach_across(const Vec3& facing_ps, const Quat& lean_ps, const Po
 
 // Pose of the chest: its position is the middle between the resting shoulders.
 Pose chest_pose(const Vec3& facing_ps, const Quat& lean_ps, const ChestOffset& offset,
-                const TrackedBody& body, const Vec3& head_up_ps);
+                const TrackedBody& body, const TrunkView& trunk);
 
 }  // namespace handhold

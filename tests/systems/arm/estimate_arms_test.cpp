@@ -141,11 +141,47 @@ TEST(EstimateArms, SteadyHeadTurnLagsEquallyAtAnyFrameRate) {
 
 TEST(EstimateArms, HandOutOfReachMovesTheShoulderThenStretchesTheArm) {
     const ArmTuning tuning;
-    EXPECT_EQ(shoulder_follow(Vec3(0.0, 0.0, -0.5), 0.58, tuning), Vec3::Zero());
-    const Vec3 some = shoulder_follow(Vec3(0.0, 0.0, -0.60), 0.58, tuning);
+    EXPECT_EQ(shoulder_follow(Vec3(0.0, 0.0, -0.5), 0.58, 0.0, tuning), Vec3::Zero());
+    const Vec3 some = shoulder_follow(Vec3(0.0, 0.0, -0.60), 0.58, 0.0, tuning);
     EXPECT_NEAR(-some.z(), 0.60 - 0.58 * tuning.reach, 1e-12);
-    const Vec3 most = shoulder_follow(Vec3(0.0, 0.0, -3.0), 0.58, tuning);
+    const Vec3 most = shoulder_follow(Vec3(0.0, 0.0, -3.0), 0.58, 0.0, tuning);
     EXPECT_NEAR(-most.z(), tuning.shoulder_follow_m, 1e-12);
+}
+
+// Clavicle and reach together lift a shoulder less than 8 cm, so it stays below the head.
+TEST(EstimateArms, ShouldersLeaveTheirRestByABoundedDistance) {
+    Random random(13);
+    const ArmTuning tuning;
+    const double arm_m = 0.58;
+    for (int i = 0; i < 5000; ++i) {
+        const Vec3 hand_m = random.between(0.0, 2.0 * arm_m) * random.direction();
+        const Vec3 clavicle_m = clavicle_shift(hand_m / arm_m, tuning);
+        const Vec3 follow_m =
+            shoulder_follow(hand_m - clavicle_m, arm_m, clavicle_m.norm(), tuning);
+        ASSERT_LT((clavicle_m + follow_m).norm(), 0.08) << hand_m.transpose();
+    }
+}
+
+// The head turns about its ears while chest and hands stay where they are in the room.
+TEST(EstimateArms, LookingUpHardlyMovesTheShoulders) {
+    const Vec3 ears = k_head.position + Vec3(0.0, -0.05, 0.08);
+    const auto looking_up = [&](double pitch_rad) {
+        const Quat turn = rotation_about(Vec3::UnitX(), pitch_rad);
+        return Pose{ears + turn * (k_head.position - ears), (turn * k_head.rotation).normalized()};
+    };
+    const auto chest = [&](double pitch_rad) {
+        Arms arms;
+        return arms.step(looking_up(pitch_rad), k_left_hand, k_right_hand).chest_ws.position;
+    };
+    const Vec3 level = chest(0.0);
+    Vec3 before = level;
+    for (int degrees = 2; degrees <= 88; degrees += 2) {
+        const Vec3 now = chest(degrees * k_pi / 180.0);
+        EXPECT_LT(now.y() - level.y(), 0.04) << degrees;
+        EXPECT_LT((now - level).norm(), 0.09) << degrees;
+        EXPECT_LT((now - before).norm(), 0.008) << degrees;
+        before = now;
+    }
 }
 
 // Oracle: a search over the whole circle.

@@ -11,6 +11,7 @@ REACH, FOLLOW_M, CLAVICLE_LIFT, CLAVICLE_SHARE = 0.995, 0.06, 0.35, 0.8
 CLAVICLE_CURVE = ((0.0, 0.7, 0.85, 1.05, 1.2), (0.006, 0.010, 0.018, 0.032, 0.070))
 SCALE_EYE_M = 1.6
 MIRROR = np.array([-1.0, 1.0, 1.0])
+NOD_RAD, NOD_SOFT_RAD, EARS_BELOW_M, EARS_BEHIND_M = 0.2, 0.4, 0.05, 0.08  # estimate_chest.cpp, trunk_view
 NEAR_SHOULDER, CLEAR = 0.3, 0.7  # elbow_direction.cpp: k_near_shoulder, k_clear
 STEP_S = 1.0 / 90.0  # the runtime subdivides longer frames
 
@@ -112,9 +113,18 @@ CHEST_START = {"hand_share": 0.15, "line_share": 1.35, "roll_share": 0.1, "lean"
 POLE_START = {"rest_x": 0.2, "rest_y": -0.29, "rest_z": 0.3, "fingers": -0.55, "back": 0.14, "thumb": -0.34}
 
 
-def lean_of(motion, share):
+def trunk_view(motion):
+    """(eyes, up) of the head as the trunk follows it: a head that looks up turns about its ears alone."""
+    up, ahead = motion.head[..., 1], -motion.head[..., 2]
+    excess = np.maximum(0.0, np.arcsin(np.clip(ahead[:, 1:2], -1.0, 1.0)) - NOD_RAD)
+    turn = excess ** 2 / (excess + NOD_SOFT_RAD)
+    up_then, ahead_then = np.cos(turn) * up + np.sin(turn) * ahead, np.cos(turn) * ahead - np.sin(turn) * up
+    return motion.eye_m + motion.scale[:, None] * (EARS_BELOW_M * (up_then - up) + EARS_BEHIND_M * (ahead_then - ahead)), up_then
+
+
+def lean_of(head_up, share):
     """Shortest rotation from +Y to the leaning up axis."""
-    up = (1.0 - share) * np.array([0.0, 1.0, 0.0]) + share * motion.head[..., 1]
+    up = (1.0 - share) * np.array([0.0, 1.0, 0.0]) + share * head_up
     length = np.linalg.norm(up, axis=-1, keepdims=True)
     up = np.where(length > 0.1, up / np.maximum(length, 1e-9), [0.0, 1.0, 0.0])
     c, x, z = up[:, 1], up[:, 2], -up[:, 0]
@@ -124,14 +134,14 @@ def lean_of(motion, share):
 
 
 def talked_facing(motion, constants):
-    """(yaw, lean) of the talk's form."""
-    lean, look = lean_of(motion, constants["lean"]), motion.looks[0]
+    """(yaw, lean) of the talk's form; the lean is that of the chest."""
+    lean, look = lean_of(motion.head[..., 1], constants["lean"]), motion.looks[0]
     left, right = (to_facing(look, times_transposed(lean, motion.reach(side))) for side in (0, 1))
     line = right - left
     rolled = np.sum(lean[..., 1] * (motion.hand[1][..., 1] - motion.hand[0][..., 1]), -1)
     across_x = constants["hand_share"] * (left + right)[:, 0] + constants["line_share"] * line[:, 2] + constants["roll_share"] * rolled
     ahead = 1.0 - constants["hand_share"] * (left + right)[:, 2] + constants["line_share"] * np.maximum(line[:, 0], 0.0)
-    return look + np.clip(np.arctan2(-across_x, ahead), -CHEST_LIMIT_RAD, CHEST_LIMIT_RAD), lean
+    return look + np.clip(np.arctan2(-across_x, ahead), -CHEST_LIMIT_RAD, CHEST_LIMIT_RAD), lean_of(trunk_view(motion)[1], constants["lean"])
 
 
 def chest_at(motion, constants, yaw, lean):
@@ -140,7 +150,8 @@ def chest_at(motion, constants, yaw, lean):
     flat = np.stack([np.stack([-f[:, 2], 0.0 * yaw, f[:, 0]], -1), np.tile([0.0, 1.0, 0.0], (len(yaw), 1)), -f], -1)
     axes = np.einsum("nij,njk->nik", lean, flat)
     from_neck = axes @ np.array([0.0, constants["shoulders_up_m"], constants["shoulders_back_m"]])
-    return motion.eye_m + motion.scale[:, None] * (from_neck - constants["neck_m"] * motion.head[..., 1]), axes
+    eyes, up = trunk_view(motion)
+    return eyes + motion.scale[:, None] * (from_neck - constants["neck_m"] * up), axes
 
 
 def resting_shoulders(motion, constants, yaw, lean, offset):
@@ -199,7 +210,8 @@ def shoulders_of(motion, yaw, resting):
         shift = np.stack([0.0 * share, near[:, 1] + CLAVICLE_LIFT, near[:, 2]], -1) * share[:, None]
         rest = hand - shift
         length = np.linalg.norm(rest, axis=-1, keepdims=True)
-        shift = shift + rest * np.clip(length - REACH * motion.arm_m[:, None], 0.0, FOLLOW_M) / np.maximum(length, 1e-9)
+        follow = np.maximum(0.0, FOLLOW_M - np.linalg.norm(shift, axis=-1, keepdims=True))
+        shift = shift + rest * np.clip(length - REACH * motion.arm_m[:, None], 0.0, follow) / np.maximum(length, 1e-9)
         result.append(resting[side] + from_facing(yaw, shift))
     return np.stack(result)
 
