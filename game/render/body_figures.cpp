@@ -1,6 +1,8 @@
 #include "game/render/body_figures.hpp"
 
+#include <array>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "engine/core/check.hpp"
@@ -30,6 +32,33 @@ Region region_of(const BodyRig& rig, const Vec3& position_ms, const SkinWeights&
         }
         default:
             return Region::body;
+    }
+}
+
+// Binds skin of the hands to the forearms' ends. The figure's hands are not drawn, and what is
+// drawn of its wrists must not bend with them.
+void bind_wrists_to_forearms(const BodyRig& rig, SkinnedMesh& figure) {
+    std::array<std::optional<std::uint16_t>, k_hand_count> ends;
+    const auto carrier_of = [&rig](std::size_t joint) -> const BodyRig::Carrier& {
+        return rig.carriers[rig.joints[joint].carrier];
+    };
+    for (std::size_t joint = 0; joint < rig.joints.size(); ++joint) {
+        const BodyRig::Carrier& carrier = carrier_of(joint);
+        if (carrier.bone != BodyBone::forearm) {
+            continue;
+        }
+        std::optional<std::uint16_t>& end = ends[index_of(carrier.side)];
+        if (!end || carrier.along > carrier_of(*end).along) {
+            end = static_cast<std::uint16_t>(joint);
+        }
+    }
+    for (SkinWeights& weights : figure.weights) {
+        for (std::size_t i = 0; i < weights.joint.size(); ++i) {
+            const BodyRig::Carrier& carrier = carrier_of(weights.joint[i]);
+            if (carrier.bone == BodyBone::hand && ends[index_of(carrier.side)]) {
+                weights.joint[i] = *ends[index_of(carrier.side)];
+            }
+        }
     }
 }
 
@@ -102,6 +131,7 @@ void BodyFigures::cut_pieces() {
     for (std::size_t i = 0; i < figure.positions.size(); ++i) {
         regions.push_back(region_of(model_.rig, figure.positions[i], figure.weights[i]));
     }
+    bind_wrists_to_forearms(model_.rig, model_.figure);
     for (std::size_t run = 0; run < figure.color_runs.size(); ++run) {
         const ColorRun& color = figure.color_runs[run];
         const std::size_t to = run + 1 < figure.color_runs.size()
