@@ -84,7 +84,8 @@ void visit_body_tuning(TuningType& t, const See& see) {
         "Share of the arm's length above which the shoulder follows the hand before the bones "
         "stretch.");
     see("arm.shoulder_follow_m", t.arm.shoulder_follow_m, "m", 0.0, 0.5,
-        "Maximum distance by which a shoulder follows its hand before the bones stretch.");
+        "Maximum movement of a shoulder by clavicle and reach together, before the bones stretch; "
+        "what the clavicle alone does is not limited by it.");
     see("arm.swivel_lag_s", t.arm.swivel_lag_s, "s", 0.0, 10.0,
         "Time constant with which an elbow follows its wanted direction.");
     see("arm.swivel_speed_radps", t.arm.swivel_speed_radps, "rad/s", 0.1, 1e3,

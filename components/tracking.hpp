@@ -100,8 +100,8 @@ struct HandTracking {
     Pose edge_ps;              // the hand at that time
     bool pressed = false;      // after the edge
     bool raw_pressed = false;  // in the last sample
-    double squeeze = 0.0;      // there, [0, 1]
-    double trigger = 0.0;      // there, [0, 1]
+    double squeeze = 0.0;      // in the last sample, [0, 1]
+    double trigger = 0.0;      // in the last sample, [0, 1]
     // At a release: velocity of the hand in play space over TrackingTuning::release_window_s.
     Vec3 release_velocity_ps_mps = Vec3::Zero();
     Vec3 release_spin_ps_radps = Vec3::Zero();

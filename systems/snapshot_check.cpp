@@ -282,6 +282,12 @@ class BreachFinder {
         require("grab_layers", w_.grab_layers, "player", w_.player);
         require("early_sample", w_.early_sample, "player", w_.player);
         check_retries();
+        for (std::size_t row = 0; row < w_.hand_tracking.size(); ++row) {
+            const HandTracking& hand = w_.hand_tracking.rows()[row];
+            const auto is_share = [](double share) { return share >= 0.0 && share <= 1.0; };
+            check(is_share(hand.squeeze) && is_share(hand.trigger), "hand_tracking",
+                  w_.hand_tracking.owners()[row], "", "squeeze and trigger in [0, 1]");
+        }
         Column<std::array<std::uint8_t, k_hand_count>> has_hand;
         for (const Entity player : w_.player.owners()) {
             has_hand.add(player);

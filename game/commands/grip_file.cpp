@@ -124,11 +124,15 @@ void read_pressed(GripNodes& nodes, const GltfNode* wrist, AuthoredHand& hand) {
             continue;
         }
         const std::vector<double>& angles = wrist->numbers.at(key);
-        const auto is_angle = [](double angle_deg) { return std::abs(angle_deg) <= 180.0; };
+        // The ranges of scene files.
+        const auto is_curl = [](double angle_deg) {
+            return angle_deg >= -30.0 && angle_deg <= 130.0;
+        };
         if (angles.size() != k_max_links + 1 ||
-            !std::all_of(angles.begin(), angles.end(), is_angle)) {
+            !std::all_of(angles.begin(), angles.end() - 1, is_curl) ||
+            !(std::abs(angles.back()) <= 180.0)) {
             nodes.refuse(wrist->pointer + "/extras/" + key,
-                         "expected four angles within 180 degrees: three curls, the opposition");
+                         "expected three curls of -30 to 130 degrees and an opposition within 180");
             return;
         }
         hand.follows_trigger[f] = true;

@@ -87,6 +87,11 @@ HandFit fit_last(const HandSurroundings& hand, const GripSurface& surface, const
     const Pose target{offset.target_m, rotation_from_vector(offset.target_turn_rad)};
     goal.first = {goal.is_wrist_fixed ? held_wrist_bs(hand, offset) : hand.wrist_bs * target,
                   pose.target};
+    for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
+        if (pose.is_authored[f]) {  // other digits do not move with the trigger
+            goal.first.fingers[f] = pose.closed[f];
+        }
+    }
     goal.is_clear = pose.is_clear;
     goal.rounds = k_rounds;
     goal.max_flex_rad = k_max_flex_rad;

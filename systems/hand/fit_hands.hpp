@@ -16,7 +16,7 @@ namespace handhold {
 struct FitHandsIo {
     double dt_s = 0.0;                        // in: length of the frame; infinity: no rate limit
     std::span<const HandSurroundings> hands;  // in: body frame (_bs)
-    const Column<HandTracking>& hand;         // in: pressed
+    const Column<HandTracking>& hand;         // in: pressed, squeeze, trigger
     const Column<GripSurface>& surface;       // in: body frame (_bs)
     Column<PalmOffset>& offset;               // in: held_*; in/out: target_*, shown_*, hand space
     Column<FingerPose>& fingers;              // in: closed, touches; in/out: target, shown, radians
@@ -33,9 +33,11 @@ struct FitHandsIo {
 // closing costs less than 75 % of the other. The fit is kept while wrist and surroundings are
 // unchanged and another one would change nothing.
 //
-// A palm in an authored grip keeps the authored wrist, and digits with an authored pose keep it.
-// Fingers of an empty hand bend from the rest pose as far as the button is pressed that closes the
-// hand; once it counts as pressed the hand is a fist.
+// A palm in an authored grip keeps the authored wrist. Digits with an authored pose keep it, or
+// move to their pressed pose with the trigger; other digits do not depend on the trigger. Fingers
+// of an empty hand bend from the rest pose as far as the button is pressed that closes the hand,
+// the index finger at least as far as the trigger; once the button counts as pressed the hand is a
+// fist.
 //
 // The shown hand follows at PalmTuning::rate_mps, FingerTuning::close_radps (closing) and
 // open_radps (opening), all angles of a digit by the same share of their way. Only the shown hand

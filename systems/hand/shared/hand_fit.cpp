@@ -229,8 +229,12 @@ class Fitter {
         }
     }
 
-    // How much of a finger's pose is its neighbours' to decide: 0 if it touches, 1 far off.
+    // Weight of the neighbours' pose, d^2 / (g^2 + d^2) with the finger's gap d and
+    // g = k_free_gap_m: 0 in contact, towards 1 far off. 0 for a finger whose angles are kept.
     double free_share(std::size_t f) const {
+        if (goal_.is_fixed[f]) {
+            return 0.0;
+        }
         const HandSphere* const nearest = spheres_.nearest(f);
         if (nearest == nullptr) {
             return 1.0;

@@ -78,11 +78,11 @@ TEST_F(SnapshotRefuses, AnyDamagedByte) {
 
 TEST_F(SnapshotRefuses, AnotherFormatVersion) {
     for (const std::uint32_t version :
-         {1U, 2U, 3U, 4U, 6U}) {  // earlier field names; a later build
+         {1U, 2U, 3U, 4U, 5U, 7U}) {  // earlier field names; a later build
         SnapshotBytes other(bytes_);
         other.put(8, version);
         expect_refused(other,
-                       "byte 8: expected format version 5, found " + std::to_string(version));
+                       "byte 8: expected format version 6, found " + std::to_string(version));
     }
 }
 
@@ -224,6 +224,8 @@ TEST_F(SnapshotRefuses, RowsWithoutTheirCounterparts) {
         w.grip_surface.rows()[0].evaluated_count = 3;
         w.grip_surface.rows()[0].candidate_count = 2;
     });
+    break_world("squeeze and trigger in [0, 1]",
+                [](World& w) { w.hand_tracking.rows()[0].trigger = 2.0; });
     break_world("].push_off_weight",
                 [](World& w) { w.body_clip_state.rows()[0].push_off_weight = 2.0; });
     break_world(".mass_kg", [](World& w) { w.player.rows()[0].mass_kg = -1.0; });

@@ -108,6 +108,37 @@ TEST_F(AuthoredGripOnFloor, RejectedFingerDoesNotFollowTrigger) {
     }
 }
 
+// Fingers without an authored pose: as close to the floor as without the pointing index finger, and
+// where they are whatever the trigger does. Expected: the distance to the plane y = 0.
+TEST_F(AuthoredGripOnFloor, PosedIndexFingerLeavesOtherFingersOnTheSurface) {
+    const auto gap_of_middle_m = [&](bool points, double trigger) {
+        AuthoredHand pointing;
+        pointing.is_there = true;
+        pointing.wrist_bs = grip.wrist_bs;
+        pointing.is_posed[1] = points;
+        pointing.fingers[1].curl_rad = {0.0, 0.0, 0.0};
+        pointing.follows_trigger[1] = true;
+        pointing.pressed[1].curl_rad = {0.1, 0.5, 0.4};
+        FittedHand hand(floor, grip.wrist_bs);
+        hand.hands.front().authored = &pointing;
+        hand.tracking.at(test::k_right).trigger = trigger;
+        for (int frame = 0; frame < 30; ++frame) {
+            hand.frame(k_unbudgeted_s);
+            hand.wrist_bs().position.x() += 1e-4;  // the fit goes on
+        }
+        const HingeChain chain = finger_chain(rig.fingers[2], 0.0, hand.shown_bs());
+        double gap_m = 1.0;
+        for (const Capsule& capsule : chain_capsules(chain, hand.pose().shown[2].curl_rad)) {
+            gap_m = std::min({gap_m, capsule.ends[0].y() - capsule.radius_m,
+                              capsule.ends[1].y() - capsule.radius_m});
+        }
+        return gap_m;
+    };
+    const double alone_m = gap_of_middle_m(false, 0.0);
+    EXPECT_NEAR(gap_of_middle_m(true, 0.0), alone_m, 1e-3);
+    EXPECT_EQ(gap_of_middle_m(true, 1.0), gap_of_middle_m(true, 0.0));
+}
+
 // Oracle: find_penetration, which has its own tests.
 TEST_F(AuthoredGripOnFloor, PenetratingAuthoredFingerIsFittedAndCounted) {
     grip.fingers[1].curl_rad = {1.2, 0.3, 0.1};  // through the floor
