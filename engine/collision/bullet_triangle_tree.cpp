@@ -9,26 +9,21 @@
 #include "engine/collision/bullet_vector.hpp"
 
 namespace handhold {
-namespace {
-
-// True if the segment enters the box. Rounding may make it true for a near miss.
-bool segment_meets(const Bounds& box, const Vec3& from, const Vec3& inverse_displacement) {
+bool SegmentTest::may_meet(const Bounds& box, double fraction) const {
     constexpr double k_rounding = 1e-12;
     double enter = 0.0;
-    double leave = 1.0;
+    double leave = fraction;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        if (!std::isfinite(inverse_displacement[axis])) {
-            continue;  // parallel to this axis: the traversal has tested the axis already
+        if (!std::isfinite(inverse_[axis])) {
+            continue;  // the box overlaps the segment along this axis
         }
-        const double near = (box.low[axis] - from[axis]) * inverse_displacement[axis];
-        const double far = (box.high[axis] - from[axis]) * inverse_displacement[axis];
+        const double near = (box.low[axis] - from_[axis]) * inverse_[axis];
+        const double far = (box.high[axis] - from_[axis]) * inverse_[axis];
         enter = std::max(enter, std::min(near, far));
         leave = std::min(leave, std::max(near, far));
     }
     return enter <= leave + k_rounding;
 }
-
-}  // namespace
 
 TriangleTree::TriangleTree(const Mesh& mesh) : mesh_(mesh) {
     btIndexedMesh part;
@@ -82,11 +77,11 @@ std::optional<LocalRayHit> ScaledTriangles::cast_ray(const Vec3& from, const Vec
     };
     Nearest nearest(to_bullet(from), to_bullet(to));
     // The tree stores the unscaled mesh. Scaling does not change a ray's fractions.
-    const Bounds along = unscaled(bounds_of(from, to));
-    const Vec3 start = from.cwiseProduct(inverse_scale_);
-    const Vec3 inverse_displacement = (to - from).cwiseProduct(inverse_scale_).cwiseInverse();
+    const SegmentTest segment(from.cwiseProduct(inverse_scale_),
+                              (to - from).cwiseProduct(inverse_scale_));
     tree_->walk(
-        along, [&](const Bounds& box) { return segment_meets(box, start, inverse_displacement); },
+        unscaled(bounds_of(from, to)),
+        [&](const Bounds& box) { return segment.may_meet(box, nearest.m_hitFraction); },
         [&](std::size_t triangle) {
             const Corners c = corners(triangle);
             std::array<btVector3, 3> points = {to_bullet(c[0]), to_bullet(c[1]), to_bullet(c[2])};

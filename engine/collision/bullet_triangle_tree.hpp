@@ -78,6 +78,21 @@ class TriangleTree {
     Vec3 step_;
 };
 
+// Tests boxes against a segment. Boxes must already overlap the segment's bounds.
+class SegmentTest {
+  public:
+    SegmentTest(const Vec3& from, const Vec3& displacement)
+        : from_(from), inverse_(displacement.cwiseInverse()) {}
+
+    // True if the first `fraction` of the segment enters the box. Rounding may make it true for a
+    // near miss.
+    bool may_meet(const Bounds& box, double fraction) const;
+
+  private:
+    Vec3 from_;
+    Vec3 inverse_;  // infinite along axes that the segment is perpendicular to
+};
+
 // The triangles of a tree, scaled along the mesh's axes. Bodies with different scales share one
 // tree; only triangles that a query finds are scaled.
 class ScaledTriangles {
@@ -92,6 +107,18 @@ class ScaledTriangles {
             unscaled(box), [](const Bounds&) { return true; },
             [&](std::size_t triangle) { visit(corners(triangle)); });
     }
+    // Calls visit(corners) for the triangles whose bounds a sphere may touch that moves from `from`
+    // by `fraction` of `displacement`. visit may reduce `fraction` to that of the first impact so
+    // far: triangles farther along are then left out.
+    template <typename Visit>
+    void visit_path(const Vec3& from, const Vec3& displacement, double radius_m,
+                    const double& fraction, const Visit& visit) const {
+        const SegmentTest path(from, displacement);
+        tree_->walk(
+            unscaled(bounds_of(from, from + fraction * displacement).grown(radius_m)),
+            [&](const Bounds& box) { return path.may_meet(scaled(box).grown(radius_m), fraction); },
+            [&](std::size_t triangle) { visit(corners(triangle)); });
+    }
     // False only if no triangle's bounds overlap the box.
     bool may_meet(const Bounds& box) const;
     // First triangle that the segment hits, from either side.
@@ -100,6 +127,9 @@ class ScaledTriangles {
     std::optional<LocalSurfacePoint> closest_point(const Vec3& point, double max_distance_m) const;
 
   private:
+    Bounds scaled(const Bounds& box) const {
+        return {box.low.cwiseProduct(scale_), box.high.cwiseProduct(scale_)};
+    }
     Bounds unscaled(const Bounds& box) const {
         return {box.low.cwiseProduct(inverse_scale_), box.high.cwiseProduct(inverse_scale_)};
     }

@@ -127,8 +127,7 @@ std::optional<RayHit> CollisionWorld::cast_sphere(double radius_m, const Vec3& f
         if (!shape.triangles) {
             return;
         }
-        const Bounds box = bounds_of(from, from + along).grown(reach_m);
-        shape.triangles->visit_box(box, [&](const Corners& corners) {
+        shape.triangles->visit_path(from, along, reach_m, fraction, [&](const Corners& corners) {
             const Corners near{corners[0] - from, corners[1] - from, corners[2] - from};
             if (sphere_misses(near, fraction * along, reach_m)) {
                 return;

@@ -179,6 +179,52 @@ TEST(CastSphere, StopsARadiusBeforeAPlane) {
     }
 }
 
+TEST(CastSphere, OnAMeshMatchesTheNearestOfItsTriangles) {
+    Random random(47);
+    int hits = 0;
+    for (int round = 0; round < 20; ++round) {
+        const Vec3 scale = Vec3::Constant(1.0) + random.vector(0.6);
+        World all;
+        std::vector<World> single(40);
+        auto mesh = std::make_shared<Mesh>();
+        const Pose pose = at(random.vector(3.0), random.rotation());
+        for (World& one : single) {
+            auto triangle = std::make_shared<Mesh>();
+            const Vec3 centre = random.vector(1.0);
+            const double size_m = random.between(0.05, 0.8);
+            for (std::uint32_t corner = 0; corner < 3; ++corner) {
+                triangle->positions.emplace_back(centre + size_m * random.direction());
+            }
+            triangle->triangles.push_back({0, 1, 2});
+            const auto first = static_cast<std::uint32_t>(mesh->positions.size());
+            mesh->positions.insert(mesh->positions.end(), triangle->positions.begin(),
+                                   triangle->positions.end());
+            mesh->triangles.push_back({first, first + 1, first + 2});
+            one.add(one.shapes.add_mesh(triangle, scale), pose);
+            one.make();
+        }
+        all.add(all.shapes.add_mesh(mesh, scale), pose);
+        const CollisionWorld& world = all.make();
+        for (int cast = 0; cast < 30; ++cast) {
+            const double radius_m = random.between(0.01, 0.2);
+            const Vec3 from = transform_point(pose, random.vector(1.5));
+            Vec3 to = transform_point(pose, random.vector(1.5));
+            if (cast % 3 == 0) {
+                to = from + Vec3::Unit(cast % 9 / 3) * random.between(-2.0, 2.0);
+            }
+            double nearest_m = 1e9;
+            for (const World& one : single) {
+                const auto hit = one.world->cast_sphere(radius_m, from, to);
+                nearest_m = std::min(nearest_m, hit ? hit->distance_m : 1e9);
+            }
+            const auto hit = world.cast_sphere(radius_m, from, to);
+            ASSERT_EQ(hit ? hit->distance_m : 1e9, nearest_m) << round << ' ' << cast;
+            hits += hit && hit->distance_m > 0.0 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(hits, 150);
+}
+
 TEST(CastSphere, HitsAtZeroIfItStartsInTouchAndMissesInPassing) {
     World w;
     const ShapeId ball = w.shapes.add_sphere(0.5);
