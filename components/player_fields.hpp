@@ -133,6 +133,16 @@ void visit_fields(const BodyContact& c, V&& visit) {
     visit("surface_m", c.surface_m);
 }
 template <typename V>
+void visit_fields(const BodySearch& c, V&& visit) {
+    visit("known", c.known);
+    visit("from_ws", c.from_ws);
+    visit("to_ws", c.to_ws);
+    visit("near", c.near);
+    visit("hits", c.hits);
+    visit("point_ws", c.point_ws);
+    visit("normal_ws", c.normal_ws);
+}
+template <typename V>
 void visit_fields(const BodyPull& c, V&& visit) {
     visit("now", c.now);
     visit("before", c.before);
@@ -156,6 +166,7 @@ void visit_fields(const SpineMemory& c, V&& visit) {
     visit("twist_rad", c.twist_rad);
     visit("angle_rad", c.angle_rad);
     visit("contacts", c.contacts);
+    visit("searches", c.searches);
     visit("pull", c.pull);
 }
 template <typename V>

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "components/tracking.hpp"
 #include "engine/math/math.hpp"
@@ -37,6 +38,18 @@ struct BodyContact {
     double surface_m = 0.0;          // includes the part's thickness
 };
 
+// The last search for a surface along a part of the body, and its answer. It is repeated when the
+// part or a surface near it has moved.
+struct BodySearch {
+    bool known = false;
+    Vec3 from_ws = Vec3::Zero();
+    Vec3 to_ws = Vec3::Zero();
+    std::uint64_t near = 0;  // SurfaceQuery::hash_near around the line
+    bool hits = false;
+    Vec3 point_ws = Vec3::Zero();
+    Vec3 normal_ws = Vec3::UnitY();
+};
+
 // What pulls a player: the gripping hands. Play-space axes.
 struct BodyPull {
     Vec3 now = Vec3::Zero();         // followed with a lag, at the last tick; length in [0, 1)
@@ -68,6 +81,7 @@ struct SpineMemory {
     // Angle of each link from its rest direction; shins: from the thigh's line.
     std::array<double, k_body_links> angle_rad{};
     std::array<BodyContact, k_body_parts> contacts;  // by body_part_of
+    std::array<BodySearch, k_body_parts> searches;   // the same
     BodyPull pull;
 };
 

@@ -7,6 +7,7 @@
 #include "engine/collision/bullet_sweep.hpp"
 #include "engine/collision/bullet_world.hpp"
 #include "engine/core/check.hpp"
+#include "engine/core/hash.hpp"
 
 namespace handhold {
 namespace {
@@ -71,6 +72,22 @@ std::span<const std::uint64_t> CollisionWorld::find_near(const Vec3& low_ws,
     visit_bodies(impl_->broadphase, {low_ws, high_ws}, {},
                  [&ids](const ColliderProxy& proxy) { ids.push_back(proxy.id); });
     return ids;
+}
+
+std::uint64_t CollisionWorld::hash_near(const Vec3& low_ws, const Vec3& high_ws,
+                                        std::span<const std::uint64_t> skip) const {
+    HashStream hash;
+    visit_bodies(impl_->broadphase, {low_ws, high_ws}, skip, [&hash](const ColliderProxy& proxy) {
+        hash.add(proxy.id);
+        hash.add(std::uint64_t{proxy.shape.index});
+        for (Eigen::Index i = 0; i < 3; ++i) {
+            hash.add(proxy.to_ws.position[i]);
+        }
+        for (Eigen::Index i = 0; i < 4; ++i) {
+            hash.add(proxy.to_ws.rotation.coeffs()[i]);
+        }
+    });
+    return hash.value();
 }
 
 std::optional<RayHit> CollisionWorld::cast_ray(const Vec3& from_ws, const Vec3& to_ws,

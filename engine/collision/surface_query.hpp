@@ -27,9 +27,9 @@ struct SurfacePoint {
     double distance_m = 0.0;  // 0 inside a solid; point_ws is on the surface there too
 };
 
-// A reference to an object with the four queries below; CollisionWorld documents them. The object
-// must outlive the reference. If the object's member k_any_thread is true, several threads may
-// query it at the same time. A reference without an object finds nothing.
+// A reference to an object with the queries below; CollisionWorld documents them. The object must
+// outlive the reference, and may lack hash_near. If the object's member k_any_thread is true,
+// several threads may query it at the same time. A reference without an object finds nothing.
 class SurfaceQuery {
   public:
     using Skip = std::span<const std::uint64_t>;
@@ -68,6 +68,12 @@ class SurfaceQuery {
         return surfaces_ != nullptr ? functions_->closest_point_on(surfaces_, id, point_ws)
                                     : std::nullopt;
     }
+    // nullopt: unknown, because the object does not have this query.
+    std::optional<std::uint64_t> hash_near(const Vec3& low_ws, const Vec3& high_ws,
+                                           Skip skip = {}) const {
+        return surfaces_ != nullptr ? functions_->hash_near(surfaces_, low_ws, high_ws, skip)
+                                    : std::nullopt;
+    }
 
   private:
     struct Functions {
@@ -75,6 +81,7 @@ class SurfaceQuery {
         std::optional<RayHit> (*cast_sphere)(const void*, double, const Vec3&, const Vec3&, Skip);
         std::optional<SurfacePoint> (*closest_point)(const void*, const Vec3&, double, Skip);
         std::optional<SurfacePoint> (*closest_point_on)(const void*, std::uint64_t, const Vec3&);
+        std::optional<std::uint64_t> (*hash_near)(const void*, const Vec3&, const Vec3&, Skip);
         bool any_thread;
     };
     template <typename Surfaces>
@@ -101,6 +108,14 @@ class SurfaceQuery {
         },
         [](const void* surfaces, std::uint64_t id, const Vec3& point_ws) {
             return static_cast<const Surfaces*>(surfaces)->closest_point_on(id, point_ws);
+        },
+        [](const void* surfaces, const Vec3& low_ws, const Vec3& high_ws,
+           Skip skip) -> std::optional<std::uint64_t> {
+            if constexpr (requires(const Surfaces& s) { s.hash_near(low_ws, high_ws, skip); }) {
+                return static_cast<const Surfaces*>(surfaces)->hash_near(low_ws, high_ws, skip);
+            } else {
+                return std::nullopt;
+            }
         },
         allows_any_thread<Surfaces>()};
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "engine/anim/deflect_outward.hpp"
 #include "systems/body/shared/fold_body.hpp"
@@ -18,6 +19,7 @@ constexpr double k_thigh_radius_m = 0.065;
 constexpr double k_shin_radius_m = 0.05;
 constexpr double k_cast_wider_m = 0.015;
 constexpr double k_widest_cast_m = 0.105;  // of a player of any size
+constexpr double k_moved_m = 0.005;        // a part that moved less is not searched again
 constexpr double k_sole_m = 0.11;          // below the ankle
 constexpr double k_ahead_m = 0.15;         // margin for motion until the next search
 
@@ -62,8 +64,38 @@ bool is_tracked_floor(const Vec3& normal_ps, double surface_m, const TrackedFloo
            std::abs(surface_m / normal_ps.y() + floor.chest_m) < k_near_m;
 }
 
-BodyContact find_contact(const BodySurroundings& around, const SpineMemory& memory,
-                         std::size_t part) {
+// Casts a sphere along a part unless the last answer still holds.
+void search_part(const BodySurroundings& around, const Vec3& from_ws, const Vec3& to_ws,
+                 double radius_m, BodySearch& search) {
+    const std::array<std::uint64_t, 1> skip = {around.own_id};
+    const auto hash_near = [&] {
+        const Vec3 reach_m = Vec3::Constant(radius_m + k_moved_m);
+        return around.surfaces.hash_near(search.from_ws.cwiseMin(search.to_ws) - reach_m,
+                                         search.from_ws.cwiseMax(search.to_ws) + reach_m, skip);
+    };
+    constexpr double k_moved2 = k_moved_m * k_moved_m;
+    if (search.known && (from_ws - search.from_ws).squaredNorm() < k_moved2 &&
+        (to_ws - search.to_ws).squaredNorm() < k_moved2 && hash_near() == search.near) {
+        return;
+    }
+    search.from_ws = from_ws;
+    search.to_ws = to_ws;
+    const std::optional<std::uint64_t> near = hash_near();
+    search.known = near.has_value();
+    search.near = near.value_or(0);
+    auto hit = around.surfaces.cast_sphere(radius_m, from_ws, to_ws, skip);
+    if (hit && !(hit->distance_m > 0.0)) {
+        // It begins in a surface, which hides those further along.
+        hit = around.surfaces.cast_ray(from_ws, to_ws, skip);
+    }
+    search.hits = hit.has_value();
+    if (hit) {
+        search.point_ws = hit->point_ws;
+        search.normal_ws = hit->normal_ws;
+    }
+}
+
+BodyContact find_contact(const BodySurroundings& around, std::size_t part, SpineMemory& memory) {
     const PartLine line = line_of(around, part);
     // A cast that begins behind a surface would find its back.
     const BodyContact& trunk = memory.contacts[0];
@@ -80,22 +112,17 @@ BodyContact find_contact(const BodySurroundings& around, const SpineMemory& memo
     const auto in_world = [&](const Vec3& from_chest_m) {
         return transform_point(around.origin_ws, around.chest_ps + from_chest_m);
     };
-    const std::array<std::uint64_t, 1> skip = {around.own_id};
-    const Vec3 from_ws = in_world(line.from_m);
-    const Vec3 to_ws = in_world(line.to_m + (line.beyond_m + k_ahead_m) * along);
-    const double radius_m =
-        std::min(line.radius_m + around.floor.scale * k_cast_wider_m, k_widest_cast_m);
-    auto hit = around.surfaces.cast_sphere(radius_m, from_ws, to_ws, skip);
-    if (hit && !(hit->distance_m > 0.0)) {
-        // It begins in a surface, which hides those further along.
-        hit = around.surfaces.cast_ray(from_ws, to_ws, skip);
-    }
-    if (!hit) {
+    BodySearch& search = memory.searches[part];
+    search_part(around, in_world(line.from_m),
+                in_world(line.to_m + (line.beyond_m + k_ahead_m) * along),
+                std::min(line.radius_m + around.floor.scale * k_cast_wider_m, k_widest_cast_m),
+                search);
+    if (!search.hits) {
         return {};
     }
-    const Vec3 normal_ps = around.origin_ws.rotation.conjugate() * hit->normal_ws;
-    const double surface_m =
-        normal_ps.dot(inverse_transform_point(around.origin_ws, hit->point_ws) - around.chest_ps);
+    const Vec3 normal_ps = around.origin_ws.rotation.conjugate() * search.normal_ws;
+    const double surface_m = normal_ps.dot(
+        inverse_transform_point(around.origin_ws, search.point_ws) - around.chest_ps);
     const double pelvis_m =  // of the chain before it is folded
         (around.floor.chest_m + memory.offset_m[k_spine_links - 1].y()) / around.floor.scale;
     if (legs_fold(pelvis_m) && is_tracked_floor(normal_ps, surface_m, around.floor)) {
@@ -112,7 +139,7 @@ void find_body_contacts(const BodySurroundings& around, double t_s, double dt_s,
     for (std::size_t part = 0; part < k_body_parts; ++part) {
         BodyContact& contact = memory.contacts[part];
         if (searches_now(t_s, dt_s, around.own_id, part)) {
-            contact = find_contact(around, memory, part);
+            contact = find_contact(around, part, memory);
         } else {
             contact.surface_m -= contact.normal_ps.dot(moved_m);
         }

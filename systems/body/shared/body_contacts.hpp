@@ -22,10 +22,11 @@ struct BodySurroundings {
     const SpinePose& shown;
 };
 
-// Updates SpineMemory::contacts for one frame that ends at t_s. Each part is searched 15 times a
-// second of the world's clock: a sphere is cast along it, from the part's end that is nearer to the
-// head. In other frames its plane moves with the reference velocity. `moved_m`: displacement of the
-// chest relative to it.
+// Updates SpineMemory::contacts for one frame that ends at t_s. Each part is searched at most 15
+// times a second of the world's clock: a sphere is cast along it, from the part's end that is
+// nearer to the head. The last answer is used again while no surface near the part has moved and
+// the part has moved by less than 5 mm. In frames between searches the plane moves with the
+// reference velocity. `moved_m`: displacement of the chest relative to it.
 void find_body_contacts(const BodySurroundings& around, double t_s, double dt_s,
                         const Vec3& moved_m, SpineMemory& memory);
 

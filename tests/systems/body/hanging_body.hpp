@@ -16,6 +16,7 @@ struct HangingBody {
 
     ShapeLibrary shapes;
     std::optional<CollisionWorld> collision;
+    SurfaceQuery surfaces;  // asked instead of `collision`, if set
     Column<PlayerOrigin> origin;
     Column<PlayerVelocity> velocity;
     Column<ReferenceVelocity> reference;
@@ -70,10 +71,10 @@ struct HangingBody {
     }
     const SpinePose& step(double dt_s) {
         t_s += dt_s;
-        propagate_spine(
-            {dt_s, t_s, origin, velocity, reference, measures, estimate, memory, pose,
-             collision ? SurfaceQuery(*collision) : SurfaceQuery(), &head, &id, &owner, &grab},
-            tuning);
+        propagate_spine({dt_s, t_s, origin, velocity, reference, measures, estimate, memory, pose,
+                         surfaces || !collision ? surfaces : SurfaceQuery(*collision), &head, &id,
+                         &owner, &grab},
+                        tuning);
         return pose.at(k_player);
     }
     const SpinePose& run(double seconds, double hz = 90.0) {
