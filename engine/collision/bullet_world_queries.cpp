@@ -77,7 +77,13 @@ std::span<const std::uint64_t> CollisionWorld::find_near(const Vec3& low_ws,
 std::uint64_t CollisionWorld::hash_near(const Vec3& low_ws, const Vec3& high_ws,
                                         std::span<const std::uint64_t> skip) const {
     HashStream hash;
-    visit_bodies(impl_->broadphase, {low_ws, high_ws}, skip, [&hash](const ColliderProxy& proxy) {
+    const Bounds box{low_ws, high_ws};
+    visit_bodies(impl_->broadphase, box, skip, [&](const ColliderProxy& proxy) {
+        // The broadphase's bounds contain the motion from from_ws, on which no query depends.
+        if (!overlaps(box, swept_bounds(impl_->extents[proxy.shape.index], proxy.to_ws,
+                                        proxy.to_ws))) {
+            return;
+        }
         hash.add(proxy.id);
         hash.add(std::uint64_t{proxy.shape.index});
         for (Eigen::Index i = 0; i < 3; ++i) {

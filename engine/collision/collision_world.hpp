@@ -154,8 +154,8 @@ class CollisionWorld {
     // Ids of the colliders whose bounds overlap the box, ascending. Valid until the calling
     // thread's next query.
     std::span<const std::uint64_t> find_near(const Vec3& low_ws, const Vec3& high_ws) const;
-    // Hash of the colliders whose bounds overlap the box: their ids, shapes and end poses. If it is
-    // unchanged, so are the answers of all queries within the box.
+    // Hash of the colliders whose bounds at their end poses overlap the box: their ids, shapes and
+    // end poses. If it is unchanged, so are the answers of all queries within the box.
     std::uint64_t hash_near(const Vec3& low_ws, const Vec3& high_ws,
                             std::span<const std::uint64_t> skip = {}) const;
     // Nearest surface point of the collider `id`, at any distance. nullopt if no collider has this

@@ -1,5 +1,8 @@
+#include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -27,6 +30,46 @@ struct World {
         return *world;
     }
 };
+
+TEST(HashNear, ChangesWithTheEndPosesNearbyAndWithNothingElse) {
+    Random random(53);
+    for (int round = 0; round < 50; ++round) {
+        World w;
+        const ShapeId box = w.shapes.add_box({0.2, 0.1, 0.1});
+        const ShapeId ball = w.shapes.add_sphere(0.15);
+        for (int i = 0; i < 12; ++i) {
+            w.add(i % 2 == 0 ? box : ball, {random.vector(1.0), random.rotation()});
+        }
+        w.add(box, at({9.0, 0.0, 0.0}));
+        const CollisionWorld& world = w.make();
+        const Vec3 low = random.vector(0.5) - Vec3::Constant(0.3);
+        const Vec3 high = low + Vec3::Constant(0.6);
+        const std::array<std::uint64_t, 1> skip = {13};
+        const auto hash = [&] {
+            w.world->set_proxies(w.proxies);
+            return world.hash_near(low, high, skip);
+        };
+        const std::uint64_t first = hash();
+        std::vector<ColliderProxy> before = w.proxies;
+        for (ColliderProxy& proxy : w.proxies) {
+            proxy.from_ws.position += random.vector(2.0);
+        }
+        EXPECT_EQ(hash(), first);
+        w.proxies[12].to_ws = at(low);  // skipped
+        EXPECT_EQ(hash(), first);
+        w.proxies = before;
+        w.proxies[12].to_ws = at({8.0, 0.0, 0.0});
+        EXPECT_EQ(hash(), first);
+        ColliderProxy& moved = w.proxies[static_cast<std::size_t>(round % 12)];
+        moved.to_ws = at(low + random.between(0.0, 0.6) * Vec3::Ones());
+        const std::uint64_t entered = hash();
+        EXPECT_NE(entered, first);
+        moved.to_ws.position.x() += 1e-9;
+        EXPECT_NE(hash(), entered);
+        moved.to_ws.position.x() = 9.0;
+        EXPECT_NE(hash(), entered);
+    }
+}
 
 TEST(CastRay, HitsEachShapeOnItsExactSurface) {
     Random random(41);
