@@ -12,23 +12,17 @@ constexpr double k_heap_lag_m = 3e-3;
 // assumed distance of the collider's surface from its centre; conservative
 constexpr double k_max_arm_m = 1.0;
 
-// True if a motion is so long that the collision world may have swept it.
-bool may_be_swept(const Pose& from, const Pose& to, double sweep_m) {
+// True if the motion of a relative to b is so long that the collision world may have swept it.
+bool may_be_swept(const ColliderProxy& a, const ColliderProxy& b, double sweep_m) {
+    const Pose from = inverse(b.from_ws) * a.from_ws;
+    const Pose to = inverse(b.to_ws) * a.to_ws;
     const double turn = 2.0 * (from.rotation.conjugate() * to.rotation).vec().norm();
     return (to.position - from.position).norm() + turn * k_max_arm_m > sweep_m;
 }
-bool may_be_swept(const ColliderProxy& proxy, double sweep_m) {
-    return may_be_swept(proxy.from_ws, proxy.to_ws, sweep_m);
-}
-// The same for the motion of a relative to b.
-bool may_be_swept(const ColliderProxy& a, const ColliderProxy& b, double sweep_m) {
-    return may_be_swept(inverse(b.from_ws) * a.from_ws, inverse(b.to_ws) * a.to_ws, sweep_m);
-}
 
-// Sets up the proxies for a query without sweeps: colliders that may have been swept are at rest at
-// their end poses. Marks the movable ones. False if there are none.
-bool prepare_static_query(const MovingContacts& moving, double sweep_m,
-                          std::span<const std::uint32_t> moved, MissedOverlaps& missed) {
+// Sets up the proxies for a query without sweeps: colliders whose touch a sweep may have found are
+// at rest at their end poses. Marks the movable ones. False if there are none.
+bool prepare_static_query(const MovingContacts& moving, double sweep_m, MissedOverlaps& missed) {
     const std::size_t count = moving.graph.bodies.size();
     missed.is_marked.resize(std::max(missed.is_marked.size(), count), 0);
     missed.is_suspect.resize(std::max(missed.is_suspect.size(), count), 0);
@@ -43,12 +37,6 @@ bool prepare_static_query(const MovingContacts& moving, double sweep_m,
             any = true;
         }
     };
-    for (const std::uint32_t i : moved) {
-        if (i < moving.proxies.size() && moving.proxies[i].shape != k_no_shape &&
-            !moving.graph.bodies[i].in_heap && may_be_swept(moving.proxies[i], sweep_m)) {
-            mark(i);
-        }
-    }
     for (const RowBlock& block : moving.graph.blocks) {
         if (is_contact(block) && !is_heap_contact(moving.graph.bodies, block) &&
             may_be_swept(moving.proxies[block.a], moving.proxies[block.b], sweep_m)) {
@@ -103,14 +91,14 @@ void MissedOverlaps::clear(std::size_t count) {
 }
 
 void find_missed_overlaps(const MovingContacts& moving, const ContactLimits& limits,
-                          std::span<const std::uint32_t> moved, MissedOverlaps& missed) {
+                          MissedOverlaps& missed) {
     const std::size_t count = moving.graph.bodies.size();
     missed.clear(count);
     const std::size_t first = moving.displaced.size();
     // Enough for all bodies, so that a warm frame allocates nothing.
     moving.displaced.reserve(2 * count);
     moving.updates.reserve(2 * count);
-    const bool any = prepare_static_query(moving, limits.sweep_m, moved, missed);
+    const bool any = prepare_static_query(moving, limits.sweep_m, missed);
     if (any) {
         query(moving, limits, missed);
     } else {
@@ -119,9 +107,6 @@ void find_missed_overlaps(const MovingContacts& moving, const ContactLimits& lim
     for (const RowBlock& block : moving.graph.blocks) {
         missed.is_marked[block.a] = missed.is_marked[block.b] = 0;
         missed.is_suspect[block.a] = missed.is_suspect[block.b] = 0;
-    }
-    for (const std::uint32_t i : moved) {
-        missed.is_marked[i] = missed.is_suspect[i] = 0;
     }
 }
 

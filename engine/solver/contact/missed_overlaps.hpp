@@ -25,13 +25,13 @@ struct MissedOverlaps {
     void clear(std::size_t count);
 };
 
-// A sweep reports only the first touch of each pair, and no pair that is merely grazed on the way.
-// A body that leans on another and rotates can therefore end with its far side inside the same
-// body. Queries all bodies that moved by more than `limits.sweep_m`, absolutely or relative to a
-// body they touch, at their current poses. Call after contacts have been refreshed at these poses.
-// `moved`: bodies that may have moved in this frame. Afterwards the collision world still holds the
-// query's proxies, and moving.displaced lists their bodies.
+// A sweep reports only the first touch of a pair. A body that leans on another and rotates can
+// therefore end with its far side inside the same body. Queries the bodies of all pairs that touch
+// and moved by more than `limits.sweep_m` relative to each other, at their current poses; other
+// pairs were not swept or did not touch. Call after contacts have been refreshed at these poses.
+// Afterwards the collision world still holds the query's proxies, and moving.displaced lists their
+// bodies.
 void find_missed_overlaps(const MovingContacts& moving, const ContactLimits& limits,
-                          std::span<const std::uint32_t> moved, MissedOverlaps& missed);
+                          MissedOverlaps& missed);
 
 }  // namespace handhold

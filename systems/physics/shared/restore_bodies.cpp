@@ -248,8 +248,7 @@ void restore_penetrating_bodies(CollisionWorld& collision, FrameGraph& frame,
                                 const ContactTuning& tuning, StageStats& stats) {
     find_missed_overlaps({collision, frame.proxies, frame.contacts, frame.graph,
                           frame.fresh_contacts, frame.proxy_updates, frame.displaced},
-                         {tuning.margin_m, tuning.sweep_m}, frame.active.list,
-                         frame.hidden_overlaps);
+                         {tuning.margin_m, tuning.sweep_m}, frame.hidden_overlaps);
     for (const std::uint32_t i : frame.displaced) {
         frame.active.add(i);
     }
