@@ -67,7 +67,6 @@ struct FrameGraph {
     Watches watches;
     std::vector<std::uint32_t> index_of_slot;  // by Entity::slot: index into `entities`
     std::vector<ColliderProxy> proxy_updates;  // scratch: proxies to send to the collision world
-    std::vector<std::uint32_t> displaced;  // bodies whose proxy there is not the one in `proxies`
     double heavy_body_kg = 0.0;            // of the last build_constraints
     std::uint64_t proxy_set = 0;           // CollisionWorld::proxy_set() after place_colliders
     struct PhaseBody {

@@ -136,6 +136,28 @@ std::optional<Bounds> CollisionWorld::Impl::find_pair(const BroadphaseBody& a,
     return std::nullopt;
 }
 
+double CollisionWorld::overlap_m(const ColliderProxy& a, const ColliderProxy& b) const {
+    if (a.shape == k_no_shape || b.shape == k_no_shape || !is_valid(a.to_ws) ||
+        !is_valid(b.to_ws)) {
+        return 0.0;
+    }
+    const auto at_rest = [this](const ColliderProxy& proxy) {
+        BroadphaseBody body;
+        body.proxy = proxy;
+        body.proxy.from_ws = proxy.to_ws;
+        body.bounds_ws = swept_bounds(impl_->extents[proxy.shape.index], proxy.to_ws, proxy.to_ws);
+        return body;
+    };
+    thread_local std::vector<ContactPoint> contacts;
+    contacts.clear();
+    impl_->find_pair(at_rest(a), at_rest(b), {}, contacts);
+    double depth_m = 0.0;
+    for (const ContactPoint& contact : contacts) {
+        depth_m = std::max(depth_m, -contact.separation_m);
+    }
+    return depth_m;
+}
+
 void CollisionWorld::Impl::find_contacts_of(const BodyPairs& body, const ContactLimits& limits,
                                             std::vector<ContactPoint>& contacts) {
     const std::span<const BroadphaseBody> bodies = broadphase.bodies();

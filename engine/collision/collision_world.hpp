@@ -133,6 +133,11 @@ class CollisionWorld {
     // kept.
     void find_contacts(const ContactLimits& limits, std::vector<ContactPoint>& contacts);
 
+    // Depth of the deepest contact of two colliders at their end poses, with the sides of meshes as
+    // find_contacts chooses them for colliders at rest; 0 if they do not overlap. a must be convex.
+    // Shapes must be those of the last update_shapes; no other state is used.
+    double overlap_m(const ColliderProxy& a, const ColliderProxy& b) const;
+
     // Work since the last call.
     CollisionWork take_work();
     // Number of calls of set_proxies so far. If it has changed since a caller's own set_proxies,

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "engine/solver/contact/contact_rows.hpp"
+#include "engine/solver/contact/moving_contacts.hpp"
 #include "systems/physics/shared/restore_bodies.hpp"
 
 namespace handhold {

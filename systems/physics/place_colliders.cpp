@@ -68,7 +68,6 @@ void place_all(const PlaceCollidersIo& io, const HeadTuning& tuning) {
         frame.proxies.push_back(proxy_of(io, entity, tuning));
     }
     frame.active.reset(frame.entities.size());
-    frame.displaced.clear();
     io.collision.set_proxies(frame.proxies);
     frame.proxy_set = io.collision.proxy_set();
 }
@@ -119,7 +118,6 @@ bool place_noted(const PlaceCollidersIo& io, const HeadTuning& tuning) {
         frame.proxies[i] = proxy;
         frame.proxy_updates.push_back(proxy);
     }
-    frame.displaced.clear();  // the solver noted them
     io.collision.update_proxies(frame.proxy_updates);
     return true;
 }

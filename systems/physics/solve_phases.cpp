@@ -140,7 +140,7 @@ bool refresh_contacts(const Solve& s, OldPoints old_points) {
     FrameGraph& frame = s.io.frame;
     const FoundContacts found =
         refresh_contacts({s.io.collision, frame.proxies, frame.contacts, frame.graph,
-                          frame.fresh_contacts, frame.proxy_updates, frame.displaced},
+                          frame.fresh_contacts, frame.proxy_updates},
                          {s.tuning.contact.margin_m, s.tuning.contact.sweep_m}, old_points);
     if (found != FoundContacts::unchanged) {
         activate_islands(frame);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/solver/contact/moving_contacts.hpp"
+
 namespace handhold {
 namespace {
 
@@ -20,62 +22,6 @@ bool may_be_swept(const ColliderProxy& a, const ColliderProxy& b, double sweep_m
     return (to.position - from.position).norm() + turn * k_max_arm_m > sweep_m;
 }
 
-// Sets up the proxies for a query without sweeps: colliders whose touch a sweep may have found are
-// at rest at their end poses. Marks the movable ones. False if there are none.
-bool prepare_static_query(const MovingContacts& moving, double sweep_m, MissedOverlaps& missed) {
-    const std::size_t count = moving.graph.bodies.size();
-    missed.is_marked.resize(std::max(missed.is_marked.size(), count), 0);
-    missed.is_suspect.resize(std::max(missed.is_suspect.size(), count), 0);
-    bool any = false;
-    const auto mark = [&](std::uint32_t body) {
-        if (missed.is_marked[body] == 0) {
-            missed.is_marked[body] = 1;
-            moving.displaced.push_back(body);
-        }
-        if (moving.graph.bodies[body].role != BodyRole::fixed) {
-            missed.is_suspect[body] = 1;
-            any = true;
-        }
-    };
-    for (const RowBlock& block : moving.graph.blocks) {
-        if (is_contact(block) && !is_heap_contact(moving.graph.bodies, block) &&
-            may_be_swept(moving.proxies[block.a], moving.proxies[block.b], sweep_m)) {
-            mark(block.a);
-            mark(block.b);
-        }
-    }
-    return any;
-}
-
-void query(const MovingContacts& moving, const ContactLimits& limits, MissedOverlaps& missed) {
-    moving.updates.clear();
-    for (const std::uint32_t i : moving.displaced) {
-        moving.updates.push_back(moving.proxies[i]);
-        moving.updates.back().from_ws = moving.updates.back().to_ws;
-    }
-    moving.collision.update_proxies(moving.updates);
-    moving.collision.find_contacts(limits, moving.scratch);
-    const auto record = [&missed](std::size_t body, std::size_t other, double depth_m) {
-        Overlap& deepest = missed.of_body[body];
-        if (missed.is_suspect[body] != 0 && depth_m > deepest.depth_m) {
-            if (deepest.depth_m == 0.0) {
-                missed.deep.push_back(static_cast<std::uint32_t>(body));
-            }
-            deepest = {depth_m, static_cast<std::uint32_t>(other)};
-        }
-    };
-    for (const ContactPoint& contact : moving.scratch) {
-        const std::size_t a = find_body(moving.graph, contact.id_a);
-        const std::size_t b = find_body(moving.graph, contact.id_b);
-        const bool is_heap = moving.graph.bodies[a].in_heap || moving.graph.bodies[b].in_heap;
-        if (-contact.separation_m > (is_heap ? k_heap_lag_m : k_new_overlap_m)) {
-            record(a, b, -contact.separation_m);
-            record(b, a, -contact.separation_m);
-        }
-    }
-    std::ranges::sort(missed.deep);
-}
-
 }  // namespace
 
 void MissedOverlaps::clear(std::size_t count) {
@@ -90,24 +36,34 @@ void MissedOverlaps::clear(std::size_t count) {
     deep.clear();
 }
 
-void find_missed_overlaps(const MovingContacts& moving, const ContactLimits& limits,
-                          MissedOverlaps& missed) {
-    const std::size_t count = moving.graph.bodies.size();
-    missed.clear(count);
-    const std::size_t first = moving.displaced.size();
-    // Enough for all bodies, so that a warm frame allocates nothing.
-    moving.displaced.reserve(2 * count);
-    moving.updates.reserve(2 * count);
-    const bool any = prepare_static_query(moving, limits.sweep_m, missed);
-    if (any) {
-        query(moving, limits, missed);
-    } else {
-        moving.displaced.resize(first);
+void find_missed_overlaps(const CollisionWorld& collision, std::span<const ColliderProxy> proxies,
+                          const ConstraintGraph& graph, double sweep_m, MissedOverlaps& missed) {
+    missed.clear(graph.bodies.size());
+    const auto record = [&](std::uint32_t body, std::uint32_t other, double depth_m) {
+        Overlap& deepest = missed.of_body[body];
+        if (graph.bodies[body].role != BodyRole::fixed && depth_m > deepest.depth_m) {
+            if (deepest.depth_m == 0.0) {
+                missed.deep.push_back(body);
+            }
+            deepest = {depth_m, other};
+        }
+    };
+    const RowBlock* last = nullptr;
+    for (const RowBlock& block : graph.blocks) {
+        const bool same_pair = last != nullptr && last->a == block.a && last->b == block.b;
+        if (!is_contact(block) || same_pair || is_heap_contact(graph.bodies, block) ||
+            !may_be_swept(proxies[block.a], proxies[block.b], sweep_m)) {
+            continue;
+        }
+        last = &block;
+        const double depth_m = collision.overlap_m(proxies[block.a], proxies[block.b]);
+        const bool is_heap = graph.bodies[block.a].in_heap || graph.bodies[block.b].in_heap;
+        if (depth_m > (is_heap ? k_heap_lag_m : k_new_overlap_m)) {
+            record(block.a, block.b, depth_m);
+            record(block.b, block.a, depth_m);
+        }
     }
-    for (const RowBlock& block : moving.graph.blocks) {
-        missed.is_marked[block.a] = missed.is_marked[block.b] = 0;
-        missed.is_suspect[block.a] = missed.is_suspect[block.b] = 0;
-    }
+    std::ranges::sort(missed.deep);
 }
 
 }  // namespace handhold

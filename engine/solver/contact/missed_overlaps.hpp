@@ -1,11 +1,13 @@
-// Solver, contact: overlaps that a sweep cannot see, found by a query without sweeps.
+// Solver, contact: overlaps that a sweep cannot see.
 
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "engine/solver/contact/moving_contacts.hpp"
+#include "engine/collision/collision_world.hpp"
+#include "engine/solver/model/islands.hpp"
 
 namespace handhold {
 
@@ -16,22 +18,19 @@ struct Overlap {
 };
 
 struct MissedOverlaps {
-    std::vector<Overlap> of_body;          // out
-    std::vector<std::uint32_t> deep;       // out: bodies with an overlap, ascending
-    std::vector<std::uint8_t> is_marked;   // scratch, by body; all 0 between calls
-    std::vector<std::uint8_t> is_suspect;  // the same
+    std::vector<Overlap> of_body;     // out
+    std::vector<std::uint32_t> deep;  // out: bodies with an overlap, ascending
 
     // Makes `count` bodies without an overlap.
     void clear(std::size_t count);
 };
 
 // A sweep reports only the first touch of a pair. A body that leans on another and rotates can
-// therefore end with its far side inside the same body. Queries the bodies of all pairs that touch
-// and moved by more than `limits.sweep_m` relative to each other, at their current poses; other
-// pairs were not swept or did not touch. Call after contacts have been refreshed at these poses.
-// Afterwards the collision world still holds the query's proxies, and moving.displaced lists their
-// bodies.
-void find_missed_overlaps(const MovingContacts& moving, const ContactLimits& limits,
-                          MissedOverlaps& missed);
+// therefore end with its far side inside the same body. Tests every pair that has a contact and
+// moved by more than `sweep_m` relative to each other, at the end poses of `proxies`; other pairs
+// were not swept or did not touch. `proxies`: by body. Call after contacts have been refreshed at
+// these poses.
+void find_missed_overlaps(const CollisionWorld& collision, std::span<const ColliderProxy> proxies,
+                          const ConstraintGraph& graph, double sweep_m, MissedOverlaps& missed);
 
 }  // namespace handhold

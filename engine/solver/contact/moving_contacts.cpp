@@ -155,10 +155,6 @@ FoundContacts refresh_contacts(const MovingContacts& moving, const ContactLimits
     if (!move_proxies(moving) && moving.also_moved.empty()) {
         return FoundContacts::unchanged;
     }
-    for (const std::uint32_t i : moving.displaced) {
-        moving.updates.push_back(moving.proxies[i]);
-    }
-    moving.displaced.clear();
     moving.collision.update_proxies(moving.updates);
     moving.collision.find_contacts(limits, moving.scratch);
     const bool overlaps = std::ranges::any_of(moving.scratch, [](const ContactPoint& contact) {

@@ -22,8 +22,6 @@ struct MovingContacts {
     ConstraintGraph& graph;               // out: contact blocks, islands
     std::vector<ContactPoint>& scratch;   // scratch; afterwards the previous contacts
     std::vector<ColliderProxy>& updates;  // scratch: proxies to send to the collision world
-    // In/out: bodies whose proxy in the collision world differs from the one in `proxies`.
-    std::vector<std::uint32_t>& displaced;
     // Bodies outside all islands that may also have moved. If there are any, contacts are searched
     // again in any case.
     std::span<const std::uint32_t> also_moved = {};

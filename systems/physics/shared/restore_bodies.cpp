@@ -170,7 +170,7 @@ void rebuild_contacts(CollisionWorld& collision, FrameGraph& frame, const Contac
         frame.graph.bodies[penetrating.body].is_searched = true;
     }
     refresh_contacts({collision, frame.proxies, frame.contacts, frame.graph, frame.fresh_contacts,
-                      frame.proxy_updates, frame.displaced, frame.active.list},
+                      frame.proxy_updates, frame.active.list},
                      {tuning.margin_m, tuning.sweep_m}, OldPoints::replaced);
     ++stats.contact_rounds;
     activate_islands(frame);
@@ -246,12 +246,8 @@ bool restore_overlapped_bodies(FrameGraph& frame) {
 
 void restore_penetrating_bodies(CollisionWorld& collision, FrameGraph& frame,
                                 const ContactTuning& tuning, StageStats& stats) {
-    find_missed_overlaps({collision, frame.proxies, frame.contacts, frame.graph,
-                          frame.fresh_contacts, frame.proxy_updates, frame.displaced},
-                         {tuning.margin_m, tuning.sweep_m}, frame.hidden_overlaps);
-    for (const std::uint32_t i : frame.displaced) {
-        frame.active.add(i);
-    }
+    find_missed_overlaps(collision, frame.proxies, frame.graph, tuning.sweep_m,
+                         frame.hidden_overlaps);
     find_penetrating_bodies(tuning.restore_depth_m, frame, stats);
     if (frame.penetrating_bodies.empty()) {
         return;
