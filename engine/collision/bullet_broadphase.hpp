@@ -23,6 +23,7 @@ struct BroadphaseBody {
     // the free bodies with a higher id. isolated_since = 0: no region is cached.
     std::uint64_t isolated_since = 0;
     Bounds isolation_ws;
+    std::uint32_t isolation_wait = 0;  // passes until a region is searched again
     // True if the body changed since the last pass over all pairs. Then the next two members hold
     // its state at that pass.
     bool is_changed = false;
@@ -57,6 +58,12 @@ class Broadphase {
     bool indices_changed() const { return indices_changed_; }
     void finish_pass();
     void set_isolated(std::size_t body, const Bounds& box_ws);
+    // Waits for some passes after a search for a region that found none. True if it waits.
+    bool waits_for_isolation(std::size_t body) {
+        std::uint32_t& wait = bodies_[body].isolation_wait;
+        return wait > 0 && wait-- > 0;
+    }
+    void postpone_isolation(std::size_t body) { bodies_[body].isolation_wait = 8; }
     void clear_isolation(std::size_t body) { bodies_[body].isolated_since = 0; }
     // Finds the bodies whose bounds overlap the box: indices into bodies(), ascending. Valid until
     // the scratch is used again. Thread-safe if each thread uses its own scratch.

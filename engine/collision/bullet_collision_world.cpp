@@ -109,7 +109,14 @@ std::optional<Bounds> CollisionWorld::Impl::find_pair(const BroadphaseBody& a,
     const Pose to_bs = inverse(b.proxy.to_ws) * a.proxy.to_ws;
     const CollisionShape& shape_a = cache[a.proxy.shape.index];
     const CollisionShape& shape_b = cache[b.proxy.shape.index];
-    if (shape_b.triangles) {
+    if (!shape_b.triangles) {
+        // a's centre moves along a line in b's frame.
+        const double reach_m = extents[a.proxy.shape.index].radius_m +
+                               extents[b.proxy.shape.index].radius_m + limits.margin_m;
+        if (closest_on_segment(Vec3::Zero(), from_bs.position, to_bs.position).norm() > reach_m) {
+            return std::nullopt;
+        }
+    } else {
         scratch.triangles.resize(std::max(scratch.triangles.size(), shape_a.parts.size()));
         bool any = false;
         for (std::size_t i = 0; i < shape_a.parts.size(); ++i) {

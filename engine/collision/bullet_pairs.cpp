@@ -232,7 +232,7 @@ void CollisionWorld::Impl::remember(const BodyPairs& body, std::span<const Conta
 void CollisionWorld::Impl::cache_isolation(const BodyPairs& body, double margin_m) {
     const std::span<const BroadphaseBody> bodies = broadphase.bodies();
     const BroadphaseBody& a = bodies[body.body];
-    if (body.is_isolated || !body.is_new) {
+    if (body.is_isolated || !body.is_new || broadphase.waits_for_isolation(body.body)) {
         return;
     }
     Bounds box_ws = a.bounds_ws.grown(margin_m + k_isolation_reach_m);
@@ -248,6 +248,7 @@ void CollisionWorld::Impl::cache_isolation(const BodyPairs& body, double margin_
     ++work.tree_queries;
     for (const std::size_t other : broadphase.find(box_ws, broadphase_scratch)) {
         if (other != body.body && may_enter(box_ws, a, bodies[other])) {
+            broadphase.postpone_isolation(body.body);
             return;
         }
     }
