@@ -43,12 +43,24 @@ std::optional<double> skip_free_travel(const RelativeMotion& motion, const Corne
     return fraction;
 }
 
-// Separation of a and b along `normal`; negative if the normal does not separate them.
+// Upper bound of the closing speed of a and b along `normal`, in metres per whole motion.
+// |omega x normal| arm bounds the rotation's contribution, for every orientation that a passes
+// through.
+double max_closing_m(const ConvexPart& a, const RelativeMotion& motion, const Vec3& normal) {
+    return motion.turn_rad().cross(normal).norm() * a.arm_m() - motion.move().dot(normal);
+}
+
+}  // namespace
+
 double gap_along(const Convex& a, const Convex& b, const Vec3& normal) {
     return normal.dot(a.support(-normal) - b.support(normal)) - a.radius_m - b.radius_m;
 }
 
-}  // namespace
+double gap_along_centres(const Convex& a, const Convex& b) {
+    const Vec3 offset = a.centre_ns() - b.centre_ns();
+    const double distance = offset.norm();
+    return distance > 0.0 ? gap_along(a, b, offset / distance) : 0.0;
+}
 
 RelativeMotion::RelativeMotion(const Pose& from_ns, const Pose& to_ns)
     : from_(from_ns),
@@ -78,6 +90,17 @@ std::optional<Approach> begin_approach(const ConvexPart& a, const RelativeMotion
             return std::nullopt;
         }
         approach.fraction = *free_fraction;
+        return approach;
+    }
+    const Convex placed = a.at(motion.at(0.0));
+    const Vec3 offset = placed.centre_ns() - b.centre_ns();
+    const double distance = offset.norm();
+    if (distance > 0.0) {
+        const Vec3 normal = offset / distance;
+        const double gap = gap_along(placed, b, normal);
+        if (gap > 10.0 * k_sweep_touch_m && gap > limit * max_closing_m(a, motion, normal)) {
+            return std::nullopt;
+        }
     }
     return approach;
 }
@@ -102,11 +125,7 @@ ApproachState advance(const ConvexPart& a, const RelativeMotion& motion, const C
     if (++approach.steps == k_steps) {
         return ApproachState::touches;
     }
-    // |omega x normal| arm bounds the rotation's contribution to the closing speed, for every
-    // orientation that a passes through.
-    const Vec3& normal = approach.impact.normal;
-    const double turning_m = motion.turn_rad().cross(normal).norm() * a.arm_m();
-    const double closing_m = turning_m - motion.move().dot(normal);
+    const double closing_m = max_closing_m(a, motion, approach.impact.normal);
     if (!(closing_m > 0.0)) {
         return ApproachState::misses;
     }

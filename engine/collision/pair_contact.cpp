@@ -151,7 +151,8 @@ void add_contacts_at(const PairIo& io, const Pose& pose_ns, const Pose& from_ns)
         }
         for (const ConvexPart& part : io.b) {
             const Convex b = place_b(io, part);
-            if (!are_beyond_margin(io.a[i], a, part, b, margin_m)) {
+            if (!are_beyond_margin(io.a[i], a, part, b, margin_m) &&
+                gap_along_centres(a, b) <= margin_m) {
                 add_manifold(a, b, separate(a, b), margin_m, scratch.clip, scratch.contacts);
             }
         }
