@@ -191,33 +191,15 @@ void add_deepest_at_end(const PairIo& io, const Pose& touch_ns, const Pose& to_n
     }
 }
 
-}  // namespace
-
-void find_pair_contacts(const PairIo& io) {
-    const Pose from_ns{io.from_bs.position - io.to_bs.position, io.from_bs.rotation};
-    const Pose to_ns{Vec3::Zero(), io.to_bs.rotation};
-    const RelativeMotion motion(from_ns, to_ns);
-    const std::optional<Impact> impact = first_impact(io, motion);
-    const Pose pose_ns = impact ? motion.at(impact->fraction) : to_ns;
-
-    io.scratch.contacts.clear();
-    add_contacts_at(io, pose_ns, from_ns);
-    if (impact && io.scratch.contacts.empty()) {
-        io.scratch.contacts.push_back(
-            {impact->point_b_ns, impact->point_b_ns, impact->normal, 0.0, impact->part});
-    }
-    reduce_contacts(io.scratch.contacts, io.scratch.spare);
-    if (impact) {
-        add_deepest_at_end(io, pose_ns, to_ns);
-    }
-
+// Appends the contacts found at `pose_ns`, with their separation at `to_ns`. False if none is within
+// the margin there.
+bool append_contacts(const PairIo& io, const Pose& pose_ns, const Pose& to_ns) {
     std::uint32_t feature = 0;
     for (const NearContact& near : io.scratch.contacts) {
         ContactPoint contact;
         contact.point_a_bs = inverse_transform_point(pose_ns, near.point_a_ns);
         contact.point_b_bs = near.point_b_ns + io.to_bs.position;
         contact.normal_b_bs = near.normal_ns;
-        // The contact plane is that of the touch, but the separation is evaluated at to_ns.
         contact.separation_m =
             near.normal_ns.dot(transform_point(to_ns, contact.point_a_bs) - near.point_b_ns);
         if (contact.separation_m < io.limits.margin_m) {
@@ -225,6 +207,34 @@ void find_pair_contacts(const PairIo& io) {
             io.contacts.push_back(contact);
         }
     }
+    return feature > 0;
+}
+
+}  // namespace
+
+void find_pair_contacts(const PairIo& io) {
+    const Pose from_ns{io.from_bs.position - io.to_bs.position, io.from_bs.rotation};
+    const Pose to_ns{Vec3::Zero(), io.to_bs.rotation};
+    const RelativeMotion motion(from_ns, to_ns);
+    if (const std::optional<Impact> impact = first_impact(io, motion)) {
+        const Pose touch_ns = motion.at(impact->fraction);
+        io.scratch.contacts.clear();
+        add_contacts_at(io, touch_ns, from_ns);
+        if (io.scratch.contacts.empty()) {
+            io.scratch.contacts.push_back(
+                {impact->point_b_ns, impact->point_b_ns, impact->normal, 0.0, impact->part});
+        }
+        reduce_contacts(io.scratch.contacts, io.scratch.spare);
+        add_deepest_at_end(io, touch_ns, to_ns);
+        if (append_contacts(io, touch_ns, to_ns)) {
+            return;
+        }
+        // The rest of the motion leaves the touch behind, and may end in another part of b.
+    }
+    io.scratch.contacts.clear();
+    add_contacts_at(io, to_ns, from_ns);
+    reduce_contacts(io.scratch.contacts, io.scratch.spare);
+    append_contacts(io, to_ns, to_ns);
 }
 
 }  // namespace handhold

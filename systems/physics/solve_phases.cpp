@@ -17,10 +17,11 @@ constexpr double k_violated_m = 2e-7;
 constexpr double k_touching_m = 1e-5;  // closer contacts may support a body
 // Overlap within a heap from which the hands that press it give way.
 constexpr double k_heap_violated_m = 1e-3;
-// Limit on the constraint blocks of a heap, summed over the contact searches of a frame. Above it,
-// the heap's bodies keep their present contacts until the next frame. Other islands are not
-// affected.
-constexpr std::uint64_t k_max_heap_visits = 12'000;
+// Limits on the constraint blocks of a heap, summed over the contact searches of a frame. Above
+// them, the heap's bodies keep their present contacts until the next frame. Other islands are not
+// affected. A heap that a player pushes needs more searches for the push-back to be exact.
+constexpr std::uint64_t k_max_pushed_heap_visits = 12'000;
+constexpr std::uint64_t k_max_loose_heap_visits = 1'000;
 constexpr int k_max_heap_rounds = 2;  // of a phase; what appears later waits for the next frame
 
 struct Solve {
@@ -105,8 +106,8 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
     return chosen.size();
 }
 
-// Adds the cost of the last contact search to each heap's count. Heaps above k_max_heap_visits are
-// not searched again in this frame.
+// Adds the cost of the last contact search to each heap's count. Heaps above their limit are not
+// searched again in this frame.
 void count_heap_visits(const Solve& s) {
     for (const Island& island : s.graph().islands) {
         if (!island.is_heap) {
@@ -118,13 +119,16 @@ void count_heap_visits(const Solve& s) {
         for (const std::uint32_t i : s.graph().bodies_of(island)) {
             visits = std::max(visits, s.phase_of(i).visits);
         }
-        const bool was_searched = visits <= k_max_heap_visits;
+        const std::uint64_t limit = has_role(s, island, BodyRole::translating)
+                                        ? k_max_pushed_heap_visits
+                                        : k_max_loose_heap_visits;
+        const bool was_searched = visits <= limit;
         visits += s.graph().blocks_of(island).size();
         for (const std::uint32_t i : s.graph().bodies_of(island)) {
             s.phase_of(i).visits = visits;
-            s.graph().bodies[i].is_searched = visits <= k_max_heap_visits;
+            s.graph().bodies[i].is_searched = visits <= limit;
         }
-        if (was_searched && visits > k_max_heap_visits) {
+        if (was_searched && visits > limit) {
             s.stats.count(Fallback::solver_budget);
         }
     }

@@ -13,7 +13,7 @@ namespace handhold {
 namespace {
 
 // Bodies of heaps with more constraint blocks are not restored, because of the cost per frame.
-constexpr std::size_t k_max_restore_blocks = 4000;
+constexpr std::size_t k_max_restore_blocks = 300;
 // About the length of an arm's jump. A body that was dragged farther while penetrating stays.
 constexpr double k_max_restore_distance_m = 2.0;
 // Smaller overlaps with a restored body are left to the next frames: restoring a player as well

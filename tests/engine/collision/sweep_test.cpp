@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cmath>
+#include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -279,6 +282,46 @@ TEST(Sweep, FirstOfManyTrianglesStops) {
     }
     EXPECT_GT(hits, 30);
     EXPECT_LE(missed, hits / 50);  // grazing impacts
+}
+
+// A body may touch one part of an obstacle, pass it, and end in another part.
+TEST(Sweep, OverlapAtTheEndOfAMotionHasAContact) {
+    Random random(61);
+    int overlaps = 0;
+    for (int round = 0; round < 2000; ++round) {
+        ShapeLibrary shapes;
+        const ShapeId rod = shapes.add_box({0.02, 0.25, 0.02});
+        const auto mesh = std::make_shared<Mesh>();
+        for (std::uint32_t box = 0; box < 6; ++box) {
+            const auto one = test::make_box_mesh(Vec3::Constant(0.08));
+            const Pose place = random.pose(0.4);
+            const auto first = static_cast<std::uint32_t>(mesh->positions.size());
+            for (const Vec3& position : one->positions) {
+                mesh->positions.push_back(transform_point(place, position));
+            }
+            for (const auto& [a, b, c] : one->triangles) {
+                mesh->triangles.push_back({first + a, first + b, first + c});
+            }
+        }
+        const ShapeId clutter = shapes.add_mesh(mesh);
+        const Pose from = random.pose(0.6);
+        const Pose to{from.position + random.vector(0.4), random.rotation()};
+        const ColliderProxy b = resting(1, clutter, {}, false);
+        const ColliderProxy a = moving(2, rod, from, to);
+        CollisionWorld world(shapes);
+        const std::vector<ColliderProxy> proxies = {b, a};
+        world.set_proxies(proxies);
+        const double overlap_m = world.overlap_m(a, b);
+        EXPECT_NEAR(
+            overlap_m,
+            std::max(0.0, -test::deepest(contacts_of(shapes, {b, resting(2, rod, to, true)}))),
+            1e-12);
+        std::vector<ContactPoint> contacts;
+        world.find_contacts({}, contacts);
+        EXPECT_TRUE(overlap_m < 1e-5 || !contacts.empty()) << round << ' ' << overlap_m;
+        overlaps += overlap_m > 1e-5 ? 1 : 0;
+    }
+    EXPECT_GT(overlaps, 150);
 }
 
 }  // namespace

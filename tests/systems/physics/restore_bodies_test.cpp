@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/solver/contact/moving_contacts.hpp"
 #include "systems/physics/build_constraints.hpp"
 #include "systems/physics/place_colliders.hpp"
 #include "tests/systems/frame/column_scene.hpp"
@@ -74,10 +75,14 @@ struct Restoring {
     void end_phases_at(Entity entity, const Vec3& position) {
         const std::size_t index = index_of(entity);
         frame.graph.bodies[index].pose_ws.position = position;
-        frame.proxies[index].to_ws.position = position;
         frame.active.add(static_cast<std::uint32_t>(index));
     }
-    void restore() { restore_penetrating_bodies(collision, frame, tuning.contact, stats); }
+    void restore() {
+        refresh_contacts({collision, frame.proxies, frame.contacts, frame.graph,
+                          frame.fresh_contacts, frame.proxy_updates, frame.active.list},
+                         {tuning.contact.margin_m, tuning.contact.sweep_m}, OldPoints::replaced);
+        restore_penetrating_bodies(collision, frame, tuning.contact, stats);
+    }
 };
 
 TEST(RestoreBodies, CubeInWallReturnsToItsLastValidPose) {
