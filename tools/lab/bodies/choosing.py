@@ -1,10 +1,18 @@
 """Chooses between fitted models by people who were not fitted."""
 import numpy as np
 
+EQUAL = 1.005  # about the spread between seeds
+
 
 def by_person(values, person):
     """{person: mean of the finite values}; values: (..., frames)."""
     return {name: float(np.nanmean(values[..., person == name])) for name in np.unique(person)}
+
+
+def mean_over_people(values, person):
+    """Mean over the people who have finite values, each with equal weight; inf if nobody has."""
+    means = [np.nanmean(own) for own in (values[..., person == name] for name in np.unique(person)) if np.isfinite(own).any()]
+    return float(np.mean(means)) if means else np.inf
 
 
 def without_one(values, person):
@@ -13,20 +21,31 @@ def without_one(values, person):
     return float(np.nanmean(values)), min(left), max(left)
 
 
+def bounds_text(figure, values, person):
+    """values may be NaN in the frames that do not count."""
+    known = np.isin(person, [name for name in np.unique(person) if np.isfinite(values[..., person == name]).any()])
+    if not known.any():
+        return f"{figure} of no frame"
+    if len(np.unique(person[known])) == 1:
+        return f"{figure} {np.nanmean(values[..., known]):.2f} (one person)"
+    mean, low, high = without_one(values[..., known], person[known])
+    return f"{figure} {mean:.2f} ({low:.2f} to {high:.2f})"
+
+
 class Candidate:
     """name, count (numbers of the model), model, and scores: {figure: (errors of all frames, goal)}."""
 
     def __init__(self, name, count, model, scores, person):
         self.name, self.count, self.model = name, count, model
-        self.figures = {figure: without_one(errors, person) for figure, (errors, _) in scores.items()}
+        self.figures = "; ".join(bounds_text(figure, errors, person) for figure, (errors, _) in scores.items())
         relative = [{name: value / goal for name, value in by_person(errors, person).items()} for errors, goal in scores.values()]
         self.score = np.array([np.mean([each[name] for each in relative]) for name in np.unique(person)])
 
     def line(self):
-        figures = "; ".join(f"{figure} {mean:.2f} ({low:.2f} to {high:.2f})" for figure, (mean, low, high) in self.figures.items())
-        return f"{self.name}, {self.count} numbers: {figures}"
+        return f"{self.name}, {self.count} numbers: {self.figures}"
 
 
 def choose(candidates):
-    """The candidate with the best mean over people; of equals the smallest."""
-    return min(candidates, key=lambda each: (round(float(each.score.mean()), 3), each.count))
+    """Of the candidates whose mean over people is within EQUAL of the best, the smallest; of these the best."""
+    least = min(each.score.mean() for each in candidates)
+    return min((each for each in candidates if each.score.mean() <= EQUAL * least), key=lambda each: (each.count, each.score.mean()))
