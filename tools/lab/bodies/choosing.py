@@ -1,8 +1,6 @@
 """Chooses between fitted models by people who were not fitted."""
 import numpy as np
 
-EQUAL = 1.005  # about the spread between seeds
-
 
 def by_person(values, person):
     """{person: mean of the finite values}; values: (..., frames)."""
@@ -45,7 +43,7 @@ class Candidate:
         return f"{self.name}, {self.count} numbers: {self.figures}"
 
 
-def choose(candidates):
-    """Of the candidates whose mean over people is within EQUAL of the best, the smallest; of these the best."""
+def choose(candidates, equal=0.001):
+    """Of the candidates whose mean over people, relative to the goals, is within `equal` of the best: the smallest, of these the best."""
     least = min(each.score.mean() for each in candidates)
-    return min((each for each in candidates if each.score.mean() <= EQUAL * least), key=lambda each: (each.count, each.score.mean()))
+    return min((each for each in candidates if each.score.mean() <= least + equal), key=lambda each: (each.count, each.score.mean()))

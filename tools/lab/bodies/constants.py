@@ -1,4 +1,6 @@
 """Writes the fitted constants as the header that the runtime compiles in."""
+import textwrap
+
 import numpy as np
 
 from .estimator import LOOK_LAGS_S
@@ -34,7 +36,12 @@ def network_text(name, network):
 
 
 def comment(lines):
-    return "".join(f"// {line}".rstrip() + "\n" for line in lines)
+    """Wrapped; what a line continues is indented by two more than the line."""
+    wrapped = []
+    for line in lines:
+        indent = line[:len(line) - len(line.lstrip())]
+        wrapped += textwrap.wrap(line, COLUMNS, initial_indent="", subsequent_indent=indent + "  ")
+    return "".join(f"// {line}\n" for line in wrapped)
 
 
 def scalars(values):

@@ -22,10 +22,10 @@ class Fold:
     def __init__(self, motion, chest_constants, others, settings):
         own, self.motion = motion.rows(~others), motion.rows(others)
         chest, self.chest = (fitting.Chest(each, chest_constants) for each in (own, self.motion))
-        self.chest_network = fitting.fit_chest(chest, HIDDEN, settings.rounds, settings.chest_noise, settings.decay, settings.seeds[0])
+        self.chest_network = fitting.fit_chest(chest, HIDDEN, settings.rounds, settings.chest_noise, settings.decay, settings.seed)
         fitted, self.arms = (fitting.Arms(each.motion, *each.corrected(self.chest_network), estimator.FADE_START) for each in (chest, self.chest))
         self.pole = fitting.fit_talked_pole(fitted.circles)
-        self.elbow_network, _ = fitting.fit_elbow(fitted, self.pole, HIDDEN, settings.rounds, settings.elbow_noise, settings.decay, settings.seeds[0])
+        self.elbow_network, _ = fitting.fit_elbow(fitted, self.pole, HIDDEN, settings.rounds, settings.elbow_noise, settings.decay, settings.seed)
         self.distance = np.stack([each[:, 3] for each in self.arms.inputs])
 
     def chest_error(self, familiar):
