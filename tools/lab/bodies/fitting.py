@@ -152,7 +152,8 @@ class Arms:
         poles = [each.talked_pole(constants) for each in self.circles]
         if network is None:
             return poles
-        return [pole + estimator.elbow_trust(inputs, self.fade) * network.familiarity(inputs)[:, None] * network.outputs(inputs) for pole, inputs in zip(poles, self.inputs)]
+        trusts = [estimator.elbow_trust(inputs, self.fade) * network.familiarity(inputs)[:, None] for inputs in self.inputs]
+        return [pole + trust * network.outputs(inputs) for pole, trust, inputs in zip(poles, trusts, self.inputs)]
 
     def errors(self, constants, network):
         """(signed swivel (2, frames), elbow in cm (2, frames))."""
