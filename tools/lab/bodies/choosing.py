@@ -22,8 +22,6 @@ def without_one(values, person):
 def bounds_text(figure, values, person):
     """values may be NaN in the frames that do not count."""
     known = np.isin(person, [name for name in np.unique(person) if np.isfinite(values[..., person == name]).any()])
-    if not known.any():
-        return f"{figure} of no frame"
     if len(np.unique(person[known])) == 1:
         return f"{figure} {np.nanmean(values[..., known]):.2f} (one person)"
     mean, low, high = without_one(values[..., known], person[known])

@@ -68,16 +68,18 @@ namespace handhold::body_constants {{
 // Time constants of ArmMemory::looks_ps. The talk's form turns from the first.
 inline constexpr std::array<double, k_look_filters> k_look_lags_s = {{{lags}}};
 
-// The talk's form: chest_facing, chest_lean, chest_pose; trunk_view (nod, ears). Lengths: for an eye height of 1.6 m.
+// The talk's form: chest_facing, chest_lean, chest_pose; trunk_view (nod, ears). Lengths: for an
+// eye height of 1.6 m.
 {scalars(chest)}
-// turn_to_reach_across: the angle at which the turn begins, and the distance of the hand, in arm lengths.
+// turn_to_reach_across: the angle at which the turn begins, and the hand's distance, arm lengths.
 {scalars(across)}
 // The talk's form: elbow_pole. The rest direction is that of a right arm, in torso axes.
 inline constexpr std::array<double, 3> k_pole_rest = {{{rest}}};
 {wrist}
-// Distances of a hand from its shoulder, in arm lengths, between which the elbow's network fades in.
+// Distances of a hand from its shoulder, arm lengths, between which the elbow's network fades in.
 {scalars(fade)}
-// Inputs: chest_inputs in estimate_chest.cpp. Outputs: turn to the left (rad), middle of the shoulders (m), tangent of the roll.
+// Inputs: chest_inputs in estimate_chest.cpp. Outputs: turn to the left (rad), middle of the
+// shoulders (m), tangent of the roll.
 {network_text("chest", chest_network)}
 // Inputs: elbow_correction in elbow_direction.cpp. Outputs: added to elbow_pole.
 {network_text("elbow", elbow_network)}
