@@ -41,8 +41,10 @@ ChestInputs chest_inputs(const ChestView& view, HandSide side) {
     return inputs;
 }
 
-// Of turn_to_reach_across, for smoothness. turn = excess^2 / (excess + k_across_soft_rad), over the
-// arm's lengths from k_across_bent to k_across_fade more.
+// Of turn_to_reach_across, for smoothness. Angles: of the line from shoulder to hand, from straight
+// ahead towards the other side, seen along the chest's up axis; distances in that view, in arm
+// lengths. With the excess over body_constants::k_across_rad, turn = excess^2 / (excess +
+// k_across_soft_rad); it fades in over k_across_fade from body_constants::k_across_bent.
 constexpr double k_across_soft_rad = 0.349;
 constexpr double k_across_fade = 0.15;
 // The turn fades out if the other hand is inside of its own shoulder by so many arm lengths: then
