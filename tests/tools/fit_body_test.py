@@ -13,7 +13,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "tools" / "lab" / "fit_body"
 sys.path.insert(0, str(ROOT / "tools" / "lab"))
-from bodies import choosing, constants, estimator, fitting, network, recordings, scoring, situations
+from bodies import choosing, constants, estimator, fades, fitting, network, recordings, scoring, situations, sweeps
 
 SIDES = "lr"
 
@@ -121,6 +121,34 @@ class Choice(unittest.TestCase):
         self.assertEqual((mean, low, high), (3.0, 1.5, 4.0))
 
 
+    def test_of_equals_the_smallest_is_chosen(self):
+        person = np.array([1, 2])
+        each = [choosing.Candidate(name, count, None, {"x": (np.full(2, error), 1.0)}, person)
+                for name, count, error in (("best", 30, 1.0), ("small", 10, 1.0005), ("worse", 5, 1.1))]
+        self.assertEqual(choosing.choose(each).name, "small")
+        self.assertEqual(choosing.choose(each, 0.0).name, "best")
+
+    def test_of_equal_errors_the_least_trust_is_chosen(self):
+        self.assertEqual(fades.cautious([1.0, 1.0005, 1.02], [0.9, 0.5, 0.1], 1.001), 1)
+
+    def test_trunk_view_is_fitted_by_the_frames_that_look_up(self):
+        motion = Motion(np.random.default_rng(7), 400)
+        right = {**estimator.CHEST_START, "nod_rad": 0.2, "ears_behind_m": 0.12}
+        lean = estimator.talked_facing(motion, right)[1]
+        resting = estimator.resting_shoulders(motion, right, motion.yaw, lean, np.zeros((400, 4)))
+        motion.shoulder_m = estimator.shoulders_of(motion, motion.yaw, resting)
+        fitted = fitting.fit_trunk_view(motion, {**estimator.CHEST_START, "nod_rad": 0.6})
+        self.assertAlmostEqual(fitted["nod_rad"], 0.2, delta=0.05)
+        self.assertAlmostEqual(fitted["ears_behind_m"], 0.12, delta=0.01)
+
+
+class Sweep(unittest.TestCase):
+    def test_distance_of_segments_is_that_of_their_nearest_points(self):
+        a, b, c, d = (np.array([each], float) for each in ([-1, 0, 0], [1, 0, 0], [0, 0.3, -1], [0, 0.3, 1]))
+        self.assertAlmostEqual(sweeps.distance_m(a, b, c, d)[0], 0.3, delta=1e-3)
+        self.assertAlmostEqual(sweeps.distance_m(a, b, c + 5.0, d + 5.0)[0], np.linalg.norm([4.0, 5.3, 4.0]), delta=1e-3)
+
+
 class Header(unittest.TestCase):
     def test_numbers_of_the_header_are_those_that_were_scored(self):
         random = np.random.default_rng(6)
@@ -140,7 +168,7 @@ class Runs(unittest.TestCase):
                 self.write(folder, part, np.random.default_rng(seed))
             texts = []
             for out in (folder / "a.hpp", folder / "b.hpp"):
-                run = subprocess.run([sys.executable, "-B", SCRIPT, "--data", folder, "--out", out, "--hidden", "4"], capture_output=True, text=True)
+                run = subprocess.run([sys.executable, "-B", SCRIPT, "--data", folder, "--out", out, "--hidden", "4", "--seeds", "1"], capture_output=True, text=True)
                 self.assertEqual(run.returncode, 0, run.stderr)
                 texts.append(out.read_text())
             self.assertEqual(texts[0], texts[1])
@@ -183,8 +211,10 @@ def header_network(text, name):
     body = text[text.index(f"k_{name}_network = "):]
     inputs, hidden, outputs = (int(each) for each in re.search(rf"k_{name}_inputs = (\d+);.*k_{name}_outputs = (\d+);.*?k_{name}_inputs, (\d+),", text, re.S)
                                .group(1, 3, 2))
+    body = body[:body.index(";")]
     lists = [np.array(re.findall(r"(-?[\d.]+(?:e[-+]?\d+)?)F", part), np.float32) for part in body.split("{\n")[2:8]]
     result = network.Network(np.zeros((2, inputs)), hidden, np.ones(outputs), np.random.default_rng(0))
+    result.familiar, result.foreign = (float(each) for each in body[body.rindex("}},") + 3:body.rindex("}")].split(","))
     result.mean, result.deviation = lists[0], 1.0 / lists[1]
     result.weights, result.bias = [lists[2].reshape(inputs, hidden), lists[4].reshape(hidden, outputs)], [lists[3], lists[5]]
     return result
@@ -192,12 +222,12 @@ def header_network(text, name):
 
 @unittest.skipUnless(os.environ.get("HANDHOLD_LAB"), "no handhold-lab")
 class Runtime(unittest.TestCase):
-    """Each clip has one frame, in which the runtime's low-pass filters start: chest and shoulders must equal the numpy estimator's."""
+    """Each clip has one frame, in which the runtime's low-pass filters start: all its answers must equal the numpy estimator's."""
 
-    def test_chest_and_shoulders_are_those_that_were_fitted(self):
+    def test_bodies_are_those_that_were_fitted(self):
         text = (ROOT / "systems/arm/shared/body_constants.hpp").read_text()
         constant = lambda name: float(re.search(rf"k_{name} = (\S+);", text).group(1))
-        talked = {name: constant(name) for name in estimator.CHEST_START}
+        constants_of = lambda names: {name: constant(name) for name in names}
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             self.write_single_frames(folder)
@@ -210,19 +240,34 @@ class Runtime(unittest.TestCase):
             lines = [line.split(",") for line in out.read_text().splitlines()[1:]]
         motion = estimator.Motion(recording, truth, clips, 1000.0)
         motion.looks = np.tile(motion.look, (3, 1))
-        yaw, resting = fitting.Chest(motion, talked).corrected(header_network(text, "chest"))
-        shoulders = estimator.shoulders_of(motion, yaw, resting)
+        chest, network_of_chest = fitting.Chest(motion, constants_of(estimator.CHEST_START)), header_network(text, "chest")
+        across = constants_of(("across_rad", "across_bent"))
+        yaw, resting = chest.corrected(network_of_chest, across)
+        self.assertGreater(np.abs(yaw - chest.corrected(network_of_chest)[0]).max(), 0.05, "some chests turn to an arm that reaches across")
+        arms = fitting.Arms(motion, yaw, resting, constants_of(estimator.FADE_START))
+        rest = [float(each) for each in re.search(r"k_pole_rest = \{(.*)\};", text).group(1).split(",")]
+        pole = dict(zip(("rest_x", "rest_y", "rest_z"), rest)) | {name: constant(f"pole_{name}") for name in ("fingers", "back", "thumb")}
+        elbows = [circles.elbow_m(circles.bend(each)) for circles, each in zip(arms.circles, arms.poles(pole, header_network(text, "elbow")))]
         measured = np.array(lines, float)
         np.testing.assert_allclose(estimator.wrapped(np.radians(measured[:, 2]) - yaw), 0.0, atol=1e-4)
-        np.testing.assert_allclose(measured[:, 3:6], shoulders[0], atol=1e-4)
-        np.testing.assert_allclose(measured[:, 6:9], shoulders[1], atol=1e-4)
+        for place, expected in enumerate([*arms.shoulders_m, *elbows]):
+            np.testing.assert_allclose(measured[:, 3 + 3 * place:6 + 3 * place], expected, atol=1e-4)
+
+    def rare_poses(self):
+        """Lines of in.csv: hands that overtake on a rail to the left; heads that look up."""
+        about = lambda axis, angle: [*(np.sin(angle / 2) * np.eye(3)[axis]), np.cos(angle / 2)]
+        hands = lambda x, back: [x, 1.6, back, *about(2, 0.5)]
+        rail = [[0, 1.6, 0, *about(1, 0.65), *hands(-0.46, -over / 2), *hands(-0.46, over / 2)] for over in np.linspace(0.0, 0.4, 9)]
+        up = [[0, 1.6, 0, *about(0, pitch), *hands(-0.3, -0.3), *hands(0.25, -0.35)] for pitch in np.linspace(-0.3, 1.4, 9)]
+        return ["1,0," + ",".join(f"{value:.9f}" for value in row) for row in rail + up]
 
     def write_single_frames(self, folder):
-        """in.csv: every 20th frame of the situations as a clip of its own; timed.csv: the same with two rows a clip's time step apart."""
+        """in.csv: every 20th frame of the situations, and rare poses, as clips of their own; timed.csv: the same with two rows a clip's time step apart."""
         texts = situations.files()
         head, *rows = texts["in"].splitlines()
         truth_head, *truths = texts["truth"].splitlines()
-        rows, truths = rows[::20], truths[::20]
+        rows, truths = rows[::20] + self.rare_poses(), truths[::20]
+        truths += truths[:1] * (len(rows) - len(truths))  # not compared
         renumbered = lambda lines: [f"{clip},{clip / 90.0:.6f},{line.split(',', 2)[2]}" for clip, line in enumerate(lines, 1)]
         single = renumbered(rows)
         # The numpy reader derives the rate from steps within a clip: there all frames are of one clip.

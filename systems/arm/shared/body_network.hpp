@@ -23,6 +23,10 @@ struct BodyNetwork {
     std::array<float, Hidden> bias0;
     std::array<float, Hidden * Outputs> weights1;
     std::array<float, Outputs> bias1;
+    // Mean squares of the inputs, in standard deviations, between which `familiarity` falls from 1
+    // to 0. About 1 for the data.
+    double familiar;
+    double foreign;
 };
 
 template <std::size_t Outputs>
@@ -50,9 +54,6 @@ std::array<float, Outputs> add_layer(const std::array<float, Inputs>& x,
 template <std::size_t Inputs, std::size_t Hidden, std::size_t Outputs>
 NetworkAnswer<Outputs> evaluate(const BodyNetwork<Inputs, Hidden, Outputs>& network,
                                 std::array<float, Inputs> x) {
-    // Mean square of the inputs in standard deviations: about 1 for the data.
-    constexpr double k_familiar = 3.0;
-    constexpr double k_foreign = 8.0;
     constexpr float k_limit = 4.0F;
     constexpr float k_far = 1e6F;  // keeps squares finite
     float squares = 0.0F;
@@ -68,7 +69,7 @@ NetworkAnswer<Outputs> evaluate(const BodyNetwork<Inputs, Hidden, Outputs>& netw
     }
     const double mean_square = static_cast<double>(squares) / static_cast<double>(Inputs);
     return {add_layer(hidden, network.weights1, network.bias1),
-            1.0 - smooth_step(mean_square, k_familiar, k_foreign)};
+            1.0 - smooth_step(mean_square, network.familiar, network.foreign)};
 }
 
 }  // namespace handhold

@@ -29,12 +29,6 @@ double clavicle_reach_m(double distance) {
     return k_curve.back().reach_m;
 }
 
-// Distances of the hand from the shoulder, in arm lengths, between which the network's correction
-// fades in. Near the shoulder wrists bend most, and the training data's wrists are synthetic: there
-// the formula without a network is better for people outside of the training data.
-constexpr double k_near_shoulder = 0.3;
-constexpr double k_clear = 0.7;
-
 constexpr double k_near_bend_cosine = 0.95;  // for larger cosines, share_of_line is used
 
 }  // namespace
@@ -81,8 +75,11 @@ Vec3 elbow_correction(const BodyView& view, const std::array<ArmLine, k_hand_cou
     inputs.add_lateral(turned);
     inputs.add(lines[1 - own].reach_ts * (1.0 / arm_m));
     const auto answer = evaluate(body_constants::k_elbow_network, inputs.values());
+    // Near the shoulder wrists bend most, and the training data's wrists are synthetic: there the
+    // formula without a network is better for people who were not fitted.
     const double trust =
-        answer.familiarity * smooth_step(line.distance_m / arm_m, k_near_shoulder, k_clear);
+        answer.familiarity * smooth_step(line.distance_m / arm_m, body_constants::k_near_shoulder,
+                                         body_constants::k_off_shoulder);
     const auto value = [&](std::size_t i) { return trust * static_cast<double>(answer.values[i]); };
     return mirrored_if_left(Vec3(value(0), value(1), value(2)), side);
 }

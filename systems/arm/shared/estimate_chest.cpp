@@ -41,45 +41,31 @@ ChestInputs chest_inputs(const ChestView& view, HandSide side) {
     return inputs;
 }
 
-// Limits of the pitch that the trunk follows: it follows pitch - turn, with the excess over
-// k_nod_rad and turn = excess^2 / (excess + k_nod_soft_rad), so at most the sum of both. Chosen on
-// body_train's train part, where heads look up by more than 15 degrees in 2 % of the frames.
-constexpr double k_nod_rad = 0.2;
-constexpr double k_nod_sine = 0.19866933079506122;  // of k_nod_rad
-constexpr double k_nod_soft_rad = 0.4;
-// The ears from the eyes, for an eye height of k_scale_eye_m.
-constexpr double k_ears_below_m = 0.05;
-constexpr double k_ears_behind_m = 0.08;
-
-// Limits of an arm that reaches across the chest. Angles: of the line from shoulder to hand, from
-// straight ahead towards the other side, seen along the chest's up axis. In body_train, arms that
-// reach more than 0.85 arm lengths away in this view are beyond 45 degrees in 0.3 % of the frames,
-// and beyond 65 degrees in 0.1 %.
-constexpr double k_across_rad = 0.698;       // 40 degrees; beyond, the chest begins to turn
-constexpr double k_across_soft_rad = 0.349;  // turn = excess^2 / (excess + k_across_soft_rad)
-// Beyond these angles the hand may as well be behind the back: the turn fades to zero.
-constexpr double k_across_fades_rad = 1.92;
-constexpr double k_across_ends_rad = 2.618;
-// Distances in that view, in arm lengths, between which the turn fades in. A bent arm reaches
-// farther across.
-constexpr double k_across_bent = 0.9;
-constexpr double k_across_straight = 1.05;
+// Of turn_to_reach_across, for smoothness. Angles: of the line from shoulder to hand, from straight
+// ahead towards the other side, seen along the chest's up axis; distances in that view, in arm
+// lengths. With the excess over body_constants::k_across_rad, turn = excess^2 / (excess +
+// k_across_soft_rad); it fades in over k_across_fade from body_constants::k_across_bent.
+constexpr double k_across_soft_rad = 0.349;
+constexpr double k_across_fade = 0.15;
 // The turn fades out if the other hand is inside of its own shoulder by so many arm lengths: then
 // the hands are not on one side.
 constexpr double k_other_inside = 0.2;
-constexpr double k_other_outside = 0.0;
+// Beyond these angles the hand may as well be behind the back: the turn fades to zero.
+constexpr double k_across_fades_rad = 1.92;
+constexpr double k_across_ends_rad = 2.618;
 
 // The turn (rad, >= 0) for an arm that reaches across. Hands from their own shoulders, in the axes
 // of the chest and arm lengths, mirrored so that `hand` is the right one.
 double across_turn(const Vec3& hand, const Vec3& other) {
     const double distance = std::sqrt(hand.x() * hand.x() + hand.z() * hand.z());
-    const double share = smooth_step(distance, k_across_bent, k_across_straight) *
-                         smooth_step(-other.x(), -k_other_inside, -k_other_outside);
+    constexpr double k_bent = body_constants::k_across_bent;
+    const double share = smooth_step(distance, k_bent, k_bent + k_across_fade) *
+                         smooth_step(-other.x(), -k_other_inside, 0.0);
     if (share == 0.0 || hand.x() >= 0.0) {
         return 0.0;
     }
     const double angle = arc_tangent2(-hand.x(), -hand.z());
-    const double excess = angle - k_across_rad;
+    const double excess = angle - body_constants::k_across_rad;
     if (excess <= 0.0) {
         return 0.0;
     }
@@ -94,14 +80,15 @@ TrunkView trunk_view(const TrackedBody& body, const BodyAxes& axes) {
     const Vec3 ahead = -axes.head.col(2);
     TrunkView view{body.head_ps.position, up};
     const double sine_pitch = ahead.y();
-    if (sine_pitch <= k_nod_sine) {
+    if (sine_pitch <= 0.0) {
         return view;
     }
+    using namespace body_constants;
     const double level = std::sqrt(std::max(0.0, 1.0 - sine_pitch * sine_pitch));
-    const double excess = std::max(0.0, arc_tangent2(sine_pitch, level) - k_nod_rad);
+    const double pitch = arc_tangent2(sine_pitch, level);
     double sine = 0.0;
     double cosine = 1.0;
-    sin_cos(excess * excess / (excess + k_nod_soft_rad), sine, cosine);
+    sin_cos(pitch * pitch / (pitch + k_nod_rad), sine, cosine);
     const double scale = body.measures.eye_height_m / k_scale_eye_m;
     view.up_ps = cosine * up + sine * ahead;
     const Vec3 ahead_then = cosine * ahead - sine * up;

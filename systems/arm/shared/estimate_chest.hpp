@@ -12,8 +12,8 @@
 // Constants: body_constants.hpp, fitted by tools/lab/fit_body.
 namespace handhold {
 
-// The head as the trunk follows it. If the head looks up by more than about 20 degrees, it turns
-// about the ears alone, and the trunk does not follow. Otherwise the eyes and the head's up axis.
+// The head as the trunk follows it: eyes and up axis. A head that looks up turns ever more about
+// the ears alone: of a pitch p the trunk follows p k / (p + k), with k = body_constants::k_nod_rad.
 struct TrunkView {
     Vec3 eyes_ps;
     Vec3 up_ps;

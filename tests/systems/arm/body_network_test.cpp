@@ -22,9 +22,14 @@ std::array<float, Size> random_values(Random& random, double size) {
 }
 
 Network random_network(Random& random) {
-    return {random_values<5>(random, 1.0),  {1.0F, 2.0F, 0.5F, 1.5F, 1.0F},
-            random_values<35>(random, 1.0), random_values<7>(random, 1.0),
-            random_values<21>(random, 1.0), random_values<3>(random, 1.0)};
+    return {random_values<5>(random, 1.0),
+            {1.0F, 2.0F, 0.5F, 1.5F, 1.0F},
+            random_values<35>(random, 1.0),
+            random_values<7>(random, 1.0),
+            random_values<21>(random, 1.0),
+            random_values<3>(random, 1.0),
+            3.0,
+            8.0};
 }
 
 // Oracle: the documented equation in double precision.

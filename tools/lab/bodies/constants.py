@@ -1,4 +1,6 @@
 """Writes the fitted constants as the header that the runtime compiles in."""
+import textwrap
+
 import numpy as np
 
 from .estimator import LOOK_LAGS_S
@@ -26,7 +28,7 @@ def network_text(name, network):
     """Outputs are scaled here, so that the runtime need not."""
     parts = [network.mean, 1.0 / network.deviation, network.weights[0].ravel(), network.bias[0], (network.weights[1] * network.scale).ravel(),
              network.bias[1] * network.scale]
-    lists = ",\n".join("    {{\n" + wrapped_list(part, "F", "        ") + "\n    }}" for part in parts)
+    lists = ",\n".join(["    {{\n" + wrapped_list(part, "F", "        ") + "\n    }}" for part in parts] + [f"    {number(network.familiar)}, {number(network.foreign)}"])
     inputs, hidden, outputs = network.weights[0].shape[0], network.weights[0].shape[1], network.weights[1].shape[1]
     return (f"inline constexpr std::size_t k_{name}_inputs = {inputs};\n"
             f"inline constexpr std::size_t k_{name}_outputs = {outputs};\n"
@@ -34,12 +36,20 @@ def network_text(name, network):
 
 
 def comment(lines):
-    return "".join(f"// {line}".rstrip() + "\n" for line in lines)
+    """Wrapped; what a line continues is indented by two more than the line."""
+    wrapped = []
+    for line in lines:
+        indent = line[:len(line) - len(line.lstrip())]
+        wrapped += textwrap.wrap(line, COLUMNS, initial_indent="", subsequent_indent=indent + "  ")
+    return "".join(f"// {line}\n" for line in wrapped)
 
 
-def header(notes, chest, pole, chest_network, elbow_network):
-    """notes: lines of the leading comment. chest, pole: constants of the talk's form."""
-    scalars = "".join(f"inline constexpr double k_{name} = {number(value)};\n" for name, value in chest.items())
+def scalars(values):
+    return "".join(f"inline constexpr double k_{name} = {number(value)};\n" for name, value in values.items())
+
+
+def header(notes, chest, across, pole, fade, chest_network, elbow_network):
+    """notes: lines of the leading comment. The others: {name: value} or network."""
     rest = ", ".join(number(pole[name]) for name in ("rest_x", "rest_y", "rest_z"))
     wrist = "".join(f"inline constexpr double k_pole_{name} = {number(pole[name])};\n" for name in ("fingers", "back", "thumb"))
     lags = ", ".join(number(lag) for lag in LOOK_LAGS_S)
@@ -58,12 +68,18 @@ namespace handhold::body_constants {{
 // Time constants of ArmMemory::looks_ps. The talk's form turns from the first.
 inline constexpr std::array<double, k_look_filters> k_look_lags_s = {{{lags}}};
 
-// The talk's form: chest_facing, chest_lean, chest_pose. Lengths: for an eye height of 1.6 m.
-{scalars}
+// The talk's form: chest_facing, chest_lean, chest_pose; trunk_view (nod, ears). Lengths: for an
+// eye height of 1.6 m.
+{scalars(chest)}
+// turn_to_reach_across: the angle at which the turn begins, and the hand's distance, arm lengths.
+{scalars(across)}
 // The talk's form: elbow_pole. The rest direction is that of a right arm, in torso axes.
 inline constexpr std::array<double, 3> k_pole_rest = {{{rest}}};
 {wrist}
-// Inputs: chest_inputs in estimate_chest.cpp. Outputs: turn to the left (rad), middle of the shoulders (m), tangent of the roll.
+// Distances of a hand from its shoulder, arm lengths, between which the elbow's network fades in.
+{scalars(fade)}
+// Inputs: chest_inputs in estimate_chest.cpp. Outputs: turn to the left (rad), middle of the
+// shoulders (m), tangent of the roll.
 {network_text("chest", chest_network)}
 // Inputs: elbow_correction in elbow_direction.cpp. Outputs: added to elbow_pole.
 {network_text("elbow", elbow_network)}

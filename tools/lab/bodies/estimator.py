@@ -1,18 +1,19 @@
 """The estimator of systems/arm in numpy, for all frames at once, without its low-pass filters: what tools/lab/fit_body fits.
 
 Arrays are (frames, ...); per arm (2, frames, ...), left first. Axes as in the runtime: +Y up, -Z forward, yaw positive to the left."""
+import copy
+
 import numpy as np
 
 from .scoring import across, turned, unit, wrapped_deg
 
 LOOK_LAGS_S = (0.15, 0.35, 1.0)  # body_constants::k_look_lags_s; the talk's form uses the first
-CHEST_LIMIT_RAD = 1.3962634015954636  # ArmTuning, as are the next four
+CHEST_LIMIT_RAD = 1.3962634015954636  # ArmTuning, as are the next four, and the cone
 REACH, FOLLOW_M, CLAVICLE_LIFT, CLAVICLE_SHARE = 0.995, 0.06, 0.35, 0.8
 CLAVICLE_CURVE = ((0.0, 0.7, 0.85, 1.05, 1.2), (0.006, 0.010, 0.018, 0.032, 0.070))
 SCALE_EYE_M = 1.6
 MIRROR = np.array([-1.0, 1.0, 1.0])
-NOD_RAD, NOD_SOFT_RAD, EARS_BELOW_M, EARS_BEHIND_M = 0.2, 0.4, 0.05, 0.08  # estimate_chest.cpp, trunk_view
-NEAR_SHOULDER, CLEAR = 0.3, 0.7  # elbow_direction.cpp: k_near_shoulder, k_clear
+CONE, CONE_COSINE = np.array([0.54, -0.64, -0.54]), -0.087
 STEP_S = 1.0 / 90.0  # the runtime subdivides longer frames
 
 
@@ -78,7 +79,30 @@ def low_passed(yaw, clip, hz, lag_s):
     return result
 
 
-class Motion:
+class Tracked:
+    """Heads and hands, and sizes of bodies."""
+
+    def reach(self, side):
+        """A hand from the eyes, in arm lengths."""
+        return (self.hand_m[side] - self.eye_m) / self.arm_m[:, None]
+
+    def hand_axes(self, yaw, side):
+        """Fingers and back of a hand in the axes of a facing."""
+        return to_facing(yaw, -self.hand[side][..., 2]), to_facing(yaw, self.hand[side][..., 1])
+
+    def rows(self, mask):
+        """The frames of a mask."""
+        result = copy.copy(self)
+        for name, values in vars(self).items():
+            setattr(result, name, values[mask] if len(values) == len(mask) else values[:, mask])
+        return result
+
+    def size(self, eye_height_m, upper_m, forearm_m, width_m):
+        self.scale, self.upper_m, self.forearm_m, self.width_m = eye_height_m / SCALE_EYE_M, upper_m, forearm_m, width_m
+        self.arm_m = upper_m + forearm_m
+
+
+class Motion(Tracked):
     """Recorded frames with their truth: those that are valid, `hz` of them a second."""
 
     def __init__(self, recording, truth, clips, hz):
@@ -91,35 +115,27 @@ class Motion:
         self.head, self.look, self.looks = head[rows], look[rows], looks[:, rows]
         self.eye_m, self.hand_m, self.hand = recording.head_m[rows], recording.hand_m[:, rows], matrices(recording.hand_xyzw[:, rows])
         self.yaw, self.shoulder_m, self.elbow_m = np.radians(truth.yaw_deg[rows]), truth.shoulder_m[:, rows], truth.elbow_m[:, rows]
-        sizes = np.array([clips.measures[each] for each in recording.clip[rows]])
-        self.scale, self.upper_m, self.forearm_m, self.width_m = sizes[:, 0] / SCALE_EYE_M, sizes[:, 1], sizes[:, 2], sizes[:, 3]
-        self.arm_m = self.upper_m + self.forearm_m
+        self.size(*np.array([clips.measures[each] for each in recording.clip[rows]]).T)
         self.person = np.array([clips.person[each] for each in recording.clip[rows]])
         self.source = np.array([clips.source[each] for each in recording.clip[rows]])
-
-    def reach(self, side):
-        """A hand from the eyes, in arm lengths."""
-        return (self.hand_m[side] - self.eye_m) / self.arm_m[:, None]
-
-    def hand_axes(self, yaw, side):
-        """Fingers and back of a hand in the axes of a facing."""
-        return to_facing(yaw, -self.hand[side][..., 2]), to_facing(yaw, self.hand[side][..., 1])
 
 
 # ---- the talk's form
 
 CHEST_START = {"hand_share": 0.15, "line_share": 1.35, "roll_share": 0.1, "lean": 0.5, "neck_m": 0.16, "shoulders_up_m": -0.061,
-               "shoulders_back_m": 0.07}
+               "shoulders_back_m": 0.07, "nod_rad": 0.4, "ears_below_m": 0.05, "ears_behind_m": 0.08}
+FADE_START = {"near_shoulder": 0.3, "off_shoulder": 0.7}
 POLE_START = {"rest_x": 0.2, "rest_y": -0.29, "rest_z": 0.3, "fingers": -0.55, "back": 0.14, "thumb": -0.34}
 
 
-def trunk_view(motion):
+def trunk_view(motion, constants):
     """(eyes, up) of the head as the trunk follows it: a head that looks up turns about its ears alone."""
     up, ahead = motion.head[..., 1], -motion.head[..., 2]
-    excess = np.maximum(0.0, np.arcsin(np.clip(ahead[:, 1:2], -1.0, 1.0)) - NOD_RAD)
-    turn = excess ** 2 / (excess + NOD_SOFT_RAD)
+    pitch = np.arcsin(np.clip(ahead[:, 1:2], 0.0, 1.0))
+    turn = pitch ** 2 / (pitch + constants["nod_rad"])
     up_then, ahead_then = np.cos(turn) * up + np.sin(turn) * ahead, np.cos(turn) * ahead - np.sin(turn) * up
-    return motion.eye_m + motion.scale[:, None] * (EARS_BELOW_M * (up_then - up) + EARS_BEHIND_M * (ahead_then - ahead)), up_then
+    from_ears = constants["ears_below_m"] * (up_then - up) + constants["ears_behind_m"] * (ahead_then - ahead)
+    return motion.eye_m + motion.scale[:, None] * from_ears, up_then
 
 
 def lean_of(head_up, share):
@@ -141,7 +157,7 @@ def talked_facing(motion, constants):
     rolled = np.sum(lean[..., 1] * (motion.hand[1][..., 1] - motion.hand[0][..., 1]), -1)
     across_x = constants["hand_share"] * (left + right)[:, 0] + constants["line_share"] * line[:, 2] + constants["roll_share"] * rolled
     ahead = 1.0 - constants["hand_share"] * (left + right)[:, 2] + constants["line_share"] * np.maximum(line[:, 0], 0.0)
-    return look + np.clip(np.arctan2(-across_x, ahead), -CHEST_LIMIT_RAD, CHEST_LIMIT_RAD), lean_of(trunk_view(motion)[1], constants["lean"])
+    return look + np.clip(np.arctan2(-across_x, ahead), -CHEST_LIMIT_RAD, CHEST_LIMIT_RAD), lean_of(trunk_view(motion, constants)[1], constants["lean"])
 
 
 def chest_at(motion, constants, yaw, lean):
@@ -150,7 +166,7 @@ def chest_at(motion, constants, yaw, lean):
     flat = np.stack([np.stack([-f[:, 2], 0.0 * yaw, f[:, 0]], -1), np.tile([0.0, 1.0, 0.0], (len(yaw), 1)), -f], -1)
     axes = np.einsum("nij,njk->nik", lean, flat)
     from_neck = axes @ np.array([0.0, constants["shoulders_up_m"], constants["shoulders_back_m"]])
-    eyes, up = trunk_view(motion)
+    eyes, up = trunk_view(motion, constants)
     return eyes + motion.scale[:, None] * (from_neck - constants["neck_m"] * up), axes
 
 
@@ -161,6 +177,27 @@ def resting_shoulders(motion, constants, yaw, lean, offset):
     right = unit(axes[..., 0] + offset[:, 3:4] * axes[..., 1])
     half = 0.5 * motion.width_m[:, None] * right
     return np.stack([middle - half, middle + half])
+
+
+# ---- arms that reach across the chest
+
+ACROSS_FADES_RAD, ACROSS_ENDS_RAD = 1.92, 2.618  # estimate_chest.cpp, as are the next three
+ACROSS_SOFT_RAD, ACROSS_FADE, OTHER_INSIDE = 0.349, 0.15, 0.2
+
+
+def across_turn(hand, other, constants):
+    """Hands from their own shoulders in the chest's axes, in arm lengths, mirrored so that `hand` is the right one."""
+    share = smooth_step(np.hypot(hand[:, 0], hand[:, 2]), constants["across_bent"], constants["across_bent"] + ACROSS_FADE)
+    share = share * smooth_step(-other[:, 0], -OTHER_INSIDE, 0.0)
+    angle = np.arctan2(-hand[:, 0], -hand[:, 2])
+    excess = np.maximum(0.0, angle - constants["across_rad"])
+    ahead = 1.0 - smooth_step(angle, ACROSS_FADES_RAD, ACROSS_ENDS_RAD)
+    return share * ahead * excess ** 2 / (excess + ACROSS_SOFT_RAD)
+
+
+def turn_to_reach_across(motion, yaw, lean, resting, constants):
+    left, right = (to_facing(yaw, times_transposed(lean, (motion.hand_m[side] - resting[side]) / motion.arm_m[:, None])) for side in (0, 1))
+    return across_turn(right, left, constants) - across_turn(left * MIRROR, right * MIRROR, constants)
 
 
 # ---- the networks' inputs; the order is that of estimate_chest.cpp and elbow_direction.cpp
@@ -194,9 +231,9 @@ def elbow_inputs(motion, yaw, shoulders, side):
     return np.concatenate([axis, distance / arm, fingers, back, products(axis, fingers), products(axis, back), up, turn, other / arm], -1).astype(np.float32)
 
 
-def elbow_trust(inputs):
-    """Weight of the elbow network's outputs: 0 for a hand at the shoulder. inputs: of elbow_inputs."""
-    return smooth_step(inputs[:, 3:4], NEAR_SHOULDER, CLEAR)
+def elbow_trust(inputs, fade):
+    """Weight of the elbow network's outputs: 0 for a hand at the shoulder. inputs: of elbow_inputs. fade: distances in arm lengths, see FADE_START."""
+    return smooth_step(inputs[:, 3:4], fade["near_shoulder"], fade["off_shoulder"])
 
 
 def shoulders_of(motion, yaw, resting):
@@ -216,13 +253,13 @@ def shoulders_of(motion, yaw, resting):
     return np.stack(result)
 
 
-class Elbows:
-    """Circles on which the elbows of one side lie, and the truth in them; mirrored to the right arm."""
+class Circles:
+    """Circles on which the elbows of one side lie; mirrored to the right arm, in the axes of the chest's facing, from the shoulder."""
 
     def __init__(self, motion, yaw, shoulders, side):
-        mirror, _ = mirror_of(side)
-        view = lambda points: to_facing(yaw, points) * mirror
-        reach = view(motion.hand_m[side] - shoulders[side])
+        self.mirror, _ = mirror_of(side)
+        self.yaw, self.shoulder_m = yaw, shoulders[side]
+        reach = self.view(motion.hand_m[side] - self.shoulder_m)
         distance = np.linalg.norm(reach, axis=-1)
         self.axis = reach / np.maximum(distance, 1e-6)[:, None]
         stretch = np.maximum(1.0, distance / (REACH * motion.arm_m))
@@ -230,32 +267,59 @@ class Elbows:
         along = np.clip(0.5 * (distance + (upper - forearm) * (upper + forearm) / np.maximum(distance, 1e-9)), -upper, upper)
         self.radius_m = np.sqrt(np.maximum((upper - along) * (upper + along), 0.0))
         self.middle_m = along[:, None] * self.axis
-        self.true_m = view(motion.elbow_m[side] - shoulders[side])
-        # The true elbow's direction, carried from the true line to the estimated one.
-        line = unit(view(motion.hand_m[side] - motion.shoulder_m[side]))
-        aside = across(view(motion.elbow_m[side] - motion.shoulder_m[side]), line)
-        self.true_radius_m = np.linalg.norm(aside, axis=-1)
-        bend = turned(aside, line, self.axis)
-        level_axis = np.cross(self.axis, [0.0, 1.0, 0.0])
-        steep = np.linalg.norm(level_axis, axis=-1) < 0.3
-        level_axis[steep] = np.cross(self.axis[steep], [0.0, 0.0, 1.0])
-        self.first = unit(level_axis)
-        self.second = np.cross(self.axis, self.first)
-        self.true_bend = unit(self.on_circle(bend))
-        fingers, back = (each * mirror for each in motion.hand_axes(yaw, side))
+        fingers, back = (each * self.mirror for each in motion.hand_axes(yaw, side))
         self.hand = np.stack([fingers, back, np.cross(back, fingers)], 1)
 
-    def on_circle(self, direction):
-        return np.stack([np.sum(direction * self.first, -1), np.sum(direction * self.second, -1)], -1)
+    def view(self, points):
+        return to_facing(self.yaw, points) * self.mirror
 
     def talked_pole(self, constants):
         rest = np.array([constants["rest_x"], constants["rest_y"], constants["rest_z"]])
         return rest + np.einsum("nkj,k->nj", self.hand, [constants["fingers"], constants["back"], constants["thumb"]])
 
+    def bend(self, pole):
+        """Unit vectors from the circles' middles towards the elbows: the pole's direction, turned into the shoulder's cone."""
+        bend = unit(across(pole, self.axis))
+        upper = np.sqrt(np.sum(self.middle_m ** 2, -1) + self.radius_m ** 2)
+        needs = upper * np.linalg.norm(CONE) * CONE_COSINE - self.middle_m @ CONE
+        aside = CONE - self.axis * (self.axis @ CONE)[:, None]
+        length = np.linalg.norm(aside, axis=-1)
+        best = aside / np.maximum(length, 1e-9)[:, None]
+        cosine = np.clip(needs / np.maximum(self.radius_m * length, 1e-9), -1.0, 1.0)[:, None]
+        square = np.cross(self.axis, best)
+        sine = np.sqrt(1.0 - cosine ** 2) * np.where(np.sum(square * bend, -1) < 0.0, -1.0, 1.0)[:, None]
+        stays = (self.radius_m * (bend @ CONE) >= needs) | (length < 1e-6)
+        return np.where(stays[:, None], bend, cosine * best + sine * square)
+
+    def elbow_m(self, bend):
+        """Elbows in play space."""
+        return self.shoulder_m + from_facing(self.yaw, (self.middle_m + self.radius_m[:, None] * bend) * self.mirror)
+
+
+class Elbows(Circles):
+    """Circles, and the truth in them."""
+
+    def __init__(self, motion, yaw, shoulders, side):
+        super().__init__(motion, yaw, shoulders, side)
+        # The true elbow's direction, carried from the true line to the estimated one.
+        line = unit(self.view(motion.hand_m[side] - motion.shoulder_m[side]))
+        aside = across(self.view(motion.elbow_m[side] - motion.shoulder_m[side]), line)
+        self.true_m, self.true_radius_m = motion.elbow_m[side], np.linalg.norm(aside, axis=-1)
+        level_axis = np.cross(self.axis, [0.0, 1.0, 0.0])
+        steep = np.linalg.norm(level_axis, axis=-1) < 0.3
+        level_axis[steep] = np.cross(self.axis[steep], [0.0, 0.0, 1.0])
+        self.first = unit(level_axis)
+        self.second = np.cross(self.axis, self.first)
+        self.true_bend = unit(self.on_circle(turned(aside, line, self.axis)))
+
+    def on_circle(self, direction):
+        return np.stack([np.sum(direction * self.first, -1), np.sum(direction * self.second, -1)], -1)
+
     def errors(self, pole):
         """(signed swivel in degrees or NaN, elbow in cm)."""
-        bend = unit(self.on_circle(pole))
+        direction = self.bend(pole)
+        bend = self.on_circle(direction)
         sine = bend[:, 0] * self.true_bend[:, 1] - bend[:, 1] * self.true_bend[:, 0]
         swivel = np.degrees(np.arctan2(sine, np.sum(bend * self.true_bend, -1)))
-        elbow = self.middle_m + self.radius_m[:, None] * (bend[:, :1] * self.first + bend[:, 1:] * self.second)
-        return np.where(self.true_radius_m > 0.04, swivel, np.nan), 100.0 * np.linalg.norm(elbow - self.true_m, axis=-1)
+        elbow_cm = 100.0 * np.linalg.norm(self.elbow_m(direction) - self.true_m, axis=-1)
+        return np.where(self.true_radius_m > 0.04, swivel, np.nan), elbow_cm

@@ -1,7 +1,7 @@
 """Fits the constants of systems/arm: first the talk's form, then the networks that correct it."""
 import numpy as np
 
-from . import estimator
+from . import choosing, estimator
 from .estimator import Elbows
 from .network import Network, epochs
 
@@ -9,6 +9,7 @@ CHEST_SCALE = (0.15, 0.04, 0.04, 0.04, 0.2)  # rad; m, m, m; tangent of the roll
 CHEST_LATERAL = np.array([-1.0, -1.0, 1.0, 1.0, -1.0], np.float32)  # signs of the left side's outputs
 POLE_SCALE = (0.3, 0.3, 0.3)
 BATCH = 512
+LOOKS_UP_DEG = 15.0
 
 
 def descend(cost, constants, steps, rounds=4):
@@ -39,7 +40,38 @@ def fit_talked_chest(motion):
         return soft(estimator.wrapped(yaw - motion.yaw), 0.05) / 0.15 + soft(off, 0.01) / 0.05
 
     steps = {"hand_share": 0.05, "line_share": 0.3, "roll_share": 0.05, "lean": 0.1, "neck_m": 0.02, "shoulders_up_m": 0.02, "shoulders_back_m": 0.02}
-    return descend(cost, estimator.CHEST_START, steps)
+    constants = estimator.CHEST_START
+    for _ in range(2):
+        constants = fit_trunk_view(motion, descend(cost, constants, steps))
+    return constants
+
+
+def looks_up(motion):
+    return motion.head[:, 1, 2] < -np.sin(np.radians(LOOKS_UP_DEG))
+
+
+def shoulders_at_truth(motion, constants):
+    """Error of both shoulders in the talk's form, cm, if the chest faced where it truly does."""
+    lean = estimator.talked_facing(motion, constants)[1]
+    resting = estimator.resting_shoulders(motion, constants, motion.yaw, lean, np.zeros((len(motion.yaw), 4)))
+    return 100.0 * np.linalg.norm(estimator.shoulders_of(motion, motion.yaw, resting) - motion.shoulder_m, axis=-1)
+
+
+def fit_trunk_view(motion, constants):
+    """The constants of trunk_view, by the frames that look up alone, as long as all frames together do not get worse."""
+    rare = motion.rows(looks_up(motion))
+    if not len(rare.yaw):
+        return constants
+    error = lambda frames, now: choosing.mean_over_people(shoulders_at_truth(frames, now), frames.person)
+    whole = error(motion, constants)
+
+    def cost(now):
+        if now["nod_rad"] < 0.05 or now["ears_below_m"] < 0.0 or now["ears_behind_m"] < 0.0:
+            return np.inf
+        return error(rare, now)
+
+    fitted = descend(cost, constants, {"nod_rad": 0.2, "ears_below_m": 0.04, "ears_behind_m": 0.04})
+    return fitted if error(motion, fitted) <= whole else constants
 
 
 def fit_talked_pole(circles):
@@ -77,8 +109,8 @@ class Chest:
         turn = estimator.wrapped(motion.yaw - self.talked)
         return np.concatenate([turn[:, None], offset, roll[:, None]], -1)
 
-    def corrected(self, network):
-        """(yaw, resting shoulders)."""
+    def corrected(self, network, across=None):
+        """(yaw, resting shoulders). across: constants of the turn towards an arm that reaches across, or None: without it."""
         if network is None:
             offset = np.zeros((len(self.talked), 5))
         else:
@@ -86,7 +118,10 @@ class Chest:
             familiar = np.minimum(*(network.familiarity(each) for each in self.inputs))
             offset = 0.5 * familiar[:, None] * (right + CHEST_LATERAL * left)
         yaw = self.talked + offset[:, 0]
-        return yaw, estimator.resting_shoulders(self.motion, self.constants, yaw, self.lean, offset[:, 1:])
+        resting = lambda: estimator.resting_shoulders(self.motion, self.constants, yaw, self.lean, offset[:, 1:])
+        if across:
+            yaw = yaw + estimator.turn_to_reach_across(self.motion, yaw, self.lean, resting(), across)
+        return yaw, resting()
 
 
 def fit_chest(chest, hidden, rounds, noise, decay, seed):
@@ -105,19 +140,20 @@ def fit_chest(chest, hidden, rounds, noise, decay, seed):
 
 
 class Arms:
-    """The elbows' estimate of all frames, given the chest's."""
+    """The elbows' estimate of all frames, given the chest's. fade: of elbow_trust. kind: Circles if there is no truth."""
 
-    def __init__(self, motion, yaw, resting):
-        shoulders = estimator.shoulders_of(motion, yaw, resting)
-        self.motion = motion
-        self.circles = [Elbows(motion, yaw, shoulders, side) for side in (0, 1)]
+    def __init__(self, motion, yaw, resting, fade, kind=Elbows):
+        self.shoulders_m = estimator.shoulders_of(motion, yaw, resting)
+        shoulders, self.motion, self.fade = self.shoulders_m, motion, fade
+        self.circles = [kind(motion, yaw, shoulders, side) for side in (0, 1)]
         self.inputs = [estimator.elbow_inputs(motion, yaw, shoulders, side) for side in (0, 1)]
 
     def poles(self, constants, network):
         poles = [each.talked_pole(constants) for each in self.circles]
         if network is None:
             return poles
-        return [pole + estimator.elbow_trust(inputs) * network.familiarity(inputs)[:, None] * network.outputs(inputs) for pole, inputs in zip(poles, self.inputs)]
+        trusts = [estimator.elbow_trust(inputs, self.fade) * network.familiarity(inputs)[:, None] for inputs in self.inputs]
+        return [pole + trust * network.outputs(inputs) for pole, trust, inputs in zip(poles, trusts, self.inputs)]
 
     def errors(self, constants, network):
         """(signed swivel (2, frames), elbow in cm (2, frames))."""
@@ -160,7 +196,7 @@ def fit_elbow(arms, constants, hidden, rounds, noise, decay, seed):
     offsets = SourceOffsets(np.tile(arms.motion.source, 2))
     wanted = true_bend
     z = network.scaled(np.concatenate(arms.inputs))
-    scale = network.scale * estimator.elbow_trust(np.concatenate(arms.inputs))
+    scale = network.scale * estimator.elbow_trust(np.concatenate(arms.inputs), arms.fade)
     weights = np.tile(person_weights(arms.motion.person), 2) * np.minimum(radius / 0.1, 1.5) ** 0.7
     bent = np.flatnonzero(radius > 0.02)
     for rows, rate, begins in epochs(rounds, bent, 2 * BATCH, 3e-3, random):

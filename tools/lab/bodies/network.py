@@ -3,7 +3,7 @@ import numpy as np
 
 from .estimator import smooth_step
 
-LIMIT, FAMILIAR, FOREIGN = 4.0, 3.0, 8.0  # standard deviations; mean squares
+LIMIT = 4.0  # standard deviations
 
 
 def activation(z):
@@ -13,7 +13,8 @@ def activation(z):
 
 
 class Network:
-    """One hidden layer. scale: of the outputs, for the training."""
+    """One hidden layer. scale: of the outputs, for the training. familiar, foreign: mean squares of the inputs, in standard deviations, between
+    which the answers fade out."""
 
     def __init__(self, inputs, hidden, scale, random):
         self.mean, self.deviation = inputs.mean(0), np.maximum(inputs.std(0), 0.05)
@@ -25,6 +26,7 @@ class Network:
         self.first = [np.zeros_like(each) for each in self.weights + self.bias]
         self.second = [np.zeros_like(each) for each in self.weights + self.bias]
         self.steps = 0
+        self.familiar, self.foreign = 3.0, 8.0
 
     def count(self):
         return sum(each.size for each in self.weights + self.bias) + 2 * len(self.mean)
@@ -33,7 +35,10 @@ class Network:
         return np.clip((inputs - self.mean) / self.deviation, -LIMIT, LIMIT).astype(np.float32)
 
     def familiarity(self, inputs):
-        return 1.0 - smooth_step(np.mean(((inputs - self.mean) / self.deviation) ** 2, -1), FAMILIAR, FOREIGN)
+        return 1.0 - smooth_step(self.mean_square(inputs), self.familiar, self.foreign)
+
+    def mean_square(self, inputs):
+        return np.mean(((inputs - self.mean) / self.deviation) ** 2, -1)
 
     def outputs(self, inputs):
         return self.scale * self.forward(self.scaled(inputs))
