@@ -1,14 +1,11 @@
 // Stages of frame_stages.hpp that compute the shown hands and bodies.
-#include <algorithm>
-#include <functional>
-
-#include "engine/core/parallel.hpp"
 #include "systems/arm/estimate_arms.hpp"
 #include "systems/arm/pose_arms.hpp"
 #include "systems/body/layer_additives.hpp"
 #include "systems/body/propagate_spine.hpp"
 #include "systems/body/publish_body.hpp"
 #include "systems/body/publish_pose.hpp"
+#include "systems/frame_slices.hpp"
 #include "systems/frame_stage_timer.hpp"
 #include "systems/frame_stages.hpp"
 #include "systems/hand/constrain_palms.hpp"
@@ -23,27 +20,9 @@ namespace handhold::stages {
 
 namespace {
 
-constexpr std::size_t k_hands_per_slice = 8;
-
-// Runs a hand stage in parallel on slices of the hands: stage(slice, first, last). Neither the
-// slices nor the sums of their counters depend on the number of threads.
 template <typename HandStage>
 void for_hand_slices(const FrameContext& f, const HandStage& stage) {
-    HandScratch& hands = f.hands();
-    const std::size_t count = hands.surroundings.size();
-    const std::size_t slices = (count + k_hands_per_slice - 1) / k_hands_per_slice;
-    if (hands.slices.size() < slices) {
-        hands.slices.resize(slices);
-    }
-    const auto run = [&](std::size_t slice, std::size_t first, std::size_t last) {
-        hands.slices[slice].stats.clear();
-        stage(hands.slices[slice], first, last);
-    };
-    parallel_slices(count, k_hands_per_slice, run);
-    for (std::size_t slice = 0; slice < slices; ++slice) {
-        std::ranges::transform(f.stats.fallbacks, hands.slices[slice].stats.fallbacks,
-                               f.stats.fallbacks.begin(), std::plus<>());
-    }
+    for_slices(f, f.hands().surroundings.size(), stage);
 }
 
 std::span<const HandSurroundings> hands_of(const FrameContext& f, std::size_t first,

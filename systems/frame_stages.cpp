@@ -1,6 +1,7 @@
 #include "systems/frame_stages.hpp"
 
 #include "systems/body/calibrate_players.hpp"
+#include "systems/frame_slices.hpp"
 #include "systems/frame_stage_timer.hpp"
 #include "systems/input/read_paused_tracking.hpp"
 #include "systems/input/read_tracking.hpp"
@@ -28,10 +29,13 @@ namespace handhold::stages {
 void read_tracking(const FrameContext& f) {
     const StageTimer timer(Stage::read_tracking, f.stats);
     World& w = f.w;
-    handhold::read_tracking(
-        {f.input.players, f.start_s(), f.end_s(), w.hand_owner, w.controller_to_hand,
-         w.head_tracking, w.hand_tracking, w.hand_history, w.player_commands},
-        f.tuning, f.stats);
+    const ReadTrackingIo io{f.input.players, f.start_s(),          f.end_s(),
+                            w.hand_owner,    w.controller_to_hand, w.head_tracking,
+                            w.hand_tracking, w.hand_history,       w.player_commands};
+    for_slices(f, w.head_tracking.size(),
+               [&](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
+                   handhold::read_tracking(io, first, last, f.tuning, slice.stats);
+               });
 }
 
 void read_paused_tracking(const FrameContext& f) {
@@ -105,10 +109,7 @@ void update_grabs(const FrameContext& f) {
 
 void update_sights(const FrameContext& f) {
     const StageTimer timer(Stage::update_grabs, f.stats);
-    const GrabSearch search = grab_search(f);
-    for (const Entity hand : f.w.grab.owners()) {
-        update_sight(search, hand, f.tuning);
-    }
+    handhold::update_sights(grab_search(f), f.tuning);
 }
 
 void locomote_players(const FrameContext& f) {

@@ -332,6 +332,7 @@ void read_player(const ReadTrackingIo& io, std::size_t row, const Tuning& tuning
     }
     read_head(head, space, input, io, tuning.tracking, stats);
     if (PlayerCommands* const commands = io.commands.find(player)) {
+        *commands = finite_commands(input.commands);
         commands->thrust_ps = head.shift_turn * commands->thrust_ps;
     }
 }
@@ -349,16 +350,17 @@ Pose default_controller_to_hand(HandSide side, const HandTuning& tuning) {
     return {offset, (pitch * roll).normalized()};
 }
 
-void read_tracking(const ReadTrackingIo& io, const Tuning& tuning, StageStats& stats) {
+void read_tracking(const ReadTrackingIo& io, std::size_t first, std::size_t last,
+                   const Tuning& tuning, StageStats& stats) {
     HH_CHECK(io.frame_end_s > io.frame_start_s, "the frame has no length",
              io.frame_end_s - io.frame_start_s);
-    for (std::size_t row = 0; row < io.commands.size(); ++row) {
-        io.commands.rows()[row] =
-            finite_commands(input_of(io, io.commands.owners()[row], row).commands);
-    }
-    for (std::size_t row = 0; row < io.head.size(); ++row) {
+    for (std::size_t row = first; row < last; ++row) {
         read_player(io, row, tuning, stats);
     }
+}
+
+void read_tracking(const ReadTrackingIo& io, const Tuning& tuning, StageStats& stats) {
+    read_tracking(io, 0, io.head.size(), tuning, stats);
 }
 
 }  // namespace handhold

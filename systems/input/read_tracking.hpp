@@ -39,6 +39,10 @@ struct ReadTrackingIo {
 //
 // Commands hold for their own frame. Numbers in them that are not finite count as 0.
 void read_tracking(const ReadTrackingIo& io, const Tuning& tuning, StageStats& stats);
+// The same for the players of the rows [first, last) of `head`. Ranges that share no player may be
+// read in parallel.
+void read_tracking(const ReadTrackingIo& io, std::size_t first, std::size_t last,
+                   const Tuning& tuning, StageStats& stats);
 
 // Pose of the hand in a controller without a ControllerToHand component. Mirrored in x for the left
 // hand.

@@ -366,9 +366,7 @@ void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& sta
     follow_parts(io, tuning.hand);
     release_overstretched_grabs(io, tuning.hand.max_stretch_m, stats);
     release_grabs_out_of_reach(io, tuning.hand, stats);
-    for (const Entity hand : io.grab.owners()) {
-        update_sight(io, hand, tuning);
-    }
+    update_sights(io, tuning);
     carry_out_orders(io, tuning, stats);
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         Grab& grab = io.grab.rows()[row];

@@ -7,6 +7,7 @@
 
 #include "components/hand_rows.hpp"
 #include "components/play_space.hpp"
+#include "engine/core/parallel.hpp"
 #include "systems/locomotion/shared/hand_sight.hpp"
 #include "systems/rigs/authored_hand.hpp"
 
@@ -334,8 +335,6 @@ bool needs_rays(const HandSight& sight, const Grab& grab, const HandTracking& ha
     return is_empty_fist || !is_near || !sight.is_known || !sight.is_clear;
 }
 
-}  // namespace
-
 // The outside point follows the palm while the palm is in sight. Otherwise, and while the hand
 // grips a surface, it travels with the body that the player last gripped: a ship, a lift.
 void update_sight(const GrabSearch& io, Entity entity, const Tuning& tuning) {
@@ -366,6 +365,22 @@ void update_sight(const GrabSearch& io, Entity entity, const Tuning& tuning) {
     }
     sight.frame = frame;
     sight.outside_bs = inverse_transform_point(sight_frame_ws(io, frame), lines.outside_ws);
+}
+
+}  // namespace
+
+void update_sights(const GrabSearch& io, const Tuning& tuning) {
+    constexpr std::size_t k_hands_per_slice = 8;
+    const auto update = [&](std::size_t /*slice*/, std::size_t first, std::size_t last) {
+        for (std::size_t row = first; row < last; ++row) {
+            update_sight(io, io.grab.owners()[row], tuning);
+        }
+    };
+    if (io.surfaces.any_thread()) {
+        parallel_slices(io.grab.size(), k_hands_per_slice, update);
+    } else {
+        update(0, 0, io.grab.size());
+    }
 }
 
 GrabSearchResult find_grab_target(const GrabSearch& io, Entity hand, const Pose& hand_ws,

@@ -58,8 +58,8 @@ struct GrabTarget {
     std::optional<BodyPart> part = {};  // of another player; none: their head
 };
 
-// Advances HandSight to the start of the frame.
-void update_sight(const GrabSearch& io, Entity entity, const Tuning& tuning);
+// Advances HandSight of all hands to the start of the frame.
+void update_sights(const GrabSearch& io, const Tuning& tuning);
 
 // What a closing hand grips, or why it grips nothing.
 struct GrabSearchResult {
