@@ -67,8 +67,8 @@ struct FrameGraph {
     Watches watches;
     std::vector<std::uint32_t> index_of_slot;  // by Entity::slot: index into `entities`
     std::vector<ColliderProxy> proxy_updates;  // scratch: proxies to send to the collision world
-    double heavy_body_kg = 0.0;            // of the last build_constraints
-    std::uint64_t proxy_set = 0;           // CollisionWorld::proxy_set() after place_colliders
+    double heavy_body_kg = 0.0;                // of the last build_constraints
+    std::uint64_t proxy_set = 0;               // CollisionWorld::proxy_set() after place_colliders
     struct PhaseBody {
         Pose reached_ws;  // pose after the reach phase
         // Players: 1/kappa, the factor on the player's inverse mass in the forward phase; from 0 to

@@ -44,7 +44,7 @@ struct BodySearch {
     bool known = false;
     Vec3 from_ws = Vec3::Zero();
     Vec3 to_ws = Vec3::Zero();
-    std::uint64_t near = 0;  // SurfaceQuery::hash_near around the line
+    std::uint64_t near = 0;  // hash of the cast's radius and of SurfaceQuery::hash_near
     bool hits = false;
     Vec3 point_ws = Vec3::Zero();
     Vec3 normal_ws = Vec3::UnitY();

@@ -11,7 +11,7 @@ namespace handhold::stages {
 
 // Runs a stage in parallel on slices of `count` rows: stage(slice, first, last), where `slice` is a
 // HandScratch::Slice. Neither the slices nor the sums of their counters depend on the number of
-// threads.
+// threads. Only fallbacks are summed: a stage in slices must not count anything else.
 template <typename SliceStage>
 void for_slices(const FrameContext& f, std::size_t count, const SliceStage& stage) {
     constexpr std::size_t k_rows_per_slice = 8;

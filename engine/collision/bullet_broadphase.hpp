@@ -58,8 +58,9 @@ class Broadphase {
     bool indices_changed() const { return indices_changed_; }
     void finish_pass();
     void set_isolated(std::size_t body, const Bounds& box_ws);
-    // Waits for some passes after a search for a region that found none. True if it waits.
-    bool waits_for_isolation(std::size_t body) {
+    // A search for a region that found none is not repeated in the next passes: among moving bodies
+    // it would find none in every pass. use_up_wait returns true while it waits.
+    bool use_up_wait(std::size_t body) {
         std::uint32_t& wait = bodies_[body].isolation_wait;
         return wait > 0 && wait-- > 0;
     }

@@ -232,7 +232,7 @@ void CollisionWorld::Impl::remember(const BodyPairs& body, std::span<const Conta
 void CollisionWorld::Impl::cache_isolation(const BodyPairs& body, double margin_m) {
     const std::span<const BroadphaseBody> bodies = broadphase.bodies();
     const BroadphaseBody& a = bodies[body.body];
-    if (body.is_isolated || !body.is_new || broadphase.waits_for_isolation(body.body)) {
+    if (body.is_isolated || !body.is_new || broadphase.use_up_wait(body.body)) {
         return;
     }
     Bounds box_ws = a.bounds_ws.grown(margin_m + k_isolation_reach_m);

@@ -98,7 +98,8 @@ std::optional<Approach> begin_approach(const ConvexPart& a, const RelativeMotion
     if (distance > 0.0) {
         const Vec3 normal = offset / distance;
         const double gap = gap_along(placed, b, normal);
-        if (gap > 10.0 * k_sweep_touch_m && gap > limit * max_closing_m(a, motion, normal)) {
+        if (gap > k_sweep_touch_m &&
+            gap - k_sweep_touch_m > limit * max_closing_m(a, motion, normal)) {
             return std::nullopt;
         }
     }

@@ -59,7 +59,8 @@ struct ContactPoint {
 };
 
 struct ContactLimits {
-    double margin_m = 0.02;  // contacts with a larger separation are dropped; > 0
+    // Contacts with a larger separation are dropped; > 0. A pair whose sweep touched keeps one.
+    double margin_m = 0.02;
     // Pairs whose relative displacement exceeds this are swept; > 0.
     double sweep_m = 0.005;
 };
@@ -134,8 +135,8 @@ class CollisionWorld {
     void find_contacts(const ContactLimits& limits, std::vector<ContactPoint>& contacts);
 
     // Depth of the deepest contact of two colliders at their end poses, with the sides of meshes as
-    // find_contacts chooses them for colliders at rest; 0 if they do not overlap. a must be convex.
-    // Shapes must be those of the last update_shapes; no other state is used.
+    // find_contacts chooses them for colliders at rest; 0 if they do not overlap, or if a is a
+    // mesh. Shapes must be those of the last update_shapes; no other state is used.
     double overlap_m(const ColliderProxy& a, const ColliderProxy& b) const;
 
     // Work since the last call.
@@ -159,8 +160,9 @@ class CollisionWorld {
     // Ids of the colliders whose bounds overlap the box, ascending. Valid until the calling
     // thread's next query.
     std::span<const std::uint64_t> find_near(const Vec3& low_ws, const Vec3& high_ws) const;
-    // Hash of the colliders whose bounds at their end poses overlap the box: their ids, shapes and
-    // end poses. If it is unchanged, so are the answers of all queries within the box.
+    // Hash of the colliders whose bounds at their end poses overlap the box: their ids, shape ids
+    // and end poses. If it is unchanged, so are the answers of all queries within the box, unless a
+    // shape was removed and its id went to another one.
     std::uint64_t hash_near(const Vec3& low_ws, const Vec3& high_ws,
                             std::span<const std::uint64_t> skip = {}) const;
     // Nearest surface point of the collider `id`, at any distance. nullopt if no collider has this

@@ -191,10 +191,12 @@ void add_deepest_at_end(const PairIo& io, const Pose& touch_ns, const Pose& to_n
     }
 }
 
-// Appends the contacts found at `pose_ns`, with their separation at `to_ns`. False if none is within
-// the margin there.
-bool append_contacts(const PairIo& io, const Pose& pose_ns, const Pose& to_ns) {
+// Appends the contacts found at `pose_ns` that are within the margin at `to_ns`. After an impact at
+// least the nearest one: the rest of the motion may leave the touch behind and end in another part
+// of b, and overlaps are looked for only in pairs with a contact.
+void append_contacts(const PairIo& io, const Pose& pose_ns, const Pose& to_ns, bool is_impact) {
     std::uint32_t feature = 0;
+    std::optional<ContactPoint> nearest;
     for (const NearContact& near : io.scratch.contacts) {
         ContactPoint contact;
         contact.point_a_bs = inverse_transform_point(pose_ns, near.point_a_ns);
@@ -205,9 +207,13 @@ bool append_contacts(const PairIo& io, const Pose& pose_ns, const Pose& to_ns) {
         if (contact.separation_m < io.limits.margin_m) {
             contact.feature = feature++;
             io.contacts.push_back(contact);
+        } else if (is_impact && (!nearest || contact.separation_m < nearest->separation_m)) {
+            nearest = contact;
         }
     }
-    return feature > 0;
+    if (feature == 0 && nearest) {
+        io.contacts.push_back(*nearest);
+    }
 }
 
 }  // namespace
@@ -216,25 +222,20 @@ void find_pair_contacts(const PairIo& io) {
     const Pose from_ns{io.from_bs.position - io.to_bs.position, io.from_bs.rotation};
     const Pose to_ns{Vec3::Zero(), io.to_bs.rotation};
     const RelativeMotion motion(from_ns, to_ns);
-    if (const std::optional<Impact> impact = first_impact(io, motion)) {
-        const Pose touch_ns = motion.at(impact->fraction);
-        io.scratch.contacts.clear();
-        add_contacts_at(io, touch_ns, from_ns);
-        if (io.scratch.contacts.empty()) {
-            io.scratch.contacts.push_back(
-                {impact->point_b_ns, impact->point_b_ns, impact->normal, 0.0, impact->part});
-        }
-        reduce_contacts(io.scratch.contacts, io.scratch.spare);
-        add_deepest_at_end(io, touch_ns, to_ns);
-        if (append_contacts(io, touch_ns, to_ns)) {
-            return;
-        }
-        // The rest of the motion leaves the touch behind, and may end in another part of b.
-    }
+    const std::optional<Impact> impact = first_impact(io, motion);
+    const Pose pose_ns = impact ? motion.at(impact->fraction) : to_ns;
+
     io.scratch.contacts.clear();
-    add_contacts_at(io, to_ns, from_ns);
+    add_contacts_at(io, pose_ns, from_ns);
+    if (impact && io.scratch.contacts.empty()) {
+        io.scratch.contacts.push_back(
+            {impact->point_b_ns, impact->point_b_ns, impact->normal, 0.0, impact->part});
+    }
     reduce_contacts(io.scratch.contacts, io.scratch.spare);
-    append_contacts(io, to_ns, to_ns);
+    if (impact) {
+        add_deepest_at_end(io, pose_ns, to_ns);
+    }
+    append_contacts(io, pose_ns, to_ns, impact.has_value());
 }
 
 }  // namespace handhold

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "engine/anim/deflect_outward.hpp"
+#include "engine/core/hash.hpp"
 #include "systems/body/shared/fold_body.hpp"
 
 namespace handhold {
@@ -68,10 +69,18 @@ bool is_tracked_floor(const Vec3& normal_ps, double surface_m, const TrackedFloo
 void search_part(const BodySurroundings& around, const Vec3& from_ws, const Vec3& to_ws,
                  double radius_m, BodySearch& search) {
     const std::array<std::uint64_t, 1> skip = {around.own_id};
-    const auto hash_near = [&] {
+    const auto hash_near = [&]() -> std::optional<std::uint64_t> {
         const Vec3 reach_m = Vec3::Constant(radius_m + k_moved_m);
-        return around.surfaces.hash_near(search.from_ws.cwiseMin(search.to_ws) - reach_m,
-                                         search.from_ws.cwiseMax(search.to_ws) + reach_m, skip);
+        const auto near =
+            around.surfaces.hash_near(search.from_ws.cwiseMin(search.to_ws) - reach_m,
+                                      search.from_ws.cwiseMax(search.to_ws) + reach_m, skip);
+        if (!near) {
+            return std::nullopt;
+        }
+        HashStream hash;
+        hash.add(*near);
+        hash.add(radius_m);
+        return hash.value();
     };
     constexpr double k_moved2 = k_moved_m * k_moved_m;
     if (search.known && (from_ws - search.from_ws).squaredNorm() < k_moved2 &&
@@ -113,16 +122,15 @@ BodyContact find_contact(const BodySurroundings& around, std::size_t part, Spine
         return transform_point(around.origin_ws, around.chest_ps + from_chest_m);
     };
     BodySearch& search = memory.searches[part];
-    search_part(around, in_world(line.from_m),
-                in_world(line.to_m + (line.beyond_m + k_ahead_m) * along),
-                std::min(line.radius_m + around.floor.scale * k_cast_wider_m, k_widest_cast_m),
-                search);
+    search_part(
+        around, in_world(line.from_m), in_world(line.to_m + (line.beyond_m + k_ahead_m) * along),
+        std::min(line.radius_m + around.floor.scale * k_cast_wider_m, k_widest_cast_m), search);
     if (!search.hits) {
         return {};
     }
     const Vec3 normal_ps = around.origin_ws.rotation.conjugate() * search.normal_ws;
-    const double surface_m = normal_ps.dot(
-        inverse_transform_point(around.origin_ws, search.point_ws) - around.chest_ps);
+    const double surface_m =
+        normal_ps.dot(inverse_transform_point(around.origin_ws, search.point_ws) - around.chest_ps);
     const double pelvis_m =  // of the chain before it is folded
         (around.floor.chest_m + memory.offset_m[k_spine_links - 1].y()) / around.floor.scale;
     if (legs_fold(pelvis_m) && is_tracked_floor(normal_ps, surface_m, around.floor)) {

@@ -12,8 +12,10 @@
 namespace handhold {
 namespace {
 
-// Bodies of heaps with more constraint blocks are not restored, because of the cost per frame.
-constexpr std::size_t k_max_restore_blocks = 300;
+// Bodies of heaps with more constraint blocks are not restored, because of the cost per frame. What
+// a player pushes should overlap less.
+constexpr std::size_t k_max_pushed_restore_blocks = 4000;
+constexpr std::size_t k_max_loose_restore_blocks = 300;
 // About the length of an arm's jump. A body that was dragged farther while penetrating stays.
 constexpr double k_max_restore_distance_m = 2.0;
 // Smaller overlaps with a restored body are left to the next frames: restoring a player as well
@@ -94,8 +96,16 @@ void add_if_penetrating(double restore_depth_m, std::uint32_t index, std::uint32
     }
 }
 
-// Lists the penetrating free bodies, grouped by island; a body without rows makes a group of its
-// own.
+bool is_too_large(const ConstraintGraph& graph, const Island& island) {
+    const bool has_player = std::ranges::any_of(graph.bodies_of(island), [&](std::uint32_t i) {
+        return graph.bodies[i].role == BodyRole::translating;
+    });
+    return island.is_heap &&
+           graph.blocks_of(island).size() >
+               (has_player ? k_max_pushed_restore_blocks : k_max_loose_restore_blocks);
+}
+
+// Lists the penetrating free bodies, grouped by island.
 void find_penetrating_bodies(double restore_depth_m, FrameGraph& frame, StageStats& stats) {
     const ConstraintGraph& graph = frame.graph;
     frame.penetrating_bodies.clear();
@@ -105,21 +115,12 @@ void find_penetrating_bodies(double restore_depth_m, FrameGraph& frame, StageSta
         if (worst_overlap_m(frame, island) < restore_depth_m) {
             continue;
         }
-        if (island.is_heap && graph.blocks_of(island).size() > k_max_restore_blocks) {
+        if (is_too_large(graph, island)) {
             stats.count(Fallback::solver_budget);
         } else {
             for (const std::uint32_t index : graph.bodies_of(graph.islands[i])) {
                 add_if_penetrating(restore_depth_m, index, i, frame);
             }
-        }
-    }
-    for (const std::uint32_t index : frame.hidden_overlaps.deep) {
-        const auto involves_body = [index](const RowBlock& block) {
-            return block.a == index || block.b == index;
-        };
-        if (hidden_overlap_m(frame, index) >= restore_depth_m &&
-            std::ranges::none_of(graph.blocks, involves_body)) {
-            add_if_penetrating(restore_depth_m, index, islands + index, frame);
         }
     }
 }

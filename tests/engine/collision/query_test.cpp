@@ -230,7 +230,8 @@ TEST(CastSphere, OnAMeshMatchesTheNearestOfItsTriangles) {
         World all;
         std::vector<World> single(40);
         auto mesh = std::make_shared<Mesh>();
-        const Pose pose = at(random.vector(3.0), random.rotation());
+        const Pose pose =
+            at(random.vector(3.0), round % 2 == 0 ? Quat::Identity() : random.rotation());
         for (World& one : single) {
             auto triangle = std::make_shared<Mesh>();
             const Vec3 centre = random.vector(1.0);

@@ -284,8 +284,9 @@ TEST(Sweep, FirstOfManyTrianglesStops) {
     EXPECT_LE(missed, hits / 50);  // grazing impacts
 }
 
-// A body may touch one part of an obstacle, pass it, and end in another part.
-TEST(Sweep, OverlapAtTheEndOfAMotionHasAContact) {
+// A body may touch one part of an obstacle, pass it, and end in another part. The solver looks for
+// such overlaps in pairs that have a contact.
+TEST(Sweep, PairThatOverlapsAtTheEndOfAMotionHasAContact) {
     Random random(61);
     int overlaps = 0;
     for (int round = 0; round < 2000; ++round) {

@@ -70,8 +70,7 @@ TEST(Heap, CratesShovedAgainstAWallOverlapByAtMostAMillimetreAndPushThePlayerBac
             ASSERT_LE(s.stats.hand_error_m, 1e-5) << side << " " << s.t_s();
             most_iterations = std::max(most_iterations, s.stats.newton_iterations);
         });
-        // A heap of 64 without a player in its island may wait for the next frame.
-        EXPECT_LE(s.fallbacks(Fallback::solver_budget), side < 4 ? 0U : 2U) << side;
+        EXPECT_EQ(s.fallbacks(Fallback::solver_budget), 0U) << side;
         EXPECT_LE(most_iterations, 60U) << side;
         EXPECT_GT(s.origin().z(), 0.1) << side;
     }
