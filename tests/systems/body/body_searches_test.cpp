@@ -121,7 +121,7 @@ TEST(BodySearches, FewerOfThemLetNoJointDeeperIntoAWall) {
     int all_casts = 0;
     for (int round = 0; round < 30; ++round) {
         const Vec3 face(random.between(-0.3, 0.3), 0.0, random.between(0.1, 0.4));
-        const Pose wall(Vec3(0.0, 1.0, 0.5) + face, rotation_from_vector(random.vector(0.4)));
+        const Pose wall{Vec3(0.0, 1.0, 0.5) + face, rotation_from_vector(random.vector(0.4))};
         const auto deepest_m = [&](const HangingBody& body) {
             double depth_m = -1.0;
             for (const Vec3& joint : joints_of(body.pose.at(k_player))) {
