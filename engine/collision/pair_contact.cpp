@@ -191,10 +191,11 @@ void add_deepest_at_end(const PairIo& io, const Pose& touch_ns, const Pose& to_n
     }
 }
 
-// Appends the contacts found at `pose_ns` that are within the margin at `to_ns`. After an impact at
-// least the nearest one: the rest of the motion may leave the touch behind and end in another part
-// of b, and overlaps are looked for only in pairs with a contact.
-void append_contacts(const PairIo& io, const Pose& pose_ns, const Pose& to_ns, bool is_impact) {
+// Appends the contacts found at `pose_ns` that are within the margin at `to_ns`. If the sweep
+// touched and none is within the margin, appends the nearest one: the rest of the motion may leave
+// the touch behind and end in another part of b, and overlaps are looked for only in pairs with a
+// contact.
+void append_contacts(const PairIo& io, const Pose& pose_ns, const Pose& to_ns, bool touched) {
     std::uint32_t feature = 0;
     std::optional<ContactPoint> nearest;
     for (const NearContact& near : io.scratch.contacts) {
@@ -207,7 +208,7 @@ void append_contacts(const PairIo& io, const Pose& pose_ns, const Pose& to_ns, b
         if (contact.separation_m < io.limits.margin_m) {
             contact.feature = feature++;
             io.contacts.push_back(contact);
-        } else if (is_impact && (!nearest || contact.separation_m < nearest->separation_m)) {
+        } else if (touched && (!nearest || contact.separation_m < nearest->separation_m)) {
             nearest = contact;
         }
     }

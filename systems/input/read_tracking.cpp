@@ -352,14 +352,14 @@ Pose default_controller_to_hand(HandSide side, const HandTuning& tuning) {
 
 void read_tracking(const ReadTrackingIo& io, std::size_t first, std::size_t last,
                    const Tuning& tuning, StageStats& stats) {
-    HH_CHECK(io.frame_end_s > io.frame_start_s, "the frame has no length",
-             io.frame_end_s - io.frame_start_s);
     for (std::size_t row = first; row < last; ++row) {
         read_player(io, row, tuning, stats);
     }
 }
 
 void read_tracking(const ReadTrackingIo& io, const Tuning& tuning, StageStats& stats) {
+    HH_CHECK(io.frame_end_s > io.frame_start_s, "the frame has no length",
+             io.frame_end_s - io.frame_start_s);
     read_tracking(io, 0, io.head.size(), tuning, stats);
 }
 

@@ -17,9 +17,9 @@ constexpr double k_violated_m = 2e-7;
 constexpr double k_touching_m = 1e-5;  // closer contacts may support a body
 // Overlap within a heap from which the hands that press it give way.
 constexpr double k_heap_violated_m = 1e-3;
-// Limit on the constraint blocks of a heap in a player's island, summed over the contact searches
-// of a frame. Above it, the heap's bodies keep their present contacts until the next frame. Other
-// islands are not affected. Heaps without a player are searched once after they were solved.
+// Limit on the constraint blocks of a heap, summed over the contact searches of a frame. Above it,
+// the heap's bodies keep their present contacts until the next frame. Other islands are not
+// affected.
 constexpr std::uint64_t k_max_heap_visits = 12'000;
 constexpr int k_max_heap_rounds = 2;  // of a phase; what appears later waits for the next frame
 
@@ -115,19 +115,16 @@ void count_heap_visits(const Solve& s) {
         // Islands merge and split between searches. An island takes the largest count of its
         // bodies.
         std::uint64_t visits = 0;
-        std::uint64_t work = 0;
         for (const std::uint32_t i : s.graph().bodies_of(island)) {
             visits = std::max(visits, s.phase_of(i).visits);
-            work = std::max(work, s.phase_of(i).work);
         }
-        const bool has_player = has_role(s, island, BodyRole::translating);
         const bool was_searched = visits <= k_max_heap_visits;
         visits += s.graph().blocks_of(island).size();
         for (const std::uint32_t i : s.graph().bodies_of(island)) {
             s.phase_of(i).visits = visits;
-            s.graph().bodies[i].is_searched = has_player ? visits <= k_max_heap_visits : work == 0;
+            s.graph().bodies[i].is_searched = visits <= k_max_heap_visits;
         }
-        if (has_player && was_searched && visits > k_max_heap_visits) {
+        if (was_searched && visits > k_max_heap_visits) {
             s.stats.count(Fallback::solver_budget);
         }
     }

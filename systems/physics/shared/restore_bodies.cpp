@@ -12,8 +12,8 @@
 namespace handhold {
 namespace {
 
-// Bodies of heaps with more constraint blocks are not restored, because of the cost per frame. What
-// a player pushes should overlap less.
+// Bodies of heaps with more constraint blocks are not restored, because of the cost per frame.
+// Heaps in a player's island have a higher limit, because players see their overlaps.
 constexpr std::size_t k_max_pushed_restore_blocks = 4000;
 constexpr std::size_t k_max_loose_restore_blocks = 300;
 // About the length of an arm's jump. A body that was dragged farther while penetrating stays.
@@ -247,7 +247,7 @@ bool restore_overlapped_bodies(FrameGraph& frame) {
 
 void restore_penetrating_bodies(CollisionWorld& collision, FrameGraph& frame,
                                 const ContactTuning& tuning, StageStats& stats) {
-    find_missed_overlaps(collision, frame.proxies, frame.graph, tuning.sweep_m,
+    find_missed_overlaps(collision, frame.proxies, frame.graph, {tuning.margin_m, tuning.sweep_m},
                          frame.hidden_overlaps);
     find_penetrating_bodies(tuning.restore_depth_m, frame, stats);
     if (frame.penetrating_bodies.empty()) {
