@@ -37,8 +37,7 @@ void MissedOverlaps::clear(std::size_t count) {
 }
 
 void find_missed_overlaps(const CollisionWorld& collision, std::span<const ColliderProxy> proxies,
-                          const ConstraintGraph& graph, const ContactLimits& limits,
-                          MissedOverlaps& missed) {
+                          const ConstraintGraph& graph, double sweep_m, MissedOverlaps& missed) {
     missed.clear(graph.bodies.size());
     const auto record = [&](std::uint32_t body, std::uint32_t other, double depth_m) {
         Overlap& deepest = missed.of_body[body];
@@ -52,10 +51,8 @@ void find_missed_overlaps(const CollisionWorld& collision, std::span<const Colli
     const RowBlock* last = nullptr;
     for (const RowBlock& block : graph.blocks) {
         const bool same_pair = last != nullptr && last->a == block.a && last->b == block.b;
-        if (!is_contact(block) || same_pair ||
-            !may_be_swept(proxies[block.a], proxies[block.b], limits.sweep_m) ||
-            (is_heap_contact(graph.bodies, block) &&
-             contact_separation_m(graph.bodies, block) < limits.margin_m)) {
+        if (!is_contact(block) || same_pair || is_heap_contact(graph.bodies, block) ||
+            !may_be_swept(proxies[block.a], proxies[block.b], sweep_m)) {
             continue;
         }
         last = &block;

@@ -113,7 +113,7 @@ bool has_same_point(const ContactPoint& contact, std::span<const ContactPoint> p
 // those are what separates the pair. So do pairs whose new contacts are all apart, for the contacts
 // that limited the motion: a ball that is deflected by a rail slides along the contact's plane and
 // ends a little off the rail, and yet the impact at the old point must change its velocity.
-void merge_contacts(const MovingContacts& moving, OldPoints old_points, double margin_m) {
+void merge_contacts(const MovingContacts& moving, OldPoints old_points) {
     std::vector<ContactPoint>& merged = moving.scratch;
     const std::size_t new_count = merged.size();
     std::size_t first = 0;  // range of the new contacts of the old contact's pair
@@ -132,11 +132,7 @@ void merge_contacts(const MovingContacts& moving, OldPoints old_points, double m
             }
         }
         const auto found = std::span(merged).subspan(first, end - first);
-        const bool none_near = std::ranges::all_of(found, [margin_m](const ContactPoint& point) {
-            return point.separation_m >= margin_m;
-        });
-        if (none_near) {
-            old.feature = found.empty() ? old.feature : ++feature;
+        if (found.empty()) {
             merged.push_back(old);
             continue;
         }
@@ -164,7 +160,7 @@ FoundContacts refresh_contacts(const MovingContacts& moving, const ContactLimits
     const bool overlaps = std::ranges::any_of(moving.scratch, [](const ContactPoint& contact) {
         return contact.separation_m < -k_new_overlap_m;
     });
-    merge_contacts(moving, old_points, limits.margin_m);
+    merge_contacts(moving, old_points);
     replace_contact_rows(moving.contacts, moving.graph);
     return overlaps ? FoundContacts::overlapping : FoundContacts::clear;
 }

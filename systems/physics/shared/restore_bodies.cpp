@@ -247,7 +247,7 @@ bool restore_overlapped_bodies(FrameGraph& frame) {
 
 void restore_penetrating_bodies(CollisionWorld& collision, FrameGraph& frame,
                                 const ContactTuning& tuning, StageStats& stats) {
-    find_missed_overlaps(collision, frame.proxies, frame.graph, {tuning.margin_m, tuning.sweep_m},
+    find_missed_overlaps(collision, frame.proxies, frame.graph, tuning.sweep_m,
                          frame.hidden_overlaps);
     find_penetrating_bodies(tuning.restore_depth_m, frame, stats);
     if (frame.penetrating_bodies.empty()) {

@@ -12,7 +12,7 @@ namespace {
 
 using test::Random;
 
-constexpr ContactLimits k_limits;
+constexpr double k_sweep_m = 0.005;
 
 // A cube before a fork: one collider of two plates, whose near faces are at z = 0.2. The cube moves
 // along z and ends `depth_m` deep in the right plate. All of it is in the frame `frame_ws`.
@@ -45,7 +45,7 @@ struct CubeAtFork {
         block.b = 1;
         graph.blocks.assign(3, block);
     }
-    void find() { find_missed_overlaps(collision, proxies, graph, k_limits, missed); }
+    void find() { find_missed_overlaps(collision, proxies, graph, k_sweep_m, missed); }
 };
 
 TEST(MissedOverlaps, AreAsDeepAsTheBodiesEndInAnotherPart) {
@@ -63,7 +63,7 @@ TEST(MissedOverlaps, AreAsDeepAsTheBodiesEndInAnotherPart) {
 }
 
 TEST(MissedOverlaps, AreLookedForOnlyWhereASweepTouched) {
-    CubeAtFork slow(0.02, 0.8 * k_limits.sweep_m, {});
+    CubeAtFork slow(0.02, 0.8 * k_sweep_m, {});
     slow.add_contact();
     slow.find();
     EXPECT_TRUE(slow.missed.deep.empty());  // its contacts were found at the end pose
