@@ -38,16 +38,16 @@ struct BodyContact {
     double surface_m = 0.0;          // includes the part's thickness
 };
 
-// The last search for a surface along a part of the body, and its answer. It is repeated when the
-// part or a surface near it has moved.
+// The last search for a surface along a part of the body, and its answer. Written by
+// find_body_contacts, which repeats it when the part or a surface near it has moved.
 struct BodySearch {
-    bool known = false;
-    Vec3 from_ws = Vec3::Zero();
+    bool known = false;           // false: the next search casts
+    Vec3 from_ws = Vec3::Zero();  // the line of the cast
     Vec3 to_ws = Vec3::Zero();
     std::uint64_t near = 0;  // hash of the cast's radius and of SurfaceQuery::hash_near
     bool hits = false;
-    Vec3 point_ws = Vec3::Zero();
-    Vec3 normal_ws = Vec3::UnitY();
+    Vec3 point_ws = Vec3::Zero();    // on the surface
+    Vec3 normal_ws = Vec3::UnitY();  // unit, towards the cast
 };
 
 // What pulls a player: the gripping hands. Play-space axes.

@@ -50,11 +50,12 @@ double max_closing_m(const ConvexPart& a, const RelativeMotion& motion, const Ve
     return motion.turn_rad().cross(normal).norm() * a.arm_m() - motion.move().dot(normal);
 }
 
-}  // namespace
-
+// Separation of a and b along `normal`; negative if the normal does not separate them.
 double gap_along(const Convex& a, const Convex& b, const Vec3& normal) {
     return normal.dot(a.support(-normal) - b.support(normal)) - a.radius_m - b.radius_m;
 }
+
+}  // namespace
 
 double gap_along_centres(const Convex& a, const Convex& b) {
     const Vec3 offset = a.centre_ns() - b.centre_ns();

@@ -39,10 +39,8 @@ struct Impact {
     std::uint32_t part = 0;          // index of a's part; written by the caller
 };
 
-// Separation of a and b along `normal`; negative if the normal does not separate them. Never more
-// than their distance.
-double gap_along(const Convex& a, const Convex& b, const Vec3& normal);
-// The same along the line of their centres.
+// Separation of a and b along the line of their centres, in metres: never more than their distance,
+// and negative if that line does not separate them.
 double gap_along_centres(const Convex& a, const Convex& b);
 
 // State of a conservative advancement: the fraction of the motion for which a part is known not to
