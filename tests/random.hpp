@@ -7,7 +7,8 @@
 
 namespace handhold::test {
 
-// Random numbers that are the same everywhere.
+// Random numbers that are the same everywhere. One expression draws at most once, or in a braced
+// list: compilers order arguments and operands as they like (tools/check_draws.py).
 class Random {
   public:
     explicit Random(std::uint64_t seed) : engine_(seed) {}

@@ -140,7 +140,7 @@ TEST(Contacts, StayExactFarFromTheOriginAndRotated) {
     Random random(11);
     for (const double distance_m : {1e4, 1e5}) {
         for (int round = 0; round < 4; ++round) {
-            const Pose world = at(distance_m * random.direction(), random.rotation());
+            const Pose world{distance_m * random.direction(), random.rotation()};
             for (const Ground ground : {Ground::box, Ground::mesh}) {
                 for (const Rest& rest : box_rests()) {
                     expect_rest(ground, box_shape(), rest, world, 1e-7);
@@ -173,7 +173,7 @@ TEST(Contacts, TwoSpheresTouchOnTheLineBetweenTheirCentres) {
     for (int round = 0; round < 50; ++round) {
         const Vec3 direction = random.direction();
         const double distance = random.between(0.05, 0.38);
-        const Pose a = at(random.vector(1.0), random.rotation());
+        const Pose a = random.pose(1.0);
         const Pose b = at(a.position + distance * direction, random.rotation());
         const auto contacts =
             contacts_of(shapes, {resting(1, small, a, true), resting(2, large, b, true)});

@@ -99,7 +99,7 @@ Meeting meet(Random& random, int kind_a, int kind_b, double spread) {
     ShapeLibrary shapes;
     const ShapeId a = random_shape(random, shapes, kind_a);
     const ShapeId b = random_shape(random, shapes, kind_b);
-    const Pose pose = test::at(random.vector(spread), random.rotation());
+    const Pose pose = random.pose(spread);
     const auto contacts = test::contacts_of(
         shapes, {test::resting(1, b, {}, false), test::resting(2, a, pose, true)}, {10.0, 0.005});
     Meeting meeting{test::make_core(shapes.at(a), pose), {}, {}};

@@ -41,9 +41,9 @@ TEST(MassProperties, CylinderMatchesTheClosedForm) {
 TEST(MassProperties, HullOfABoxMatchesTheBox) {
     Random random(81);
     for (int round = 0; round < 50; ++round) {
-        const Vec3 half(random.between(0.05, 1.0), random.between(0.05, 1.0),
-                        random.between(0.05, 1.0));
-        const Pose pose = at(random.vector(3.0), random.rotation());
+        const Vec3 half{random.between(0.05, 1.0), random.between(0.05, 1.0),
+                        random.between(0.05, 1.0)};
+        const Pose pose = random.pose(3.0);
         ShapeLibrary shapes;
         const Shape& hull = shapes.at(shapes.add_hull(box_corners(half, pose)));
         const MassProperties p = mass_properties(hull);
@@ -79,7 +79,7 @@ TEST(MassProperties, CompoundOfABoxesPartsMatchesTheBox) {
     const ShapeId whole = shapes.add_box({0.4, 0.2, 0.3});
     const Vec3 moments = solid_inertia(shapes.at(whole), 7.0);
     for (int round = 0; round < 20; ++round) {
-        const Pose pose = at(random.vector(2.0), random.rotation());
+        const Pose pose = random.pose(2.0);
         const std::vector<CompoundChild> cut = {
             {left, pose * at({-0.3, 0.0, 0.0}), 0.0},
             {right, pose * at({0.1, 0.0, 0.0}), 0.0},

@@ -48,9 +48,8 @@ TEST(MeshContacts, InternalEdgesTiltNoNormal) {
             const ShapeId body = add_body(shapes, kind);
             for (int round = 0; round < 60; ++round) {
                 const double gap = random.between(-0.015, 0.015);
-                const Pose pose =
-                    at({random.between(-0.6, 0.6), 0.1 + gap, random.between(-0.6, 0.6)},
-                       rest_rotation(kind, random.between(-3.0, 3.0)));
+                const Pose pose{{random.between(-0.6, 0.6), 0.1 + gap, random.between(-0.6, 0.6)},
+                                rest_rotation(kind, random.between(-3.0, 3.0))};
                 const auto contacts = contacts_of(
                     shapes, {resting(1, floor, {}, false), resting(2, body, pose, true)});
                 ASSERT_FALSE(contacts.empty());

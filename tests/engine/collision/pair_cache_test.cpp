@@ -91,7 +91,7 @@ TEST(PairCache, DropsAClearRegionOnceABodyEntersIt) {
                                           resting(2, floor, at(1.6 * up, turn), false)};
     std::vector<Vec3> velocities;
     for (std::uint64_t id = 3; id < 13; ++id) {
-        const Vec3 place = turn * Vec3(random.between(-1.5, 1.5), 0.8, random.between(-1.5, 1.5));
+        const Vec3 place = turn * Vec3{random.between(-1.5, 1.5), 0.8, random.between(-1.5, 1.5)};
         proxies.push_back(resting(id, box, at(place, random.rotation()), true));
         velocities.push_back(random.vector(0.0015));
     }

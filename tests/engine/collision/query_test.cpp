@@ -130,9 +130,9 @@ TEST(CastRay, HitsBothSidesOfTriangles) {
     Random random(42);
     for (int round = 0; round < 500; ++round) {
         const double side = round % 2 == 0 ? 1.0 : -1.0;
-        const Vec3 through(random.between(-1.9, 1.9), 0.0, random.between(-1.9, 1.9));
+        const Vec3 through{random.between(-1.9, 1.9), 0.0, random.between(-1.9, 1.9)};
         const Vec3 from =
-            through + Vec3(random.between(-1.0, 1.0), side, random.between(-1.0, 1.0));
+            through + Vec3{random.between(-1.0, 1.0), side, random.between(-1.0, 1.0)};
         const auto hit = world.cast_ray(from, 2.0 * through - from);
         ASSERT_TRUE(hit);
         EXPECT_NEAR((hit->point_ws - through).norm(), 0.0, 1e-12);
@@ -230,8 +230,7 @@ TEST(CastSphere, OnAMeshMatchesTheNearestOfItsTriangles) {
         World all;
         std::vector<World> single(40);
         auto mesh = std::make_shared<Mesh>();
-        const Pose pose =
-            at(random.vector(3.0), round % 2 == 0 ? Quat::Identity() : random.rotation());
+        const Pose pose{random.vector(3.0), round % 2 == 0 ? Quat::Identity() : random.rotation()};
         for (World& one : single) {
             auto triangle = std::make_shared<Mesh>();
             const Vec3 centre = random.vector(1.0);

@@ -124,10 +124,8 @@ TEST(RealLevelContacts, BoxInARealLevelIsAsNearAsItsNearestTriangle) {
     Random random(23);
     int near = 0;
     for (int round = 0; round < 200; ++round) {
-        Pose pose =
-            at(place_in(*level->meshes[static_cast<std::size_t>(round) % level->meshes.size()],
-                        random),
-               random.rotation());
+        const auto& mesh = *level->meshes[static_cast<std::size_t>(round) % level->meshes.size()];
+        Pose pose{place_in(mesh, random), random.rotation()};
         // Moved towards the nearest surface until it is a few millimetres away.
         test::Gap nearest = distance(pose);
         for (int step = 0; step < 4 && nearest.distance_m > 0.015 && nearest.distance_m < 1.0;

@@ -248,7 +248,7 @@ TEST(Alias, HullAndCompoundBoxesMakeTheContactsOfABox) {
         const ShapeId box = ground.shapes.add_box(half);
         const std::vector<Alias> aliases = same_box(ground.shapes, half);
         for (int round = 0; round < 60; ++round) {
-            const Vec3 place(random.between(-1.0, 1.0), random.between(0.05, 0.3), 0.1);
+            const Vec3 place{random.between(-1.0, 1.0), random.between(0.05, 0.3), 0.1};
             const Quat turn =
                 round % 2 == 0 ? rotation_about(Vec3::UnitY(), 0.1 * round) : random.rotation();
             const Pose to = at(place, turn);
@@ -288,7 +288,7 @@ TEST(Alias, HullAndCompoundBoxesAreHitByTheSameRays) {
     CollisionWorld world(shapes);
     int hits = 0;
     for (int round = 0; round < 500; ++round) {
-        const Pose pose = at(random.vector(1.0), random.rotation());
+        const Pose pose = random.pose(1.0);
         const Vec3 from = pose.position + random.vector(round % 2 == 0 ? 0.2 : 1.0);
         const Vec3 to = pose.position + random.vector(1.0);
         const auto answer = [&](ShapeId shape, const Pose& frame) {

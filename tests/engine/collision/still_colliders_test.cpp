@@ -48,7 +48,7 @@ std::vector<ColliderProxy> move_some(Clutter& clutter, Random& random) {
             proxy.to_ws.position += random.vector(0.3);
             proxy.to_ws.rotation = random.rotation();
         } else if (kind < 0.8) {
-            proxy.to_ws = at(random.vector(1.0), random.rotation());  // from anywhere
+            proxy.to_ws = random.pose(1.0);  // from anywhere
         } else if (kind < 0.9) {
             proxy.mask ^= 1U;
         } else {

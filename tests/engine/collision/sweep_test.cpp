@@ -146,8 +146,8 @@ TEST(Sweep, BodyAtRestOnARotatingFloorIsNotSwept) {
     const ShapeId floor = shapes.add_mesh(test::make_floor(4.0, 8));
     const ShapeId box = shapes.add_box(Vec3::Constant(0.1));
     for (int round = 0; round < 20; ++round) {
-        const Pose before = at(random.vector(100.0), random.rotation());
-        const Pose after = at(before.position + random.vector(20.0), random.rotation());
+        const Pose before = random.pose(100.0);
+        const Pose after{before.position + random.vector(20.0), random.rotation()};
         const Pose seat = at({0.4, 0.099, -0.3}, rotation_about(Vec3::UnitY(), 0.5));
         const auto contacts = contacts_of(shapes, {moving(1, floor, before, after, false),
                                                    moving(2, box, before * seat, after * seat)});

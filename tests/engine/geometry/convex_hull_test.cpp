@@ -73,9 +73,9 @@ TEST(ConvexHull, ContainsAllPointsAndIsWatertight) {
 TEST(ConvexHull, FilledBoxGivesEightCornersAndSixFaces) {
     Random random(72);
     for (int round = 0; round < 50; ++round) {
-        const Vec3 half(random.between(0.01, 2.0), random.between(0.01, 2.0),
-                        random.between(0.01, 2.0));
-        const Pose pose = test::at(random.vector(5.0), random.rotation());
+        const Vec3 half{random.between(0.01, 2.0), random.between(0.01, 2.0),
+                        random.between(0.01, 2.0)};
+        const Pose pose = random.pose(5.0);
         std::vector<Vec3> points;
         for (unsigned i = 0; i < 8; ++i) {
             const Vec3 side((i & 1U) != 0 ? 1.0 : -1.0, (i & 2U) != 0 ? 1.0 : -1.0,

@@ -180,7 +180,7 @@ TEST(DiscDistance, MatchesClosedFormWithinHalfMicrometre) {
     Random random(1401);
     for (int i = 0; i < 20000; ++i) {
         const auto point = [&] {
-            return Vec2(random.between(-0.3, 0.3), random.between(-0.3, 0.3));
+            return Vec2{random.between(-0.3, 0.3), random.between(-0.3, 0.3)};
         };
         const Vec2 a0 = point();
         const Vec2 b0 = point();

@@ -111,7 +111,7 @@ TEST(WalkCrossing, EndsAtBorders) {
     for (int i = 0; i < 100; ++i) {
         const double turn = random.between(-M_PI, M_PI);
         Disc disc;
-        disc.center = Vec3(random.between(-0.05, 0.05), 0.01, random.between(-0.05, 0.05));
+        disc.center = Vec3{random.between(-0.05, 0.05), 0.01, random.between(-0.05, 0.05)};
         disc.x_axis = Vec3(std::cos(turn), 0.0, std::sin(turn));
         disc.y_axis = Vec3::UnitY();
         disc.normal = disc.x_axis.cross(disc.y_axis);
@@ -210,7 +210,7 @@ TEST(FindCrossing, PopsFewOnPlaneAndFewerThanBreadthFirst) {
     for (int i = 0; i < 500; ++i) {
         const double turn = random.between(-M_PI, M_PI);
         Disc disc;
-        disc.center = Vec3(random.between(-0.1, 0.1), 0.03, random.between(-0.1, 0.1));
+        disc.center = Vec3{random.between(-0.1, 0.1), 0.03, random.between(-0.1, 0.1)};
         disc.x_axis = Vec3(std::cos(turn), 0.0, std::sin(turn));
         disc.y_axis = Vec3::UnitY();
         disc.normal = disc.x_axis.cross(disc.y_axis);

@@ -20,9 +20,8 @@ TEST(FindPenetration, IsDeepestOverAllTrianglesInAnyFrame) {
     int crossed = 0;
     for (int i = 0; i < 300; ++i) {
         const Pose frame = {random.vector(3.0), random.rotation()};
-        const std::vector<PlacedMesh> meshes = {
-            {&ball, frame * test::at(random.vector(0.05), random.rotation())},
-            {&box, frame * test::at(random.vector(0.05), random.rotation())}};
+        const std::vector<PlacedMesh> meshes = {{&ball, frame * random.pose(0.05)},
+                                                {&box, frame * random.pose(0.05)}};
         Capsule capsule;
         capsule.ends = {transform_point(frame, random.vector(0.1)),
                         transform_point(frame, random.vector(0.1))};

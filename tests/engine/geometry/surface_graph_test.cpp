@@ -268,7 +268,7 @@ RC_GTEST_PROP(SurfaceGraph, LinksAreInvariantUnderRigidMotion, (std::uint64_t se
     const Mesh mesh = crowded_mesh(seed, *rc::gen::inRange<std::size_t>(0, 60));
     const SurfaceGraph graph = build_surface_graph(mesh);
     Random random(seed + 1);
-    const Pose pose = test::at(random.vector(2.0), random.rotation());
+    const Pose pose = random.pose(2.0);
     Mesh moved = mesh;
     for (Vec3& position : moved.positions) {
         position = transform_point(pose, position);

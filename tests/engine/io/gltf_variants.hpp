@@ -27,7 +27,7 @@ struct RandomMesh {
     explicit RandomMesh(Random& random) {
         const auto wide = static_cast<std::uint32_t>(random.between(2, 9));
         const auto deep = static_cast<std::uint32_t>(random.between(2, 9));
-        const Vec3 size(random.between(0.1, 20), random.between(0.1, 3), random.between(0.1, 20));
+        const Vec3 size{random.between(0.1, 20), random.between(0.1, 3), random.between(0.1, 20)};
         for (std::uint32_t z = 0; z < deep; ++z) {
             for (std::uint32_t x = 0; x < wide; ++x) {
                 positions.push_back(size.cwiseProduct(Vec3(x, random.between(-1, 1), z)));

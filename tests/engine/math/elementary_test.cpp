@@ -70,7 +70,7 @@ TEST(InterpolatedRotation, IsAtTheShareOfTheAngle) {
     std::mt19937_64 random(22);
     std::normal_distribution<double> any;
     const auto rotation = [&] {
-        return Quat(any(random), any(random), any(random), any(random)).normalized();
+        return Quat{any(random), any(random), any(random), any(random)}.normalized();
     };
     for (int i = 0; i < 2000; ++i) {
         const Quat a = rotation();

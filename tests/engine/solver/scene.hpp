@@ -52,8 +52,8 @@ inline Pose random_pose(Random& random, double size_m = 2.0) {
 // A box of 0.5 to 20 kg, a few decimetres large: its moments of inertia are those of a solid.
 inline SolverBody random_free_body(std::uint64_t id, Random& random) {
     const double mass_kg = random.between(0.5, 20.0);
-    const Vec3 half_m(random.between(0.05, 0.3), random.between(0.05, 0.3),
-                      random.between(0.05, 0.3));
+    const Vec3 half_m{random.between(0.05, 0.3), random.between(0.05, 0.3),
+                      random.between(0.05, 0.3)};
     const Vec3 squares = half_m.cwiseProduct(half_m);
     const Vec3 inertia = (mass_kg / 3.0) * (Vec3::Constant(squares.sum()) - squares);
     return free_body(id, mass_kg, inertia, random_pose(random));
@@ -72,7 +72,8 @@ inline RowBlock row_block(RowKind kind, std::uint32_t a, std::uint32_t b,
 }
 
 inline RowBlock random_block(RowKind kind, std::uint32_t a, std::uint32_t b, Random& random) {
-    RowBlock block = row_block(kind, a, b, random.vector(0.5), random.vector(0.5));
+    const Vec3 anchor_a_bs = random.vector(0.5);
+    RowBlock block = row_block(kind, a, b, anchor_a_bs, random.vector(0.5));
     block.rotation_a_bs = random.rotation();
     block.rotation_b_bs = random.rotation();
     block.normal_b_bs = random.direction();

@@ -149,8 +149,8 @@ TEST(ReachAcross, TurnIsBoundedAndContinuous) {
         const double now = turn(left, right);
         turned += now != 0.0 ? 1 : 0;
         ASSERT_LT(std::abs(now), 1.1);
-        const double then =
-            turn(left + 0.001 * random.direction(), right + 0.001 * random.direction());
+        const Vec3 near_left = left + 0.001 * random.direction();
+        const double then = turn(near_left, right + 0.001 * random.direction());
         ASSERT_LT(std::abs(then - now), 0.03) << i;
     }
     EXPECT_GT(turned, 200);

@@ -75,7 +75,9 @@ TEST(EstimateArms, HandJointEqualsThePalmExactly) {
     Random random(3);
     Arms arms({Vec3(1e4, -7.0, 3.0), random.rotation()});
     for (int i = 0; i < 200; ++i) {
-        const ArmPose& pose = arms.step(random.pose(1.0), random.pose(1.5), random.pose(1.5));
+        const Pose head = random.pose(1.0);
+        const Pose left = random.pose(1.5);
+        const ArmPose& pose = arms.step(head, left, random.pose(1.5));
         for (std::size_t side = 0; side < k_hand_count; ++side) {
             const Pose& palm = arms.palm.rows()[side].pose_ws;
             EXPECT_EQ(pose.arms[side].hand_ws.position, palm.position);

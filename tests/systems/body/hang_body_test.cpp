@@ -110,8 +110,8 @@ TEST(HangBody, MirroredPlayersHangMirrored) {
     HangingBody body;
     HangingBody mirror;
     for (int i = 0; i < 300; ++i) {
-        const Vec3 hand(random.between(-0.5, 0.2), random.between(-0.4, 0.5),
-                        random.between(-0.5, 0.3));
+        const Vec3 hand{random.between(-0.5, 0.2), random.between(-0.4, 0.5),
+                        random.between(-0.5, 0.3)};
         body.put_hand(HandSide::left, hand);
         mirror.put_hand(HandSide::right, test::mirrored(hand));
         body.grip(HandSide::left, i % 60 < 40);

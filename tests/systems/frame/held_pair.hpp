@@ -160,8 +160,8 @@ inline Draw draw(std::uint64_t seed) {
     out.mass_kg = {random.between(40.0, 140.0), random.between(40.0, 140.0)};
     for (std::size_t side = 0; side < k_hand_count; ++side) {
         const double across = side == k_left ? -1.0 : 1.0;
-        out.hands[side] = k_held_head + Vec3(across * random.between(0.15, 0.5),
-                                             random.between(-0.6, 0.0), -random.between(0.2, 0.5));
+        out.hands[side] = k_held_head + Vec3{across * random.between(0.15, 0.5),
+                                             random.between(-0.6, 0.0), -random.between(0.2, 0.5)};
     }
     out.part = static_cast<BodyPart>(seed % k_gripped_parts);
     out.along = random.between(0.3, 0.7);

@@ -59,7 +59,8 @@ TEST(FreeGrips, BodiesPressedIntoEachOtherNeverMoveThePlayer) {
             s.script.grabs[i] = [](double t_s) { return t_s > 0.05; };
         }
         // A loose body that the held ones may meet.
-        s.add_rock("loose", random.between(0.5, 50.0), Vec3(random.between(-0.3, 0.3), 1.1, -0.3));
+        const double mass_kg = random.between(0.5, 50.0);
+        s.add_rock("loose", mass_kg, Vec3(random.between(-0.3, 0.3), 1.1, -0.3));
         s.add_player_here();
         const Vec3 origin = s.origin_ws();
         s.run(2.0, [&] {

@@ -92,12 +92,13 @@ struct RandomShove {
         const int deep = count();
         const double jitter_m = random.between(0.0, 0.02);
         const double spacing_m = 2.0 * k_half_m + 2.0 * jitter_m + random.between(0.0, 0.02);
-        const Vec3 first(0.3 - 0.5 * (across - 1) * spacing_m + random.between(-0.1, 0.1),
-                         1.2 - 0.5 * (up - 1) * spacing_m + random.between(-0.1, 0.1), -0.45);
+        const Vec3 first{0.3 - 0.5 * (across - 1) * spacing_m + random.between(-0.1, 0.1),
+                         1.2 - 0.5 * (up - 1) * spacing_m + random.between(-0.1, 0.1), -0.45};
         for (int i = 0; i < across * up * deep; ++i) {
             const Vec3 place(i % across, i / across % up, -(i / (across * up)));
-            s.add_crate("crate" + std::to_string(i), random.between(1.0, 10.0),
-                        first + spacing_m * place + random.vector(jitter_m),
+            const double mass_kg = random.between(1.0, 10.0);
+            const Vec3 center = first + spacing_m * place + random.vector(jitter_m);
+            s.add_crate("crate" + std::to_string(i), mass_kg, center,
                         Vec3::Constant(k_half_m) + random.vector(0.3 * jitter_m));
         }
         s.add_wall("wall", Vec3(3.0, 3.0, 0.1),
@@ -108,7 +109,7 @@ struct RandomShove {
         }
         const double way_m = random.between(0.2, 0.8);
         const double duration_s = random.between(0.1, 0.6);
-        const Vec3 direction = Vec3(random.between(-0.3, 0.3), random.between(-0.3, 0.3), -1.0);
+        const Vec3 direction = Vec3{random.between(-0.3, 0.3), random.between(-0.3, 0.3), -1.0};
         const Vec3 way = way_m * direction.normalized();
         s.script.grabs[1] = [](double) { return true; };
         s.script.hands[1] = [way, duration_s](double t_s) {
@@ -222,9 +223,10 @@ TEST(Heap, RestitutionAndFrictionNeverAddEnergy) {
         for (int i = 0; i < 20; ++i) {
             const Vec3 center = Vec3(0.0, 2.0, -3.0) + random.vector(0.8);
             const std::string name = "body" + std::to_string(i);
+            const double mass_kg = random.between(0.5, 5.0);
             const Entity body =
-                i % 2 == 0 ? s.add_rock(name, random.between(0.5, 5.0), center)
-                           : s.add_crate(name, random.between(0.5, 5.0), center,
+                i % 2 == 0 ? s.add_rock(name, mass_kg, center)
+                           : s.add_crate(name, mass_kg, center,
                                          Vec3::Constant(0.02) + random.vector(0.01).cwiseAbs());
             s.world.body.at(body).restitution = 1.0;
             s.world.body.at(body).friction = random.between(0.0, 1.0);

@@ -138,7 +138,7 @@ TEST(SnapshotOfAnyWorld, IsNeverRefused) {
                 PlayerInput input{made.players[i], samples[i], {}};
                 input.commands = {any_number(random), static_cast<std::int32_t>(random.engine()()),
                                   any_number(random),
-                                  Vec3(any_number(random), any_number(random), any_number(random)),
+                                  Vec3{any_number(random), any_number(random), any_number(random)},
                                   random.between(0.0, 1.0) < 0.1};
                 inputs.push_back(input);
             }

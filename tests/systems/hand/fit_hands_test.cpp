@@ -100,7 +100,7 @@ TEST_F(FitHands, DigitsStayOnTheSideWhereTheyClosed) {
             }
         }
         const GripMesh grip_mesh = build_grip_mesh(mesh);
-        const Vec3 center(random.between(-0.05, 0.05), random.between(-0.008, 0.002), 0.0);
+        const Vec3 center{random.between(-0.05, 0.05), random.between(-0.008, 0.002), 0.0};
         const Vec3 up = (Vec3::UnitY() + random.vector(0.3)).normalized();
         AuthoredHand held;
         held.is_there = true;
@@ -134,7 +134,7 @@ TEST_F(FitHands, ThumbStaysOutOfTheFingers) {
     int near = 0;
     for (int i = 0; i < 30; ++i) {
         const Vec3 up = (Vec3::UnitY() + random.vector(0.5)).normalized();
-        const Vec3 center(random.between(-0.1, 0.1), 0.012, random.between(-0.02, 0.02));
+        const Vec3 center{random.between(-0.1, 0.1), 0.012, random.between(-0.02, 0.02)};
         FittedHand hand(rod, wrist_with_palm_at(rig, center, up));
         for (int frame = 0; frame < 5; ++frame) {
             hand.frame(k_unbudgeted_s);

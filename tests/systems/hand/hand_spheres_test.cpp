@@ -121,7 +121,8 @@ TEST_F(HandSpheresOnFloor, KeptGapsLeaveTheNearestOnesClose) {
     test::Random random(2504);
     int kept = 0;
     for (int i = 0; i < 30; ++i) {
-        HandPose pose = pose_at(random.between(0.015, 0.03), random.between(0.0, 0.4));
+        const double height_m = random.between(0.015, 0.03);
+        HandPose pose = pose_at(height_m, random.between(0.0, 0.4));
         HandSpheres moving = all_over();
         query(moving, pose);
         for (int step = 0; step < 4; ++step) {

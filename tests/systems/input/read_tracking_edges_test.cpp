@@ -67,8 +67,8 @@ RC_GTEST_PROP(ReadTracking, EdgesAlternateHoweverTheButtonBounces, (std::uint64_
         std::vector<TrackingSample> samples;
         for (sample_t_s += random.between(1e-4, 0.004); sample_t_s < devices.t_s + k_frame_s;
              sample_t_s += random.between(1e-4, 0.004)) {
-            samples.push_back(
-                sample_at(sample_t_s, random.vector(1.0), random.between(0.0, 1.0) < 0.5));
+            const Vec3 place = random.vector(1.0);
+            samples.push_back(sample_at(sample_t_s, place, random.between(0.0, 1.0) < 0.5));
         }
         const double start_s = devices.t_s;
         devices.step(samples);

@@ -92,7 +92,7 @@ RC_GTEST_PROP(TrackingErrors, LossOfAnyLengthResumesWithoutAJump, (std::uint64_t
     const double to_s =
         from_s + std::pow(10.0, random.between(-2.0, 0.3)) + 1.1 / climb.scenario.sample_hz;
     // Along the wall: the palm can hold on there.
-    const Vec3 moved(random.between(-0.5, 0.5), random.between(-0.3, 0.3), 0.0);
+    const Vec3 moved{random.between(-0.5, 0.5), random.between(-0.3, 0.3), 0.0};
     const int kind = static_cast<int>(random.between(0.0, 2.999));
     climb.scenario.script.hands[1] = [&](double t_s) {
         const Pose truth{climb.hand.position + ease(t_s, from_s, to_s) * moved,

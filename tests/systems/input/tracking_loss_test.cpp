@@ -65,7 +65,7 @@ RC_GTEST_PROP(ReadTracking, ReadingsAtRandomAreNeverBelieved, (std::uint64_t see
         side = -side;  // 0.4 m at least from one reading to the next
         TrackingSample wrong = sample_at(devices.t_s + 0.005, Vec3(1.0, 0.0, 0.0));
         wrong.controllers[1].controller_ps.position +=
-            Vec3(side * random.between(0.2, 0.8), random.between(-0.5, 0.5), 0.0);
+            Vec3{side * random.between(0.2, 0.8), random.between(-0.5, 0.5), 0.0};
         devices.step({wrong});
         RC_ASSERT(devices.right().pose_ps.position == Vec3(1.0, 0.0, 0.0));
         RC_ASSERT(!devices.right().resumed);

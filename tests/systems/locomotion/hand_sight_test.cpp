@@ -57,9 +57,9 @@ RC_GTEST_PROP(HandSight, NothingIsGrippedThroughAWall, (std::uint64_t seed)) {
     const double front_z = -0.5;
     const double back_z = front_z - 2.0 * half_m;
     reach.scenario.add_wall("wall", Vec3(1.0, 1.0, half_m), Vec3(0.0, 1.2, front_z - half_m));
-    const Vec3 start(random.between(-0.2, 0.3), random.between(1.0, 1.4), -0.3);
-    const Vec3 end(random.between(-0.2, 0.3), random.between(1.0, 1.4),
-                   back_z - random.between(0.01, 0.3));
+    const Vec3 start{random.between(-0.2, 0.3), random.between(1.0, 1.4), -0.3};
+    const Vec3 end{random.between(-0.2, 0.3), random.between(1.0, 1.4),
+                   back_z - random.between(0.01, 0.3)};
     reach.palm_path = {start, end};
     const Entity mug = reach.add_mug(end - Vec3(0.0, 0.0, random.between(0.05, 0.15)));
     RC_ASSERT(reach.close().body != mug);
@@ -71,10 +71,11 @@ RC_GTEST_PROP(HandSight, PalmPushedIntoASurfaceGripsIt, (std::uint64_t seed)) {
     const double half_m = random.between(0.005, 0.3);
     const Entity wall =
         reach.scenario.add_wall("wall", Vec3(1.0, 1.0, half_m), Vec3(0.0, 1.2, -0.5 - half_m));
-    reach.rotation = rotation_about(random.direction(), random.between(0.0, 0.6)) * reach.rotation;
-    const Vec3 end(random.between(-0.2, 0.3), random.between(1.0, 1.4),
-                   -0.5 - random.between(0.0, 0.03));
-    reach.palm_path = {end + Vec3(random.between(-0.1, 0.1), random.between(-0.1, 0.1), 0.2), end};
+    const Vec3 axis = random.direction();
+    reach.rotation = rotation_about(axis, random.between(0.0, 0.6)) * reach.rotation;
+    const Vec3 end{random.between(-0.2, 0.3), random.between(1.0, 1.4),
+                   -0.5 - random.between(0.0, 0.03)};
+    reach.palm_path = {end + Vec3{random.between(-0.1, 0.1), random.between(-0.1, 0.1), 0.2}, end};
     reach.add_mug(end - Vec3(0.0, 0.0, 0.3 + 2.0 * half_m));
     const Grab& grab = reach.close();
     RC_ASSERT(grab.body == wall);
@@ -92,7 +93,7 @@ RC_GTEST_PROP(HandSight, PalmThatSlidInsideAWallGripsItsFront, (std::uint64_t se
     reach.rotation = random.rotation();
     const Vec3 in(random.between(-0.2, 0.2), 0.9, -0.5 - depth_m);
     reach.palm_path = {in + Vec3(0.0, 0.0, depth_m + 0.1), in,
-                       in + Vec3(random.between(-0.2, 0.2), random.between(0.35, 0.8), 0.0)};
+                       in + Vec3{random.between(-0.2, 0.2), random.between(0.35, 0.8), 0.0}};
     const Grab& grab = reach.close();
     RC_ASSERT(grab.body == wall);
     RC_ASSERT(std::abs(grab.hit_bs.z() - half_m) < 1e-6);
@@ -120,7 +121,7 @@ RC_GTEST_PROP(HandSight, HandInAShelfGripsWhatStandsThere, (std::uint64_t seed))
     scenario.add_wall("back", Vec3(0.5, 0.16, 0.01), Vec3(0.0, 1.15, -0.8));
     scenario.add_wall("lip", Vec3(0.5, 0.02, 0.01), Vec3(0.0, 1.03, -0.4));
     const double x = random.between(-0.4, 0.4);
-    const Vec3 end(x, random.between(1.06, 1.12), random.between(-0.7, -0.55));
+    const Vec3 end{x, random.between(1.06, 1.12), random.between(-0.7, -0.55)};
     reach.palm_path = {Vec3(x, 1.2, -0.3), Vec3(x, 1.18, -0.5), end};
     const Entity mug = reach.add_mug(end - Vec3(0.0, 0.0, 0.07));
     RC_ASSERT(reach.close().body == mug);
@@ -130,8 +131,9 @@ RC_GTEST_PROP(HandSight, HandInAShelfGripsWhatStandsThere, (std::uint64_t seed))
 RC_GTEST_PROP(HandSight, RailInTheWayHidesNothing, (std::uint64_t seed)) {
     Random random(seed);
     Reach reach(random);
+    const double radius_m = random.between(0.01, 0.025);
     reach.scenario.add(
-        "rail", {}, reach.scenario.shapes.add_capsule(random.between(0.01, 0.025), 1.0),
+        "rail", {}, reach.scenario.shapes.add_capsule(radius_m, 1.0),
         {Vec3(0.1, 1.2, -0.5), rotation_about(Vec3::UnitZ(), random.between(0.0, 3.0))});
     const Vec3 end(0.1, 1.2, -0.5 - random.between(0.15, 0.3));
     reach.palm_path = {Vec3(0.1, 1.2, -0.3), end};
@@ -147,7 +149,7 @@ RC_GTEST_PROP(HandSight, BarBehindARimIsGripped, (std::uint64_t seed)) {
     const double rim_y = 1.1;
     reach.scenario.add_wall("wall", Vec3(1.0, 1.0, 0.01), Vec3(0.0, rim_y + 1.0, -0.51));
     const double x = random.between(-0.05, 0.05);
-    const Vec3 end(x, rim_y - random.between(0.02, 0.04), -0.5 - random.between(0.05, 0.08));
+    const Vec3 end{x, rim_y - random.between(0.02, 0.04), -0.5 - random.between(0.05, 0.08)};
     reach.rotation = Quat::Identity();  // the palm faces down
     reach.palm_path = {Vec3(x, 1.3, -0.3), end};
     const Entity bar =

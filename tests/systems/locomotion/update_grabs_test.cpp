@@ -267,7 +267,7 @@ struct Reach {
     Quat rotation;
 };
 Reach random_reach(Random& random) {
-    return {Vec3(random.between(-0.5, 0.5), random.between(1.0, 1.06), random.between(-0.5, 0.5)),
+    return {Vec3{random.between(-0.5, 0.5), random.between(1.0, 1.06), random.between(-0.5, 0.5)},
             rotation_from_vector(random.vector(0.5))};
 }
 

@@ -80,9 +80,10 @@ TEST(PredictBodies, FixedAndKinematicBodiesStayBitForBit) {
 RC_GTEST_PROP(PredictBodies, AngularMomentumIsConservedForAnyStep, (std::uint64_t seed)) {
     Random random(seed);
     Prediction scene;
-    const Vec3 inertia(random.between(0.05, 1.0), random.between(0.05, 1.0),
-                       random.between(0.05, 1.0));
-    scene.add_body(k_body, BodyKind::free, inertia, random.pose(),
+    const Vec3 inertia{random.between(0.05, 1.0), random.between(0.05, 1.0),
+                       random.between(0.05, 1.0)};
+    const Pose pose = random.pose();
+    scene.add_body(k_body, BodyKind::free, inertia, pose,
                    {random.vector(1.0), random.vector(10.0)});
     const Vec3 before = angular_momentum(scene);
     const double dt_s = random.between(0.001, 0.05);

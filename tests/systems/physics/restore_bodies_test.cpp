@@ -101,8 +101,8 @@ TEST(RestoreBodies, NoBodyOverlapsWhereARestoredOneReturnsTo) {
     Random random(3601);
     for (int i = 0; i < 100; ++i) {
         Restoring scene;
-        const Vec3 valid(random.between(0.15, 0.4), random.between(-0.5, 0.5),
-                         random.between(-0.5, 0.5));
+        const Vec3 valid{random.between(0.15, 0.4), random.between(-0.5, 0.5),
+                         random.between(-0.5, 0.5)};
         const Vec3 beside = valid + Vec3(0.3, 0.0, 0.0);
         scene.add(k_stuck, BodyKind::free, scene.cube, valid);
         scene.add(k_follower, BodyKind::free, scene.cube, beside);

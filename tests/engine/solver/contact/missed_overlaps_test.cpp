@@ -52,7 +52,7 @@ TEST(MissedOverlaps, AreAsDeepAsTheBodiesEndInAnotherPart) {
     Random random(3611);
     for (int round = 0; round < 50; ++round) {
         const double depth_m = random.between(1e-3, 0.05);
-        CubeAtFork scene(depth_m, random.between(0.02, 0.5), random.pose());
+        CubeAtFork scene{depth_m, random.between(0.02, 0.5), random.pose()};
         scene.add_contact();
         scene.find();
         EXPECT_NEAR(scene.missed.of_body[0].depth_m, depth_m, 1e-6);

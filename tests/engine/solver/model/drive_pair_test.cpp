@@ -67,7 +67,7 @@ RC_GTEST_PROP(RotationFromDrivePair, TwistIsTheMeanOfBoth, (std::uint64_t seed))
     Random random(seed);
     DrivePair drives = random_drives(random);
     const Quat body = rotation_from_drive_pair(drives, random.rotation());
-    const Vec3 twists(random.between(-3.0, 3.0), random.between(-3.0, 3.0), 0.0);
+    const Vec3 twists{random.between(-3.0, 3.0), random.between(-3.0, 3.0), 0.0};
     rotate_drives(drives, body, twists, 0.0, random);
     const Quat expected = rotation_about(line_of(drives), 0.5 * (twists.x() + twists.y())) * body;
     RC_ASSERT(angle_between(rotation_from_drive_pair(drives, body), expected) < 1e-7);

@@ -34,9 +34,9 @@ ConstraintGraph random_graph(Random& random) {
     }
     const std::uint32_t blocks = below(40, random);
     for (std::uint32_t i = 0; i < blocks; ++i) {
-        RowBlock block =
-            test::row_block(below(2, random) == 0 ? RowKind::drive_point : RowKind::contact,
-                            below(bodies, random), below(bodies, random));
+        const RowKind kind = below(2, random) == 0 ? RowKind::drive_point : RowKind::contact;
+        const std::uint32_t a = below(bodies, random);
+        RowBlock block = test::row_block(kind, a, below(bodies, random));
         block.key = i;
         const bool moves = graph.bodies[block.a].role != BodyRole::fixed ||
                            graph.bodies[block.b].role != BodyRole::fixed;

@@ -206,8 +206,8 @@ RC_GTEST_PROP(Friction, BouncingBallFollowsCoulombAndNewton, (std::uint64_t seed
     Random random(seed);
     const double friction = random.between(0.01, 1.5);
     const double restitution = random.between(0.0, 1.0);
-    const Vec3 velocity(random.between(-3.0, 3.0), random.between(-4.0, -0.3),
-                        random.between(-3.0, 3.0));
+    const Vec3 velocity{random.between(-3.0, 3.0), random.between(-4.0, -0.3),
+                        random.between(-3.0, 3.0)};
     const Vec3 spin = random.vector(20.0);
     test::SolverScene scene = ball_on_floor(friction, restitution, velocity, spin);
     const Vec3 arm(0.0, -k_radius_m, 0.0);
