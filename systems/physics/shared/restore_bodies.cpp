@@ -21,6 +21,9 @@ constexpr double k_max_restore_distance_m = 2.0;
 // Smaller overlaps with a restored body are left to the next frames: restoring a player as well
 // costs the exactness of their hands.
 constexpr double k_joining_depth_m = 1e-3;
+// Where another body has moved to the last valid pose, a body returns only a part of the way: half
+// of it, a quarter and so on, down to this share.
+constexpr double k_min_share = 1.0 / 32.0;
 constexpr double k_max_error_ratio = 0.5;  // a restore must reduce the error at least to this share
 
 // The worst error of a body's own rows without grips, or of its contacts only.
@@ -125,8 +128,10 @@ void find_penetrating_bodies(double restore_depth_m, FrameGraph& frame, StageSta
     }
 }
 
-// Moves a body or player to its last valid pose, carried along by its carrier.
-void restore_last_valid_pose(const FrameGraph::PenetratingBody& penetrating, FrameGraph& frame) {
+// Moves a body or player back from where the phases put it, by `share` of the way to its last valid
+// pose, which its carrier carries along.
+void restore_last_valid_pose(const FrameGraph::PenetratingBody& penetrating, double share,
+                             FrameGraph& frame) {
     SolverBody& body = frame.graph.bodies[penetrating.body];
     Pose valid_ws = frame.proxies[penetrating.body].from_ws;
     if (penetrating.carrier != penetrating.body) {
@@ -142,7 +147,9 @@ void restore_last_valid_pose(const FrameGraph::PenetratingBody& penetrating, Fra
     if (body.role == BodyRole::translating) {
         body.pose_ws.position = valid_ws.position - body.pose_ws.rotation * body.collider_offset_bs;
     } else {
-        body.pose_ws = valid_ws * Pose{-body.collider_offset_bs, Quat::Identity()};
+        valid_ws = valid_ws * Pose{-body.collider_offset_bs, Quat::Identity()};
+        body.pose_ws = share == 1.0 ? valid_ws  // without rounding
+                                    : interpolate(penetrating.pose_ws, valid_ws, share);
     }
 }
 
@@ -238,7 +245,7 @@ bool restore_overlapped_bodies(FrameGraph& frame) {
         }
     }
     for (std::size_t i = count; i < listed.size(); ++i) {
-        restore_last_valid_pose(listed[i], frame);
+        restore_last_valid_pose(listed[i], 1.0, frame);
     }
     return listed.size() > count;
 }
@@ -254,11 +261,17 @@ void restore_penetrating_bodies(CollisionWorld& collision, FrameGraph& frame,
         return;
     }
     std::vector<FrameGraph::PenetratingBody>& listed = frame.penetrating_bodies;
-    for (const FrameGraph::PenetratingBody& penetrating : listed) {
-        restore_last_valid_pose(penetrating, frame);
+    bool failed = true;
+    for (double share = 1.0; failed && share >= k_min_share; share *= 0.5) {
+        for (const FrameGraph::PenetratingBody& penetrating : listed) {
+            if (!penetrating.is_restored) {
+                restore_last_valid_pose(penetrating, share, frame);
+            }
+        }
+        rebuild_contacts(collision, frame, tuning, stats);
+        failed = undo_failed_restores(listed, frame);
     }
-    rebuild_contacts(collision, frame, tuning, stats);
-    if (undo_failed_restores(listed, frame)) {
+    if (failed) {
         rebuild_contacts(collision, frame, tuning, stats);
     }
     const std::size_t count = listed.size();

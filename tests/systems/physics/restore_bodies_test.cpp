@@ -115,5 +115,28 @@ TEST(RestoreBodies, NoBodyOverlapsWhereARestoredOneReturnsTo) {
     }
 }
 
+// A fast cube ends a little in the wall, and another has followed it: the last valid pose is taken,
+// but not the whole way to it.
+TEST(RestoreBodies, CubeReturnsAPartOfTheWayIfAnotherIsWhereItWas) {
+    Random random(3602);
+    for (int i = 0; i < 100; ++i) {
+        const double depth_m = random.between(0.0015, 0.004);
+        const double path_m = random.between(0.04, 0.1);
+        const Vec3 end{k_half_m - depth_m, random.between(-0.5, 0.5), random.between(-0.5, 0.5)};
+        const Vec3 followed_m(2.0 * k_half_m + depth_m * random.between(2.0, 4.0), 0.0, 0.0);
+        const Vec3 before_m(path_m, 0.0, 0.0);
+        Restoring scene;
+        scene.add(k_stuck, BodyKind::free, scene.cube, end + before_m);
+        scene.add(k_follower, BodyKind::free, scene.cube, end + followed_m + before_m);
+        scene.place();
+        scene.end_phases_at(k_stuck, end);
+        scene.end_phases_at(k_follower, end + followed_m);
+        scene.restore();
+        const Vec3 stuck = scene.solved_at(k_stuck);
+        EXPECT_LT(k_half_m - stuck.x(), 0.5 * depth_m) << i;
+        EXPECT_LT(2.0 * k_half_m - (scene.solved_at(k_follower) - stuck).x(), 0.5 * depth_m) << i;
+    }
+}
+
 }  // namespace
 }  // namespace handhold::restore_bodies_test
