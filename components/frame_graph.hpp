@@ -117,7 +117,8 @@ struct FrameGraph {
         // The body that carries it along with its motion in this frame: the fixed or kinematic body
         // that it penetrates, or a restored body that it overlaps. Itself if none.
         std::uint32_t carrier = 0;
-        Pose pose_ws;
+        Pose valid_ws;  // last valid pose of the body, carried along by the carrier
+        Pose pose_ws;   // this and the velocities: as the phases left them
         Vec3 velocity_mps = Vec3::Zero();
         Vec3 spin_radps = Vec3::Zero();
         bool is_restored = false;  // false if the restore was undone

@@ -27,6 +27,11 @@ class Random {
             }
         }
     }
+    // In any direction, of uniform length.
+    Vec3 arm(double low, double high) {
+        const double length = between(low, high);
+        return length * direction();
+    }
     Quat rotation() {
         const Vec3 axis = direction();  // first: compilers order arguments as they like
         return rotation_about(axis, between(-3.0, 3.0));

@@ -1,52 +1,79 @@
 #!/usr/bin/env python3
 """Checks that tests draw random numbers in an order that C++ defines, so that every compiler builds the same inputs. Prints
-`file:line: call` for each call with draws in more than one argument; elements of a braced list are ordered, arguments are not.
+`file:line: text` for each expression of which two arguments or operands draw: their order is left to the compiler. Elements of a braced
+list are ordered. A draw is a call of a generator's member, or a call that is given a generator; calls of a lambda that draws are not seen.
 
-usage: tools/check_draws.py [ROOT]      exit status 0: none, 1: some
+usage: tools/check_draws.py [ROOT]      exit status 0: none, 1: some, 2: ROOT has no tests
 """
 import re
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Iterator
 
-from check_includes import without_comments, without_literals
+from check_includes import without_literals
 
 GENERATOR = re.compile(r"\bRandom&?\s+(\w+)")
-STATEMENT = re.compile(r"\b(?:for|if|while|switch)\s*$")
+BLOCK_FOLLOWS = re.compile(r"(?:[;{})\]]|\b(?:else|do|try|const|override|noexcept))\s*$")
 
 
-def calls(code: str) -> Iterator[tuple[int, list[str]]]:
-    """Each pair of parentheses with a comma: its offset and the text between the commas."""
-    open_brackets: list[tuple[str, int, list[int]]] = []
-    for i, sign in enumerate(code):
-        if sign in "([{":
-            open_brackets.append((sign, i, [i]))
-        elif sign == "," and open_brackets:
-            open_brackets[-1][2].append(i)
-        elif sign in ")]}" and open_brackets:
-            bracket, begin, separators = open_brackets.pop()
-            if bracket == "(" and len(separators) > 1 and not STATEMENT.search(code[max(0, begin - 8) : begin]):
-                ends = separators[1:] + [i]
-                yield begin, [code[a + 1 : b] for a, b in zip(separators, ends)]
+@dataclass
+class Bracket:
+    sign: str
+    arguments_of_draw: bool = False  # these are drawn before it
+    draws: bool = False  # anything within the brackets
+    operands: int = 0  # that draw, in the expression so far
+
+
+def tokens(code: str) -> Iterator[re.Match]:
+    """Draws, generators that a call is given, brackets, and the signs that order what stands before and after them."""
+    names = "|".join(sorted(set(GENERATOR.findall(code)) | {"random"}))
+    return re.finditer(
+        rf"(?P<draw>\b(?:{names})\.\w+\()|(?P<given>\b(?:{names})\b(?=\s*[,)]))|(?P<open>[(\[{{])|(?P<close>[)\]}}])"
+        r"|(?P<order>;|&&|\|\||\?|(?<!:):(?!:)|<<|(?<![=<>!])=(?!=))|(?P<comma>,)", code)
 
 
 def breaches(code: str) -> Iterator[int]:
-    """Offsets of the calls with draws in more than one argument."""
-    names = "|".join(sorted(set(GENERATOR.findall(code)) | {"random"}))
-    # A member function of a generator, or a helper that is given the generator last.
-    draw = re.compile(rf"\b(?:{names})\.(?!engine\b)\w+\(|[(,]\s*(?:{names})\)")
-    for begin, arguments in calls(code):
-        if sum(draw.search(argument) is not None for argument in arguments) > 1:
-            yield begin
+    """Offsets at which the second operand or argument that draws begins or ends."""
+    stack = [Bracket("{")]
+
+    def draw(offset: int) -> Iterator[int]:
+        stack[-1].draws = True
+        stack[-1].operands += 1
+        if stack[-1].operands == 2:
+            yield offset
+
+    for token in tokens(code):
+        top = stack[-1]
+        if token["draw"]:
+            yield from draw(token.start())
+            stack.append(Bracket("(", arguments_of_draw=True))
+        elif token["given"]:
+            top.draws = True
+        elif token["open"]:
+            is_block = token["open"] == "{" and BLOCK_FOLLOWS.search(code[max(0, token.start() - 12) : token.start()])
+            if is_block:
+                top.operands = 0
+            stack.append(Bracket("block" if is_block else token["open"]))
+        elif token["close"] and len(stack) > 1:
+            closed = stack.pop()
+            if closed.draws and closed.sign != "block" and not closed.arguments_of_draw:
+                yield from draw(token.start())
+        elif token["order"] or (token["comma"] and top.sign != "("):
+            top.operands = 0
 
 
 def main() -> int:
     root = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).resolve().parent.parent
+    paths = sorted([*(root / "tests").rglob("*.cpp"), *(root / "tests").rglob("*.hpp")])
+    if not paths:
+        print(f"{root}: no tests", file=sys.stderr)
+        return 2
     found = 0
-    for path in sorted([*(root / "tests").rglob("*.cpp"), *(root / "tests").rglob("*.hpp")]):
-        text = path.read_text()
-        for begin in breaches(without_literals(without_comments(text))):
-            line = text.count("\n", 0, begin) + 1
+    for path in paths:
+        text = path.read_text(encoding="utf-8")
+        for offset in breaches(without_literals(text)):
+            line = text.count("\n", 0, offset) + 1
             print(f"{path.relative_to(root)}:{line}: {text.splitlines()[line - 1].strip()}")
             found += 1
     return 1 if found else 0

@@ -15,6 +15,7 @@
 //
 // A free body that penetrates by contact.restore_depth_m or more is restored, at most 2 m far, if
 // that at least halves its error: a hand that jumps through clutter carries no body into a wall.
+// What has taken its last valid pose is restored with it.
 // Overlaps that its contacts do not show, because it moved farther than sweeps cover
 // (find_missed_overlaps), count too; such a pose does not become the last valid one. A body
 // restored next to a fixed or kinematic body moves with it and enters the velocity solve at its

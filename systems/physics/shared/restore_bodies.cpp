@@ -21,9 +21,6 @@ constexpr double k_max_restore_distance_m = 2.0;
 // Smaller overlaps with a restored body are left to the next frames: restoring a player as well
 // costs the exactness of their hands.
 constexpr double k_joining_depth_m = 1e-3;
-// Where another body has moved to the last valid pose, a body returns only a part of the way: half
-// of it, a quarter and so on, down to this share.
-constexpr double k_min_share = 1.0 / 32.0;
 constexpr double k_max_error_ratio = 0.5;  // a restore must reduce the error at least to this share
 
 // The worst error of a body's own rows without grips, or of its contacts only.
@@ -86,16 +83,41 @@ double worst_overlap_m(const FrameGraph& frame, const Island& island) {
     return worst;
 }
 
+// The body as the phases left it, with its last valid pose as `carrier` carries it along.
+FrameGraph::PenetratingBody penetrating_body(const FrameGraph& frame, std::uint32_t index,
+                                             std::uint32_t island, double error_m,
+                                             std::uint32_t carrier) {
+    const SolverBody& body = frame.graph.bodies[index];
+    Pose valid_ws = frame.proxies[index].from_ws;  // of the collider
+    if (carrier != index) {
+        const ColliderProxy& proxy = frame.proxies[carrier];
+        valid_ws = proxy.to_ws * (inverse(proxy.from_ws) * valid_ws);
+    }
+    if (body.role == BodyRole::translating) {
+        valid_ws = {valid_ws.position - body.pose_ws.rotation * body.collider_offset_bs,
+                    body.pose_ws.rotation};
+    } else {
+        valid_ws = valid_ws * Pose{-body.collider_offset_bs, Quat::Identity()};
+    }
+    return {.body = index,
+            .island = island,
+            .error_m = error_m,
+            .carrier = carrier,
+            .valid_ws = valid_ws,
+            .pose_ws = body.pose_ws,
+            .velocity_mps = body.velocity_mps,
+            .spin_radps = body.spin_radps};
+}
+
 void add_if_penetrating(double restore_depth_m, std::uint32_t index, std::uint32_t island,
                         FrameGraph& frame) {
-    const SolverBody& body = frame.graph.bodies[index];
     const double hidden_m = hidden_overlap_m(frame, index);
-    if (body.role == BodyRole::free &&
+    if (frame.graph.bodies[index].role == BodyRole::free &&
         std::max(own_error_m(frame.graph, index, true), hidden_m) >= restore_depth_m) {
         const double error_m = std::max(own_error_m(frame.graph, index, false), hidden_m);
         const std::uint32_t carrier = overlapped_fixed_body(frame, index).value_or(index);
         frame.penetrating_bodies.push_back(
-            {index, island, error_m, carrier, body.pose_ws, body.velocity_mps, body.spin_radps});
+            penetrating_body(frame, index, island, error_m, carrier));
     }
 }
 
@@ -128,28 +150,14 @@ void find_penetrating_bodies(double restore_depth_m, FrameGraph& frame, StageSta
     }
 }
 
-// Moves a body or player back from where the phases put it, by `share` of the way to its last valid
-// pose, which its carrier carries along.
-void restore_last_valid_pose(const FrameGraph::PenetratingBody& penetrating, double share,
-                             FrameGraph& frame) {
+void restore(const FrameGraph::PenetratingBody& penetrating, FrameGraph& frame) {
     SolverBody& body = frame.graph.bodies[penetrating.body];
-    Pose valid_ws = frame.proxies[penetrating.body].from_ws;
-    if (penetrating.carrier != penetrating.body) {
-        const SolverBody& carrier = frame.graph.bodies[penetrating.carrier];
-        const ColliderProxy& proxy = frame.proxies[penetrating.carrier];
-        valid_ws = proxy.to_ws * (inverse(proxy.from_ws) * valid_ws);
-        if (carrier.role == BodyRole::fixed) {
-            const Vec3 arm_m = valid_ws.position - carrier.pose_ws.position;
-            body.velocity_mps = carrier.velocity_mps + carrier.spin_radps.cross(arm_m);
-            body.spin_radps = carrier.spin_radps;
-        }
-    }
-    if (body.role == BodyRole::translating) {
-        body.pose_ws.position = valid_ws.position - body.pose_ws.rotation * body.collider_offset_bs;
-    } else {
-        valid_ws = valid_ws * Pose{-body.collider_offset_bs, Quat::Identity()};
-        body.pose_ws = share == 1.0 ? valid_ws  // without rounding
-                                    : interpolate(penetrating.pose_ws, valid_ws, share);
+    body.pose_ws = penetrating.valid_ws;
+    const SolverBody& carrier = frame.graph.bodies[penetrating.carrier];
+    if (carrier.role == BodyRole::fixed) {
+        const Vec3 arm_m = body.pose_ws.position - carrier.pose_ws.position;
+        body.velocity_mps = carrier.velocity_mps + carrier.spin_radps.cross(arm_m);
+        body.spin_radps = carrier.spin_radps;
     }
 }
 
@@ -160,7 +168,8 @@ void undo_restore(const FrameGraph::PenetratingBody& penetrating, FrameGraph& fr
     body.spin_radps = penetrating.spin_radps;
 }
 
-// Contacts found at the penetrating poses are dropped; those at the restored poses are found again.
+// Contacts found at the penetrating poses are dropped; those at the present poses are found again,
+// hidden overlaps too.
 void rebuild_contacts(CollisionWorld& collision, FrameGraph& frame, const ContactTuning& tuning,
                       StageStats& stats) {
     const auto is_penetrating = [&frame](std::uint64_t id) {
@@ -182,55 +191,54 @@ void rebuild_contacts(CollisionWorld& collision, FrameGraph& frame, const Contac
                      {tuning.margin_m, tuning.sweep_m}, OldPoints::replaced);
     ++stats.contact_rounds;
     activate_islands(frame);
+    find_missed_overlaps(collision, frame.proxies, frame.graph, tuning.sweep_m,
+                         frame.hidden_overlaps);
 }
 
 bool is_improved(const FrameGraph& frame, const FrameGraph::PenetratingBody& penetrating) {
-    const double moved_m =
-        (frame.graph.bodies[penetrating.body].pose_ws.position - penetrating.pose_ws.position)
-            .norm();
-    return moved_m < k_max_restore_distance_m && own_error_m(frame.graph, penetrating.body, false) <
-                                                     k_max_error_ratio * penetrating.error_m;
+    const double way_m = (penetrating.valid_ws.position - penetrating.pose_ws.position).norm();
+    const double error_m = std::max(own_error_m(frame.graph, penetrating.body, false),
+                                    hidden_overlap_m(frame, penetrating.body));
+    return way_m < k_max_restore_distance_m && error_m < k_max_error_ratio * penetrating.error_m;
 }
 
-// Undoes the restores of `bodies` in each island in which one of them did not help, and keeps those
-// of the other islands. True if any were undone.
-bool undo_failed_restores(std::span<FrameGraph::PenetratingBody> bodies, FrameGraph& frame) {
-    for (FrameGraph::PenetratingBody& body : bodies) {
-        body.is_restored = is_improved(frame, body);
-    }
-    bool undone = false;
-    for (FrameGraph::PenetratingBody& body : bodies) {
-        const bool fails =
-            std::ranges::any_of(bodies, [&body](const FrameGraph::PenetratingBody& other) {
-                return other.island == body.island && !other.is_restored;
-            });
-        if (fails) {
-            body.is_restored = false;
-            undo_restore(body, frame);
-            undone = true;
-        } else {
-            frame.hidden_overlaps.of_body[body.body] = {0.0, body.body};
+// Keeps the restores of each island in which they help all the bodies whose restores were not kept
+// before.
+void keep_helpful_restores(FrameGraph& frame) {
+    std::span<FrameGraph::PenetratingBody> rest = frame.penetrating_bodies;
+    while (!rest.empty()) {
+        const std::uint32_t island = rest.front().island;
+        const auto end = std::ranges::find_if(
+            rest, [&](const FrameGraph::PenetratingBody& body) { return body.island != island; });
+        const auto group = rest.first(static_cast<std::size_t>(end - rest.begin()));
+        const bool help = std::ranges::all_of(group, [&](const FrameGraph::PenetratingBody& body) {
+            return body.is_restored || is_improved(frame, body);
+        });
+        for (FrameGraph::PenetratingBody& body : group) {
+            body.is_restored = body.is_restored || help;
         }
+        rest = rest.subspan(group.size());
     }
-    return undone;
 }
 
-// Restores free bodies and players that overlap a restored body, and adds them to the list: they
+// Restores free bodies and players that a restored body overlaps, and adds them to the list: they
 // may have moved to where it was. False if there are none.
 bool restore_overlapped_bodies(FrameGraph& frame) {
     std::vector<FrameGraph::PenetratingBody>& listed = frame.penetrating_bodies;
     const std::size_t count = listed.size();
-    const auto is_listed = [&listed](std::uint32_t body) {
-        return std::ranges::find(listed, body, &FrameGraph::PenetratingBody::body) != listed.end();
+    const auto find = [&](std::uint32_t body, std::size_t among) {
+        const auto bodies = std::span(listed).first(among);
+        const auto found = std::ranges::find(bodies, body, &FrameGraph::PenetratingBody::body);
+        return found == bodies.end() ? nullptr : &*found;
     };
     const auto add = [&](std::uint32_t index, std::uint32_t other, double overlap_m) {
-        const SolverBody& body = frame.graph.bodies[index];
-        const bool may_move = body.role == BodyRole::free || body.role == BodyRole::translating;
-        const auto carriers = std::span(listed).first(count);
-        const auto carrier = std::ranges::find(carriers, other, &FrameGraph::PenetratingBody::body);
-        if (may_move && carrier != carriers.end() && carrier->is_restored && !is_listed(index)) {
-            listed.push_back({index, carrier->island, overlap_m, other, body.pose_ws,
-                              body.velocity_mps, body.spin_radps, true});
+        const BodyRole role = frame.graph.bodies[index].role;
+        const bool may_move = role == BodyRole::free || role == BodyRole::translating;
+        const FrameGraph::PenetratingBody* const carrier = find(other, count);
+        if (may_move && carrier != nullptr && find(index, listed.size()) == nullptr &&
+            (carrier->is_restored || !frame.graph.bodies[other].in_heap)) {
+            const std::uint32_t island = carrier->island;
+            listed.push_back(penetrating_body(frame, index, island, overlap_m, other));
         }
     };
     for (const RowBlock& block : frame.graph.blocks) {
@@ -245,9 +253,34 @@ bool restore_overlapped_bodies(FrameGraph& frame) {
         }
     }
     for (std::size_t i = count; i < listed.size(); ++i) {
-        restore_last_valid_pose(listed[i], 1.0, frame);
+        restore(listed[i], frame);
     }
-    return listed.size() > count;
+    const bool any = listed.size() > count;
+    std::ranges::stable_sort(listed, {}, &FrameGraph::PenetratingBody::island);
+    return any;
+}
+
+// Puts the bodies whose restores were not kept back to where the phases left them. False if there
+// are none.
+bool undo_other_restores(FrameGraph& frame) {
+    bool undone = false;
+    for (const FrameGraph::PenetratingBody& body : frame.penetrating_bodies) {
+        if (!body.is_restored) {
+            undo_restore(body, frame);
+            undone = true;
+        }
+    }
+    return undone;
+}
+
+void count_restored_islands(const FrameGraph& frame, StageStats& stats) {
+    const std::vector<FrameGraph::PenetratingBody>& listed = frame.penetrating_bodies;
+    for (std::size_t i = 0; i < listed.size(); ++i) {
+        const bool is_first = i == 0 || listed[i - 1].island != listed[i].island;
+        if (is_first && listed[i].is_restored) {
+            stats.count(Fallback::restored_last_valid_pose);
+        }
+    }
 }
 
 }  // namespace
@@ -260,34 +293,19 @@ void restore_penetrating_bodies(CollisionWorld& collision, FrameGraph& frame,
     if (frame.penetrating_bodies.empty()) {
         return;
     }
-    std::vector<FrameGraph::PenetratingBody>& listed = frame.penetrating_bodies;
-    bool failed = true;
-    for (double share = 1.0; failed && share >= k_min_share; share *= 0.5) {
-        for (const FrameGraph::PenetratingBody& penetrating : listed) {
-            if (!penetrating.is_restored) {
-                restore_last_valid_pose(penetrating, share, frame);
-            }
-        }
-        rebuild_contacts(collision, frame, tuning, stats);
-        failed = undo_failed_restores(listed, frame);
-    }
-    if (failed) {
-        rebuild_contacts(collision, frame, tuning, stats);
-    }
-    const std::size_t count = listed.size();
-    for (std::size_t i = 0; i < count; ++i) {  // grouped by island
-        const bool is_first = i == 0 || listed[i - 1].island != listed[i].island;
-        if (is_first && listed[i].is_restored) {
-            stats.count(Fallback::restored_last_valid_pose);
-        }
-    }
-    if (!restore_overlapped_bodies(frame)) {
-        return;
+    for (const FrameGraph::PenetratingBody& penetrating : frame.penetrating_bodies) {
+        restore(penetrating, frame);
     }
     rebuild_contacts(collision, frame, tuning, stats);
-    if (undo_failed_restores(std::span(listed).subspan(count), frame)) {
+    keep_helpful_restores(frame);
+    if (restore_overlapped_bodies(frame)) {
+        rebuild_contacts(collision, frame, tuning, stats);
+        keep_helpful_restores(frame);
+    }
+    if (undo_other_restores(frame)) {
         rebuild_contacts(collision, frame, tuning, stats);
     }
+    count_restored_islands(frame, stats);
 }
 
 }  // namespace handhold

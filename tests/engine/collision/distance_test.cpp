@@ -41,8 +41,8 @@ TEST(ClosestPoint, DegenerateTrianglesHaveTheirClosestPoint) {
         const Vec3 a = random.vector(1.0);
         const Vec3 b = random.vector(1.0);
         const double thickness = std::pow(10.0, random.between(-18.0, -6.0));
-        const Corners corners{
-            a, b, a + random.between(0.0, 1.0) * (b - a) + thickness * random.direction()};
+        const Vec3 c = a + random.between(0.0, 1.0) * (b - a);
+        const Corners corners{a, b, c + thickness * random.direction()};
         const Vec3 point = random.vector(2.0);
         const Vec3 expected = closest_on_segment(point, a, b);
         ASSERT_NEAR((closest_on_triangle(point, corners) - point).norm(), (expected - point).norm(),

@@ -24,8 +24,8 @@ Corners random_triangle(Random& random) {
     const double shape = random.between(0.0, 1.0);
     if (shape < 0.3) {
         const double off_m = shape < 0.1 ? 0.0 : std::pow(10.0, random.between(-9.0, -4.0));
-        corners[2] = corners[0] + random.between(-0.5, 1.5) * (corners[1] - corners[0]) +
-                     random.vector(off_m);
+        corners[2] = corners[0] + random.between(-0.5, 1.5) * (corners[1] - corners[0]);
+        corners[2] += random.vector(off_m);
     } else if (shape < 0.32) {
         corners[1] = corners[0];
         corners[2] = corners[0];

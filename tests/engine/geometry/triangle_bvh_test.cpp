@@ -91,8 +91,8 @@ void expect_rays(const Mesh& mesh, const TriangleBvh& bvh, Random& random, int r
         const Vec3 from = mesh.positions[0] + random.vector(size);
         const auto some = static_cast<std::size_t>(
             random.between(0.0, static_cast<double>(mesh.positions.size())));
-        const Vec3 to = from + random.between(0.5, 2.0) *
-                                   (mesh.positions[some] + random.vector(0.01 * size) - from);
+        const Vec3 through = mesh.positions[some] + random.vector(0.01 * size);
+        const Vec3 to = from + random.between(0.5, 2.0) * (through - from);
         const OracleRay oracle = oracle_ray(mesh, from, to);
         if (!oracle.clear) {
             continue;

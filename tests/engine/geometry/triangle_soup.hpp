@@ -27,8 +27,8 @@ inline Mesh make_soup(Random& random, std::size_t count) {
         Vec3 c = random.vector(size);
         const double kind = random.between(0.0, 1.0);
         if (kind < 0.1) {
-            c = a + random.between(0.0, 1.0) * (b - a) +
-                random.vector(std::pow(10.0, random.between(-13.0, -6.0)));
+            c = a + random.between(0.0, 1.0) * (b - a);
+            c += random.vector(std::pow(10.0, random.between(-13.0, -6.0)));
         } else if (kind < 0.12) {
             b = c = a;
         }

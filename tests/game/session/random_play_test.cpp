@@ -142,7 +142,8 @@ TEST_P(HostilePlay, StaysFiniteBoundedAndLosesNobody) {
     StageStats stats;
     for (std::uint64_t frame = 0; frame < frames; ++frame) {
         // Mostly regular frames, rarely any length from 1 to 100 ms.
-        const double long_s = k_shortest_frame_s + 0.099 * random.unit() * random.unit();
+        const double share = random.unit();
+        const double long_s = k_shortest_frame_s + 0.099 * share * random.unit();
         const double dt_s = random.chance(0.2) ? long_s : 1.0 / 90.0;
         const double start_s = world.clock.t_s;
         for (std::size_t i = 0; i < play.hostile; ++i) {

@@ -156,7 +156,7 @@ TEST(EstimateArms, ShouldersLeaveTheirRestByABoundedDistance) {
     const ArmTuning tuning;
     const double arm_m = 0.58;
     for (int i = 0; i < 5000; ++i) {
-        const Vec3 hand_m = random.between(0.0, 2.0 * arm_m) * random.direction();
+        const Vec3 hand_m = random.arm(0.0, 2.0 * arm_m);
         const Vec3 clavicle_m = clavicle_shift(hand_m / arm_m, tuning);
         const Vec3 follow_m =
             shoulder_follow(hand_m - clavicle_m, arm_m, clavicle_m.norm(), tuning);

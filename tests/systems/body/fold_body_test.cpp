@@ -102,8 +102,8 @@ TEST(FoldBody, CrouchedPelvisKneesAndAnklesStayAboveTheFloor) {
         Body body(random.between(1.1, 2.1));
         body.floor_m = random.between(-1.0, 1.0);
         const double eyes_m = random.between(0.3, body.measures.at(k_player).eye_height_m);
-        body.chest = rotation_about(Vec3::UnitY(), random.between(-3.0, 3.0)) *
-                     rotation_about(Vec3::UnitX(), random.between(-0.7, 0.3));
+        const Quat turned = rotation_about(Vec3::UnitY(), random.between(-3.0, 3.0));
+        body.chest = turned * rotation_about(Vec3::UnitX(), random.between(-0.7, 0.3));
         const SpinePose& pose = body.settle(eyes_m);
         EXPECT_GT(pose.pelvis_ws.position.y(), body.floor_m + 0.11 * body.scale()) << eyes_m;
         for (const SpinePose::Leg& leg : pose.legs) {

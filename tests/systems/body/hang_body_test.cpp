@@ -44,7 +44,8 @@ TEST(HangBody, HandsThatPullOnNothingChangesNoBit) {
 TEST(HangBody, LowestLinkTurnsByItsShareOfTheAngle) {
     Random random(3);
     for (int i = 0; i < 300; ++i) {
-        const Vec3 pull = random.between(0.0, 1.0) * upper_direction(random);
+        const Vec3 direction = upper_direction(random);
+        const Vec3 pull = random.between(0.0, 1.0) * direction;
         if (angle_rad(pull, Vec3::UnitY()) > 80.0 / 180.0 * k_pi) {
             continue;
         }
@@ -67,7 +68,7 @@ TEST(HangBody, LeanIsContinuousInThePull) {
                     Vec3(lean.chest_rad, 0.0, 0.0));
     };
     for (int i = 0; i < 2000; ++i) {
-        const Vec3 pull = random.between(0.2, 1.0) * random.direction();
+        const Vec3 pull = random.arm(0.2, 1.0);
         const Vec3 near = pull + 1e-4 * random.direction();
         EXPECT_LT((lowest(lean_of(pull)) - lowest(lean_of(near))).norm(), 4e-3);
     }

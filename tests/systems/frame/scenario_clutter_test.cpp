@@ -55,8 +55,7 @@ void add_clutter(Clutter kind, const Vec3& center, Random& random, Scenario& s) 
     for (int i = 0; i < 80; ++i) {
         const Vec3 half{random.between(0.02, 0.12), random.between(0.02, 0.12),
                         random.between(0.02, 0.12)};
-        const Vec3 away = random.direction();
-        const Vec3 place = center + away * random.between(0.35, 0.7);
+        const Vec3 place = center + random.arm(0.35, 0.7);
         const Pose pose{place, random.rotation()};
         if (kind != Clutter::one_mesh) {
             s.add("box" + std::to_string(i), {}, s.shapes.add_box(half), pose);
@@ -71,12 +70,11 @@ void add_clutter(Clutter kind, const Vec3& center, Random& random, Scenario& s) 
         for (int i = 0; i < 30; ++i) {
             const Vec3 half = Vec3::Constant(random.between(0.02, 0.04));
             const double mass_kg = random.between(0.3, 20.0);
-            const Vec3 away = random.direction();
             const ShapeId shape = s.shapes.add_box(half);
             const Entity body =
                 s.add("loose" + std::to_string(i),
                       {BodyKind::free, mass_kg, solid_inertia(s.shapes.at(shape), mass_kg), 1.0},
-                      shape, {center + away * random.between(0.2, 0.3), random.rotation()});
+                      shape, {center + random.arm(0.2, 0.3), random.rotation()});
             s.set_motion(body, random.direction() * 5.0, Vec3::Zero());
         }
     }

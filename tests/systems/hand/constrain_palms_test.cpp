@@ -78,7 +78,8 @@ TEST_F(ConstrainPalms, DepenetratedPalmStaysWithinTiltLimit) {
         }
         const GripMesh grip = build_grip_mesh(mesh);
         const Vec3 up = (Vec3::UnitY() + random.vector(0.7)).normalized();
-        const Vec3 center = Vec3(0.0, random.between(-0.02, 0.04), 0.0) + random.vector(0.03);
+        const double height_m = random.between(-0.02, 0.04);
+        const Vec3 center = Vec3(0.0, height_m, 0.0) + random.vector(0.03);
         FittedHand hand(grip, wrist_with_palm_at(rig, center, up));
         hold(hand);
         const GripSurface& surface = hand.surface.at(k_right);

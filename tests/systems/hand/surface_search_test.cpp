@@ -67,7 +67,8 @@ TEST(SurfaceSearch, FindsTriangleOfLeastCost) {
         const GripMesh mesh = build_grip_mesh(make_dunes(random));
         for (int i = 0; i < 30; ++i) {
             const Vec3 up = (Vec3::UnitY() + random.vector(0.5)).normalized();
-            const Vec3 center = Vec3(0.0, random.between(0.0, 0.06), 0.0) + random.vector(0.05);
+            const double height_m = random.between(0.0, 0.06);
+            const Vec3 center = Vec3(0.0, height_m, 0.0) + random.vector(0.05);
             double min_cost_m = 1.0;
             for (std::uint32_t t = 0; t < mesh.search.triangles.size(); ++t) {
                 min_cost_m = std::min(min_cost_m, sync_cost_m(mesh.search, t, center, up, tuning));

@@ -80,7 +80,7 @@ RC_GTEST_PROP(ReadTracking, SmoothHandOfAnySpeedIsBelieved, (std::uint64_t seed)
     devices.tuning.tracking.max_hand_speed_mps = 8.0;
     devices.tuning.hand.max_arm_m = 100.0;
     const double sample_s = 1.0 / random.between(60.0, 1000.0);
-    const Vec3 swing = random.between(0.1, 0.8) * random.direction();
+    const Vec3 swing = random.arm(0.1, 0.8);
     const double rate = random.between(1.0, 20.0);  // up to 16 m/s and 320 m/s^2
     const double noise_m = random.between(0.0, 0.002);
     double next_s = 0.0;

@@ -20,6 +20,8 @@ using test::Random;
 
 constexpr Entity k_stuck = entity(10);
 constexpr Entity k_follower = entity(11);
+constexpr Entity k_alone = entity(12);
+constexpr Entity k_mover = entity(13);
 constexpr double k_half_m = 0.1;
 
 // Cubes before a wall whose face is at x = 0.
@@ -115,27 +117,64 @@ TEST(RestoreBodies, NoBodyOverlapsWhereARestoredOneReturnsTo) {
     }
 }
 
-// A fast cube ends a little in the wall, and another has followed it: the last valid pose is taken,
-// but not the whole way to it.
-TEST(RestoreBodies, CubeReturnsAPartOfTheWayIfAnotherIsWhereItWas) {
+// A fast cube ends a little in the wall, and another has followed it to its last valid pose, much
+// deeper than the first is in the wall.
+TEST(RestoreBodies, CubeThatHasTakenTheLastValidPoseIsRestoredToo) {
     Random random(3602);
     for (int i = 0; i < 100; ++i) {
-        const double depth_m = random.between(0.0015, 0.004);
-        const double path_m = random.between(0.04, 0.1);
-        const Vec3 end{k_half_m - depth_m, random.between(-0.5, 0.5), random.between(-0.5, 0.5)};
-        const Vec3 followed_m(2.0 * k_half_m + depth_m * random.between(2.0, 4.0), 0.0, 0.0);
-        const Vec3 before_m(path_m, 0.0, 0.0);
+        const Vec3 end{k_half_m - random.between(0.0015, 0.01), random.between(-0.5, 0.5), 0.0};
+        const Vec3 followed_m(2.0 * k_half_m + random.between(0.0, 0.01), 0.0, 0.0);
+        const Vec3 way_m(random.between(0.03, 0.1), 0.0, 0.0);
         Restoring scene;
-        scene.add(k_stuck, BodyKind::free, scene.cube, end + before_m);
-        scene.add(k_follower, BodyKind::free, scene.cube, end + followed_m + before_m);
+        scene.add(k_stuck, BodyKind::free, scene.cube, end + way_m);
+        scene.add(k_follower, BodyKind::free, scene.cube, end + followed_m + way_m);
         scene.place();
         scene.end_phases_at(k_stuck, end);
         scene.end_phases_at(k_follower, end + followed_m);
         scene.restore();
-        const Vec3 stuck = scene.solved_at(k_stuck);
-        EXPECT_LT(k_half_m - stuck.x(), 0.5 * depth_m) << i;
-        EXPECT_LT(2.0 * k_half_m - (scene.solved_at(k_follower) - stuck).x(), 0.5 * depth_m) << i;
+        EXPECT_LT((scene.solved_at(k_stuck) - end - way_m).norm(), 1e-12) << i;
+        EXPECT_LT((scene.solved_at(k_follower) - end - followed_m - way_m).norm(), 1e-12) << i;
     }
+}
+
+// A mover that cannot be restored has taken the last valid pose.
+TEST(RestoreBodies, CubeWhoseRestoreCannotHelpStaysAndOthersAreRestored) {
+    constexpr std::uint64_t k_most_searches = 4;  // the first one is the test's
+    Random random(3603);
+    for (int i = 0; i < 100; ++i) {
+        const Vec3 end{k_half_m - random.between(0.002, 0.01), random.between(-0.5, 0.5), 0.0};
+        const Vec3 mover = end + Vec3(2.0 * k_half_m, 0.0, 0.0);
+        const Vec3 way_m(random.between(0.03, 0.1), 0.0, 0.0);
+        const Vec3 alone(0.3, 0.0, 2.0);
+        Restoring scene;
+        scene.add(k_stuck, BodyKind::free, scene.cube, end + way_m);
+        scene.add(k_mover, BodyKind::kinematic, scene.cube, mover + way_m);
+        scene.body_pose.at(k_mover).pose_ws = pose_at(mover);
+        scene.add(k_alone, BodyKind::free, scene.cube, alone);
+        scene.place();
+        scene.end_phases_at(k_stuck, end);
+        scene.end_phases_at(k_alone, alone - Vec3(0.25, 0.0, 0.0));
+        SolverBody& stuck = scene.frame.graph.bodies[scene.index_of(k_stuck)];
+        stuck.velocity_mps = random.vector(10.0);
+        const Vec3 velocity_mps = stuck.velocity_mps;
+        scene.restore();
+        EXPECT_EQ(scene.solved_at(k_stuck), end);
+        EXPECT_EQ(stuck.velocity_mps, velocity_mps);
+        EXPECT_LT((scene.solved_at(k_alone) - alone).norm(), 1e-12);
+        EXPECT_LE(scene.stats.contact_rounds, k_most_searches);
+        EXPECT_EQ(count_of(scene.stats, Fallback::restored_last_valid_pose), 1U);
+    }
+}
+
+TEST(RestoreBodies, CubeThatWasDraggedFarStays) {
+    Restoring scene;
+    const Vec3 end(0.0, 0.0, 0.0);
+    scene.add(k_stuck, BodyKind::free, scene.cube, Vec3(3.0, 0.0, 0.0));
+    scene.place();
+    scene.end_phases_at(k_stuck, end);
+    scene.restore();
+    EXPECT_EQ(scene.solved_at(k_stuck), end);
+    EXPECT_EQ(count_of(scene.stats, Fallback::restored_last_valid_pose), 0U);
 }
 
 }  // namespace

@@ -25,11 +25,9 @@ DrivePair random_drives(Random& random) {
     for (Pose* const pose : {&drives.first, &drives.first_anchor_bs}) {
         *pose = test::random_pose(random, 0.5);
     }
-    drives.second = {drives.first.position + random.between(0.04, 1.2) * random.direction(),
-                     random.rotation()};
-    drives.second_anchor_bs = {
-        drives.first_anchor_bs.position + random.between(0.04, 1.2) * random.direction(),
-        random.rotation()};
+    drives.second = {drives.first.position + random.arm(0.04, 1.2), random.rotation()};
+    drives.second_anchor_bs = {drives.first_anchor_bs.position + random.arm(0.04, 1.2),
+                               random.rotation()};
     return drives;
 }
 
