@@ -111,19 +111,20 @@ struct FrameGraph {
     struct PenetratingBody {
         std::uint32_t body = 0;
         // Index into the islands as solve_phases built them (the islands are rebuilt afterwards).
-        // If no constraint row involved the body: a number of its own, above all islands.
         std::uint32_t island = 0;
-        double error_m = 0.0;  // largest error of the body's constraint rows, except hand rows
+        // Largest error of the body's constraint rows, except hand rows, and of its hidden
+        // overlaps.
+        double error_m = 0.0;
         // The body that carries it along with its motion in this frame: the fixed or kinematic body
-        // that it penetrates, or a restored body that it overlaps. Itself if none.
+        // that it penetrates, or the listed body because of which it was added. Itself if none.
         std::uint32_t carrier = 0;
         Pose valid_ws;  // last valid pose of the body, carried along by the carrier
         Pose pose_ws;   // this and the velocities: as the phases left them
         Vec3 velocity_mps = Vec3::Zero();
         Vec3 spin_radps = Vec3::Zero();
-        bool is_restored = false;  // false if the restore was undone
+        bool is_restored = false;  // true once the restore is kept
     };
-    // Sorted by island; then what was restored because it overlapped one of these.
+    // Sorted by island. Within an island, those kept at the first evaluation come first.
     std::vector<PenetratingBody> penetrating_bodies;
     MissedOverlaps hidden_overlaps;  // written by finish_positions; read by update_velocities
     // Largest errors, by island. After a solve that met all its constraint rows: an upper bound.

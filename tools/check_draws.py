@@ -23,6 +23,8 @@ class Bracket:
     arguments_of_draw: bool = False  # these are drawn before it
     draws: bool = False  # anything within the brackets
     operands: int = 0  # that draw, in the expression so far
+    arguments: int = 0  # that draw, before this one
+    argument_draws: bool = False
 
 
 def tokens(code: str) -> Iterator[re.Match]:
@@ -35,12 +37,13 @@ def tokens(code: str) -> Iterator[re.Match]:
 
 def breaches(code: str) -> Iterator[int]:
     """Offsets at which the second operand or argument that draws begins or ends."""
-    stack = [Bracket("{")]
+    stack = [Bracket("block")]
 
     def draw(offset: int) -> Iterator[int]:
-        stack[-1].draws = True
-        stack[-1].operands += 1
-        if stack[-1].operands == 2:
+        top = stack[-1]
+        top.draws = top.argument_draws = True
+        top.operands += 1
+        if top.operands == 2 or (top.operands == 1 and top.arguments > 0):
             yield offset
 
     for token in tokens(code):
@@ -51,7 +54,8 @@ def breaches(code: str) -> Iterator[int]:
         elif token["given"]:
             top.draws = True
         elif token["open"]:
-            is_block = token["open"] == "{" and BLOCK_FOLLOWS.search(code[max(0, token.start() - 12) : token.start()])
+            before = code[max(0, token.start() - 12) : token.start()].rstrip()
+            is_block = token["open"] == "{" and BLOCK_FOLLOWS.search(before) and not (before[-1] == "{" and top.sign == "{")
             if is_block:
                 top.operands = 0
             stack.append(Bracket("block" if is_block else token["open"]))
@@ -59,8 +63,13 @@ def breaches(code: str) -> Iterator[int]:
             closed = stack.pop()
             if closed.draws and closed.sign != "block" and not closed.arguments_of_draw:
                 yield from draw(token.start())
-        elif token["order"] or (token["comma"] and top.sign != "("):
+        elif token["comma"] and top.sign == "(":
+            top.arguments += top.argument_draws
+            top.operands, top.argument_draws = 0, False
+        elif token["order"] or token["comma"]:
             top.operands = 0
+            if token["order"] == ";":  # of a loop's header
+                top.arguments, top.argument_draws = 0, False
 
 
 def main() -> int:

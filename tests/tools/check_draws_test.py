@@ -15,7 +15,10 @@ class CheckDraws(unittest.TestCase):
     def test_two_arguments_that_draw_are_found(self):
         for call in ("Vec3(random.between(0, 1), 0.0, random.between(0, 1))", "at(place_in(mesh, random), random.rotation())",
                      "Vec3 half(random.between(0, 1), 1.0, 2 * random.between(0, 1));",
-                     "turn({random.vector(1), 0.0}, other(1, random.vector(2)))"):
+                     "turn({random.vector(1), 0.0}, other(1, random.vector(2)))",
+                     "at(random.vector(3.0), odd ? Quat::Identity() : random.rotation())",
+                     "f(c ? random.unit() : 0.0, random.unit())", "f(random.unit() < 1 && ok, random.unit())",
+                     "f(Pose{{random.unit(), 0, 0}, q}, random.unit())", "at({{random.unit(), 0.0}, 1.0}, random.unit())"):
             with self.subTest(call=call):
                 self.assertEqual(found(call), 1)
 

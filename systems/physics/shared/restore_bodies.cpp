@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "engine/solver/contact/contact_rows.hpp"
@@ -58,6 +59,11 @@ double hidden_overlap_m(const FrameGraph& frame, std::uint32_t body) {
     return frame.hidden_overlaps.of_body[body].depth_m;
 }
 
+// The largest error of a body's rows without grips, and of its hidden overlaps.
+double error_m(const FrameGraph& frame, std::uint32_t body) {
+    return std::max(own_error_m(frame.graph, body, false), hidden_overlap_m(frame, body));
+}
+
 // The fixed or kinematic body that `body` penetrates most by its contacts; if no contact shows one,
 // the fixed body of a hidden overlap.
 std::optional<std::uint32_t> overlapped_fixed_body(const FrameGraph& frame, std::uint32_t body) {
@@ -85,8 +91,7 @@ double worst_overlap_m(const FrameGraph& frame, const Island& island) {
 
 // The body as the phases left it, with its last valid pose as `carrier` carries it along.
 FrameGraph::PenetratingBody penetrating_body(const FrameGraph& frame, std::uint32_t index,
-                                             std::uint32_t island, double error_m,
-                                             std::uint32_t carrier) {
+                                             std::uint32_t island, std::uint32_t carrier) {
     const SolverBody& body = frame.graph.bodies[index];
     Pose valid_ws = frame.proxies[index].from_ws;  // of the collider
     if (carrier != index) {
@@ -101,7 +106,7 @@ FrameGraph::PenetratingBody penetrating_body(const FrameGraph& frame, std::uint3
     }
     return {.body = index,
             .island = island,
-            .error_m = error_m,
+            .error_m = error_m(frame, index),
             .carrier = carrier,
             .valid_ws = valid_ws,
             .pose_ws = body.pose_ws,
@@ -114,10 +119,8 @@ void add_if_penetrating(double restore_depth_m, std::uint32_t index, std::uint32
     const double hidden_m = hidden_overlap_m(frame, index);
     if (frame.graph.bodies[index].role == BodyRole::free &&
         std::max(own_error_m(frame.graph, index, true), hidden_m) >= restore_depth_m) {
-        const double error_m = std::max(own_error_m(frame.graph, index, false), hidden_m);
         const std::uint32_t carrier = overlapped_fixed_body(frame, index).value_or(index);
-        frame.penetrating_bodies.push_back(
-            penetrating_body(frame, index, island, error_m, carrier));
+        frame.penetrating_bodies.push_back(penetrating_body(frame, index, island, carrier));
     }
 }
 
@@ -197,9 +200,8 @@ void rebuild_contacts(CollisionWorld& collision, FrameGraph& frame, const Contac
 
 bool is_improved(const FrameGraph& frame, const FrameGraph::PenetratingBody& penetrating) {
     const double way_m = (penetrating.valid_ws.position - penetrating.pose_ws.position).norm();
-    const double error_m = std::max(own_error_m(frame.graph, penetrating.body, false),
-                                    hidden_overlap_m(frame, penetrating.body));
-    return way_m < k_max_restore_distance_m && error_m < k_max_error_ratio * penetrating.error_m;
+    return way_m < k_max_restore_distance_m &&
+           error_m(frame, penetrating.body) < k_max_error_ratio * penetrating.error_m;
 }
 
 // Keeps the restores of each island in which they help all the bodies whose restores were not kept
@@ -221,9 +223,10 @@ void keep_helpful_restores(FrameGraph& frame) {
     }
 }
 
-// Restores free bodies and players that a restored body overlaps, and adds them to the list: they
-// may have moved to where it was. False if there are none.
-bool restore_overlapped_bodies(FrameGraph& frame) {
+// Free bodies and players that a listed body overlaps by k_joining_depth_m or more, added to the
+// end of the list: they may have moved to where it was. Those that are added for a kept restore
+// belong to its island, even if another listed body overlaps them too.
+void add_overlapped_bodies(FrameGraph& frame) {
     std::vector<FrameGraph::PenetratingBody>& listed = frame.penetrating_bodies;
     const std::size_t count = listed.size();
     const auto find = [&](std::uint32_t body, std::size_t among) {
@@ -231,33 +234,58 @@ bool restore_overlapped_bodies(FrameGraph& frame) {
         const auto found = std::ranges::find(bodies, body, &FrameGraph::PenetratingBody::body);
         return found == bodies.end() ? nullptr : &*found;
     };
-    const auto add = [&](std::uint32_t index, std::uint32_t other, double overlap_m) {
+    const auto add = [&](std::uint32_t index, std::uint32_t other, bool is_restored) {
         const BodyRole role = frame.graph.bodies[index].role;
         const bool may_move = role == BodyRole::free || role == BodyRole::translating;
         const FrameGraph::PenetratingBody* const carrier = find(other, count);
-        if (may_move && carrier != nullptr && find(index, listed.size()) == nullptr &&
-            (carrier->is_restored || !frame.graph.bodies[other].in_heap)) {
-            const std::uint32_t island = carrier->island;
-            listed.push_back(penetrating_body(frame, index, island, overlap_m, other));
+        if (!may_move || carrier == nullptr || carrier->is_restored != is_restored ||
+            find(index, listed.size()) != nullptr) {
+            return;
         }
+        const std::uint32_t island = carrier->island;
+        listed.push_back(penetrating_body(frame, index, island, other));
     };
-    for (const RowBlock& block : frame.graph.blocks) {
-        // Within heaps, small overlaps are left to the next frames.
-        if (!is_contact(block) || is_heap_contact(frame.graph.bodies, block)) {
-            continue;
-        }
-        const double overlap_m = block_error_m(frame.graph.bodies, block);
-        if (overlap_m >= k_joining_depth_m) {
-            add(block.a, block.b, overlap_m);
-            add(block.b, block.a, overlap_m);
+    for (const bool is_restored : {true, false}) {
+        for (const RowBlock& block : frame.graph.blocks) {
+            // A heap that no restore helps is left to the next frames, as overlaps within heaps
+            // are.
+            const bool in_heap =
+                frame.graph.bodies[block.a].in_heap || frame.graph.bodies[block.b].in_heap;
+            if (is_contact(block) && !is_heap_contact(frame.graph.bodies, block) &&
+                (is_restored || !in_heap) &&
+                block_error_m(frame.graph.bodies, block) >= k_joining_depth_m) {
+                add(block.a, block.b, is_restored);
+                add(block.b, block.a, is_restored);
+            }
         }
     }
-    for (std::size_t i = count; i < listed.size(); ++i) {
-        restore(listed[i], frame);
+}
+
+// Restores what listed bodies overlap too, and adds it to the list. Undoes the restores that do not
+// help and gain nothing by this. False if nothing was added.
+bool restore_overlapped_bodies(FrameGraph& frame) {
+    std::vector<FrameGraph::PenetratingBody>& listed = frame.penetrating_bodies;
+    const std::size_t count = listed.size();
+    add_overlapped_bodies(frame);
+    if (listed.size() == count) {
+        return false;
     }
-    const bool any = listed.size() > count;
-    std::ranges::stable_sort(listed, {}, &FrameGraph::PenetratingBody::island);
-    return any;
+    const auto added = std::span(listed).subspan(count);
+    for (const FrameGraph::PenetratingBody& penetrating : added) {
+        restore(penetrating, frame);
+    }
+    for (const FrameGraph::PenetratingBody& penetrating : std::span(listed).first(count)) {
+        const bool gains = std::ranges::any_of(
+            added, [&](const auto& other) { return other.island == penetrating.island; });
+        if (!penetrating.is_restored && !gains) {
+            undo_restore(penetrating, frame);
+        }
+    }
+    // Kept restores first: the first body of an island says whether any of its restores was kept.
+    std::ranges::sort(listed, {}, [](const FrameGraph::PenetratingBody& penetrating) {
+        return std::tuple(penetrating.island, !penetrating.is_restored, penetrating.body);
+    });
+    return true;
 }
 
 // Puts the bodies whose restores were not kept back to where the phases left them. False if there

@@ -166,6 +166,39 @@ TEST(RestoreBodies, CubeWhoseRestoreCannotHelpStaysAndOthersAreRestored) {
     }
 }
 
+// A follower overlaps two cubes where they return to: one that only the wall holds, and one whose
+// place a mover has taken.
+TEST(RestoreBodies, FollowerOfTwoIsRestoredWithTheOneThatCanBe) {
+    Random random(3605);
+    for (int i = 0; i < 100; ++i) {
+        const double overlap_m = random.between(0.005, 0.03);
+        const double apart_m = 2.0 * (2.0 * k_half_m - overlap_m);
+        const double sign = i % 2 == 0 ? 1.0 : -1.0;  // either may come first
+        const Vec3 loose(0.35, 0.0, 0.0);
+        const Vec3 jammed = loose + Vec3(0.0, sign * apart_m, 0.0);
+        const Vec3 follower = loose + Vec3(0.0, 0.5 * sign * apart_m, 0.0);
+        const Vec3 follower_valid = follower + Vec3(0.5, 0.0, 0.0);
+        const Vec3 jammed_end(k_half_m - 0.005, jammed.y(), 0.0);
+        Restoring scene;
+        scene.add(k_stuck, BodyKind::free, scene.cube, i % 4 < 2 ? loose : jammed);
+        scene.add(k_alone, BodyKind::free, scene.cube, i % 4 < 2 ? jammed : loose);
+        scene.add(k_follower, BodyKind::free, scene.cube, follower_valid);
+        const Vec3 mover = jammed_end + Vec3(2.0 * k_half_m, sign * k_half_m, 0.0);
+        scene.add(k_mover, BodyKind::kinematic, scene.cube, mover + Vec3(0.1, 0.0, 0.0));
+        scene.body_pose.at(k_mover).pose_ws = pose_at(mover);
+        scene.place();
+        const Entity loose_cube = i % 4 < 2 ? k_stuck : k_alone;
+        const Entity jammed_cube = i % 4 < 2 ? k_alone : k_stuck;
+        scene.end_phases_at(loose_cube, loose - Vec3(1.0, 0.0, 0.0));
+        scene.end_phases_at(jammed_cube, jammed_end);
+        scene.end_phases_at(k_follower, follower);
+        scene.restore();
+        EXPECT_LT((scene.solved_at(loose_cube) - loose).norm(), 1e-12) << i;
+        EXPECT_LT((scene.solved_at(k_follower) - follower_valid).norm(), 1e-12) << i;
+        EXPECT_EQ(scene.solved_at(jammed_cube), jammed_end) << i;
+    }
+}
+
 TEST(RestoreBodies, CubeThatWasDraggedFarStays) {
     Restoring scene;
     const Vec3 end(0.0, 0.0, 0.0);
