@@ -153,6 +153,8 @@ void find_penetrating_bodies(double restore_depth_m, FrameGraph& frame, StageSta
     }
 }
 
+// Moves a body or player to its last valid pose. Beside a fixed or kinematic body it gets that
+// body's velocity.
 void restore(const FrameGraph::PenetratingBody& penetrating, FrameGraph& frame) {
     SolverBody& body = frame.graph.bodies[penetrating.body];
     body.pose_ws = penetrating.valid_ws;
@@ -204,8 +206,8 @@ bool is_improved(const FrameGraph& frame, const FrameGraph::PenetratingBody& pen
            error_m(frame, penetrating.body) < k_max_error_ratio * penetrating.error_m;
 }
 
-// Keeps the restores of each island in which they help all the bodies whose restores were not kept
-// before.
+// Keeps the restores of an island if they improve each of its listed bodies. Bodies whose restores
+// were kept before are not evaluated again.
 void keep_helpful_restores(FrameGraph& frame) {
     std::span<FrameGraph::PenetratingBody> rest = frame.penetrating_bodies;
     while (!rest.empty()) {
@@ -223,9 +225,9 @@ void keep_helpful_restores(FrameGraph& frame) {
     }
 }
 
-// Free bodies and players that a listed body overlaps by k_joining_depth_m or more, added to the
-// end of the list: they may have moved to where it was. Those that are added for a kept restore
-// belong to its island, even if another listed body overlaps them too.
+// Adds free bodies and players that a listed body overlaps by k_joining_depth_m or more to the end
+// of the list: they may have moved to where it was. A body that several listed bodies overlap gets
+// the island of one whose restore is kept, if there is one.
 void add_overlapped_bodies(FrameGraph& frame) {
     std::vector<FrameGraph::PenetratingBody>& listed = frame.penetrating_bodies;
     const std::size_t count = listed.size();
@@ -247,8 +249,8 @@ void add_overlapped_bodies(FrameGraph& frame) {
     };
     for (const bool is_restored : {true, false}) {
         for (const RowBlock& block : frame.graph.blocks) {
-            // A heap that no restore helps is left to the next frames, as overlaps within heaps
-            // are.
+            // Overlaps within heaps, and heaps whose restores were not kept, are left to the next
+            // frames.
             const bool in_heap =
                 frame.graph.bodies[block.a].in_heap || frame.graph.bodies[block.b].in_heap;
             if (is_contact(block) && !is_heap_contact(frame.graph.bodies, block) &&
@@ -261,8 +263,8 @@ void add_overlapped_bodies(FrameGraph& frame) {
     }
 }
 
-// Restores what listed bodies overlap too, and adds it to the list. Undoes the restores that do not
-// help and gain nothing by this. False if nothing was added.
+// Restores the bodies that listed bodies overlap, and adds them to the list. Undoes restores that
+// were not kept in islands to which no body was added. False if no body was added.
 bool restore_overlapped_bodies(FrameGraph& frame) {
     std::vector<FrameGraph::PenetratingBody>& listed = frame.penetrating_bodies;
     const std::size_t count = listed.size();
@@ -275,9 +277,9 @@ bool restore_overlapped_bodies(FrameGraph& frame) {
         restore(penetrating, frame);
     }
     for (const FrameGraph::PenetratingBody& penetrating : std::span(listed).first(count)) {
-        const bool gains = std::ranges::any_of(
+        const bool gets_another = std::ranges::any_of(
             added, [&](const auto& other) { return other.island == penetrating.island; });
-        if (!penetrating.is_restored && !gains) {
+        if (!penetrating.is_restored && !gets_another) {
             undo_restore(penetrating, frame);
         }
     }
