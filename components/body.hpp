@@ -4,8 +4,8 @@
 
 #include "engine/anim/crawler_leg.hpp"
 #include "engine/anim/pose_path.hpp"
-#include "engine/collision/shape_library.hpp"
 #include "engine/ecs/entity.hpp"
+#include "engine/geometry/shape_library.hpp"
 #include "engine/math/math.hpp"
 
 // Rigid bodies: walls, ships, rocks, everything except players. A body's frame has its origin at

@@ -19,9 +19,9 @@
 #include "components/spine.hpp"
 #include "components/tracking.hpp"
 #include "components/world_index.hpp"
-#include "engine/collision/shape_library.hpp"
 #include "engine/ecs/column.hpp"
 #include "engine/ecs/entity.hpp"
+#include "engine/geometry/shape_library.hpp"
 
 namespace handhold {
 

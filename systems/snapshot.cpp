@@ -5,7 +5,7 @@
 
 #include "engine/core/check.hpp"
 #include "engine/core/hash.hpp"
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 #include "systems/snapshot_check.hpp"
 #include "systems/snapshot_payload.hpp"
 #include "systems/snapshot_schema.hpp"

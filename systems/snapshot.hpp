@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "components/world.hpp"
-#include "engine/collision/shape_library.hpp"
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
+#include "engine/geometry/shape_library.hpp"
 
 // Saves, restores and compares whole worlds: rollback, saved games, and finding where two runs
 // diverge. Format: docs/reference/snapshot_format.md.

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "components/world.hpp"
-#include "engine/collision/shape_library.hpp"
+#include "engine/geometry/shape_library.hpp"
 
 namespace handhold {
 

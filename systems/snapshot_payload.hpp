@@ -10,7 +10,7 @@
 #include <span>
 
 #include "components/world.hpp"
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 
 // The payload of a snapshot: docs/reference/snapshot_format.md, "Payload".
 namespace handhold {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/collision/shape_library.hpp"
+#include "engine/geometry/shape_library.hpp"
 
 // Axis-aligned bounding boxes, and swept bounds: boxes around everything that a shape passes
 // through in one frame.

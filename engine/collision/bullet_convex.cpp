@@ -12,7 +12,7 @@
 #include <BulletCollision/CollisionShapes/btCylinderShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 
-#include "engine/collision/mass_properties.hpp"
+#include "engine/geometry/mass_properties.hpp"
 
 namespace handhold {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "engine/collision/bounds.hpp"
 #include "engine/collision/bullet_vector.hpp"
-#include "engine/collision/closest_point.hpp"
-#include "engine/collision/shape_library.hpp"
+#include "engine/geometry/closest_point.hpp"
+#include "engine/geometry/shape_library.hpp"
 
 // Convex shapes in Bullet's representation. All values of one call are in "near space" (suffix
 // _ns): b's axes with the origin at a's position. So precision does not depend on the distance from

@@ -9,8 +9,8 @@
 #include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
 
 #include "engine/collision/bounds.hpp"
-#include "engine/collision/closest_point.hpp"
 #include "engine/collision/shape_query.hpp"
+#include "engine/geometry/closest_point.hpp"
 
 class btBvhTriangleMeshShape;
 

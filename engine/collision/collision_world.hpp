@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/collision/shape_library.hpp"
 #include "engine/collision/surface_query.hpp"
+#include "engine/geometry/shape_library.hpp"
 #include "engine/math/math.hpp"
 
 // Broadphase, narrowphase and queries, behind an interface without types of the underlying library

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/collision/bounds.hpp"
-#include "engine/collision/closest_point.hpp"
+#include "engine/geometry/closest_point.hpp"
 
 namespace handhold {
 

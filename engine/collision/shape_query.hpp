@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "engine/collision/closest_point.hpp"
-#include "engine/collision/shape_library.hpp"
+#include "engine/geometry/closest_point.hpp"
+#include "engine/geometry/shape_library.hpp"
 
 // Ray and closest-point queries on one shape, in its own frame, in closed form.
 namespace handhold {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 
 namespace handhold {
 namespace {

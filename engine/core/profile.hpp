@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 
 // Zones: named time spans on one thread, for traces in Perfetto and chrome://tracing. A zone costs
 // a call and a branch at each end, plus two clock reads (about 60 ns each) while tracing. Any

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "engine/collision/closest_point.hpp"
+#include "engine/geometry/closest_point.hpp"
 #include "engine/geometry/edge_pairs.hpp"
 #include "engine/geometry/triangle_bvh.hpp"
 #include "engine/geometry/weld.hpp"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "engine/collision/closest_point.hpp"
 #include "engine/core/check.hpp"
+#include "engine/geometry/closest_point.hpp"
 
 namespace handhold {
 namespace {

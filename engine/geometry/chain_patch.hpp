@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/collision/closest_point.hpp"
+#include "engine/geometry/closest_point.hpp"
 #include "engine/geometry/disc_contact.hpp"
 #include "engine/geometry/grip_mesh.hpp"
 #include "engine/geometry/reach_slab.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "engine/collision/closest_point.hpp"
+#include "engine/geometry/closest_point.hpp"
 #include "engine/geometry/triangle_set.hpp"
 
 namespace handhold {

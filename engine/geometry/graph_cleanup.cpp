@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/collision/closest_point.hpp"
+#include "engine/geometry/closest_point.hpp"
 #include "engine/geometry/edge_pairs.hpp"
 
 namespace handhold {

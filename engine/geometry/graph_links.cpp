@@ -3,7 +3,7 @@
 #include <span>
 #include <utility>
 
-#include "engine/collision/closest_point.hpp"
+#include "engine/geometry/closest_point.hpp"
 #include "engine/geometry/edge_pairs.hpp"
 #include "engine/geometry/graph_cleanup.hpp"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "engine/collision/shape_library.hpp"
+#include "engine/geometry/shape_library.hpp"
 #include "engine/geometry/simplify_surface.hpp"
 #include "engine/geometry/surface_graph.hpp"
 #include "engine/geometry/triangle_bvh.hpp"

@@ -7,10 +7,10 @@
 #include <system_error>
 #include <vector>
 
-#include "engine/collision/closest_point.hpp"
 #include "engine/core/hash.hpp"
+#include "engine/core/text_file.hpp"
+#include "engine/geometry/closest_point.hpp"
 #include "engine/geometry/shape_surface.hpp"
-#include "engine/io/text_file.hpp"
 
 namespace handhold {
 namespace {

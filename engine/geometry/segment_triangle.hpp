@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "engine/collision/closest_point.hpp"
+#include "engine/geometry/closest_point.hpp"
 #include "engine/math/math.hpp"
 
 namespace handhold {

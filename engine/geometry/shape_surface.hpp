@@ -1,7 +1,7 @@
 #pragma once
 
-#include "engine/collision/shape_library.hpp"
 #include "engine/geometry/mesh.hpp"
+#include "engine/geometry/shape_library.hpp"
 
 namespace handhold {
 

@@ -8,10 +8,10 @@
 #include <span>
 #include <utility>
 
-#include "engine/collision/closest_point.hpp"
 #include "engine/core/check.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/work_meter.hpp"
+#include "engine/geometry/closest_point.hpp"
 #include "engine/geometry/graph_links.hpp"
 #include "engine/geometry/simplify.hpp"
 #include "engine/geometry/surface_distance.hpp"

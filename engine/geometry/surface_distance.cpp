@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/collision/closest_point.hpp"
+#include "engine/geometry/closest_point.hpp"
 
 namespace handhold {
 namespace {

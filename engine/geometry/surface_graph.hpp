@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/collision/closest_point.hpp"
+#include "engine/geometry/closest_point.hpp"
 #include "engine/geometry/mesh.hpp"
 
 // A mesh as a walkable surface: welded, cleaned, with each triangle's neighbours.

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/collision/closest_point.hpp"
 #include "engine/geometry/bvh_builder.hpp"
+#include "engine/geometry/closest_point.hpp"
 #include "engine/geometry/distance_lower_bound.hpp"
 #include "engine/math/double4.hpp"
 

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 
 namespace handhold {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 
 namespace handhold {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "engine/core/hash.hpp"
-#include "engine/io/printable.hpp"
+#include "engine/core/printable.hpp"
 
 namespace handhold {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 
 // The container of a .glb file. Source: Khronos glTF 2.0 specification, section 4.
 namespace handhold {

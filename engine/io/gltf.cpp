@@ -5,12 +5,12 @@
 #include <span>
 #include <utility>
 
+#include "engine/core/text_file.hpp"
 #include "engine/io/gltf_accessors.hpp"
 #include "engine/io/gltf_buffers.hpp"
 #include "engine/io/gltf_model.hpp"
 #include "engine/io/gltf_primitive.hpp"
 #include "engine/io/gltf_scene.hpp"
-#include "engine/io/text_file.hpp"
 #include "engine/io/triangle_list.hpp"
 #include "engine/math/math.hpp"
 

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/core/result.hpp"
 #include "engine/geometry/mesh.hpp"
-#include "engine/io/result.hpp"
 
 // Reads rigid geometry from glTF 2.0 (.gltf and .glb). Source: Khronos glTF 2.0 specification,
 // sections 3.5 to 3.7 and 4.

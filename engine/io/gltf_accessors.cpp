@@ -6,8 +6,8 @@
 #include <numeric>
 #include <type_traits>
 
+#include "engine/core/text_file.hpp"
 #include "engine/io/gltf_meshopt.hpp"
-#include "engine/io/text_file.hpp"
 
 namespace handhold::gltf {
 namespace {

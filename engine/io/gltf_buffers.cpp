@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 
 namespace handhold::gltf {
 namespace {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 #include "engine/math/math.hpp"
 
 // The part of a glTF 2.0 document that geometry needs, as plain structs. Field names and meanings

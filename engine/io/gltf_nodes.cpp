@@ -1,8 +1,8 @@
 #include "engine/io/gltf_nodes.hpp"
 
+#include "engine/core/text_file.hpp"
 #include "engine/io/gltf_model.hpp"
 #include "engine/io/gltf_scene.hpp"
-#include "engine/io/text_file.hpp"
 
 namespace handhold {
 

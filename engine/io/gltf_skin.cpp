@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "engine/core/text_file.hpp"
 #include "engine/io/gltf_accessors.hpp"
 #include "engine/io/gltf_buffers.hpp"
 #include "engine/io/gltf_influences.hpp"
@@ -13,7 +14,6 @@
 #include "engine/io/gltf_scene.hpp"
 #include "engine/io/gltf_skin_bindings.hpp"
 #include "engine/io/gltf_skin_joints.hpp"
-#include "engine/io/text_file.hpp"
 #include "engine/io/triangle_list.hpp"
 
 namespace handhold {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "engine/anim/skinning.hpp"
+#include "engine/core/result.hpp"
 #include "engine/io/gltf.hpp"
-#include "engine/io/result.hpp"
 #include "engine/math/math.hpp"
 
 // Reads a mesh and its skeleton from glTF 2.0. Source: Khronos glTF 2.0 specification, section

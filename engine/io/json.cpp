@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/core/text_file.hpp"
 #include "engine/io/json_tree.hpp"
-#include "engine/io/text_file.hpp"
 
 namespace handhold {
 

@@ -12,7 +12,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 #include "engine/math/math.hpp"
 
 // Typed reading of JSON without a test after every value. The document keeps its first error: a

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/io/printable.hpp"
+#include "engine/core/printable.hpp"
 
 namespace handhold {
 

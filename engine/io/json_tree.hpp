@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 
 // Parses JSON text and names places in it. Private to engine/io/json*.
 namespace handhold {

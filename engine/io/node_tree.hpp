@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 #include "engine/math/math.hpp"
 
 namespace handhold {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 
 // The humanoid table of VRM files. Source: VRM 0.0 (extension VRM) and VRM 1.0 (VRMC_vrm).
 namespace handhold {

@@ -1,6 +1,6 @@
 #include "game/commands/body_export.hpp"
 
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 #include "game/commands/exit_status.hpp"
 #include "game/render/robot_body.hpp"
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "engine/io/printable.hpp"
+#include "engine/core/printable.hpp"
 #include "game/commands/exit_status.hpp"
 #include "game/commands/output_folder.hpp"
 #include "game/levels/station_description.hpp"

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "engine/io/printable.hpp"
+#include "engine/core/printable.hpp"
 #include "game/climber/climber_session.hpp"
 #include "game/commands/exit_status.hpp"
 #include "game/commands/loading.hpp"

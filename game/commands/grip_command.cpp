@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <optional>
 
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 #include "game/commands/exit_status.hpp"
 #include "game/commands/grip_file.hpp"
 #include "game/commands/grip_fit.hpp"

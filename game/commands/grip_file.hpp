@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "components/hand_rig.hpp"
+#include "engine/core/result.hpp"
 #include "engine/io/gltf_writer.hpp"
-#include "engine/io/result.hpp"
 #include "game/scene/scene_grip.hpp"
 
 // Authored grips for animation software: a .glb of hand, controller and object. Talk rows 9 and 10.

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "engine/core/check.hpp"
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 #include "game/commands/exit_status.hpp"
 #include "game/commands/output_folder.hpp"
 #include "game/render/figure_skin.hpp"

@@ -11,8 +11,8 @@
 #include <unistd.h>
 
 #include "engine/core/parallel.hpp"
+#include "engine/core/printable.hpp"
 #include "engine/core/work_meter.hpp"
-#include "engine/io/printable.hpp"
 #include "game/commands/progress.hpp"
 
 namespace handhold {

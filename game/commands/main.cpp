@@ -14,7 +14,7 @@
 #include <CLI/CLI.hpp>
 #include <handhold/version.hpp>
 
-#include "engine/io/printable.hpp"
+#include "engine/core/printable.hpp"
 #include "game/commands/body_export.hpp"
 #include "game/commands/build_station_command.hpp"
 #include "game/commands/climb_command.hpp"

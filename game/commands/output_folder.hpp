@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 
 namespace handhold {
 

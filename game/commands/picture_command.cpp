@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "engine/core/printable.hpp"
+#include "engine/core/text_file.hpp"
 #include "engine/io/file_name.hpp"
-#include "engine/io/printable.hpp"
-#include "engine/io/text_file.hpp"
 #include "game/commands/exit_status.hpp"
 #include "game/commands/grip_fit.hpp"
 #include "game/commands/loading.hpp"

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/printable.hpp"
 #include "engine/core/profile.hpp"
-#include "engine/io/printable.hpp"
 #include "game/assets/body_clips_asset.hpp"
 #include "game/climber/crowd.hpp"
 #include "game/commands/exit_status.hpp"

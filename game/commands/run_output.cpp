@@ -5,9 +5,9 @@
 #include <system_error>
 #include <utility>
 
+#include "engine/core/printable.hpp"
+#include "engine/core/text_file.hpp"
 #include "engine/io/file_name.hpp"
-#include "engine/io/printable.hpp"
-#include "engine/io/text_file.hpp"
 #include "game/report/frames_csv.hpp"
 #include "game/report/report_json.hpp"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 #include "game/commands/run_command.hpp"
 #include "game/render/player_models.hpp"
 #include "game/report/report_html.hpp"

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "engine/io/printable.hpp"
+#include "engine/core/printable.hpp"
 #include "game/climber/crowd.hpp"
 #include "game/scene/built_in_scenes.hpp"
 #include "game/scene/overlaps.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "components/world.hpp"
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 #include "engine/math/math.hpp"
 #include "game/commands/run_command.hpp"
 #include "game/scene/scene.hpp"

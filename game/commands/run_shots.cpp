@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "engine/io/printable.hpp"
+#include "engine/core/printable.hpp"
 #include "game/commands/exit_status.hpp"
 #include "game/session/interrupt.hpp"
 #include "game/view/shot_film.hpp"

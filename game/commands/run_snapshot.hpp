@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "components/world.hpp"
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 #include "game/commands/run_command.hpp"
 #include "game/scene/scene.hpp"
 #include "game/session/session_run.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/io/printable.hpp"
+#include "engine/core/printable.hpp"
 
 namespace handhold {
 namespace {

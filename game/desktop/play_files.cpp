@@ -4,8 +4,8 @@
 #include <array>
 #include <filesystem>
 
-#include "engine/io/printable.hpp"
-#include "engine/io/text_file.hpp"
+#include "engine/core/printable.hpp"
+#include "engine/core/text_file.hpp"
 #include "game/commands/loading.hpp"
 #include "game/commands/shell_word.hpp"
 #include "game/report/run_summary.hpp"

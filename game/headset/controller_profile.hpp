@@ -9,7 +9,7 @@
 #include "components/tracking.hpp"
 #include "components/tuning.hpp"
 #include "components/world.hpp"
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 #include "engine/math/math.hpp"
 #include "game/headset/controller_motion.hpp"
 

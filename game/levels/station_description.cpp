@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "engine/core/check.hpp"
+#include "engine/core/text_file.hpp"
 #include "engine/io/file_name.hpp"
 #include "engine/io/json.hpp"
-#include "engine/io/text_file.hpp"
 #include "game/assets/assets.hpp"
 #include "game/scene/scene_ranges.hpp"
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 #include "engine/math/math.hpp"
 #include "game/levels/station_kit.hpp"
 #include "game/levels/station_rack.hpp"

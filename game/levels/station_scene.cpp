@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "engine/core/check.hpp"
+#include "engine/core/text_file.hpp"
 #include "engine/io/file_name.hpp"
 #include "engine/io/gltf_writer.hpp"
-#include "engine/io/text_file.hpp"
 #include "engine/io/triangle_list.hpp"
 #include "game/levels/station_tools.hpp"
 #include "game/render/shading_mesh.hpp"

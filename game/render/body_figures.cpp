@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "engine/core/check.hpp"
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 #include "engine/io/vrm_humanoid.hpp"
 #include "game/render/robot_body.hpp"
 #include "systems/rigs/arm_twist.hpp"

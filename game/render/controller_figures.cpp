@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 #include "game/commands/grip_fit.hpp"
 #include "game/render/figures.hpp"
 #include "systems/input/read_tracking.hpp"

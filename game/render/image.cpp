@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "engine/core/check.hpp"
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 
 // Static, because the glTF library contains its own copies of both libraries, which would clash at
 // link time.

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 
 namespace handhold {
 

@@ -13,7 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 
 namespace handhold {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "engine/core/check.hpp"
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 #include "game/report/text.hpp"
 
 namespace handhold {

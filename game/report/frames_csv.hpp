@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 #include "game/session/run_log.hpp"
 
 // Tables of a run: one row for each frame and player, or for each frame and body. SI units unless a

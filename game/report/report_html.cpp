@@ -1,6 +1,6 @@
 #include "game/report/report_html.hpp"
 
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 #include "game/render/image.hpp"
 #include "game/report/report_tables.hpp"
 #include "game/report/run_plots.hpp"

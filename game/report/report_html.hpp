@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 #include "game/session/run_log.hpp"
 
 // report.html: a run as one page without scripts that needs no other file (except the video) and no

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 #include "game/session/run_log.hpp"
 
 // report.json: the figures of a run (run_summary.hpp) for scripts. Releases may add keys but never

@@ -11,11 +11,11 @@
 
 #include "components/tuning.hpp"
 #include "components/world.hpp"
-#include "engine/collision/shape_library.hpp"
+#include "engine/core/result.hpp"
 #include "engine/geometry/grip_mesh_library.hpp"
 #include "engine/geometry/mesh.hpp"
+#include "engine/geometry/shape_library.hpp"
 #include "engine/io/gltf.hpp"
-#include "engine/io/result.hpp"
 #include "game/render/render_frame.hpp"
 #include "game/scene/scene_file.hpp"
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "engine/core/result.hpp"
 #include "engine/geometry/mesh.hpp"
-#include "engine/io/result.hpp"
 #include "game/scene/scene.hpp"
 #include "game/scene/scene_file.hpp"
 

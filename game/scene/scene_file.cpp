@@ -5,8 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "engine/core/text_file.hpp"
 #include "engine/io/json.hpp"
-#include "engine/io/text_file.hpp"
 #include "game/scene/scene_chain.hpp"
 #include "game/scene/scene_ranges.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "components/body.hpp"
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 #include "engine/math/math.hpp"
 #include "game/render/render_frame.hpp"
 #include "game/scene/scene_grip.hpp"

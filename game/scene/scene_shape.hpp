@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/collision/shape_library.hpp"
+#include "engine/geometry/shape_library.hpp"
 #include "engine/io/json.hpp"
 #include "engine/math/math.hpp"
 

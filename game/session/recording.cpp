@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "engine/core/text_file.hpp"
 #include "engine/io/csv.hpp"
-#include "engine/io/text_file.hpp"
 
 namespace handhold {
 

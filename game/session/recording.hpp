@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "components/tracking.hpp"
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 #include "engine/math/math.hpp"
 
 // Recorded sessions of a headset and two controllers: docs/reference/recording_format.md.

@@ -6,7 +6,7 @@
 
 #include <imgui.h>
 
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 #include "game/ui/inspector.hpp"
 #include "systems/host/tuning_json.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "components/tracking.hpp"
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 #include "game/view/gizmos.hpp"
 
 // Pictures and film clips of a scene's session, requested in a file. All pictures in the

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "components/tuning.hpp"
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 
 namespace handhold {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "engine/core/result.hpp"
 #include "engine/io/gltf_skin.hpp"
-#include "engine/io/result.hpp"
 #include "systems/rigs/body_joint_names.hpp"
 #include "systems/rigs/body_map.hpp"
 

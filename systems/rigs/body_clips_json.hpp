@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 #include "systems/rigs/body_clips.hpp"
 
 namespace handhold {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "engine/core/result.hpp"
 #include "engine/io/gltf_skin.hpp"
-#include "engine/io/result.hpp"
 #include "systems/rigs/body_map.hpp"
 #include "systems/rigs/body_rig.hpp"
 

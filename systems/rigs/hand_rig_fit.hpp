@@ -1,8 +1,8 @@
 #pragma once
 
 #include "components/hand_rig.hpp"
+#include "engine/core/result.hpp"
 #include "engine/io/gltf_skin.hpp"
-#include "engine/io/result.hpp"
 
 // Fits hand rigs to skinned meshes whose joints have WebXR or OpenXR hand-tracking names
 // ("index-finger-phalanx-distal", "XR_HAND_JOINT_LITTLE_TIP_EXT"). Required are a wrist and 2 to 5

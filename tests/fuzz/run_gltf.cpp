@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/collision/shape_library.hpp"
+#include "engine/geometry/shape_library.hpp"
 #include "engine/io/gltf.hpp"
 #include "engine/io/gltf_skin.hpp"
 #include "game/commands/grip_file.hpp"

@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 #include "tools/lab/solve_command.hpp"
 
 // Runs `solve` in a temporary folder. The reader of its files uses only the documented format

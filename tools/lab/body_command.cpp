@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 #include "game/commands/progress.hpp"
 #include "systems/arm/estimate_arms.hpp"
 #include "systems/arm/pose_arms.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "engine/core/text_file.hpp"
 #include "engine/io/csv.hpp"
-#include "engine/io/text_file.hpp"
 
 namespace handhold::lab {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "components/arm.hpp"
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 #include "engine/math/math.hpp"
 
 // Input of `handhold-lab body`: heads and hands over time, and the persons' measures.

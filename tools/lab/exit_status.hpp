@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 
 // Exit statuses of the lab's commands other than 0.
 namespace handhold::lab {

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "engine/core/profile.hpp"
+#include "engine/core/text_file.hpp"
 #include "engine/io/gltf.hpp"
 #include "engine/io/gltf_skin.hpp"
-#include "engine/io/text_file.hpp"
 #include "game/commands/progress.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
 #include "systems/rigs/hand_rig_fit.hpp"

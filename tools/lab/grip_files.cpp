@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold::lab {

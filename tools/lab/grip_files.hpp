@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "components/hand_rig.hpp"
+#include "engine/core/result.hpp"
 #include "engine/io/json.hpp"
-#include "engine/io/result.hpp"
 #include "tools/lab/grip_run.hpp"
 
 // File formats of `handhold-lab grip`.

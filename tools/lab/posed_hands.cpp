@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/core/text_file.hpp"
 #include "engine/io/json.hpp"
-#include "engine/io/text_file.hpp"
 
 namespace handhold::lab {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "components/hand_rig.hpp"
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 #include "tools/lab/hand_viewpoint.hpp"
 
 namespace handhold::lab {

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/profile.hpp"
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 #include "game/assets/body_clips_asset.hpp"
 #include "game/commands/loading.hpp"
 #include "game/commands/progress.hpp"

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "components/body_tuning.hpp"
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 #include "game/assets/body_clips_asset.hpp"
 #include "game/scene/built_in_scenes.hpp"
 #include "game/scene/spawn.hpp"

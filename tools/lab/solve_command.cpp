@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "engine/core/profile.hpp"
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 #include "game/commands/progress.hpp"
 #include "tools/lab/bullet_run.hpp"
 #include "tools/lab/exit_status.hpp"

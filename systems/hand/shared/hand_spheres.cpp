@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/collision/closest_point.hpp"
 #include "engine/core/check.hpp"
+#include "engine/geometry/closest_point.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold {

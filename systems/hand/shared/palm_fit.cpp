@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "engine/collision/closest_point.hpp"
+#include "engine/geometry/closest_point.hpp"
 #include "systems/hand/shared/finger_chain.hpp"
 #include "systems/hand/shared/finger_clearance.hpp"
 #include "systems/rigs/hand_kinematics.hpp"

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "engine/collision/mass_properties.hpp"
 #include "engine/core/check.hpp"
+#include "engine/geometry/mass_properties.hpp"
 #include "tests/engine/collision/scene.hpp"
 
 // Expected values: textbook closed forms of boxes and cylinders, combined.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/collision/closest_point.hpp"
+#include "engine/geometry/closest_point.hpp"
 #include "tests/engine/collision/scene.hpp"
 
 // Distances of convex shapes by brute force over their features, independent of the library under

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/collision/closest_point.hpp"
+#include "engine/geometry/closest_point.hpp"
 #include "tests/engine/collision/scene.hpp"
 
 namespace handhold::collision_query_test {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/collision/closest_point.hpp"
+#include "engine/geometry/closest_point.hpp"
 #include "engine/geometry/triangle_bvh.hpp"
 #include "triangle_soup.hpp"
 

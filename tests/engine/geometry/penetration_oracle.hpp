@@ -4,8 +4,8 @@
 #include <optional>
 #include <span>
 
-#include "engine/collision/closest_point.hpp"
 #include "engine/geometry/chain_fit.hpp"
+#include "engine/geometry/closest_point.hpp"
 #include "tests/engine/collision/scene.hpp"
 
 // Penetration depth of capsules by brute force over all triangles. A point's distance from a

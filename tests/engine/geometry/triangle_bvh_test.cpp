@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "data_meshes.hpp"
-#include "engine/collision/closest_point.hpp"
+#include "engine/geometry/closest_point.hpp"
 #include "tests/engine/allocation_count.hpp"
 #include "tests/engine/collision/scene.hpp"
 #include "triangle_soup.hpp"

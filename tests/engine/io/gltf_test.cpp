@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 #include "engine/math/math.hpp"
 #include "tests/engine/io/gltf_builder.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 #include "tests/fuzz/targets.hpp"
 #include "tests/places.hpp"
 

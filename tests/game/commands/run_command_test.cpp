@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "engine/core/text_file.hpp"
 #include "engine/io/gltf_writer.hpp"
-#include "engine/io/text_file.hpp"
 #include "game/commands/climb_command.hpp"
 
 namespace handhold::run_command_test {

@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/collision/closest_point.hpp"
+#include "engine/core/text_file.hpp"
+#include "engine/geometry/closest_point.hpp"
 #include "engine/geometry/segment_triangle.hpp"
-#include "engine/io/text_file.hpp"
 #include "game/desktop/desktop_session.hpp"
 #include "game/render/controller_figures.hpp"
 #include "systems/input/read_tracking.hpp"

@@ -11,7 +11,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "engine/core/check.hpp"
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 #include "game/report/frames_csv.hpp"
 #include "game/report/text.hpp"
 #include "tests/game/report/report_log.hpp"

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 #include "game/render/image.hpp"
 #include "game/report/fallback_meanings.hpp"
 #include "game/report/report_tables.hpp"

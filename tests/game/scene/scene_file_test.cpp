@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 #include "tests/places.hpp"
 
 namespace handhold::scene_file_test {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "engine/collision/mass_properties.hpp"
+#include "engine/geometry/mass_properties.hpp"
 #include "game/scene/scene.hpp"
 #include "game/scene/scene_file.hpp"
 #include "tests/places.hpp"

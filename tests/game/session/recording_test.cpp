@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 #include "tests/places.hpp"
 
 namespace handhold::recording_test {

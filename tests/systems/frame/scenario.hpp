@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "components/world.hpp"
-#include "engine/collision/shape_library.hpp"
+#include "engine/geometry/shape_library.hpp"
 #include "systems/frame.hpp"
 
 // A small world for scenarios of whole frames: bodies by name, and one player whose devices follow

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/collision/shape_library.hpp"
+#include "engine/geometry/shape_library.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
 #include "tests/systems/frame/column_scene.hpp"
 

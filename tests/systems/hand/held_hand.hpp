@@ -1,7 +1,7 @@
 #pragma once
 
-#include "engine/collision/closest_point.hpp"
 #include "engine/geometry/chain_fit.hpp"
+#include "engine/geometry/closest_point.hpp"
 #include "fitted_hand.hpp"
 #include "systems/hand/shared/finger_chain.hpp"
 #include "systems/hand/shared/finger_clearance.hpp"

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "components/authored_grip.hpp"
-#include "engine/collision/closest_point.hpp"
 #include "engine/geometry/chain_fit.hpp"
+#include "engine/geometry/closest_point.hpp"
 #include "fitted_hand.hpp"
 #include "held_hand.hpp"
 #include "systems/hand/shared/finger_chain.hpp"

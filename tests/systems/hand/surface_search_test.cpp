@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/collision/closest_point.hpp"
+#include "engine/geometry/closest_point.hpp"
 #include "fitted_hand.hpp"
 
 namespace handhold::surface_search_test {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/collision/shape_library.hpp"
+#include "engine/geometry/shape_library.hpp"
 #include "tests/systems/frame/column_scene.hpp"
 
 namespace handhold::solve_phases_test {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/core/text_file.hpp"
 #include "engine/io/gltf_skin_writer.hpp"
-#include "engine/io/text_file.hpp"
 #include "systems/rigs/body_bones.hpp"
 #include "systems/rigs/body_rig_fit.hpp"
 #include "tests/random.hpp"

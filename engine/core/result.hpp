@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "engine/core/check.hpp"
-#include "engine/io/printable.hpp"
+#include "engine/core/printable.hpp"
 
 namespace handhold {
 

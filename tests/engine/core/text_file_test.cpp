@@ -1,4 +1,4 @@
-#include "engine/io/text_file.hpp"
+#include "engine/core/text_file.hpp"
 
 #include <filesystem>
 #include <iterator>

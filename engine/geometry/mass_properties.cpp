@@ -1,7 +1,7 @@
 // Sources: polyhedra: Blow and Binstock, How to Find the Inertia Tensor, 2004. Principal axes:
 // Jacobi rotations, 1846. Eigen's closed form is not used: it calls the C library's trigonometry,
 // which differs between platforms, and body poses are part of the state.
-#include "engine/collision/mass_properties.hpp"
+#include "engine/geometry/mass_properties.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "engine/collision/shape_library.hpp"
+#include "engine/geometry/shape_library.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "engine/collision/closest_point.hpp"
+#include "engine/geometry/closest_point.hpp"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
-#include "engine/io/printable.hpp"
+#include "engine/core/printable.hpp"
 
 #include <string>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 
 namespace handhold::io_printable_test {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/collision/shape_library.hpp"
+#include "engine/geometry/shape_library.hpp"
 
 // Volume, centre of mass and inertia of solids.
 namespace handhold {

@@ -1,4 +1,4 @@
-#include "engine/io/printable.hpp"
+#include "engine/core/printable.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,12 +1,12 @@
-#include "engine/collision/shape_library.hpp"
+#include "engine/geometry/shape_library.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "engine/collision/mass_properties.hpp"
 #include "engine/core/check.hpp"
+#include "engine/geometry/mass_properties.hpp"
 
 namespace handhold {
 namespace {

@@ -1,6 +1,6 @@
-#include "engine/io/result.hpp"
+#include "engine/core/result.hpp"
 
-#include "engine/io/printable.hpp"
+#include "engine/core/printable.hpp"
 
 namespace handhold {
 
