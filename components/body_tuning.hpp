@@ -18,7 +18,7 @@ inline bool is_jump(double distance_m, double dt_s) {
 }
 
 // Chest, shoulders and elbows: the constants that are a matter of looks. The fitted ones are in
-// systems/arm/shared/body_constants.hpp.
+// systems/body/shared/body_constants.hpp.
 struct ArmTuning {
     double learned = 1.0;
     double chest_limit_rad = 1.3962634015954636;

@@ -12,8 +12,8 @@
 // Eigen's types have padding and are not trivially copyable. A test checks that every field is
 // visited.
 //
-// Field names are part of the snapshot schema: raise k_format_version in systems/snapshot.cpp if
-// they change.
+// Field names are part of the snapshot schema: raise k_format_version in
+// systems/snapshot/snapshot.cpp if they change.
 namespace handhold {
 
 // Number of values of an enum that components use; valid values are [0, k_value_count). Loading a

@@ -11,7 +11,7 @@
 // player. Every hand entity has each of these components.
 //
 // Where to look:
-//   a grab begins         systems/locomotion/update_grabs.hpp
+//   a grab begins         systems/grab/update_grabs.hpp
 //   palm surface          systems/hand/search_grip.hpp      -> GripSurface
 //   the palm's limits     systems/hand/constrain_palms.hpp  -> PalmOffset, PalmPose
 //   where a finger stops  systems/hand/sweep_fingers.hpp    -> FingerPose::closed

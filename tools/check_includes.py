@@ -28,8 +28,8 @@ REFUSED_GAME_FOLDERS = {
 # as an oracle.
 PRODUCT_FOLDERS = {"engine", "components", "systems", "game"}
 # The order of the stages, copies of all columns, and the public headers: these may use every system and the whole World.
-FRONT_DOOR = re.compile(r"systems/(frame|snapshot)\w*\.[hc]pp|systems/host/.*")
-NAMES_WORLD = re.compile(r"(systems/(frame|snapshot)\w*\.[hc]pp|systems/host/.*|components/world\w*\.[hc]pp|(game|tools|tests)/.*)")
+FRONT_DOOR = re.compile(r"systems/(frame|snapshot|host)/.*")
+NAMES_WORLD = re.compile(r"(systems/(frame|snapshot|host)/.*|components/world\w*\.[hc]pp|(game|tools|tests)/.*)")
 # Headers that a host includes: systems/host/include is an include directory, so these are named `handhold/...`.
 PUBLIC_HEADERS = "systems/host/include/"
 # Words of the player's body that engine code must not use in identifiers.
@@ -130,7 +130,7 @@ def include_rules(file: str, mark: str, path: str) -> Iterator[str]:
         yield f'"{path}": {folder} does not include {target}'
     if folder == target == "systems" and not may_include_system(file, path):
         yield (f'"{path}": a system includes its own header, its area\'s shared/ and rigs/, and no other system;'
-               " only systems/frame, systems/snapshot and systems/host do")
+               " only systems/frame/frame, systems/snapshot/snapshot and systems/host do")
     if game_folder(path) in REFUSED_GAME_FOLDERS.get(game_folder(file), set()):
         yield f'"{path}": game/{game_folder(file)} does not include game/{game_folder(path)}'
 
@@ -138,7 +138,7 @@ def include_rules(file: str, mark: str, path: str) -> Iterator[str]:
 def code_rules(file: str, line: str) -> Iterator[str]:
     """The rules that one line of code, without comments and literals, breaks."""
     if re.search(r"\bWorld\b", line) and not NAMES_WORLD.fullmatch(file):
-        yield "World: only components/world, systems/frame, systems/snapshot, game, tools and tests name it"
+        yield "World: only components/world, systems/frame/frame, systems/snapshot/snapshot, game, tools and tests name it"
     if file.split("/")[0] not in PRODUCT_FOLDERS:
         return
     for lib in LIBRARIES:

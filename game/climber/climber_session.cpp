@@ -5,7 +5,7 @@
 #include "engine/core/check.hpp"
 #include "game/scene/place_scene.hpp"
 #include "game/session/interrupt.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 
 namespace handhold {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "game/climber/climber.hpp"
 #include "game/scene/scene.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 
 namespace handhold {
 

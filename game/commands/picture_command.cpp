@@ -17,7 +17,7 @@
 #include "game/scene/player_defaults.hpp"
 #include "game/session/interrupt.hpp"
 #include "game/view/scene_picture.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold {

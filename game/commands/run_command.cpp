@@ -22,7 +22,7 @@
 #include "game/report/run_summary.hpp"
 #include "game/session/interrupt.hpp"
 #include "game/session/session_run.hpp"
-#include "systems/snapshot.hpp"
+#include "systems/snapshot/snapshot.hpp"
 
 namespace handhold {
 namespace {

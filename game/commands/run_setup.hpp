@@ -12,7 +12,7 @@
 #include "game/scene/scene.hpp"
 #include "game/session/recording.hpp"
 #include "game/session/session_run.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 
 // What `handhold run` prepares before the first frame: recordings, start places and players.
 namespace handhold {

@@ -8,7 +8,7 @@
 #include "game/commands/run_command.hpp"
 #include "game/scene/scene.hpp"
 #include "game/session/session_run.hpp"
-#include "systems/snapshot.hpp"
+#include "systems/snapshot/snapshot.hpp"
 
 // `run --snapshot` and `run --resume`.
 namespace handhold {

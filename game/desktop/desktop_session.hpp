@@ -2,8 +2,8 @@
 
 #include "game/desktop/desktop_body.hpp"
 #include "game/session/recording.hpp"
-#include "systems/frame.hpp"
-#include "systems/snapshot.hpp"
+#include "systems/frame/frame.hpp"
+#include "systems/snapshot/snapshot.hpp"
 
 namespace handhold {
 

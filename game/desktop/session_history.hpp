@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "game/desktop/desktop_session.hpp"
-#include "systems/snapshot.hpp"
+#include "systems/snapshot/snapshot.hpp"
 
 namespace handhold {
 

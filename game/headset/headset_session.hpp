@@ -7,7 +7,7 @@
 #include "game/headset/headset_reading.hpp"
 #include "game/scene/scene.hpp"
 #include "game/session/recording.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 
 namespace handhold {
 

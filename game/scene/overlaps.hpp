@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "game/scene/scene.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 
 namespace handhold {
 

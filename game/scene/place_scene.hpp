@@ -1,7 +1,7 @@
 #pragma once
 
 #include "game/scene/scene.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 
 namespace handhold {
 

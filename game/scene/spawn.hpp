@@ -4,7 +4,7 @@
 
 #include "game/scene/scene.hpp"
 #include "game/session/recording.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 
 namespace handhold {
 

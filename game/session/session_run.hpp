@@ -10,7 +10,7 @@
 #include "game/session/playback.hpp"
 #include "game/session/recording.hpp"
 #include "game/session/run_log.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 
 namespace handhold {
 

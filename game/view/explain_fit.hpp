@@ -5,7 +5,7 @@
 
 #include "components/tuning.hpp"
 #include "game/render/render_frame.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 #include "systems/hand/shared/fit_terms.hpp"
 
 // Why a gripping hand is shaped as it is: the terms of its fit (systems/hand/shared/hand_fit.hpp).

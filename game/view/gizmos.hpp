@@ -7,7 +7,7 @@
 
 #include "game/render/render_frame.hpp"
 #include "game/scene/scene.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 
 // Debug lines over the picture: what the stages of a frame found and did.
 namespace handhold {

@@ -4,7 +4,7 @@
 
 #include "components/tuning.hpp"
 #include "game/view/gizmos.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 
 namespace handhold {
 

@@ -9,7 +9,7 @@
 #include "game/render/player_models.hpp"
 #include "game/scene/scene.hpp"
 #include "game/view/shot_list.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 
 namespace handhold {
 

@@ -6,8 +6,8 @@
 
 #include "components/play_space.hpp"
 #include "components/world_edit.hpp"
+#include "systems/grab/shared/grip_kind.hpp"
 #include "systems/host/host_step.hpp"
-#include "systems/locomotion/shared/grip_kind.hpp"
 
 namespace handhold {
 namespace {

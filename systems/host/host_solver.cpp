@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "components/play_space.hpp"
-#include "systems/frame_of_host.hpp"
+#include "systems/frame/frame_of_host.hpp"
 #include "systems/host/host_step.hpp"
 #include "systems/physics/shared/player_share.hpp"
 

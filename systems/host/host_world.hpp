@@ -11,11 +11,11 @@
 
 #include "components/world.hpp"
 #include "engine/geometry/grip_mesh_library.hpp"
-#include "systems/frame_of_host.hpp"
+#include "systems/frame/frame_of_host.hpp"
 #include "systems/host/host_call.hpp"
 #include "systems/host/host_surfaces.hpp"
 #include "systems/rigs/body_rig.hpp"
-#include "systems/snapshot.hpp"
+#include "systems/snapshot/snapshot.hpp"
 
 // The objects behind the C interface's opaque pointers.
 namespace handhold {

@@ -14,8 +14,8 @@
 #include "components/spine.hpp"
 #include "components/tracking.hpp"
 #include "engine/ecs/column.hpp"
-#include "systems/arm/estimate_arms.hpp"
-#include "systems/arm/pose_arms.hpp"
+#include "systems/body/estimate_arms.hpp"
+#include "systems/body/pose_arms.hpp"
 #include "systems/body/propagate_spine.hpp"
 
 namespace handhold::body_bench {

@@ -4,8 +4,8 @@
 #ifdef HANDHOLD_BENCH_GAME
 
 #include "game/scene/built_in_scenes.hpp"
-#include "systems/frame.hpp"
-#include "systems/snapshot.hpp"
+#include "systems/frame/frame.hpp"
+#include "systems/snapshot/snapshot.hpp"
 
 namespace handhold::snapshot_bench {
 namespace {

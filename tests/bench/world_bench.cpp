@@ -4,7 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include "components/world.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 
 namespace handhold {
 namespace {

@@ -1,6 +1,6 @@
 #include "game/session/playback.hpp"
 #include "game/session/recording.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 #include "tests/fuzz/promise.hpp"
 
 namespace handhold::fuzz {

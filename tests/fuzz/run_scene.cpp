@@ -1,5 +1,5 @@
 #include "game/scene/scene.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 #include "tests/fuzz/promise.hpp"
 
 namespace handhold::fuzz {

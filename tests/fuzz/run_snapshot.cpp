@@ -2,10 +2,10 @@
 #include <cstring>
 #include <vector>
 
-#include "systems/frame.hpp"
-#include "systems/snapshot.hpp"
+#include "systems/frame/frame.hpp"
+#include "systems/snapshot/snapshot.hpp"
 #include "tests/fuzz/promise.hpp"
-#include "tests/systems/frame/snapshot_bytes.hpp"
+#include "tests/systems/snapshot/snapshot_bytes.hpp"
 
 namespace handhold::fuzz {
 namespace {

@@ -20,7 +20,7 @@
 #include "game/commands/run_setup.hpp"
 #include "game/scene/built_in_scenes.hpp"
 #include "game/session/session_run.hpp"
-#include "systems/snapshot.hpp"
+#include "systems/snapshot/snapshot.hpp"
 
 namespace handhold {
 namespace {

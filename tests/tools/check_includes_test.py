@@ -36,15 +36,15 @@ class CheckIncludes(unittest.TestCase):
         self.assert_clean("components/a.hpp", '#pragma once\n#include "components/b.hpp"\n#include "engine/c.hpp"\n')
         self.assert_clean("systems/grip/search_grip.cpp",
                           '#include "systems/grip/search_grip.hpp"\n#include "components/hand.hpp"\n')
-        self.assert_clean("game/commands/main.cpp", '#include "systems/frame.hpp"\n#include "engine/core/hash.hpp"\n')
+        self.assert_clean("game/commands/main.cpp", '#include "systems/frame/frame.hpp"\n#include "engine/core/hash.hpp"\n')
 
     def test_upward_includes_are_named_with_their_line(self):
         self.assert_breach("engine/a.cpp", '\n#include "components/b.hpp"\n',
                            "engine/a.cpp:2 | engine does not include components")
-        self.assert_breach("components/a.cpp", '#include "systems/frame.hpp"\n',
+        self.assert_breach("components/a.cpp", '#include "systems/frame/frame.hpp"\n',
                            "components/a.cpp:1 | components does not include systems")
-        self.assert_breach("systems/frame.cpp", '#include "game/scene/scene.hpp"\n',
-                           "systems/frame.cpp:1 | systems does not include game")
+        self.assert_breach("systems/frame/frame.cpp", '#include "game/scene/scene.hpp"\n',
+                           "systems/frame/frame.cpp:1 | systems does not include game")
         self.assert_breach("game/a.cpp", '#include "tests/a.hpp"\n', "game/a.cpp:1 | game does not include tests")
 
     def test_only_frame_snapshot_and_host_include_other_systems(self):
@@ -53,23 +53,23 @@ class CheckIncludes(unittest.TestCase):
                            "systems/hand/constrain_palms.cpp:1 | no other system")
         self.assert_breach("systems/grip/search_grip_helper.cpp", include,
                            "systems/grip/search_grip_helper.cpp:1 | no other system")
-        self.assert_clean("systems/frame.cpp", include)
-        self.assert_clean("systems/snapshot.cpp", include)
+        self.assert_clean("systems/frame/frame.cpp", include)
+        self.assert_clean("systems/snapshot/snapshot.cpp", include)
         self.assert_clean("systems/host/open_world.cpp", include)
 
     def test_system_may_include_shared_files_of_its_own_area_only(self):
         include = '#include "systems/hand/shared/palm_fit.hpp"\n'
         self.assert_clean("systems/hand/constrain_palms.cpp", include)
         self.assert_clean("systems/hand/shared/finger_chain.cpp", include)
-        self.assert_breach("systems/locomotion/update_grabs.cpp", include,
-                           "systems/locomotion/update_grabs.cpp:1 | no other system")
+        self.assert_breach("systems/grab/update_grabs.cpp", include,
+                           "systems/grab/update_grabs.cpp:1 | no other system")
         self.assert_breach("systems/hand/shared/palm_fit.cpp", '#include "systems/hand/search_grip.hpp"\n',
                            "systems/hand/shared/palm_fit.cpp:1 | no other system")
 
     def test_every_system_may_include_rigs_which_include_only_rigs(self):
         include = '#include "systems/rigs/hand_kinematics.hpp"\n'
         self.assert_clean("systems/hand/constrain_palms.cpp", include)
-        self.assert_clean("systems/locomotion/shared/grab_anchor.hpp", "#pragma once\n" + include)
+        self.assert_clean("systems/grab/shared/grab_anchor.hpp", "#pragma once\n" + include)
         self.assert_clean("systems/rigs/hand_rig_fit.cpp", include)
         self.assert_breach("systems/rigs/hand_rig_fit.cpp", '#include "systems/hand/shared/palm_fit.hpp"\n',
                            "systems/rigs/hand_rig_fit.cpp:1 | no other system")
@@ -88,7 +88,7 @@ class CheckIncludes(unittest.TestCase):
         self.assert_breach("systems/physics/a.cpp", "void f(const World& world);\n",
                            "systems/physics/a.cpp:1 | World")
         self.assert_breach("components/grab.hpp", "#pragma once\nstruct World;\n", "components/grab.hpp:2 | World")
-        for file in ("systems/frame.cpp", "systems/snapshot.cpp", "components/world.cpp", "game/a.cpp",
+        for file in ("systems/frame/frame.cpp", "systems/snapshot/snapshot.cpp", "components/world.cpp", "game/a.cpp",
                      "tests/systems/a.cpp", "tools/lab/a.cpp"):
             self.assert_clean(file, "void f(const World& world);\n")
 

@@ -225,7 +225,7 @@ class Runtime(unittest.TestCase):
     """Each clip has one frame, in which the runtime's low-pass filters start: all its answers must equal the numpy estimator's."""
 
     def test_bodies_are_those_that_were_fitted(self):
-        text = (ROOT / "systems/arm/shared/body_constants.hpp").read_text()
+        text = (ROOT / "systems/body/shared/body_constants.hpp").read_text()
         constant = lambda name: float(re.search(rf"k_{name} = (\S+);", text).group(1))
         constants_of = lambda names: {name: constant(name) for name in names}
         with tempfile.TemporaryDirectory() as name:

@@ -6,8 +6,8 @@
 
 #include "engine/core/text_file.hpp"
 #include "game/commands/progress.hpp"
-#include "systems/arm/estimate_arms.hpp"
-#include "systems/arm/pose_arms.hpp"
+#include "systems/body/estimate_arms.hpp"
+#include "systems/body/pose_arms.hpp"
 #include "tools/lab/body_baselines.hpp"
 #include "tools/lab/body_files.hpp"
 #include "tools/lab/exit_status.hpp"

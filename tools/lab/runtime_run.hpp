@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "components/frame_graph.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 #include "tools/lab/lab_scene.hpp"
 
 namespace handhold::lab {

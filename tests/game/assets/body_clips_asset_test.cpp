@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "game/desktop/desktop_session.hpp"
-#include "systems/snapshot.hpp"
+#include "systems/snapshot/snapshot.hpp"
 #include "tests/game/climber/climber_scene.hpp"
 
 namespace handhold::body_clips_asset_test {

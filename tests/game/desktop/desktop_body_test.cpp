@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 #include "tests/game/climber/climber_scene.hpp"
 
 namespace handhold::desktop_body_test {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "game/scene/built_in_scenes.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 
 namespace handhold::robot_test {
 namespace {

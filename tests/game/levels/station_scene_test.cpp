@@ -15,7 +15,7 @@
 #include "game/scene/built_in_scenes.hpp"
 #include "game/scene/scene_file_writer.hpp"
 #include "game/session/session_run.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 
 namespace handhold::station_scene_test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 
 namespace handhold::scene_test {
 namespace {

@@ -10,7 +10,7 @@
 #include "game/scene/built_in_scenes.hpp"
 #include "game/view/player_view.hpp"
 #include "game/view/snap_hint.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 #include "systems/input/read_tracking.hpp"
 
 namespace handhold::ghost_hands_test {

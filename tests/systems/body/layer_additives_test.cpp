@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "components/body_clip_state.hpp"
-#include "systems/arm/estimate_arms.hpp"
-#include "systems/arm/pose_arms.hpp"
+#include "systems/body/estimate_arms.hpp"
+#include "systems/body/pose_arms.hpp"
 #include "systems/body/propagate_spine.hpp"
 #include "systems/rigs/body_clips_json.hpp"
 #include "tests/systems/frame/column_scene.hpp"

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/parallel.hpp"
-#include "systems/snapshot.hpp"
+#include "systems/snapshot/snapshot.hpp"
 #include "tests/systems/frame/crowd.hpp"
 
 namespace handhold::determinism_test {

@@ -10,7 +10,7 @@
 
 #include "components/fields.hpp"
 #include "engine/core/check.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 #include "tests/systems/frame/column_scene.hpp"
 
 namespace handhold::frame_hash_test {

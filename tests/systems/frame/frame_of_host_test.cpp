@@ -1,6 +1,6 @@
 // Frames around a host's own solver. The oracle is step_frame: a host that solves the hand
 // constraints exactly must move players and bodies as the runtime does, without any collider.
-#include "systems/frame_of_host.hpp"
+#include "systems/frame/frame_of_host.hpp"
 
 #include <algorithm>
 #include <cmath>

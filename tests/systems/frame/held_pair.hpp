@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "systems/locomotion/shared/body_parts.hpp"
+#include "systems/grab/shared/body_parts.hpp"
 #include "tests/random.hpp"
 #include "tests/systems/frame/scenario.hpp"
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "systems/snapshot.hpp"
+#include "systems/snapshot/snapshot.hpp"
 #include "tests/systems/frame/crowd.hpp"
 
 // The world that the snapshot tests save.

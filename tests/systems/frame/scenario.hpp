@@ -8,7 +8,7 @@
 
 #include "components/world.hpp"
 #include "engine/geometry/shape_library.hpp"
-#include "systems/frame.hpp"
+#include "systems/frame/frame.hpp"
 
 // A small world for scenarios of whole frames: bodies by name, and one player whose devices follow
 // functions of time.

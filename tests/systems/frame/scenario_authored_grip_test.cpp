@@ -5,7 +5,7 @@
 
 #include "components/authored_grip.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
-#include "systems/snapshot.hpp"
+#include "systems/snapshot/snapshot.hpp"
 #include "tests/engine/allocation_count.hpp"
 #include "tests/systems/frame/column_scene.hpp"
 #include "tests/systems/frame/scenario.hpp"

@@ -11,7 +11,7 @@
 
 #include "components/world_edit.hpp"
 #include "engine/core/parallel.hpp"
-#include "systems/snapshot.hpp"
+#include "systems/snapshot/snapshot.hpp"
 #include "tests/systems/frame/held_pair.hpp"
 
 namespace handhold::scenario_body_grip_test {

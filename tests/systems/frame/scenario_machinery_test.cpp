@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/parallel.hpp"
-#include "systems/snapshot.hpp"
+#include "systems/snapshot/snapshot.hpp"
 #include "tests/random.hpp"
 #include "tests/systems/physics/joint_errors.hpp"
 

@@ -8,8 +8,8 @@
 
 #include "components/world.hpp"
 #include "engine/core/check.hpp"
-#include "systems/frame.hpp"
-#include "systems/snapshot.hpp"
+#include "systems/frame/frame.hpp"
+#include "systems/snapshot/snapshot.hpp"
 #include "tests/components/shapeless.hpp"
 
 namespace handhold::world_limits_test {

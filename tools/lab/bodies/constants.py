@@ -59,7 +59,7 @@ def header(notes, chest, across, pole, fade, chest_network, elbow_network):
 #include <cstddef>
 
 #include "components/arm.hpp"
-#include "systems/arm/shared/body_network.hpp"
+#include "systems/body/shared/body_network.hpp"
 
 {comment(notes)}
 // clang-format off

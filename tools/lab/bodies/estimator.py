@@ -1,4 +1,4 @@
-"""The estimator of systems/arm in numpy, for all frames at once, without its low-pass filters: what tools/lab/fit_body fits.
+"""The estimator of systems/body in numpy, for all frames at once, without its low-pass filters: what tools/lab/fit_body fits.
 
 Arrays are (frames, ...); per arm (2, frames, ...), left first. Axes as in the runtime: +Y up, -Z forward, yaw positive to the left."""
 import copy

@@ -1,4 +1,4 @@
-"""Fits the constants of systems/arm: first the talk's form, then the networks that correct it."""
+"""Fits the constants of systems/body: first the talk's form, then the networks that correct it."""
 import numpy as np
 
 from . import choosing, estimator

@@ -1,4 +1,4 @@
-"""Small networks as systems/arm/shared/body_network.hpp evaluates them, and their training."""
+"""Small networks as systems/body/shared/body_network.hpp evaluates them, and their training."""
 import numpy as np
 
 from .estimator import smooth_step

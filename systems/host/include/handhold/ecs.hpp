@@ -25,6 +25,6 @@
 #include "components/world_edit.hpp"
 #include "engine/geometry/grip_mesh_library.hpp"
 #include "engine/geometry/shape_library.hpp"
-#include "systems/frame_of_host.hpp"
+#include "systems/frame/frame_of_host.hpp"
 #include "systems/input/read_tracking.hpp"
-#include "systems/snapshot.hpp"
+#include "systems/snapshot/snapshot.hpp"

@@ -1,0 +1,260 @@
+// The talk's rows 19 to 22 with a fitted correction: docs/decisions/0091-fitted-body-estimate.md.
+#include "systems/body/estimate_arms.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "engine/core/parallel.hpp"
+#include "engine/math/scalar_rotation.hpp"
+#include "systems/body/shared/body_constants.hpp"
+#include "systems/body/shared/body_view.hpp"
+#include "systems/body/shared/elbow_direction.hpp"
+#include "systems/body/shared/estimate_chest.hpp"
+#include "systems/body/shared/level_direction.hpp"
+
+namespace handhold {
+namespace {
+
+bool has_jumped(const Vec3& before, const Vec3& now, double dt_s) {
+    return is_jump((now - before).norm(), dt_s);
+}
+
+// Values of one time step that are the same for all players.
+struct Step {
+    double dt_s = 0.0;
+    std::array<double, k_look_filters> look_shares{};  // filter gains for the look direction
+    double chest_share = 0.0;                          // for the chest
+    TurnLimit limit;                                   // of ArmTuning::chest_limit_rad
+    const ArmTuning& tuning;
+};
+Step step_of(double dt_s, const ArmTuning& tuning) {
+    Step step{dt_s, {}, follow_share(dt_s, tuning.chest_lag_s), {}, tuning};
+    for (std::size_t i = 0; i < k_look_filters; ++i) {
+        step.look_shares[i] = follow_share(dt_s, body_constants::k_look_lags_s[i]);
+    }
+    sin_cos(tuning.chest_limit_rad, step.limit.sine, step.limit.cosine);
+    return step;
+}
+
+// Follows the look direction, then estimates the chest. Returns the look direction.
+Vec3 estimate_chest(const TrackedBody& body, const BodyAxes& axes, const Step& step, bool reset,
+                    ArmMemory& memory, ArmEstimate& out) {
+    const ArmTuning& tuning = step.tuning;
+    const TrunkView trunk = trunk_view(body, axes);
+    Vec3 now_ps = level_look(-axes.head.col(2), axes.head.col(1));
+    for (std::size_t i = 0; i < k_look_filters; ++i) {
+        Vec3& filtered_ps = memory.looks_ps[i];
+        filtered_ps = reset ? now_ps : follow_look(filtered_ps, now_ps, step.look_shares[i]);
+    }
+    const Quat lean = chest_lean(trunk.up_ps);
+    const Vec3 up_ps = axes.head.col(1);
+    const Vec3 talked_ps =
+        chest_facing(memory.looks_ps[0], trunk.up_ps == up_ps ? lean : chest_lean(up_ps), body,
+                     axes, step.limit);
+    ChestCorrection correction = chest_correction(talked_ps, now_ps, memory.looks_ps, body, axes);
+    correction.offset.middle_m *= tuning.learned;
+    correction.offset.roll *= tuning.learned;
+    double sine = 0.0;
+    double cosine = 1.0;
+    sin_cos(tuning.learned * correction.turn_rad, sine, cosine);
+    const Vec3 corrected_ps = turned_left(talked_ps, cosine, sine);
+    Vec3 wanted_ps = corrected_ps;
+    const double across_rad = turn_to_reach_across(
+        corrected_ps, lean, chest_pose(corrected_ps, lean, correction.offset, body, trunk), body);
+    if (across_rad != 0.0) {
+        sin_cos(across_rad, sine, cosine);
+        wanted_ps = turned_left(corrected_ps, cosine, sine);
+    }
+    if (reset) {
+        memory.facing_ps = wanted_ps;
+        memory.chest = correction.offset;
+    } else {
+        memory.facing_ps = turn_at_most(memory.facing_ps,
+                                        follow_look(memory.facing_ps, wanted_ps, step.chest_share),
+                                        step.dt_s * tuning.chest_speed_radps);
+        ChestOffset& chest = memory.chest;
+        chest.middle_m += step.chest_share * (correction.offset.middle_m - chest.middle_m);
+        chest.roll += step.chest_share * (correction.offset.roll - chest.roll);
+    }
+    out.facing_ps = memory.facing_ps;
+    out.chest_ps = chest_pose(out.facing_ps, lean, memory.chest, body, trunk);
+    return now_ps;
+}
+
+// The line of an arm whose shoulder at rest is `rest_ps`.
+ArmLine line_of(const Vec3& facing, const Vec3& rest_ps, const Vec3& hand_ps, double arm_m,
+                const ArmMemory::Arm& memory, const ArmTuning& tuning) {
+    const Vec3 hand_ts = to_facing(facing, hand_ps - rest_ps);
+    Vec3 shoulder_ts = clavicle_shift(hand_ts / arm_m, tuning);
+    shoulder_ts += shoulder_follow(hand_ts - shoulder_ts, arm_m, shoulder_ts.norm(), tuning);
+    const Vec3 reach_ts = hand_ts - shoulder_ts;
+    const double distance_m = reach_ts.norm();
+    return {shoulder_ts, reach_ts, distance_m,
+            distance_m > 1e-6 ? Vec3(reach_ts * (1.0 / distance_m)) : memory.axis_ts};
+}
+
+// Inputs of one elbow's estimate.
+struct ArmStep {
+    HandSide side = HandSide::left;
+    bool reset = false;  // true: ignore ArmMemory
+    double upper_m = 0.0;
+    double forearm_m = 0.0;
+    Vec3 pole_ts = Vec3::Zero();
+    const ArmLine& line;
+};
+
+void estimate_elbow(const Step& step, const ArmStep& arm, ArmMemory::Arm& memory,
+                    ArmEstimate::Arm& out) {
+    const ArmTuning& tuning = step.tuning;
+    const double dt_s = step.dt_s;
+    const ArmLine& line = arm.line;
+    const Vec3& axis_ts = line.axis_ts;
+    const Vec3 hand_rest_ts = line.shoulder_ts + line.reach_ts;
+    out.stretch = std::max(1.0, line.distance_m / (tuning.reach * (arm.upper_m + arm.forearm_m)));
+    const ElbowCircle circle = elbow_circle(line.distance_m, axis_ts, out.stretch * arm.upper_m,
+                                            out.stretch * arm.forearm_m);
+    const Vec3 aside = arm.pole_ts - axis_ts * axis_ts.dot(arm.pole_ts);
+    const double length = aside.norm();
+    const bool fresh = arm.reset || has_jumped(memory.hand_ts, hand_rest_ts, dt_s);
+    const Vec3 before_ts = fresh ? any_perpendicular(axis_ts) : carry_bend(memory, axis_ts, tuning);
+    const Vec3 wanted_ts = reachable_bend(
+        circle, length > 1e-6 ? Vec3(aside * (1.0 / length)) : before_ts, arm.side, tuning);
+    if (fresh) {
+        memory.bend_ts = wanted_ts;
+    } else {
+        // A pole nearly parallel to the axis determines no direction, so the filter slows down
+        // there.
+        const double clear = smooth_step(length / std::max(arm.pole_ts.norm(), 1e-9), 0.0, 0.5);
+        memory.bend_ts = turn_bend(
+            axis_ts, before_ts, wanted_ts,
+            {follow_share(dt_s * clear, tuning.swivel_lag_s), dt_s * tuning.swivel_speed_radps});
+    }
+    memory.axis_ts = axis_ts;
+    memory.hand_ts = hand_rest_ts;
+    memory.elbow_ts = circle.middle_ts + circle.radius_m * memory.bend_ts;
+}
+
+void estimate_once(const TrackedBody& body, const Step& step, bool reset, ArmMemory& memory,
+                   ArmEstimate& out) {
+    const ArmTuning& tuning = step.tuning;
+    const BodyAxes axes = axes_of(body);
+    const Vec3 look_ps = estimate_chest(body, axes, step, reset, memory, out);
+    const Vec3& facing = out.facing_ps;
+    const double arm_m = arm_length_m(body.measures);
+    const Vec3 right_ps =
+        (0.5 * body.measures.shoulder_width_m) * (out.chest_ps.rotation * Vec3::UnitX());
+    const std::array<Vec3, k_hand_count> rest_ps = {out.chest_ps.position - right_ps,
+                                                    out.chest_ps.position + right_ps};
+    const auto line_at = [&](std::size_t i) {
+        return line_of(facing, rest_ps[i], body.hands_ps[i].position, arm_m, memory.arms[i],
+                       tuning);
+    };
+    const std::array<ArmLine, k_hand_count> lines = {line_at(0), line_at(1)};
+    const BodyView view = view_from(facing, axes);
+    const double turned = sine_between(facing, look_ps);
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const std::size_t i = index_of(side);
+        const Vec3 pole_ts = elbow_pole(view, side) +
+                             tuning.learned * elbow_correction(view, lines, turned, arm_m, side);
+        estimate_elbow(
+            step,
+            {side, reset, body.measures.upper_arm_m, body.measures.forearm_m, pole_ts, lines[i]},
+            memory.arms[i], out.arms[i]);
+        out.arms[i].shoulder_ps = rest_ps[i] + from_facing(facing, lines[i].shoulder_ts);
+        out.arms[i].bend_ps = from_facing(facing, memory.arms[i].bend_ts);
+    }
+}
+
+Pose between(const Pose& a, const Pose& b, double share) {
+    const double sign = a.rotation.dot(b.rotation) < 0.0 ? -share : share;
+    const Quat::Coefficients mixed =
+        (1.0 - share) * a.rotation.coeffs() + sign * b.rotation.coeffs();
+    return {a.position + share * (b.position - a.position),
+            unit_quat(mixed[3], mixed[0], mixed[1], mixed[2])};
+}
+
+// Divides frames much longer than k_step_s into steps, with head and hands interpolated linearly.
+// The state then evolves nearly equally at any frame rate down to 10 Hz. k_round_up keeps the frame
+// lengths at which the number of steps changes away from usual frame rates.
+void estimate_player(const TrackedBody& now, const Step& frame, ArmMemory& memory,
+                     ArmEstimate& out) {
+    constexpr double k_step_s = 1.0 / 90.0;
+    constexpr double k_max_steps = 9.0;
+    constexpr double k_round_up = 0.3;
+    const double dt_s = frame.dt_s;
+    const bool reset =
+        !memory.known || has_jumped(memory.head_ps.position, now.head_ps.position, dt_s);
+    const int steps =
+        reset ? 1 : static_cast<int>(std::clamp(dt_s / k_step_s + k_round_up, 1.0, k_max_steps));
+    if (steps > 1) {
+        TrackedBody before{
+            memory.head_ps, {memory.arms[0].hand_ps, memory.arms[1].hand_ps}, now.measures};
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            if (has_jumped(before.hands_ps[side].position, now.hands_ps[side].position, dt_s)) {
+                before.hands_ps[side] = now.hands_ps[side];
+            }
+        }
+        const Step step = step_of(dt_s / steps, frame.tuning);
+        for (int i = 1; i < steps; ++i) {
+            const double share = static_cast<double>(i) / steps;
+            const TrackedBody then{between(before.head_ps, now.head_ps, share),
+                                   {between(before.hands_ps[0], now.hands_ps[0], share),
+                                    between(before.hands_ps[1], now.hands_ps[1], share)},
+                                   now.measures};
+            estimate_once(then, step, false, memory, out);
+        }
+        estimate_once(now, step, false, memory, out);
+    } else {
+        estimate_once(now, frame, reset, memory, out);
+    }
+    memory.known = true;
+    memory.head_ps = now.head_ps;
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        memory.arms[side].hand_ps = now.hands_ps[side];
+    }
+}
+
+// Writes the palms' poses to the estimates, in play space.
+void take_hands(const EstimateArmsIo& io) {
+    Entity player = k_no_entity;
+    const Pose* origin_ws = nullptr;
+    ArmEstimate* estimate = nullptr;
+    for (std::size_t row = 0; row < io.owner.size(); ++row) {
+        const HandOwner& owner = io.owner.rows()[row];
+        if (owner.player != player) {  // a player's hands are usually in adjacent rows
+            player = owner.player;
+            origin_ws = &io.origin.at(player).pose_ws;
+            estimate = &io.estimate.at(player);
+        }
+        const Pose& palm_ws = io.palm.at(io.owner.owners()[row]).pose_ws;
+        const Quat turn = product(origin_ws->rotation.conjugate(), palm_ws.rotation);
+        estimate->arms[index_of(owner.side)].hand_ps = {
+            inverse_transform_point(*origin_ws, palm_ws.position),
+            unit_quat(turn.w(), turn.x(), turn.y(), turn.z())};
+    }
+}
+
+}  // namespace
+
+void estimate_arms(const EstimateArmsIo& io, const ArmTuning& tuning) {
+    take_hands(io);
+    const Step step = step_of(io.dt_s, tuning);
+    constexpr std::size_t k_players_per_slice = 16;
+    const auto estimate = [&](std::size_t /*slice*/, std::size_t first, std::size_t last) {
+        for (std::size_t row = first; row < last; ++row) {
+            const Entity player = io.estimate.owners()[row];
+            ArmMemory* const memory = io.memory.find(player);
+            const HeadTracking* const head = io.head.find(player);
+            const BodyMeasures* const measures = io.measures.find(player);
+            if (memory != nullptr && head != nullptr && measures != nullptr) {
+                ArmEstimate& out = io.estimate.rows()[row];
+                estimate_player(
+                    {head->pose_ps, {out.arms[0].hand_ps, out.arms[1].hand_ps}, *measures}, step,
+                    *memory, out);
+            }
+        }
+    };
+    parallel_slices(io.estimate.size(), k_players_per_slice, estimate);
+}
+
+}  // namespace handhold

@@ -1,0 +1,89 @@
+// The state hash: one hash per row, of the component's name, the owner's persistent id and every
+// field. Rows are summed, so their order does not matter.
+#include <array>
+#include <type_traits>
+
+#include "components/fields.hpp"
+#include "engine/core/hash.hpp"
+#include "systems/frame/frame.hpp"
+
+namespace handhold {
+namespace {
+
+class FieldHasher {
+  public:
+    FieldHasher(const World& world, HashStream& stream) : world_(world), stream_(stream) {}
+
+    void operator()(const char*, const auto& field) const { add(field); }
+
+  private:
+    void add(double value) const { stream_.add(value); }
+    void add(const Vec3& v) const {
+        for (int axis = 0; axis < 3; ++axis) {
+            stream_.add(v[axis]);
+        }
+    }
+    void add(const Quat& q) const {
+        add(Vec3(q.vec()));
+        stream_.add(q.w());
+    }
+    void add(const Pose& pose) const {
+        add(pose.position);
+        add(pose.rotation);
+    }
+    // By persistent id: a handle's slot depends on the pool's history.
+    void add(Entity entity) const {
+        const PersistentId* const id = world_.persistent_id.find(entity);
+        stream_.add(id != nullptr ? id->value : std::uint64_t{0});
+    }
+    // Not hashed: an index into the asset library, which depends on loading order. A body's shape
+    // never changes while frames run.
+    void add(ShapeId /*shape*/) const {}
+    template <typename T, std::size_t N>
+    void add(const std::array<T, N>& values) const {
+        for (const T& value : values) {
+            add(value);
+        }
+    }
+    template <typename T>
+    void add(const T& value) const {
+        if constexpr (std::is_integral_v<T> || std::is_enum_v<T>) {
+            stream_.add(static_cast<std::uint64_t>(value));
+        } else {
+            visit_fields(value, *this);
+        }
+    }
+
+    const World& world_;
+    HashStream& stream_;
+};
+
+}  // namespace
+
+std::uint64_t hash_state(const World& world) {
+    std::uint64_t sum = 0;
+    visit_columns(world, [&](const char* name, const auto& column) {
+        for (std::size_t row = 0; row < column.size(); ++row) {
+            HashStream stream;
+            stream.add(hash_text(name));
+            stream.add(world.persistent_id.at(column.owners()[row]).value);
+            visit_fields(column.rows()[row], FieldHasher(world, stream));
+            sum += stream.value();
+        }
+    });
+    HashStream stream;
+    stream.add(sum);
+    stream.add(world.clock.frame);
+    stream.add(world.clock.t_s);
+    for (int axis = 0; axis < 3; ++axis) {
+        stream.add(world.reference_velocity_mps[axis]);
+    }
+    if (world.gravity_mps2 != Vec3::Zero()) {  // a world without gravity keeps its older hash
+        for (int axis = 0; axis < 3; ++axis) {
+            stream.add(world.gravity_mps2[axis]);
+        }
+    }
+    return stream.value();
+}
+
+}  // namespace handhold

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "systems/frame/frame.hpp"
+#include "systems/grab/shared/grab_search.hpp"
+
+// Runs the stages on a world's columns. frame.cpp and frame_of_host.cpp decide their order.
+namespace handhold::stages {
+
+// The data that stages may need. Each function below passes its stage only the columns it uses.
+struct FrameContext {
+    World& w;
+    FrameCaches& caches;
+    const Tuning& tuning;
+    const FrameInput& input;
+    StageStats& stats;
+
+    double dt_s() const { return input.dt_s; }
+    double start_s() const { return w.clock.t_s; }
+    double end_s() const { return w.clock.t_s + input.dt_s; }
+    FrameGraph& graph() const { return caches.graph; }
+    CollisionWorld& collision() const { return caches.collision; }
+    SurfaceQuery surfaces() const {
+        return caches.host_surfaces ? caches.host_surfaces : SurfaceQuery(caches.collision);
+    }
+    HandScratch& hands() const { return caches.hands; }
+};
+
+void read_tracking(const FrameContext& f);
+void read_paused_tracking(const FrameContext& f);
+void calibrate_players(const FrameContext& f);
+void group_joints(const FrameContext& f);
+void place_colliders(const FrameContext& f, Stage needed_by);
+GrabSearch grab_search(const FrameContext& f);
+void update_grabs(const FrameContext& f);
+// Updates only HandSight, for frames in which hands grip nothing by themselves.
+void update_sights(const FrameContext& f);
+void locomote_players(const FrameContext& f);
+void pull_bodies(const FrameContext& f);
+void animate_movers(const FrameContext& f);
+void predict_bodies(const FrameContext& f);
+void anchor_grabs(const FrameContext& f);
+void find_contacts(const FrameContext& f);
+void build_constraints(const FrameContext& f);
+void solve_phases(const FrameContext& f);
+void finish_positions(const FrameContext& f);
+void update_velocities(const FrameContext& f);
+void limit_velocities(const FrameContext& f);
+void update_joints(const FrameContext& f);
+void discard_broken_results(const FrameContext& f);
+void gather_surroundings(const FrameContext& f);
+void search_grip(const FrameContext& f);
+void constrain_palms(const FrameContext& f);
+void sweep_fingers(const FrameContext& f);
+void fit_hands(const FrameContext& f);
+void estimate_arms(const FrameContext& f);
+void layer_clavicles(const FrameContext& f);
+void pose_arms(const FrameContext& f);
+void propagate_spine(const FrameContext& f);
+void layer_additives(const FrameContext& f);
+void publish_pose(const FrameContext& f);
+void publish_body(const FrameContext& f);
+void show_hands(const FrameContext& f);
+void show_bodies(const FrameContext& f);
+void publish(const FrameContext& f);
+
+}  // namespace handhold::stages

@@ -1,0 +1,398 @@
+#include "systems/grab/shared/grab_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "components/hand_rows.hpp"
+#include "components/play_space.hpp"
+#include "engine/core/parallel.hpp"
+#include "systems/grab/shared/hand_sight.hpp"
+#include "systems/rigs/authored_hand.hpp"
+
+namespace handhold {
+namespace {
+
+Entity owner_of_id(const GrabSearch& io, std::uint64_t id) {
+    for (const std::span<const Entity> owners : {io.body.owners(), io.origin.owners()}) {
+        for (const Entity entity : owners) {
+            if (io.persistent_id.at(entity).value == id) {
+                return entity;
+            }
+        }
+    }
+    return k_no_entity;
+}
+
+// Bodies that are no obstacle to a hand: its player's head, and what the player's hands held at the
+// start of the frame.
+struct SightSkips {
+    std::array<std::uint64_t, 1 + k_hand_count> ids{};
+    std::size_t count = 0;
+    std::span<const std::uint64_t> view() const { return std::span(ids).first(count); }
+};
+SightSkips sight_skips(const GrabSearch& io, Entity hand) {
+    const Entity player = io.owner.at(hand).player;
+    SightSkips skips;
+    skips.ids[skips.count++] = io.persistent_id.at(player).value;
+    const std::size_t row = io.grab.find_row(hand);
+    for (const std::size_t each : {row, find_other_hand(io.owner, io.grab, row)}) {
+        if (each < io.grab.size() && io.grab.rows()[each].kind == GripKind::held &&
+            io.grab.rows()[each].phase != GrabPhase::fresh &&
+            io.body.contains(io.grab.rows()[each].body)) {
+            skips.ids[skips.count++] = io.persistent_id.at(io.grab.rows()[each].body).value;
+        }
+    }
+    return skips;
+}
+
+Vec3 head_center_ws(const GrabSearch& io, Entity player, const HeadTuning& tuning) {
+    return transform_point(io.origin.at(player).pose_ws,
+                           head_center_ps(io.head.at(player), tuning));
+}
+
+// The space that HandSight::frame names.
+Pose sight_frame_ws(const GrabSearch& io, Entity frame) {
+    const BodyPose* const body = io.body_pose.find(frame);
+    return body != nullptr ? body->pose_ws : Pose{};
+}
+
+// A hand that begins somewhere is outside there.
+SightLines sight_lines(const GrabSearch& io, Entity hand, const Vec3& palm_ws,
+                       const SightSkips& skips, const HeadTuning& tuning) {
+    const HandSight& sight = io.sight.at(hand);
+    const Vec3 head_ws = head_center_ws(io, io.owner.at(hand).player, tuning);
+    const bool is_known =
+        sight.is_known && (is_null(sight.frame) || io.body_pose.contains(sight.frame));
+    return {io.surfaces, skips.view(),
+            is_known ? transform_point(sight_frame_ws(io, sight.frame), sight.outside_bs) : palm_ws,
+            head_ws};
+}
+
+bool any_priority(const GrabRules& rules) {
+    return rules.rule != nullptr &&
+           std::ranges::any_of(rules.rule->rows(),
+                               [](const GrabRule& rule) { return rule.priority != 0; });
+}
+
+// A point of a collider, or of another player's part.
+struct FoundSurface {
+    std::uint64_t id = 0;
+    Vec3 point_ws;
+    Vec3 normal_ws;
+    std::optional<BodyPart> part;
+};
+
+// The nearer of the two.
+template <typename ColliderHit>
+std::optional<FoundSurface> nearer(const std::optional<ColliderHit>& collider,
+                                   const std::optional<PartHit>& part) {
+    if (part && (!collider || part->distance_m < collider->distance_m)) {
+        return FoundSurface{part->id, part->point_ws, part->normal_ws, part->part};
+    }
+    return collider ? std::optional(FoundSurface{collider->id, collider->point_ws,
+                                                 collider->normal_ws, std::nullopt})
+                    : std::nullopt;
+}
+
+// Searches along the palm ray, then around the palm, without testing visibility. Skips surfaces
+// that refuse the hand. Takes the first other surface, or one of a higher GrabRule::priority that
+// no other surface hides from the palm. Other players' heads and bodies count as surfaces.
+class SurfaceFinder {
+  public:
+    SurfaceFinder(const GrabSearch& io, const HandOwner& owner, const PalmRay& ray)
+        : io_(io), owner_(owner), ray_(ray), continues_(any_priority(io.rules)) {
+        const std::uint64_t own_head = io.persistent_id.at(owner.player).value;
+        skipped_.add(own_head);
+        refusing_.add(own_head);
+    }
+
+    // nullopt: nothing in reach, or only what refuses the hand: see refused_by.
+    std::optional<GrabTarget> find(double reach_m) {
+        while (offer(on_ray())) {
+        }
+        while (!is_done() && !skipped_.is_full() && offer(near_palm(reach_m))) {
+        }
+        return best_;
+    }
+    Entity refused_by() const { return refused_by_; }
+
+  private:
+    struct Ids {
+        std::array<std::uint64_t, 16> ids{};
+        std::size_t count = 0;
+        std::span<const std::uint64_t> view() const { return std::span(ids).first(count); }
+        bool is_full() const { return count == ids.size(); }
+        void add(std::uint64_t id) { ids[count++] = id; }
+    };
+
+    std::optional<FoundSurface> on_ray() const {
+        const ShownBodies::Skip skip = skipped_.view();
+        return nearer(io_.surfaces.cast_ray(ray_.from_ws, ray_.to_ws, skip),
+                      io_.bodies().cast_ray(ray_.from_ws, ray_.to_ws, skip));
+    }
+    std::optional<FoundSurface> near_palm(double reach_m) const {
+        const ShownBodies::Skip skip = skipped_.view();
+        return nearer(io_.surfaces.closest_point(ray_.palm_ws, reach_m, skip),
+                      io_.bodies().closest_point(ray_.palm_ws, reach_m, skip));
+    }
+
+    bool is_done() const { return best_.has_value() && !continues_; }
+
+    bool is_hidden(std::uint64_t id, const Vec3& point_ws) const {
+        const auto hit = io_.surfaces.cast_ray(ray_.palm_ws, point_ws, refusing_.view());
+        return hit && hit->id != id;
+    }
+
+    // Takes a surface or passes over it. False if the search must not go on.
+    bool offer(const std::optional<FoundSurface>& found) {
+        const Entity body = found ? owner_of_id(io_, found->id) : k_no_entity;
+        if (is_null(body)) {
+            return false;
+        }
+        const GrabRule* const rule = io_.rules.rule_of(body);
+        const std::int32_t priority = rule != nullptr ? rule->priority : 0;
+        if (!io_.rules.allow(owner_, body)) {
+            refused_by_ = body;
+            refusing_.add(found->id);
+        } else if (!best_ || (priority > priority_ && !is_hidden(found->id, found->point_ws))) {
+            best_ = GrabTarget{body, found->point_ws, found->normal_ws, {}, found->part};
+            priority_ = priority;
+        }
+        skipped_.add(found->id);
+        return !is_done() && !skipped_.is_full();
+    }
+
+    const GrabSearch& io_;
+    const HandOwner& owner_;
+    const PalmRay& ray_;
+    bool continues_;  // past the first surface, for one of a higher priority
+    Ids skipped_;     // already offered
+    Ids refusing_;    // of these, those that refuse the hand
+    std::optional<GrabTarget> best_;
+    std::int32_t priority_ = 0;
+    Entity refused_by_ = k_no_entity;
+};
+
+// The palm's surface, if the hand can get there. A palm pushed through a surface grips that
+// surface.
+GrabSearchResult find_visible_surface(const GrabSearch& io, const HandOwner& owner,
+                                      const PalmRay& ray, const SightLines& sight,
+                                      const HandTuning& tuning) {
+    const auto refused_by = [](Entity body) {
+        return GrabSearchResult{{}, Fallback::grab_refused_by_rule, body};
+    };
+    SurfaceFinder finder(io, owner, ray);
+    const auto surface = finder.find(tuning.reach_m);
+    if (!surface) {
+        return is_null(finder.refused_by()) ? GrabSearchResult{} : refused_by(finder.refused_by());
+    }
+    const std::uint64_t surface_id = io.persistent_id.at(surface->body).value;
+    if (sight.may_grip(ray.palm_ws, surface->point_ws, surface_id, SightLines::Needs::this_point)) {
+        return {surface};
+    }
+    const auto entry = sight.entry(ray.palm_ws);
+    const Entity body = entry ? owner_of_id(io, entry->id) : k_no_entity;
+    const double max_m = body == surface->body ? tuning.max_stretch_m : tuning.reach_m;
+    if (!is_null(body) && (entry->point_ws - ray.palm_ws).norm() <= max_m) {
+        return io.rules.allow(owner, body)
+                   ? GrabSearchResult{GrabTarget{body, entry->point_ws, entry->normal_ws, {}}}
+                   : refused_by(body);
+    }
+    return {{}, Fallback::grab_out_of_sight, surface->body};
+}
+
+// An authored grip that a hand may snap to.
+struct Snap {
+    GrabTarget target;  // its point is the palm in the grip
+    std::int32_t priority = 0;
+    double sync_m = 0.0;
+    std::uint64_t body_id = 0;
+
+    bool is_before(const Snap& other) const {
+        if (priority != other.priority) {
+            return priority > other.priority;
+        }
+        if (sync_m != other.sync_m) {
+            return sync_m < other.sync_m;
+        }
+        return body_id != other.body_id ? body_id < other.body_id
+                                        : target.hold->grip < other.target.hold->grip;
+    }
+};
+
+// True if another hand sits in the grip.
+bool is_taken(const GrabSearch& io, Entity own_hand, Entity body, std::uint8_t grip) {
+    for (std::size_t row = 0; row < io.authored_hold.size(); ++row) {
+        const Entity hand = io.authored_hold.owners()[row];
+        const AuthoredHold& hold = io.authored_hold.rows()[row];
+        const Grab& grab = io.grab.at(hand);
+        if (hand != own_hand && hold.body == body && hold.grip == grip && grab.body == body &&
+            grab.kind != GripKind::none && grab.phase != GrabPhase::releasing) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// True if another body stands between the palm and its place in the grip.
+bool is_blocked(const GrabSearch& io, Entity player, const Vec3& from_ws, const Vec3& to_ws,
+                std::uint64_t body_id) {
+    constexpr double k_there_m = 1e-6;
+    if ((to_ws - from_ws).norm() < k_there_m) {
+        return false;
+    }
+    const std::array own_head = {io.persistent_id.at(player).value};
+    const auto hit = io.surfaces.cast_ray(from_ws, to_ws, own_head);
+    return hit && hit->id != body_id;
+}
+
+class SnapFinder {
+  public:
+    SnapFinder(const GrabSearch& io, Entity hand, const Pose& hand_ws, const SightLines& sight,
+               const Tuning& tuning, StageStats& stats)
+        : io_(io),
+          hand_(hand),
+          owner_(io.owner.at(hand)),
+          hand_ws_(hand_ws),
+          sight_(sight),
+          tuning_(tuning),
+          stats_(stats) {}
+
+    // `only`: grips of this body alone; null: of all.
+    std::optional<Snap> find(Entity only) {
+        for (std::size_t row = 0; row < io_.authored_grips.size(); ++row) {
+            const AuthoredGrips& grips = io_.authored_grips.rows()[row];
+            const Entity body = io_.authored_grips.owners()[row];
+            if ((!is_null(only) && body != only) || !io_.rules.allow(owner_, body)) {
+                continue;
+            }
+            for (std::uint8_t i = 0; i < grips.count; ++i) {
+                consider(body, i, grips.grips[i]);
+            }
+        }
+        return best_;
+    }
+
+  private:
+    void consider(Entity body, std::uint8_t place, const AuthoredGrip& grip) {
+        const AuthoredHand& hand = grip.hands[index_of(owner_.side)];
+        if (!hand.is_there) {
+            return;
+        }
+        const Pose wrist_ws = io_.body_pose.at(body).pose_ws * hand.wrist_bs;
+        Vec3 palm_hs = tuning_.hand.palm_center_m;
+        palm_hs.x() *= owner_.side == HandSide::right ? 1.0 : -1.0;
+        const GripSync sync = grip_sync(hand_ws_, wrist_ws, palm_hs);
+        if (sync.palm_m > grip.snap_radius_m || sync.turn_rad > grip.snap_angle_rad) {
+            return;
+        }
+        if (is_taken(io_, hand_, body, place)) {
+            stats_.count(Fallback::authored_grip_occupied);
+            return;
+        }
+        Snap snap;
+        snap.body_id = io_.persistent_id.at(body).value;
+        snap.target = {body, transform_point(wrist_ws, palm_hs), wrist_ws.rotation * Vec3::UnitY(),
+                       AuthoredHold{body, place, hand, k_leave_factor * grip.snap_angle_rad}};
+        const Vec3 palm_ws = transform_point(hand_ws_, palm_hs);
+        if (is_blocked(io_, owner_.player, palm_ws, snap.target.point_ws, snap.body_id) ||
+            !sight_.may_grip(palm_ws, snap.target.point_ws, snap.body_id,
+                             SightLines::Needs::any_point)) {
+            stats_.count(Fallback::authored_grip_blocked);
+            return;
+        }
+        snap.priority = grip.priority;
+        snap.sync_m = sync.palm_m + tuning_.palm.tilt_cost_m_per_rad * sync.turn_rad;
+        if (!best_ || snap.is_before(*best_)) {
+            best_ = snap;
+        }
+    }
+
+    static constexpr double k_leave_factor = 2.0;
+
+    const GrabSearch& io_;
+    Entity hand_;
+    const HandOwner& owner_;
+    const Pose& hand_ws_;
+    const SightLines& sight_;
+    const Tuning& tuning_;
+    StageStats& stats_;
+    std::optional<Snap> best_;
+};
+
+// Short steps of an open hand wait and share one ray: rays from the point before them still cross
+// every wall. An empty hand that closes or pulls needs HandSight to be exact.
+bool needs_rays(const HandSight& sight, const Grab& grab, const HandTracking& hand,
+                const SightLines& lines, const Vec3& palm_ws) {
+    constexpr double k_step_m = 0.05;
+    if (grab.kind == GripKind::surface) {
+        return false;
+    }
+    const bool is_near = (palm_ws - lines.outside_ws).norm() < k_step_m;
+    const bool is_empty_fist = hand.pressed && grab.kind == GripKind::none;
+    return is_empty_fist || !is_near || !sight.is_known || !sight.is_clear;
+}
+
+// The outside point follows the palm while the palm is in sight. Otherwise, and while the hand
+// grips a surface, it travels with the body that the player last gripped: a ship, a lift.
+void update_sight(const GrabSearch& io, Entity entity, const Tuning& tuning) {
+    const HandTracking& hand = io.hand.at(entity);
+    if (hand.state != TrackingState::tracked) {
+        return;
+    }
+    const HandOwner& owner = io.owner.at(entity);
+    const Vec3 palm_ws =
+        palm_ray(io.origin.at(owner.player).pose_ws * hand.start_ps, owner.side, tuning.hand)
+            .palm_ws;
+    const SightSkips skips = sight_skips(io, entity);
+    SightLines lines = sight_lines(io, entity, palm_ws, skips, tuning.head);
+    HandSight& sight = io.sight.at(entity);
+    const Entity reference = io.reference.at(owner.player).body;
+    const Entity frame = io.body_pose.contains(reference) ? reference : k_no_entity;
+    const bool is_due = needs_rays(sight, io.grab.at(entity), hand, lines, palm_ws);
+    if (!is_due && frame == sight.frame) {
+        return;
+    }
+    if (is_due) {
+        const SightLines::Sight palm_sight = lines.sight_of_palm(palm_ws);
+        sight.is_known = true;
+        sight.is_clear = palm_sight != SightLines::Sight::blocked;
+        if (palm_sight == SightLines::Sight::clear_beyond) {
+            lines.outside_ws = palm_ws;
+        }
+    }
+    sight.frame = frame;
+    sight.outside_bs = inverse_transform_point(sight_frame_ws(io, frame), lines.outside_ws);
+}
+
+}  // namespace
+
+void update_sights(const GrabSearch& io, const Tuning& tuning) {
+    constexpr std::size_t k_hands_per_slice = 8;
+    const auto update = [&](std::size_t /*slice*/, std::size_t first, std::size_t last) {
+        for (std::size_t row = first; row < last; ++row) {
+            update_sight(io, io.grab.owners()[row], tuning);
+        }
+    };
+    if (io.surfaces.any_thread()) {
+        parallel_slices(io.grab.size(), k_hands_per_slice, update);
+    } else {
+        update(0, 0, io.grab.size());
+    }
+}
+
+GrabSearchResult find_grab_target(const GrabSearch& io, Entity hand, const Pose& hand_ws,
+                                  Entity only, const Tuning& tuning, StageStats& stats) {
+    const HandOwner& owner = io.owner.at(hand);
+    const PalmRay ray = palm_ray(hand_ws, owner.side, tuning.hand);
+    const SightSkips skips = sight_skips(io, hand);
+    const SightLines sight = sight_lines(io, hand, ray.palm_ws, skips, tuning.head);
+    if (const auto snap = SnapFinder(io, hand, hand_ws, sight, tuning, stats).find(only)) {
+        return {snap->target};
+    }
+    return find_visible_surface(io, owner, ray, sight, tuning.hand);
+}
+
+}  // namespace handhold

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <optional>
+
+#include "components/authored_grip.hpp"
+#include "components/body.hpp"
+#include "components/frame_graph.hpp"
+#include "components/grab.hpp"
+#include "components/player.hpp"
+#include "components/stats.hpp"
+#include "components/tracking.hpp"
+#include "components/tuning.hpp"
+#include "engine/collision/surface_query.hpp"
+#include "engine/ecs/column.hpp"
+#include "systems/grab/shared/body_parts.hpp"
+#include "systems/grab/shared/grab_rules.hpp"
+
+// What a closing hand grips.
+namespace handhold {
+
+// Also UpdateGrabsIo. The functions below write `sight` only.
+struct GrabSearch {
+    SurfaceQuery surfaces;                           // in: at the start of the frame
+    const Column<PersistentId>& persistent_id;       // in
+    const Column<HandOwner>& owner;                  // in
+    const Column<HandTracking>& hand;                // in: edges
+    const Column<PlayerOrigin>& origin;              // in: at the start of the frame
+    const Column<HeadTracking>& head;                // in: as the colliders have it
+    const Column<RigidBody>& body;                   // in
+    const Column<BodyPose>& body_pose;               // in: at the start of the frame
+    const JointGroups& joint_groups;                 // in
+    const Column<AuthoredGrips>& authored_grips;     // in
+    const Column<HandPull>& pull;                    // in: of the last frame
+    const Column<ReferenceVelocity>& reference;      // in: of the last frame
+    Column<HandSight>& sight;                        // in/out
+    Column<Grab>& grab;                              // in/out
+    Column<AuthoredHold>& authored_hold;             // in/out: of hands in an authored grip
+    Column<HeadIgnores>& head_ignores;               // in/out: held bodies are added
+    GrabRules rules = {};                            // in
+    Column<GrabOrder>* order = nullptr;              // in/out: carried out and removed
+    double start_s = 0.0;                            // in: of the frame; for orders
+    double dt_s = 0.0;                               // in: of the frame
+    const Column<RenderPose>* shown = nullptr;       // in: of the last frame; null: heads alone
+    const Column<BodyMeasures>* measures = nullptr;  // in
+    Column<BodyHold>* body_hold = nullptr;           // in/out: of hands on a player's part
+
+    ShownBodies bodies() const {
+        return {body_hold != nullptr ? shown : nullptr, measures, persistent_id, origin, head};
+    }
+};
+
+// A point on a body, or on another player, that a hand grips.
+struct GrabTarget {
+    Entity body;
+    Vec3 point_ws;
+    Vec3 normal_ws;                     // unit, out of the solid
+    std::optional<AuthoredHold> hold;   // if it is an authored grip
+    std::optional<BodyPart> part = {};  // of another player; none: their head
+};
+
+// Advances HandSight of all hands to the start of the frame.
+void update_sights(const GrabSearch& io, const Tuning& tuning);
+
+// What a closing hand grips, or why it grips nothing.
+struct GrabSearchResult {
+    std::optional<GrabTarget> target;
+    Fallback refusal = Fallback::grab_no_surface;  // if there is no target
+    Entity refused_by = k_no_entity;               // the body that refused the hand, if any
+};
+
+// What a hand at `hand_ws` grips if it closes. Bodies that refuse the hand by their GrabRule or its
+// player's GrabLayers are passed over, as if they were not there. `only`: authored grips of this
+// body alone; null: of all. Counts authored grips that are occupied or blocked.
+GrabSearchResult find_grab_target(const GrabSearch& io, Entity hand, const Pose& hand_ws,
+                                  Entity only, const Tuning& tuning, StageStats& stats);
+
+}  // namespace handhold

@@ -1,0 +1,394 @@
+#include "systems/grab/update_grabs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "components/hand_rows.hpp"
+#include "components/play_space.hpp"
+#include "systems/grab/shared/grip_kind.hpp"
+
+namespace handhold {
+namespace {
+
+GripKind grip_kind(const UpdateGrabsIo& io, Entity gripped, const PhaseTuning& tuning) {
+    const RigidBody* const body = io.body.find(gripped);
+    if (body == nullptr) {
+        return GripKind::player;
+    }
+    return grip_kind_of(*body, tuning.heavy_body_kg);
+}
+
+// True if the gripped body or player still exists.
+bool is_there(const UpdateGrabsIo& io, const Grab& grab) {
+    return grab.kind == GripKind::player ? io.origin.contains(grab.body)
+                                         : io.body.contains(grab.body);
+}
+
+void ignore_for_head(HeadIgnores& ignores, Entity body, StageStats& stats) {
+    if (std::find(ignores.bodies.begin(), ignores.bodies.end(), body) != ignores.bodies.end()) {
+        return;
+    }
+    auto* place = std::find(ignores.bodies.begin(), ignores.bodies.end(), k_no_entity);
+    if (place == ignores.bodies.end()) {
+        stats.count(Fallback::head_ignores_full);
+        place = &ignores.bodies[ignores.next];
+        ignores.next = (ignores.next + 1) % HeadIgnores::k_capacity;
+    }
+    *place = body;
+}
+
+// A hand that closes, or a closed one that may grip the body it pulls.
+struct Closing {
+    Pose hand_ps;
+    double since_s = 0.0;
+    Entity only = k_no_entity;  // null: anything
+};
+
+// A pulled body is gripped once it touches the palm, or has passed it by a frame's travel. At
+// HandTuning::reach_m it would stay that far away.
+bool is_at_palm(const GrabTarget& target, const PalmRay& ray) {
+    constexpr double k_touches_m = 0.02;
+    const Vec3 offset = target.point_ws - ray.palm_ws;
+    return offset.norm() <= k_touches_m || offset.dot(ray.to_ws - ray.from_ws) <= 0.0;
+}
+
+// Gives the hand a BodyHold if it grips a part of a player, and takes that of an earlier grip away.
+const BodyHold* hold_part(const UpdateGrabsIo& io, Entity hand, const GrabTarget& target) {
+    if (io.body_hold == nullptr) {
+        return nullptr;
+    }
+    io.body_hold->remove(hand);
+    if (!target.part) {
+        return nullptr;
+    }
+    const Pose part_ps = io.bodies().part_ps(target.body, *target.part);
+    return &io.body_hold->add(hand, {*target.part, part_ps, part_ps});
+}
+
+BodyHold* body_hold_of(const UpdateGrabsIo& io, Entity hand) {
+    return io.body_hold != nullptr ? io.body_hold->find(hand) : nullptr;
+}
+
+// Grips on parts follow the shown bodies.
+void follow_parts(const UpdateGrabsIo& io, const HandTuning& tuning) {
+    for (const Entity hand : io.grab.owners()) {
+        BodyHold* const hold = body_hold_of(io, hand);
+        if (hold == nullptr) {
+            continue;
+        }
+        const Grab& grab = io.grab.at(hand);
+        if (grab.kind != GripKind::player || !io.origin.contains(grab.body)) {
+            io.body_hold->remove(hand);
+            continue;
+        }
+        const double share = swings(hold->part) ? io.dt_s / (io.dt_s + tuning.swing_lag_s) : 1.0;
+        hold->start_ps = hold->pose_ps;
+        hold->pose_ps =
+            follow_part(hold->start_ps, io.bodies().part_ps(grab.body, hold->part),
+                        grab.anchor_bs.position, {share, tuning.part_speed_mps * io.dt_s});
+    }
+}
+
+void start_grab(const UpdateGrabsIo& io, Entity hand, const GrabTarget& target, double since_s,
+                Grab& grab, const Tuning& tuning, StageStats& stats) {
+    ++stats.grabs_gripped;
+    io.authored_hold.remove(hand);
+    if (target.hold) {
+        io.authored_hold.add(hand, *target.hold);
+    }
+    const BodyHold* const part = hold_part(io, hand, target);
+    const Pose body_ws = gripped_pose_ws(io.body_pose, io.origin, io.head, target.body, part);
+    grab = {};
+    grab.kind = grip_kind(io, target.body, tuning.phases);
+    grab.jointed =
+        grab.kind == GripKind::held && io.joint_groups.is_anchored(io.body.find_row(target.body));
+    grab.phase = GrabPhase::fresh;
+    grab.body = target.body;
+    grab.since_s = since_s;
+    grab.hit_bs = inverse_transform_point(body_ws, target.point_ws);
+    grab.hit_normal_bs = body_ws.rotation.conjugate() * target.normal_ws;
+    if (grab.kind == GripKind::held) {
+        ignore_for_head(io.head_ignores.at(io.owner.at(hand).player), grab.body, stats);
+    }
+}
+
+// For a body that only both hands together may grip, with the hand of `row` gripping it at `mine`.
+// True if the player's other hand already holds the body, or is closed on it; that hand then grips
+// it.
+bool other_hand_joins(const UpdateGrabsIo& io, std::size_t row, const GrabTarget& mine,
+                      const Tuning& tuning, StageStats& stats) {
+    const std::size_t other = find_other_hand(io.owner, io.grab, row);
+    if (other >= io.grab.size()) {
+        return false;
+    }
+    const Entity entity = io.grab.owners()[other];
+    const HandTracking& hand = io.hand.at(entity);
+    Grab& grab = io.grab.rows()[other];
+    if (grab.kind != GripKind::none || !hand.pressed || hand.state != TrackingState::tracked) {
+        return grab.body == mine.body && grab.phase != GrabPhase::releasing;
+    }
+    const bool closes_now = hand.edge == GrabEdge::onset;
+    const Pose hand_ws = io.origin.at(io.owner.at(entity).player).pose_ws *
+                         (closes_now ? hand.edge_ps : hand.start_ps);
+    auto target = find_grab_target(io, entity, hand_ws, k_no_entity, tuning, stats).target;
+    if (!target || target->body != mine.body) {
+        return false;
+    }
+    if (target->hold && mine.hold && target->hold->grip == mine.hold->grip) {
+        target->hold.reset();  // a hand has an authored grip for itself
+    }
+    const double since_s = closes_now ? hand.edge_t_s : io.hand.at(io.grab.owners()[row]).edge_t_s;
+    start_grab(io, entity, *target, since_s, grab, tuning, stats);
+    return true;
+}
+
+// True if a closing hand already grips a body for two hands, because other_hand_joins came first.
+bool has_joined(const UpdateGrabsIo& io, const Grab& grab, const HandTracking& hand) {
+    const GrabRule* const rule = io.rules.rule_of(grab.body);
+    return rule != nullptr && rule->two_hands && grab.kind != GripKind::none &&
+           grab.phase == GrabPhase::fresh && grab.since_s == hand.edge_t_s;
+}
+
+void begin_grab(const UpdateGrabsIo& io, std::size_t row, const Closing& closing,
+                const Tuning& tuning, StageStats& stats) {
+    const Entity entity = io.grab.owners()[row];
+    const HandOwner& owner = io.owner.at(entity);
+    const Pose hand_ws = io.origin.at(owner.player).pose_ws * closing.hand_ps;
+    const PalmRay ray = palm_ray(hand_ws, owner.side, tuning.hand);
+    const GrabSearchResult found =
+        find_grab_target(io, entity, hand_ws, closing.only, tuning, stats);
+    const auto& target = found.target;
+    if (!is_null(closing.only) &&
+        (!target || target->body != closing.only || !(target->hold || is_at_palm(*target, ray)))) {
+        return;  // the pulled body is not there yet
+    }
+    io.authored_hold.remove(entity);
+    if (!target) {
+        stats.note(found.refusal, entity, found.refused_by);
+        return;
+    }
+    const GrabRule* const rule = io.rules.rule_of(target->body);
+    if (rule != nullptr && rule->two_hands && !other_hand_joins(io, row, *target, tuning, stats)) {
+        stats.note(Fallback::grab_needs_two_hands, entity, target->body);
+        return;
+    }
+    start_grab(io, entity, *target, closing.since_s, io.grab.rows()[row], tuning, stats);
+}
+
+// Row of the player's other hand, if that grips something too.
+std::optional<std::size_t> partner_of(const UpdateGrabsIo& io, std::size_t row) {
+    const std::size_t other = find_other_hand(io.owner, io.grab, row);
+    return other < io.grab.size() && io.grab.rows()[other].kind != GripKind::none
+               ? std::optional(other)
+               : std::nullopt;
+}
+
+// Pose of what is gripped at the start of the frame.
+Pose gripped_start_ws(const UpdateGrabsIo& io, Entity gripped, const BodyHold* hold) {
+    const BodyPose* const body = io.body_pose.find(gripped);
+    return body != nullptr ? body->pose_ws
+                           : io.origin.at(gripped).pose_ws *
+                                 (hold != nullptr ? hold->start_ps : io.head.at(gripped).start_ps);
+}
+
+// Lets go now. If the other hand shares the hold, it takes a new anchor where it is before anything
+// has moved: its own error must not move the player.
+void release_grab(const UpdateGrabsIo& io, std::size_t row, Fallback reason, StageStats& stats) {
+    Grab& grab = io.grab.rows()[row];
+    stats.note(reason, io.grab.owners()[row], grab.body);
+    if (const std::optional<std::size_t> partner = partner_of(io, row)) {
+        Grab& staying = io.grab.rows()[*partner];
+        const Entity hand = io.grab.owners()[*partner];
+        // anchor_grabs does the same for two hands on one free body.
+        if (share_hold(grab, staying) && !share_free_body(grab, staying) && is_there(io, staying)) {
+            const Pose hand_ws =
+                io.origin.at(io.owner.at(hand).player).pose_ws * io.hand.at(hand).start_ps;
+            staying.anchor_bs =
+                inverse(gripped_start_ws(io, staying.body, body_hold_of(io, hand))) * hand_ws;
+            staying.error_m = 0.0;
+            stats.count(Fallback::grip_reanchored);
+        }
+    }
+    grab = {};
+}
+
+// Of a player's two stretched hands, the one with the larger error lets go; of equal ones the one
+// that closed later; of two that closed at once the left one. The other may then reach its anchor.
+bool yields_to_partner(const UpdateGrabsIo& io, std::size_t row, std::size_t partner) {
+    const Grab& grab = io.grab.rows()[row];
+    const Grab& other = io.grab.rows()[partner];
+    constexpr double k_equal_m = 1e-6;
+    const double difference = grab.error_m - other.error_m;
+    if (std::abs(difference) > k_equal_m) {
+        return difference > 0.0;
+    }
+    return grab.since_s != other.since_s
+               ? grab.since_s > other.since_s
+               : io.owner.at(io.grab.owners()[row]).side == HandSide::left;
+}
+
+void release_destroyed_bodies(const UpdateGrabsIo& io, StageStats& stats) {
+    for (std::size_t row = 0; row < io.grab.size(); ++row) {
+        const Grab& grab = io.grab.rows()[row];
+        if (grab.kind != GripKind::none && !is_there(io, grab)) {
+            release_grab(io, row, Fallback::grip_body_gone, stats);
+        }
+    }
+}
+
+// Hands that grip alone first: a hand whose partner lets go here waits for the next frame.
+void release_overstretched_grabs(const UpdateGrabsIo& io, double max_stretch_m, StageStats& stats) {
+    for (const bool alone : {true, false}) {
+        for (std::size_t row = 0; row < io.grab.size(); ++row) {
+            const Grab& grab = io.grab.rows()[row];
+            if (grab.kind == GripKind::none || grab.error_m <= max_stretch_m) {
+                continue;
+            }
+            const std::optional<std::size_t> partner = partner_of(io, row);
+            if (alone != partner.has_value() && (alone || yields_to_partner(io, row, *partner))) {
+                release_grab(io, row, Fallback::grip_stretched, stats);
+            }
+        }
+    }
+}
+
+// On a player's part, the distance is that from the surface point that was gripped.
+bool is_out_of_reach(const UpdateGrabsIo& io, Entity hand, const Vec3& palm_ws, double reach_m) {
+    const Grab& grab = io.grab.at(hand);
+    if (const BodyHold* const hold = body_hold_of(io, hand)) {
+        const Pose part_ws = gripped_start_ws(io, grab.body, hold);
+        return (transform_point(part_ws, grab.hit_bs) - palm_ws).norm() > reach_m;
+    }
+    const auto nearest =
+        io.surfaces.closest_point_on(io.persistent_id.at(grab.body).value, palm_ws);
+    return nearest && (nearest->point_ws - palm_ws).norm() > reach_m && nearest->distance_m > 0.0;
+}
+
+// After a tracking error the hand may be anywhere. A held free body comes back into it
+// (anchor_grabs). Any other grip ends if the palm is farther than max_stretch_m from the surface.
+void release_grabs_out_of_reach(const UpdateGrabsIo& io, const HandTuning& tuning,
+                                StageStats& stats) {
+    for (std::size_t row = 0; row < io.grab.size(); ++row) {
+        const Grab& grab = io.grab.rows()[row];
+        const Entity entity = io.grab.owners()[row];
+        const HandTracking& hand = io.hand.at(entity);
+        const bool returns = grab.kind == GripKind::held && !grab.jointed;
+        if (grab.kind == GripKind::none || returns || !(hand.resumed || has_slipped(grab))) {
+            continue;
+        }
+        const HandOwner& owner = io.owner.at(entity);
+        const Vec3 palm_ws =
+            palm_ray(io.origin.at(owner.player).pose_ws * hand.start_ps, owner.side, tuning)
+                .palm_ws;
+        if (is_out_of_reach(io, entity, palm_ws, tuning.max_stretch_m)) {
+            release_grab(io, row, Fallback::grip_out_of_reach, stats);
+        }
+    }
+}
+
+// An authored hold ends with its grip, or once a hand that may turn on its body has turned farther
+// than leave_angle_rad.
+void update_authored_hold(const UpdateGrabsIo& io, Entity entity, const Grab& grab,
+                          StageStats& stats) {
+    const AuthoredHold* const hold = io.authored_hold.find(entity);
+    if (hold == nullptr) {
+        return;
+    }
+    bool stays = grab.kind != GripKind::none && grab.body == hold->body;
+    const bool may_turn = grab.kind != GripKind::held || grab.jointed || grab.two_handed;
+    if (stays && may_turn) {
+        const Quat hand_ws = io.origin.at(io.owner.at(entity).player).pose_ws.rotation *
+                             io.hand.at(entity).start_ps.rotation;
+        const Quat grip_ws =
+            io.body_pose.at(hold->body).pose_ws.rotation * hold->hand.wrist_bs.rotation;
+        stays = rotation_to_vector((hand_ws.conjugate() * grip_ws).normalized()).norm() <=
+                hold->leave_angle_rad;
+        if (!stays) {
+            stats.count(Fallback::authored_grip_abandoned);
+        }
+    }
+    if (!stays) {
+        io.authored_hold.remove(entity);
+    }
+}
+
+// One of both hands left a body that needs them, or leaves it now.
+void release_half_held_bodies(const UpdateGrabsIo& io, StageStats& stats) {
+    for (std::size_t row = 0; row < io.grab.size(); ++row) {
+        const Grab& grab = io.grab.rows()[row];
+        const GrabRule* const rule = io.rules.rule_of(grab.body);
+        if (grab.kind == GripKind::none || grab.phase == GrabPhase::releasing || rule == nullptr ||
+            !rule->two_hands) {
+            continue;
+        }
+        const std::optional<std::size_t> partner = partner_of(io, row);
+        const bool is_whole = partner && io.grab.rows()[*partner].body == grab.body &&
+                              io.grab.rows()[*partner].phase != GrabPhase::releasing;
+        if (!is_whole) {
+            release_grab(io, row, Fallback::grip_needs_two_hands, stats);
+        }
+    }
+}
+
+void carry_out_orders(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats) {
+    while (io.order != nullptr && !io.order->empty()) {
+        const Entity hand = io.order->owners().front();
+        const Entity body = io.order->rows().front().body;
+        io.order->remove(hand);
+        const std::size_t row = io.grab.find_row(hand);
+        if (row >= io.grab.size()) {
+            continue;  // no hand
+        }
+        const bool has_body = io.body.contains(body) ||
+                              (io.origin.contains(body) && body != io.owner.at(hand).player &&
+                               io.head.at(body).state != TrackingState::never);
+        if (io.grab.rows()[row].kind != GripKind::none) {
+            release_grab(io, row, Fallback::grip_ended_by_host, stats);
+            io.authored_hold.remove(hand);
+        }
+        if (!has_body || io.hand.at(hand).state == TrackingState::never ||
+            io.hand.at(hand).edge == GrabEdge::release) {
+            continue;  // a hand that opens in this frame would let go at once
+        }
+        const HandOwner& owner = io.owner.at(hand);
+        const Pose hand_ws = io.origin.at(owner.player).pose_ws * io.hand.at(hand).start_ps;
+        const PalmRay ray = palm_ray(hand_ws, owner.side, tuning.hand);
+        const GrabTarget target{body, ray.palm_ws, hand_ws.rotation * Vec3::UnitY(), {}};
+        start_grab(io, hand, target, io.start_s, io.grab.rows()[row], tuning, stats);
+    }
+}
+
+}  // namespace
+
+void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats) {
+    release_destroyed_bodies(io, stats);
+    follow_parts(io, tuning.hand);
+    release_overstretched_grabs(io, tuning.hand.max_stretch_m, stats);
+    release_grabs_out_of_reach(io, tuning.hand, stats);
+    update_sights(io, tuning);
+    carry_out_orders(io, tuning, stats);
+    for (std::size_t row = 0; row < io.grab.size(); ++row) {
+        Grab& grab = io.grab.rows()[row];
+        const Entity entity = io.grab.owners()[row];
+        const HandTracking& hand = io.hand.at(entity);
+        if (grab.kind != GripKind::none && hand.edge == GrabEdge::release) {
+            grab.phase = GrabPhase::releasing;
+        }
+        update_authored_hold(io, entity, grab, stats);
+        const HandPull* const pull = io.pull.find(entity);
+        if (hand.edge == GrabEdge::onset) {
+            ++stats.grab_onsets;
+            if (!has_joined(io, grab, hand)) {
+                begin_grab(io, row, {hand.edge_ps, hand.edge_t_s, k_no_entity}, tuning, stats);
+            }
+        } else if (pull != nullptr && hand.edge == GrabEdge::none && hand.pressed &&
+                   hand.state == TrackingState::tracked && !hand.resumed &&
+                   grab.kind == GripKind::none) {
+            begin_grab(io, row, {hand.start_ps, pull->closed_s, pull->body}, tuning, stats);
+        }
+    }
+    release_half_held_bodies(io, stats);
+}
+
+}  // namespace handhold

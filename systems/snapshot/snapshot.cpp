@@ -1,0 +1,146 @@
+#include "systems/snapshot/snapshot.hpp"
+
+#include <cstring>
+#include <utility>
+
+#include "engine/core/check.hpp"
+#include "engine/core/hash.hpp"
+#include "engine/core/text_file.hpp"
+#include "systems/snapshot/snapshot_check.hpp"
+#include "systems/snapshot/snapshot_payload.hpp"
+#include "systems/snapshot/snapshot_schema.hpp"
+
+namespace handhold {
+namespace {
+
+// Like PNG's: starts with a byte that no text has, ends with a line feed that a text-mode transfer
+// would alter.
+constexpr char k_snapshot_magic[] = "\x89HHSNAP\n";
+constexpr std::size_t k_magic_bytes = sizeof k_snapshot_magic - 1;
+constexpr std::uint32_t k_format_version = 6;
+// Byte offsets of the header's fields.
+constexpr std::size_t k_version_at = k_magic_bytes;
+constexpr std::size_t k_schema_size_at = k_version_at + 4;
+constexpr std::size_t k_size_at = k_schema_size_at + 4;
+constexpr std::size_t k_assets_at = k_size_at + 8;
+// Followed by the schema, the payload and the checksum.
+constexpr std::size_t k_snapshot_header_bytes = k_assets_at + 8;
+constexpr std::size_t k_checksum_bytes = 8;
+
+std::uint64_t checksum_of(std::span<const std::byte> bytes) {
+    HashStream stream;
+    stream.add(std::uint64_t{bytes.size()});
+    std::size_t at = 0;
+    for (; at + 8 <= bytes.size(); at += 8) {
+        stream.add(load_little<std::uint64_t>(bytes.data() + at));
+    }
+    for (; at < bytes.size(); ++at) {
+        stream.add(std::to_integer<std::uint64_t>(bytes[at]));
+    }
+    return stream.value();
+}
+
+FileError refusal(std::size_t byte, const std::string& expected) {
+    return {"snapshot", "byte " + std::to_string(byte), "expected " + expected};
+}
+
+// Checks everything but the payload: file type, version, size, checksum, schema, assets.
+std::optional<FileError> check_envelope(std::span<const std::byte> bytes,
+                                        const SnapshotAssets& assets) {
+    if (bytes.size() < k_snapshot_header_bytes + k_checksum_bytes ||
+        std::memcmp(bytes.data(), k_snapshot_magic, k_magic_bytes) != 0) {
+        return refusal(0, "a snapshot's first bytes, found something else");
+    }
+    const auto version = load_little<std::uint32_t>(bytes.data() + k_version_at);
+    if (version != k_format_version) {
+        return refusal(k_version_at, "format version " + std::to_string(k_format_version) +
+                                         ", found " + std::to_string(version));
+    }
+    const auto size = load_little<std::uint64_t>(bytes.data() + k_size_at);
+    if (size != bytes.size()) {
+        return refusal(k_size_at, std::to_string(size) + " bytes as the header says, found " +
+                                      std::to_string(bytes.size()));
+    }
+    const std::size_t checksum_at = bytes.size() - k_checksum_bytes;
+    if (load_little<std::uint64_t>(bytes.data() + checksum_at) !=
+        checksum_of(bytes.first(checksum_at))) {
+        return refusal(checksum_at, "the checksum of what is before it: the snapshot is damaged");
+    }
+    const auto schema_bytes = load_little<std::uint32_t>(bytes.data() + k_schema_size_at);
+    if (schema_bytes > checksum_at - k_snapshot_header_bytes) {
+        return refusal(k_schema_size_at, "a schema within the snapshot, found one of " +
+                                             std::to_string(schema_bytes) + " bytes");
+    }
+    // char may alias any object.
+    const std::string_view schema(
+        reinterpret_cast<const char*>(bytes.data()) + k_snapshot_header_bytes, schema_bytes);
+    if (schema != snapshot_schema()) {
+        return FileError{"snapshot", "schema", schema_difference(snapshot_schema(), schema)};
+    }
+    if (load_little<std::uint64_t>(bytes.data() + k_assets_at) != assets.hash()) {
+        return refusal(k_assets_at, "a snapshot of this scene and its shapes, found another's");
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+void save_snapshot(const World& world, const SnapshotAssets& assets,
+                   std::vector<std::byte>& bytes) {
+    const std::string& schema = snapshot_schema();
+    bytes.resize(k_snapshot_header_bytes + schema.size() + payload_bytes(world) + k_checksum_bytes);
+    std::memcpy(bytes.data(), k_snapshot_magic, k_magic_bytes);
+    store_little(k_format_version, bytes.data() + k_version_at);
+    store_little(static_cast<std::uint32_t>(schema.size()), bytes.data() + k_schema_size_at);
+    store_little(std::uint64_t{bytes.size()}, bytes.data() + k_size_at);
+    store_little(assets.hash(), bytes.data() + k_assets_at);
+    std::memcpy(bytes.data() + k_snapshot_header_bytes, schema.data(), schema.size());
+    const std::byte* const end =
+        write_payload(world, bytes.data() + k_snapshot_header_bytes + schema.size());
+    const auto written = static_cast<std::size_t>(end - bytes.data());
+    HH_CHECK(written + k_checksum_bytes == bytes.size(), "bytes were counted wrong", written);
+    store_little(checksum_of(std::span(bytes).first(written)), bytes.data() + written);
+}
+
+std::optional<FileError> restore_snapshot(std::span<const std::byte> bytes,
+                                          const SnapshotAssets& assets, World& world) {
+    if (std::optional<FileError> error = check_envelope(bytes, assets)) {
+        return error;
+    }
+    World restored;
+    if (std::optional<FileError> error =
+            read_payload(bytes, k_snapshot_header_bytes + snapshot_schema().size(),
+                         bytes.size() - k_checksum_bytes, restored)) {
+        return error;
+    }
+    if (const std::optional<WorldBreach> breach = find_breach(restored, assets.shapes())) {
+        return FileError{"snapshot", breach->place, breach->expected};
+    }
+    sync_index(restored);
+    restored.name_of_id = std::move(world.name_of_id);
+    world = std::move(restored);
+    return std::nullopt;
+}
+
+std::optional<FileError> save_snapshot_file(const std::filesystem::path& path, const World& world,
+                                            const SnapshotAssets& assets) {
+    std::vector<std::byte> bytes;
+    save_snapshot(world, assets, bytes);
+    return write_file_atomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+std::optional<FileError> load_snapshot_file(const std::filesystem::path& path,
+                                            const SnapshotAssets& assets, World& world) {
+    const Result<std::string> content = read_file(path);
+    if (!content) {
+        return content.error();
+    }
+    const std::span<const char> text = content.value();
+    std::optional<FileError> error = restore_snapshot(std::as_bytes(text), assets, world);
+    if (error) {
+        error->file = path.string();
+    }
+    return error;
+}
+
+}  // namespace handhold

@@ -1,0 +1,370 @@
+#include "systems/snapshot/snapshot_check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <vector>
+
+#include "components/body_clip_state.hpp"
+
+namespace handhold {
+namespace {
+
+// Latest clock time. Beyond it, rounding would swallow part of a frame's length.
+constexpr double k_max_time_s = 1e9;
+
+constexpr double k_min_bone_ratio = 0.01;
+
+bool is_duration(double seconds) { return seconds >= 1e-3 && seconds <= k_max_time_s; }
+
+// Keeps the first violation; later checks have no effect.
+class BreachFinder {
+  public:
+    BreachFinder(const World& world, const ShapeLibrary& shapes) : w_(world), shapes_(shapes) {}
+
+    std::optional<WorldBreach> find() {
+        check_globals();
+        check_ids();
+        if (!breach_) {  // all owners have ids from here on
+            check_bodies();
+            check_movers();
+            check_joints();
+            check_players();
+            check_hands();
+            check_colliders();
+        }
+        return breach_;
+    }
+
+  private:
+    void check(bool is_good, const char* column, Entity owner, const char* field,
+               const char* expected) {
+        if (!is_good && !breach_) {
+            const PersistentId* const id = w_.persistent_id.find(owner);
+            breach_ = WorldBreach{std::string(column) + "[" +
+                                      text_of(id != nullptr ? *id : PersistentId{}) + "]" + field,
+                                  std::string("expected ") + expected};
+        }
+    }
+
+    // Every owner of a row in `column` must have one in `required`.
+    template <typename A, typename B>
+    void require(const char* name, const Column<A>& column, const char* required_name,
+                 const Column<B>& required) {
+        for (const Entity owner : column.owners()) {
+            if (!required.contains(owner)) {
+                check(false, name, owner, "",
+                      (std::string("a row in ") + required_name + " of the same owner").c_str());
+            }
+        }
+    }
+    // Both columns must have the same owners.
+    template <typename A, typename B>
+    void require_both(const char* a_name, const Column<A>& a, const char* b_name,
+                      const Column<B>& b) {
+        require(a_name, a, b_name, b);
+        require(b_name, b, a_name, a);
+    }
+
+    void check_globals() {
+        if (!(std::abs(w_.clock.t_s) <= k_max_time_s)) {
+            breach_ = WorldBreach{"clock.t_s", "expected a time within 1e9 s"};
+        }
+        if (!(w_.gravity_mps2.cwiseAbs().maxCoeff() <= world_limits::k_max_gravity_mps2)) {
+            breach_ = WorldBreach{"gravity_mps2", "expected at most 1e4 m/s^2 per axis"};
+        }
+    }
+
+    void check_ids() {
+        visit_columns(w_, [this](const char* name, const auto& column) {
+            require(name, column, "persistent_id", w_.persistent_id);
+        });
+        std::vector<PersistentId> ids(w_.persistent_id.rows().begin(),
+                                      w_.persistent_id.rows().end());
+        std::sort(ids.begin(), ids.end());
+        const auto duplicate = std::adjacent_find(ids.begin(), ids.end());
+        if (!breach_ && duplicate != ids.end()) {
+            breach_ =
+                WorldBreach{"persistent_id[" + text_of(*duplicate) + "]", "expected unique ids"};
+        }
+        constexpr std::uint64_t k_world_id = std::numeric_limits<std::uint64_t>::max();
+        if (!breach_ && !ids.empty() &&
+            (ids.front().value == 0 || ids.back().value == k_world_id)) {
+            breach_ = WorldBreach{"persistent_id", "expected ids above 0 and below 2^64 - 1"};
+        }
+    }
+
+    void check_bodies() {
+        require_both("body", w_.body, "body_pose", w_.body_pose);
+        require_both("body", w_.body, "body_start", w_.body_start);
+        require_both("body", w_.body, "body_velocity", w_.body_velocity);
+        for (std::size_t row = 0; row < w_.body.size(); ++row) {
+            const Entity owner = w_.body.owners()[row];
+            const RigidBody& body = w_.body.rows()[row];
+            check(!w_.player.contains(owner), "body", owner, "",
+                  "an entity that is not a player too");
+            check(body.restitution >= 0.0 && body.restitution <= 1.0, "body", owner, ".restitution",
+                  "a number in [0, 1]");
+            check(body.friction >= 0.0, "body", owner, ".friction", "a number >= 0");
+            if (body.kind == BodyKind::free) {
+                check(body.mass_kg > 0.0, "body", owner, ".mass_kg", "a mass > 0");
+                check(body.inertia_kgm2.minCoeff() > 0.0, "body", owner, ".inertia_kgm2",
+                      "moments > 0");
+            }
+        }
+    }
+
+    void check_movers() {
+        require("mover", w_.mover, "body", w_.body);
+        require("path_mover", w_.path_mover, "body", w_.body);
+        require("leg_mover", w_.leg_mover, "body", w_.body);
+        require("move_target", w_.move_target, "body", w_.body);
+        require("gravity_scale", w_.gravity_scale, "body", w_.body);
+        require("grab_rule", w_.grab_rule, "body", w_.body);
+        for (std::size_t row = 0; row < w_.gravity_scale.size(); ++row) {
+            check(std::abs(w_.gravity_scale.rows()[row].scale) <= GravityScale::k_max,
+                  "gravity_scale", w_.gravity_scale.owners()[row], ".scale",
+                  "a number within 1000");
+        }
+        for (std::size_t row = 0; row < w_.path_mover.size(); ++row) {
+            const PosePath& path = w_.path_mover.rows()[row].path;
+            check(path.count >= 2 && path.count <= k_max_path_keys && is_duration(path.period_s),
+                  "path_mover", w_.path_mover.owners()[row], ".path",
+                  "2 to 16 keys and a period of 1e-3 to 1e9 s");
+        }
+        for (std::size_t row = 0; row < w_.leg_mover.size(); ++row) {
+            const LegMover& mover = w_.leg_mover.rows()[row];
+            const Entity owner = w_.leg_mover.owners()[row];
+            check(is_duration(mover.gait.step_s) && mover.gait.standing > 0.0 &&
+                      mover.gait.standing < 1.0,
+                  "leg_mover", owner, ".gait", "steps of 1e-3 to 1e9 s and a share in (0, 1)");
+            const auto [shorter, longer] = std::minmax(mover.leg.upper_m, mover.leg.lower_m);
+            check(shorter >= k_min_bone_ratio * longer && longer > 0.0, "leg_mover", owner, ".leg",
+                  "bone lengths > 0, none below a hundredth of the other");
+        }
+    }
+
+    void check_joints() {
+        require_both("joint", w_.joint, "joint_state", w_.joint_state);
+        for (std::size_t row = 0; row < w_.joint.size(); ++row) {
+            const Entity owner = w_.joint.owners()[row];
+            const Joint& joint = w_.joint.rows()[row];
+            const JointLatch& latch = joint.latch;
+            check(joint.lower <= joint.upper, "joint", owner, ".lower", "a limit <= upper");
+            check(joint.friction >= 0.0 && joint.detent_spacing >= 0.0 &&
+                      joint.detent_strength >= 0.0 && latch.catch_range >= 0.0 &&
+                      latch.strength >= 0.0,
+                  "joint", owner, "", "friction, detents and latches >= 0");
+        }
+    }
+
+    void check_players() {
+        require_both("player", w_.player, "player_origin", w_.player_origin);
+        require_both("player", w_.player, "player_start", w_.player_start);
+        require_both("player", w_.player, "player_velocity", w_.player_velocity);
+        require_both("player", w_.player, "player_commands", w_.player_commands);
+        require_both("player", w_.player, "reference_velocity", w_.reference_velocity);
+        require_both("player", w_.player, "head_tracking", w_.head_tracking);
+        require_both("player", w_.player, "head_ignores", w_.head_ignores);
+        require_both("player", w_.player, "render_pose", w_.render_pose);
+        check_figures();
+        for (std::size_t row = 0; row < w_.player.size(); ++row) {
+            check(w_.player.rows()[row].mass_kg > 0.0, "player", w_.player.owners()[row],
+                  ".mass_kg", "a mass > 0");
+        }
+        for (std::size_t row = 0; row < w_.head_ignores.size(); ++row) {
+            check(w_.head_ignores.rows()[row].next < HeadIgnores::k_capacity, "head_ignores",
+                  w_.head_ignores.owners()[row], ".next", "an index into the array");
+        }
+    }
+
+    void check_figures() {
+        require_both("player", w_.player, "body_measures", w_.body_measures);
+        require_both("player", w_.player, "calibration", w_.calibration);
+        require_both("player", w_.player, "arm_memory", w_.arm_memory);
+        require_both("player", w_.player, "arm_estimate", w_.arm_estimate);
+        require_both("player", w_.player, "arm_pose", w_.arm_pose);
+        require_both("player", w_.player, "spine_memory", w_.spine_memory);
+        require_both("player", w_.player, "spine_pose", w_.spine_pose);
+        require_both("player", w_.player, "body_clip_state", w_.body_clip_state);
+        for (std::size_t row = 0; row < w_.body_clip_state.size(); ++row) {
+            const BodyClipState& state = w_.body_clip_state.rows()[row];
+            const Entity owner = w_.body_clip_state.owners()[row];
+            check(state.idle_s >= 0.0 && state.push_off_s >= 0.0, "body_clip_state", owner, "",
+                  "times >= 0");
+            check(state.push_off_weight >= 0.0 && state.push_off_weight <= 1.0, "body_clip_state",
+                  owner, ".push_off_weight", "a number in [0, 1]");
+            check(state.outside >= 0.0 && state.outside <= 1.0, "body_clip_state", owner,
+                  ".outside", "a number in [0, 1]");
+        }
+        for (std::size_t row = 0; row < w_.body_measures.size(); ++row) {
+            const BodyMeasures& m = w_.body_measures.rows()[row];
+            const auto [shortest, longest] =
+                std::minmax({m.eye_height_m, m.shoulder_width_m, m.upper_arm_m, m.forearm_m});
+            check(shortest >= BodyMeasures::k_min_m && longest <= BodyMeasures::k_max_m,
+                  "body_measures", w_.body_measures.owners()[row], "", "lengths of 0.05 to 5 m");
+        }
+        for (std::size_t row = 0; row < w_.calibration.size(); ++row) {
+            const Calibration& c = w_.calibration.rows()[row];
+            const Entity player = w_.calibration.owners()[row];
+            check(c.held_s >= 0.0 && c.held_s <= 10.0, "calibration", player, ".held_s",
+                  "0 to 10 s");
+            const auto is_sum_of = [&c](double sum_s_m, double min_m, double max_m) {
+                constexpr double k_rounding = 1e-9;
+                return sum_s_m >= (min_m - k_rounding) * c.held_s - k_rounding &&
+                       sum_s_m <= (max_m + k_rounding) * c.held_s + k_rounding;
+            };
+            check(is_sum_of(c.eyes_s_m, TPoseRange::k_min_eyes_m, TPoseRange::k_max_eyes_m) &&
+                      is_sum_of(c.span_s_m, TPoseRange::k_min_span_m, TPoseRange::k_max_span_m),
+                  "calibration", player, "", "sums that T-poses held for held_s can have");
+        }
+        for (std::size_t row = 0; row < w_.arm_memory.size(); ++row) {
+            const ArmMemory& memory = w_.arm_memory.rows()[row];
+            const auto is_level_unit = [](const Vec3& v) {
+                constexpr double k_off = 1e-3;
+                return std::abs(v.y()) < k_off && std::abs(v.norm() - 1.0) < k_off;
+            };
+            check(!memory.known ||
+                      (is_level_unit(memory.facing_ps) &&
+                       std::all_of(memory.looks_ps.begin(), memory.looks_ps.end(), is_level_unit)),
+                  "arm_memory", w_.arm_memory.owners()[row], "", "horizontal unit vectors");
+        }
+        for (std::size_t row = 0; row < w_.spine_memory.size(); ++row) {
+            const double since_s = w_.spine_memory.rows()[row].since_tick_s;
+            check(since_s >= 0.0 && since_s <= 1.0, "spine_memory", w_.spine_memory.owners()[row],
+                  ".since_tick_s", "a time in [0, 1] s");
+            check(w_.spine_memory.rows()[row].rate_span_s >= 0.0, "spine_memory",
+                  w_.spine_memory.owners()[row], ".rate_span_s", "a time >= 0");
+            for (const BodyContact& contact : w_.spine_memory.rows()[row].contacts) {
+                check(std::abs(contact.normal_ps.norm() - 1.0) < 1e-3, "spine_memory",
+                      w_.spine_memory.owners()[row], ".contacts", "unit normals");
+            }
+        }
+    }
+
+    // Back-off distances and counters must be in the range that frames produce, so that no search
+    // is suspended for ever.
+    void check_retries() {
+        constexpr double k_max_m = 1.0;
+        for (std::size_t row = 0; row < w_.grip_surface.size(); ++row) {
+            const GripSurface& surface = w_.grip_surface.rows()[row];
+            check(
+                surface.candidate_recheck_in_m >= 0.0 && surface.candidate_recheck_in_m <= k_max_m,
+                "grip_surface", w_.grip_surface.owners()[row], ".candidate_recheck_in_m",
+                "a distance in [0, 1] m");
+            check(
+                surface.clearance_recheck_in_m >= 0.0 && surface.clearance_recheck_in_m <= k_max_m,
+                "grip_surface", w_.grip_surface.owners()[row], ".clearance_recheck_in_m",
+                "a distance in [0, 1] m");
+            check(surface.full_search_in_m <= k_max_m, "grip_surface",
+                  w_.grip_surface.owners()[row], ".full_search_in_m", "a distance of at most 1 m");
+            check(surface.evaluated_count <= GripSurface::k_max_candidates, "grip_surface",
+                  w_.grip_surface.owners()[row], ".evaluated_count", "at most 14");
+            check(surface.candidate_count <= GripSurface::k_max_candidates &&
+                      (surface.candidate_count == 0 ||
+                       surface.candidate_count >= surface.evaluated_count),
+                  "grip_surface", w_.grip_surface.owners()[row], ".candidate_count",
+                  "0, or at least evaluated_count and at most 14");
+        }
+    }
+
+    void check_hands() {
+        require_both("hand_owner", w_.hand_owner, "hand_tracking", w_.hand_tracking);
+        require_both("hand_owner", w_.hand_owner, "hand_history", w_.hand_history);
+        require_both("hand_owner", w_.hand_owner, "grab", w_.grab);
+        require_both("hand_owner", w_.hand_owner, "hand_sight", w_.hand_sight);
+        require_both("hand_owner", w_.hand_owner, "palm_pose", w_.palm_pose);
+        require("controller_to_hand", w_.controller_to_hand, "hand_owner", w_.hand_owner);
+        require("grab_order", w_.grab_order, "grab", w_.grab);
+        require("hand_rig", w_.hand_rig, "hand_owner", w_.hand_owner);
+        require("grab_layers", w_.grab_layers, "player", w_.player);
+        require("early_sample", w_.early_sample, "player", w_.player);
+        check_retries();
+        for (std::size_t row = 0; row < w_.hand_tracking.size(); ++row) {
+            const HandTracking& hand = w_.hand_tracking.rows()[row];
+            const auto is_share = [](double share) { return share >= 0.0 && share <= 1.0; };
+            check(is_share(hand.squeeze) && is_share(hand.trigger), "hand_tracking",
+                  w_.hand_tracking.owners()[row], "", "squeeze and trigger in [0, 1]");
+        }
+        Column<std::array<std::uint8_t, k_hand_count>> has_hand;
+        for (const Entity player : w_.player.owners()) {
+            has_hand.add(player);
+        }
+        for (std::size_t row = 0; row < w_.hand_owner.size(); ++row) {
+            const Entity hand = w_.hand_owner.owners()[row];
+            const HandOwner& owner = w_.hand_owner.rows()[row];
+            auto* const used_sides = has_hand.find(owner.player);
+            check(used_sides != nullptr, "hand_owner", hand, ".player", "a player");
+            if (used_sides != nullptr) {
+                std::uint8_t& used = (*used_sides)[index_of(owner.side)];
+                check(used == 0, "hand_owner", hand, ".side", "one hand per side");
+                used = 1;
+            }
+        }
+        for (std::size_t row = 0; row < w_.hand_history.size(); ++row) {
+            const HandHistory& history = w_.hand_history.rows()[row];
+            check(
+                history.next < HandHistory::k_capacity && history.count <= HandHistory::k_capacity,
+                "hand_history", w_.hand_history.owners()[row], "", "next and count in the array");
+        }
+        for (std::size_t row = 0; row < w_.grab.size(); ++row) {
+            const Grab& grab = w_.grab.rows()[row];
+            check((grab.kind == GripKind::none) == (grab.phase == GrabPhase::none), "grab",
+                  w_.grab.owners()[row], ".phase", "a phase if and only if there is a grip");
+            check(grab.kind != GripKind::authored, "grab", w_.grab.owners()[row], ".kind",
+                  "a surface, a held object or a player: an authored grip is in authored_hold");
+        }
+        check_authored();
+    }
+
+    void check_authored() {
+        require("authored_grips", w_.authored_grips, "body", w_.body);
+        require("authored_hold", w_.authored_hold, "grab", w_.grab);
+        require("body_hold", w_.body_hold, "grab", w_.grab);
+        require("hand_pull", w_.hand_pull, "grab", w_.grab);
+        for (std::size_t row = 0; row < w_.authored_grips.size(); ++row) {
+            check(w_.authored_grips.rows()[row].count <= k_max_authored_grips, "authored_grips",
+                  w_.authored_grips.owners()[row], ".count", "at most 4 grips");
+        }
+    }
+
+    void check_colliders() {
+        for (std::size_t row = 0; row < w_.collider.size(); ++row) {
+            const Entity owner = w_.collider.owners()[row];
+            const ShapeId shape = w_.collider.rows()[row].shape;
+            const RigidBody* const body = w_.body.find(owner);
+            check(body != nullptr || w_.player.contains(owner), "collider", owner, "",
+                  "a body or a player");
+            check(shapes_.has(shape), "collider", owner, ".shape", "a shape that exists");
+            if (breach_) {
+                return;
+            }
+            if (body == nullptr || body->kind == BodyKind::free) {
+                check(w_.last_valid.contains(owner), "collider", owner, "",
+                      "a row in last_valid of the same owner");
+                check(shapes_.at(shape).kind != ShapeKind::mesh, "collider", owner, ".shape",
+                      "no mesh on a free body or player");
+            }
+        }
+    }
+
+    const World& w_;
+    const ShapeLibrary& shapes_;
+    std::optional<WorldBreach> breach_;
+};
+
+}  // namespace
+
+std::optional<WorldBreach> find_breach(const World& world, const ShapeLibrary& shapes) {
+    return BreachFinder(world, shapes).find();
+}
+
+std::string text_of(PersistentId id) {
+    char text[19];
+    std::snprintf(text, sizeof text, "0x%016llx", static_cast<unsigned long long>(id.value));
+    return text;
+}
+
+}  // namespace handhold
