@@ -17,13 +17,8 @@ ALLOWED_FOLDERS = {
     "tests": {"tests", "tools", "game", "systems", "components", "engine"},
     "tools": {"tools", "game", "systems", "components", "engine"},
 }
-# Folder of game/ -> folders of game/ whose headers it must not include.
-REFUSED_GAME_FOLDERS = {
-    "climber": {"commands"},
-    "render": {"view"},
-    "session": {"desktop"},
-    "view": {"commands"},
-}
+# Trees whose folders must not include each other in a circle.
+TREES_WITHOUT_CIRCLES = ("engine", "systems", "game")
 # The product, in which each library is included in one place and our headers are named from the root. Tests and tools may use any library
 # as an oracle.
 PRODUCT_FOLDERS = {"engine", "components", "systems", "game"}
@@ -105,12 +100,6 @@ def may_include_system(file: str, path: str) -> bool:
     return not file.startswith("systems/rigs/") and target_folder == f"{area}/shared"
 
 
-def game_folder(path: str) -> str:
-    """The folder within game/ of a file; empty for other files."""
-    parts = path.split("/")
-    return parts[1] if parts[0] == "game" and len(parts) > 2 else ""
-
-
 def include_rules(file: str, mark: str, path: str) -> Iterator[str]:
     """The rules that the include of `path` in `file` breaks."""
     folder = file.split("/")[0]
@@ -131,8 +120,6 @@ def include_rules(file: str, mark: str, path: str) -> Iterator[str]:
     if folder == target == "systems" and not may_include_system(file, path):
         yield (f'"{path}": a system includes its own header, its area\'s shared/ and rigs/, and no other system;'
                " only systems/frame/frame, systems/snapshot/snapshot and systems/host do")
-    if game_folder(path) in REFUSED_GAME_FOLDERS.get(game_folder(file), set()):
-        yield f'"{path}": game/{game_folder(file)} does not include game/{game_folder(path)}'
 
 
 def code_rules(file: str, line: str) -> Iterator[str]:
@@ -160,12 +147,63 @@ def breaches_of(file: str, text: str) -> Iterator[Breach]:
             yield Breach(file, number, rule)
 
 
+def folder_of(path: str, depth: int) -> str:
+    """The folder of a file, cut to `depth` names."""
+    return "/".join(path.split("/")[:-1][:depth])
+
+
+def find_circle(start: str, edges: dict[str, dict[str, tuple]]) -> list[str]:
+    """The shortest path of folders from `start` back to it, both ends included; empty if there is none."""
+    came_from = {}
+    queue = [start]
+    for folder in queue:
+        for target in edges.get(folder, {}):
+            if target == start:
+                path = [start, folder]
+                while folder != start:
+                    folder = came_from[folder]
+                    path.append(folder)
+                return path[::-1]
+            if target not in came_from:
+                came_from[target] = folder
+                queue.append(target)
+    return []
+
+
+def circles_of(includes: list[tuple[str, int, str]]) -> Iterator[Breach]:
+    """One breach for each circle of folders, at its folders' first include of the next. Areas (engine/solver) and the folders inside them
+    (engine/solver/model) are checked separately: either may have a circle that the other does not show."""
+    named = set()
+    for depth in (2, 3):
+        edges: dict[str, dict[str, tuple[str, int]]] = {}
+        for file, line, path in includes:
+            source, target = folder_of(file, depth), folder_of(path, depth)
+            if source != target:
+                edges.setdefault(source, {}).setdefault(target, (file, line))
+        for start in sorted(edges):
+            circle = find_circle(start, edges)
+            if circle and frozenset(circle) not in named:
+                named.add(frozenset(circle))
+                places = ["%s:%d" % edges[a][b] for a, b in zip(circle, circle[1:])]
+                file, line = edges[circle[0]][circle[1]]
+                yield Breach(file, line, f"circle of folders: {' -> '.join(circle)} ({', '.join(places)})")
+
+
 def check_tree(root: Path) -> list[Breach]:
     breaches = []
+    includes: dict[str, list[tuple[str, int, str]]] = {tree: [] for tree in TREES_WITHOUT_CIRCLES}
     for folder in ALLOWED_FOLDERS:
         for path in sorted((root / folder).rglob("*.[hc]pp")):
             file = path.relative_to(root).as_posix()
-            breaches.extend(breaches_of(file, path.read_text(encoding="utf-8")))
+            text = path.read_text(encoding="utf-8")
+            breaches.extend(breaches_of(file, text))
+            if folder in includes:
+                for number, line in enumerate(without_comments(text).split("\n"), start=1):
+                    include = INCLUDE.match(line)
+                    if include and include["path"].startswith(folder + "/"):
+                        includes[folder].append((file, number, include["path"]))
+    for tree in includes.values():
+        breaches.extend(circles_of(tree))
     return breaches
 
 

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "components/play_space.hpp"
-#include "game/headset/controller_profile.hpp"
-#include "game/render/primitives.hpp"
+#include "game/devices/controller_profile.hpp"
+#include "game/mesh/primitives.hpp"
 #include "game/scene/player_defaults.hpp"
 
 namespace handhold {

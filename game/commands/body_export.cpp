@@ -1,7 +1,7 @@
 #include "game/commands/body_export.hpp"
 
 #include "engine/core/text_file.hpp"
-#include "game/commands/exit_status.hpp"
+#include "game/play/exit_status.hpp"
 #include "game/render/robot_body.hpp"
 
 namespace handhold {

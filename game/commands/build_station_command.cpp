@@ -4,11 +4,11 @@
 #include <filesystem>
 
 #include "engine/core/printable.hpp"
-#include "game/commands/exit_status.hpp"
 #include "game/commands/output_folder.hpp"
+#include "game/levels/built_in_scenes.hpp"
 #include "game/levels/station_description.hpp"
 #include "game/levels/station_scene.hpp"
-#include "game/scene/built_in_scenes.hpp"
+#include "game/play/exit_status.hpp"
 #include "game/session/interrupt.hpp"
 
 namespace handhold {

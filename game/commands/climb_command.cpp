@@ -4,8 +4,8 @@
 
 #include "engine/core/printable.hpp"
 #include "game/climber/climber_session.hpp"
-#include "game/commands/exit_status.hpp"
-#include "game/commands/loading.hpp"
+#include "game/play/exit_status.hpp"
+#include "game/play/loading.hpp"
 #include "game/session/interrupt.hpp"
 
 namespace handhold {

@@ -5,11 +5,12 @@
 #include <optional>
 
 #include "engine/core/text_file.hpp"
-#include "game/commands/exit_status.hpp"
 #include "game/commands/grip_file.hpp"
-#include "game/commands/grip_fit.hpp"
-#include "game/render/shading_mesh.hpp"
+#include "game/levels/load_scene.hpp"
+#include "game/mesh/shading_mesh.hpp"
+#include "game/play/exit_status.hpp"
 #include "game/scene/scene.hpp"
+#include "game/view/grip_fit.hpp"
 #include "systems/input/read_tracking.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
 

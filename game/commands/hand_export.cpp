@@ -5,8 +5,8 @@
 
 #include "engine/core/check.hpp"
 #include "engine/core/text_file.hpp"
-#include "game/commands/exit_status.hpp"
 #include "game/commands/output_folder.hpp"
+#include "game/play/exit_status.hpp"
 #include "game/render/figure_skin.hpp"
 #include "game/render/robot_hand.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"

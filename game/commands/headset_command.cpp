@@ -5,9 +5,9 @@
 #include <csignal>
 #include <cstdio>
 
-#include "game/commands/exit_status.hpp"
-#include "game/desktop/play_files.hpp"
+#include "game/commands/play_files.hpp"
 #include "game/headset/headset_loop.hpp"
+#include "game/play/exit_status.hpp"
 #include "game/report/run_summary.hpp"
 
 namespace handhold {

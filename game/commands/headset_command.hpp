@@ -1,6 +1,6 @@
 #pragma once
 
-#include "game/commands/play_command.hpp"
+#include "game/desktop/play_options.hpp"
 
 namespace handhold {
 

@@ -18,14 +18,14 @@
 #include "game/commands/body_export.hpp"
 #include "game/commands/build_station_command.hpp"
 #include "game/commands/climb_command.hpp"
-#include "game/commands/exit_status.hpp"
 #include "game/commands/flag_checks.hpp"
 #include "game/commands/grip_command.hpp"
 #include "game/commands/hand_export.hpp"
 #include "game/commands/picture_command.hpp"
 #include "game/commands/play_command.hpp"
 #include "game/commands/run_command.hpp"
-#include "game/scene/built_in_scenes.hpp"
+#include "game/levels/built_in_scenes.hpp"
+#include "game/play/exit_status.hpp"
 #include "game/scene/scene.hpp"
 
 namespace {

@@ -6,10 +6,10 @@
 #include <string>
 #include <utility>
 
-#include "game/commands/exit_status.hpp"
 #include "game/commands/headset_command.hpp"
-#include "game/desktop/play_files.hpp"
+#include "game/commands/play_files.hpp"
 #include "game/desktop/play_loop.hpp"
+#include "game/play/exit_status.hpp"
 #include "game/report/run_summary.hpp"
 #include "game/ui/hud.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "game/render/player_models.hpp"
+#include "game/view/player_models.hpp"
 
 namespace handhold {
 

@@ -7,12 +7,12 @@
 
 #include "engine/core/result.hpp"
 #include "game/commands/run_command.hpp"
-#include "game/render/player_models.hpp"
 #include "game/report/report_html.hpp"
 #include "game/report/run_summary.hpp"
+#include "game/run/run_log.hpp"
 #include "game/scene/scene.hpp"
-#include "game/session/run_log.hpp"
 #include "game/view/film.hpp"
+#include "game/view/player_models.hpp"
 
 // What `handhold run` leaves: the film of the session, the files of --out, and the printed summary.
 namespace handhold {

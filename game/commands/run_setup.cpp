@@ -7,10 +7,10 @@
 
 #include "engine/core/printable.hpp"
 #include "game/climber/crowd.hpp"
-#include "game/scene/built_in_scenes.hpp"
+#include "game/levels/built_in_scenes.hpp"
+#include "game/run/spawn.hpp"
 #include "game/scene/overlaps.hpp"
 #include "game/scene/player_defaults.hpp"
-#include "game/scene/spawn.hpp"
 
 namespace handhold {
 

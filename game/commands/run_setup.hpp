@@ -9,9 +9,9 @@
 #include "engine/core/result.hpp"
 #include "engine/math/math.hpp"
 #include "game/commands/run_command.hpp"
+#include "game/run/session_run.hpp"
 #include "game/scene/scene.hpp"
 #include "game/session/recording.hpp"
-#include "game/session/session_run.hpp"
 #include "systems/frame/frame.hpp"
 
 // What `handhold run` prepares before the first frame: recordings, start places and players.

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "engine/core/printable.hpp"
-#include "game/commands/exit_status.hpp"
+#include "game/commands/shot_film.hpp"
+#include "game/play/exit_status.hpp"
 #include "game/session/interrupt.hpp"
-#include "game/view/shot_film.hpp"
 
 namespace handhold {
 namespace {

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "game/commands/run_command.hpp"
+#include "game/run/session_run.hpp"
 #include "game/scene/scene.hpp"
-#include "game/session/session_run.hpp"
 
 namespace handhold {
 

@@ -6,8 +6,8 @@
 #include "components/world.hpp"
 #include "engine/core/result.hpp"
 #include "game/commands/run_command.hpp"
+#include "game/run/session_run.hpp"
 #include "game/scene/scene.hpp"
-#include "game/session/session_run.hpp"
 #include "systems/snapshot/snapshot.hpp"
 
 // `run --snapshot` and `run --resume`.

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "game/desktop/desktop_body.hpp"
-#include "game/desktop/play_settings.hpp"
+#include "game/devices/desktop_body.hpp"
+#include "game/devices/play_settings.hpp"
 
 // Reads a gamepad as input of the emulated head and hands.
 namespace handhold {

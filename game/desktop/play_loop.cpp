@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/core/profile.hpp"
-#include "game/desktop/comfort.hpp"
+#include "game/devices/comfort.hpp"
 #include "game/ui/hud.hpp"
 #include "game/ui/inspector.hpp"
 #include "game/ui/menu.hpp"

@@ -4,11 +4,11 @@
 #include <cstdio>
 #include <string>
 
-#include "game/desktop/desktop_session.hpp"
-#include "game/desktop/play_settings.hpp"
-#include "game/desktop/play_tally.hpp"
-#include "game/desktop/session_history.hpp"
 #include "game/desktop/window.hpp"
+#include "game/devices/play_settings.hpp"
+#include "game/play/desktop_session.hpp"
+#include "game/play/play_tally.hpp"
+#include "game/play/session_history.hpp"
 #include "game/ui/overlay.hpp"
 #include "game/view/gizmos.hpp"
 #include "game/view/outside_camera.hpp"

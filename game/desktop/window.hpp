@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "game/desktop/desktop_body.hpp"
 #include "game/desktop/gamepad.hpp"
-#include "game/desktop/play_settings.hpp"
-#include "game/desktop/ui_input.hpp"
-#include "game/render/image.hpp"
+#include "game/devices/desktop_body.hpp"
+#include "game/devices/play_settings.hpp"
+#include "game/mesh/image.hpp"
+#include "game/ui/ui_input.hpp"
 
 namespace handhold {
 

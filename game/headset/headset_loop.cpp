@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "engine/core/profile.hpp"
-#include "game/desktop/comfort.hpp"
-#include "game/headset/headset_hands.hpp"
+#include "game/devices/comfort.hpp"
+#include "game/devices/headset_hands.hpp"
 #include "game/headset/headset_panel.hpp"
 #include "game/ui/headset_help.hpp"
 #include "game/ui/hud.hpp"

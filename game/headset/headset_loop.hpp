@@ -5,11 +5,11 @@
 #include <memory>
 #include <string>
 
-#include "game/commands/play_command.hpp"
-#include "game/desktop/play_tally.hpp"
+#include "game/desktop/play_options.hpp"
 #include "game/desktop/window.hpp"
 #include "game/headset/headset_clock.hpp"
 #include "game/headset/headset_session.hpp"
+#include "game/play/play_tally.hpp"
 #include "game/view/player_view.hpp"
 #include "game/xr/headset.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "game/headset/headset_reading.hpp"
+#include "game/devices/headset_reading.hpp"
 
 namespace handhold {
 

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "game/assets/body_clips_asset.hpp"
-#include "game/headset/controller_profile.hpp"
+#include "game/devices/controller_profile.hpp"
 #include "game/scene/place_scene.hpp"
 
 namespace handhold {

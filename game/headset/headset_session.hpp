@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "game/headset/headset_reading.hpp"
+#include "game/devices/headset_reading.hpp"
 #include "game/scene/scene.hpp"
 #include "game/session/recording.hpp"
 #include "systems/frame/frame.hpp"

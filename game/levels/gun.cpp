@@ -7,7 +7,7 @@
 #include "engine/io/json.hpp"
 #include "game/assets/assets.hpp"
 #include "game/levels/station_kit.hpp"
-#include "game/render/primitives.hpp"
+#include "game/mesh/primitives.hpp"
 
 namespace handhold {
 namespace {

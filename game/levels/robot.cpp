@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "game/levels/station_kit.hpp"
-#include "game/render/primitives.hpp"
+#include "game/mesh/primitives.hpp"
 
 namespace handhold {
 namespace {

@@ -6,7 +6,7 @@
 #include "game/levels/station_module.hpp"
 #include "game/levels/station_node.hpp"
 #include "game/levels/station_truss.hpp"
-#include "game/render/primitives.hpp"
+#include "game/mesh/primitives.hpp"
 
 namespace handhold {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/geometry/mesh.hpp"
-#include "game/render/render_frame.hpp"
+#include "game/mesh/render_frame.hpp"
 
 // The station, built from a description (docs/reference/station_format.md), and the ship, a
 // platform that is built in code. Lengths in metres. The meshes are also colliders, so they must be

@@ -12,7 +12,7 @@
 #include "engine/math/math.hpp"
 #include "game/levels/station_kit.hpp"
 #include "game/levels/station_rack.hpp"
-#include "game/render/render_frame.hpp"
+#include "game/mesh/render_frame.hpp"
 
 // A station as data (docs/reference/station_format.md). Lengths in metres. The frame of a section
 // has its origin in the middle of the section's near end, +Z along the section, +Y up. Nodes and

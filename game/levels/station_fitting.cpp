@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "game/render/primitives.hpp"
+#include "game/mesh/primitives.hpp"
 
 namespace handhold {
 namespace {

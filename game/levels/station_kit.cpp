@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "engine/core/hash.hpp"
-#include "game/render/primitives.hpp"
+#include "game/mesh/primitives.hpp"
 
 namespace handhold {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "game/levels/station_module.hpp"
 #include "game/levels/station_rack.hpp"
-#include "game/render/primitives.hpp"
+#include "game/mesh/primitives.hpp"
 
 namespace handhold {
 namespace {

@@ -11,7 +11,7 @@
 #include "engine/io/gltf_writer.hpp"
 #include "engine/io/triangle_list.hpp"
 #include "game/levels/station_tools.hpp"
-#include "game/render/shading_mesh.hpp"
+#include "game/mesh/shading_mesh.hpp"
 #include "game/scene/player_defaults.hpp"
 #include "game/scene/scene_file_writer.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "game/render/primitives.hpp"
+#include "game/mesh/primitives.hpp"
 
 namespace handhold {
 namespace {

@@ -1,6 +1,6 @@
 #include "game/render/figure_kit.hpp"
 
-#include "game/render/mesh_edit.hpp"
+#include "game/mesh/mesh_edit.hpp"
 
 namespace handhold {
 

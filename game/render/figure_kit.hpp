@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "game/render/loft.hpp"
+#include "game/mesh/loft.hpp"
 
 // Building kit of the robot's figures: solids grouped by material.
 namespace handhold {

@@ -1,6 +1,6 @@
 #include "game/render/figure_skin.hpp"
 
-#include "game/render/shading_mesh.hpp"
+#include "game/mesh/shading_mesh.hpp"
 
 namespace handhold {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "game/render/render_frame.hpp"
+#include "game/mesh/render_frame.hpp"
 
 // Projection arithmetic without OpenGL. Suffix _cs: relative to the camera's position, in the
 // world's axes.

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "components/render.hpp"
-#include "game/render/render_frame.hpp"
+#include "game/mesh/render_frame.hpp"
 
 // A ghost shows where a player's hand is tracked while the hand is shown elsewhere (talk row 18).
 // Rendering only: the simulation does not read it.

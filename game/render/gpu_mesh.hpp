@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "game/mesh/render_frame.hpp"
+#include "game/mesh/shading_mesh.hpp"
 #include "game/render/gl_objects.hpp"
-#include "game/render/render_frame.hpp"
-#include "game/render/shading_mesh.hpp"
 
 namespace handhold {
 

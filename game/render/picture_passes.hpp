@@ -3,9 +3,9 @@
 #include <array>
 #include <string>
 
+#include "game/mesh/image.hpp"
 #include "game/render/frame_view.hpp"
 #include "game/render/gl_objects.hpp"
-#include "game/render/image.hpp"
 #include "game/render/ui_painter.hpp"
 
 namespace handhold {

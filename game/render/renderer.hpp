@@ -8,9 +8,9 @@
 #include <string>
 
 #include "engine/geometry/mesh.hpp"
+#include "game/mesh/image.hpp"
+#include "game/mesh/render_frame.hpp"
 #include "game/render/gl_context.hpp"
-#include "game/render/image.hpp"
-#include "game/render/render_frame.hpp"
 
 namespace handhold {
 

@@ -7,9 +7,9 @@
 #include "components/tracking.hpp"
 #include "engine/core/check.hpp"
 #include "engine/io/gltf_skin_writer.hpp"
+#include "game/mesh/primitives.hpp"
 #include "game/render/figure_skin.hpp"
 #include "game/render/figures.hpp"
-#include "game/render/primitives.hpp"
 
 namespace handhold {
 namespace {

@@ -1,7 +1,7 @@
 #include "game/render/robot_hand.hpp"
 
-#include "game/render/mesh_edit.hpp"
-#include "game/render/primitives.hpp"
+#include "game/mesh/mesh_edit.hpp"
+#include "game/mesh/primitives.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold {

@@ -3,7 +3,7 @@
 // half a turn about Y: fingers along +Z, a right hand's thumb at +X.
 #include <algorithm>
 
-#include "game/render/primitives.hpp"
+#include "game/mesh/primitives.hpp"
 #include "game/render/robot_hand.hpp"
 
 namespace handhold {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "game/render/image.hpp"
+#include "game/mesh/image.hpp"
 
 namespace handhold {
 

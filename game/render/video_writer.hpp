@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "game/render/image.hpp"
+#include "game/mesh/image.hpp"
 
 namespace handhold {
 

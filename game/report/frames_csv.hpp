@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/core/result.hpp"
-#include "game/session/run_log.hpp"
+#include "game/run/run_log.hpp"
 
 // Tables of a run: one row for each frame and player, or for each frame and body. SI units unless a
 // column's name says otherwise; numbers round-trip exactly. Stage times are left out, so equal runs

@@ -1,7 +1,7 @@
 #include "game/report/report_html.hpp"
 
 #include "engine/core/text_file.hpp"
-#include "game/render/image.hpp"
+#include "game/mesh/image.hpp"
 #include "game/report/report_tables.hpp"
 #include "game/report/run_plots.hpp"
 #include "game/report/run_summary.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/core/result.hpp"
-#include "game/session/run_log.hpp"
+#include "game/run/run_log.hpp"
 
 // report.html: a run as one page without scripts that needs no other file (except the video) and no
 // network.

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/core/result.hpp"
-#include "game/session/run_log.hpp"
+#include "game/run/run_log.hpp"
 
 // report.json: the figures of a run (run_summary.hpp) for scripts. Releases may add keys but never
 // rename or drop them.

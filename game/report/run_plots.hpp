@@ -2,7 +2,7 @@
 
 #include "game/report/run_summary.hpp"
 #include "game/report/svg_plot.hpp"
-#include "game/session/run_log.hpp"
+#include "game/run/run_log.hpp"
 
 // The plots of report.html. With several players, paths are those of the first k_plot_colors
 // players; errors and push-back are those of the worst player in each frame.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "components/stats.hpp"
-#include "game/session/run_log.hpp"
+#include "game/run/run_log.hpp"
 
 // Figures of a whole run, shared by report.json and report.html.
 namespace handhold {

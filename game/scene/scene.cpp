@@ -1,9 +1,7 @@
 #include "game/scene/scene.hpp"
 
 #include <string>
-#include <utility>
 
-#include "game/scene/built_in_scenes.hpp"
 #include "game/scene/scene_builder.hpp"
 #include "systems/host/tuning_json.hpp"
 
@@ -13,15 +11,6 @@ namespace {
 std::filesystem::path& grip_mesh_cache() {
     static std::filesystem::path directory;
     return directory;
-}
-
-// A level by itself: each mesh node is a static body.
-SceneFile level_scene(const std::filesystem::path& path) {
-    SceneFile file;
-    file.name = path.stem().string();
-    file.description = "a level by itself";
-    file.levels.push_back({path, {}, Vec3::Ones()});
-    return file;
 }
 
 }  // namespace
@@ -64,29 +53,6 @@ void add_grip_meshes(Scene& scene) {
 }
 
 void set_grip_mesh_cache(const std::filesystem::path& directory) { grip_mesh_cache() = directory; }
-
-Result<Scene> load_scene(const std::string& name_or_file) {
-    if (std::optional<Scene> scene = make_built_in_scene(name_or_file)) {
-        return std::move(*scene);
-    }
-    const std::filesystem::path path = name_or_file;
-    if (path.extension() == ".glb" || path.extension() == ".gltf") {
-        return build_scene(level_scene(path), path);
-    }
-    if (path.extension() != ".json") {
-        std::string names;
-        for (const std::string_view name : built_in_scenes()) {
-            names += std::string(name) + ", ";
-        }
-        return FileError{name_or_file, "",
-                         "expected " + names + "a .json scene or a .glb or .gltf level"};
-    }
-    Result<SceneFile> file = load_scene_file(path);
-    if (!file) {
-        return file.error();
-    }
-    return build_scene(file.value(), path);
-}
 
 std::string free_player_name(const World& world, std::string wanted) {
     const auto is_taken = [&world](const std::string& name) {

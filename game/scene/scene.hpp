@@ -16,7 +16,7 @@
 #include "engine/geometry/mesh.hpp"
 #include "engine/geometry/shape_library.hpp"
 #include "engine/io/gltf.hpp"
-#include "game/render/render_frame.hpp"
+#include "game/mesh/render_frame.hpp"
 #include "game/scene/scene_file.hpp"
 
 // A scene ready to play: the world without players, its shapes and tuning, and its visuals.
@@ -78,9 +78,6 @@ struct Scene {
     int climbers = 0;  // scripted climbers beside the first player, unless --players says otherwise
 };
 
-// Loads a built-in scene by name, a scene file (.json), or a level (.glb, .gltf: each mesh node
-// becomes a static body). Loads all or nothing.
-Result<Scene> load_scene(const std::string& name_or_file);
 // A function that loads the levels and meshes that a scene file names.
 using LevelSource = std::function<Result<GltfLevel>(const std::filesystem::path&)>;
 // Builds a scene from a scene file that was read and checked. `path`: the file, for error messages.

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "game/render/level_meshes.hpp"
-#include "game/render/mesh_edit.hpp"
+#include "game/mesh/level_meshes.hpp"
+#include "game/mesh/mesh_edit.hpp"
 #include "game/scene/scene_shape.hpp"
 
 namespace handhold {

@@ -11,7 +11,7 @@
 #include "components/body.hpp"
 #include "engine/core/result.hpp"
 #include "engine/math/math.hpp"
-#include "game/render/render_frame.hpp"
+#include "game/mesh/render_frame.hpp"
 #include "game/scene/scene_grip.hpp"
 #include "game/scene/scene_joint.hpp"
 #include "game/scene/scene_shape.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "game/render/primitives.hpp"
+#include "game/mesh/primitives.hpp"
 #include "game/scene/scene_ranges.hpp"
 
 namespace handhold {

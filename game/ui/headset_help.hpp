@@ -3,7 +3,7 @@
 #include <array>
 #include <string>
 
-#include "game/desktop/play_settings.hpp"
+#include "game/devices/play_settings.hpp"
 
 namespace handhold {
 

@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "game/desktop/desktop_session.hpp"
-#include "game/desktop/play_tally.hpp"
-#include "game/desktop/session_history.hpp"
+#include "game/play/desktop_session.hpp"
+#include "game/play/play_tally.hpp"
+#include "game/play/session_history.hpp"
 #include "game/view/gizmos.hpp"
 
 namespace handhold {

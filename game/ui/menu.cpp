@@ -6,7 +6,7 @@
 
 #include <imgui.h>
 
-#include "game/scene/built_in_scenes.hpp"
+#include "game/levels/built_in_scenes.hpp"
 
 namespace handhold {
 namespace {

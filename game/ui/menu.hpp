@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "game/desktop/play_settings.hpp"
+#include "game/devices/play_settings.hpp"
 
 namespace handhold {
 

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "game/desktop/ui_input.hpp"
 #include "game/render/ui_picture.hpp"
+#include "game/ui/ui_input.hpp"
 
 // Panels over the game's picture. Dear ImGui lays them out and the renderer draws them into the
 // picture, so they also appear in saved pictures and need no window.

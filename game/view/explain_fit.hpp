@@ -4,7 +4,7 @@
 #include <string>
 
 #include "components/tuning.hpp"
-#include "game/render/render_frame.hpp"
+#include "game/mesh/render_frame.hpp"
 #include "systems/frame/frame.hpp"
 #include "systems/hand/shared/fit_terms.hpp"
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "game/render/player_models.hpp"
+#include "game/run/run_log.hpp"
 #include "game/scene/scene.hpp"
-#include "game/session/run_log.hpp"
+#include "game/view/player_models.hpp"
 
 namespace handhold {
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "game/desktop/desktop_body.hpp"
+#include "game/devices/desktop_body.hpp"
 
 namespace handhold {
 

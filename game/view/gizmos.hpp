@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "game/render/render_frame.hpp"
+#include "game/mesh/render_frame.hpp"
 #include "game/scene/scene.hpp"
 #include "systems/frame/frame.hpp"
 

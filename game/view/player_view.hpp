@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "components/render.hpp"
-#include "game/render/player_models.hpp"
 #include "game/render/renderer.hpp"
 #include "game/scene/scene.hpp"
+#include "game/view/player_models.hpp"
 
 namespace handhold {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "game/headset/headset_reading.hpp"
+#include "game/devices/headset_reading.hpp"
 #include "game/xr/bindings.hpp"
 #include "game/xr/instance.hpp"
 

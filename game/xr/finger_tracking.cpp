@@ -1,6 +1,6 @@
 #include "game/xr/finger_tracking.hpp"
 
-#include "game/headset/headset_hands.hpp"
+#include "game/devices/headset_hands.hpp"
 
 namespace handhold {
 

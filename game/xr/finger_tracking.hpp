@@ -3,7 +3,7 @@
 #include <array>
 #include <string>
 
-#include "game/headset/headset_reading.hpp"
+#include "game/devices/headset_reading.hpp"
 #include "game/xr/instance.hpp"
 
 namespace handhold {

@@ -5,7 +5,7 @@
 #include <thread>
 #include <vector>
 
-#include "game/headset/play_space_changes.hpp"
+#include "game/devices/play_space_changes.hpp"
 #include "game/xr/actions.hpp"
 #include "game/xr/eyes.hpp"
 #include "game/xr/finger_tracking.hpp"

@@ -6,9 +6,9 @@
 #include <memory>
 #include <string>
 
-#include "game/headset/headset_reading.hpp"
+#include "game/devices/headset_reading.hpp"
+#include "game/mesh/render_frame.hpp"
 #include "game/render/gl_context.hpp"
-#include "game/render/render_frame.hpp"
 
 namespace handhold {
 

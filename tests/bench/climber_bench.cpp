@@ -7,7 +7,7 @@
 
 #include "engine/core/profile.hpp"
 #include "game/climber/crowd.hpp"
-#include "game/scene/built_in_scenes.hpp"
+#include "game/levels/built_in_scenes.hpp"
 
 namespace handhold::climber_bench {
 namespace {

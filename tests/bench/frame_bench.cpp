@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "engine/core/profile.hpp"
-#include "game/scene/built_in_scenes.hpp"
-#include "game/session/session_run.hpp"
+#include "game/levels/built_in_scenes.hpp"
+#include "game/run/session_run.hpp"
 
 namespace handhold::frame_bench {
 namespace {

@@ -11,7 +11,7 @@
 #include "engine/geometry/grip_mesh_library.hpp"
 
 #ifdef HANDHOLD_BENCH_GAME
-#include "game/scene/built_in_scenes.hpp"
+#include "game/levels/built_in_scenes.hpp"
 #endif
 
 namespace handhold::geometry_bench {

@@ -3,7 +3,7 @@
 
 #ifdef HANDHOLD_BENCH_GAME
 
-#include "game/scene/built_in_scenes.hpp"
+#include "game/levels/built_in_scenes.hpp"
 #include "systems/frame/frame.hpp"
 #include "systems/snapshot/snapshot.hpp"
 

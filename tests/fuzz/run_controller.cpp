@@ -1,4 +1,4 @@
-#include "game/headset/controller_profile.hpp"
+#include "game/devices/controller_profile.hpp"
 #include "tests/fuzz/promise.hpp"
 
 namespace handhold::fuzz {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "game/view/shot_list.hpp"
+#include "game/commands/shot_list.hpp"
 #include "tests/fuzz/promise.hpp"
 
 namespace handhold::fuzz {

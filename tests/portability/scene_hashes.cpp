@@ -18,8 +18,9 @@
 
 #include "game/assets/body_clips_asset.hpp"
 #include "game/commands/run_setup.hpp"
-#include "game/scene/built_in_scenes.hpp"
-#include "game/session/session_run.hpp"
+#include "game/levels/built_in_scenes.hpp"
+#include "game/levels/load_scene.hpp"
+#include "game/run/session_run.hpp"
 #include "systems/snapshot/snapshot.hpp"
 
 namespace handhold {

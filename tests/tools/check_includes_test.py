@@ -76,12 +76,31 @@ class CheckIncludes(unittest.TestCase):
         self.assert_breach("components/hand.hpp", "#pragma once\n" + include,
                            "components/hand.hpp:2 | components does not include systems")
 
-    def test_folders_of_game_refuse_those_that_build_on_them(self):
-        for folder, refused in (("climber", "commands"), ("render", "view"), ("session", "desktop"), ("view", "commands")):
-            with self.subTest(folder=folder):
-                self.assert_breach(f"game/{folder}/a.hpp", f'#pragma once\n#include "game/{refused}/b.hpp"\n',
-                                   f"game/{folder}/a.hpp:2 | game/{folder} does not include game/{refused}")
-                self.assert_clean(f"game/{refused}/a.cpp", f'#include "game/{folder}/b.hpp"\n')
+    def test_circles_of_folders_are_named_with_their_includes(self):
+        found = breaches({"engine/math/a.cpp": '#include "engine/core/b.hpp"\n',
+                          "engine/core/c.cpp": '\n#include "engine/geometry/d.hpp"\n',
+                          "engine/geometry/d.cpp": '#include "engine/math/e.hpp"\n'})
+        self.assertEqual(found, ["engine/core/c.cpp:2: circle of folders: engine/core -> engine/geometry -> engine/math -> engine/core"
+                                 " (engine/core/c.cpp:2, engine/geometry/d.cpp:1, engine/math/a.cpp:1)"])
+        found = breaches({"game/view/a.hpp": '#pragma once\n#include "game/render/b.hpp"\n',
+                          "game/render/b.cpp": '#include "game/view/a.hpp"\n',
+                          "game/render/c.cpp": '#include "game/mesh/d.hpp"\n'})
+        self.assertEqual(found, ["game/render/b.cpp:1: circle of folders: game/render -> game/view -> game/render"
+                                 " (game/render/b.cpp:1, game/view/a.hpp:2)"])
+
+    def test_circles_inside_an_area_and_between_areas_are_both_found(self):
+        inside = {"engine/solver/model/a.cpp": '#include "engine/solver/sparse/b.hpp"\n',
+                  "engine/solver/sparse/b.cpp": '#include "engine/solver/model/a.hpp"\n'}
+        self.assertEqual(len(breaches(inside)), 1)
+        between = {"engine/solver/model/a.cpp": '#include "engine/anim/b.hpp"\n',
+                   "engine/anim/b.cpp": '#include "engine/solver/packed/c.hpp"\n'}
+        self.assertEqual(len(breaches(between)), 1)
+
+    def test_chains_and_diamonds_of_folders_are_no_circles(self):
+        files = {"game/a/a.cpp": '#include "game/b/b.hpp"\n#include "game/c/c.hpp"\n', "game/b/b.cpp": '#include "game/d/d.hpp"\n',
+                 "game/c/c.cpp": '#include "game/d/d.hpp"\n#include "game/c/e.hpp"\n',
+                 "game/d/d.cpp": '// #include "game/a/a.hpp"\n'}
+        self.assertEqual(breaches(files), [])
         self.assert_clean("tests/game/session/a_test.cpp", '#include "game/desktop/b.hpp"\n')
 
     def test_only_allowed_files_name_world(self):

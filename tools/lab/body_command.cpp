@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "engine/core/text_file.hpp"
-#include "game/commands/progress.hpp"
+#include "game/play/progress.hpp"
 #include "systems/body/estimate_arms.hpp"
 #include "systems/body/pose_arms.hpp"
 #include "tools/lab/body_baselines.hpp"

@@ -9,7 +9,7 @@
 #include "engine/core/text_file.hpp"
 #include "engine/io/gltf.hpp"
 #include "engine/io/gltf_skin.hpp"
-#include "game/commands/progress.hpp"
+#include "game/play/progress.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
 #include "systems/rigs/hand_rig_fit.hpp"
 #include "tools/lab/exit_status.hpp"

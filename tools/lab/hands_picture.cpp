@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "engine/io/gltf.hpp"
-#include "game/commands/progress.hpp"
+#include "game/mesh/level_meshes.hpp"
+#include "game/mesh/primitives.hpp"
+#include "game/play/progress.hpp"
 #include "game/render/hand_figures.hpp"
-#include "game/render/level_meshes.hpp"
-#include "game/render/primitives.hpp"
 #include "game/render/renderer.hpp"
 #include "tools/lab/exit_status.hpp"
 #include "tools/lab/posed_hands.hpp"

@@ -12,9 +12,9 @@
 #include "components/body_tuning.hpp"
 #include "engine/core/text_file.hpp"
 #include "game/assets/body_clips_asset.hpp"
-#include "game/scene/built_in_scenes.hpp"
-#include "game/scene/spawn.hpp"
-#include "game/session/session_run.hpp"
+#include "game/levels/built_in_scenes.hpp"
+#include "game/run/session_run.hpp"
+#include "game/run/spawn.hpp"
 #include "tools/lab/exit_status.hpp"
 #include "tools/lab/measure.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "engine/core/profile.hpp"
 #include "engine/core/text_file.hpp"
-#include "game/commands/progress.hpp"
+#include "game/play/progress.hpp"
 #include "tools/lab/bullet_run.hpp"
 #include "tools/lab/exit_status.hpp"
 #include "tools/lab/gauss_seidel.hpp"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "game/desktop/desktop_session.hpp"
+#include "game/play/desktop_session.hpp"
 #include "systems/snapshot/snapshot.hpp"
 #include "tests/game/climber/climber_scene.hpp"
 

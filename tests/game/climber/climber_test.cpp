@@ -8,8 +8,8 @@
 #include "game/climber/climber_body.hpp"
 #include "game/climber/climber_session.hpp"
 #include "game/climber/crowd.hpp"
-#include "game/scene/built_in_scenes.hpp"
-#include "game/session/session_run.hpp"
+#include "game/levels/built_in_scenes.hpp"
+#include "game/run/session_run.hpp"
 #include "systems/input/read_tracking.hpp"
 #include "tests/game/climber/climber_scene.hpp"
 

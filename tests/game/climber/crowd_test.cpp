@@ -11,10 +11,10 @@
 
 #include "components/fields.hpp"
 #include "engine/core/parallel.hpp"
+#include "game/levels/built_in_scenes.hpp"
 #include "game/report/run_summary.hpp"
-#include "game/scene/built_in_scenes.hpp"
+#include "game/run/session_run.hpp"
 #include "game/scene/place_scene.hpp"
-#include "game/session/session_run.hpp"
 #include "tests/game/scene/finite_world.hpp"
 
 namespace handhold::crowd_test {

@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "game/run/session_run.hpp"
 #include "game/scene/scene.hpp"
 #include "game/session/recording.hpp"
-#include "game/session/session_run.hpp"
 #include "systems/host/tuning_json.hpp"
 #include "tests/engine/allocation_count.hpp"
 

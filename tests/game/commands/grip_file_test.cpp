@@ -7,12 +7,12 @@
 
 #include "engine/geometry/grip_mesh_library.hpp"
 #include "engine/io/gltf_nodes.hpp"
-#include "game/commands/grip_fit.hpp"
 #include "game/commands/hand_export.hpp"
 #include "game/levels/gun.hpp"
 #include "game/levels/station_scene.hpp"
 #include "game/scene/scene.hpp"
 #include "game/scene/scene_file_writer.hpp"
+#include "game/view/grip_fit.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
 

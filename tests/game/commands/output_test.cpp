@@ -8,8 +8,8 @@
 #include <unistd.h>
 
 #include "game/commands/output_folder.hpp"
-#include "game/commands/shell_word.hpp"
-#include "game/desktop/play_files.hpp"
+#include "game/commands/play_files.hpp"
+#include "game/play/shell_word.hpp"
 
 namespace handhold::output_test {
 namespace {

@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "game/assets/body_clips_asset.hpp"
-#include "game/desktop/desktop_session.hpp"
+#include "game/play/desktop_session.hpp"
 #include "game/render/renderer.hpp"
-#include "game/session/session_run.hpp"
+#include "game/run/session_run.hpp"
 #include "tests/game/climber/climber_scene.hpp"
 
 namespace handhold::play_command_test {

@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "game/commands/headset_command.hpp"
-#include "game/headset/headset_hands.hpp"
-#include "game/render/player_models.hpp"
-#include "game/session/session_run.hpp"
+#include "game/devices/headset_hands.hpp"
+#include "game/run/session_run.hpp"
+#include "game/view/player_models.hpp"
 #include "tests/game/climber/climber_scene.hpp"
 
 namespace handhold::headset_session_test {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "game/scene/built_in_scenes.hpp"
+#include "game/levels/built_in_scenes.hpp"
 #include "systems/frame/frame.hpp"
 
 namespace handhold::robot_test {

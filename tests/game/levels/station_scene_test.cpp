@@ -11,10 +11,11 @@
 
 #include "engine/collision/collision_world.hpp"
 #include "game/assets/assets.hpp"
+#include "game/levels/built_in_scenes.hpp"
+#include "game/levels/load_scene.hpp"
 #include "game/levels/station_tools.hpp"
-#include "game/scene/built_in_scenes.hpp"
+#include "game/run/session_run.hpp"
 #include "game/scene/scene_file_writer.hpp"
-#include "game/session/session_run.hpp"
 #include "systems/frame/frame.hpp"
 
 namespace handhold::station_scene_test {

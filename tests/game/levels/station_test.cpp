@@ -15,8 +15,8 @@
 
 #include "engine/collision/collision_world.hpp"
 #include "game/levels/station_description.hpp"
+#include "game/mesh/primitives.hpp"
 #include "game/render/figures.hpp"
-#include "game/render/primitives.hpp"
 
 namespace handhold::station_test {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "game/render/primitives.hpp"
+#include "game/mesh/primitives.hpp"
 #include "tests/game/climber/climber_scene.hpp"
 
 namespace handhold::body_figures_test {

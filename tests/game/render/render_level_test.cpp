@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "game/render/level_meshes.hpp"
-#include "game/render/primitives.hpp"
+#include "game/mesh/level_meshes.hpp"
+#include "game/mesh/primitives.hpp"
 #include "game/render/renderer.hpp"
 #include "tests/places.hpp"
 

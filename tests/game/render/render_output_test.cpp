@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "game/render/image.hpp"
+#include "game/mesh/image.hpp"
 #include "game/render/video_writer.hpp"
 
 namespace handhold::render_output_test {

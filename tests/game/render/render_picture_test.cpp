@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/check.hpp"
-#include "game/render/primitives.hpp"
+#include "game/mesh/primitives.hpp"
 #include "game/render/renderer.hpp"
 
 namespace handhold::render_picture_test {

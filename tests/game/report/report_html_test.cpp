@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/text_file.hpp"
-#include "game/render/image.hpp"
+#include "game/mesh/image.hpp"
 #include "game/report/fallback_meanings.hpp"
 #include "game/report/report_tables.hpp"
 #include "tests/game/report/report_log.hpp"

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include "game/session/run_log.hpp"
+#include "game/run/run_log.hpp"
 
 // A run made by hand: every figure of its report follows from the numbers here.
 namespace handhold {

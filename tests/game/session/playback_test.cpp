@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "game/session/session_run.hpp"
+#include "game/run/session_run.hpp"
 #include "tests/game/climber/climber_scene.hpp"
 
 namespace handhold::playback_test {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "game/render/primitives.hpp"
+#include "game/mesh/primitives.hpp"
 #include "game/render/renderer.hpp"
 #include "game/render/ui_picture.hpp"
 #include "game/ui/hud.hpp"

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "game/desktop/desktop_session.hpp"
-#include "game/desktop/play_tally.hpp"
+#include "game/play/desktop_session.hpp"
+#include "game/play/play_tally.hpp"
 #include "game/view/explain_fit.hpp"
 #include "game/view/gizmos.hpp"
 #include "tests/game/climber/climber_scene.hpp"

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "game/render/primitives.hpp"
-#include "game/scene/built_in_scenes.hpp"
+#include "game/levels/built_in_scenes.hpp"
+#include "game/mesh/primitives.hpp"
 #include "game/view/player_view.hpp"
 #include "game/view/snap_hint.hpp"
 #include "systems/frame/frame.hpp"

@@ -1,0 +1,25 @@
+#include "game/devices/play_space_changes.hpp"
+
+namespace handhold {
+
+void PlaySpaceChanges::add(std::int64_t time_ns, const Pose& new_in_old) {
+    if (!is_valid(new_in_old)) {
+        return;
+    }
+    // A change that is announced late, for a time before the last one's, takes effect with it.
+    const std::int64_t last_ns = changes_.empty() ? time_ns : changes_.back().time_ns;
+    const Pose last = changes_.empty() ? Pose{} : changes_.back().space;
+    changes_.push_back({time_ns > last_ns ? time_ns : last_ns, last * new_in_old});
+}
+
+Pose PlaySpaceChanges::space_at(std::int64_t time_ns) const {
+    Pose space;
+    for (const Change& change : changes_) {
+        if (change.time_ns <= time_ns) {
+            space = change.space;
+        }
+    }
+    return space;
+}
+
+}  // namespace handhold

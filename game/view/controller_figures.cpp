@@ -1,0 +1,178 @@
+#include "game/view/controller_figures.hpp"
+
+#include <algorithm>
+
+#include "engine/core/text_file.hpp"
+#include "game/render/figures.hpp"
+#include "game/view/grip_fit.hpp"
+#include "systems/input/read_tracking.hpp"
+
+namespace handhold {
+namespace {
+
+// The wand's handle lies in the fist along the same line as a real controller's. The hand is lower
+// on the handle, because the wand's head is longer.
+constexpr HandleGrip k_wand_grip = {HandleGrip{}.radius_m, HandleGrip{}.slant_rad, -0.015};
+
+// Replaces white. Pictures have no textures, so a material whose colour is in a texture would be
+// white.
+constexpr Color k_textured_color = {0.045F, 0.048F, 0.055F};
+constexpr Color k_white = {1.0F, 1.0F, 1.0F};
+
+Result<ControllerModel> load_controller(const ControllerSide& side,
+                                        std::vector<std::string>& notes) {
+    const Result<GltfLevel> level = load_gltf_level(side.model);
+    if (!level) {
+        return level.error();
+    }
+    const Result<std::vector<GltfNode>> nodes = load_gltf_nodes(side.model);
+    if (!nodes) {
+        return nodes.error();
+    }
+    notes.insert(notes.end(), level.value().notes.begin(), level.value().notes.end());
+    ControllerModel model;
+    model.fit = side.fit;
+    for (const LevelPart& part : level.value().parts) {
+        const std::vector<ControlMove> moves = moves_of(part.pointer, nodes.value(), side.controls);
+        for (LevelMesh& mesh : make_level_meshes(GltfLevel{{part}})) {
+            model.meshes.push_back(std::move(mesh));
+            model.moves.push_back(moves);
+        }
+    }
+    if (model.meshes.empty()) {
+        return FileError{side.model.string(), "/meshes", "expected triangles, found none"};
+    }
+    for (LevelMesh& part : model.meshes) {
+        if (part.mesh.color == k_white) {
+            part.mesh.color = k_textured_color;
+        }
+    }
+    return model;
+}
+
+// A control that rotates about a point of the wand, from its rest pose.
+ControlMove turn_of_wand(Control control, const Vec3& about_ms, const Vec3& from_rad,
+                         const Vec3& to_rad) {
+    const Pose rest{about_ms, Quat::Identity()};
+    return {control,
+            rest,
+            {about_ms, rotation_from_vector(from_rad)},
+            {about_ms, rotation_from_vector(to_rad)}};
+}
+
+// The trigger rotates on a pin, the squeeze button moves in, the pad tilts.
+void add_wand(ControllerModel& model) {
+    constexpr double k_trigger_rad = 0.35;
+    constexpr double k_tilt_rad = 0.2;
+    constexpr double k_squeeze_m = 0.0025;
+    const auto add = [&model](std::vector<Mesh> meshes, const std::vector<ControlMove>& moves) {
+        for (Mesh& mesh : meshes) {
+            model.meshes.push_back({std::move(mesh), {}});
+            model.moves.push_back(moves);
+        }
+    };
+    WandMeshes wand = make_wand();
+    add(std::move(wand.body), {});
+    add(std::move(wand.trigger), {turn_of_wand(Control::trigger, k_wand_pin_m, Vec3::Zero(),
+                                               -k_trigger_rad * Vec3::UnitX())});
+    add(std::move(wand.squeeze),
+        {{Control::squeeze, {}, {}, {k_squeeze_m * Vec3::UnitY(), Quat::Identity()}}});
+    const Vec3 right = k_tilt_rad * Vec3::UnitZ();
+    const Vec3 back = k_tilt_rad * Vec3::UnitX();
+    add(std::move(wand.pad), {turn_of_wand(Control::stick_x, k_wand_pad_m, right, -right),
+                              turn_of_wand(Control::stick_y, k_wand_pad_m, -back, back)});
+}
+
+Mesh whole_mesh(const ControllerModel& model) {
+    Mesh whole;
+    for (const LevelMesh& part : model.meshes) {
+        const auto first = static_cast<std::uint32_t>(whole.positions.size());
+        whole.positions.insert(whole.positions.end(), part.mesh.positions.begin(),
+                               part.mesh.positions.end());
+        for (const auto& [a, b, c] : part.mesh.triangles) {
+            whole.triangles.push_back({first + a, first + b, first + c});
+        }
+    }
+    return whole;
+}
+
+}  // namespace
+
+std::array<Pose, k_hand_count> ControllerModels::joints() const {
+    return {sides[0].fit.hand_in_grip, sides[1].fit.hand_in_grip};
+}
+
+ControllerModels builtin_controllers(const HandTuning& tuning) {
+    ControllerModels models;
+    models.name = "builtin";
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        ControllerModel& model = models.sides[index_of(side)];
+        add_wand(model);
+        // The model is placed in the fist. The joint between hand and controller then gives the
+        // model's tracked pose.
+        const Pose joint = default_controller_to_hand(side, tuning);
+        model.fit.hand_in_grip = joint;
+        model.fit.grip_ms = inverse(joint * handle_in_hand(side, k_wand_grip, tuning));
+        model.fit.aim_ms = model.fit.grip_ms;
+    }
+    return models;
+}
+
+Result<ControllerModels> choose_controllers(const std::string& name_or_file) {
+    if (name_or_file == "builtin") {
+        return builtin_controllers(HandTuning{});
+    }
+    const Result<std::string> text = read_file(name_or_file);
+    if (!text) {
+        return text.error();
+    }
+    const Result<ControllerProfile> profile = parse_controller_profile(text.value(), name_or_file);
+    if (!profile) {
+        return profile.error();
+    }
+    ControllerModels models;
+    models.name = profile.value().name;
+    models.has_own_joint = true;
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        Result<ControllerModel> model = load_controller(profile.value().sides[side], models.notes);
+        if (!model) {
+            return model.error();
+        }
+        models.sides[side] = std::move(model.value());
+    }
+    return models;
+}
+
+std::array<FingerAngles, k_finger_count> fingers_around(const ControllerModel& model,
+                                                        const HandRig& rig) {
+    AuthoredHand held;
+    held.is_there = true;
+    held.wrist_bs = inverse(controller_in_hand(model.fit));
+    return fit_grip(build_grip_mesh(whole_mesh(model)), rig, held.wrist_bs, {}, &held).fingers;
+}
+
+ControllerFigures::ControllerFigures(const ControllerModels& models, const HandFigures& hands,
+                                     Renderer& renderer) {
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const ControllerModel& model = models.sides[index_of(side)];
+        Side& made = sides_[index_of(side)];
+        for (std::size_t i = 0; i < model.meshes.size(); ++i) {
+            made.parts.push_back(
+                {renderer.add_mesh(model.meshes[i].mesh), model.meshes[i].look, model.moves[i]});
+        }
+        made.in_hand = controller_in_hand(model.fit);
+        made.fingers = fingers_around(model, hands.rig(side));
+    }
+}
+
+void ControllerFigures::add(HandSide side, const Pose& wrist_ws, const ControlValues& values,
+                            RenderFrame& frame) const {
+    const Side& model = sides_[index_of(side)];
+    for (const Part& part : model.parts) {
+        frame.instances.push_back({part.mesh,
+                                   wrist_ws * model.in_hand * moved_by(part.moves, values),
+                                   std::nullopt, part.look});
+    }
+}
+
+}  // namespace handhold
