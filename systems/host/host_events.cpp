@@ -9,7 +9,7 @@
 namespace handhold {
 namespace {
 
-constexpr double k_touch_m = 0.02;
+constexpr double k_event_touch_m = 0.02;
 
 HandReport& report_of(hh_world& host, Entity hand) {
     HandReport* const known = host.hands.find(hand);
@@ -250,7 +250,7 @@ void add_touch_events(hh_world& host) {
             const SurfaceQuery surfaces = host.caches.host_surfaces
                                               ? host.caches.host_surfaces
                                               : SurfaceQuery(host.caches.collision);
-            const auto found = surfaces.closest_point(ray.palm_ws, k_touch_m, own_head);
+            const auto found = surfaces.closest_point(ray.palm_ws, k_event_touch_m, own_head);
             touched = found ? find_by_id(host.world, {found->id}) : k_no_entity;
         }
         if (!is_null(touched) && touched != report.touched) {

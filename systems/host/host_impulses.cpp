@@ -8,7 +8,7 @@ namespace handhold {
 namespace {
 
 constexpr double k_no_limit = std::numeric_limits<double>::infinity();
-constexpr double k_lever_m = 1.0;  // lever of a hand's rotation: no held body is much longer
+constexpr double k_held_lever_m = 1.0;  // lever of a hand's rotation: no held body is much longer
 
 // Greatest speed at which the island's hands move what they hold.
 double hand_speed_mps(const ConstraintGraph& graph, const Island& island) {
@@ -17,7 +17,7 @@ double hand_speed_mps(const ConstraintGraph& graph, const Island& island) {
         const RowBlock& block = graph.blocks[i];
         if (is_drive(block)) {
             speed_mps = std::max(speed_mps, block.drive_velocity_ws_mps.norm() +
-                                                k_lever_m * block.drive_spin_ws_radps.norm());
+                                                k_held_lever_m * block.drive_spin_ws_radps.norm());
         }
     }
     return speed_mps;

@@ -14,13 +14,13 @@ namespace {
 
 constexpr const char* k_motion_text = "a velocity beyond 1e6 m/s or 1e4 rad/s, or NaN";
 
-struct Motion {
+struct ToldMotion {
     Entity body;
     Pose pose_ws;
     BodyVelocity velocity;
 };
 
-Motion read_motion(const hh_world& host, const hh_body_motion& motion) {
+ToldMotion read_motion(const hh_world& host, const hh_body_motion& motion) {
     const Entity body = body_of(host, motion.body);
     return {
         body,
@@ -29,7 +29,7 @@ Motion read_motion(const hh_world& host, const hh_body_motion& motion) {
          checked(motion.angular_velocity_radps, world_limits::k_max_spin_radps, k_motion_text)}};
 }
 
-void place(World& world, const Motion& motion) {
+void place(World& world, const ToldMotion& motion) {
     const BodyKind kind = world.body.at(motion.body).kind;
     world.body_pose.at(motion.body).pose_ws = motion.pose_ws;
     if (kind == BodyKind::fixed) {
@@ -97,7 +97,7 @@ hh_result hh_world_place_bodies(hh_world* world, const hh_body_motion* motions, 
             read_motion(host, motions[i]);
         }
         for (std::size_t i = 0; i < count; ++i) {
-            const Motion motion = read_motion(host, motions[i]);
+            const ToldMotion motion = read_motion(host, motions[i]);
             place(host.world, motion);
             if (host.is_stepping) {
                 host.are_placed[host.world.body.find_row(motion.body)] = 1;

@@ -12,7 +12,7 @@ namespace {
 // XR_EXT_hand_tracking's order.
 constexpr std::size_t k_palm = 0;
 constexpr std::size_t k_wrist = 1;
-constexpr std::size_t k_thumb = 2;         // metacarpal, proximal, distal, tip
+constexpr std::size_t k_thumb_finger = 2;  // metacarpal, proximal, distal, tip
 constexpr std::size_t k_first_finger = 6;  // metacarpal, proximal, intermediate, distal, tip
 constexpr std::size_t k_joints_of_finger = 5;
 
@@ -20,7 +20,7 @@ std::size_t joint_of(FingerName finger, HandBone bone) {
     const auto number = static_cast<std::size_t>(finger);
     const auto at = static_cast<std::size_t>(bone);
     if (finger == FingerName::thumb) {  // it has no intermediate bone
-        return k_thumb + (bone >= HandBone::intermediate ? at - 1 : at);
+        return k_thumb_finger + (bone >= HandBone::intermediate ? at - 1 : at);
     }
     return k_first_finger + (number - 1) * k_joints_of_finger + at;
 }
@@ -87,7 +87,7 @@ std::int32_t hand_joint_parent(std::size_t joint) {
         return -1;
     }
     const bool is_first =
-        joint == k_palm || joint == k_thumb ||
+        joint == k_palm || joint == k_thumb_finger ||
         (joint >= k_first_finger && (joint - k_first_finger) % k_joints_of_finger == 0);
     return static_cast<std::int32_t>(is_first ? k_wrist : joint - 1);
 }

@@ -10,7 +10,7 @@ namespace {
 constexpr double k_upper_arm_radius_m = 0.045;
 constexpr double k_forearm_radius_m = 0.037;
 constexpr double k_hand_radius_m = 0.03;
-constexpr double k_hand_length_m = 0.12;
+constexpr double k_capsule_hand_length_m = 0.12;
 constexpr double k_spine_radius_m = 0.12;
 constexpr double k_thigh_radius_m = 0.07;
 constexpr double k_shin_radius_m = 0.05;
@@ -26,7 +26,7 @@ PartCapsule arm_capsule(const ArmPose::Arm& arm, std::size_t bone, double scale)
     if (bone == 1) {
         return capsule_between(arm.forearm_ws, arm.hand_ws.position, scale * k_forearm_radius_m);
     }
-    return {arm.hand_ws, Vec3(0.0, 0.0, -scale * k_hand_length_m), scale * k_hand_radius_m};
+    return {arm.hand_ws, Vec3(0.0, 0.0, -scale * k_capsule_hand_length_m), scale * k_hand_radius_m};
 }
 
 PartCapsule spine_capsule(const SpinePose& spine, std::size_t link, double scale) {

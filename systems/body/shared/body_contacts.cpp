@@ -16,11 +16,11 @@ namespace {
 // it again. A cast along the trunk begins in the head and is narrower than the head's sphere; one
 // along a leg begins in the pelvis and is narrower than the trunk.
 constexpr double k_trunk_radius_m = 0.09;
-constexpr double k_thigh_radius_m = 0.065;
-constexpr double k_shin_radius_m = 0.05;
+constexpr double k_thigh_contact_radius_m = 0.065;
+constexpr double k_shin_contact_radius_m = 0.05;
 constexpr double k_cast_wider_m = 0.015;
 constexpr double k_widest_cast_m = 0.105;  // of a player of any size
-constexpr double k_moved_m = 0.005;        // a part that moved less is not searched again
+constexpr double k_part_moved_m = 0.005;   // a part that moved less is not searched again
 constexpr double k_sole_m = 0.11;          // below the ankle
 constexpr double k_ahead_m = 0.15;         // margin for motion until the next search
 
@@ -52,9 +52,10 @@ PartLine line_of(const BodySurroundings& around, std::size_t part) {
     }
     const SpinePose::Leg& leg = around.shown.legs[(part - 1) / 2];
     if (spine_links()[k_spine_links + part - 1].kind == SpineLinkKind::thigh) {
-        return {pelvis_m, from_chest(leg.shin_ws.position), scale * k_thigh_radius_m, 0.0};
+        return {pelvis_m, from_chest(leg.shin_ws.position), scale * k_thigh_contact_radius_m, 0.0};
     }
-    return {pelvis_m, from_chest(leg.foot_ws.position), scale * k_shin_radius_m, scale * k_sole_m};
+    return {pelvis_m, from_chest(leg.foot_ws.position), scale * k_shin_contact_radius_m,
+            scale * k_sole_m};
 }
 
 // True if the surface coincides with the tracked floor, above which pose_spine folds the body.
@@ -70,7 +71,7 @@ void search_part(const BodySurroundings& around, const Vec3& from_ws, const Vec3
                  double radius_m, BodySearch& search) {
     const std::array<std::uint64_t, 1> skip = {around.own_id};
     const auto hash_near = [&]() -> std::optional<std::uint64_t> {
-        const Vec3 reach_m = Vec3::Constant(radius_m + k_moved_m);
+        const Vec3 reach_m = Vec3::Constant(radius_m + k_part_moved_m);
         const auto near =
             around.surfaces.hash_near(search.from_ws.cwiseMin(search.to_ws) - reach_m,
                                       search.from_ws.cwiseMax(search.to_ws) + reach_m, skip);
@@ -82,7 +83,7 @@ void search_part(const BodySurroundings& around, const Vec3& from_ws, const Vec3
         hash.add(radius_m);
         return hash.value();
     };
-    constexpr double k_moved2 = k_moved_m * k_moved_m;
+    constexpr double k_moved2 = k_part_moved_m * k_part_moved_m;
     if (search.known && (from_ws - search.from_ws).squaredNorm() < k_moved2 &&
         (to_ws - search.to_ws).squaredNorm() < k_moved2 && hash_near() == search.near) {
         return;
