@@ -13,7 +13,7 @@ namespace handhold {
 // they touched. build_constraints makes the noted bodies the active bodies of its frame. If
 // place_colliders does not track changes, all bodies are active.
 struct ActiveBodies {
-    std::vector<std::uint32_t> list;   // of this frame; without order
+    std::vector<std::uint32_t> list;   // active bodies of this frame, in no particular order
     std::vector<std::uint32_t> noted;  // changed since the last build_constraints; without order
     bool is_tracked = false;           // place_colliders ran since the last build_constraints
     bool all_changed = true;

@@ -60,7 +60,7 @@ struct LastValidPose {
 // computed in closed form, so that no error accumulates. Read by animate_movers.
 struct Mover {
     Pose start_ws;
-    Vec3 velocity_ws_mps = Vec3::Zero();  // at time 0
+    Vec3 velocity_ws_mps = Vec3::Zero();  // velocity at time 0
     Vec3 angular_velocity_ws_radps = Vec3::Zero();
     bool turns_with_body = false;  // true: the velocity is constant in the body's frame
 };

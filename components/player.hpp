@@ -51,7 +51,7 @@ struct ReferenceVelocity {
 struct HeadIgnores {
     static constexpr std::size_t k_capacity = 8;
     std::array<Entity, k_capacity> bodies;  // null: unused
-    std::uint32_t next = 0;                 // the place that is overwritten next
+    std::uint32_t next = 0;                 // index of the place that is overwritten next
 };
 
 }  // namespace handhold

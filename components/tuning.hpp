@@ -20,7 +20,7 @@ struct TrackingTuning {
 struct HandTuning {
     Vec3 controller_offset_m = Vec3(0.0, 0.0, 0.09);  // right hand
     double controller_pitch_rad = -0.35;
-    Vec3 palm_center_m = Vec3(0.0, -0.014, -0.08);  // in hand space
+    Vec3 palm_center_m = Vec3(0.0, -0.014, -0.08);  // point in hand space
     double ray_back_m = 0.03;
     double ray_length_m = 0.15;
     double reach_m = 0.10;
@@ -79,7 +79,7 @@ struct ThumbTuning {
 
 struct HeadTuning {
     double radius_m = 0.11;
-    Vec3 center_m = Vec3(0.0, 0.0, 0.05);  // in the tracked head's frame
+    Vec3 center_m = Vec3(0.0, 0.0, 0.05);  // point in the tracked head's frame
     double restitution = 0.2;
     double friction = 0.0;
 };
