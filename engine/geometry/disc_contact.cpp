@@ -196,7 +196,7 @@ class ChainCloser {
     // Adds the pairs that come near for the first time in this interval. Most pairs do not; they
     // cost one test per four segments.
     void add_near(const LinkSweeps& sweeps, double at, bool is_later) {
-        constexpr double k_float_rounding_m = 1e-5;  // bound for coordinates below 50 m
+        constexpr double k_float_rounding_m = 1e-5;  // holds for coordinates below 50 m
         for (std::size_t link = links_.first_free_hinge(); link < chain_.link_count; ++link) {
             if (max_radius_m_[link] < 0.0) {
                 continue;
