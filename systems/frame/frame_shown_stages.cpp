@@ -53,32 +53,30 @@ void gather_surroundings(const FrameContext& f) {
     }
     f.hands().surroundings.resize(w.hand_owner.size());
     f.hands().traces.assign(w.hand_owner.size(), {});
-    const Column<BodySurface>* const own_surfaces =
-        f.caches.body_surfaces.empty() ? nullptr : &f.caches.body_surfaces;
-    const bool has_all_colliders = !f.caches.host_surfaces && own_surfaces == nullptr;
+    const bool has_all_colliders = !f.caches.host_surfaces && f.caches.body_surfaces.empty();
     const GatherSurroundingsIo io{
-        f.caches.meshes_for_hands,
-        f.caches.hand_rigs,
-        f.graph().entities,
-        w.persistent_id,
-        w.hand_owner,
-        w.hand_tracking,
-        w.grab,
-        w.player_origin,
-        w.head_tracking,
-        w.body_pose,
-        w.collider,
-        w.authored_hold,
-        f.hands().surroundings,
-        &w.hand_rig,
-        f.caches.more_hand_rigs,
-        own_surfaces,
-        has_all_colliders ? &f.collision() : nullptr,
-        f.graph().proxies,
-        &w.body_hold,
-        f.caches.meshes_for_hands != nullptr ? &f.caches.part_meshes : nullptr,
-        &w.render_pose,
-        &w.body_measures};
+        .meshes = {.of_shapes = f.caches.meshes_for_hands,
+                   .of_bodies = f.caches.body_surfaces,
+                   .of_parts = f.caches.part_meshes},
+        .rigs = f.caches.hand_rigs,
+        .more_rigs = f.caches.more_hand_rigs,
+        .rig_choice = w.hand_rig,
+        .near = {.bodies = f.graph().entities,
+                 .collision = has_all_colliders ? &f.collision() : nullptr,
+                 .proxies = f.graph().proxies},
+        .persistent_id = w.persistent_id,
+        .owner = w.hand_owner,
+        .hand = w.hand_tracking,
+        .grab = w.grab,
+        .body_hold = w.body_hold,
+        .origin = w.player_origin,
+        .head = w.head_tracking,
+        .shown = w.render_pose,
+        .measures = w.body_measures,
+        .body_pose = w.body_pose,
+        .collider = w.collider,
+        .authored_hold = w.authored_hold,
+        .surroundings = f.hands().surroundings};
     for_hand_slices(f, [&io](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
         handhold::gather_surroundings(io, first, last, slice.stats);
     });
@@ -87,7 +85,10 @@ void gather_surroundings(const FrameContext& f) {
 void search_grip(const FrameContext& f) {
     const StageTimer timer(Stage::search_grip, f.stats);
     for_hand_slices(f, [&f](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
-        handhold::search_grip({f.dt_s(), hands_of(f, first, last), f.w.grip_surface, slice.search},
+        handhold::search_grip({.dt_s = f.dt_s(),
+                               .hands = hands_of(f, first, last),
+                               .surface = f.w.grip_surface,
+                               .scratch = slice.search},
                               f.tuning, slice.stats);
     });
 }
@@ -96,8 +97,9 @@ void constrain_palms(const FrameContext& f) {
     const StageTimer timer(Stage::constrain_palms, f.stats);
     World& w = f.w;
     for_hand_slices(f, [&](HandScratch::Slice& /*slice*/, std::size_t first, std::size_t last) {
-        handhold::constrain_palms({hands_of(f, first, last), w.grip_surface, w.palm_offset},
-                                  f.tuning);
+        handhold::constrain_palms(
+            {.hands = hands_of(f, first, last), .surface = w.grip_surface, .offset = w.palm_offset},
+            f.tuning);
     });
 }
 
@@ -105,10 +107,13 @@ void sweep_fingers(const FrameContext& f) {
     const StageTimer timer(Stage::sweep_fingers, f.stats);
     World& w = f.w;
     for_hand_slices(f, [&](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
-        handhold::sweep_fingers(
-            {hands_of(f, first, last), w.grip_surface, w.palm_offset, w.finger_pose,
-             std::span(f.hands().traces).subspan(first, last - first), slice.fit},
-            f.tuning, slice.stats);
+        handhold::sweep_fingers({.hands = hands_of(f, first, last),
+                                 .surface = w.grip_surface,
+                                 .offset = w.palm_offset,
+                                 .fingers = w.finger_pose,
+                                 .traces = std::span(f.hands().traces).subspan(first, last - first),
+                                 .scratch = slice.fit},
+                                f.tuning, slice.stats);
     });
 }
 
@@ -116,8 +121,13 @@ void fit_hands(const FrameContext& f) {
     const StageTimer timer(Stage::fit_hands, f.stats);
     World& w = f.w;
     for_hand_slices(f, [&](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
-        handhold::fit_hands({f.dt_s(), hands_of(f, first, last), w.hand_tracking, w.grip_surface,
-                             w.palm_offset, w.finger_pose, w.palm_pose},
+        handhold::fit_hands({.dt_s = f.dt_s(),
+                             .hands = hands_of(f, first, last),
+                             .hand = w.hand_tracking,
+                             .surface = w.grip_surface,
+                             .offset = w.palm_offset,
+                             .fingers = w.finger_pose,
+                             .palm = w.palm_pose},
                             f.tuning, slice.stats);
     });
 }
