@@ -64,9 +64,15 @@ void show_host_frame(World& world, FrameCaches& caches, const Tuning& tuning,
     caches.graph.contacts.clear();
     caches.graph.graph.blocks.clear();
     caches.graph.push_backs.clear();
-    keep_holds({world.reference_velocity_mps, world.hand_owner, world.hand_tracking, world.body,
-                world.body_pose, world.body_velocity, world.player_origin, world.grab,
-                world.reference_velocity});
+    keep_holds({.scene_velocity_mps = world.reference_velocity_mps,
+                .owner = world.hand_owner,
+                .hand = world.hand_tracking,
+                .body = world.body,
+                .body_pose = world.body_pose,
+                .body_velocity = world.body_velocity,
+                .origin = world.player_origin,
+                .grab = world.grab,
+                .reference = world.reference_velocity});
 
     show_hands(f);
     show_bodies(f);

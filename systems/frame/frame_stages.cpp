@@ -29,9 +29,15 @@ namespace handhold::stages {
 void read_tracking(const FrameContext& f) {
     const StageTimer timer(Stage::read_tracking, f.stats);
     World& w = f.w;
-    const ReadTrackingIo io{f.input.players, f.start_s(),          f.end_s(),
-                            w.hand_owner,    w.controller_to_hand, w.head_tracking,
-                            w.hand_tracking, w.hand_history,       w.player_commands};
+    const ReadTrackingIo io{.inputs = f.input.players,
+                            .frame_start_s = f.start_s(),
+                            .frame_end_s = f.end_s(),
+                            .owner = w.hand_owner,
+                            .controller_to_hand = w.controller_to_hand,
+                            .head = w.head_tracking,
+                            .hand = w.hand_tracking,
+                            .history = w.hand_history,
+                            .commands = w.player_commands};
     for_slices(f, w.head_tracking.size(),
                [&](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
                    handhold::read_tracking(io, first, last, f.tuning, slice.stats);
@@ -41,14 +47,15 @@ void read_tracking(const FrameContext& f) {
 void read_paused_tracking(const FrameContext& f) {
     const StageTimer timer(Stage::read_tracking, f.stats);
     World& w = f.w;
-    handhold::read_paused_tracking({f.input.players,
-                                    w.hand_owner,
-                                    w.controller_to_hand,
-                                    w.head_tracking,
-                                    w.hand_tracking,
-                                    w.hand_history,
-                                    {default_controller_to_hand(HandSide::left, f.tuning.hand),
-                                     default_controller_to_hand(HandSide::right, f.tuning.hand)}});
+    handhold::read_paused_tracking(
+        {.inputs = f.input.players,
+         .owner = w.hand_owner,
+         .controller_to_hand = w.controller_to_hand,
+         .head = w.head_tracking,
+         .hand = w.hand_tracking,
+         .history = w.hand_history,
+         .hand_in_controller = {default_controller_to_hand(HandSide::left, f.tuning.hand),
+                                default_controller_to_hand(HandSide::right, f.tuning.hand)}});
 }
 
 void calibrate_players(const FrameContext& f) {
@@ -75,31 +82,39 @@ void place_colliders(const FrameContext& f, Stage needed_by) {
                               f.tuning.head);
 }
 
+namespace {
+
+GrabRules grab_rules(const World& w) {
+    return {.rule = w.grab_rule, .layers = w.grab_layers, .filter = w.filter};
+}
+
+}  // namespace
+
 GrabSearch grab_search(const FrameContext& f) {
     World& w = f.w;
-    return {f.surfaces(),
-            w.persistent_id,
-            w.hand_owner,
-            w.hand_tracking,
-            w.player_origin,
-            w.head_tracking,
-            w.body,
-            w.body_pose,
-            f.graph().joint_groups,
-            w.authored_grips,
-            w.hand_pull,
-            w.reference_velocity,
-            w.hand_sight,
-            w.grab,
-            w.authored_hold,
-            w.head_ignores,
-            {&w.grab_rule, &w.grab_layers, &w.filter},
-            &w.grab_order,
-            f.start_s(),
-            f.dt_s(),
-            &w.render_pose,
-            &w.body_measures,
-            &w.body_hold};
+    return {.start_s = f.start_s(),
+            .dt_s = f.dt_s(),
+            .surfaces = f.surfaces(),
+            .persistent_id = w.persistent_id,
+            .owner = w.hand_owner,
+            .hand = w.hand_tracking,
+            .origin = w.player_origin,
+            .head = w.head_tracking,
+            .body = w.body,
+            .body_pose = w.body_pose,
+            .joint_groups = f.graph().joint_groups,
+            .authored_grips = w.authored_grips,
+            .rules = grab_rules(w),
+            .shown = w.render_pose,
+            .measures = w.body_measures,
+            .pull = w.hand_pull,
+            .reference = w.reference_velocity,
+            .sight = w.hand_sight,
+            .grab = w.grab,
+            .authored_hold = w.authored_hold,
+            .head_ignores = w.head_ignores,
+            .body_hold = w.body_hold,
+            .order = w.grab_order};
 }
 
 void update_grabs(const FrameContext& f) {
@@ -115,32 +130,41 @@ void update_sights(const FrameContext& f) {
 void locomote_players(const FrameContext& f) {
     const StageTimer timer(Stage::locomote_players, f.stats);
     World& w = f.w;
-    handhold::locomote_players(
-        {f.dt_s(), w.reference_velocity_mps, w.player_commands, w.head_tracking, w.hand_owner,
-         w.hand_tracking, w.grab, w.body_pose, w.body_velocity, w.player_origin, w.player_velocity,
-         w.reference_velocity, &w.body_hold},
-        f.tuning.locomotion);
+    handhold::locomote_players({.dt_s = f.dt_s(),
+                                .scene_velocity_mps = w.reference_velocity_mps,
+                                .commands = w.player_commands,
+                                .head = w.head_tracking,
+                                .owner = w.hand_owner,
+                                .hand = w.hand_tracking,
+                                .grab = w.grab,
+                                .body_pose = w.body_pose,
+                                .body_velocity = w.body_velocity,
+                                .origin = w.player_origin,
+                                .velocity = w.player_velocity,
+                                .reference = w.reference_velocity,
+                                .body_hold = w.body_hold},
+                               f.tuning.locomotion);
 }
 
 void pull_bodies(const FrameContext& f) {
     const StageTimer timer(Stage::locomote_players, f.stats);
     World& w = f.w;
-    handhold::pull_bodies({f.dt_s(),
-                           f.surfaces(),
-                           w.persistent_id,
-                           w.hand_owner,
-                           w.hand_tracking,
-                           w.grab,
-                           w.hand_sight,
-                           w.player,
-                           w.player_origin,
-                           w.body,
-                           w.body_pose,
-                           f.graph().joint_groups,
-                           w.hand_pull,
-                           w.body_velocity,
-                           w.player_velocity,
-                           {&w.grab_rule, &w.grab_layers, &w.filter}},
+    handhold::pull_bodies({.dt_s = f.dt_s(),
+                           .surfaces = f.surfaces(),
+                           .persistent_id = w.persistent_id,
+                           .owner = w.hand_owner,
+                           .hand = w.hand_tracking,
+                           .grab = w.grab,
+                           .sight = w.hand_sight,
+                           .player = w.player,
+                           .origin = w.player_origin,
+                           .body = w.body,
+                           .body_pose = w.body_pose,
+                           .joint_groups = f.graph().joint_groups,
+                           .rules = grab_rules(w),
+                           .pull = w.hand_pull,
+                           .body_velocity = w.body_velocity,
+                           .player_velocity = w.player_velocity},
                           f.tuning, f.stats);
 }
 
@@ -164,11 +188,23 @@ void predict_bodies(const FrameContext& f) {
 void anchor_grabs(const FrameContext& f) {
     const StageTimer timer(Stage::anchor_grabs, f.stats);
     World& w = f.w;
-    handhold::anchor_grabs(
-        {f.start_s(), f.end_s(), w.hand_owner, w.hand_tracking, w.hand_history, w.player_start,
-         w.player_origin, w.head_tracking, w.body_start, w.body_pose, w.authored_hold, w.body,
-         w.joint, w.joint_state, w.grab, &w.body_hold},
-        f.tuning, f.stats);
+    handhold::anchor_grabs({.start_s = f.start_s(),
+                            .end_s = f.end_s(),
+                            .owner = w.hand_owner,
+                            .hand = w.hand_tracking,
+                            .hand_history = w.hand_history,
+                            .player_start = w.player_start,
+                            .origin = w.player_origin,
+                            .head = w.head_tracking,
+                            .body_start = w.body_start,
+                            .body_pose = w.body_pose,
+                            .authored_hold = w.authored_hold,
+                            .body = w.body,
+                            .joint = w.joint,
+                            .joint_state = w.joint_state,
+                            .body_hold = w.body_hold,
+                            .grab = w.grab},
+                           f.tuning, f.stats);
 }
 
 // --- Constraints and solve -----------------------------------------------------------------------
