@@ -137,55 +137,94 @@ void fit_hands(const FrameContext& f) {
 void estimate_arms(const FrameContext& f) {
     const StageTimer timer(Stage::estimate_arms, f.stats);
     World& w = f.w;
-    handhold::estimate_arms({f.dt_s(), w.player_origin, w.head_tracking, w.body_measures,
-                             w.hand_owner, w.palm_pose, w.arm_memory, w.arm_estimate},
+    handhold::estimate_arms({.dt_s = f.dt_s(),
+                             .origin = w.player_origin,
+                             .head = w.head_tracking,
+                             .measures = w.body_measures,
+                             .owner = w.hand_owner,
+                             .palm = w.palm_pose,
+                             .memory = w.arm_memory,
+                             .estimate = w.arm_estimate},
                             f.tuning.arm);
 }
 
 void layer_clavicles(const FrameContext& f) {
     const StageTimer timer(Stage::layer_additives, f.stats);
-    handhold::layer_clavicles({f.caches.body_clips, f.w.body_measures, f.w.arm_estimate},
-                              f.tuning.additive, f.tuning.arm);
+    handhold::layer_clavicles(
+        {.clips = f.caches.body_clips, .measures = f.w.body_measures, .estimate = f.w.arm_estimate},
+        f.tuning.additive, f.tuning.arm);
 }
 
 void pose_arms(const FrameContext& f) {
     const StageTimer timer(Stage::pose_arms, f.stats);
     World& w = f.w;
-    handhold::pose_arms(
-        {w.player_origin, w.body_measures, w.hand_owner, w.palm_pose, w.arm_estimate, w.arm_pose});
+    handhold::pose_arms({.origin = w.player_origin,
+                         .measures = w.body_measures,
+                         .owner = w.hand_owner,
+                         .palm = w.palm_pose,
+                         .estimate = w.arm_estimate,
+                         .arms = w.arm_pose});
 }
 
 void propagate_spine(const FrameContext& f) {
     const StageTimer timer(Stage::propagate_spine, f.stats);
     World& w = f.w;
-    handhold::propagate_spine(
-        {f.dt_s(), f.end_s(), w.player_origin, w.player_velocity, w.reference_velocity,
-         w.body_measures, w.arm_estimate, w.spine_memory, w.spine_pose, f.surfaces(),
-         &w.head_tracking, &w.persistent_id, &w.hand_owner, &w.grab, &w.body_hold},
-        f.tuning.spine);
+    handhold::propagate_spine({.dt_s = f.dt_s(),
+                               .t_s = f.end_s(),
+                               .surfaces = f.surfaces(),
+                               .persistent_id = w.persistent_id,
+                               .origin = w.player_origin,
+                               .velocity = w.player_velocity,
+                               .reference = w.reference_velocity,
+                               .head = w.head_tracking,
+                               .measures = w.body_measures,
+                               .estimate = w.arm_estimate,
+                               .owner = w.hand_owner,
+                               .grab = w.grab,
+                               .body_hold = w.body_hold,
+                               .memory = w.spine_memory,
+                               .pose = w.spine_pose},
+                              f.tuning.spine);
 }
 
 void layer_additives(const FrameContext& f) {
     const StageTimer timer(Stage::layer_additives, f.stats);
     World& w = f.w;
-    handhold::layer_additives({f.dt_s(), f.caches.body_clips, w.head_tracking, w.player_velocity,
-                               w.reference_velocity, w.hand_owner, w.grab, w.arm_estimate,
-                               w.body_clip_state, w.spine_pose, &w.spine_memory, &w.player_origin},
+    handhold::layer_additives({.dt_s = f.dt_s(),
+                               .clips = f.caches.body_clips,
+                               .head = w.head_tracking,
+                               .origin = w.player_origin,
+                               .velocity = w.player_velocity,
+                               .reference = w.reference_velocity,
+                               .owner = w.hand_owner,
+                               .grab = w.grab,
+                               .estimate = w.arm_estimate,
+                               .memory = w.spine_memory,
+                               .state = w.body_clip_state,
+                               .pose = w.spine_pose},
                               f.tuning.additive);
 }
 
 void publish_pose(const FrameContext& f) {
     const StageTimer timer(Stage::publish_pose, f.stats);
     World& w = f.w;
-    handhold::publish_pose(
-        {f.graph().push_backs, w.player_origin, w.head_tracking, w.hand_owner, w.hand_tracking,
-         w.grab, w.palm_pose, w.finger_pose, w.authored_hold, w.render_pose},
-        f.tuning);
+    handhold::publish_pose({.push_backs = f.graph().push_backs,
+                            .origin = w.player_origin,
+                            .head = w.head_tracking,
+                            .owner = w.hand_owner,
+                            .hand = w.hand_tracking,
+                            .grab = w.grab,
+                            .palm = w.palm_pose,
+                            .fingers = w.finger_pose,
+                            .authored_hold = w.authored_hold,
+                            .render = w.render_pose},
+                           f.tuning);
 }
 
 void publish_body(const FrameContext& f) {
     const StageTimer timer(Stage::publish_pose, f.stats);
-    handhold::publish_body({f.w.arm_pose, f.w.spine_pose, f.w.render_pose});
+    handhold::publish_body(
+        {.arms = f.w.arm_pose, .spine = f.w.spine_pose, .render = f.w.render_pose});
 }
 
 // --- Groups of stages ----------------------------------------------------------------------------

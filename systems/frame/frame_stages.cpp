@@ -61,8 +61,13 @@ void read_paused_tracking(const FrameContext& f) {
 void calibrate_players(const FrameContext& f) {
     const StageTimer timer(Stage::calibrate_players, f.stats);
     World& w = f.w;
-    handhold::calibrate_players({f.dt_s(), w.player_commands, w.head_tracking, w.hand_owner,
-                                 w.hand_tracking, w.calibration, w.body_measures},
+    handhold::calibrate_players({.dt_s = f.dt_s(),
+                                 .commands = w.player_commands,
+                                 .head = w.head_tracking,
+                                 .owner = w.hand_owner,
+                                 .hand = w.hand_tracking,
+                                 .calibration = w.calibration,
+                                 .measures = w.body_measures},
                                 f.tuning.calibration);
 }
 
