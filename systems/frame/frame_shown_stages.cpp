@@ -227,29 +227,4 @@ void publish_body(const FrameContext& f) {
         {.arms = f.w.arm_pose, .spine = f.w.spine_pose, .render = f.w.render_pose});
 }
 
-// --- Groups of stages ----------------------------------------------------------------------------
-
-// Palms and fingers on what they hold.
-void show_hands(const FrameContext& f) {
-    gather_surroundings(f);
-    search_grip(f);
-    constrain_palms(f);
-    sweep_fingers(f);
-    fit_hands(f);
-}
-
-// Arms, spine and legs between head and hands.
-void show_bodies(const FrameContext& f) {
-    estimate_arms(f);
-    layer_clavicles(f);
-    pose_arms(f);
-    propagate_spine(f);
-    layer_additives(f);
-}
-
-void publish(const FrameContext& f) {
-    publish_pose(f);
-    publish_body(f);
-}
-
 }  // namespace handhold::stages

@@ -4,6 +4,7 @@
 #include "systems/frame/frame_slices.hpp"
 #include "systems/frame/frame_stage_timer.hpp"
 #include "systems/grab/anchor_grabs.hpp"
+#include "systems/grab/keep_holds.hpp"
 #include "systems/grab/pull_bodies.hpp"
 #include "systems/grab/update_grabs.hpp"
 #include "systems/input/read_paused_tracking.hpp"
@@ -222,6 +223,8 @@ void find_contacts(const FrameContext& f) {
                             f.tuning.contact);
 }
 
+void clear_contacts(const FrameContext& f) { f.graph().contacts.clear(); }
+
 void build_constraints(const FrameContext& f) {
     const StageTimer timer(Stage::build_constraints, f.stats);
     World& w = f.w;
@@ -273,6 +276,34 @@ void discard_broken_results(const FrameContext& f) {
         {w.body_start, w.player_start, w.body_pose, w.body_velocity, w.player_origin,
          w.player_velocity, w.last_valid, w.joint_state, w.grab, f.graph()},
         f.stats);
+}
+
+// --- Frames that a host solves -------------------------------------------------------------------
+
+void accept_solution(const FrameContext& f, std::span<const SolvedPlayer> solved) {
+    World& w = f.w;
+    f.stats.hand_error_m =
+        handhold::accept_solution({solved, w.body_pose, w.body_velocity, f.graph(), w.player_origin,
+                                   w.player_velocity, w.grab, w.last_valid});
+}
+
+void clear_solution(const FrameContext& f) {
+    clear_contacts(f);
+    f.graph().graph.blocks.clear();
+    f.graph().push_backs.clear();
+}
+
+void keep_holds(const FrameContext& f) {
+    World& w = f.w;
+    handhold::keep_holds({.scene_velocity_mps = w.reference_velocity_mps,
+                          .owner = w.hand_owner,
+                          .hand = w.hand_tracking,
+                          .body = w.body,
+                          .body_pose = w.body_pose,
+                          .body_velocity = w.body_velocity,
+                          .origin = w.player_origin,
+                          .grab = w.grab,
+                          .reference = w.reference_velocity});
 }
 
 }  // namespace handhold::stages
