@@ -74,7 +74,8 @@ void calibrate_players(const FrameContext& f) {
 
 void group_joints(const FrameContext& f) {
     const StageTimer timer(Stage::group_joints, f.stats);
-    handhold::group_joints({f.w.joint, f.w.body, f.graph()}, f.tuning.phases);
+    handhold::group_joints({.joint = f.w.joint, .body = f.w.body, .frame = f.graph()},
+                           f.tuning.phases);
 }
 
 // Runs twice per frame. Each run's time is added to `needed_by`, the stage that needs the
@@ -82,9 +83,19 @@ void group_joints(const FrameContext& f) {
 void place_colliders(const FrameContext& f, Stage needed_by) {
     const StageTimer timer(needed_by, f.stats);
     World& w = f.w;
-    handhold::place_colliders({w.persistent_id, w.collider, w.body, w.body_pose, w.body_start,
-                               w.player_origin, w.player_start, w.head_tracking, w.last_valid,
-                               f.collision(), f.graph(), &w.filter, &w.body_velocity},
+    handhold::place_colliders({.persistent_id = w.persistent_id,
+                               .collider = w.collider,
+                               .filter = w.filter,
+                               .body = w.body,
+                               .body_pose = w.body_pose,
+                               .body_start = w.body_start,
+                               .body_velocity = w.body_velocity,
+                               .origin = w.player_origin,
+                               .player_start = w.player_start,
+                               .head = w.head_tracking,
+                               .last_valid = w.last_valid,
+                               .collision = f.collision(),
+                               .frame = f.graph()},
                               f.tuning.head);
 }
 
@@ -179,16 +190,30 @@ void pull_bodies(const FrameContext& f) {
 void animate_movers(const FrameContext& f) {
     const StageTimer timer(Stage::animate_movers, f.stats);
     World& w = f.w;
-    handhold::animate_movers({f.end_s(), w.mover, w.path_mover, w.leg_mover, w.body_pose,
-                              w.body_start, w.body_velocity, &w.move_target, f.dt_s()});
+    handhold::animate_movers({.dt_s = f.dt_s(),
+                              .end_s = f.end_s(),
+                              .mover = w.mover,
+                              .path_mover = w.path_mover,
+                              .leg_mover = w.leg_mover,
+                              .target = w.move_target,
+                              .body_pose = w.body_pose,
+                              .body_start = w.body_start,
+                              .velocity = w.body_velocity});
 }
 
 void predict_bodies(const FrameContext& f) {
     const StageTimer timer(Stage::predict_bodies, f.stats);
     World& w = f.w;
-    handhold::predict_bodies({f.dt_s(), w.body, w.player_velocity, w.body_pose, w.body_start,
-                              w.body_velocity, w.player_origin, w.player_start, w.gravity_mps2,
-                              &w.gravity_scale});
+    handhold::predict_bodies({.dt_s = f.dt_s(),
+                              .gravity_mps2 = w.gravity_mps2,
+                              .gravity_scale = w.gravity_scale,
+                              .body = w.body,
+                              .player_velocity = w.player_velocity,
+                              .body_pose = w.body_pose,
+                              .body_start = w.body_start,
+                              .body_velocity = w.body_velocity,
+                              .origin = w.player_origin,
+                              .player_start = w.player_start});
 }
 
 void anchor_grabs(const FrameContext& f) {
@@ -218,8 +243,14 @@ void anchor_grabs(const FrameContext& f) {
 void find_contacts(const FrameContext& f) {
     const StageTimer timer(Stage::find_contacts, f.stats);
     World& w = f.w;
-    handhold::find_contacts({w.persistent_id, w.body, w.joint, w.head_tracking, w.hand_owner,
-                             w.grab, f.collision(), w.head_ignores, f.graph()},
+    handhold::find_contacts({.persistent_id = w.persistent_id,
+                             .body = w.body,
+                             .joint = w.joint,
+                             .owner = w.hand_owner,
+                             .grab = w.grab,
+                             .collision = f.collision(),
+                             .head_ignores = w.head_ignores,
+                             .frame = f.graph()},
                             f.tuning.contact);
 }
 
@@ -237,14 +268,20 @@ void build_constraints(const FrameContext& f) {
 
 void solve_phases(const FrameContext& f) {
     const StageTimer timer(Stage::solve_phases, f.stats);
-    handhold::solve_phases({f.collision(), f.graph()}, f.tuning, f.stats);
+    handhold::solve_phases({.collision = f.collision(), .frame = f.graph()}, f.tuning, f.stats);
 }
 
 void finish_positions(const FrameContext& f) {
     const StageTimer timer(Stage::solve_phases, f.stats);
     World& w = f.w;
-    handhold::finish_positions({f.collision(), f.graph(), w.body_pose, w.player_origin, w.grab,
-                                f.dt_s(), w.head_tracking, w.player_velocity},
+    handhold::finish_positions({.dt_s = f.dt_s(),
+                                .head = w.head_tracking,
+                                .player_velocity = w.player_velocity,
+                                .collision = f.collision(),
+                                .frame = f.graph(),
+                                .body_pose = w.body_pose,
+                                .origin = w.player_origin,
+                                .grab = w.grab},
                                f.tuning.contact, f.tuning.head, f.stats);
 }
 
@@ -259,32 +296,49 @@ void update_velocities(const FrameContext& f) {
 void limit_velocities(const FrameContext& f) {
     const StageTimer timer(Stage::update_velocities, f.stats);
     World& w = f.w;
-    handhold::limit_velocities(
-        {w.hand_owner, w.reference_velocity, f.graph(), w.body_velocity, w.player_velocity, w.grab},
-        f.tuning.locomotion, f.stats);
+    handhold::limit_velocities({.owner = w.hand_owner,
+                                .reference = w.reference_velocity,
+                                .frame = f.graph(),
+                                .body_velocity = w.body_velocity,
+                                .player_velocity = w.player_velocity,
+                                .grab = w.grab},
+                               f.tuning.locomotion, f.stats);
 }
 
 void update_joints(const FrameContext& f) {
     const StageTimer timer(Stage::update_joints, f.stats);
-    handhold::update_joints({f.dt_s(), f.graph(), f.w.joint, f.w.joint_state});
+    handhold::update_joints(
+        {.dt_s = f.dt_s(), .frame = f.graph(), .joint = f.w.joint, .state = f.w.joint_state});
 }
 
 void discard_broken_results(const FrameContext& f) {
     const StageTimer timer(Stage::update_joints, f.stats);
     World& w = f.w;
-    handhold::discard_broken_results(
-        {w.body_start, w.player_start, w.body_pose, w.body_velocity, w.player_origin,
-         w.player_velocity, w.last_valid, w.joint_state, w.grab, f.graph()},
-        f.stats);
+    handhold::discard_broken_results({.body_start = w.body_start,
+                                      .player_start = w.player_start,
+                                      .body_pose = w.body_pose,
+                                      .body_velocity = w.body_velocity,
+                                      .player_origin = w.player_origin,
+                                      .player_velocity = w.player_velocity,
+                                      .last_valid = w.last_valid,
+                                      .joint_state = w.joint_state,
+                                      .grab = w.grab,
+                                      .frame = f.graph()},
+                                     f.stats);
 }
 
 // --- Frames that a host solves -------------------------------------------------------------------
 
 void accept_solution(const FrameContext& f, std::span<const SolvedPlayer> solved) {
     World& w = f.w;
-    f.stats.hand_error_m =
-        handhold::accept_solution({solved, w.body_pose, w.body_velocity, f.graph(), w.player_origin,
-                                   w.player_velocity, w.grab, w.last_valid});
+    f.stats.hand_error_m = handhold::accept_solution({.players = solved,
+                                                      .body_pose = w.body_pose,
+                                                      .body_velocity = w.body_velocity,
+                                                      .frame = f.graph(),
+                                                      .origin = w.player_origin,
+                                                      .velocity = w.player_velocity,
+                                                      .grab = w.grab,
+                                                      .last_valid = w.last_valid});
 }
 
 void clear_solution(const FrameContext& f) {
