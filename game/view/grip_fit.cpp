@@ -32,11 +32,25 @@ FittedGrip fit_grip(const GripMesh& mesh, const HandRig& rig, const Pose& wrist_
     GripSearchScratch search;
     ChainFitScratch fit;
     StageStats stats;
-    search_grip({k_at_once_s, hands, surface, search}, tuning, stats);
-    constrain_palms({hands, surface, offset}, tuning);
-    sweep_fingers({hands, surface, offset, fingers, {}, fit}, tuning, stats);
+    search_grip({.dt_s = k_at_once_s, .hands = hands, .surface = surface, .scratch = search},
+                tuning, stats);
+    constrain_palms({.hands = hands, .surface = surface, .offset = offset}, tuning);
+    sweep_fingers({.hands = hands,
+                   .surface = surface,
+                   .offset = offset,
+                   .fingers = fingers,
+                   .traces = {},
+                   .scratch = fit},
+                  tuning, stats);
     for (int frame = 0; frame < k_max_frames && !fingers.at(hand).is_converged; ++frame) {
-        fit_hands({k_at_once_s, hands, tracking, surface, offset, fingers, palm}, tuning, stats);
+        fit_hands({.dt_s = k_at_once_s,
+                   .hands = hands,
+                   .hand = tracking,
+                   .surface = surface,
+                   .offset = offset,
+                   .fingers = fingers,
+                   .palm = palm},
+                  tuning, stats);
     }
     FittedGrip fitted;
     fitted.wrist_bs = palm.at(hand).pose_ws;

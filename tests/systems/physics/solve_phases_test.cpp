@@ -48,7 +48,7 @@ struct Phases {
         }
         frame.position_solver = &fake_solver;
     }
-    void solve() { solve_phases({collision, frame}, tuning, stats); }
+    void solve() { solve_phases({.collision = collision, .frame = frame}, tuning, stats); }
 };
 
 TEST(SolvePhases, CountsLoadSteppingByItsResult) {
