@@ -63,7 +63,7 @@ hh_hit hit_of(const hh_world& host, const Found& found) {
     return hit;
 }
 
-// Runs a query that finds at most one thing.
+// Runs a query that finds at most one surface.
 template <typename Query>
 hh_result find_one(hh_world* world, hh_player skip, hh_hit* hit, const Query& query) {
     return call([&] {
