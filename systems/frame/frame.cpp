@@ -32,7 +32,9 @@ void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const F
     build_constraints(f);
     solve_phases(f);
     finish_positions(f);
-    update_velocities(f);
+    solve_velocities(f);
+    book_momentum(f);
+    record_valid_poses(f);
     limit_velocities(f);
     update_joints(f);
     discard_broken_results(f);

@@ -391,8 +391,8 @@ VelocityResult solve_island(const IslandView& island, const VelocitySettings& se
 
 }  // namespace
 
-VelocityResult solve_velocities(const IslandView& island, const VelocitySettings& settings,
-                                SolveScratch& scratch) {
+VelocityResult solve_island_velocities(const IslandView& island, const VelocitySettings& settings,
+                                       SolveScratch& scratch) {
     const FlushDenormals flush;
     const VelocityResult result = solve_island(island, settings, scratch);
     drop_negligible(island);

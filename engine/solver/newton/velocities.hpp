@@ -20,7 +20,7 @@ struct VelocityResult {
 //   contacts   v_n >= -e v_n(before); e: restitution, 0 for slow impacts
 //   friction   |impulse| <= limit, opposing the slip
 // Writes the bodies' velocities, the blocks' impulses and the impulses of locked joints.
-VelocityResult solve_velocities(const IslandView& island, const VelocitySettings& settings,
-                                SolveScratch& scratch);
+VelocityResult solve_island_velocities(const IslandView& island, const VelocitySettings& settings,
+                                       SolveScratch& scratch);
 
 }  // namespace handhold

@@ -9,53 +9,6 @@
 namespace handhold {
 namespace {
 
-// Factor on a body's inverse mass in a phase, in [0, 1].
-double share_of(const FrameGraph& frame, const Island& island, std::uint32_t index, Phase phase) {
-    const SolverBody& body = frame.graph.bodies[index];
-    const FrameGraph::PhaseBody& info = frame.phase[index];
-    const bool is_held_still = phase == Phase::backward && body.in_heap;
-    switch (body.role) {
-        case BodyRole::fixed:
-            return 0.0;
-        case BodyRole::free:
-            return is_held_still ? 0.0 : 1.0;
-        case BodyRole::heavy:
-            return phase == Phase::forward || phase == Phase::relax || is_held_still ? 0.0 : 1.0;
-        case BodyRole::translating:
-            break;
-    }
-    switch (phase) {
-        case Phase::reach:
-            return info.grips_surface ? 1.0 : info.forward_share;
-        case Phase::forward:
-            return info.grips_surface ? 0.0 : info.forward_share;
-        case Phase::relax:
-            return 0.0;
-        case Phase::backward:
-            return 1.0;
-        case Phase::contradiction:
-            break;
-    }
-    // Without grips only their own collider moves a player, and only if the island may push them.
-    const bool touches = std::ranges::any_of(frame.graph.blocks_of(island), [&](std::uint32_t i) {
-        const RowBlock& block = frame.graph.blocks[i];
-        return is_contact(block) && (block.a == index || block.b == index);
-    });
-    return touches && info.pushed ? 1.0 : 0.0;
-}
-
-void set_masses(const Island& island, Phase phase, FrameGraph& frame) {
-    for (const std::uint32_t i : frame.graph.bodies_of(island)) {
-        SolverBody& body = frame.graph.bodies[i];
-        const double share = share_of(frame, island, i, phase);
-        body.inverse_mass = share / body.mass_kg;
-        body.inverse_inertia_bs.setZero();
-        if (body.role != BodyRole::translating && share > 0.0) {
-            body.inverse_inertia_bs = share * body.inertia_kgm2.cwiseInverse();
-        }
-    }
-}
-
 NewtonSettings settings_of(const SolverTuning& tuning, Phase phase) {
     const double hand =
         phase == Phase::forward ? tuning.forward_drive_regularisation : tuning.drive_regularisation;
