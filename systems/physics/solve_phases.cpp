@@ -27,7 +27,9 @@ struct Solve {
     const Tuning& tuning;
     StageStats& stats;
 
-    double violated_m() const { return std::max(k_violated_m, 2.0 * tuning.solver.tolerance_m); }
+    double violated_m() const {
+        return std::max(k_violated_m, 2.0 * tuning.solver.positions.tolerance_m);
+    }
     ConstraintGraph& graph() const { return io.frame.graph; }
     FrameGraph::PhaseBody& phase_of(std::uint32_t body) const { return io.frame.phase[body]; }
 };
@@ -172,7 +174,7 @@ void forward(const Solve& s) {
             return false;
         }
         return has_role(s, island, BodyRole::free) &&
-               (errors.without_drives_m() > s.tuning.solver.tolerance_m ||
+               (errors.without_drives_m() > s.tuning.solver.positions.tolerance_m ||
                 errors.heap_m > k_heap_slack_m);
     });
 }

@@ -14,8 +14,8 @@ namespace {
 VelocitySettings settings_of(const Tuning& tuning) {
     VelocitySettings settings;
     settings.restitution_speed_mps = tuning.contact.restitution_speed_mps;
-    settings.regularisation.contact = tuning.solver.contact_regularisation;
-    settings.regularisation.joint = tuning.solver.joint_regularisation;
+    settings.regularisation.contact = tuning.solver.positions.regularisation.contact;
+    settings.regularisation.joint = tuning.solver.positions.regularisation.joint;
     settings.friction_passes = tuning.solver.friction_passes;
     return settings;
 }
@@ -34,14 +34,19 @@ void solve_islands(FrameGraph& frame, const Tuning& tuning, StageStats& stats) {
         const std::uint32_t i = frame.island_order[order];
         const Island& island = graph.islands[i];
         set_velocity_masses(island, tuning.phases, frame);
+        const WorkBudget budget;
         const IslandView view{
-            BlockFilter::all,        graph.bodies,   graph.blocks,  graph.bodies_of(island),
-            graph.blocks_of(island), graph.revision, island.is_heap};
-        VelocitySettings of_island = settings;
-        of_island.max_work += WorkBudget{}.per_block *
-                              std::min(graph.blocks_of(island).size(), WorkBudget{}.max_blocks);
+            BlockFilter::all,
+            graph.bodies,
+            graph.blocks,
+            graph.bodies_of(island),
+            graph.blocks_of(island),
+            graph.revision,
+            island.is_heap,
+            budget.velocities +
+                budget.per_block * std::min(graph.blocks_of(island).size(), budget.max_blocks)};
         frame.velocity_results[i] =
-            solve_island_velocities(view, of_island, frame.island_scratch[i]);
+            solve_island_velocities(view, settings, frame.island_scratch[i]);
     };
     parallel_for(graph.islands.size(), solve_one);
     for (const VelocityResult& result : frame.velocity_results) {
