@@ -92,7 +92,7 @@ struct FrameGraph {
 
     std::vector<ContactPoint> contacts;  // written by find_contacts, solve_phases
     std::vector<IgnoredPair> ignored;    // written by find_contacts
-    ConstraintGraph graph;  // written by build_constraints, solve_phases, update_velocities
+    ConstraintGraph graph;  // written by build_constraints, solve_phases, solve_velocities
 
     // solve_phases calls this for every island and phase. Measuring tools replace it to compare
     // methods.
@@ -126,7 +126,7 @@ struct FrameGraph {
     };
     // Sorted by island. Within an island, those kept at the first evaluation come first.
     std::vector<PenetratingBody> penetrating_bodies;
-    MissedOverlaps hidden_overlaps;  // written by finish_positions; read by update_velocities
+    MissedOverlaps hidden_overlaps;  // written by finish_positions; read by record_valid_poses
     // Largest errors, by island. After a solve that met all its constraint rows: an upper bound.
     // Otherwise none until something asks for the errors.
     std::vector<std::optional<IslandErrors>> island_errors;

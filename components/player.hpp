@@ -26,7 +26,7 @@ struct PlayerStart {
     Pose pose_ws;
 };
 // Velocity of the play space, without the tracked motion of the head in it. Written by
-// locomote_players, update_velocities and limit_velocities.
+// locomote_players, solve_velocities and limit_velocities.
 struct PlayerVelocity {
     Vec3 linear_mps = Vec3::Zero();
 };

@@ -25,7 +25,9 @@ enum class Stage : std::uint8_t {
     find_contacts,
     build_constraints,
     solve_phases,
-    update_velocities,
+    solve_velocities,  // and limit_velocities
+    book_momentum,
+    record_valid_poses,
     update_joints,
     gather_surroundings,
     search_grip,

@@ -47,7 +47,9 @@ void prepare_solve(const FrameContext& f, Contacts contacts) {
 void solve(const FrameContext& f) {
     solve_phases(f);
     finish_positions(f);
-    update_velocities(f);
+    solve_velocities(f);
+    book_momentum(f);
+    record_valid_poses(f);
 }
 
 // Limits of what the solver, ours or a host's, has found.

@@ -11,6 +11,7 @@
 #include "systems/input/read_tracking.hpp"
 #include "systems/locomotion/locomote_players.hpp"
 #include "systems/physics/animate_movers.hpp"
+#include "systems/physics/book_momentum.hpp"
 #include "systems/physics/build_constraints.hpp"
 #include "systems/physics/discard_broken_results.hpp"
 #include "systems/physics/find_contacts.hpp"
@@ -19,9 +20,10 @@
 #include "systems/physics/limit_velocities.hpp"
 #include "systems/physics/place_colliders.hpp"
 #include "systems/physics/predict_bodies.hpp"
+#include "systems/physics/record_valid_poses.hpp"
 #include "systems/physics/solve_phases.hpp"
+#include "systems/physics/solve_velocities.hpp"
 #include "systems/physics/update_joints.hpp"
-#include "systems/physics/update_velocities.hpp"
 
 namespace handhold::stages {
 
@@ -285,16 +287,24 @@ void finish_positions(const FrameContext& f) {
                                f.tuning.contact, f.tuning.head, f.stats);
 }
 
-void update_velocities(const FrameContext& f) {
-    const StageTimer timer(Stage::update_velocities, f.stats);
-    World& w = f.w;
-    handhold::update_velocities(
-        {w.head_tracking, f.graph(), w.body_velocity, w.player_velocity, w.last_valid}, f.tuning,
-        f.stats);
+void solve_velocities(const FrameContext& f) {
+    const StageTimer timer(Stage::solve_velocities, f.stats);
+    handhold::solve_velocities({f.graph(), f.w.body_velocity, f.w.player_velocity}, f.tuning,
+                               f.stats);
+}
+
+void book_momentum(const FrameContext& f) {
+    const StageTimer timer(Stage::book_momentum, f.stats);
+    handhold::book_momentum(f.graph().graph, f.stats.ledger);
+}
+
+void record_valid_poses(const FrameContext& f) {
+    const StageTimer timer(Stage::record_valid_poses, f.stats);
+    handhold::record_valid_poses({f.w.head_tracking, f.graph(), f.w.last_valid});
 }
 
 void limit_velocities(const FrameContext& f) {
-    const StageTimer timer(Stage::update_velocities, f.stats);
+    const StageTimer timer(Stage::solve_velocities, f.stats);
     World& w = f.w;
     handhold::limit_velocities({.owner = w.hand_owner,
                                 .reference = w.reference_velocity,

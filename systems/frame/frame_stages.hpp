@@ -46,7 +46,9 @@ void clear_contacts(const FrameContext& f);
 void build_constraints(const FrameContext& f);
 void solve_phases(const FrameContext& f);
 void finish_positions(const FrameContext& f);
-void update_velocities(const FrameContext& f);
+void solve_velocities(const FrameContext& f);
+void book_momentum(const FrameContext& f);
+void record_valid_poses(const FrameContext& f);
 void limit_velocities(const FrameContext& f);
 void update_joints(const FrameContext& f);
 // The host's solution, and StageStats::hand_error_m. Its time belongs to no stage.
