@@ -9,7 +9,7 @@
 #include "engine/ecs/column.hpp"
 
 // Solves the velocities of the frame, limits spins, enters impulses into stats.ledger, and records
-// last valid poses. Talk row 7. Stage 9.
+// last valid poses. Talk row 7.
 //
 // One solve over the frame's rows: hands move at their tracked velocities, and bodies in contact do
 // not approach each other. Displacement by depenetration never becomes velocity. Fallbacks counted:
