@@ -41,9 +41,9 @@ struct LayerAdditivesIo {
     Column<SpinePose>& pose;                     // in/out: all bones except the chest
 };
 
-// Stage 15, talk row 24. Adds the turns of the clips to spine and legs, bone by bone from the top.
-// The clips are the idle motion, the push-off after the last hand has let go, and those driven by
-// the look direction. Bones keep their lengths, and knees bend only backwards. The simulated chain
+// Talk row 24. Adds the turns of the clips to spine and legs, bone by bone from the top. The clips
+// are the idle motion, the push-off after the last hand has let go, and those driven by the look
+// direction. Bones keep their lengths, and knees bend only backwards. The simulated chain
 // (SpineMemory) is not affected. At a surface the turns are reduced by a common factor, within a
 // sixth of a second, so that no joint moves farther into it than it already is. Without clips, or
 // with all weights 0, no pose changes.

@@ -30,9 +30,9 @@ struct PropagateSpineIo {
     Column<SpinePose>& pose;                     // out; in: as shown in the last frame
 };
 
-// Stage 14. Simulates spine and legs of every player as a chain of links: motion travels down from
-// the chest, link by link. The chain advances in ticks at multiples of 1/120 s of the world clock,
-// independent of the frame rate. Frames interpolate between the last two ticks.
+// Simulates spine and legs of every player as a chain of links: motion travels down from the chest,
+// link by link. The chain advances in ticks at multiples of 1/120 s of the world clock, independent
+// of the frame rate. Frames interpolate between the last two ticks.
 //
 // Two motions move the chain: the player's velocity relative to the reference velocity
 // (ReferenceVelocity), and the chest's motion in play space. When the play space turns or a player

@@ -22,9 +22,9 @@ struct ReadTrackingIo {
     Column<PlayerCommands>& commands;                    // out
 };
 
-// Stage 1. Resamples devices of any rate to the frame clock. Poses at the end of the frame are
-// interpolated if a later sample is known, and held otherwise. Button edges keep the time and pose
-// of their sample.
+// Resamples devices of any rate to the frame clock. Poses at the end of the frame are interpolated
+// if a later sample is known, and held otherwise. Button edges keep the time and pose of their
+// sample.
 //
 // Ignored, and counted: samples out of order; poses that are not finite; a controller at exactly
 // (0, 0, 0); a hand farther than max_arm_m from its head; a hand that would have moved faster than

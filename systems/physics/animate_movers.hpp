@@ -5,7 +5,7 @@
 
 // Moves kinematic bodies to their poses at the end of the frame, in closed form of time: nothing
 // accumulates, and a hand on a ship has no lag.
-// Talk row 6 (moving supports). Stage 3.
+// Talk row 6 (moving supports).
 // A LegMover whose torso has no PathMover keeps its pose and gets velocity 0.
 // Fallbacks counted: none.
 namespace handhold {

@@ -11,7 +11,7 @@
 #include "engine/ecs/column.hpp"
 
 // Restores bodies that still penetrate to their last valid pose, then writes poses and errors.
-// Stage 8, after solve_phases.
+// Runs after solve_phases.
 //
 // A free body that penetrates by contact.restore_depth_m or more is restored, at most 2 m far, if
 // that at least halves its error: a hand that jumps through clutter carries no body into a wall.

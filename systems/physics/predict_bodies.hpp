@@ -5,8 +5,8 @@
 #include "engine/ecs/column.hpp"
 
 // Moves free bodies and players along their velocities, without constraints.
-// Talk row 1 (float). Stage 3. A spinning body keeps its angular momentum and energy, not its
-// angular velocity, so that it tumbles as a real one does.
+// Talk row 1 (float). A spinning body keeps its angular momentum and energy, not its angular
+// velocity, so that it tumbles as a real one does.
 // Fallbacks counted: none.
 namespace handhold {
 

@@ -5,8 +5,7 @@
 #include "engine/ecs/column.hpp"
 
 // Writes where every joint is, and closes and opens latches.
-// Talk row 5 (arbitrary chains). Stage 9b. A latch whose strength was exceeded opens after that
-// frame.
+// Talk row 5 (arbitrary chains). A latch whose strength was exceeded opens after that frame.
 // Fallbacks counted: none.
 namespace handhold {
 
