@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <handhold/handhold.hpp>
+#include <handhold/math.hpp>
 
 namespace {
 
@@ -20,10 +21,6 @@ constexpr int k_frames = 180;
 double ramp(double t_s, double from_s, double to_s) {
     return std::clamp((t_s - from_s) / (to_s - from_s), 0.0, 1.0);
 }
-
-hh::Vec3 sum(hh::Vec3 a, hh::Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-hh::Vec3 difference(hh::Vec3 a, hh::Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-double distance(hh::Vec3 a, hh::Vec3 b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
 // The right hand grips the wall and pulls, then lets go. The left hand takes a crate and shoves it
 // 20 cm farther than the wall allows, which pushes the player back.
@@ -57,13 +54,13 @@ Path play(hh::Vec3 offset, double speed_mps) {
     hh_body_def wall = hh::body_def();
     wall.kind = HH_KINEMATIC;
     wall.shape = *world.add_box({2.0, 2.0, 0.1});
-    wall.pose.position = sum(offset, {0.0, 1.5, -0.6});
+    wall.pose.position = offset + hh::Vec3{0.0, 1.5, -0.6};
     wall.velocity_mps = velocity;
     hh_body_def crate = hh::body_def();
     crate.kind = HH_DYNAMIC;
     crate.mass_kg = 5.0;
     crate.shape = *world.add_box({0.05, 0.05, 0.05});
-    crate.pose.position = sum(offset, {-0.2, 1.48, -0.3});
+    crate.pose.position = offset + hh::Vec3{-0.2, 1.48, -0.3};
     crate.velocity_mps = velocity;
     hh_player_def you = hh::player_def();
     you.origin.position = offset;
@@ -77,9 +74,9 @@ Path play(hh::Vec3 offset, double speed_mps) {
     }
     double pulled_m = 0.0;
     for (int frame = 1; frame <= k_frames; ++frame) {
-        const hh::Vec3 moved = sum(offset, {frame * k_dt_s * speed_mps, 0.0, 0.0});
+        const hh::Vec3 moved = offset + frame * k_dt_s * velocity;
         const hh::Sample sample = devices_at(frame * k_dt_s);
-        if (!world.move_kinematic(wall_id, hh::pose_at(sum(moved, {0.0, 1.5, -0.6}))) ||
+        if (!world.move_kinematic(wall_id, hh::pose_at(moved + hh::Vec3{0.0, 1.5, -0.6})) ||
             !world.step(k_dt_s, hh::input(player, {&sample, 1}))) {
             std::printf("%s\n", hh_last_error());
             return path;
@@ -87,8 +84,8 @@ Path play(hh::Vec3 offset, double speed_mps) {
         const hh_world_stats stats = *world.stats();
         path.hand_error_m = std::fmax(path.hand_error_m, stats.hand_error_m);
         path.step_us += stats.step_us / k_frames;
-        path.points.push_back(difference(world.pose(player)->origin.position, moved));
-        path.points.push_back(difference(world.pose(crate_id)->position, moved));
+        path.points.push_back(world.pose(player)->origin.position - moved);
+        path.points.push_back(world.pose(crate_id)->position - moved);
         if (frame == 99) {  // before the shove
             pulled_m = path.points[path.points.size() - 2].z;
         }
@@ -102,7 +99,7 @@ Path play(hh::Vec3 offset, double speed_mps) {
 double difference_m(const Path& a, const Path& b) {
     double worst_m = 0.0;
     for (std::size_t i = 0; i < a.points.size(); ++i) {
-        worst_m = std::fmax(worst_m, distance(a.points[i], b.points[i]));
+        worst_m = std::fmax(worst_m, hh::length(a.points[i] - b.points[i]));
     }
     return worst_m;
 }
