@@ -11,6 +11,7 @@ namespace {
 using test::entity;
 using test::k_player;
 using test::k_wall;
+using test::Random;
 
 constexpr Entity k_rock = entity(4);
 
@@ -38,7 +39,7 @@ struct Poses {
         last_valid.add(k_player);
         last_valid.add(k_rock, {before_ws});
     }
-    void run() { record_valid_poses({head, frame, last_valid}); }
+    void run() { record_valid_poses({.head = head, .frame = frame, .last_valid = last_valid}); }
     const Pose& rock_ws() const { return last_valid.at(k_rock).pose_ws; }
 };
 
