@@ -13,7 +13,6 @@ using test::Random;
 using test::entity;
 using test::k_player;
 using test::k_wall;
-using test::Random;
 
 constexpr Entity k_rock = entity(4);
 
