@@ -22,7 +22,7 @@ struct SearchGripIo {
     std::span<const HandSurroundings> hands;  // in: body frame (_bs)
     // In/out: last frame's result, then this frame's; body frame (_bs).
     Column<GripSurface>& surface;
-    GripSearchScratch& scratch;  // memory that calls reuse: nothing is read from an earlier call
+    GripSearchScratch& scratch;  // scratch: nothing is read from an earlier call
 };
 
 // Chooses the surface under each gripping palm: the one for which the palm must move least from its
