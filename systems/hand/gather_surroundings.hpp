@@ -19,6 +19,8 @@
 
 namespace handhold {
 
+inline constexpr double k_hand_length_m = 0.25;
+
 struct GatherSurroundingsIo {
     // In: grip meshes by shape. Null: hands are not fitted to surfaces.
     const GripMeshLibrary* meshes = nullptr;
@@ -58,9 +60,10 @@ struct GatherSurroundingsIo {
 // is the first hand stage; the later ones read its output and their own columns.
 //
 // The wrist of a gripping hand is at its anchor. Its rotation is the tracked one, unless the
-// gripped object turns with the hand. A body is near if its mesh's bounding box is within 0.25 m of
-// the palm. Heads have no grip mesh: a hand that grips a head is shown as tracked. A hand on
-// another player's part is fitted to the part's capsule; the body's frame is then the capsule's.
+// gripped object turns with the hand. A body is near if its mesh's bounding box is within
+// k_hand_length_m of the palm. Heads have no grip mesh: a hand that grips a head is shown as
+// tracked. A hand on another player's part is fitted to the part's capsule; the body's frame is
+// then the capsule's.
 //
 // Fallbacks counted: body_no_surface.
 void gather_surroundings(const GatherSurroundingsIo& io, StageStats& stats);

@@ -14,10 +14,7 @@ namespace {
 // Weights relative to the wrist's translation; see hand_fit.hpp. Chosen on the choosing seeds of
 // tools/lab/grip_report.
 constexpr double k_arm_m = 0.08;
-constexpr double k_lever_m = 0.05;  // l
 constexpr double k_touch = 2.0;
-constexpr double k_let_go_m = 0.008;  // g of a digit for which the closing found no contact
-constexpr double k_let_go_touching_m = 0.02;
 constexpr double k_tip = 0.02;
 constexpr double k_first = 0.002;
 constexpr double k_first_opposition = 0.02;
@@ -39,15 +36,12 @@ constexpr double k_bend_limit = 0.3;
 constexpr double k_fan_limit = 2.0;
 constexpr double k_digit_contact = 500.0;  // of the thumb and a finger
 constexpr double k_digit_reach_m = 0.03;   // digits farther apart need no row
-constexpr double k_max_fan_rad = 0.5;
-constexpr double k_max_apart_rad = 1.6;
-constexpr double k_max_bend_rad = 2.75;
-constexpr double k_clear_m = 3e-4;  // gap that contacts aim for
+constexpr double k_clear_m = 3e-4;         // gap that contacts aim for
 // Largest step of one round: gaps are linearised.
 constexpr double k_max_move_m = 0.02;
 constexpr double k_max_turn_rad = 0.3;
 
-constexpr double k_lever2 = k_lever_m * k_lever_m;
+constexpr double k_lever2 = k_fit_lever_m * k_fit_lever_m;
 
 bool is_thumb(const FingerRig& finger) { return finger.name == FingerName::thumb; }
 

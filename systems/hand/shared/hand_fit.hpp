@@ -28,15 +28,23 @@
 //            + couple sum (l (q_3 - 2/3 q_2))^2     the last hinge bends 2/3 as far as its parent
 //            + rest   sum (l (q - q_rest))^2        keeps every angle determined
 //   subject to every capsule's gap >= 0, gaps between thumb and fingers >= 0, joint limits, the
-//   palm's limits on height and tilt, total bends up to 158 degrees, neighbours' total bends within
-//   92 degrees of each other and their directions within 29 degrees
+//   palm's limits on height and tilt, total bends up to k_max_bend_rad, neighbours' total bends
+//   within k_max_apart_rad of each other and their directions within k_max_fan_rad
 //
-// l = 5 cm, g = 2 cm if the closing found a contact, else 8 mm. The inequalities are penalties,
-// stiffer in this order: bends, palm, joints, gaps; what cannot be met is shared. Each round
-// queries the gaps (hand_spheres.hpp), linearises and solves (engine/math/penalty_quadratic.hpp).
+// l = k_fit_lever_m, g = k_let_go_touching_m if the closing found a contact, else k_let_go_m. The
+// inequalities are penalties, stiffer in this order: bends, palm, joints, gaps; what cannot be met
+// is shared. Each round queries the gaps (hand_spheres.hpp), linearises and solves
+// (engine/math/penalty_quadratic.hpp).
 // Sources: Santello, Flanders, Soechting, Postural hand synergies for tool use, 1998 (fingers bend
 // alike); Rijpkema, Girard, Computer animation of knowledge-based human grasping, 1991 (2/3).
 namespace handhold {
+
+inline constexpr double k_fit_lever_m = 0.05;
+inline constexpr double k_let_go_m = 0.008;
+inline constexpr double k_let_go_touching_m = 0.02;
+inline constexpr double k_max_fan_rad = 0.5;
+inline constexpr double k_max_apart_rad = 1.6;
+inline constexpr double k_max_bend_rad = 2.75;
 
 struct HandFitGoal {
     HandPose first;  // where the rounds start; from the closing, or last frame's fit

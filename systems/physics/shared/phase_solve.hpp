@@ -5,9 +5,14 @@
 #include "components/frame_graph.hpp"
 #include "components/stats.hpp"
 #include "components/tuning.hpp"
+#include "engine/solver/newton/newton.hpp"
 
 // One phase of the position solve: its masses, rows, regularisation and work budget.
 namespace handhold {
+
+// Moves one island's bodies until its constraint rows are met. Same contract as solve_positions,
+// which is the runtime's.
+using PositionSolver = NewtonResult (*)(const IslandView&, const NewtonSettings&, SolveScratch&);
 
 // In the order of a frame; solve_phases.hpp says what each is for.
 enum class Phase : std::uint8_t { reach, forward, relax, backward, contradiction };
@@ -17,7 +22,7 @@ enum class Phase : std::uint8_t { reach, forward, relax, backward, contradiction
 // so the result does not depend on how they are distributed over threads.
 // Fallbacks counted: active_set_not_converged, solver_budget, hands_load_stepped,
 // load_stepping_failed.
-void solve_chosen_islands(Phase phase, const SolverTuning& tuning, FrameGraph& frame,
-                          StageStats& stats);
+void solve_chosen_islands(Phase phase, const SolverTuning& tuning, PositionSolver solver,
+                          FrameGraph& frame, StageStats& stats);
 
 }  // namespace handhold
