@@ -13,7 +13,7 @@
 namespace handhold {
 
 struct CalibratePlayersIo {
-    double dt_s = 0.0;                       // in: > 0
+    double dt_s;                             // in: > 0
     const Column<PlayerCommands>& commands;  // in
     const Column<HeadTracking>& head;        // in
     const Column<HandOwner>& owner;          // in

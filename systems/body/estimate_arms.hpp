@@ -11,7 +11,7 @@
 namespace handhold {
 
 struct EstimateArmsIo {
-    double dt_s = 0.0;                     // in: > 0
+    double dt_s;                           // in: > 0
     const Column<PlayerOrigin>& origin;    // in
     const Column<HeadTracking>& head;      // in
     const Column<BodyMeasures>& measures;  // in: every player

@@ -27,20 +27,18 @@ void layer_clavicles(const LayerClaviclesIo& io, const AdditiveTuning& additive,
                      const ArmTuning& arm);
 
 struct LayerAdditivesIo {
-    double dt_s = 0.0;  // in: > 0
-    const BodyClips& clips;
+    double dt_s;                                 // in: > 0
+    const BodyClips& clips;                      // in: all but the clavicle clip
     const Column<HeadTracking>& head;            // in
+    const Column<PlayerOrigin>& origin;          // in: the contacts are relative to it
     const Column<PlayerVelocity>& velocity;      // in
     const Column<ReferenceVelocity>& reference;  // in
     const Column<HandOwner>& owner;              // in
     const Column<Grab>& grab;                    // in
     const Column<ArmEstimate>& estimate;         // in: facing_ps
+    const Column<SpineMemory>& memory;           // in: contacts
     Column<BodyClipState>& state;                // in/out
     Column<SpinePose>& pose;                     // in/out: all bones except the chest
-    // For surfaces: SpineMemory's contacts, and the origins that they are relative to. Set both or
-    // none.
-    const Column<SpineMemory>* memory = nullptr;   // in
-    const Column<PlayerOrigin>* origin = nullptr;  // in
 };
 
 // Rates of the factor on the clips' turns at a surface.

@@ -14,7 +14,7 @@
 namespace handhold {
 
 struct PullBodiesIo {
-    double dt_s = 0.0;                          // in
+    double dt_s;                                // in
     SurfaceQuery surfaces;                      // in: at the start of the frame
     const Column<PersistentId>& persistent_id;  // in
     const Column<HandOwner>& owner;             // in
@@ -26,10 +26,10 @@ struct PullBodiesIo {
     const Column<RigidBody>& body;              // in
     const Column<BodyPose>& body_pose;          // in: at the start of the frame
     const JointGroups& joint_groups;            // in
+    GrabRules rules;                            // in
     Column<HandPull>& pull;                     // in/out
     Column<BodyVelocity>& body_velocity;        // in/out
     Column<PlayerVelocity>& player_velocity;    // in/out
-    GrabRules rules = {};                       // in
 };
 
 // The distance grab. Off if PullTuning::reach_m is 0, the default. A hand that closes on nothing,

@@ -20,7 +20,7 @@ inline constexpr double k_change_cost_share = 0.75;
 inline constexpr double k_stick_m = 1e-3;
 
 struct FitHandsIo {
-    double dt_s = 0.0;                        // in: length of the frame; infinity: no rate limit
+    double dt_s;                              // in: length of the frame; infinity: no rate limit
     std::span<const HandSurroundings> hands;  // in: body frame (_bs)
     const Column<HandTracking>& hand;         // in: pressed, squeeze, trigger
     const Column<GripSurface>& surface;       // in: body frame (_bs)

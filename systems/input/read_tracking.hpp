@@ -12,8 +12,8 @@ namespace handhold {
 
 struct ReadTrackingIo {
     std::span<const PlayerInput> inputs;  // in: at most one per player; without one, poses are held
-    double frame_start_s = 0.0;           // in
-    double frame_end_s = 0.0;             // in: > frame_start_s
+    double frame_start_s;                 // in
+    double frame_end_s;                   // in: > frame_start_s
     const Column<HandOwner>& owner;       // in
     const Column<ControllerToHand>& controller_to_hand;  // in: hands without it use Tuning's
     Column<HeadTracking>& head;                          // in/out

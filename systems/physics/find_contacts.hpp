@@ -22,7 +22,6 @@ struct FindContactsIo {
     const Column<PersistentId>& persistent_id;  // in
     const Column<RigidBody>& body;              // in
     const Column<Joint>& joint;                 // in
-    const Column<HeadTracking>& head;           // in: a head that was never tracked touches nothing
     const Column<HandOwner>& owner;             // in
     const Column<Grab>& grab;                   // in
     CollisionWorld& collision;  // in: proxies at the predicted poses, world; out: ignored pairs

@@ -30,14 +30,14 @@ namespace handhold {
 inline constexpr double k_head_eject_mps = 3.0;
 
 struct FinishPositionsIo {
+    double dt_s;                                    // in: s
+    const Column<HeadTracking>& head;               // in: play space
+    const Column<PlayerVelocity>& player_velocity;  // in: world, m/s, start of the frame
     CollisionWorld& collision;                      // in/out: proxies of restored bodies, world
     FrameGraph& frame;                              // in/out: graph, contacts; out: push_backs
     Column<BodyPose>& body_pose;                    // out, free bodies: world, end of the frame
     Column<PlayerOrigin>& origin;                   // out: world, position only
     Column<Grab>& grab;                             // out: error_m, m
-    double dt_s;                                    // in: s
-    const Column<HeadTracking>& head;               // in: play space
-    const Column<PlayerVelocity>& player_velocity;  // in: world, m/s, start of the frame
 };
 void finish_positions(const FinishPositionsIo& io, const ContactTuning& tuning,
                       const HeadTuning& head, StageStats& stats);

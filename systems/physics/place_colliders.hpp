@@ -18,20 +18,19 @@
 namespace handhold {
 
 struct PlaceCollidersIo {
-    const Column<PersistentId>& persistent_id;        // in
-    const Column<Collider>& collider;                 // in
-    const Column<RigidBody>& body;                    // in
-    const Column<BodyPose>& body_pose;                // in: world, current
-    const Column<BodyStart>& body_start;              // in: world, start of the frame
-    const Column<PlayerOrigin>& origin;               // in: world, current
-    const Column<PlayerStart>& player_start;          // in: world, start of the frame
-    const Column<HeadTracking>& head;                 // in: play space, end of the frame
-    const Column<LastValidPose>& last_valid;          // in: world
-    CollisionWorld& collision;                        // out: proxies, world
-    FrameGraph& frame;                                // out: proxies, entities
-    const Column<CollisionFilter>* filter = nullptr;  // in: null or without a row: the default
-    // in: world, m/s and rad/s; null: build_constraints treats all bodies as changed
-    const Column<BodyVelocity>* velocity = nullptr;
+    const Column<PersistentId>& persistent_id;  // in
+    const Column<Collider>& collider;           // in
+    const Column<CollisionFilter>& filter;      // in: without a row: the default
+    const Column<RigidBody>& body;              // in
+    const Column<BodyPose>& body_pose;          // in: world, current
+    const Column<BodyStart>& body_start;        // in: world, start of the frame
+    const Column<BodyVelocity>& body_velocity;  // in: world, m/s and rad/s; whether it changed
+    const Column<PlayerOrigin>& origin;         // in: world, current
+    const Column<PlayerStart>& player_start;    // in: world, start of the frame
+    const Column<HeadTracking>& head;           // in: play space, end of the frame
+    const Column<LastValidPose>& last_valid;    // in: world
+    CollisionWorld& collision;                  // out: proxies, world
+    FrameGraph& frame;                          // out: proxies, entities
 };
 void place_colliders(const PlaceCollidersIo& io, const HeadTuning& tuning);
 

@@ -10,7 +10,7 @@
 namespace handhold {
 
 struct UpdateJointsIo {
-    double dt_s = 0.0;           // in: s, > 0
+    double dt_s;                 // in: s, > 0
     const FrameGraph& frame;     // in: solved poses, velocities and impulses
     const Column<Joint>& joint;  // in: rad or m, N or N m
     Column<JointState>& state;   // in/out, joints with a row block: rad or m, rad/s or m/s

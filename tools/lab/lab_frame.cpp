@@ -21,29 +21,35 @@ void step_frame_with(PositionSolver solver, World& world, FrameCaches& caches, c
     update_grabs(f);
     locomote_players(f);
     pull_bodies(f);
-
-    // Prediction: where bodies and players would go unconstrained.
     animate_movers(f);
     predict_bodies(f);
     anchor_grabs(f);
-
-    // Constraints and solve: the poses and velocities of the frame.
     place_colliders(f, Stage::find_contacts);
     find_contacts(f);
     build_constraints(f);
     {
         const StageTimer timer(Stage::solve_phases, stats);
-        solve_phases_with(solver, {f.collision(), f.graph()}, tuning, stats);
+        solve_phases_with(solver, {.collision = f.collision(), .frame = f.graph()}, tuning, stats);
     }
     finish_positions(f);
-    update_velocities(f);
+    solve_velocities(f);
+    book_momentum(f);
+    record_valid_poses(f);
     limit_velocities(f);
     update_joints(f);
     discard_broken_results(f);
-
-    show_hands(f);
-    show_bodies(f);
-    publish(f);
+    gather_surroundings(f);
+    search_grip(f);
+    constrain_palms(f);
+    sweep_fingers(f);
+    fit_hands(f);
+    estimate_arms(f);
+    layer_clavicles(f);
+    pose_arms(f);
+    propagate_spine(f);
+    layer_additives(f);
+    publish_pose(f);
+    publish_body(f);
 
     ++world.clock.frame;
     world.clock.t_s += input.dt_s;
