@@ -17,9 +17,6 @@
 
 namespace handhold {
 
-// Moves one island's bodies until its constraint rows are met. Same contract as solve_positions.
-using PositionSolver = NewtonResult (*)(const IslandView&, const NewtonSettings&, SolveScratch&);
-
 // Groups of free bodies that joints connect. Both arrays are indexed by element of the RigidBody
 // column, and are empty if there are no joints.
 struct JointGroups {
@@ -93,10 +90,6 @@ struct FrameGraph {
     std::vector<ContactPoint> contacts;  // written by find_contacts, solve_phases
     std::vector<IgnoredPair> ignored;    // written by find_contacts
     ConstraintGraph graph;  // written by build_constraints, solve_phases, solve_velocities
-
-    // solve_phases calls this for every island and phase. Measuring tools replace it to compare
-    // methods.
-    PositionSolver position_solver = &solve_positions;
 
     // Scratch.
     std::vector<ContactPoint> fresh_contacts;

@@ -19,8 +19,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_longest_s = 0.5;
-
 // Angle of a link at rest, measured like the angle that its joint limit bounds.
 double rest_angle(const SpineLink& link) {
     return link.kind == SpineLinkKind::shin ? arc_tangent2(link.rest.z(), -link.rest.y()) : 0.0;
@@ -194,7 +192,7 @@ struct Motion {
 };
 
 void play(const Motion& motion, double scale, const SpineTuning& tuning, SpineMemory& memory) {
-    const double span_s = std::min(motion.dt_s, k_longest_s);
+    const double span_s = std::min(motion.dt_s, k_longest_spine_s);
     const QuadraticPath path(motion.moved_m, span_s, memory.rate_mps, memory.rate_span_s);
     const Quat from = memory.chest_ps.rotation;
     double played_s = 0.0;

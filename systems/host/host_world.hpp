@@ -190,7 +190,8 @@ Pose to_host_bs(const hh_world& host, Entity body, const Pose& pose_bs);
 Pose from_host_bs(const hh_world& host, Entity body, const Pose& pose_bs);
 
 // The name, or one made of the id that the next entity gets, which is part of the state: so replays
-// after a restore give equal names. HH_ERROR_NAME if it is taken.
+// after a restore give equal names. HH_ERROR_NAME if it is taken; HH_ERROR_STATE inside a begun
+// step.
 std::string new_name(const hh_world& host, const char* name, const char* kind);
 
 // Removes an entity from the world and from all that this layer knows of it.

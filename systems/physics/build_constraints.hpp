@@ -16,7 +16,8 @@
 //
 // Rows of a grip: surface or player: three (the point). Held object: six (a weld), three if it is
 // jointed to something immovable. Two hands on one object: three for the first hand's point, and
-// three for the direction between the hands and the rotation about it.
+// three for the direction between the hands and the rotation about it; if the hands are too close
+// for that, six for the first hand.
 // Fallbacks counted: none.
 namespace handhold {
 

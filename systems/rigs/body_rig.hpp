@@ -82,13 +82,15 @@ void pose_skeleton(const BodyRig& rig, const BodyMeasures& measures, const Rende
                    SkeletonPose& out);
 
 // Angle by which `child` is twisted about the Z axis of `parent`, in (-pi, pi], whatever the bend
-// between both. 0 for a bend of 180 degrees.
+// between both. 0 if the bend is half a turn.
 double arm_twist(const Quat& parent, const Quat& child);
 
+inline constexpr double k_wholly_followed_rad = 2.0 / 3.0 * k_pi;
+
 // The part of a child's twist about the Z axis of `parent` that joints between both follow,
-// relative to the twist `rest_rad` of the figure's file, in radians. Up to 120 degrees to either
-// side it is the whole difference. Beyond that it is less, and at 180 degrees nothing, so that the
-// result is continuous. Fades out if the bend exceeds 120 degrees.
+// relative to the twist `rest_rad` of the figure's file, in radians. Up to k_wholly_followed_rad to
+// either side it is the whole difference. Beyond that it is less, and at half a turn nothing, so
+// that the result is continuous. Fades out if the bend exceeds k_wholly_followed_rad.
 double followed_twist(const Quat& parent, const Quat& child, double rest_rad);
 
 // Pose of the player's trunk at `along`: 0 is the pelvis, 1 midway between the shoulders.

@@ -172,7 +172,9 @@ TEST_F(GripCommand, HandsWithNothingInReachGiveAReason) {
 }
 
 TEST_F(GripCommand, CapsulesOfAFingerAreConnected) {
-    ASSERT_EQ(run(files() + " --hand left --search bfs --palm ray --grip-edge-mm 11"), 0) << err_;
+    ASSERT_EQ(
+        run(files() + " --hand left --fingers talk --search bfs --palm ray --grip-edge-mm 11"), 0)
+        << err_;
     const Json hand = hands()[0];
     for (std::size_t i = 1; i < hand["capsules"].size(); ++i) {
         const Json& before = hand["capsules"][i - 1];
@@ -212,7 +214,7 @@ TEST_F(GripCommand, BaselinesWriteTheSameFormat) {
 
 TEST_F(GripCommand, RefusesWrongFlagsAndLeavesNoOutput) {
     for (const char* flag :
-         {"--hand middle", "--sync maybe", "--search dijkstra", "--grip-edge-mm 0",
+         {"--hand middle", "--sync maybe", "--search dijkstra", "--search bfs", "--grip-edge-mm 0",
           "--grip-edge-mm wide", "--palm none", "--fingers nails", "--depth 3"}) {
         EXPECT_EQ(run(files() + " " + flag), 1) << flag;
         EXPECT_FALSE(err_.empty());

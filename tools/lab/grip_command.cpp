@@ -69,7 +69,7 @@ GripVariant variant_of(const GripOptions& options) {
     GripVariant variant;
     variant.sync = options.sync == "on";
     variant.order = search_order_of(options.search);
-    variant.palm = options.palm == "ray" ? GripSearch::ray_only : GripSearch::smallest_sync;
+    variant.palm = options.palm == "ray" ? PalmChoice::ray_only : PalmChoice::smallest_sync;
     variant.fingers = finger_method_of(options.fingers);
     return variant;
 }
@@ -155,6 +155,11 @@ std::optional<FileError> move_all(const GripOptions& options, const GripMesh& me
 }  // namespace
 
 int grip_command(const GripOptions& options) {
+    if (options.search != "astar" && options.fingers != "talk") {
+        std::fprintf(stderr, "handhold-lab: --search %s needs --fingers talk\n",
+                     options.search.c_str());
+        return k_exit_usage;
+    }
     const Result<HandRig> rig = load_rig(options);
     if (!rig) {
         return refuse(rig.error());

@@ -238,9 +238,8 @@ bool is_top(const Vec3& inertia_kgm2) {
 }  // namespace
 
 void FreeRotations::add(const Vec3& inertia_kgm2, Quat& rotation, Vec3& spin_radps) {
-    constexpr double k_fastest_radps = 1e6;
     const double square = spin_radps.squaredNorm();
-    if (square == 0.0 || !(square < k_fastest_radps * k_fastest_radps)) {
+    if (square == 0.0 || !(square < k_fastest_spin_radps * k_fastest_spin_radps)) {
         return;
     }
     const Kind kind = is_top(inertia_kgm2) ? Kind::top : Kind::any;

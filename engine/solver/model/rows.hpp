@@ -129,7 +129,7 @@ inline bool is_contact(const RowBlock& block) { return block.kind == RowKind::co
 inline bool is_joint(const RowBlock& block) { return !is_drive(block) && !is_contact(block); }
 
 // Lever that converts angles to lengths, metres. Angular rows are multiplied by it, so that all
-// residuals of a solve have one unit: 0.01 rad counts as 1 mm.
+// residuals of a solve have one unit: for example, 0.01 rad counts as 1 mm.
 inline constexpr double k_angle_lever_m = 0.1;
 
 // Selects a row's regularisation (model/regularisation.hpp).

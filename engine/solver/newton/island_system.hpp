@@ -63,7 +63,8 @@ void prepare_inertia(const IslandView& island, SolveScratch& scratch);
 // A solve whose step is implausibly long is repeated with more regularisation, at most this often.
 inline constexpr int k_max_regularisation_retries = 3;
 inline constexpr double k_retry_regularisation_increase = 100.0;
-// Longest plausible move of a body by contact rows, relative to the residual: a lever of 1 m.
+// Longest plausible move of a body by contact rows, relative to the residual: a lever of ten
+// k_angle_lever_m.
 inline constexpr double k_max_move_ratio = 10.0;
 
 // Writes the system's alpha: model/regularisation.hpp.

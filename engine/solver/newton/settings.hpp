@@ -31,7 +31,7 @@ struct StepControl {
 
 // Work that the solves of one island may spend in a frame. Counted, never timed, so that the same
 // frame ends at the same point everywhere. The unit is one visit of a row by a sweep, or
-// k_multiply_adds of a factorisation: about 30 ns.
+// k_multiply_adds of a factorisation: it costs about 30 ns.
 struct WorkBudget {
     static constexpr std::uint64_t k_multiply_adds = 64;
     std::uint64_t positions = 250'000;  // of all phases together

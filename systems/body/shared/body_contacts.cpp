@@ -20,17 +20,16 @@ constexpr double k_thigh_contact_radius_m = 0.065;
 constexpr double k_shin_contact_radius_m = 0.05;
 constexpr double k_cast_wider_m = 0.015;
 constexpr double k_widest_cast_m = 0.105;  // of a player of any size
-constexpr double k_part_moved_m = 0.005;   // a part that moved less is not searched again
 constexpr double k_sole_m = 0.11;          // below the ankle
 constexpr double k_ahead_m = 0.15;         // margin for motion until the next search
 
 // True if this part is searched in this frame. The phase differs between players and parts.
 bool searches_now(double t_s, double dt_s, std::uint64_t player, std::size_t part) {
-    constexpr double k_per_s = 15.0;
     constexpr std::uint64_t k_phases = 8;
     const double phase = static_cast<double>(player % k_phases) / static_cast<double>(k_phases) +
                          static_cast<double>(part) / static_cast<double>(k_body_parts);
-    return std::floor(t_s * k_per_s + phase) != std::floor((t_s - dt_s) * k_per_s + phase);
+    return std::floor(t_s * k_body_searches_per_s + phase) !=
+           std::floor((t_s - dt_s) * k_body_searches_per_s + phase);
 }
 
 // The line along a part, relative to the chest.

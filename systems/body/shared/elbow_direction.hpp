@@ -32,8 +32,9 @@ struct ArmLine {
 // Direction in which the elbow of `side` points, torso axes, not normalised.
 Vec3 elbow_pole(const BodyView& view, HandSide side);
 
-// What the network adds to elbow_pole. Zero for inputs that do not resemble its data. `turned`:
-// sine of the angle from the chest's facing to the look direction.
+// What the network adds to elbow_pole. Zero for inputs that do not resemble its data, and for a
+// hand near its shoulder (body_constants::k_near_shoulder). `turned`: sine of the angle from the
+// chest's facing to the look direction.
 Vec3 elbow_correction(const BodyView& view, const std::array<ArmLine, k_hand_count>& lines,
                       double turned, double arm_m, HandSide side);
 

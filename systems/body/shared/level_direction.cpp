@@ -34,7 +34,7 @@ Quat level_rotation(const Vec3& facing) {
 Vec3 level_look(const Vec3& ahead, const Vec3& up) {
     // Blends from 45 degrees of pitch to 90; ahead.y() is the sine of the pitch.
     const double pitch = ahead.y();
-    const double blend = smooth_step(std::abs(pitch), 0.70710678118654752, 1.0);
+    const double blend = smooth_step(std::abs(pitch), k_level_look_sine, 1.0);
     const Vec3 look = (1.0 - blend) * ahead + (pitch > 0.0 ? -blend : blend) * up;
     const double length = std::sqrt(look.x() * look.x() + look.z() * look.z());
     return length > 1e-9 ? Vec3(look.x() / length, 0.0, look.z() / length) : Vec3(-Vec3::UnitZ());

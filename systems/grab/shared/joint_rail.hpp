@@ -27,8 +27,9 @@ struct JointRail {
     double ahead = 0.0;            // highest travel, >= 0
 };
 
-// The rail of a light free body. None if it has no joint, more than one joint, or a joint with more
-// than one degree of freedom (ball, distance).
+// The rail of a light free body: its only joint to something that no hand moves, a hinge or a
+// slider. None if there is no such joint, more than one, or one of another kind. Joints to other
+// light free bodies do not count.
 std::optional<JointRail> find_rail(const JointRailIo& io, Entity body, const PhaseTuning& tuning);
 
 // Travel of the body along its rail when a hand takes one of its points as close to `to_hs` as the

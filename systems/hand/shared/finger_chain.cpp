@@ -68,9 +68,8 @@ ChainSeed chain_seed(const HandSurroundings& hand, const GripSurface& surface,
 }
 
 double hand_travel_m(const Pose& from, const Pose& to) {
-    constexpr double k_arm_m = 0.1;
     const Pose moved = inverse(from) * to;
-    return moved.position.norm() + k_arm_m * rotation_to_vector(moved.rotation).norm();
+    return moved.position.norm() + k_travel_arm_m * rotation_to_vector(moved.rotation).norm();
 }
 
 bool touches(const ChainFit& fit) {

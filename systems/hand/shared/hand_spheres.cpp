@@ -12,7 +12,6 @@ namespace handhold {
 namespace {
 
 constexpr double k_spacing_m = 0.018;          // largest distance between spheres of one link
-constexpr double k_keep_travel_m = 1.2e-3;     // of a centre whose gap is kept
 constexpr double k_extra_gap_m = 0.005;        // links farther away need no extra sphere
 constexpr double k_max_depth_inside_m = 0.03;  // deepest centre inside a solid that is found
 

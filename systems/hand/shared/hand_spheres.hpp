@@ -48,6 +48,7 @@ struct HandSphere {
 
 bool is_knuckle(const HandSphere& sphere);
 
+inline constexpr double k_keep_travel_m = 1.2e-3;  // of a centre whose gap is kept
 // Gaps up to this are reported. A digit's tip can be far from a surface that its base touches.
 inline constexpr double k_sphere_reach_m = 0.02;
 inline constexpr double k_tip_reach_m = 0.06;
@@ -66,11 +67,11 @@ class HandSpheres {
     HandSpheres(const HandSurroundings& hand, const GripSurface& surface,
                 const std::array<bool, k_finger_count>& is_clear);
 
-    // Computes all gaps at a pose. Spheres that have moved less than 1.2 mm since their last
-    // search, or cannot be a digit's nearest, keep its gap, moved along `away`. At the first call,
-    // a centre is inside a solid if it is below the plane of its nearest triangle. Later a centre
-    // changes sides only if its path since the last call crosses a surface of the gripped mesh:
-    // windings of open or broken meshes cannot flip a finger through a wall.
+    // Computes all gaps at a pose. Spheres that have moved less than k_keep_travel_m since their
+    // last search, or cannot be a digit's nearest, keep its gap, moved along `away`. At the first
+    // call, a centre is inside a solid if it is below the plane of its nearest triangle. Later a
+    // centre changes sides only if its path since the last call crosses a surface of the gripped
+    // mesh: windings of open or broken meshes cannot flip a finger through a wall.
     void query(const HandPose& pose, const HandLinkFrames& frames);
 
     std::span<const HandSphere> all() const { return {spheres_.data(), count_}; }

@@ -34,8 +34,11 @@ struct PalmCost {
 PalmCost cost_of(const SurfaceGraph& graph, std::uint32_t triangle, const PalmFrame& palm,
                  const PalmTuning& tuning);
 
-// True if two surface points with unit normals count as the same place: within 25 mm and about 45
-// degrees.
+inline constexpr double k_duplicate_place_m = 0.025;
+inline constexpr double k_duplicate_place_cosine = 0.7;
+
+// True if two surface points with unit normals count as the same place: within k_duplicate_place_m,
+// with a cosine between the normals above k_duplicate_place_cosine.
 bool is_duplicate_place(const Vec3& point, const Vec3& normal, const Vec3& other,
                         const Vec3& other_normal);
 
