@@ -68,9 +68,9 @@ struct FrameGraph {
     std::uint64_t proxy_set = 0;               // CollisionWorld::proxy_set() after place_colliders
     struct PhaseBody {
         Pose reached_ws;  // pose after the reach phase
-        // Players: 1/kappa, the factor on the player's inverse mass in the forward phase; from 0 to
-        // 1. It is 0 if the player holds only light objects, so that the objects do not move the
-        //    player.
+        // The facts from which systems/physics/shared/mass_shares.hpp decides who yields to whom.
+        // Players: kappa's share of the heaviest body that a hand holds by all its rows, from 0
+        // (light bodies do not move the player) to 1.
         double forward_share = 0.0;
         bool held = false;  // held by a hand, or connected by joints to a held body
         // Players: a hand grips a fixed, kinematic or heavy body or another player, or another

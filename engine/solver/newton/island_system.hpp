@@ -87,6 +87,8 @@ void regularise(std::span<const Row> rows, const Regularisation& regularisation,
     }
 }
 
+// Copies the residuals of `rows` to `values`.
+void gather_residuals(SolveScratch& scratch);
 // Copies the moves W J^T lambda of a solve, by slot. Returns the largest rotation
 // in radians.
 double gather_moves(std::span<const RowMatrix::Twist> moves, SolveScratch& scratch);

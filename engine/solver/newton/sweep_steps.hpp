@@ -47,10 +47,7 @@ class SweepSteps {
         sweeps.assemble(island_.bodies, scratch_.inverse_inertia_ws, scratch_.rows, {});
         regularise(scratch_.rows, regularisation, factor, sweeps);
         sweeps.factorise();
-        scratch_.values.clear();
-        for (const Row& row : scratch_.rows) {
-            scratch_.values.push_back(row.residual);
-        }
+        gather_residuals(scratch_);
         sweeps.solve(scratch_.values,
                      {island_.max_work - std::min(work_, island_.max_work), k_max_sweeps,
                       k_heap_tolerance_m, k_tolerance_ratio * tolerance_m_});

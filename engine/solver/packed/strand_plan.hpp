@@ -28,7 +28,7 @@ class StrandPlan {
 
     void build(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate);
     // Reserves the capacities of `other`, so that building the same structure does not allocate.
-    void reserve(const StrandPlan& other);
+    void reserve(const StrandPlan& other) { reserve_as(buffers(other), buffers(*this)); }
 
     // Four strands of equal length, one per lane.
     struct StrandPack {
@@ -57,6 +57,11 @@ class StrandPlan {
     std::size_t slot_count() const { return slot_count_; }
 
   private:
+    static auto buffers(auto& plan) {
+        return std::tie(plan.strand_packs_, plan.bodies_, plan.links_, plan.rest_, plan.places_,
+                        plan.rest_nodes_, plan.rest_can_rotate_, plan.rest_slots_, plan.ends_,
+                        plan.uses_, plan.is_open_, plan.run_, plan.strand_of_slot_);
+    }
     void find_ends(std::span<const RowNode> nodes);
     std::uint32_t beyond(std::span<const RowNode> nodes, std::uint32_t end) const;
     void find_links(std::span<const RowNode> nodes);

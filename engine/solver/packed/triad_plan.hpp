@@ -125,6 +125,12 @@ class TriadPlan {
     std::uint32_t dummy_block() const { return static_cast<std::uint32_t>(block_count_); }
 
   private:
+    static auto buffers(auto& plan) {
+        return std::tie(plan.nodes_, plan.can_rotate_, plan.steps_, plan.later_, plan.updates_,
+                        plan.strand_packs_, plan.anchored_ends_, plan.places_, plan.slots_,
+                        plan.packed_ends_, plan.groups_, plan.ends_, plan.pairs_, plan.zeros_,
+                        plan.place_in_body_, plan.counts_, plan.is_written_);
+    }
     void take_steps();
     void find_places();
     void find_groups();

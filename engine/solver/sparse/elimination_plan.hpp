@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace handhold {
@@ -19,9 +21,13 @@ inline constexpr double k_smallest_pivot = 1e-14;
 inline constexpr std::uint32_t k_hub_nodes = 4;  // bodies with more row nodes are hubs
 inline constexpr std::uint32_t k_no_slot = std::numeric_limits<std::uint32_t>::max();
 
-template <typename T>
-void reserve_as(const std::vector<T>& other, std::vector<T>& here) {
-    here.reserve(other.capacity());
+// Reserves in the vectors `here` the capacities of the vectors `other`; both are std::tie.
+template <typename Here, typename Other>
+void reserve_as(const Other& other, Here&& here) {
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+        (std::get<I>(here).reserve(std::get<I>(other).capacity()), ...);
+    }
+    (std::make_index_sequence<std::tuple_size_v<Other>>());
 }
 
 // A node of unknowns: the multipliers of all rows between the same two bodies.
@@ -115,6 +121,13 @@ class EliminationPlan {
     std::size_t scalar_count() const { return scalar_count_; }  // number of unknowns
 
   private:
+    static auto buffers(auto& plan) {
+        return std::tie(plan.nodes_, plan.can_rotate_, plan.panels_, plan.blocks_, plan.updates_,
+                        plan.couplings_, plan.hub_couplings_, plan.hubs_, plan.panel_of_node_,
+                        plan.appearances_, plan.appearances_begin_, plan.ends_, plan.ends_begin_,
+                        plan.rows_of_slot_, plan.hub_of_slot_, plan.merged_, plan.order_,
+                        plan.eliminated_, plan.candidates_);
+    }
     void find_incidence();
     void find_neighbours();
     void connect(std::uint32_t x, std::uint32_t y);
