@@ -58,8 +58,8 @@ void write_grip(World& world, const PlayerEntities& player, const LabScene& scen
     grab.body = body;
     grab.anchor_bs = {hold.anchor_bs, body_ws.rotation.conjugate() * hand_ps.rotation};
     grab.target_ps = hand_ps;
-    grab.jointed = is_light && hold.point_only;
-    if (is_light) {
+    grab.jointed = holds && hold.point_only;
+    if (holds) {
         HeadIgnores& ignores = world.head_ignores.at(player.player);
         ignores.bodies[index_of(hold.side)] = body;
     }

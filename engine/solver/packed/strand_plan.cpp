@@ -18,6 +18,8 @@ std::uint32_t other_side(std::uint32_t end) { return end ^ 1U; }
 
 }  // namespace
 
+void StrandPlan::reserve(const StrandPlan& other) { reserve_as(buffers(other), buffers(*this)); }
+
 void StrandPlan::build(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate) {
     slot_count_ = can_rotate.size();
     strand_packs_.clear();

@@ -28,7 +28,7 @@ class StrandPlan {
 
     void build(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate);
     // Reserves the capacities of `other`, so that building the same structure does not allocate.
-    void reserve(const StrandPlan& other) { reserve_as(buffers(other), buffers(*this)); }
+    void reserve(const StrandPlan& other);
 
     // Four strands of equal length, one per lane.
     struct StrandPack {
