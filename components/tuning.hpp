@@ -113,7 +113,7 @@ struct ContactTuning {
 };
 
 struct SolverTuning {
-    NewtonSettings positions;  // as solve_positions takes them
+    NewtonSettings positions;  // settings of solve_positions
     // In place of positions.regularisation.drive in the forward phase: contacts outweigh hands.
     double forward_drive_regularisation = 1e-3;
     std::int32_t friction_passes = VelocitySettings{}.friction_passes;

@@ -222,7 +222,7 @@ def tuning_values(tree: Tree, sentence: str) -> Iterator[tuple[str, bool, float 
 
 def breaches_of_sentence(tree: Tree, sentence: str, beside: list[str], names: set[str],
                          values: dict[str, float]) -> Iterator[tuple[int, str]]:
-    """Offset and text of what is wrong with a sentence. `names`: constants that its header sees; `values`: those with known values."""
+    """Offset and text of each breach in a sentence. `names`: constants that its header sees; `values`: those with known values."""
     known = [values[name] for name in beside if name in values]
     for found in CONSTANT_NAME.finditer(sentence):
         if found[0] in values:

@@ -15,8 +15,8 @@ inline constexpr double k_prune_m = 0.03;
 
 // Points at which a disc's plane cuts two edges of a triangle.
 struct TriangleCut {
-    std::array<std::uint32_t, 2> edge = {};  // from corner i to i + 1
-    std::array<Vec3, 2> point;               // in the surface's frame
+    std::array<std::uint32_t, 2> edge = {};  // corners i and i + 1
+    std::array<Vec3, 2> point;               // points in the surface's frame
 };
 
 // Signed distance of `point` from the disc's plane, positive on the normal's side.

@@ -33,7 +33,7 @@ struct RecordedHand {
 
 struct RecordedSample {
     double t_s = 0.0;  // strictly increasing; may start at any time
-    Pose head;         // between the eyes, in tracking space; all NaN while it was not tracked
+    Pose head;  // point between the eyes, in tracking space; all NaN while it was not tracked
     std::array<RecordedHand, 2> hands;  // left, right
 };
 
@@ -42,7 +42,7 @@ struct RecordedSample {
 RecordedSample recorded(const TrackingSample& sample);
 
 struct Recording {
-    std::vector<RecordedSample> samples;  // at least two; gaps and jitter are normal
+    std::vector<RecordedSample> samples;  // two or more; gaps and jitter are normal
 };
 
 // Refused, with the line: a required column that is missing, a row of other length, a time that

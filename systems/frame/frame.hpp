@@ -46,11 +46,11 @@ struct FrameCaches {
     // Assets. Set them again whenever new caches are made.
     std::array<HandRig, k_hand_count> hand_rigs = {builtin_hand_rig(HandSide::left),
                                                    builtin_hand_rig(HandSide::right)};
-    std::vector<HandRig> more_hand_rigs;  // for hands with a HandRigChoice
+    std::vector<HandRig> more_hand_rigs;  // rigs of hands with a HandRigChoice
     BodyClips body_clips;                 // empty: no additive clips
     Column<BodySurface> body_surfaces;    // bodies with a grip mesh of their own
     HandScratch hands;
-    PartMeshes part_meshes;  // of held players' parts; built when a hand grips one
+    PartMeshes part_meshes;  // meshes of held players' parts; built when a hand grips one
 };
 
 // Steps one frame: every stage in the order of the list in frame.cpp. `stats` is cleared first. No

@@ -12,7 +12,7 @@ namespace handhold {
 namespace {
 
 constexpr std::int32_t k_closing_rounds = 10;
-constexpr std::int32_t k_closing_again_rounds = 2;  // of a hand that shows a fit meanwhile
+constexpr std::int32_t k_closing_again_rounds = 2;  // rounds of a hand that shows a fit meanwhile
 // A warm fit continues in the next frame.
 constexpr std::int32_t k_rounds = 1;
 constexpr double k_max_flex_rad = 0.15;

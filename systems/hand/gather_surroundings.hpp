@@ -26,15 +26,16 @@ struct MeshesForHands {
     // By shape. Null: hands are fitted neither to shapes nor to parts of players.
     const GripMeshLibrary* of_shapes = nullptr;
     const Column<BodySurface>& of_bodies;  // used instead of the mesh of the body's shape
-    const PartMeshes& of_parts;            // of every part that a hand holds
+    const PartMeshes& of_parts;            // meshes of every part that a hand holds
 };
 
 // Where gather_surroundings looks for bodies near a hand.
 struct BodiesNearHands {
-    std::span<const Entity> bodies;  // in an order independent of entity slots
+    std::span<const Entity> bodies;  // bodies in an order independent of entity slots
     // Has the colliders of `bodies`. Null: every body is tested.
     const CollisionWorld* collision = nullptr;
-    std::span<const ColliderProxy> proxies = {};  // of `collision`: as `bodies`, sorted by id
+    std::span<const ColliderProxy> proxies =
+        {};  // proxies of `collision`, indexed like `bodies`, sorted by id
 };
 
 struct GatherSurroundingsIo {

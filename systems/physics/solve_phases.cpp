@@ -19,7 +19,8 @@ constexpr double k_heap_violated_m = 1e-3;
 // the heap's bodies keep their present contacts until the next frame. Other islands are not
 // affected.
 constexpr std::uint64_t k_max_heap_visits = 12'000;
-constexpr int k_max_heap_rounds = 2;  // of a phase; what appears later waits for the next frame
+constexpr int k_max_heap_rounds =
+    2;  // rounds of a phase; contacts that appear later wait for the next frame
 
 struct Solve {
     PositionSolver solver;

@@ -55,7 +55,7 @@ struct BodyRig {
     static constexpr std::size_t k_chest = 0;
     static constexpr std::size_t k_head = 1;
 
-    std::vector<Joint> joints;  // in the file's order
+    std::vector<Joint> joints;  // joints in the file's order
     std::vector<Carrier> carriers;
     Vec3 head_joint_ms = Vec3::Zero();  // upper end of the neck
     double eye_height_m = 1.6;          // height of the eyes above the figure's soles; > 0
@@ -65,11 +65,11 @@ struct BodyRig {
 // Pose of a rig's joints in the world. Joint poses are rigid. `carry_ws` transforms vertices; it
 // also scales along and across each bone, because the player's proportions differ from the file's.
 struct SkeletonPose {
-    std::vector<Pose> joint_ws;     // by BodyRig::joints
-    std::vector<Pose> joint_ls;     // in the parent joint's frame; roots: joint_ws
-    std::vector<Affine> carry_ws;   // by joint: from the file's frame to the world
-    std::vector<Pose> carrier_ws;   // by BodyRig::carriers: frames of the bones
-    std::vector<Affine> stretched;  // by carrier: from the file's frame to the world
+    std::vector<Pose> joint_ws;     // indexed by BodyRig::joints
+    std::vector<Pose> joint_ls;     // pose in the parent joint's frame; roots: joint_ws
+    std::vector<Affine> carry_ws;   // transform of each joint from the file's frame to the world
+    std::vector<Pose> carrier_ws;   // frames of the bones, indexed like BodyRig::carriers
+    std::vector<Affine> stretched;  // transform of each carrier from the file's frame to the world
 };
 
 // Poses the joints of `rig` like the player's head, chest, arms, hands, spine and legs (talk rows

@@ -27,7 +27,7 @@ struct HandRigFit {
 };
 
 inline constexpr double k_min_bone_m = 0.004;
-inline constexpr double k_min_hand_m = 0.05;  // from the wrist to the farthest tip
+inline constexpr double k_min_hand_m = 0.05;  // least distance from the wrist to the farthest tip
 inline constexpr double k_max_hand_m = 1.0;
 
 // Fits a hand rig to a skinned mesh.

@@ -1,4 +1,4 @@
-// The lab's frame with another position solver is the runtime's frame but for that solver.
+// The lab's frame takes its position solver as an argument. All its other stages are the runtime's.
 #include "tools/lab/lab_frame.hpp"
 
 #include <gtest/gtest.h>

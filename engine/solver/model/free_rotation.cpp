@@ -107,7 +107,7 @@ HH_INLINE void turn_asymmetric(double dt_s, const Double4& spin_radps, const Dou
 struct Rotation4 {
     Wide3 momentum_ws;
     SortedAxes axes;
-    Mask4 exchanged[3];  // which exchanges sorted the axes, in order
+    Mask4 exchanged[3];  // exchanges that sorted the axes, in order
     // 1/moment of the outer axis minus 1/moment of the middle axis, 1/(kg m^2).
     Double4 min_rate, max_rate;
     // The rotation common to all three axes: a rotation vector along the momentum, world axes.

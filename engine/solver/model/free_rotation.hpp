@@ -59,7 +59,7 @@ class FreeRotations {
 
     double dt_s_;
     Vectors vectors_;
-    std::array<Batch, 2> batches_;  // by kind
+    std::array<Batch, 2> batches_;  // indexed by kind
 };
 
 }  // namespace handhold

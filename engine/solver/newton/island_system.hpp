@@ -21,10 +21,10 @@ namespace handhold {
 // solved concurrently.
 struct SolveScratch {
     std::vector<Row> rows;
-    std::vector<Row> previous_rows;        // of the previous step; lambda belongs to these
-    std::vector<Mat3> inverse_inertia_ws;  // by slot
-    std::vector<Mat3> stiffness;           // by slot
-    std::vector<Vec3> moves_m;             // by slot
+    std::vector<Row> previous_rows;        // rows of the previous step; lambda belongs to these
+    std::vector<Mat3> inverse_inertia_ws;  // indexed by slot
+    std::vector<Mat3> stiffness;           // indexed by slot
+    std::vector<Vec3> moves_m;             // indexed by slot
     std::vector<Vec3> rotations_rad;
     std::vector<double> values;
     std::vector<double> lambda;

@@ -24,7 +24,7 @@ class SweepSteps {
     static constexpr double k_max_loose_move_m = 0.05;
 
     static constexpr int k_max_iterations = 6;  // Newton steps of a solve
-    static constexpr int k_max_sweeps = 30;     // per Newton step
+    static constexpr int k_max_sweeps = 30;     // maximum per Newton step
     // The solve ends after a step that leaves more of the smallest error.
     static constexpr double k_stall_ratio = 0.7;
 

@@ -315,7 +315,7 @@ class SweepMethod {
     static constexpr double k_tolerance_mps = 1e-8;
     static constexpr double k_heap_tolerance_mps = 1e-5;
     static constexpr int k_max_heap_sweeps = 60;
-    static constexpr int k_max_sweeps = 30;  // after the direct solve found no answer
+    static constexpr int k_max_sweeps = 30;  // maximum once the direct solve has found no answer
 
     SweepMethod(const IslandView& island, const VelocitySettings& settings, SolveScratch& scratch)
         : island_(island), settings_(settings), scratch_(scratch) {

@@ -84,8 +84,8 @@ class StrandPlan {
     // Scratch of build.
     // by slot: its first two nodes, as 2 * node + side
     std::vector<std::array<std::uint32_t, 2>> ends_;
-    std::vector<std::uint32_t> uses_;    // by slot: its number of nodes
-    std::vector<std::uint8_t> is_open_;  // by node: 1 for links in no run yet
+    std::vector<std::uint32_t> uses_;    // number of nodes of each slot
+    std::vector<std::uint8_t> is_open_;  // one per node; 1: a link in no run yet
     std::vector<std::uint32_t> run_;     // the current run: 2 * node + side nearer its start
     std::vector<std::uint32_t> strand_of_slot_;
 };

@@ -64,13 +64,13 @@ class EliminationPlan {
         std::uint32_t stride = 0;        // length of a row
         std::uint32_t begin = 0;         // first value, in BlockFactor::values()
         std::uint32_t scalar = 0;        // index of the node's first unknown
-        std::uint32_t blocks_begin = 0;  // its blocks with later nodes, in blocks_
+        std::uint32_t blocks_begin = 0;  // index in blocks_ of the blocks with later nodes
         std::uint32_t blocks_end = 0;
         // Into updates(): one target for each pair (x, y) of its blocks, x <= y, by x, then by y.
         std::uint32_t updates = 0;
     };
     struct Block {
-        std::uint32_t panel = 0;   // of the later node
+        std::uint32_t panel = 0;   // panel of the later node
         std::uint32_t column = 0;  // first column in the rows of the panel that contains the block
     };
     // A product of two row nodes that share a body, added to the matrix at `target`: in the rows of
@@ -91,7 +91,7 @@ class EliminationPlan {
     };
     struct Hub {
         std::uint32_t slot = 0;
-        std::uint32_t target = 0;  // its diagonal block
+        std::uint32_t target = 0;  // diagonal block of the target
         std::uint32_t stride = 0;
     };
     // Location of a node's columns in an earlier panel. The column of the node's unknown m has the
@@ -102,7 +102,7 @@ class EliminationPlan {
         std::uint32_t stride = 0;
     };
 
-    std::span<const Panel> panels() const { return panels_; }  // in the order of elimination
+    std::span<const Panel> panels() const { return panels_; }  // panels in the order of elimination
     std::span<const Block> blocks(const Panel& panel) const {
         return std::span(blocks_).subspan(panel.blocks_begin,
                                           panel.blocks_end - panel.blocks_begin);

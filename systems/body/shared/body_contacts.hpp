@@ -12,7 +12,7 @@ namespace handhold {
 // What the search for surfaces knows of a player.
 struct BodySurroundings {
     SurfaceQuery surfaces;
-    std::uint64_t own_id = 0;  // of the player, whose head is ignored
+    std::uint64_t own_id = 0;  // id of the player, whose head is ignored
     Pose origin_ws;
     Vec3 head_ps = Vec3::Zero();  // a point well inside the head's collider
     Vec3 chest_ps = Vec3::Zero();

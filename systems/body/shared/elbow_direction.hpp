@@ -23,8 +23,8 @@ Vec3 shoulder_follow(const Vec3& hand_m, double arm_m, double shifted_m, const A
 
 // The line from a shoulder to its hand.
 struct ArmLine {
-    Vec3 shoulder_ts;  // from the shoulder at rest
-    Vec3 reach_ts;     // from the shoulder to the hand
+    Vec3 shoulder_ts;  // offset from the shoulder at rest
+    Vec3 reach_ts;     // vector from the shoulder to the hand
     double distance_m;
     Vec3 axis_ts;  // unit, along reach_ts
 };

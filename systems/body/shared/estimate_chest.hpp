@@ -32,7 +32,7 @@ Vec3 chest_facing(const Vec3& look_ps, const Quat& lean_ps, const TrackedBody& b
 
 // What the network adds to the talk's form. All zero for inputs that do not resemble its data.
 struct ChestCorrection {
-    double turn_rad = 0.0;  // to the left
+    double turn_rad = 0.0;  // positive: to the left
     ChestOffset offset;
 };
 // facing_ps: of the talk's form. looks_ps: as ArmMemory::looks_ps; look_ps: not filtered.

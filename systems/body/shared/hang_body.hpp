@@ -18,7 +18,7 @@ void follow_pull(const Vec3& hands, double tick_s, const SpineTuning& tuning, Bo
 // Bend of the trunk: the shown chest turns about its X axis first, then each link of the spine
 // turns against the link above.
 struct TrunkLean {
-    double chest_rad = 0.0;                      // about the chest's X axis
+    double chest_rad = 0.0;                      // turn about the chest's X axis
     std::array<Vec3, k_spine_links> rest_above;  // rest directions in the frames of the links above
 };
 inline constexpr double k_whole_lean_rad = 80.0 / 180.0 * k_pi;

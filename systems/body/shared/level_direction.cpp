@@ -8,7 +8,7 @@
 namespace handhold {
 namespace {
 
-constexpr double k_near_level_cosine = 0.95;  // for larger cosines, share_of_line is used
+constexpr double k_near_level_cosine = 0.95;  // share_of_line is used for larger cosines
 
 Vec3 level_unit(const Vec3& v) {
     const double by = 1.0 / std::sqrt(v.x() * v.x() + v.z() * v.z());

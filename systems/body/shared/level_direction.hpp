@@ -31,7 +31,7 @@ Vec3 turned_left(const Vec3& v, double cosine, double sine);
 // Rotation about +Y that turns -Z to the level direction.
 Quat level_rotation(const Vec3& facing);
 
-inline constexpr double k_level_look_sine = 0.70710678118654752;  // of an eighth of a turn
+inline constexpr double k_level_look_sine = 0.70710678118654752;  // sine of an eighth of a turn
 
 // Level look direction of a head, from its forward axis `ahead` and its up axis. Beyond a pitch
 // with the sine k_level_look_sine the up axis blends in (negated if the head looks up), because

@@ -22,7 +22,7 @@ struct JointRail {
     Entity holder;  // null: the world
     Vec3 point_hs = Vec3::Zero();
     Vec3 axis_hs = Vec3::UnitX();  // unit
-    bool turns = false;            // about the axis; else along it
+    bool turns = false;            // true: turns about the axis; false: slides along it
     double back = 0.0;             // lowest travel, rad or m, <= 0
     double ahead = 0.0;            // highest travel, >= 0
 };

@@ -32,7 +32,7 @@ constexpr double k_palm_limit = 20.0;
 constexpr double k_bend_limit = 0.3;
 constexpr double k_fan_limit = 2.0;
 constexpr double k_claw_limit = 4.0;
-constexpr double k_digit_contact = 500.0;  // of the thumb and a finger
+constexpr double k_digit_contact = 500.0;  // weight of contacts between the thumb and a finger
 constexpr double k_digit_reach_m = 0.03;   // digits farther apart need no row
 constexpr double k_claw_share = 0.6;
 constexpr double k_clear_m = 3e-4;  // gap that contacts aim for
@@ -433,9 +433,9 @@ class Fitter {
     const HandUnknowns layout_;
     HandPose pose_;
     HandSpheres spheres_;
-    Vec3 center_ = Vec3::Zero();  // of the palm at pose_
+    Vec3 center_ = Vec3::Zero();  // centre of the palm at pose_
     HandLinkFrames frames_;
-    FitProblem problem_;  // at pose_
+    FitProblem problem_;  // problem at pose_
 };
 
 }  // namespace

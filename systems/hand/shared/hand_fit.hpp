@@ -36,7 +36,8 @@
 //     the palm's limits on height and tilt (PalmTuning)
 //
 // Fingers whose angles are kept have no fan and alike with their neighbours.
-// pull(x) = x^2 / (1 + x^2 / g^2) lets go of what is far off: g = k_let_go_m; l = k_fit_lever_m.
+// pull(x) = x^2 / (1 + x^2 / g^2) is bounded by g^2, so distant surfaces hardly attract a digit;
+// g = k_let_go_m; l = k_fit_lever_m.
 // Hinges q1, q2, q3 are numbered from the knuckle. Gaps within k_sphere_reach_m count, those of
 // tips within their own reach (hand_spheres.hpp). Costs are half of these sums. The inequalities
 // are penalties, stiffer in this order: bends, directions, claw, palm, joints, gaps; the fit shares
@@ -63,14 +64,14 @@ struct HandFitGoal {
     std::array<bool, k_finger_count> is_clear = {};  // HandSpheres: `first` is outside solids
     std::array<bool, k_finger_count> is_fixed = {};  // the angles are kept, as in authored poses
     bool is_wrist_fixed = false;                     // the wrist is kept
-    std::int32_t rounds = 0;                         // at most
+    std::int32_t rounds = 0;                         // maximum number of rounds
     double max_flex_rad = 0.4;                       // largest step of an angle in one round
 };
 
 struct HandFit {
-    HandPose pose;               // of the cheapest round; `first` if none was cheaper
-    double cost = 0.0;           // of the objective, m^2
-    double penetration_m = 0.0;  // of the deepest sphere; at least 0
+    HandPose pose;               // pose of the cheapest round; `first` if none was cheaper
+    double cost = 0.0;           // value of the objective, m^2
+    double penetration_m = 0.0;  // depth of the deepest sphere, >= 0
     // By finger: smallest gap, below 0 if penetrating; infinity: nothing within reach.
     std::array<double, k_finger_count> gap_m = {};
     bool is_converged = false;  // the last round gained nothing

@@ -106,7 +106,7 @@ std::array<double, k_finger_count + 1> HandSpheres::keep_gaps_m(
 }
 
 void HandSpheres::query(const HandPose& pose, const HandLinkFrames& frames) {
-    const HandSphere* nearest = nullptr;   // of the present capsule
+    const HandSphere* nearest = nullptr;   // nearest sphere of the present capsule
     const HandSphere* previous = nullptr;  // searched last
     const auto keep_m = keep_gaps_m(pose, frames);
     for (std::size_t i = 0; i < count_; ++i) {

@@ -44,7 +44,7 @@ class PalmFitter {
 
     const HandSurroundings& hand() const { return hand_; }
     const PlacedMesh& placed() const { return placed_; }
-    const PalmFrame& palm() const { return palm_; }  // in the mesh's frame
+    const PalmFrame& palm() const { return palm_; }  // palm in the mesh's frame
     bool is_unbudgeted() const;                      // dt_s is infinite
 
     // From now on surface_at() uses this mean normal, instead of computing it, for triangles whose

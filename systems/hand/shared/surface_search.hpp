@@ -16,13 +16,13 @@
 namespace handhold {
 
 struct PalmFrame {
-    Vec3 center;  // on the palm's skin
+    Vec3 center;  // point on the palm's skin
     Vec3 up;      // unit, towards the back of the hand
 };
 
 struct PalmCost {
     double cost_m = std::numeric_limits<double>::infinity();
-    Vec3 point = Vec3::Zero();  // on the triangle, under the palm
+    Vec3 point = Vec3::Zero();  // point on the triangle, under the palm
 };
 
 // Cost of fitting the palm to one triangle, in closed form:
@@ -47,7 +47,7 @@ bool is_duplicate_place(const Vec3& point, const Vec3& normal, const Vec3& other
 class SurfaceSearch {
   public:
     using Candidate = GripSearchScratch::Candidate;
-    static constexpr std::uint32_t k_max_pops = 300;  // in all calls of run together
+    static constexpr std::uint32_t k_max_pops = 300;  // maximum in all calls of run together
 
     SurfaceSearch(const SurfaceGraph& graph, const PalmFrame& palm, const PalmTuning& tuning,
                   GripSearchScratch& scratch);

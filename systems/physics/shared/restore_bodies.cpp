@@ -88,7 +88,7 @@ double worst_overlap_m(const FrameGraph& frame, const Island& island) {
 FrameGraph::PenetratingBody penetrating_body(const FrameGraph& frame, std::uint32_t index,
                                              std::uint32_t island, std::uint32_t carrier) {
     const SolverBody& body = frame.graph.bodies[index];
-    Pose valid_ws = frame.proxies[index].from_ws;  // of the collider
+    Pose valid_ws = frame.proxies[index].from_ws;  // last valid pose of the collider
     if (carrier != index) {
         const ColliderProxy& proxy = frame.proxies[carrier];
         valid_ws = proxy.to_ws * (inverse(proxy.from_ws) * valid_ws);
