@@ -258,9 +258,11 @@ class World {
                    ? HH_ERROR_CAPACITY
                    : hh_world_body_poses(world_, bodies.data(), bodies.size(), poses.data());
     }
-    // A body's velocity, of its centre of mass in the world.
+    // A body's velocity in the world.
     struct Motion {
+        // Of the centre of mass.
         Vec3 velocity_mps;
+        // About the world's axes.
         Vec3 angular_velocity_radps;
     };
     // The body's velocity after the last step.
