@@ -87,11 +87,10 @@ void hh_version(uint32_t* major, uint32_t* minor, uint32_t* patch) {
 
 hh_pose hh_identity_pose(void) { return to_c(Pose{}); }
 
-hh_host_hooks hh_default_host_hooks(void) {
+hh_result hh_default_host_hooks_sized(hh_host_hooks* filled, size_t size) {
     hh_host_hooks set{};
-    set.struct_size = sizeof set;
     set.thread_count = 1;
-    return set;
+    return write_default(filled, size, set);
 }
 
 hh_result hh_set_host_hooks(const hh_host_hooks* wanted) {

@@ -60,30 +60,6 @@ hh_result call(Work&& work, hh_result precondition = HH_ERROR_VALUE) noexcept {
     }
 }
 
-// A definition of any version up to this library's: what it lacks keeps its default.
-template <typename Def>
-Def read_def(const Def* def, const Def& defaults, std::size_t first_size = sizeof(Def)) {
-    require(def != nullptr, HH_ERROR_NULL, "the definition is null");
-    const std::size_t size = def->struct_size;
-    require(
-        size >= first_size && size <= sizeof(Def), HH_ERROR_VERSION,
-        "struct_size is not of a version that this library knows: use the hh_default_ function");
-    Def read = defaults;
-    std::memcpy(&read, def, size);
-    return read;
-}
-// Writes an output of any version up to this library's.
-template <typename Out>
-void write_out(Out* out, Out value, std::size_t first_size = sizeof(Out)) {
-    require(out != nullptr, HH_ERROR_NULL, "the output is null");
-    const std::uint32_t size = out->struct_size;
-    require(
-        size >= first_size && size <= sizeof(Out), HH_ERROR_VERSION,
-        "struct_size is not of a version that this library knows: use the hh_default_ function");
-    value.struct_size = size;
-    std::memcpy(out, &value, size);
-}
-
 inline Vec3 from_c(const hh_vec3& v) { return {v.x, v.y, v.z}; }
 inline hh_vec3 to_c(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 inline hh_pose to_c(const Pose& pose) {

@@ -54,10 +54,9 @@ void place(World& world, const ToldMotion& motion) {
 
 using namespace handhold;
 
-hh_surface_query hh_default_surface_query(void) {
+hh_result hh_default_surface_query_sized(hh_surface_query* filled, size_t size) {
     hh_surface_query query{};
-    query.struct_size = sizeof query;
-    return query;
+    return write_default(filled, size, query);
 }
 
 hh_result hh_world_set_surface_query(hh_world* world, const hh_surface_query* query) {

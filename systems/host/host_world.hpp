@@ -13,6 +13,7 @@
 #include "engine/geometry/grip_mesh_library.hpp"
 #include "systems/frame/frame_of_host.hpp"
 #include "systems/host/host_call.hpp"
+#include "systems/host/host_growth.hpp"
 #include "systems/host/host_surfaces.hpp"
 #include "systems/rigs/body_rig.hpp"
 #include "systems/snapshot/snapshot.hpp"
@@ -103,6 +104,7 @@ struct hh_world {
     std::vector<handhold::HostContact> contacts;       // of the last step
     std::vector<handhold::HostContact> last_contacts;  // of the step before
     std::vector<hh_event> events;
+    mutable std::vector<std::byte> packed_events;  // for hosts that know a shorter hh_event
 
     // Scratch of a step.
     std::vector<double> impulse_shares;  // by constraint block: what is reported of its impulse

@@ -40,21 +40,26 @@ typedef struct hh_surface_query {
     uint32_t struct_size;
     void* context; /* passed to each of the functions */
     /* First surface that the segment hits, from outside or inside. distance_m is not read. */
-    bool (*cast_ray)(void* context, hh_vec3 from, hh_vec3 to, const hh_body* skip,
+    uint8_t (*cast_ray)(void* context, hh_vec3 from, hh_vec3 to, const hh_body* skip,
                      size_t skip_count, hh_surface_hit* hit);
     /* First impact of a sphere moving along a segment; distance_m: how far its centre has moved.
      * For the distance grab (pull.reach_m above 0), and to keep trunk and legs out of surfaces:
      * about one query per player and frame. Null: neither. */
-    bool (*cast_sphere)(void* context, double radius_m, hh_vec3 from, hh_vec3 to,
+    uint8_t (*cast_sphere)(void* context, double radius_m, hh_vec3 from, hh_vec3 to,
                         const hh_body* skip, size_t skip_count, hh_surface_hit* hit);
     /* Nearest surface point within max_distance_m; distance_m: 0 inside a solid. */
-    bool (*closest_point)(void* context, hh_vec3 point, double max_distance_m, const hh_body* skip,
+    uint8_t (*closest_point)(void* context, hh_vec3 point, double max_distance_m, const hh_body* skip,
                           size_t skip_count, hh_surface_hit* hit);
     /* Nearest surface point of one body, at any distance; distance_m: 0 inside a solid. */
-    bool (*closest_point_on)(void* context, hh_body body, hh_vec3 point, hh_surface_hit* hit);
+    uint8_t (*closest_point_on)(void* context, hh_body body, hh_vec3 point, hh_surface_hit* hit);
 } hh_surface_query;
 /* All functions null: nothing is found. */
-HH_API hh_surface_query hh_default_surface_query(void);
+HH_API hh_result hh_default_surface_query_sized(hh_surface_query* filled, size_t size);
+static inline hh_surface_query hh_default_surface_query(void) {
+    hh_surface_query filled;
+    hh_default_surface_query_sized(&filled, sizeof(filled));
+    return filled;
+}
 /* From now on hands and legs ask the host, not the world's shapes. Null: back to the shapes. */
 HH_API hh_result hh_world_set_surface_query(hh_world* world, const hh_surface_query* query);
 /* The triangles that palm and fingers close on, in the body's frame; null: none. Not needed for
@@ -129,7 +134,7 @@ typedef struct hh_hand_constraint {
     hh_pose anchor_end;
     double compliance_m_per_n; /* of the rows; 0: rigid, as in the runtime's own solver */
     double max_force_n; /* enough to stop what the hand drives from its highest speed in one step */
-    bool is_releasing;  /* the hand lets go in this step */
+    uint8_t is_releasing;  /* the hand lets go in this step */
 } hh_hand_constraint;
 
 /* A player's body in the host's solver. */
