@@ -29,9 +29,9 @@ namespace handhold::stages {
 void read_tracking(const FrameContext& f) {
     const StageTimer timer(Stage::read_tracking, f.stats);
     World& w = f.w;
-    const ReadTrackingIo io{f.input.players, f.start_s(),          f.end_s(),
-                            w.hand_owner,    w.controller_to_hand, w.head_tracking,
-                            w.hand_tracking, w.hand_history,       w.player_commands};
+    const ReadTrackingIo io{
+        f.input.players,  f.start_s(),     f.end_s(),       w.hand_owner,   w.controller_to_hand,
+        w.recenter_guess, w.head_tracking, w.hand_tracking, w.hand_history, w.player_commands};
     for_slices(f, w.head_tracking.size(),
                [&](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
                    handhold::read_tracking(io, first, last, f.tuning, slice.stats);

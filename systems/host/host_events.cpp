@@ -349,6 +349,7 @@ void finish_events(hh_world& host) {
     add_contact_events(host, HH_EVENT_CONTACT_BEGAN, host.contacts, host.last_contacts);
     add_contact_events(host, HH_EVENT_CONTACT_ENDED, host.last_contacts, host.contacts);
     update_joint_reports(host, true);
+    report_recentrings(host, true);
     if (host.settings.reports_touches) {
         add_touch_events(host);
     }
@@ -369,6 +370,8 @@ void forget_events(hh_world& host) {
             .since_s = grab.since_s};
     }
     update_joint_reports(host, false);
+    drop_stale(host.spaces, host.world.player);
+    report_recentrings(host, false);
 }
 
 }  // namespace handhold

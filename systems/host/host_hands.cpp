@@ -58,7 +58,7 @@ hh_hand_state hand_state(const hh_world& host, Entity player, HandSide side) {
 
 hh_player_pose player_pose(const hh_world& host, Entity player) {
     hh_player_pose pose{};
-    pose.origin = to_c(host.world.player_origin.at(player).pose_ws);
+    pose.origin = to_c(samples_space_ws(host, player));
     pose.head = to_c(host.world.render_pose.at(player).head_ws);
     pose.velocity_mps = to_c(host.world.player_velocity.at(player).linear_mps);
     for (const HandSide side : {HandSide::left, HandSide::right}) {

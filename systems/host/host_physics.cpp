@@ -110,7 +110,7 @@ hh_result hh_player_place(hh_world* world, hh_player player, hh_pose origin, hh_
         hh_world& host = world_of(world);
         require_idle(host);
         const Entity entity = player_of(host, player);
-        const Pose origin_ws = checked(origin);
+        const Pose origin_ws = play_space_ws(host, entity, checked(origin));
         const Vec3 velocity = checked(velocity_mps, world_limits::k_max_speed_mps,
                                       "a velocity beyond 1e6 m/s, or NaN");
         host.world.player_origin.at(entity).pose_ws = origin_ws;

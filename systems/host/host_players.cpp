@@ -100,7 +100,8 @@ hh_result hh_player_teleport(hh_world* world, hh_player player, hh_pose origin) 
     return call([&] {
         hh_world& host = world_of(world);
         require_idle(host);
-        teleport_player(host.world, player_of(host, player), checked(origin));
+        const Entity entity = player_of(host, player);
+        teleport_player(host.world, entity, play_space_ws(host, entity, checked(origin)));
     });
 }
 

@@ -49,6 +49,12 @@ struct HandReport {
     Entity touched = k_no_entity;    // by the open palm
 };
 
+// How a player's samples were corrected at the end of the last step.
+struct SpaceReport {
+    Pose correction;
+    bool is_announced = false;  // since then, by hh_player_recenter
+};
+
 struct JointReport {
     bool latched = false;
     bool at_limit = false;
@@ -101,6 +107,7 @@ struct hh_world {
     handhold::Column<handhold::BodyRigSlot> body_rigs;  // by player
     handhold::Column<handhold::HandReport> hands;
     handhold::Column<handhold::JointReport> joints;
+    handhold::Column<handhold::SpaceReport> spaces;    // by player
     std::vector<handhold::HostContact> contacts;       // of the last step
     std::vector<handhold::HostContact> last_contacts;  // of the step before
     std::vector<hh_event> events;
@@ -184,6 +191,15 @@ Pose library_pose(const hh_world& host, Entity body, const Pose& host_pose_ws);
 // A pose in the body's library frame, in its host frame, and back.
 Pose to_host_bs(const hh_world& host, Entity body, const Pose& pose_bs);
 Pose from_host_bs(const hh_world& host, Entity body, const Pose& pose_bs);
+
+// From the space of a player's samples to play space (HeadTracking's shift), and that space's pose
+// in the world, which hosts call the player's origin.
+Pose samples_in_play_space(const hh_world& host, Entity player);
+Pose samples_space_ws(const hh_world& host, Entity player);
+// The play space's pose for such an origin.
+Pose play_space_ws(const hh_world& host, Entity player, const Pose& samples_space_ws);
+// Adds an event for each player whose samples are corrected in another way than in the last report.
+void report_recentrings(hh_world& host, bool makes_events);
 
 // The name, or one made of the id that the next entity gets, which is part of the state: so replays
 // after a restore give equal names. HH_ERROR_NAME if it is taken.

@@ -28,6 +28,7 @@ inline TrackingSample sample_at(double t_s, const Vec3& place = k_rest, bool gra
 struct Devices {
     Column<HandOwner> owner;
     Column<ControllerToHand> joint;
+    Column<RecenterGuess> recenter_guess;
     Column<HeadTracking> head;
     Column<HandTracking> hand;
     Column<HandHistory> history;
@@ -61,8 +62,9 @@ struct Devices {
 
     void step_inputs(std::span<const PlayerInput> inputs, double dt_s = k_frame_s) {
         stats = {};
-        read_tracking({inputs, t_s, t_s + dt_s, owner, joint, head, hand, history, commands},
-                      tuning, stats);
+        read_tracking(
+            {inputs, t_s, t_s + dt_s, owner, joint, recenter_guess, head, hand, history, commands},
+            tuning, stats);
         t_s += dt_s;
     }
     void step(const std::vector<TrackingSample>& samples, double dt_s = k_frame_s) {

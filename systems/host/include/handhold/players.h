@@ -23,7 +23,7 @@ typedef struct hh_measures {
 typedef struct hh_player_def {
     uint32_t struct_size;
     const char* name; /* unique in the world; null: by its id */
-    hh_pose origin;   /* the play space in the world; its origin is the tracking's */
+    hh_pose origin;   /* the space of the samples in the world */
     hh_vec3 velocity_mps;
     double mass_kg; /* default 80 */
     hh_measures measures;
@@ -44,6 +44,17 @@ HH_API hh_result hh_player_remove(hh_world* world, hh_player player);
 HH_API uint8_t hh_player_is_valid(const hh_world* world, hh_player player);
 HH_API hh_result hh_world_players(const hh_world* world, hh_player* players, size_t capacity,
                                   size_t* count);
+/* The headset's runtime, or the host, has recentred: from the next sample on, poses are given in a space
+ * that lies at `new_in_old` in the space before (OpenXR: poseInPreviousSpace). Level: it turns about +Y
+ * only, within 0.001. View, hands and grips stay where they are in the world; hh_player_pose.origin
+ * changes at once, HH_EVENT_RECENTRED follows in the next step. From now on the host announces all
+ * recentrings, as after hh_player_set_recenter_guess(world, player, 0). */
+HH_API hh_result hh_player_recenter(hh_world* world, hh_player player, hh_pose new_in_old);
+/* `guesses` 1, the default: if head and hands jump by one turn about +Y and one translation, or the head
+ * by more than tracking.max_jump_m, the runtime has recentred, and nothing in the world moves. 0: the
+ * host announces recentrings, and every other jump is meant, such as a turn that the host puts into its
+ * samples: view and hands follow it, and gripping hands take new anchors. Part of the state. */
+HH_API hh_result hh_player_set_recenter_guess(hh_world* world, hh_player player, uint8_t guesses);
 /* The play space is there at once, at rest. Dynamic bodies in the hands that no joint holds come
  * along; hands let go of everything else. */
 HH_API hh_result hh_player_teleport(hh_world* world, hh_player player, hh_pose origin);
@@ -97,7 +108,10 @@ typedef struct hh_hand_state {
 
 /* Grows: see base.h. Later fields come behind `hands`. */
 typedef struct hh_player_pose {
-    hh_pose origin;      /* the play space in the world: put the camera rig here */
+    /* The space of the samples in the world: put the camera rig here. Controllers at origin * sample
+     * are where the hands are, also after a recentring, which changes it so that nothing in the world
+     * moves. */
+    hh_pose origin;
     hh_pose head;        /* between the eyes, in the world */
     hh_vec3 velocity_mps; /* of the play space */
     hh_hand_state hands[2]; /* by hh_side */
@@ -143,6 +157,9 @@ typedef enum hh_event_kind {
     HH_EVENT_LATCH_CLOSED = 7,   /* of `joint` */
     HH_EVENT_LATCH_OPENED = 8,
     HH_EVENT_LIMIT_REACHED = 9,  /* a joint came to its lower or upper limit */
+    /* hh_player_pose.origin was changed so that a recentring moves nothing. HH_REASON_BY_HOST: by
+     * hh_player_recenter; HH_REASON_NONE: the samples jumped. `position`: the head. */
+    HH_EVENT_RECENTRED = 10,
     HH_EVENT_KIND_32_BITS = 0x7fffffff
 } hh_event_kind;
 

@@ -80,7 +80,7 @@ typedef struct hh_body_motion {
  * Places all or, on an error, none. */
 HH_API hh_result hh_world_place_bodies(hh_world* world, const hh_body_motion* motions,
                                        size_t count);
-/* Where a player's play space is now, by the host's locomotion. Unlike a teleport it ends no grip,
+/* Where a player's hh_player_pose.origin is now, by the host's locomotion. Unlike a teleport it ends no grip,
  * and the body goes on moving. */
 HH_API hh_result hh_player_place(hh_world* world, hh_player player, hh_pose origin,
                                  hh_vec3 velocity_mps);
@@ -107,7 +107,8 @@ HH_API hh_result hh_world_step_hands(hh_world* world, double dt_s, const hh_play
 /* ---- Hands pull players through the host's solver ------------------------------------------- */
 
 /* What a hand asks of the host's solver. The player is a body of the host's: a point mass at the
- * play space's origin that cannot turn. At the end of the step, with origin and body solved:
+ * play space's origin that cannot turn: at hh_player_pose.origin until a recentring, which does not move
+ * it. At the end of the step, with origin and body solved:
  *   POINT      origin + target.position = body * anchor.position
  *   WELD       the same, and the body's rotation is body_rotation
  *   DIRECTION  the body's rotation is body_rotation: the second of two hands on one body */
