@@ -12,6 +12,7 @@
 
 #include "components/world.hpp"
 #include "engine/core/check.hpp"
+#include "engine/core/float_environment.hpp"
 #include "engine/math/math.hpp"
 
 // What every function of the C interface does: checks, conversions, and turning exceptions into
@@ -41,11 +42,19 @@ inline void require(bool condition, hh_result result, const char* text) {
 // Stores the text for hh_last_error and logs it; HH_ERROR_INTERNAL also calls the assert hook.
 hh_result report_failure(hh_result result, const char* text) noexcept;
 
-// Runs a call. `precondition`: what a PreconditionError means in it.
+// Not inlined, so that the compiler computes nothing of it outside of the FloatEnvironment.
+template <typename Work>
+[[gnu::noinline]] void run_call(Work& work) {
+    work();
+}
+
+// Runs a call in the library's floating-point environment. `precondition`: what a PreconditionError
+// means in it.
 template <typename Work>
 hh_result call(Work&& work, hh_result precondition = HH_ERROR_VALUE) noexcept {
+    const FloatEnvironment environment;
     try {
-        std::forward<Work>(work)();
+        run_call(work);
         return HH_OK;
     } catch (const HostError& error) {
         return report_failure(error.result, error.text.c_str());

@@ -15,6 +15,10 @@
  * stale id, a NaN or a number out of range. A call that fails changes nothing and writes no output;
  * hh_last_error() then says in one line what was wrong.
  *
+ * Floating point. Every call computes without exception traps, rounds to nearest and keeps denormals,
+ * on the threads that it uses too, and leaves the environment of the calling thread as it was, flags
+ * included. Hooks and queries of the host run in the library's environment.
+ *
  * Threads. Calls on different worlds may run at the same time. Calls on one world must not
  * overlap, not even two that only read. Functions without a world say what they allow.
  *
