@@ -118,7 +118,7 @@ void fit_hands(const FrameContext& f) {
     for_hand_slices(f, [&](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
         handhold::fit_hands({f.dt_s(), hands_of(f, first, last), w.hand_tracking, w.grip_surface,
                              w.palm_offset, w.finger_pose, w.palm_pose},
-                            f.tuning, slice.stats);
+                            f.tuning, slice.stats, slice.fit_rows);
     });
 }
 

@@ -19,6 +19,9 @@
  * on the threads that it uses too, and leaves the environment of the calling thread as it was, flags
  * included. Hooks and queries of the host run in the library's environment.
  *
+ * Stack. A call needs at most 96 KiB of the calling thread's stack, and as much on each thread that
+ * runs its tasks, so threads with 112 KiB and more are large enough (musl's default is 128).
+ *
  * Threads. Calls on different worlds may run at the same time. Calls on one world must not
  * overlap, not even two that only read. Functions without a world say what they allow.
  *
