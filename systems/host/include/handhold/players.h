@@ -60,6 +60,14 @@ HH_API hh_result hh_player_set_recenter_guess(hh_world* world, hh_player player,
 HH_API hh_result hh_player_teleport(hh_world* world, hh_player player, hh_pose origin);
 HH_API hh_result hh_player_velocity(const hh_world* world, hh_player player, hh_vec3* velocity_mps);
 HH_API hh_result hh_player_set_velocity(hh_world* world, hh_player player, hh_vec3 velocity_mps);
+/* The velocity that counts as rest for the player: of what the player gripped last, where it was
+ * gripped, else the scene's. Speed against it is what a player feels: for vignettes and wind. */
+HH_API hh_result hh_player_reference_velocity(const hh_world* world, hh_player player,
+                                              hh_vec3* velocity_mps);
+/* The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked: false
+ * before the head's first sample and while it is lost. */
+HH_API hh_result hh_player_head(const hh_world* world, hh_player player, hh_vec3* center,
+                                double* radius_m, uint8_t* is_tracked);
 HH_API hh_result hh_player_measures(const hh_world* world, hh_player player, hh_measures* measures);
 HH_API hh_result hh_player_set_measures(hh_world* world, hh_player player,
                                         const hh_measures* measures);
@@ -73,6 +81,9 @@ HH_API hh_result hh_player_set_hand_in_controller(hh_world* world, hh_player pla
 /* The same numbers, for hosts that have wrists and need controllers. */
 HH_API hh_result hh_player_hand_in_controller(const hh_world* world, hh_player player, hh_side side,
                                               hh_pose* hand_in_controller);
+/* The same numbers for a player who has none of their own, by the tuning alone. */
+HH_API hh_result hh_world_hand_in_controller(const hh_world* world, hh_side side,
+                                             hh_pose* hand_in_controller);
 
 /* ---- Hands ---------------------------------------------------------------------------------- */
 
@@ -124,6 +135,11 @@ static inline hh_result hh_player_hand(const hh_world* world, hh_player player, 
                                        hh_hand_state* hand) {
     return hh_player_hand_sized(world, player, side, hand, sizeof(hh_hand_state));
 }
+/* True if the player can pull on what the hand grips: something static, kinematic or heavy, another
+ * player, or a body that joints connect to something fixed, such as a lever. False if the hand is
+ * empty, or what it holds comes along. */
+HH_API hh_result hh_hand_moves_player(const hh_world* world, hh_player player, hh_side side,
+                                      uint8_t* moves_player);
 /* Poses of many players in one call; HH_ERROR_HANDLE, and nothing written, if one is stale.
  * `pose_size`, `hand_size`: bytes of hh_player_pose and hh_hand_state as the host knows them. */
 HH_API hh_result hh_world_player_poses_sized(const hh_world* world, const hh_player* players,
