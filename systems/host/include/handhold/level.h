@@ -11,14 +11,19 @@ extern "C" {
 
 /* ---- Shapes. Sizes in [1e-3, 1e4] m. A shape may be used by any number of bodies. ------------ */
 
+/* In a world with fits_hands, a new shape gets a surface for hands on the calling thread; a shape equal to
+ * one that is there costs microseconds. Costs are of one core of a desktop. Round shapes cost more than a
+ * frame: add them while loading, or keep one of each size. Box: 0.02 ms. */
 HH_API hh_result hh_shape_add_box(hh_world* world, hh_vec3 half_extents_m, hh_shape* shape);
+/* Cost with fits_hands: 50 ms at 0.1 m, growing with the radius to 400 ms at 1 m; none above 64 m. */
 HH_API hh_result hh_shape_add_sphere(hh_world* world, double radius_m, hh_shape* shape);
-/* Along Y; half_height_m without the caps. */
+/* Along Y; half_height_m without the caps. Cost: as a sphere. */
 HH_API hh_result hh_shape_add_capsule(hh_world* world, double radius_m, double half_height_m,
                                       hh_shape* shape);
+/* Along Y. Cost with fits_hands: 0.4 ms at 0.1 m. */
 HH_API hh_result hh_shape_add_cylinder(hh_world* world, double radius_m, double half_height_m,
                                        hh_shape* shape);
-/* Convex hull of points that are not coplanar. */
+/* Convex hull of points that are not coplanar. Cost with fits_hands: 1.6 ms for 64 points. */
 HH_API hh_result hh_shape_add_hull(hh_world* world, const hh_vec3* points, size_t count,
                                    hh_shape* shape);
 
@@ -28,7 +33,8 @@ typedef struct hh_compound_part {
     hh_pose pose;   /* in the compound's frame */
     double mass_kg; /* of all parts, or 0 for all: by volume */
 } hh_compound_part;
-/* 1 to 64 parts that move as one. It keeps copies: the parts may be removed. */
+/* 1 to 64 parts that move as one. It keeps copies: the parts may be removed. Cost with fits_hands: of all
+ * its parts as if they were new. */
 HH_API hh_result hh_shape_add_compound(hh_world* world, const hh_compound_part* parts, size_t count,
                                        hh_shape* shape);
 
