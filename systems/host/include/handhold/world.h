@@ -117,11 +117,11 @@ HH_API hh_result hh_world_reference_velocity(const hh_world* world, hh_vec3* vel
  * calls with equal names. Cost: linear in the state, about 0.1 ms for a scene of 100 bodies. */
 HH_API hh_result hh_world_hash(const hh_world* world, uint64_t* hash);
 /* Saves every bit of the state. Writes the number of bytes to `size`. A null `buffer` only asks for
- * it. HH_ERROR_CAPACITY if it is more than `capacity`. Shapes, rigs, tuning and user data are not
- * in a snapshot. */
+ * it. HH_ERROR_CAPACITY if it is more than `capacity`. Rigs, tuning and user data are not in a snapshot.
+ * Shapes are named by their content: a world that restores it needs equal ones, whatever their ids. */
 HH_API hh_result hh_world_save(hh_world* world, void* buffer, size_t capacity, size_t* size);
 /* Back to a saved state, which then goes on bit for bit. Ids taken before the save are valid again.
- * HH_ERROR_DATA, and no change, for bytes that are damaged or were saved with other shapes. Tolerates
+ * HH_ERROR_DATA, and no change, for bytes that are damaged or name a shape that this world has not. Tolerates
  * any bytes. */
 HH_API hh_result hh_world_restore(hh_world* world, const void* bytes, size_t size);
 
