@@ -1,5 +1,5 @@
 // A client that joins late knows today's shapes, not those that came and went before: it restores
-// the server's snapshot all the same, and goes on bit for bit.
+// server's snapshot, and goes on bit for bit.
 #include <string>
 #include <vector>
 
