@@ -6,6 +6,7 @@
 #include "components/hand_surroundings.hpp"
 #include "components/stats.hpp"
 #include "engine/geometry/chain_fit.hpp"
+#include "engine/math/penalty_quadratic.hpp"
 
 namespace handhold {
 
@@ -18,6 +19,7 @@ struct HandScratch {
         StageStats stats;  // only fallbacks
         GripSearchScratch search;
         ChainFitScratch fit;
+        std::vector<PenaltyRow> fit_rows;
     };
     std::vector<Slice> slices;
 };

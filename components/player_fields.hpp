@@ -48,6 +48,10 @@ void visit_fields(const HeadTracking& c, V&& visit) {
     visit("shift_turn", c.shift_turn);
 }
 template <typename V>
+void visit_fields(const RecenterGuess& c, V&& visit) {
+    visit("guesses", c.guesses);
+}
+template <typename V>
 void visit_fields(const EarlySample& c, V&& visit) {
     visit("t_s", c.t_s);
     visit("head_ps", c.head_ps);

@@ -73,6 +73,12 @@ struct HeadTracking {
     Quat shift_turn = Quat::Identity();  // turn about +Y
 };
 
+// Whether jumps of all samples count as recentrings of the device, which the player does not see.
+// Only players with another answer than yes have this component. Written by the host.
+struct RecenterGuess {
+    bool guesses = false;  // false: the host announces recentrings, every other jump is meant
+};
+
 enum class GrabEdge : std::uint8_t { none, onset, release };
 
 // One tracked hand: the controller's pose times the pose of the hand in the controller

@@ -67,17 +67,17 @@ HandFitGoal common_goal(const HandSurroundings& hand, const FingerPose& pose) {
 // Starts at the palm within its limits and the closed digits.
 HandFit fit_closed(const HandSurroundings& hand, const GripSurface& surface,
                    const PalmOffset& offset, const FingerPose& pose, std::int32_t rounds,
-                   const PalmTuning& tuning) {
+                   const PalmTuning& tuning, std::vector<PenaltyRow>& rows) {
     HandFitGoal goal = common_goal(hand, pose);
     goal.first = {held_wrist_bs(hand, offset), pose.closed};
     goal.is_clear = pose.is_closed_clear;
     goal.rounds = rounds;
-    return fit_hand(hand, surface, goal, tuning);
+    return fit_hand(hand, surface, goal, tuning, rows);
 }
 
 // Starts at the last fit, carried along with the tracked wrist.
 HandFit fit_last(const HandSurroundings& hand, const GripSurface& surface, const PalmOffset& offset,
-                 const FingerPose& pose, const PalmTuning& tuning) {
+                 const FingerPose& pose, const PalmTuning& tuning, std::vector<PenaltyRow>& rows) {
     HandFitGoal goal = common_goal(hand, pose);
     const Pose target{offset.target_m, rotation_from_vector(offset.target_turn_rad)};
     goal.first = {goal.is_wrist_fixed ? held_wrist_bs(hand, offset) : hand.wrist_bs * target,
@@ -90,21 +90,22 @@ HandFit fit_last(const HandSurroundings& hand, const GripSurface& surface, const
     goal.is_clear = pose.is_clear;
     goal.rounds = k_rounds;
     goal.max_flex_rad = k_max_flex_rad;
-    return fit_hand(hand, surface, goal, tuning);
+    return fit_hand(hand, surface, goal, tuning, rows);
 }
 
 HandFit best_fit(const HandSurroundings& hand, const GripSurface& surface, const Tuning& tuning,
-                 const PalmOffset& offset, const FingerPose& pose) {
+                 const PalmOffset& offset, const FingerPose& pose, std::vector<PenaltyRow>& rows) {
     if (!pose.is_newly_closed) {
-        return fit_last(hand, surface, offset, pose, tuning.palm);
+        return fit_last(hand, surface, offset, pose, tuning.palm, rows);
     }
     const bool has_last = pose.fitted_body == hand.body && hand.authored == nullptr;
-    HandFit closed = fit_closed(hand, surface, offset, pose,
-                                has_last ? k_closing_again_rounds : k_closing_rounds, tuning.palm);
+    HandFit closed =
+        fit_closed(hand, surface, offset, pose,
+                   has_last ? k_closing_again_rounds : k_closing_rounds, tuning.palm, rows);
     if (!has_last) {
         return closed;
     }
-    HandFit last = fit_last(hand, surface, offset, pose, tuning.palm);
+    HandFit last = fit_last(hand, surface, offset, pose, tuning.palm, rows);
     return closed.cost < k_change_cost_share * last.cost ? closed : last;
 }
 
@@ -116,12 +117,13 @@ bool sticks(const HandSurroundings& hand, const FingerTuning& tuning, const Fing
 }
 
 void fit_one(const HandSurroundings& hand, const GripSurface& surface, const Tuning& tuning,
-             StageStats& stats, PalmOffset& offset, FingerPose& pose) {
+             StageStats& stats, PalmOffset& offset, FingerPose& pose,
+             std::vector<PenaltyRow>& rows) {
     if (!pose.is_newly_closed && pose.fitted_signature == hand.signature &&
         sticks(hand, tuning.finger, pose)) {
         return;
     }
-    const HandFit fit = best_fit(hand, surface, tuning, offset, pose);
+    const HandFit fit = best_fit(hand, surface, tuning, offset, pose, rows);
     const Pose target = inverse(hand.wrist_bs) * fit.pose.wrist_bs;
     offset.target_m = target.position;
     offset.target_turn_rad = rotation_to_vector(target.rotation);
@@ -210,6 +212,12 @@ Pose shown_wrist_ws(const HandSurroundings& hand, const PalmOffset& offset) {
 }  // namespace
 
 void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats) {
+    std::vector<PenaltyRow> rows;
+    fit_hands(io, tuning, stats, rows);
+}
+
+void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats,
+               std::vector<PenaltyRow>& rows) {
     for (const HandSurroundings& hand : io.hands) {
         const GripSurface& surface = io.surface.at(hand.hand);
         PalmOffset& offset = io.offset.at(hand.hand);
@@ -217,7 +225,7 @@ void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats) {
         if (surface.triangle == GripSurface::k_none) {
             pose_unsupported_hand(hand, io.hand.at(hand.hand), tuning.thumb, offset, pose);
         } else {
-            fit_one(hand, surface, tuning, stats, offset, pose);
+            fit_one(hand, surface, tuning, stats, offset, pose, rows);
         }
         follow_trigger(hand, io.hand.at(hand.hand).trigger, pose);
         follow_palm(target_in_hand(hand, pose, offset), io.dt_s, tuning.palm, offset);

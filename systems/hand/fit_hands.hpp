@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "components/hand.hpp"
 #include "components/hand_surroundings.hpp"
@@ -9,6 +10,7 @@
 #include "components/tracking.hpp"
 #include "components/tuning.hpp"
 #include "engine/ecs/column.hpp"
+#include "engine/math/penalty_quadratic.hpp"
 #include "systems/hand/shared/fit_terms.hpp"
 
 namespace handhold {
@@ -51,6 +53,9 @@ struct FitHandsIo {
 //
 // Fallbacks counted: hand_penetrates, once per fit that started from a closing.
 void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats);
+// The same with scratch memory, so that warm frames do not allocate.
+void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats,
+               std::vector<PenaltyRow>& rows);
 
 // Evaluates the objective of the hand as it is shown, term by term and digit by digit, for
 // inspectors; frames do not compute this. Nullopt if the hand is on no surface.

@@ -107,11 +107,10 @@ void hh_sin_cos(double angle_rad, double* sine, double* cosine) {
 
 double hh_atan2(double y, double x) { return arc_tangent2(y, x); }
 
-hh_host_hooks hh_default_host_hooks(void) {
+hh_result hh_default_host_hooks_sized(hh_host_hooks* filled, size_t size) {
     hh_host_hooks set{};
-    set.struct_size = sizeof set;
     set.thread_count = 1;
-    return set;
+    return write_default(filled, size, set);
 }
 
 hh_result hh_set_host_hooks(const hh_host_hooks* wanted) {

@@ -349,6 +349,7 @@ void finish_events(hh_world& host) {
     add_contact_events(host, HH_EVENT_CONTACT_BEGAN, host.contacts, host.last_contacts);
     add_contact_events(host, HH_EVENT_CONTACT_ENDED, host.last_contacts, host.contacts);
     update_joint_reports(host, true);
+    report_recentrings(host, true);
     if (host.settings.reports_touches) {
         add_touch_events(host);
     }
@@ -369,16 +370,29 @@ void forget_events(hh_world& host) {
             .since_s = grab.since_s};
     }
     update_joint_reports(host, false);
+    drop_stale(host.spaces, host.world.player);
+    report_recentrings(host, false);
 }
 
 }  // namespace handhold
 
-hh_result hh_world_events(const hh_world* world, const hh_event** events, size_t* count) {
+hh_result hh_world_events_sized(const hh_world* world, const hh_event** events, size_t* count,
+                                size_t event_size) {
     using namespace handhold;
     return call([&] {
         const hh_world& host = world_of(world);
         require(events != nullptr && count != nullptr, HH_ERROR_NULL, "an output is null");
+        constexpr std::size_t k_first_event_size = sizeof(hh_event);  // in version 0.2.0
+        require_size(event_size, k_first_event_size, sizeof(hh_event));
         *events = host.events.data();
         *count = host.events.size();
+        if (event_size < sizeof(hh_event)) {
+            host.packed_events.resize(host.events.size() * event_size);
+            hh_event* const packed = reinterpret_cast<hh_event*>(host.packed_events.data());
+            for (std::size_t i = 0; i < host.events.size(); ++i) {
+                std::memcpy(&sized_element(packed, event_size, i), &host.events[i], event_size);
+            }
+            *events = packed;
+        }
     });
 }

@@ -32,11 +32,11 @@ TrackingSample read_sample(const hh_tracking_sample& sample, double end_s, bool 
     const bool is_at_end = sample.time_s > end_s && sample.time_s <= end_s + rounding_s;
     TrackingSample read;
     read.t_s = is_at_end ? end_s : sample.time_s;
-    read.head_ps = tracked_or_invalid(unchecked_pose(sample.head), sample.head_tracked);
+    read.head_ps = tracked_or_invalid(unchecked_pose(sample.head), sample.head_tracked != 0);
     for (std::size_t i = 0; i < k_hand_count; ++i) {
         read.controllers[i].controller_ps =
-            tracked_or_invalid(unchecked_pose(sample.hands[i]), sample.hand_tracked[i]);
-        read.controllers[i].grab = sample.grab[i];
+            tracked_or_invalid(unchecked_pose(sample.hands[i]), sample.hand_tracked[i] != 0);
+        read.controllers[i].grab = sample.grab[i] != 0;
         read.controllers[i].squeeze = sample.squeeze[i];
         read.controllers[i].trigger = sample.trigger[i];
     }
@@ -75,19 +75,20 @@ EarlySample early_of(const TrackingSample& sample) {
 
 PlayerCommands read_commands(const hh_commands& commands) {
     return {commands.smooth_turn, commands.snap_turns, commands.brake, from_c(commands.thrust),
-            commands.calibrate};
+            commands.calibrate != 0};
 }
 
 // Elements of an array of definitions lie apart by the size that the host knows.
-const hh_player_input& input_at(const hh_player_input* inputs, std::size_t i) {
-    const char* const bytes = reinterpret_cast<const char*>(inputs);
-    return *reinterpret_cast<const hh_player_input*>(bytes + i * inputs->struct_size);
+template <typename Def>
+const Def& def_at(const Def* defs, std::size_t i) {
+    return sized_element(defs, defs->struct_size, i);
 }
-
-// Of any version: `repeats_samples` came after the first.
-hh_player_input read_input(const hh_player_input* inputs, std::size_t i) {
-    return read_def(&input_at(inputs, i), hh_default_player_input(),
-                    offsetof(hh_player_input, repeats_samples));
+// Element `i` of such an array. HH_ERROR_VERSION unless it has the size of the first.
+template <typename Def>
+Def read_def_at(const Def* defs, std::size_t i, const Def& defaults) {
+    require(def_at(defs, i).struct_size == defs->struct_size, HH_ERROR_VERSION,
+            "the elements of an array have different struct_size");
+    return read_def(&def_at(defs, i), defaults);
 }
 
 }  // namespace
@@ -99,32 +100,38 @@ void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std
     host.repeats_samples.clear();
     host.samples.clear();
     std::size_t sample_count = 0;
+    const hh_player_input input_defaults = hh_default_player_input();
+    const hh_tracking_sample sample_defaults = hh_default_tracking_sample();
     for (std::size_t i = 0; i < count; ++i) {
-        const hh_player_input input = read_input(inputs, i);
+        const hh_player_input input = read_def_at(inputs, i, input_defaults);
         require(input.sample_count == 0 || input.samples != nullptr, HH_ERROR_NULL,
                 "an input's samples are null");
         constexpr std::size_t k_max_samples = 1U << 16U;
         require(input.sample_count <= k_max_samples, HH_ERROR_VALUE,
                 "an input has more than 2^16 samples");
+        for (std::size_t j = 0; j < input.sample_count; ++j) {
+            read_def_at(input.samples, j, sample_defaults);
+        }
         const Entity player = player_of(host, input.player);
         for (const PlayerInput& other : host.inputs) {
             require(other.player != player, HH_ERROR_VALUE, "a player has two inputs");
         }
         host.inputs.push_back({player, {}, read_commands(input.commands)});
-        host.repeats_samples.push_back(input.repeats_samples ? 1 : 0);
+        host.repeats_samples.push_back(input.repeats_samples != 0 ? 1 : 0);
         sample_count += input.sample_count;
     }
     const double end_s = host.world.clock.t_s + dt_s;
     host.samples.reserve(sample_count + count);  // spans into it must not move
     for (std::size_t i = 0; i < count; ++i) {
-        const hh_player_input input = read_input(inputs, i);
+        const hh_player_input& input = def_at(inputs, i);
         const std::size_t first = host.samples.size();
         const EarlySample* const early = host.world.early_sample.find(host.inputs[i].player);
         if (early != nullptr && (input.sample_count == 0 || input.samples[0].time_s > early->t_s)) {
             host.samples.push_back(read_sample(*early));
         }
         for (std::size_t j = 0; j < input.sample_count; ++j) {
-            host.samples.push_back(read_sample(input.samples[j], end_s, input.repeats_samples));
+            host.samples.push_back(read_sample(read_def_at(input.samples, j, sample_defaults),
+                                               end_s, input.repeats_samples != 0));
         }
         host.inputs[i].samples = {host.samples.data() + first, host.samples.size() - first};
     }
@@ -212,12 +219,11 @@ const SnapshotAssets& assets_of(hh_world& host) {
 
 using namespace handhold;
 
-hh_world_def hh_default_world_def(void) {
+hh_result hh_default_world_def_sized(hh_world_def* filled, size_t size) {
     hh_world_def def{};
-    def.struct_size = sizeof def;
     def.fits_hands = true;
     def.reports_touches = true;
-    return def;
+    return write_default(filled, size, def);
 }
 
 hh_result hh_world_create(const hh_world_def* wanted, hh_world** world) {
@@ -243,17 +249,16 @@ void hh_world_destroy(hh_world* world) {
     delete world;
 }
 
-hh_tracking_sample hh_default_tracking_sample(void) {
+hh_result hh_default_tracking_sample_sized(hh_tracking_sample* filled, size_t size) {
     hh_tracking_sample sample{};
     sample.head = sample.hands[0] = sample.hands[1] = hh_identity_pose();
     sample.head_tracked = sample.hand_tracked[0] = sample.hand_tracked[1] = true;
-    return sample;
+    return write_default(filled, size, sample);
 }
 
-hh_player_input hh_default_player_input(void) {
+hh_result hh_default_player_input_sized(hh_player_input* filled, size_t size) {
     hh_player_input input{};
-    input.struct_size = sizeof input;
-    return input;
+    return write_default(filled, size, input);
 }
 
 hh_result hh_world_step(hh_world* world, double dt_s, const hh_player_input* inputs,

@@ -66,10 +66,9 @@ void with_number(TuningType& tuning, const char* name, std::size_t count, const 
 
 using namespace handhold;
 
-hh_tuning_info hh_default_tuning_info(void) {
+hh_result hh_default_tuning_info_sized(hh_tuning_info* filled, size_t size) {
     hh_tuning_info info{};
-    info.struct_size = sizeof info;
-    return info;
+    return write_default(filled, size, info);
 }
 
 hh_result hh_tuning_describe(size_t index, hh_tuning_info* info) {
@@ -137,10 +136,9 @@ hh_result hh_world_load_tuning(hh_world* world, const char* json, size_t size) {
     });
 }
 
-hh_world_stats hh_default_world_stats(void) {
+hh_result hh_default_world_stats_sized(hh_world_stats* filled, size_t size) {
     hh_world_stats stats{};
-    stats.struct_size = sizeof stats;
-    return stats;
+    return write_default(filled, size, stats);
 }
 
 hh_result hh_world_get_stats(const hh_world* world, hh_world_stats* stats) {

@@ -80,6 +80,7 @@ void remove_entity(hh_world& host, Entity entity) {
         host.body_rigs.remove(gone);
         host.hands.remove(gone);
         host.joints.remove(gone);
+        host.spaces.remove(gone);
         host.caches.body_surfaces.remove(gone);
     };
     sync_index(host.world);

@@ -13,6 +13,7 @@
 #include "engine/geometry/grip_mesh_library.hpp"
 #include "systems/frame/frame_of_host.hpp"
 #include "systems/host/host_call.hpp"
+#include "systems/host/host_growth.hpp"
 #include "systems/host/host_surfaces.hpp"
 #include "systems/rigs/body_rig.hpp"
 #include "systems/snapshot/snapshot.hpp"
@@ -46,6 +47,12 @@ struct HandReport {
     double since_s = 0.0;
     Vec3 impulse_ns = Vec3::Zero();  // impulse on the gripped entity
     Entity touched = k_no_entity;    // entity that the open palm touches
+};
+
+// How a player's samples were corrected at the end of the last step.
+struct SpaceReport {
+    Pose correction;
+    bool is_announced = false;  // hh_player_recenter announced it
 };
 
 struct JointReport {
@@ -100,9 +107,11 @@ struct hh_world {
     handhold::Column<handhold::BodyRigSlot> body_rigs;  // indexed by player
     handhold::Column<handhold::HandReport> hands;
     handhold::Column<handhold::JointReport> joints;
+    handhold::Column<handhold::SpaceReport> spaces;    // indexed by player
     std::vector<handhold::HostContact> contacts;       // contacts of the last step
     std::vector<handhold::HostContact> last_contacts;  // contacts of the step before
     std::vector<hh_event> events;
+    mutable std::vector<std::byte> packed_events;  // copies for hosts that know a shorter hh_event
 
     // Scratch of a step.
     std::vector<double> impulse_shares;  // reported share of each constraint block's impulse
@@ -189,6 +198,15 @@ Pose library_pose(const hh_world& host, Entity body, const Pose& host_pose_ws);
 // A pose in the body's library frame, in its host frame, and back.
 Pose to_host_bs(const hh_world& host, Entity body, const Pose& pose_bs);
 Pose from_host_bs(const hh_world& host, Entity body, const Pose& pose_bs);
+
+// From the space of a player's samples to play space (HeadTracking's shift), and that space's pose
+// in the world, which hosts call the player's origin.
+Pose samples_in_play_space(const hh_world& host, Entity player);
+Pose samples_space_ws(const hh_world& host, Entity player);
+// The play space's pose for such an origin.
+Pose play_space_ws(const hh_world& host, Entity player, const Pose& samples_space_ws);
+// Adds an event for each player whose samples are corrected in another way than in the last report.
+void report_recentrings(hh_world& host, bool makes_events);
 
 // The name, or one made of the id that the next entity gets, which is part of the state: so replays
 // after a restore give equal names. HH_ERROR_NAME if it is taken; HH_ERROR_STATE inside a begun

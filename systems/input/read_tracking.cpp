@@ -95,9 +95,9 @@ struct HandReader {
     bool has_sample = false;
     bool has_jumped = false;
 
-    // Why a reading is ignored; none if it counts.
+    // Why a reading is ignored; none if it counts. `is_meant`: so is any jump of the devices.
     std::optional<Fallback> refusal(const ControllerSample& reading, const Pose& hand_ps,
-                                    double t_s) const {
+                                    double t_s, bool is_meant) const {
         if (!is_trackable(reading.controller_ps)) {
             return Fallback::sample_not_finite;
         }
@@ -107,7 +107,7 @@ struct HandReader {
         if (!space.is_in_reach(hand_ps.position, tuning.hand.max_arm_m)) {
             return Fallback::hand_out_of_reach;
         }
-        if (has_sample &&
+        if (has_sample && !is_meant &&
             !is_plausible(hand, history, hand_ps, t_s, tuning.tracking.max_hand_speed_mps)) {
             return Fallback::hand_implausible;
         }
@@ -127,6 +127,14 @@ struct HandReader {
         if (reason == Fallback::hand_implausible) {
             hand.reading_ps = hand_ps;
             hand.reading_t_s = t_s;
+        }
+    }
+
+    // The devices were moved: the hand did not travel, and its velocity is unknown.
+    void jump_with_space(bool is_meant) {
+        if (is_meant) {
+            hand.interrupted = has_sample;
+            clear(history);
         }
     }
 
@@ -178,11 +186,12 @@ struct HandReader {
         double later_t_s = 0.0;
         for (const TrackingSample& sample : input.samples) {
             const ControllerSample& reading = sample.controllers[index_of(side)];
-            space.follow(sample, tuning.tracking);
+            const bool is_meant =
+                space.follow(sample, tuning.tracking) == PlaySpaceTracker::Jump::meant;
             const Pose hand_ps = space.hand_ps(reading, side);
-            const std::optional<Fallback> why_not = refusal(reading, hand_ps, sample.t_s);
+            const std::optional<Fallback> why_not = refusal(reading, hand_ps, sample.t_s, is_meant);
             if (is_later(sample.t_s, io.frame_end_s)) {
-                if (!why_not && !jumps_to(hand_ps)) {
+                if (!why_not && !is_meant && !jumps_to(hand_ps)) {
                     later = hand_ps;
                     later_t_s = sample.t_s;
                 }
@@ -194,6 +203,7 @@ struct HandReader {
             if (why_not) {
                 ignore(*why_not, hand_ps, sample.t_s);
             } else {
+                jump_with_space(is_meant);
                 believe(hand_ps, sample.t_s);
             }
             read_button(reading, sample.t_s, !why_not);
@@ -219,6 +229,7 @@ struct HandReader {
 void read_head(HeadTracking& head, PlaySpaceTracker space, const PlayerInput& input,
                const ReadTrackingIo& io, const TrackingTuning& tuning, StageStats& stats) {
     bool has_sample = space.has_head();
+    bool has_jumped = false;
     head.start_ps = head.pose_ps;
     Pose later;
     const Pose* later_or_null = nullptr;
@@ -227,7 +238,7 @@ void read_head(HeadTracking& head, PlaySpaceTracker space, const PlayerInput& in
         const bool is_stale_now = is_stale(sample.t_s, has_sample, head.sample_t_s);
         const PlaySpaceTracker::Jump jump = space.follow(sample, tuning);
         if (is_later(sample.t_s, io.frame_end_s)) {
-            if (is_trackable(sample.head_ps)) {
+            if (is_trackable(sample.head_ps) && jump != PlaySpaceTracker::Jump::meant) {
                 later = space.head_ps();
                 later_or_null = &later;
                 later_t_s = sample.t_s;
@@ -239,7 +250,9 @@ void read_head(HeadTracking& head, PlaySpaceTracker space, const PlayerInput& in
         } else if (!is_trackable(sample.head_ps)) {
             stats.count(Fallback::sample_not_finite);
         } else {
-            if (jump != PlaySpaceTracker::Jump::none) {
+            has_jumped = has_jumped || jump == PlaySpaceTracker::Jump::meant;
+            if (jump == PlaySpaceTracker::Jump::head ||
+                jump == PlaySpaceTracker::Jump::play_space) {
                 stats.count(jump == PlaySpaceTracker::Jump::head ? Fallback::head_recentred
                                                                  : Fallback::space_recentred);
             }
@@ -254,6 +267,9 @@ void read_head(HeadTracking& head, PlaySpaceTracker space, const PlayerInput& in
     }
     finish_device(head, has_sample, later_or_null, later_t_s, io.frame_end_s, tuning.lost_after_s,
                   stats);
+    if (has_jumped) {
+        head.start_ps = head.pose_ps;  // it did not travel
+    }
 }
 
 // No samples and no commands for a player whom nothing is known of in this frame. Inputs mostly
@@ -321,7 +337,8 @@ void read_player(const ReadTrackingIo& io, std::size_t row, const Tuning& tuning
                                      hand.state != TrackingState::never};
         }
     }
-    const PlaySpaceTracker space(head, hands);
+    const RecenterGuess* const guess = io.recenter_guess.find(player);
+    const PlaySpaceTracker space(head, hands, guess == nullptr || guess->guesses);
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const std::size_t hand_row = hand_rows[index_of(side)];
         if (hand_row < io.owner.size()) {

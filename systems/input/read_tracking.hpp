@@ -16,6 +16,7 @@ struct ReadTrackingIo {
     double frame_end_s;                   // in: > frame_start_s
     const Column<HandOwner>& owner;       // in
     const Column<ControllerToHand>& controller_to_hand;  // in: hands without it use Tuning's
+    const Column<RecenterGuess>& recenter_guess;         // in: players without it: guesses
     Column<HeadTracking>& head;                          // in/out
     Column<HandTracking>& hand;                          // in/out
     Column<HandHistory>& history;                        // in/out
@@ -35,7 +36,8 @@ struct ReadTrackingIo {
 //
 // If the head jumps by more than max_jump_m, or head and hands jump by one turn about +Y and one
 // translation (recentring), later samples are corrected by HeadTracking's shift so that the head
-// stays where it was.
+// stays where it was. For players whose RecenterGuess says no, such jumps are meant: head and hands
+// follow them, and gripping hands take new anchors.
 //
 // Commands hold for their own frame. Numbers in them that are not finite count as 0.
 void read_tracking(const ReadTrackingIo& io, const Tuning& tuning, StageStats& stats);

@@ -123,7 +123,7 @@ void misuse_ids(hh_world* world, std::uint32_t index, std::uint32_t generation) 
     HH_GIVES(HH_ERROR_HANDLE, hh_body_joints(world, body, nullptr, 0, &joint_count));
     HH_GIVES(HH_ERROR_HANDLE, hh_player_reference_velocity(world, player, &v));
     HH_GIVES(HH_ERROR_HANDLE, hh_player_head(world, player, &v, nullptr, nullptr));
-    bool moves_player = false;
+    std::uint8_t moves_player = 0;
     HH_GIVES(HH_ERROR_HANDLE, hh_hand_moves_player(world, player, HH_LEFT, &moves_player));
     if (generation != 0) {  // a null player: none is skipped
         hh_hit hit{};
@@ -210,6 +210,18 @@ void misuse_versions(hh_world* world) {
         HH_GIVES(HH_ERROR_VERSION, hh_tuning_describe(0, &info));
         HH_GIVES(HH_ERROR_VERSION, hh_set_host_hooks(&hooks));
         HH_GIVES(HH_ERROR_VERSION, hh_world_step(world, 0.01, &input, 1));
+        hh_tracking_sample sample = hh_default_tracking_sample();
+        hh_player_input sampled = hh_default_player_input();
+        sample.struct_size = size;
+        sampled.samples = &sample;
+        sampled.sample_count = 1;
+        HH_GIVES(HH_ERROR_VERSION, hh_world_step(world, 0.01, &sampled, 1));
+        const hh_event* events = nullptr;
+        size_t count = 0;
+        HH_GIVES(HH_ERROR_VERSION, hh_world_events_sized(world, &events, &count, size));
+        hh_hand_state hand{};
+        HH_GIVES(HH_ERROR_VERSION, hh_player_hand_sized(world, player, HH_LEFT, &hand, size));
+        HH_GIVES(HH_ERROR_VERSION, hh_default_tracking_sample_sized(&sample, size > 8 ? 0 : size));
     }
     HH_GIVES(HH_ERROR_STATE, hh_set_host_hooks(nullptr));
     HH_GIVES(HH_ERROR_HANDLE, hh_shape_remove(world, shape));

@@ -53,7 +53,7 @@ static_assert(4 * (k_max_unknowns - 6) + 2 * k_finger_count + 4 * (k_finger_coun
 class Fitter {
   public:
     Fitter(const HandSurroundings& hand, const GripSurface& surface, const HandFitGoal& goal,
-           const PalmTuning& tuning, FitTerms* terms = nullptr)
+           const PalmTuning& tuning, std::vector<PenaltyRow>& rows, FitTerms* terms = nullptr)
         : hand_(hand),
           rig_(*hand.rig),
           surface_(surface),
@@ -62,7 +62,7 @@ class Fitter {
           layout_(rig_),
           pose_(goal.first),
           spheres_(hand, surface, goal.is_clear),
-          problem_(layout_.end(), terms) {}
+          problem_(layout_.end(), terms, rows) {}
 
     HandFit run() {
         constexpr double k_gain = 1e-6;  // smallest relative gain that counts
@@ -441,14 +441,15 @@ class Fitter {
 }  // namespace
 
 HandFit fit_hand(const HandSurroundings& hand, const GripSurface& surface, const HandFitGoal& goal,
-                 const PalmTuning& tuning) {
-    return Fitter(hand, surface, goal, tuning).run();
+                 const PalmTuning& tuning, std::vector<PenaltyRow>& rows) {
+    return Fitter(hand, surface, goal, tuning, rows).run();
 }
 
 FitTerms fit_terms(const HandSurroundings& hand, const GripSurface& surface,
                    const HandFitGoal& goal, const PalmTuning& tuning) {
     FitTerms terms;
-    Fitter fitter(hand, surface, goal, tuning, &terms);
+    std::vector<PenaltyRow> rows;
+    Fitter fitter(hand, surface, goal, tuning, rows, &terms);
     fitter.evaluate();
     for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
         terms.gap_m[f] = fitter.gap_m(f);

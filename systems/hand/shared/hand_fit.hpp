@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "components/hand.hpp"
 #include "components/hand_surroundings.hpp"
 #include "components/tuning.hpp"
+#include "engine/math/penalty_quadratic.hpp"
 #include "systems/hand/shared/fit_terms.hpp"
 #include "systems/hand/shared/hand_spheres.hpp"
 
@@ -77,10 +79,10 @@ struct HandFit {
     bool is_converged = false;  // the last round gained nothing
 };
 
-// Deterministic, does not allocate. Never costs more than `goal.first`. Precondition: the hand has
-// meshes, and `surface` is on the first one.
+// Deterministic. `rows` is scratch memory; it allocates once. Never costs more than `goal.first`.
+// Precondition: the hand has meshes, and `surface` is on the first one.
 HandFit fit_hand(const HandSurroundings& hand, const GripSurface& surface, const HandFitGoal& goal,
-                 const PalmTuning& tuning);
+                 const PalmTuning& tuning, std::vector<PenaltyRow>& rows);
 
 // The objective's terms at `goal.first`, whose sum is the cost of a fit without rounds. Same
 // preconditions.

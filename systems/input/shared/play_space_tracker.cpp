@@ -26,13 +26,14 @@ bool is_stale(double t_s, bool has_sample, double last_t_s) {
 }
 
 PlaySpaceTracker::PlaySpaceTracker(const HeadTracking& head,
-                                   const std::array<Hand, k_hand_count>& hands)
+                                   const std::array<Hand, k_hand_count>& hands, bool corrects_jumps)
     : shift_{head.shift_m, head.shift_turn},
       head_ps_(head.sample_ps),
       head_t_s_(head.sample_t_s),
       before_ps_(head.before_ps),
       before_t_s_(head.before_t_s),
       has_head_(head.state != TrackingState::never),
+      corrects_jumps_(corrects_jumps),
       hands_(hands) {}
 
 // Exact where nothing was shifted.
@@ -61,16 +62,21 @@ PlaySpaceTracker::Jump PlaySpaceTracker::follow(const TrackingSample& sample,
     Pose next_ps = corrected({sample.head_ps.position, sample.head_ps.rotation.normalized()});
     Pose undo;
     if (has_head_ && find_recentring(sample, next_ps, tuning, undo)) {
-        jump = Jump::play_space;
-        shift_by(undo);
-        next_ps = undo * next_ps;
+        jump = corrects_jumps_ ? Jump::play_space : Jump::meant;
+        if (corrects_jumps_) {
+            shift_by(undo);
+            next_ps = undo * next_ps;
+        }
     } else if (has_head_ && (next_ps.position - head_ps_.position).norm() > tuning.max_jump_m) {
-        jump = Jump::head;
-        shift_by({head_ps_.position - next_ps.position, Quat::Identity()});
-        next_ps.position = head_ps_.position;
+        jump = corrects_jumps_ ? Jump::head : Jump::meant;
+        if (corrects_jumps_) {
+            shift_by({head_ps_.position - next_ps.position, Quat::Identity()});
+            next_ps.position = head_ps_.position;
+        }
     }
-    before_ps_ = has_head_ ? head_ps_ : next_ps;
-    before_t_s_ = has_head_ ? head_t_s_ : sample.t_s;
+    const bool has_velocity = has_head_ && jump != Jump::meant;
+    before_ps_ = has_velocity ? head_ps_ : next_ps;
+    before_t_s_ = has_velocity ? head_t_s_ : sample.t_s;
     head_ps_ = next_ps;
     head_t_s_ = sample.t_s;
     has_head_ = true;

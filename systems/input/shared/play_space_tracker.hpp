@@ -39,16 +39,19 @@ class PlaySpaceTracker {
         double reading_t_s = 0.0;
         bool has_reading = false;
     };
-    enum class Jump : std::uint8_t { none, head, play_space };
+    enum class Jump : std::uint8_t { none, head, play_space, meant };
 
-    PlaySpaceTracker(const HeadTracking& head, const std::array<Hand, k_hand_count>& hands);
+    // `corrects_jumps`: false for players whose RecenterGuess says no.
+    PlaySpaceTracker(const HeadTracking& head, const std::array<Hand, k_hand_count>& hands,
+                     bool corrects_jumps = true);
 
     // Advances to `sample`. From a jump on, all readings are corrected so that the head goes on as
     // before (play_space) or stays where it was (head):
     //  - play_space: head and hands moved by one transform (a turn about +Y and a translation), at
     //    least one of them farther than a device can move. What remains of each hand's motion once
     //    that transform is undone must be one that a hand can make;
-    //  - head: the head moved farther than TrackingTuning::max_jump_m, and the hands did not match.
+    //  - head: the head moved farther than TrackingTuning::max_jump_m, and the hands did not match;
+    //  - meant: one of these in a tracker that does not correct jumps.
     Jump follow(const TrackingSample& sample, const TrackingTuning& tuning);
 
     // Of the sample followed last.
@@ -77,6 +80,7 @@ class PlaySpaceTracker {
     Pose before_ps_;
     double before_t_s_ = 0.0;
     bool has_head_ = false;
+    bool corrects_jumps_ = true;
     std::array<Hand, k_hand_count> hands_;
 };
 

@@ -58,6 +58,7 @@ World full_world() {
     world.filter.add(other);
     world.grab_rule.add(other);
     world.early_sample.add(made.player);
+    world.recenter_guess.add(made.player);
     world.grab_layers.add(made.player);
     world.grab_order.add(made.hands[0]);
     world.hand_rig.add(made.hands[0]);

@@ -77,7 +77,7 @@ struct CallingBack {
     hh_result read = HH_ERROR_INTERNAL;
     int calls = 0;
 };
-bool call_back(void* context, hh_vec3, hh_vec3, const hh_body*, size_t, hh_surface_hit*) {
+std::uint8_t call_back(void* context, hh_vec3, hh_vec3, const hh_body*, size_t, hh_surface_hit*) {
     auto& self = *static_cast<CallingBack*>(context);
     const hh_body_def def = hh_default_body_def();
     hh_body body{};
@@ -105,7 +105,7 @@ TEST(HostSurfaces, AQueryMayReadItsWorldButNotChangeIt) {
     EXPECT_NEAR(scene.world.time_s(), 2 * k_step_s, 1e-12);
 }
 
-bool throw_once(void* context, hh_vec3, hh_vec3, const hh_body*, size_t, hh_surface_hit*) {
+std::uint8_t throw_once(void* context, hh_vec3, hh_vec3, const hh_body*, size_t, hh_surface_hit*) {
     int& calls = *static_cast<int*>(context);
     if (calls++ == 0) {
         throw std::runtime_error("the host's ray failed");

@@ -78,11 +78,11 @@ TEST_F(SnapshotRefuses, AnyDamagedByte) {
 
 TEST_F(SnapshotRefuses, AnotherFormatVersion) {
     for (const std::uint32_t version :
-         {1U, 2U, 3U, 4U, 5U, 7U}) {  // earlier field names; a later build
+         {1U, 2U, 3U, 4U, 5U, 6U, 8U}) {  // earlier field names; a later build
         SnapshotBytes other(bytes_);
         other.put(8, version);
         expect_refused(other,
-                       "byte 8: expected format version 6, found " + std::to_string(version));
+                       "byte 8: expected format version 7, found " + std::to_string(version));
     }
 }
 

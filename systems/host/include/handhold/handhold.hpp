@@ -365,8 +365,8 @@ class World {
     }
     // True if the hand's grip moves its player.
     bool moves_player(Player player, Side side) const {
-        bool moves = false;
-        return hh_hand_moves_player(world_, player, side, &moves) == HH_OK && moves;
+        std::uint8_t moves = 0;
+        return hh_hand_moves_player(world_, player, side, &moves) == HH_OK && moves != 0;
     }
     // The velocity that counts as rest for the player.
     Maybe<Vec3> reference_velocity_mps(Player player) const {

@@ -40,21 +40,26 @@ typedef struct hh_surface_query {
     uint32_t struct_size;
     void* context; /* passed to each of the functions */
     /* First surface that the segment hits, from outside or inside. distance_m is not read. */
-    bool (*cast_ray)(void* context, hh_vec3 from, hh_vec3 to, const hh_body* skip,
+    uint8_t (*cast_ray)(void* context, hh_vec3 from, hh_vec3 to, const hh_body* skip,
                      size_t skip_count, hh_surface_hit* hit);
     /* First impact of a sphere moving along a segment; distance_m: how far its centre has moved.
      * For the distance grab (pull.reach_m above 0), and to keep trunk and legs out of surfaces:
      * about one query per player and frame. Null: neither. */
-    bool (*cast_sphere)(void* context, double radius_m, hh_vec3 from, hh_vec3 to,
+    uint8_t (*cast_sphere)(void* context, double radius_m, hh_vec3 from, hh_vec3 to,
                         const hh_body* skip, size_t skip_count, hh_surface_hit* hit);
     /* Nearest surface point within max_distance_m; distance_m: 0 inside a solid. */
-    bool (*closest_point)(void* context, hh_vec3 point, double max_distance_m, const hh_body* skip,
+    uint8_t (*closest_point)(void* context, hh_vec3 point, double max_distance_m, const hh_body* skip,
                           size_t skip_count, hh_surface_hit* hit);
     /* Nearest surface point of one body, at any distance; distance_m: 0 inside a solid. */
-    bool (*closest_point_on)(void* context, hh_body body, hh_vec3 point, hh_surface_hit* hit);
+    uint8_t (*closest_point_on)(void* context, hh_body body, hh_vec3 point, hh_surface_hit* hit);
 } hh_surface_query;
 /* All functions null: nothing is found. */
-HH_API hh_surface_query hh_default_surface_query(void);
+HH_API hh_result hh_default_surface_query_sized(hh_surface_query* filled, size_t size);
+static inline hh_surface_query hh_default_surface_query(void) {
+    hh_surface_query filled;
+    hh_default_surface_query_sized(&filled, sizeof(filled));
+    return filled;
+}
 /* From now on hands and legs ask the host, not the world's shapes. Null: back to the shapes. */
 HH_API hh_result hh_world_set_surface_query(hh_world* world, const hh_surface_query* query);
 /* The triangles that palm and fingers close on, in the body's frame; null: none. Not needed for
@@ -75,7 +80,7 @@ typedef struct hh_body_motion {
  * Places all or, on an error, none. */
 HH_API hh_result hh_world_place_bodies(hh_world* world, const hh_body_motion* motions,
                                        size_t count);
-/* Where a player's play space is now, by the host's locomotion. Unlike a teleport it ends no grip,
+/* Where a player's hh_player_pose.origin is now, by the host's locomotion. Unlike a teleport it ends no grip,
  * and the body goes on moving. */
 HH_API hh_result hh_player_place(hh_world* world, hh_player player, hh_pose origin,
                                  hh_vec3 velocity_mps);
@@ -102,7 +107,8 @@ HH_API hh_result hh_world_step_hands(hh_world* world, double dt_s, const hh_play
 /* ---- Hands pull players through the host's solver ------------------------------------------- */
 
 /* What a hand asks of the host's solver. The player is a body of the host's: a point mass at the
- * play space's origin that cannot turn. At the end of the step, with origin and body solved:
+ * play space's origin that cannot turn: at hh_player_pose.origin until a recentring, which does not move
+ * it. At the end of the step, with origin and body solved:
  *   POINT      origin + target.position = body * anchor.position
  *   WELD       the same, and the body's rotation is body_rotation
  *   DIRECTION  the body's rotation is body_rotation: the second of two hands on one body */
@@ -129,7 +135,7 @@ typedef struct hh_hand_constraint {
     hh_pose anchor_end;
     double compliance_m_per_n; /* of the rows; 0: rigid, as in the runtime's own solver */
     double max_force_n; /* enough to stop what the hand drives from its highest speed in one step */
-    bool is_releasing;  /* the hand lets go in this step */
+    uint8_t is_releasing;  /* the hand lets go in this step */
 } hh_hand_constraint;
 
 /* A player's body in the host's solver. */
