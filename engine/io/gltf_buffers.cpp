@@ -95,7 +95,7 @@ std::optional<std::filesystem::path> file_below(const std::filesystem::path& fol
     const std::optional<std::filesystem::path> decoded = path_below(folder, decode_percent(uri));
     const std::optional<std::filesystem::path> literal = path_below(folder, uri);
     std::error_code ignored;
-    const bool is_literal = decoded && literal && !std::filesystem::exists(*decoded, ignored) &&
+    const bool is_literal = !(decoded && std::filesystem::exists(*decoded, ignored)) && literal &&
                             std::filesystem::exists(*literal, ignored);
     return is_literal ? literal : decoded;
 }

@@ -276,7 +276,7 @@ TEST(HostInput, SamplesOfAfterTheStepAreNotLost) {
 // The samples are of after the step's end: the world keeps them for the next step.
 // Bytes in memory have no file name, and no file is read beside them.
 TEST(HostRigs, RefusalsNameTheRigAndWhatIsWrong) {
-    const HostScene scene;
+    HostScene scene;
     const std::string outside =
         R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"rig.bin"}],)"
         R"("bufferViews":[{"buffer":0,"byteLength":4}],"nodes":[{}]})";
