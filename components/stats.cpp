@@ -34,6 +34,8 @@ static_assert(is_in_order(k_stages));
 
 constexpr EnumTexts<Fallback> k_fallbacks = {{
     {Fallback::sample_out_of_order, "sample_out_of_order"},
+    {Fallback::sample_too_far_ahead, "sample_too_far_ahead"},
+    {Fallback::sample_too_old, "sample_too_old"},
     {Fallback::sample_not_finite, "sample_not_finite"},
     {Fallback::tracking_lost, "tracking_lost"},
     {Fallback::hand_out_of_reach, "hand_out_of_reach"},
