@@ -7,6 +7,10 @@ namespace {
 
 constexpr EnumTexts<Fallback> k_meanings = {{
     {Fallback::sample_out_of_order, "A tracking sample older than the one before it was ignored."},
+    {Fallback::sample_too_far_ahead,
+     "A tracking sample stamped more than 0.5 s ahead of its frame was dropped."},
+    {Fallback::sample_too_old,
+     "A tracking sample was stamped more than 0.5 s before its frame, as by another clock."},
     {Fallback::sample_not_finite,
      "A device's pose that was not finite or not a rotation was ignored."},
     {Fallback::tracking_lost, "A device sent nothing or invalid poses; its last pose was kept."},
