@@ -108,6 +108,9 @@ struct hh_world {
     std::vector<double> impulse_shares;  // by constraint block: what is reported of its impulse
     std::vector<handhold::PlayerInput> inputs;
     std::vector<handhold::TrackingSample> samples;
+    std::uint64_t samples_too_far_ahead = 0;  // of this step, until finish_step counts them
+    std::uint64_t samples_too_old = 0;
+    bool has_named_clock = false;  // the log was told of samples on another clock
     std::vector<std::byte> snapshot;
     // Of the shapes at `assets_revision`.
     std::optional<handhold::SnapshotAssets> assets;
