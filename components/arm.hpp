@@ -18,12 +18,12 @@ struct BodyMeasures {
     double eye_height_m = 1.62;  // standing; all lengths are in [k_min_m, k_max_m]
     double shoulder_width_m = 0.38;
     double upper_arm_m = 0.30;
-    double forearm_m = 0.28;  // from elbow to wrist
+    double forearm_m = 0.28;  // distance from elbow to wrist
 };
 
 // Displacement of the chest from where the head alone would place it.
 struct ChestOffset {
-    Vec3 middle_m = Vec3::Zero();  // in the leaning chest's axes, for an eye height of 1.6 m
+    Vec3 middle_m = Vec3::Zero();  // axes of the leaning chest; for an eye height of 1.6 m
     double roll = 0.0;             // tangent; positive: the right shoulder is up
 };
 
@@ -43,8 +43,8 @@ struct ArmMemory {
     std::array<Vec3, k_look_filters> looks_ps = {-Vec3::UnitZ(), -Vec3::UnitZ(), -Vec3::UnitZ()};
     Vec3 facing_ps = -Vec3::UnitZ();     // horizontal unit vector: where the chest faces
     ChestOffset chest;                   // low-pass filtered
-    Pose head_ps;                        // at the end of the last frame
-    std::array<Arm, k_hand_count> arms;  // by HandSide
+    Pose head_ps;                        // head at the end of the last frame
+    std::array<Arm, k_hand_count> arms;  // indexed by HandSide
 };
 
 // Position of a clavicle's inner end (at the base of the neck) on the line from the chest's centre
@@ -64,7 +64,7 @@ struct ArmEstimate {
     double lying = 0.0;               // [0, 1]; 1: the player lies, the trunk as the head's +Y
     // From the point about which a neck bends, which stays if nothing else moves, to the chest.
     Vec3 from_neck_m = Vec3::Zero();
-    std::array<Arm, k_hand_count> arms;  // by HandSide
+    std::array<Arm, k_hand_count> arms;  // indexed by HandSide
 };
 
 // World poses of the arms' joints. Each bone lies along its frame's -Z; +Y points to the elbow's
@@ -77,7 +77,7 @@ struct ArmPose {
         Pose hand_ws;      // equals PalmPose exactly
     };
     Pose chest_ws;
-    std::array<Arm, k_hand_count> arms;  // by HandSide
+    std::array<Arm, k_hand_count> arms;  // indexed by HandSide
 };
 
 }  // namespace handhold

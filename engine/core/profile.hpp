@@ -32,7 +32,7 @@ bool is_tracing();
 
 class Zone {
   public:
-    explicit Zone(const char* name);  // a string literal: stored by pointer
+    explicit Zone(const char* name);  // string literal: stored by pointer
     ~Zone();
     Zone(const Zone&) = delete;
     Zone& operator=(const Zone&) = delete;

@@ -43,7 +43,7 @@ struct DiscChain {
 struct DiscClosure {
     static constexpr std::int32_t k_none = -1;
     std::array<double, k_max_disc_links> angle_rad = {};
-    std::int32_t contact_link = k_none;  // the last link that touches
+    std::int32_t contact_link = k_none;  // last link that touches
     std::uint32_t touching = 0;          // bit i: link i touches
     std::uint32_t segment = 0;           // segment of the last contact; valid if a link touches
     std::uint32_t distances = 0;         // number of GJK distance queries
@@ -72,9 +72,10 @@ struct DiscScratch {
         std::array<Float4, 2> low = {};
         std::array<Float4, 2> high = {};
     };
-    std::vector<Pair> pairs;            // pairs whose swept bounds came near each other
-    std::vector<std::uint32_t> paired;  // per segment; bit i: the pair with link i is in `pairs`
-    std::vector<Bounds4> bounds;        // one per four segments; the last segment is repeated
+    std::vector<Pair> pairs;  // pairs whose swept bounds came near each other
+    std::vector<std::uint32_t>
+        paired;                   // one per segment; bit i: the pair with link i is in `pairs`
+    std::vector<Bounds4> bounds;  // one per four segments; the last segment is repeated
 };
 
 // Closes the chain from `sweep.from` to at most `sweep.to`. A link that touches stops its own hinge

@@ -25,7 +25,7 @@ double distance_to_origin(const Vec2& a, const Vec2& b) {
 
 // Points at which a disc's plane cuts a triangle's edges.
 struct Cut {
-    std::array<std::uint32_t, 2> edge = {};  // from corner i to i + 1
+    std::array<std::uint32_t, 2> edge = {};  // corners i and i + 1
     std::array<Vec3, 2> point;
 };
 

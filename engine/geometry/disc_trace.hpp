@@ -29,7 +29,7 @@ inline Vec2 to_disc(const Disc& disc, const Vec3& point) {
 
 struct GraphPoint {
     std::uint32_t triangle = k_no_triangle;  // k_no_triangle: no point
-    Vec3 point = Vec3::Zero();               // on the triangle
+    Vec3 point = Vec3::Zero();               // point on the triangle
 };
 
 enum class SearchOrder : std::uint8_t {
@@ -39,8 +39,8 @@ enum class SearchOrder : std::uint8_t {
 };
 
 struct CrossingSearch {
-    std::uint32_t triangle = k_no_triangle;  // the first found whose cut reaches into the disc
-    Vec3 point = Vec3::Zero();               // on the triangle's cut, where the search entered
+    std::uint32_t triangle = k_no_triangle;  // first triangle found whose cut reaches into the disc
+    Vec3 point = Vec3::Zero();               // point on the triangle's cut where the search entered
     std::uint32_t pops = 0;                  // triangles visited
 };
 

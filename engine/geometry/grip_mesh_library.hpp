@@ -54,7 +54,7 @@ class GripMeshLibrary {
     static SurfaceKey surface_key(const Shape& shape);
 
     std::map<SurfaceKey, std::uint32_t> mesh_of_surface_;  // index into meshes_
-    std::vector<std::uint32_t> mesh_of_shape_;             // by ShapeId::index; k_no_triangle: none
+    std::vector<std::uint32_t> mesh_of_shape_;  // indexed by ShapeId::index; k_no_triangle: no mesh
     struct Entry {
         std::shared_ptr<const GripMesh> mesh;  // null: unused
         std::uint32_t users = 0;               // shapes

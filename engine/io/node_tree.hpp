@@ -11,7 +11,7 @@ namespace handhold {
 
 // A node as the scene file has it. The indices of its children are not checked.
 struct FileNode {
-    Affine local;  // into the parent's frame
+    Affine local;  // transform into the parent's frame
     std::vector<int> children;
 };
 
@@ -21,7 +21,7 @@ std::optional<Pose> rigid_part(const Affine& frame);
 
 struct PlacedNode {
     int node = 0;
-    Affine world;  // into the scene's frame
+    Affine world;  // transform into the scene's frame
 };
 
 // The nodes at and below `roots`, parents before children and siblings in the file's order. If

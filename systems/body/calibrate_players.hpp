@@ -13,7 +13,7 @@
 namespace handhold {
 
 struct CalibratePlayersIo {
-    double dt_s = 0.0;                       // in: > 0
+    double dt_s;                             // in: > 0
     const Column<PlayerCommands>& commands;  // in
     const Column<HeadTracking>& head;        // in
     const Column<HandOwner>& owner;          // in
@@ -22,10 +22,10 @@ struct CalibratePlayersIo {
     Column<BodyMeasures>& measures;          // in/out
 };
 
-// Stage 1a. Measures players who request it (PlayerCommands::calibrate) and hold a T-pose or an
-// A-pose (arms up to 60 degrees down) still for CalibrationTuning::hold_s. Measures the eye height,
-// and arms and shoulders from the distance of the wrists. Seated players get the eye height that
-// their arm span predicts. Measures once per request. Without the pose, nothing changes.
+// Measures players who request it (PlayerCommands::calibrate) and hold a T-pose or an A-pose (arms
+// up to 60 degrees down) still for CalibrationTuning::hold_s. Measures the eye height, and arms and
+// shoulders from the distance of the wrists. Seated players get the eye height that their arm span
+// predicts. Measures once per request. Without the pose, nothing changes.
 void calibrate_players(const CalibratePlayersIo& io, const CalibrationTuning& tuning);
 
 // Measures of a T-pose or an A-pose.

@@ -100,12 +100,9 @@ void turn_body_outside(const LayerAdditivesIo& io, Entity player, ClipTurns& tur
     constexpr double k_more_per_s = 1.0;
     const SpinePose was = pose;
     turn_body(turns, pose);
-    if (io.memory == nullptr || io.origin == nullptr) {
-        return;
-    }
     const double share =
-        share_outside(ends_of(was), ends_of(pose), io.memory->at(player), was.chest_ws.position,
-                      io.origin->at(player).pose_ws.rotation);
+        share_outside(ends_of(was), ends_of(pose), io.memory.at(player), was.chest_ws.position,
+                      io.origin.at(player).pose_ws.rotation);
     state.outside = std::clamp(share, state.outside - k_less_per_s * io.dt_s,
                                state.outside + k_more_per_s * io.dt_s);
     if (state.outside < 1.0) {

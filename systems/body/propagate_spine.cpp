@@ -239,9 +239,9 @@ void touch_surfaces(const PropagateSpineIo& io, Entity player, const Motion& mot
     // The eyes are near the surface of the head's collider, which may touch other surfaces.
     const Vec3 in_head_m(0.0, 0.0, 0.08);
     const BodySurroundings around{io.surfaces,
-                                  io.persistent_id->at(player).value,
+                                  io.persistent_id.at(player).value,
                                   io.origin.at(player).pose_ws,
-                                  transform_point(io.head->at(player).pose_ps, in_head_m),
+                                  transform_point(io.head.at(player).pose_ps, in_head_m),
                                   motion.chest_ps.position,
                                   floor,
                                   io.pose.at(player)};
@@ -255,10 +255,10 @@ struct Held {
 };
 Held held(const PropagateSpineIo& io, Entity player) {
     Held found;
-    for (std::size_t row = 0; io.body_hold != nullptr && row < io.body_hold->size(); ++row) {
-        const Grab& grab = io.grab->at(io.body_hold->owners()[row]);
+    for (std::size_t row = 0; row < io.body_hold.size(); ++row) {
+        const Grab& grab = io.grab.at(io.body_hold.owners()[row]);
         if (grab.kind == GripKind::player && grab.body == player &&
-            swings(io.body_hold->rows()[row].part)) {
+            swings(io.body_hold.rows()[row].part)) {
             found.now = true;
             found.before = found.before || grab.since_s < io.t_s - io.dt_s;
         }
@@ -272,7 +272,7 @@ void propagate_player(const PropagateSpineIo& io, std::size_t row, const SpineTu
     const Pose& origin_ws = io.origin.at(player).pose_ws;
     const double scale = io.measures.at(player).eye_height_m / k_scale_eye_m;
     const Pose& chest_ps = io.estimate.at(player).chest_ps;
-    const double floor_m = io.head == nullptr ? 0.0 : io.head->at(player).shift_m.y();
+    const double floor_m = io.head.at(player).shift_m.y();
     const double lying = io.estimate.at(player).lying;
     const TrackedFloor floor{chest_ps.position.y() - floor_m, scale, lying};
     const Held is_held = held(io, player);
@@ -314,19 +314,16 @@ void propagate_player(const PropagateSpineIo& io, std::size_t row, const SpineTu
 
 // Writes BodyPull::hands.
 void take_pulls(const PropagateSpineIo& io) {
-    if (io.grab == nullptr) {
-        return;
-    }
     for (SpineMemory& memory : io.memory.rows()) {
         memory.pull.hands_before = memory.pull.hands;
         memory.pull.hands = Vec3::Zero();
     }
-    for (std::size_t row = 0; row < io.owner->size(); ++row) {
-        const Grab* const grab = io.grab->find(io.owner->owners()[row]);
+    for (std::size_t row = 0; row < io.owner.size(); ++row) {
+        const Grab* const grab = io.grab.find(io.owner.owners()[row]);
         if (grab == nullptr || !can_push_off(*grab)) {
             continue;
         }
-        const HandOwner& owner = io.owner->rows()[row];
+        const HandOwner& owner = io.owner.rows()[row];
         const BodyMeasures& measures = io.measures.at(owner.player);
         const ArmEstimate& estimate = io.estimate.at(owner.player);
         const Vec3 from_chest_m =

@@ -50,7 +50,7 @@ struct FrameCaches {
     PartMeshes part_meshes;  // of held players' parts; built when a hand grips one
 };
 
-// Steps one frame: a straight line of stage calls, in frame.cpp. `stats` is cleared first. No
+// Steps one frame: every stage in the order of the list in frame.cpp. `stats` is cleared first. No
 // player input makes it fail. Throws PreconditionError, before it changes anything, if dt_s or a
 // number of `tuning` or of the world is out of range, or a collider's shape is not in the caches'
 // library or is a mesh on a free body.

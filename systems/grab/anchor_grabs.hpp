@@ -8,9 +8,9 @@ namespace handhold {
 
 using AnchorGrabsIo = GrabFrame;  // systems/grab/shared/grab_instant.hpp
 
-// Stage 3, after prediction. Takes and moves anchors, and sets the target of each hand's
-// constraint. Buttons go down and up between frames. Poses at that instant are interpolated, so the
-// path does not depend on the frame rate.
+// Runs after prediction. Takes and moves anchors, and sets the target of each hand's constraint.
+// Buttons go down and up between frames. Poses at that instant are interpolated, so the path does
+// not depend on the frame rate.
 //  - New grab: the anchor is the tracked hand in the body's frame at the instant of the edge, so
 //    nothing jumps. A body that other hands already hold is where they move it, along its joint if
 //    it has one (joint_rail.hpp), not where its velocity would take it.

@@ -8,7 +8,7 @@ namespace handhold {
 
 using UpdateGrabsIo = GrabSearch;  // systems/grab/shared/grab_search.hpp
 
-// Stage 2. A hand that closes grips, in this order:
+// A hand that closes grips, in this order:
 //  - an authored grip whose snap zone it is in (talk row 10): the one of the highest priority, of
 //    equal ones the one that moves the palm least. Grips that another hand occupies, or that an
 //    obstacle blocks, do not count;

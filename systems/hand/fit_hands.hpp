@@ -14,7 +14,7 @@
 namespace handhold {
 
 struct FitHandsIo {
-    double dt_s = 0.0;                        // in: length of the frame; infinity: no rate limit
+    double dt_s;                              // in: length of the frame; infinity: no rate limit
     std::span<const HandSurroundings> hands;  // in: body frame (_bs)
     const Column<HandTracking>& hand;         // in: pressed, squeeze, trigger
     const Column<GripSurface>& surface;       // in: body frame (_bs)

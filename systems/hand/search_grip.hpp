@@ -18,11 +18,11 @@ enum class GripSearch : std::uint8_t {
 };
 
 struct SearchGripIo {
-    double dt_s = 0.0;  // in: length of the frame; infinity: all candidates are evaluated at once
+    double dt_s;  // in: length of the frame; infinity: all candidates are evaluated at once
     std::span<const HandSurroundings> hands;  // in: body frame (_bs)
     // In/out: last frame's result, then this frame's; body frame (_bs).
     Column<GripSurface>& surface;
-    GripSearchScratch& scratch;
+    GripSearchScratch& scratch;  // memory that calls reuse: nothing is read from an earlier call
 };
 
 // Chooses the surface under each gripping palm: the one for which the palm must move least from its

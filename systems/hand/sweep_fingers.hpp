@@ -18,7 +18,7 @@ struct SweepFingersIo {
     Column<FingerPose>& fingers;              // in/out: closed and what it was closed for, radians
     // Out: by index in `hands`, for hands that close in this frame; or empty.
     std::span<std::array<FingerTrace, k_finger_count>> traces;
-    ChainFitScratch& scratch;
+    ChainFitScratch& scratch;  // memory that calls reuse: nothing is read from an earlier call
 };
 
 // Closes all digits of a hand that begins to grip, until they touch the surfaces near it, with the

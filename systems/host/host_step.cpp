@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <limits>
@@ -30,9 +31,9 @@ Pose tracked_or_invalid(const Pose& pose, bool is_tracked) {
 
 // A host that computes a step's end in another way than the world's clock, such as by dividing a
 // frame's number, differs from it by rounding.
-TrackingSample read_sample(const hh_tracking_sample& sample, double end_s) {
-    constexpr double k_rounding_s = 1e-6;
-    const bool is_at_end = sample.time_s > end_s && sample.time_s <= end_s + k_rounding_s;
+TrackingSample read_sample(const hh_tracking_sample& sample, double end_s, bool is_exact) {
+    const double rounding_s = is_exact ? 0.0 : 1e-6;
+    const bool is_at_end = sample.time_s > end_s && sample.time_s <= end_s + rounding_s;
     TrackingSample read;
     read.t_s = is_at_end ? end_s : sample.time_s;
     read.head_ps = tracked_or_invalid(unchecked_pose(sample.head), sample.head_tracked);
@@ -95,6 +96,7 @@ void add_silent_inputs(hh_world& host) {
         if (std::none_of(host.inputs.begin(), end,
                          [&](const PlayerInput& input) { return input.player == player; })) {
             host.inputs.push_back({player, {}, {}});
+            host.repeats_samples.push_back(0);
         }
     }
 }
@@ -114,12 +116,13 @@ void name_other_clock(hh_world& host, double off_s) {
 }
 
 // Appends the samples given for a player, but for those too far ahead.
-void read_given(hh_world& host, std::span<const hh_tracking_sample> given, double end_s) {
+void read_given(hh_world& host, const hh_player_input& input, double end_s) {
     constexpr double k_far_s = 0.5;
     const double start_s = host.world.clock.t_s;
     std::size_t far = 0;
+    const std::span given{input.samples, input.sample_count};
     for (const hh_tracking_sample& sample : given) {
-        if (sample.time_s > end_s + k_far_s) {
+        if (sample.time_s > end_s + k_far_s && !input.repeats_samples) {
             ++host.samples_too_far_ahead;
             ++far;
             continue;
@@ -128,11 +131,17 @@ void read_given(hh_world& host, std::span<const hh_tracking_sample> given, doubl
             ++host.samples_too_old;
             ++far;
         }
-        host.samples.push_back(read_sample(sample, end_s));
+        host.samples.push_back(read_sample(sample, end_s, input.repeats_samples));
     }
     if (far > 0 && far == given.size()) {
         name_other_clock(host, given.back().time_s - end_s);
     }
+}
+
+// Of any version: `repeats_samples` came after the first.
+hh_player_input read_input(const hh_player_input* inputs, std::size_t i) {
+    return read_def(&input_at(inputs, i), hh_default_player_input(),
+                    offsetof(hh_player_input, repeats_samples));
 }
 
 }  // namespace
@@ -142,11 +151,12 @@ void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std
     checked(dt_s, k_min_step_s, k_max_step_s, "dt_s must lie in [1e-6, 10]");
     require(count == 0 || inputs != nullptr, HH_ERROR_NULL, "the inputs are null");
     host.inputs.clear();
+    host.repeats_samples.clear();
     host.samples.clear();
     host.samples_too_far_ahead = host.samples_too_old = 0;
     std::size_t sample_count = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const hh_player_input input = read_def(&input_at(inputs, i), hh_default_player_input());
+        const hh_player_input input = read_input(inputs, i);
         require(input.sample_count == 0 || input.samples != nullptr, HH_ERROR_NULL,
                 "an input's samples are null");
         constexpr std::size_t k_max_samples = 1U << 16U;
@@ -157,6 +167,7 @@ void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std
             require(other.player != player, HH_ERROR_VALUE, "a player has two inputs");
         }
         host.inputs.push_back({player, {}, read_commands(input.commands)});
+        host.repeats_samples.push_back(input.repeats_samples ? 1 : 0);
         sample_count += input.sample_count;
     }
     const double end_s = host.world.clock.t_s + dt_s;
@@ -170,16 +181,12 @@ void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std
     host.samples.reserve(sample_count);  // spans into it must not move
     for (std::size_t i = 0; i < host.inputs.size(); ++i) {
         PlayerInput& input = host.inputs[i];
-        std::span<const hh_tracking_sample> given;
-        if (i < count) {
-            const hh_player_input& from = input_at(inputs, i);
-            given = {from.samples, from.sample_count};
-        }
+        const hh_player_input given = i < count ? read_input(inputs, i) : hh_default_player_input();
         const std::size_t first = host.samples.size();
         if (const EarlySamples* const early = host.world.early_samples.find(input.player)) {
             for (std::uint32_t j = 0; j < early->count; ++j) {
                 const EarlySample& kept = early->samples[j];
-                if (given.empty() || !(given[0].time_s <= kept.t_s)) {
+                if (given.sample_count == 0 || !(given.samples[0].time_s <= kept.t_s)) {
                     host.samples.push_back(read_sample(kept));
                 }
             }
@@ -190,7 +197,15 @@ void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std
 }
 
 void keep_early_samples(hh_world& host, double end_s) {
-    for (const PlayerInput& input : host.inputs) {
+    for (std::size_t i = 0; i < host.inputs.size(); ++i) {
+        const PlayerInput& input = host.inputs[i];
+        const bool has_later =
+            std::any_of(input.samples.begin(), input.samples.end(),
+                        [&](const TrackingSample& sample) { return sample.t_s > end_s; });
+        if (!has_later || host.repeats_samples[i] != 0) {
+            host.world.early_samples.remove(input.player);
+            continue;
+        }
         EarlySamples kept;
         for (const TrackingSample& sample : input.samples) {
             if (!(sample.t_s > end_s)) {
@@ -203,9 +218,7 @@ void keep_early_samples(hh_world& host, double end_s) {
             kept.samples[kept.count++] = early_of(sample);
         }
         EarlySamples* const before = host.world.early_samples.find(input.player);
-        if (kept.count == 0) {
-            host.world.early_samples.remove(input.player);
-        } else if (before != nullptr) {
+        if (before != nullptr) {
             *before = kept;
         } else {
             host.world.early_samples.add(input.player, kept);
@@ -365,6 +378,22 @@ hh_result hh_world_set_reference_velocity(hh_world* world, hh_vec3 velocity_mps)
         World& state = world_of(world).world;
         state.reference_velocity_mps = checked(velocity_mps, world_limits::k_max_speed_mps,
                                                "a reference velocity beyond 1e6 m/s, or NaN");
+    });
+}
+
+hh_result hh_world_gravity(const hh_world* world, hh_vec3* gravity_mps2) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(gravity_mps2 != nullptr, HH_ERROR_NULL, "the output is null");
+        *gravity_mps2 = to_c(host.world.gravity_mps2);
+    });
+}
+
+hh_result hh_world_reference_velocity(const hh_world* world, hh_vec3* velocity_mps) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(velocity_mps != nullptr, HH_ERROR_NULL, "the output is null");
+        *velocity_mps = to_c(host.world.reference_velocity_mps);
     });
 }
 

@@ -107,6 +107,7 @@ struct hh_world {
     // Scratch of a step.
     std::vector<double> impulse_shares;  // by constraint block: what is reported of its impulse
     std::vector<handhold::PlayerInput> inputs;
+    std::vector<std::uint8_t> repeats_samples;  // by index of `inputs`
     std::vector<handhold::TrackingSample> samples;
     std::uint64_t samples_too_far_ahead = 0;  // of this step, until finish_step counts them
     std::uint64_t samples_too_old = 0;
@@ -116,6 +117,10 @@ struct hh_world {
     std::optional<handhold::SnapshotAssets> assets;
     std::uint64_t assets_revision = 0;
     bool may_recycle_shapes = false;  // shapes were removed since the last step
+    // Colliders are where bodies and heads are: no call has changed the world since a query.
+    bool has_placed_colliders = false;
+    std::vector<std::uint64_t> near_ids;  // scratch of queries
+    std::vector<hh_hit> hits;             // scratch of queries
 
     // Of hosts with physics of their own.
     handhold::HostSurfaces surfaces;
@@ -140,6 +145,7 @@ inline hh_world& world_of(hh_world* world) {
     require(world != nullptr, HH_ERROR_NULL, "the world is null");
     require(!world->surfaces.is_asking(), HH_ERROR_STATE,
             "the world is asking your surface query: calls inside of it may only read");
+    world->has_placed_colliders = false;
     return *world;
 }
 inline const hh_world& world_of(const hh_world* world) {

@@ -8,10 +8,10 @@
 #include "components/player.hpp"
 #include "engine/ecs/column.hpp"
 
-// Takes the results of a host's own solver for the frame's hand constraints. Replaces solve_phases,
-// finish_positions and update_velocities.
+// Takes the results of a host's own solver for the frame's hand constraints. Replaces the stages
+// from solve_phases to record_valid_poses.
 //
-// A hand that lets go throws at its release velocity, as after update_velocities, because a
+// A hand that lets go throws at its release velocity, as after solve_velocities, because a
 // solver's velocity also contains its position corrections. This applies only if the hand was
 // within 1 mm of its anchor at the end of the frame. Otherwise something stopped the body, and the
 // host's velocity is kept. Fallbacks counted: none.

@@ -5,22 +5,22 @@
 
 // Moves kinematic bodies to their poses at the end of the frame, in closed form of time: nothing
 // accumulates, and a hand on a ship has no lag.
-// Talk row 6 (moving supports). Stage 3.
+// Talk row 6 (moving supports).
 // A LegMover whose torso has no PathMover keeps its pose and gets velocity 0.
 // Fallbacks counted: none.
 namespace handhold {
 
 struct AnimateMoversIo {
-    double end_s = 0.0;                   // in: end of the frame, s on the world's clock
+    double dt_s;                          // in: > 0, s
+    double end_s;                         // in: end of the frame, s on the world's clock
     const Column<Mover>& mover;           // in: world
     const Column<PathMover>& path_mover;  // in: world
     const Column<LegMover>& leg_mover;    // in: relative to the torso's path
-    Column<BodyPose>& body_pose;          // out, kinematic bodies: world, end of the frame
-    Column<BodyStart>& body_start;        // out, kinematic bodies: world, start of the frame
-    Column<BodyVelocity>& velocity;       // out, kinematic bodies: world, m/s and rad/s at the end
-    // In: bodies that the host moves; null: none. Their velocity is the displacement over dt_s.
-    const Column<MoveTarget>* target = nullptr;
-    double dt_s = 0.0;  // in: > 0 if there are targets
+    // In: bodies that the host moves. Their velocity is the displacement over dt_s.
+    const Column<MoveTarget>& target;
+    Column<BodyPose>& body_pose;     // out, kinematic bodies: world, end of the frame
+    Column<BodyStart>& body_start;   // out, kinematic bodies: world, start of the frame
+    Column<BodyVelocity>& velocity;  // out, kinematic bodies: world, m/s and rad/s at the end
 };
 void animate_movers(const AnimateMoversIo& io);
 

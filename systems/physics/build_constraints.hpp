@@ -12,7 +12,7 @@
 
 // Builds the solver's model of the frame: one solver body per body and player, constraint rows for
 // grips, joints and contacts, and islands.
-// Talk rows 4 (inside the step) and 5 (arbitrary chains). Stage 5.
+// Talk rows 4 (inside the step) and 5 (arbitrary chains).
 //
 // Rows of a grip: surface or player: three (the point). Held object: six (a weld), three if it is
 // jointed to something immovable. Two hands on one object: three for the first hand's point, and

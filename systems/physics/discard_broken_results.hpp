@@ -13,14 +13,14 @@ namespace handhold {
 struct DiscardBrokenResultsIo {
     const Column<BodyStart>& body_start;      // in
     const Column<PlayerStart>& player_start;  // in
-    Column<BodyPose>& body_pose;              // in, out
-    Column<BodyVelocity>& body_velocity;      // in, out
-    Column<PlayerOrigin>& player_origin;      // in, out
-    Column<PlayerVelocity>& player_velocity;  // in, out
-    Column<LastValidPose>& last_valid;        // in, out
-    Column<JointState>& joint_state;          // in, out
-    Column<Grab>& grab;                       // in, out
-    FrameGraph& frame;                        // in, out: push_backs
+    Column<BodyPose>& body_pose;              // in/out
+    Column<BodyVelocity>& body_velocity;      // in/out
+    Column<PlayerOrigin>& player_origin;      // in/out
+    Column<PlayerVelocity>& player_velocity;  // in/out
+    Column<LastValidPose>& last_valid;        // in/out
+    Column<JointState>& joint_state;          // in/out
+    Column<Grab>& grab;                       // in/out
+    FrameGraph& frame;                        // in/out: push_backs
 };
 
 // Extreme masses, moments and distances (1e-12 to 1e15 kg in one chain) may overflow a solve. A

@@ -11,7 +11,7 @@
 #include "engine/ecs/column.hpp"
 
 // Restores bodies that still penetrate to their last valid pose, then writes poses and errors.
-// Stage 8, after solve_phases.
+// Runs after solve_phases.
 //
 // A free body that penetrates by contact.restore_depth_m or more is restored, at most 2 m far, if
 // that at least halves its error: a hand that jumps through clutter carries no body into a wall.
@@ -26,14 +26,14 @@
 namespace handhold {
 
 struct FinishPositionsIo {
+    double dt_s;                                    // in: s
+    const Column<HeadTracking>& head;               // in: play space
+    const Column<PlayerVelocity>& player_velocity;  // in: world, m/s, start of the frame
     CollisionWorld& collision;                      // in/out: proxies of restored bodies, world
     FrameGraph& frame;                              // in/out: graph, contacts; out: push_backs
     Column<BodyPose>& body_pose;                    // out, free bodies: world, end of the frame
     Column<PlayerOrigin>& origin;                   // out: world, position only
     Column<Grab>& grab;                             // out: error_m, m
-    double dt_s;                                    // in: s
-    const Column<HeadTracking>& head;               // in: play space
-    const Column<PlayerVelocity>& player_velocity;  // in: world, m/s, start of the frame
 };
 void finish_positions(const FinishPositionsIo& io, const ContactTuning& tuning,
                       const HeadTuning& head, StageStats& stats);

@@ -8,7 +8,7 @@
 // Solves the positions of the frame in phases: designer physics, in which players move objects
 // freely and are pushed only by what cannot give way.
 // Talk rows 4 (inside the step), 7 (forward and backward phase) and 8 (one-frame convergence).
-// Stages 6 to 8. Each phase is a Newton solve of every island:
+// Each phase is a Newton solve of every island:
 //
 // - reach: grips and joints without contacts. A player who grips something fixed is moved; a player
 //   who holds a light object has infinite mass.

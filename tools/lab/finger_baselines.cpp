@@ -182,7 +182,7 @@ ClosedFinger close_by_spheres(const HingeChain& chain, const GripMesh& mesh) {
     constexpr int k_steps = 50;
     ClosedFinger closed;
     closed.angle_rad = chain.open_rad;
-    std::size_t moving = 0;  // the first joint that still moves
+    std::size_t moving = 0;  // first joint that still moves
     for (int step = 0; step <= k_steps; ++step) {
         const double share = static_cast<double>(step) / k_steps;
         while (moving < chain.link_count) {

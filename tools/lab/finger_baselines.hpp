@@ -12,8 +12,8 @@
 namespace handhold::lab {
 
 enum class FingerMethod : std::uint8_t {
-    fit,      // the runtime's method
-    closing,  // the runtime's closing without its fit
+    fit,      // method of the runtime
+    closing,  // closing of the runtime without its fit
     talk,     // talk rows 12 to 14, taken literally
     spheres,  // spheres on the bones, moved in steps
 };

@@ -20,7 +20,7 @@ struct GripOptions {
     std::filesystem::path rig_json;  // empty: not written
     // Frames of recorded motion, and as many of standing still, per hand; 0: none.
     int warm_frames = 0;
-    std::filesystem::path motions;    // of `recorded-grips`
+    std::filesystem::path motions;    // output of `recorded-grips`
     std::filesystem::path moved_out;  // hands at the end of their motion; empty: not written
     std::filesystem::path warm_json;  // figures of every frame; empty: not written
 };

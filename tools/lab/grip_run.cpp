@@ -92,7 +92,9 @@ class OneHand {
     }
 
     void search(double dt_s, const Tuning& tuning, const GripVariant& variant) {
-        search_grip({dt_s, surroundings_, surface_, search_scratch_}, tuning, stats_, variant.palm);
+        search_grip(
+            {.dt_s = dt_s, .hands = surroundings_, .surface = surface_, .scratch = search_scratch_},
+            tuning, stats_, variant.palm);
     }
     static bool is_fitted(const GripVariant& variant) {
         return variant.fingers == FingerMethod::fit && variant.sync;
@@ -100,7 +102,7 @@ class OneHand {
     bool has_surface() const { return surface_.rows().front().triangle != GripSurface::k_none; }
 
     void constrain(const Tuning& tuning, const GripVariant& variant) {
-        constrain_palms({surroundings_, surface_, offset_}, tuning);
+        constrain_palms({.hands = surroundings_, .surface = surface_, .offset = offset_}, tuning);
         PalmOffset& offset = offset_.rows().front();
         if (!variant.sync) {
             offset.held_m = Vec3::Zero();
@@ -112,7 +114,12 @@ class OneHand {
         const bool is_baseline =
             variant.fingers == FingerMethod::talk || variant.fingers == FingerMethod::spheres;
         if (!is_baseline || !has_surface()) {
-            sweep_fingers({surroundings_, surface_, offset_, fingers_, traces_, fit_scratch_},
+            sweep_fingers({.hands = surroundings_,
+                           .surface = surface_,
+                           .offset = offset_,
+                           .fingers = fingers_,
+                           .traces = traces_,
+                           .scratch = fit_scratch_},
                           tuning, stats_, variant.order);
             return;
         }
@@ -124,8 +131,14 @@ class OneHand {
     void fit(double dt_s, const Tuning& tuning, const GripVariant& variant) {
         FingerPose& pose = fingers_.rows().front();
         if (is_fitted(variant) || !has_surface()) {
-            fit_hands({dt_s, surroundings_, tracking_, surface_, offset_, fingers_, palm_}, tuning,
-                      stats_);
+            fit_hands({.dt_s = dt_s,
+                       .hands = surroundings_,
+                       .hand = tracking_,
+                       .surface = surface_,
+                       .offset = offset_,
+                       .fingers = fingers_,
+                       .palm = palm_},
+                      tuning, stats_);
         } else {
             pose.shown = pose.closed;
             pose.target = pose.closed;

@@ -37,13 +37,13 @@ struct GripTimes {  // microseconds of thread CPU time
 struct PosedHand {
     bool gripped = false;
     std::string reason;  // why the hand does not grip; empty if it grips
-    Pose wrist;          // as shown, in the mesh's frame
+    Pose wrist;          // shown wrist, in the mesh's frame
     double sync_m = 0.0;
     double sync_rad = 0.0;
     std::uint32_t triangle = 0;  // index in the mesh as loaded
     Vec3 point = Vec3::Zero();
     Vec3 normal = Vec3::UnitY();
-    std::array<FingerAngles, k_finger_count> angles;  // by index in HandRig::fingers
+    std::array<FingerAngles, k_finger_count> angles;  // indexed by index in HandRig::fingers
     std::array<FingerTrace, k_finger_count> traces;
     GripTimes us;
 };
@@ -60,7 +60,7 @@ struct WarmHand {
     std::vector<double> stand_us;
     // Visited triangles per searched disc: one mean for each finger and frame.
     std::vector<std::uint32_t> pops;
-    PosedHand moved;  // in the last moving frame; without times
+    PosedHand moved;  // pose in the last moving frame; without times
     // While moving: number of joints of all fingers times number of frames.
     std::uint32_t joint_frames = 0;
     // Joint frames in which the target angle changed by 10 degrees or more.

@@ -10,7 +10,8 @@ namespace handhold::lab {
 namespace {
 
 constexpr std::array k_physics = {Stage::predict_bodies, Stage::build_constraints,
-                                  Stage::solve_phases, Stage::update_velocities};
+                                  Stage::solve_phases,   Stage::solve_velocities,
+                                  Stage::book_momentum,  Stage::record_valid_poses};
 
 // A box's +x face as a one-sided mesh of two by two quads, facing outward.
 std::shared_ptr<const Mesh> face_mesh(const Vec3& half_m) {
@@ -50,10 +51,9 @@ void write_grip(World& world, const PlayerEntities& player, const LabScene& scen
 
     const Pose& body_ws = world.body_pose.at(body).pose_ws;
     const RigidBody& rigid = world.body.at(body);
-    const bool is_light =
-        rigid.kind == BodyKind::free && rigid.mass_kg < scene.tuning.phases.heavy_body_kg;
+    const bool holds = is_light(rigid, scene.tuning.phases.heavy_body_kg);
     Grab& grab = world.grab.at(hand);
-    grab.kind = is_light ? GripKind::held : GripKind::surface;
+    grab.kind = holds ? GripKind::held : GripKind::surface;
     grab.phase = GrabPhase::holding;
     grab.body = body;
     grab.anchor_bs = {hold.anchor_bs, body_ws.rotation.conjugate() * hand_ps.rotation};

@@ -44,7 +44,7 @@ class RuntimeRun {
     std::unique_ptr<FrameCaches> caches_;
     std::vector<Entity> bodies_;
     std::vector<PlayerEntities> players_;
-    std::vector<Entity> kinematic_hands_;  // by LabScene::holds
+    std::vector<Entity> kinematic_hands_;  // indexed by LabScene::holds
     std::vector<Entity> hand_joints_;
     std::vector<TrackingSample> samples_;
     std::vector<PlayerInput> inputs_;

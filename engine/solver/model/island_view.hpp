@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "engine/solver/model/rows.hpp"
@@ -22,6 +23,8 @@ struct IslandView {
     // Revision of the graph. While it is the same, so are islands and blocks. 0: unknown.
     std::uint64_t revision = 0;
     bool is_heap = false;  // Island::is_heap
+    // Work that a solve may spend, in the unit of WorkBudget.
+    std::uint64_t max_work = std::numeric_limits<std::uint64_t>::max();
 };
 
 // True if the filter includes the block and at least one of its bodies can move.

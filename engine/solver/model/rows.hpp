@@ -23,7 +23,7 @@ struct SolverBody {
     std::uint64_t id = 0;  // persistent
     BodyRole role = BodyRole::fixed;
     Pose pose_ws;                      // in/out of every solve
-    Vec3 velocity_mps = Vec3::Zero();  // in/out of solve_velocities; world axes
+    Vec3 velocity_mps = Vec3::Zero();  // in/out of solve_island_velocities; world axes
     Vec3 spin_radps = Vec3::Zero();    // angular velocity; world axes
     double mass_kg = 0.0;
     // Principal moments, body axes; zero for translating and fixed bodies.
@@ -84,7 +84,7 @@ struct JointRows {
     // Impulse at which a lock gives way; 0: it never does.
     double lock_limit_impulse = 0.0;
 
-    double lock_impulse = 0.0;  // out of solve_velocities: impulse that held the lock
+    double lock_impulse = 0.0;  // out of solve_island_velocities: impulse that held the lock
 };
 
 // One constraint between two bodies. Drives: a is the driving body (BodyRole::translating), and b
@@ -115,9 +115,9 @@ struct RowBlock {
     double friction = 0.0;     // contact: Coulomb coefficient
     JointRows joint;
 
-    // Out of solve_velocities: linear impulse on a at its point; b gets the opposite.
+    // Out of solve_island_velocities: linear impulse on a at its point; b gets the opposite.
     Vec3 impulse_ws_ns = Vec3::Zero();
-    // Out of solve_velocities: angular impulse on a; b gets the opposite.
+    // Out of solve_island_velocities: angular impulse on a; b gets the opposite.
     Vec3 angular_impulse_ws_nms = Vec3::Zero();
 };
 inline bool is_drive(RowKind kind) {

@@ -33,11 +33,11 @@ struct PartHit {
     double distance_m = 0.0;  // from the ray's start or the query point; negative: inside
 };
 
-// The bodies of all players, as the last frame showed them, at the start of this frame. A null
-// column: no body can be gripped.
+// The bodies of all players, as the last frame showed them, at the start of this frame. A player
+// without a row of `shown` has no body that can be gripped.
 struct ShownBodies {
-    const Column<RenderPose>* shown = nullptr;
-    const Column<BodyMeasures>* measures = nullptr;
+    const Column<RenderPose>& shown;
+    const Column<BodyMeasures>& measures;  // every player of `shown`
     const Column<PersistentId>& persistent_id;
     const Column<PlayerOrigin>& origin;
     const Column<HeadTracking>& head;

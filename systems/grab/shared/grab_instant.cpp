@@ -58,8 +58,7 @@ Pose GrabInstant::body_ws(Entity body) const {
 }
 
 Pose GrabInstant::gripped_ws(const Grab& grab) const {
-    const BodyHold* const hold =
-        io.body_hold != nullptr ? io.body_hold->find(io.grab.owner_of(grab)) : nullptr;
+    const BodyHold* const hold = io.body_hold.find(io.grab.owner_of(grab));
     if (hold == nullptr || grab.kind != GripKind::player) {
         return body_ws(grab.body);
     }
@@ -127,8 +126,8 @@ bool drives_whole_frame(const Grab& grab, const HandTracking& hand) {
 
 Pose hand_driven_body_ws(const GrabInstant& now, Entity body, const PhaseTuning& tuning) {
     const GrabFrame& io = now.io;
-    const std::optional<JointRail> rail =
-        find_rail({io.body, io.joint, io.joint_state}, body, tuning);
+    const std::optional<JointRail> rail = find_rail(
+        {.body = io.body, .joint = io.joint, .joint_state = io.joint_state}, body, tuning);
     if (!rail) {
         return now.body_ws(body);
     }

@@ -71,8 +71,7 @@ SightLines sight_lines(const GrabSearch& io, Entity hand, const Vec3& palm_ws,
 }
 
 bool any_priority(const GrabRules& rules) {
-    return rules.rule != nullptr &&
-           std::ranges::any_of(rules.rule->rows(),
+    return std::ranges::any_of(rules.rule.rows(),
                                [](const GrabRule& rule) { return rule.priority != 0; });
 }
 

@@ -30,6 +30,9 @@ struct Posture {
 
 // A player of `size` times the average in a room turned by `heading`.
 struct Player {
+    Column<PersistentId> persistent_id;
+    Column<Grab> grab;
+    Column<BodyHold> body_hold;
     Column<PlayerOrigin> origin;
     Column<PlayerVelocity> velocity;
     Column<ReferenceVelocity> reference;
@@ -76,10 +79,36 @@ struct Player {
         head.at(k_player).pose_ps = placed(posture.head);
         palm.at(k_left).pose_ws = placed(posture.hands[0]);
         palm.at(k_right).pose_ws = placed(posture.hands[1]);
-        estimate_arms({dt_s, origin, head, measures, owner, palm, arm_memory, estimate}, {});
-        pose_arms({origin, measures, owner, palm, estimate, arm_pose});
-        propagate_spine({dt_s, t_s, origin, velocity, reference, measures, estimate, memory, pose,
-                         SurfaceQuery{}, &head},
+        estimate_arms({.dt_s = dt_s,
+                       .origin = origin,
+                       .head = head,
+                       .measures = measures,
+                       .owner = owner,
+                       .palm = palm,
+                       .memory = arm_memory,
+                       .estimate = estimate},
+                      {});
+        pose_arms({.origin = origin,
+                   .measures = measures,
+                   .owner = owner,
+                   .palm = palm,
+                   .estimate = estimate,
+                   .arms = arm_pose});
+        propagate_spine({.dt_s = dt_s,
+                         .t_s = t_s,
+                         .surfaces = {},
+                         .persistent_id = persistent_id,
+                         .origin = origin,
+                         .velocity = velocity,
+                         .reference = reference,
+                         .head = head,
+                         .measures = measures,
+                         .estimate = estimate,
+                         .owner = owner,
+                         .grab = grab,
+                         .body_hold = body_hold,
+                         .memory = memory,
+                         .pose = pose},
                         {});
     }
     Vec3 hips() const { return seen(pose.at(k_player).pelvis_ws.position); }

@@ -63,19 +63,33 @@ struct FittedHand {
     FittedHand& operator=(const FittedHand&) = delete;
 
     void search(double dt_s = k_unbudgeted_s) {
-        search_grip({dt_s, hands, surface, search_scratch}, tuning, stats);
+        search_grip({.dt_s = dt_s, .hands = hands, .surface = surface, .scratch = search_scratch},
+                    tuning, stats);
     }
     // Shows the palm where it is held, until fit() shows the fitted one.
     void constrain() {
-        constrain_palms({hands, surface, offset}, tuning);
+        constrain_palms({.hands = hands, .surface = surface, .offset = offset}, tuning);
         palm.at(k_right).pose_ws =
             hands.front().body_ws * held_wrist_bs(hands.front(), offset.at(k_right));
     }
     void sweep() {
-        sweep_fingers({hands, surface, offset, fingers, traces, fit_scratch}, tuning, stats);
+        sweep_fingers({.hands = hands,
+                       .surface = surface,
+                       .offset = offset,
+                       .fingers = fingers,
+                       .traces = traces,
+                       .scratch = fit_scratch},
+                      tuning, stats);
     }
     void fit(double dt_s) {
-        fit_hands({dt_s, hands, tracking, surface, offset, fingers, palm}, tuning, stats);
+        fit_hands({.dt_s = dt_s,
+                   .hands = hands,
+                   .hand = tracking,
+                   .surface = surface,
+                   .offset = offset,
+                   .fingers = fingers,
+                   .palm = palm},
+                  tuning, stats);
     }
     void frame(double dt_s) {
         search(dt_s);

@@ -51,10 +51,18 @@ class Grasp:
             raise FormatError(f"{where}: gripped: expected true or false")
         self.reason = str(value.get("reason") or "")
         self.position_m, self.rotation_xyzw = pose(member(value, "wrist", where), f"{where}: wrist")
+        # Of the grip surface, which a palm's limits refer to; zero vectors if the hand grips nothing or the file does not tell.
+        self.point_m, self.normal = self._surface(value.get("surface"), f"{where}: surface")
         self.sync_mm = number(value.get("sync_mm"), f"{where}: sync_mm")
         self.sync_deg = number(value.get("sync_deg"), f"{where}: sync_deg")
         self.fingers = [self._finger(finger, f"{where}: fingers: {i}") for i, finger in enumerate(value.get("fingers") or ())]
         self.us = {key: number(spent, f"{where}: us: {key}") for key, spent in (value.get("us") or {}).items()}
+
+    @staticmethod
+    def _surface(value, where):
+        if value is None:
+            return (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+        return tuple(tuple(numbers(member(value, key, where), 3, f"{where}: {key}")) for key in ("point_m", "normal"))
 
     @staticmethod
     def _finger(value, where):

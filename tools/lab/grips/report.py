@@ -11,17 +11,32 @@ from . import scoring, style
 MOST_TIP_MM = 0.05
 
 
+def bounded_goal(title, found, limit, unit, scale=1.0, at_least=False):
+    """found: a figure with its 95 % bounds (style.bounded), or anything else: not run."""
+    value, low, high = (scale * figure(found, key) if isinstance(found, dict) else math.nan for key in ("value", "low", "high"))
+    goal = limit_goal(title, value, limit, unit, at_least)
+    if math.isfinite(value) and math.isfinite(low):
+        goal.measured += f" [{low:.1f} {high:.1f}]"
+    return goal
+
+
 def style_goals(whole):
-    """A goal for every class of style.py and for palm sync, with 95 % bounds."""
-    def bounded(title, name, limit, unit, scale):
-        found = figure(whole, "style", name)
-        value, low, high = (scale * figure(found, key) if isinstance(found, dict) else math.nan for key in ("value", "low", "high"))
-        goal = limit_goal(title, value, limit, unit)
-        if math.isfinite(value) and math.isfinite(low):
-            goal.measured += f" [{low:.1f} {high:.1f}]"
-        return goal
-    classes = [bounded(title, name, limit, "%", 100.0) for name, (title, limit) in style.CLASSES.items()]
-    return classes + [bounded("palm sync: mean", "sync_mean_mm", 9, "mm", 1.0), bounded("palm sync: 95th percentile", "sync_p95_mm", 35, "mm", 1.0)]
+    """Goals for every class of style.py, and for the palm's sync and turn."""
+    classes = [bounded_goal(title, figure(whole, "style", name), limit, "%", 100.0) for name, (title, limit) in style.CLASSES.items()]
+    moved = (("palm sync: mean", "sync_mean_mm", 10, "mm"), ("palm sync: 95th percentile", "sync_p95_mm", 40, "mm"),
+             ("palm turn: mean", "turn_mean_deg", 12, "deg"), ("palm turn: 95th percentile", "turn_p95_deg", 30, "deg"))
+    return classes + [bounded_goal(title, figure(whole, "style", name), limit, unit) for title, name, limit, unit in moved]
+
+
+def critic_goals(whole):
+    """Shares that the critic expects people to name."""
+    goals = []
+    for kind, convincing, ugly in (("near", 85, 1), ("harsh", 65, 4)):
+        shares = figure(whole, "critic", kind)
+        of = lambda name: shares.get(name) if isinstance(shares, dict) else None
+        goals += [bounded_goal(f"expected convincing, {kind} placements", of("convincing"), convincing, "%", 100.0, at_least=True),
+                  bounded_goal(f"expected ugly, {kind} placements", of("ugly"), ugly, "%", 100.0)]
+    return goals + [limit_goal("tip gap of the worst finger: median", figure(whole, "worst_tip_mm", "median"), 4, "mm")]
 
 
 def goals(whole, flat, nasty, warm, worst_tip_mm):
@@ -48,7 +63,7 @@ def goals(whole, flat, nasty, warm, worst_tip_mm):
         limit_goal("target poses that jump over 10 degrees, moving", percent(figure(warm, "jumps")), 1, "%"),
         limit_goal("hands with non-finite numbers", float(figure(whole, "not_finite")), 0, ""),
         limit_goal("the same, broken meshes", float(figure(nasty, "not_finite")), 0, ""),
-        *style_goals(whole),
+        *style_goals(whole), *critic_goals(whole),
         limit_goal("tip of a closed chain, distance from the oracle's: worst", worst_tip_mm, MOST_TIP_MM, "mm"),
     ]
 
@@ -70,6 +85,8 @@ COLUMNS = (
     ("pops per disc", lambda f: triple(f["visited_per_disc"], "median", "p95", "max")),
     ("walk", lambda f: figure(f, "walked_per_disc", "median")),
     ("us", lambda f: triple(f["us"]["total"], "median", "p99")),
+    ("convincing %", lambda f: percent(figure(f, "critic", "all", "convincing", "value"))),
+    ("ugly %", lambda f: percent(figure(f, "critic", "all", "ugly", "value"))),
 )
 
 

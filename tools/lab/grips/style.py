@@ -166,26 +166,28 @@ def p95_of(files):
 
 
 def figures(measured):
-    """Shares of every class, of grasps in any class, and palm sync, each with bounds. measured: scoring.Measured, one per file."""
+    """Shares of every class, of grasps in any class, palm sync and turn, each with bounds. measured: scoring.Measured, one per file."""
     used = [one.style[one.used] for one in measured if one.used.any()]
     if not used:
         return {}
     names = used[0].dtype.names
     result = {name: bounded(mean_of, [one[name] for one in used]) for name in CLASSES}
     result["any_class"] = bounded(mean_of, [np.any([one[name] for name in CLASSES], axis=0) for one in used])
-    result["sync_mean_mm"] = bounded(mean_of, [one["sync_mm"] for one in used])
-    result["sync_p95_mm"] = bounded(p95_of, [one["sync_mm"] for one in used])
+    for name in ("sync_mm", "turn_deg"):
+        quantity, unit = name.split("_")
+        result[f"{quantity}_mean_{unit}"] = bounded(mean_of, [one[name] for one in used])
+        result[f"{quantity}_p95_{unit}"] = bounded(p95_of, [one[name] for one in used])
     assert set(CLASSES) < set(names)
     return result
 
 
 def rows_of(surface, grasps, capsules, gaps):
-    """Structured array, one row per grasp: every class and sync_mm."""
+    """Structured array, one row per grasp: every class, sync_mm and turn_deg."""
     sync_mm, sync_deg = (np.array([getattr(grasp, key) for grasp in grasps], float) for key in ("sync_mm", "sync_deg"))
     classes = flags(gaps, thumb_tip_gaps_mm(surface, grasps, capsules), bends_deg(grasps), sync_mm, sync_deg,
                     thumb_overlaps_mm(grasps, capsules), fans_deg(grasps, capsules))
-    rows = np.zeros(len(grasps), [(name, bool) for name in CLASSES] + [("sync_mm", float)])
+    rows = np.zeros(len(grasps), [(name, bool) for name in CLASSES] + [("sync_mm", float), ("turn_deg", float)])
     for name, flag in classes.items():
         rows[name] = flag
-    rows["sync_mm"] = sync_mm
+    rows["sync_mm"], rows["turn_deg"] = sync_mm, sync_deg
     return rows

@@ -11,9 +11,11 @@
 #error "handhold.hpp needs C++20 (target_compile_features(... cxx_std_20) or -std=c++20)"
 #endif
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -43,6 +45,7 @@ using Joint = hh_joint;
 using Player = hh_player;
 using Sample = hh_tracking_sample;
 using Event = hh_event;
+using Hit = hh_hit;
 using Side = hh_side;
 
 inline constexpr Quat k_no_turn{0.0, 0.0, 0.0, 1.0};
@@ -249,6 +252,28 @@ class World {
                    ? HH_ERROR_CAPACITY
                    : hh_world_body_poses(world_, bodies.data(), bodies.size(), poses.data());
     }
+    // As hh_body_velocity.
+    struct Motion {
+        Vec3 velocity_mps;
+        Vec3 angular_velocity_radps;
+    };
+    // As hh_body_velocity.
+    Maybe<Motion> motion(Body body) const {
+        return make<Motion>([&](Motion* m) {
+            return hh_body_velocity(world_, body, &m->velocity_mps, &m->angular_velocity_radps);
+        });
+    }
+    // As hh_body_get_kind.
+    Maybe<hh_body_kind> kind(Body body) const {
+        return make<hh_body_kind>(
+            [&](hh_body_kind* k) { return hh_body_get_kind(world_, body, k); });
+    }
+    // As hh_body_mass.
+    Maybe<double> mass_kg(Body body) const {
+        return make<double>([&](double* m) { return hh_body_mass(world_, body, m); });
+    }
+    // As hh_world_bodies.
+    std::vector<Body> bodies() const { return all<Body>(&hh_world_bodies); }
     // As hh_body_set_velocity.
     Status set_velocity(Body body, Vec3 linear_mps, Vec3 angular_radps = {}) {
         return hh_body_set_velocity(world_, body, linear_mps, angular_radps);
@@ -266,6 +291,36 @@ class World {
     // As hh_body_add_grip.
     Status add_grip(Body body, const hh_grip_def& def) {
         return hh_body_add_grip(world_, body, &def);
+    }
+
+    // Queries: nullopt if nothing was found, or if the call failed. As hh_world_cast_ray.
+    std::optional<Hit> cast_ray(Vec3 from, Vec3 to, Player skip = {}) {
+        Hit hit{};
+        return found(hh_world_cast_ray(world_, from, to, skip, &hit), hit);
+    }
+    // As hh_world_cast_sphere.
+    std::optional<Hit> cast_sphere(double radius_m, Vec3 from, Vec3 to, Player skip = {}) {
+        Hit hit{};
+        return found(hh_world_cast_sphere(world_, radius_m, from, to, skip, &hit), hit);
+    }
+    // As hh_world_closest_point.
+    std::optional<Hit> closest_point(Vec3 point, double max_distance_m, Player skip = {}) {
+        Hit hit{};
+        return found(hh_world_closest_point(world_, point, max_distance_m, skip, &hit), hit);
+    }
+    // As hh_world_overlap_sphere. `hits` keeps its memory from call to call.
+    Status overlap_sphere(Vec3 center, double radius_m, std::vector<Hit>& hits, Player skip = {}) {
+        std::size_t count = 0;
+        hits.resize(std::max<std::size_t>(hits.capacity(), 8));
+        hh_result result = hh_world_overlap_sphere(world_, center, radius_m, skip, hits.data(),
+                                                   hits.size(), &count);
+        if (result == HH_ERROR_CAPACITY) {
+            hits.resize(count);
+            result = hh_world_overlap_sphere(world_, center, radius_m, skip, hits.data(),
+                                             hits.size(), &count);
+        }
+        hits.resize(result == HH_OK ? count : 0);
+        return result;
     }
 
     // Players.
@@ -296,6 +351,30 @@ class World {
         return make<hh_hand_state>(
             [&](hh_hand_state* h) { return hh_player_hand(world_, player, side, h); });
     }
+    // As hh_hand_moves_player.
+    bool moves_player(Player player, Side side) const {
+        bool moves = false;
+        return hh_hand_moves_player(world_, player, side, &moves) == HH_OK && moves;
+    }
+    // As hh_player_reference_velocity.
+    Maybe<Vec3> reference_velocity_mps(Player player) const {
+        return make<Vec3>([&](Vec3* v) { return hh_player_reference_velocity(world_, player, v); });
+    }
+    // As hh_player_hand_in_controller.
+    Maybe<Pose> hand_in_controller(Player player, Side side) const {
+        return make<Pose>(
+            [&](Pose* p) { return hh_player_hand_in_controller(world_, player, side, p); });
+    }
+    // As hh_world_hand_in_controller.
+    Maybe<Pose> hand_in_controller(Side side) const {
+        return make<Pose>([&](Pose* p) { return hh_world_hand_in_controller(world_, side, p); });
+    }
+    // As hh_player_set_hand_in_controller.
+    Status set_hand_in_controller(Player player, Side side, const Pose& hand_in_controller) {
+        return hh_player_set_hand_in_controller(world_, player, side, &hand_in_controller);
+    }
+    // As hh_world_players.
+    std::vector<Player> players() const { return all<Player>(&hh_world_players); }
     // As hh_player_hand_joints gives them.
     using HandJoints = std::array<hh_hand_joint, HH_HAND_JOINT_COUNT>;
     // As hh_player_hand_joints.
@@ -386,6 +465,20 @@ class World {
         double time_s = 0.0;
         return hh_world_time(world_, &time_s, nullptr) == HH_OK ? time_s : 0.0;
     }
+    // As hh_world_time: number of steps.
+    std::uint64_t frame() const {
+        std::uint64_t frame = 0;
+        return hh_world_time(world_, nullptr, &frame) == HH_OK ? frame : 0;
+    }
+    // As hh_world_reference_velocity.
+    Vec3 reference_velocity_mps() const {
+        Vec3 velocity{};
+        return hh_world_reference_velocity(world_, &velocity) == HH_OK ? velocity : Vec3{};
+    }
+    // As hh_world_fallbacks: by index of hh_fallback_name.
+    std::vector<std::uint64_t> fallbacks() const { return all<std::uint64_t>(&hh_world_fallbacks); }
+    // As hh_world_stage_times: by index of hh_stage_name.
+    std::vector<double> stage_times_us() const { return all<double>(&hh_world_stage_times); }
     // Of the last step; valid until the next.
     std::span<const Event> events() const {
         const Event* first = nullptr;
@@ -435,12 +528,32 @@ class World {
     Status tune(const char* name, double value) {
         return hh_world_set_tuning(world_, name, &value, 1);
     }
+    // As hh_world_get_tuning, for a vector.
+    Maybe<Vec3> tuning_vector(const char* name) const {
+        double v[3] = {};
+        const hh_result result = hh_world_get_tuning(world_, name, v, 3);
+        return {result, {v[0], v[1], v[2]}};
+    }
     // As hh_world_get_tuning.
     Maybe<double> tuning(const char* name) const {
         return make<double>([&](double* v) { return hh_world_get_tuning(world_, name, v, 1); });
     }
 
   private:
+    static std::optional<Hit> found(hh_result result, const Hit& hit) {
+        const bool is_hit = hit.body.generation != 0 || hit.player.generation != 0;
+        return result == HH_OK && is_hit ? std::optional(hit) : std::nullopt;
+    }
+    template <typename T>
+    std::vector<T> all(hh_result (*call)(const hh_world*, T*, std::size_t, std::size_t*)) const {
+        std::size_t count = 0;
+        std::vector<T> values;
+        if (call(world_, nullptr, 0, &count) == HH_OK) {
+            values.resize(count);
+            values.resize(call(world_, values.data(), count, &count) == HH_OK ? count : 0);
+        }
+        return values;
+    }
     template <typename T>
     std::span<const T> list(hh_result (*call)(const hh_world*, const T**, std::size_t*)) const {
         const T* first = nullptr;
