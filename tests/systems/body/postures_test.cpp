@@ -161,7 +161,8 @@ RC_GTEST_PROP(Postures, LyingPlayersLieOnTheFloor, ()) {
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     const Vec3 axis = *rc::gen::element(Vec3(Vec3::UnitX()), Vec3(-Vec3::UnitX()),
                                         Vec3(Vec3::UnitZ()), Vec3(-Vec3::UnitZ()));
-    Player player(random.between(0.7, 1.2), random.between(-3.0, 3.0));
+    const double size = random.between(0.7, 1.2);
+    Player player(size, random.between(-3.0, 3.0));
     const double hz = random.between(30.0, 144.0);
     const double lasts_s = random.between(0.5, 3.0);
     const double pillow_m = random.between(0.0, 0.08);
@@ -180,13 +181,15 @@ RC_GTEST_PROP(Postures, LyingPlayersLieOnTheFloor, ()) {
 // direction, slowly or as a glance: hips move by at most 0.12 m and feet by 0.25 m, at any time.
 RC_GTEST_PROP(Postures, NeckThatBendsLeavesHipsAndFeet, ()) {
     Random random(*rc::gen::arbitrary<std::uint64_t>());
-    Player player(random.between(0.7, 1.2), random.between(-3.0, 3.0));
+    const double size = random.between(0.7, 1.2);
+    Player player(size, random.between(-3.0, 3.0));
     const double hz = random.between(45.0, 144.0);
     const double lasts_s = random.between(0.15, 2.0);
     const double way = random.between(-k_pi, k_pi);
     const Vec3 axis(std::cos(way), 0.0, std::sin(way));
     const double angle = random.between(0.1, 0.25 * k_pi);
-    const Vec3 pivot(0.0, 1.6 - random.between(0.06, 0.13), random.between(0.06, 0.1));
+    const double below_m = random.between(0.06, 0.13);
+    const Vec3 pivot(0.0, 1.6 - below_m, random.between(0.06, 0.1));
     const Posture upright{{Vec3(0.0, 1.6, 0.0), Quat::Identity()},
                           {Pose{Vec3(-0.2, 1.1, -0.25), Quat::Identity()},
                            Pose{Vec3(0.2, 1.1, -0.25), Quat::Identity()}}};
