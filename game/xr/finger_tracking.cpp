@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "game/devices/headset_hands.hpp"
+#include "game/xr/actions.hpp"
 
 namespace handhold {
 
@@ -71,8 +72,7 @@ void FingerTracking::read_hand(std::size_t side, XrSpace base, XrTime time,
     auto found = xr_struct<XrHandJointLocationsEXT>(XR_TYPE_HAND_JOINT_LOCATIONS_EXT);
     found.jointCount = XR_HAND_JOINT_COUNT_EXT;
     found.jointLocations = joints.data();
-    constexpr XrSpaceLocationFlags k_known =
-        XR_SPACE_LOCATION_POSITION_VALID_BIT | XR_SPACE_LOCATION_ORIENTATION_VALID_BIT;
+    constexpr XrSpaceLocationFlags k_known = flags_of(Confidence::tracked);
     const XrHandJointLocationEXT& wrist = joints[XR_HAND_JOINT_WRIST_EXT];
     if (XR_FAILED(locate_(trackers_[side], &info, &found)) || found.isActive != XR_TRUE ||
         (wrist.locationFlags & k_known) != k_known) {
