@@ -2,7 +2,7 @@
 """Checks that the documents name existing files and tests. Prints `file:line: what is missing` for each breach.
 
 - Relative links, pictures and #anchors of every *.md file resolve.
-- docs/talk_map.md and docs/reference/stages.md: every `folder/file` in backticks exists, every `Suite.Test` is a test.
+- docs/talk_map.md, docs/reference/stages.md and docs/guide/: every `folder/file` in backticks exists, every `Suite.Test` is a test.
 - docs/guide/: `name` in [file](path) names something in that file. A tuning number in backticks, such as `hand.reach_m`, and a counter after the
   word "counter" or "counters" are strings of components/.
 - docs/decisions/: every page starts with `# number. title` and a status, is short, and is in the index with both. A status names later
@@ -162,7 +162,7 @@ def check_tree(root: Path) -> list[str]:
         lines = without_fences(document.read_text(encoding="utf-8")).split("\n")
         for number, line in enumerate(lines, start=1):
             found = list(link_breaches(document, line))
-            if file.as_posix() in MAPS:
+            if file.as_posix() in MAPS or file.as_posix().startswith(GUIDE):
                 found.extend(name_breaches(root, tests, line))
             if file.as_posix().startswith(GUIDE):
                 found.extend(guide_breaches(document, strings, line))

@@ -2,8 +2,8 @@
 
 - By version: a library with another minor version refuses `find_package(handhold 0.1)` and names its own version; its SONAME differs, so a
   program that was linked with 0.1 does not start with it.
-- Compiled again without asking for a version, a program of the C interface does the same as before, or does not compile. It never compiles and
-  then fails.
+- Compiled again without asking for a version, a program of the C interface that fills structs by their default functions does the same as before, or
+  does not compile. It never compiles and then fails. A guide page says what to change.
 - Columns and stages are stable between no two versions. The release's first sample, grip_a_wall.cpp, needs what COLUMN_EDITS says.
 
 hello_hand_c.c is the first sample of the C interface, which carried version 0.1.0 before structs could grow.
@@ -13,6 +13,7 @@ import subprocess
 from pathlib import Path
 
 FROZEN = Path(__file__).resolve().parent / "release_0_1"
+PAGE = Path(__file__).resolve().parents[2] / "docs/guide/from_0_1_to_0_2.md"
 COLUMN_EDITS = [("#include <handhold/handhold.hpp>", "#include <handhold/ecs.hpp>")]  # 0.1.0's header for columns is called ecs.hpp now
 
 
@@ -42,6 +43,8 @@ def check_version(prefix: Path, work: Path) -> str:
         raise Broken(f"find_package(handhold 0.1) {'accepts' if is_found else 'refuses'} {version}:\n{text}")
     if not is_found and f"version: {version}" not in text:
         raise Broken(f"find_package(handhold 0.1) does not name {version}:\n{text}")
+    if not is_found and not PAGE.is_file():
+        raise Broken(f"no page {PAGE}")
     library = next(prefix.rglob("libhandhold.so"))
     soname = re.search(r"SONAME.*\[(.*)\]", attempt("readelf", "-d", library)[1])
     if soname is None or soname[1] != f"libhandhold.so.{release}":
