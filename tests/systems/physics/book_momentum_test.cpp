@@ -7,6 +7,8 @@
 namespace handhold::book_momentum_test {
 namespace {
 
+using test::Random;
+
 // Two players, of which the second counts as heavier than they are, two objects and a wall, with
 // random rows and impulses.
 struct Impulses {

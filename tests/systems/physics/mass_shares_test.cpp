@@ -14,6 +14,7 @@ namespace {
 
 using test::fixed_body;
 using test::free_body;
+using test::Random;
 using test::row_block;
 using test::translating_body;
 

@@ -8,6 +8,8 @@
 namespace handhold::record_valid_poses_test {
 namespace {
 
+using test::Random;
+
 using test::entity;
 using test::k_player;
 using test::k_wall;

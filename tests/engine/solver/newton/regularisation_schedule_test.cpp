@@ -10,6 +10,8 @@
 namespace handhold::regularisation_schedule_test {
 namespace {
 
+using test::Random;
+
 double power_of_ten(Random& random, double low, double high) {
     return std::pow(10.0, random.between(low, high));
 }
