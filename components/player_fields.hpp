@@ -63,6 +63,11 @@ void visit_fields(const EarlySample& c, V&& visit) {
     visit("trigger", c.trigger);
 }
 template <typename V>
+void visit_fields(const EarlySamples& c, V&& visit) {
+    visit("count", c.count);
+    visit("samples", c.samples);
+}
+template <typename V>
 void visit_fields(const HeadIgnores& c, V&& visit) {
     visit("bodies", c.bodies);
     visit("next", c.next);
@@ -116,6 +121,8 @@ template <typename V>
 void visit_fields(const ArmEstimate& c, V&& visit) {
     visit("chest_ps", c.chest_ps);
     visit("facing_ps", c.facing_ps);
+    visit("lying", c.lying);
+    visit("from_neck_m", c.from_neck_m);
     visit("arms", c.arms);
 }
 template <typename V>
@@ -160,6 +167,7 @@ void visit_fields(const SpineMemory& c, V&& visit) {
     visit("since_tick_s", c.since_tick_s);
     visit("moved_m", c.moved_m);
     visit("chest_ps", c.chest_ps);
+    visit("neck_ps", c.neck_ps);
     visit("rate_mps", c.rate_mps);
     visit("rate_span_s", c.rate_span_s);
     visit("tick_chest_ps", c.tick_chest_ps);

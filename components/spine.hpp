@@ -67,9 +67,10 @@ struct BodyPull {
 struct SpineMemory {
     bool known = false;                     // false: the next frame starts from rest
     double since_tick_s = 0.0;              // time since the last tick; [0, k_spine_tick_s)
-    Vec3 moved_m = Vec3::Zero();            // chest displacement since the last tick
+    Vec3 moved_m = Vec3::Zero();            // neck's displacement since the last tick
     Pose chest_ps;                          // chest at the end of the last frame
-    Vec3 rate_mps = Vec3::Zero();           // chest velocity in the last frame
+    Vec3 neck_ps = Vec3::Zero();            // neck then: chest less ArmEstimate::from_neck_m
+    Vec3 rate_mps = Vec3::Zero();           // velocity of the neck in the last frame
     double rate_span_s = 1.0;               // duration of the last frame; > 0
     Quat tick_chest_ps = Quat::Identity();  // chest rotation at the last tick
     Vec3 reference_ws_mps = Vec3::Zero();  // reference velocity (see ReferenceVelocity), last frame

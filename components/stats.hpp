@@ -46,14 +46,16 @@ enum class Stage : std::uint8_t {
 // event is counted.
 enum class Fallback : std::uint8_t {
     // Input.
-    sample_out_of_order,  // a sample older than the previous one: ignored
-    sample_not_finite,    // one device's pose in a sample is not finite: ignored
-    tracking_lost,        // a device is silent or invalid: its pose is frozen
-    hand_out_of_reach,    // hand farther from its head than HandTuning::max_arm_m: sample ignored
-    head_recentred,       // head moved more than TrackingTuning::max_jump_m: the player stays put
-    device_asleep,        // a controller at exactly (0, 0, 0): sample ignored
-    hand_implausible,     // faster than TrackingTuning::max_hand_speed_mps: sample ignored
-    space_recentred,      // head and hands jumped as one rigid body: the player stays put
+    sample_out_of_order,   // a sample older than the previous one: ignored
+    sample_not_finite,     // one device's pose in a sample is not finite: ignored
+    tracking_lost,         // a device is silent or invalid: its pose is frozen
+    hand_out_of_reach,     // hand farther from its head than HandTuning::max_arm_m: sample ignored
+    head_recentred,        // head moved more than TrackingTuning::max_jump_m: the player stays put
+    device_asleep,         // a controller at exactly (0, 0, 0): sample ignored
+    hand_implausible,      // faster than TrackingTuning::max_hand_speed_mps: sample ignored
+    space_recentred,       // head and hands jumped as one rigid body: the player stays put
+    sample_too_far_ahead,  // a sample more than 0.5 s or 64 samples after the frame: dropped
+    sample_too_old,        // a sample more than 0.5 s before the frame: another clock's?
     // Grabs.
     grab_no_surface,       // a hand closed with no surface in reach
     grip_stretched,        // hand farther from its anchor than HandTuning::max_stretch_m: let go

@@ -113,9 +113,7 @@ struct HandTracking {
     Vec3 release_spin_ps_radps = Vec3::Zero();
 };
 
-// A player's sample of after the last frame's end, for hosts that give each sample once: it comes
-// before the next frame's samples. Only players with such a sample have this component. Written and
-// read by the C interface.
+// A sample of after the last frame's end.
 struct EarlySample {
     double t_s = 0.0;
     Pose head_ps;
@@ -125,6 +123,15 @@ struct EarlySample {
     std::array<bool, k_hand_count> grab = {};       // indexed by HandSide
     std::array<double, k_hand_count> squeeze = {};  // indexed by HandSide
     std::array<double, k_hand_count> trigger = {};  // indexed by HandSide
+};
+
+// A player's samples of after the last frame's end, as devices that predict give them: hosts give
+// each sample once, and each is used at its time. They come before the next frame's samples. Only
+// players with such samples have this component. Written and read by the C interface.
+struct EarlySamples {
+    static constexpr std::size_t k_capacity = 64;
+    std::uint32_t count = 0;                           // at most k_capacity
+    std::array<EarlySample, k_capacity> samples = {};  // by time; as made beyond `count`
 };
 
 // The hand's last samples in a ring, for velocities that do not depend on the frame rate. Written

@@ -60,7 +60,11 @@ double finger_curl(const Vec3& wrist, const Vec3& knuckle, const Vec3& tip) {
     const Vec3 finger = tip - knuckle;
     const double lengths = hand.norm() * finger.norm();
     const double cosine = hand.dot(finger) / lengths;
-    return std::isfinite(cosine) ? std::clamp(0.5 * (1.0 - cosine), 0.0, 1.0) : 0.0;
+    constexpr double k_longest = 4.0;  // of a finger, in distances of knuckle and wrist
+    if (!std::isfinite(cosine) || finger.norm() > k_longest * hand.norm()) {
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+    return std::clamp(0.5 * (1.0 - cosine), 0.0, 1.0);
 }
 
 TrackingSample read_headset(const HeadsetReading& reading, double t_s, const HandTuning& tuning,
@@ -74,8 +78,13 @@ TrackingSample read_headset(const HeadsetReading& reading, double t_s, const Han
         const HandReading& hand = reading.hands[i];
         ControllerSample& controller = sample.controllers[i];
         if (const std::optional<Pose> hand_ps = hand_pose(hand, side, tuning, own_joints)) {
-            const double closes = std::max(
-                {hand.squeeze, hand.trigger, hand.grip_ps || hand.palm_ps ? 0.0 : hand.curl});
+            double& curl = memory.curls[i];
+            if (hand.grip_ps || hand.palm_ps) {
+                curl = 0.0;  // fingers lie about a controller all the time
+            } else if (!std::isnan(hand.curl)) {
+                curl = hand.curl;
+            }
+            const double closes = std::max({hand.squeeze, hand.trigger, curl});
             memory.grabs[i] = closes > (memory.grabs[i] ? k_opens : k_closes);
             controller.squeeze = closes;
             controller.trigger = hand.trigger;

@@ -18,18 +18,22 @@ Pose hand_in_grip(HandSide side, const HandTuning& tuning);
 // hand's.
 Pose hand_in_palm(HandSide side, const HandTuning& tuning);
 
-// Curl of a finger: 0 in line with the hand, 1 if it points back at the wrist.
+// Curl of a finger: 0 in line with the hand, 1 if it points back at the wrist. NaN, which stands
+// for unknown, if the points are no finger's: some runtimes report zeros for joints that they do
+// not see.
 double finger_curl(const Vec3& wrist, const Vec3& knuckle, const Vec3& tip);
 
 // State between readings.
 struct HeadsetMemory {
     std::array<bool, k_hand_count> grabs{};
-    bool turned = false;  // one snap turn per push of the stick
+    std::array<double, k_hand_count> curls{};  // HandReading::curl, where last known
+    bool turned = false;                       // one snap turn per push of the stick
 };
 
 // A hand closes when squeeze, trigger or finger curl exceeds 55 %, and opens when all are below 35
 // %. The palm pose is preferred to the grip pose, and both to tracked fingers. A device that is not
-// tracked gets a pose of NaN and keeps its button: losing sight of a hand does not open it.
+// tracked gets a pose of NaN and keeps its button: losing sight of a hand does not open it. So does
+// a hand whose fingers are not seen. The web page does the same (game/web/demo/devices.js).
 //
 // `own_joints`: joints of a controller profile, which replace the ones above and Tuning's. The grip
 // pose is then preferred to the palm pose and is the controller's pose itself.

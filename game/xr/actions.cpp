@@ -35,12 +35,11 @@ bool concerns(const HeadsetBinding& binding, std::size_t side) {
 
 }  // namespace
 
-std::optional<Pose> locate(XrSpace space, XrSpace base, XrTime time) {
-    constexpr XrSpaceLocationFlags k_known =
-        XR_SPACE_LOCATION_POSITION_VALID_BIT | XR_SPACE_LOCATION_ORIENTATION_VALID_BIT;
+std::optional<Pose> locate(XrSpace space, XrSpace base, XrTime time, Confidence least) {
+    const XrSpaceLocationFlags known = flags_of(least);
     auto location = xr_struct<XrSpaceLocation>(XR_TYPE_SPACE_LOCATION);
     if (XR_FAILED(xrLocateSpace(space, base, time, &location)) ||
-        (location.locationFlags & k_known) != k_known) {
+        (location.locationFlags & known) != known) {
         return std::nullopt;
     }
     return from_xr(location.pose);
@@ -208,7 +207,7 @@ std::optional<Pose> HeadsetActions::pose(XrSession session, HeadsetAction which,
     if (!space || !is_active(session, which, side)) {
         return std::nullopt;
     }
-    return locate(space.get(), base, time);
+    return locate(space.get(), base, time, Confidence::tracked);
 }
 
 void HeadsetActions::read(XrSession session, XrSpace base, XrTime time,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -45,7 +46,17 @@ class HeadsetActions {
     std::array<std::array<OwnedXrSpace, k_hand_count>, 3> spaces_;
 };
 
-// Pose of `space` in `base` at `time`; nullopt if the runtime does not know it.
-std::optional<Pose> locate(XrSpace space, XrSpace base, XrTime time);
+// What a location must be to be used. Runtimes infer poses of devices that they do not see, as from
+// the head: valid but not tracked. Such a hand would drag a gripping player who looks round.
+enum class Confidence : std::uint8_t { inferred, tracked };
+constexpr XrSpaceLocationFlags flags_of(Confidence least) {
+    constexpr XrSpaceLocationFlags k_valid =
+        XR_SPACE_LOCATION_POSITION_VALID_BIT | XR_SPACE_LOCATION_ORIENTATION_VALID_BIT;
+    return least == Confidence::tracked ? k_valid | XR_SPACE_LOCATION_POSITION_TRACKED_BIT
+                                        : k_valid;
+}
+// Pose of `space` in `base` at `time`; nullopt if the runtime does not know it with this
+// confidence.
+std::optional<Pose> locate(XrSpace space, XrSpace base, XrTime time, Confidence least);
 
 }  // namespace handhold

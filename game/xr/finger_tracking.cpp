@@ -1,6 +1,11 @@
 #include "game/xr/finger_tracking.hpp"
 
+#include <cmath>
+#include <limits>
+#include <optional>
+
 #include "game/devices/headset_hands.hpp"
+#include "game/xr/actions.hpp"
 
 namespace handhold {
 
@@ -67,28 +72,42 @@ void FingerTracking::read_hand(std::size_t side, XrSpace base, XrTime time,
     auto found = xr_struct<XrHandJointLocationsEXT>(XR_TYPE_HAND_JOINT_LOCATIONS_EXT);
     found.jointCount = XR_HAND_JOINT_COUNT_EXT;
     found.jointLocations = joints.data();
-    constexpr XrSpaceLocationFlags k_known =
-        XR_SPACE_LOCATION_POSITION_VALID_BIT | XR_SPACE_LOCATION_ORIENTATION_VALID_BIT;
+    constexpr XrSpaceLocationFlags k_known = flags_of(Confidence::tracked);
     const XrHandJointLocationEXT& wrist = joints[XR_HAND_JOINT_WRIST_EXT];
     if (XR_FAILED(locate_(trackers_[side], &info, &found)) || found.isActive != XR_TRUE ||
         (wrist.locationFlags & k_known) != k_known) {
         return;
     }
     hand.wrist_ps = from_xr(wrist.pose);
-    const auto place = [&](int joint) {
-        return from_xr(joints[static_cast<std::size_t>(joint)].pose).position;
+    // Some runtimes locate the wrist alone: the other joints are zeros then, and not valid.
+    const auto place = [&](int joint) -> std::optional<Vec3> {
+        const XrHandJointLocationEXT& found_joint = joints[static_cast<std::size_t>(joint)];
+        if ((found_joint.locationFlags & XR_SPACE_LOCATION_POSITION_VALID_BIT) == 0) {
+            return std::nullopt;
+        }
+        return from_xr(found_joint.pose).position;
     };
-    // The curl is the mean of middle, ring and little finger: index and thumb may point while the
-    // hand is closed.
+    // The curl is the mean of those of middle, ring and little finger that are seen: index and
+    // thumb may point while the hand is closed.
     constexpr std::array<std::array<int, 2>, 3> k_fingers = {{
         {XR_HAND_JOINT_MIDDLE_PROXIMAL_EXT, XR_HAND_JOINT_MIDDLE_TIP_EXT},
         {XR_HAND_JOINT_RING_PROXIMAL_EXT, XR_HAND_JOINT_RING_TIP_EXT},
         {XR_HAND_JOINT_LITTLE_PROXIMAL_EXT, XR_HAND_JOINT_LITTLE_TIP_EXT},
     }};
+    int known = 0;
+    double sum = 0.0;
     for (const auto& [knuckle, tip] : k_fingers) {
-        hand.curl += finger_curl(hand.wrist_ps->position, place(knuckle), place(tip)) /
-                     static_cast<double>(k_fingers.size());
+        const std::optional<Vec3> knuckle_ps = place(knuckle);
+        const std::optional<Vec3> tip_ps = place(tip);
+        const double curl = knuckle_ps && tip_ps
+                                ? finger_curl(hand.wrist_ps->position, *knuckle_ps, *tip_ps)
+                                : std::numeric_limits<double>::quiet_NaN();
+        if (!std::isnan(curl)) {
+            sum += curl;
+            ++known;
+        }
     }
+    hand.curl = known > 0 ? sum / known : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace handhold

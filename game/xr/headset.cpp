@@ -297,7 +297,7 @@ HeadsetReading Headset::read(std::int64_t time_ns) const {
     const Impl& impl = *impl_;
     HeadsetReading reading;
     const XrSpace room = impl.spaces.room.get();
-    reading.head_ps = locate(impl.spaces.head.get(), room, time_ns);
+    reading.head_ps = locate(impl.spaces.head.get(), room, time_ns, Confidence::inferred);
     if (impl.has_focus) {
         impl.actions->read(impl.session.get(), room, time_ns, reading.hands);
         impl.fingers.read(room, time_ns, reading.hands);

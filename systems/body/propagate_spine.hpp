@@ -37,9 +37,10 @@ inline constexpr double k_longest_spine_s = 0.5;
 // world clock, independent of the frame rate. Frames interpolate between the last two ticks.
 //
 // Two motions move the chain: the player's velocity relative to the reference velocity
-// (ReferenceVelocity), and the chest's motion in play space. When the play space turns or a player
-// is teleported, the chain moves along rigidly. If the chest jumps, the chain restarts from rest.
-// At most k_longest_spine_s of a frame is simulated.
+// (ReferenceVelocity), and the chest's motion in play space as far as a bending neck does not cause
+// it (ArmEstimate::from_neck_m). With the rest of it, and when the play space turns or a player is
+// teleported, the chain moves along rigidly. If the chest jumps, the chain restarts from rest. At
+// most k_longest_spine_s of a frame is simulated.
 //
 // Hanging: the trunk turns towards the opposite of the direction to the gripping hands
 // (hang_body.hpp). Loose bodies in the hands pull nothing. Without a grip the trunk keeps its

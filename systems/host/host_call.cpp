@@ -30,6 +30,13 @@ std::atomic<int>& world_count() {
     return count;
 }
 
+void log_note(const char* text) noexcept {
+    const hh_host_hooks& set = hooks();
+    if (set.log != nullptr) {
+        set.log(set.context, HH_LOG_NOTE, text);
+    }
+}
+
 hh_result report_failure(hh_result result, const char* text) noexcept {
     const std::size_t length = std::min(std::strlen(text), k_error_bytes - 1);
     std::memcpy(t_last_error.data(), text, length);

@@ -39,6 +39,8 @@ inline void require(bool condition, hh_result result, const char* text) {
     }
 }
 
+// Tells the host's log, if it has one, something that is no failure of a call.
+void log_note(const char* text) noexcept;
 // Stores the text for hh_last_error and logs it; HH_ERROR_INTERNAL also calls the assert hook.
 hh_result report_failure(hh_result result, const char* text) noexcept;
 

@@ -86,11 +86,13 @@ hh_result hh_player_recenter(hh_world* world, hh_player player, hh_pose new_in_o
         }
         head.shift_m = head.shift_turn * space.position + head.shift_m;
         head.shift_turn = (head.shift_turn * space.rotation).normalized();
-        if (EarlySample* const early = host.world.early_sample.find(entity)) {
+        if (EarlySamples* const early = host.world.early_samples.find(entity)) {
             const Pose old_in_new = inverse(space);
-            early->head_ps = old_in_new * early->head_ps;
-            for (Pose& controller_ps : early->controllers_ps) {
-                controller_ps = old_in_new * controller_ps;
+            for (EarlySample& sample : std::span{early->samples}.first(early->count)) {
+                sample.head_ps = old_in_new * sample.head_ps;
+                for (Pose& controller_ps : sample.controllers_ps) {
+                    controller_ps = old_in_new * controller_ps;
+                }
             }
         }
         if (SpaceReport* const report = host.spaces.find(entity)) {

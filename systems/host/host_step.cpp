@@ -2,9 +2,13 @@
 #include "systems/host/host_step.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <cstring>
 #include <limits>
+#include <span>
 
 #include "systems/input/shared/play_space_tracker.hpp"
 
@@ -83,6 +87,7 @@ template <typename Def>
 const Def& def_at(const Def* defs, std::size_t i) {
     return sized_element(defs, defs->struct_size, i);
 }
+
 // Element `i` of such an array. HH_ERROR_VERSION unless it has the size of the first.
 template <typename Def>
 Def read_def_at(const Def* defs, std::size_t i, const Def& defaults) {
@@ -91,14 +96,69 @@ Def read_def_at(const Def* defs, std::size_t i, const Def& defaults) {
     return read_def(&def_at(defs, i), defaults);
 }
 
+// Players whose kept samples are due in a step that the host has no input for.
+void add_silent_inputs(hh_world& host) {
+    const std::size_t given = host.inputs.size();
+    for (const Entity player : host.world.early_samples.owners()) {
+        const auto end = host.inputs.begin() + static_cast<std::ptrdiff_t>(given);
+        if (std::none_of(host.inputs.begin(), end,
+                         [&](const PlayerInput& input) { return input.player == player; })) {
+            host.inputs.push_back({player, {}, {}});
+            host.repeats_samples.push_back(0);
+        }
+    }
+}
+
+// A player all of whose samples are far from the step is stamped by another clock: said once.
+void name_other_clock(hh_world& host, double off_s) {
+    if (host.has_named_clock) {
+        return;
+    }
+    host.has_named_clock = true;
+    std::array<char, 160> text{};
+    std::snprintf(text.data(), text.size(),
+                  "samples are stamped %.3f s %s the step: time_s must be on the world's clock, "
+                  "hh_world_time plus dt_s for the step's end",
+                  std::abs(off_s), off_s > 0.0 ? "after" : "before");
+    log_note(text.data());
+}
+
+// Appends the samples given for a player, but for those too far ahead.
+void read_given(hh_world& host, const hh_player_input& input, double end_s) {
+    constexpr double k_far_s = 0.5;
+    const double start_s = host.world.clock.t_s;
+    std::size_t far = 0;
+    double last_s = 0.0;
+    const hh_tracking_sample defaults = hh_default_tracking_sample();
+    for (std::size_t i = 0; i < input.sample_count; ++i) {
+        const hh_tracking_sample sample = read_def_at(input.samples, i, defaults);
+        last_s = sample.time_s;
+        if (sample.time_s > end_s + k_far_s && input.repeats_samples == 0) {
+            ++host.samples_too_far_ahead;
+            ++far;
+            continue;
+        }
+        if (sample.time_s < start_s - k_far_s) {
+            ++host.samples_too_old;
+            ++far;
+        }
+        host.samples.push_back(read_sample(sample, end_s, input.repeats_samples != 0));
+    }
+    if (far > 0 && far == input.sample_count) {
+        name_other_clock(host, last_s - end_s);
+    }
+}
+
 }  // namespace
 
-void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std::size_t count) {
+void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std::size_t count,
+                 StepKind kind) {
     checked(dt_s, k_min_step_s, k_max_step_s, "dt_s must lie in [1e-6, 10]");
     require(count == 0 || inputs != nullptr, HH_ERROR_NULL, "the inputs are null");
     host.inputs.clear();
     host.repeats_samples.clear();
     host.samples.clear();
+    host.samples_too_far_ahead = host.samples_too_old = 0;
     std::size_t sample_count = 0;
     const hh_player_input input_defaults = hh_default_player_input();
     const hh_tracking_sample sample_defaults = hh_default_tracking_sample();
@@ -121,34 +181,58 @@ void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std
         sample_count += input.sample_count;
     }
     const double end_s = host.world.clock.t_s + dt_s;
-    host.samples.reserve(sample_count + count);  // spans into it must not move
-    for (std::size_t i = 0; i < count; ++i) {
-        const hh_player_input& input = def_at(inputs, i);
+    if (kind == StepKind::advances) {
+        add_silent_inputs(host);
+    }
+    for (const PlayerInput& input : host.inputs) {
+        const EarlySamples* const early = host.world.early_samples.find(input.player);
+        sample_count += early != nullptr ? early->count : 0;
+    }
+    host.samples.reserve(sample_count);  // spans into it must not move
+    for (std::size_t i = 0; i < host.inputs.size(); ++i) {
+        PlayerInput& input = host.inputs[i];
+        const hh_player_input given =
+            i < count ? read_def_at(inputs, i, input_defaults) : input_defaults;
         const std::size_t first = host.samples.size();
-        const EarlySample* const early = host.world.early_sample.find(host.inputs[i].player);
-        if (early != nullptr && (input.sample_count == 0 || input.samples[0].time_s > early->t_s)) {
-            host.samples.push_back(read_sample(*early));
+        if (const EarlySamples* const early = host.world.early_samples.find(input.player)) {
+            for (std::uint32_t j = 0; j < early->count; ++j) {
+                const EarlySample& kept = early->samples[j];
+                if (given.sample_count == 0 || !(given.samples[0].time_s <= kept.t_s)) {
+                    host.samples.push_back(read_sample(kept));
+                }
+            }
         }
-        for (std::size_t j = 0; j < input.sample_count; ++j) {
-            host.samples.push_back(read_sample(read_def_at(input.samples, j, sample_defaults),
-                                               end_s, input.repeats_samples != 0));
-        }
-        host.inputs[i].samples = {host.samples.data() + first, host.samples.size() - first};
+        read_given(host, given, end_s);
+        input.samples = {host.samples.data() + first, host.samples.size() - first};
     }
 }
 
 void keep_early_samples(hh_world& host, double end_s) {
     for (std::size_t i = 0; i < host.inputs.size(); ++i) {
         const PlayerInput& input = host.inputs[i];
-        host.world.early_sample.remove(input.player);
-        if (host.repeats_samples[i] != 0) {
+        const bool has_later =
+            std::any_of(input.samples.begin(), input.samples.end(),
+                        [&](const TrackingSample& sample) { return sample.t_s > end_s; });
+        if (!has_later || host.repeats_samples[i] != 0) {
+            host.world.early_samples.remove(input.player);
             continue;
         }
+        EarlySamples kept;
         for (const TrackingSample& sample : input.samples) {
-            if (sample.t_s > end_s && sample.t_s <= k_latest_s) {
-                host.world.early_sample.add(input.player, early_of(sample));
-                break;
+            if (!(sample.t_s > end_s)) {
+                continue;
             }
+            if (kept.count == EarlySamples::k_capacity) {
+                ++host.samples_too_far_ahead;
+                continue;
+            }
+            kept.samples[kept.count++] = early_of(sample);
+        }
+        EarlySamples* const before = host.world.early_samples.find(input.player);
+        if (before != nullptr) {
+            *before = kept;
+        } else {
+            host.world.early_samples.add(input.player, kept);
         }
     }
 }
@@ -156,6 +240,12 @@ void keep_early_samples(hh_world& host, double end_s) {
 void finish_step(hh_world& host) {
     host.stats.fallbacks[static_cast<std::size_t>(Fallback::surface_answer_invalid)] +=
         host.surfaces.take_refused();
+    const auto count = [&](Fallback reason, std::uint64_t times) {
+        host.stats.fallbacks[static_cast<std::size_t>(reason)] += times;
+    };
+    count(Fallback::sample_too_far_ahead, host.samples_too_far_ahead);
+    count(Fallback::sample_too_old, host.samples_too_old);
+    host.samples_too_far_ahead = host.samples_too_old = 0;
     if (host.may_recycle_shapes) {  // the frame has run without the removed ones
         host.shapes.recycle_removed();
         host.may_recycle_shapes = false;
@@ -178,7 +268,8 @@ hh_result step_with(hh_world* world, double dt_s, const hh_player_input* inputs,
                     HostStep step, bool makes_events) {
     hh_result result = call([&] {
         require_idle(world_of(world));
-        read_inputs(*world, dt_s, inputs, count);
+        read_inputs(*world, dt_s, inputs, count,
+                    makes_events ? StepKind::advances : StepKind::poses_only);
     });
     if (result != HH_OK) {
         return result;

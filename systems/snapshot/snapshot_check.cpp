@@ -280,7 +280,7 @@ class BreachFinder {
         require("grab_order", w_.grab_order, "grab", w_.grab);
         require("hand_rig", w_.hand_rig, "hand_owner", w_.hand_owner);
         require("grab_layers", w_.grab_layers, "player", w_.player);
-        require("early_sample", w_.early_sample, "player", w_.player);
+        require("early_samples", w_.early_samples, "player", w_.player);
         require("recenter_guess", w_.recenter_guess, "player", w_.player);
         check_retries();
         for (std::size_t row = 0; row < w_.hand_tracking.size(); ++row) {

@@ -5,6 +5,7 @@
 
 #include "engine/math/scalar_rotation.hpp"
 #include "systems/body/shared/body_constants.hpp"
+#include "systems/body/shared/lie_down.hpp"
 
 namespace handhold {
 namespace {
@@ -78,7 +79,9 @@ double across_turn(const Vec3& hand, const Vec3& other) {
 TrunkView trunk_view(const TrackedBody& body, const BodyAxes& axes) {
     const Vec3 up = axes.head.col(1);
     const Vec3 ahead = -axes.head.col(2);
-    TrunkView view{body.head_ps.position, up};
+    const double scale = body.measures.eye_height_m / k_scale_eye_m;
+    const double eyes_m = (body.head_ps.position.y() - body.floor_m) / scale;
+    TrunkView view{body.head_ps.position, up, lying_share(eyes_m, up, ahead)};
     const double sine_pitch = ahead.y();
     if (sine_pitch <= 0.0) {
         return view;
@@ -88,8 +91,7 @@ TrunkView trunk_view(const TrackedBody& body, const BodyAxes& axes) {
     const double pitch = arc_tangent2(sine_pitch, level);
     double sine = 0.0;
     double cosine = 1.0;
-    sin_cos(pitch * pitch / (pitch + k_nod_rad), sine, cosine);
-    const double scale = body.measures.eye_height_m / k_scale_eye_m;
+    sin_cos((1.0 - view.lying) * pitch * pitch / (pitch + k_nod_rad), sine, cosine);
     view.up_ps = cosine * up + sine * ahead;
     const Vec3 ahead_then = cosine * ahead - sine * up;
     view.eyes_ps +=
@@ -97,9 +99,10 @@ TrunkView trunk_view(const TrackedBody& body, const BodyAxes& axes) {
     return view;
 }
 
-Quat chest_lean(const Vec3& up_ps) {
-    constexpr double k_share = body_constants::k_lean;
-    const Vec3 up = (1.0 - k_share) * Vec3::UnitY() + k_share * up_ps;
+Quat chest_lean(const Vec3& up_ps, double lying) {
+    constexpr double k_upright = 1.0 - body_constants::k_lean;
+    const double upright = (1.0 - lying) * k_upright;
+    const Vec3 up = upright * Vec3::UnitY() + (1.0 - upright) * up_ps;
     const double length = up.norm();
     return length > 0.1 ? rotation_between(Vec3::UnitY(), up / length) : Quat::Identity();
 }
@@ -188,8 +191,25 @@ Pose chest_pose(const Vec3& facing_ps, const Quat& lean_ps, const ChestOffset& o
     // tan(a / 2) = tan a / (1 + sqrt(1 + tan^2 a))
     const Quat rolled =
         product(level, unit_quat(1.0 + std::sqrt(1.0 + roll * roll), 0.0, 0.0, roll));
-    return {trunk.eyes_ps + scale * (level.toRotationMatrix() * from_neck - k_neck_m * trunk.up_ps),
-            rolled};
+    Pose chest{
+        trunk.eyes_ps + scale * (level.toRotationMatrix() * from_neck - k_neck_m * trunk.up_ps),
+        rolled};
+    if (trunk.lying > 0.0) {
+        constexpr double k_shoulder_m = 0.05;  // half as thick as an arm
+        const double half_m = 0.5 * body.measures.shoulder_width_m;
+        const double lowest_m = chest.position.y() - body.floor_m -
+                                half_m * std::abs((chest.rotation * Vec3::UnitX()).y());
+        chest.position.y() += trunk.lying * std::max(0.0, scale * k_shoulder_m - lowest_m);
+    }
+    return chest;
+}
+
+Vec3 neck_pivot(const TrackedBody& body, const BodyAxes& axes) {
+    using namespace body_constants;
+    const double scale = body.measures.eye_height_m / k_scale_eye_m;
+    const Vec3 ears(0.0, -k_ears_below_m, k_ears_behind_m);
+    const Vec3 base(0.0, -k_neck_m, k_shoulders_back_m);
+    return body.head_ps.position + (0.5 * scale) * (axes.head * (ears + base));
 }
 
 }  // namespace handhold

@@ -37,7 +37,10 @@ HH_API void hh_world_destroy(hh_world* world);
 typedef struct hh_tracking_sample {
     uint32_t struct_size;
     /* On the world's clock: hh_world_time plus the step for a sample at the step's end. Later than
-     * the sample before, else it is ignored and counted as sample_out_of_order. */
+     * the sample before, else it is ignored and counted as sample_out_of_order. More than 0.5 s
+     * after the step's end: dropped and counted as sample_too_far_ahead; more than 0.5 s before its
+     * start: counted as sample_too_old. If all of a step's samples are so far off, the log is told
+     * once that they are on another clock. */
     double time_s;
     hh_pose head;  /* between the eyes, in play space: the frame that the tracking is given in */
     hh_pose hands[2];     /* controllers, by hh_side; see hh_player_set_hand_in_controller */
@@ -73,9 +76,11 @@ typedef struct hh_commands {
 typedef struct hh_player_input {
     uint32_t struct_size;
     hh_player player;
-    /* Sorted by time: those since the last step. The last one may be later than this step's end:
-     * the poses at the end are then interpolated, and the sample is kept for the next step. None:
-     * the devices are silent. */
+    /* Sorted by time: those since the last step. Give each once. Up to 64 may be later than this
+     * step's end, by at most 0.5 s, as predicted poses are: the poses at the end are then
+     * interpolated, and each sample is kept for the step of its time, also if that step has no
+     * input. A sample replaces those kept of its time or later. None: the devices are silent but
+     * for samples that were kept. */
     const hh_tracking_sample* samples;
     size_t sample_count;
     /* The host gives a sample that is later than the step's end again in the next step, so the world
