@@ -194,36 +194,6 @@ void apply_impulses(const IslandView& island, std::span<const double> lambda,
     }
 }
 
-// Largest residual of the active rows.
-double worst_speed(std::span<const Row> rows, const RowSystem& system) {
-    double worst = 0.0;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        worst = system.is_active(i) ? std::max(worst, std::abs(rows[i].residual)) : worst;
-    }
-    return worst;
-}
-
-// Iterative refinement: reduces the error of regularisation, which long levers amplify, until the
-// rows are satisfied or cannot be. Further steps would only press contradicting rows against each
-// other.
-void refine_velocities(const IslandView& island, const VelocitySettings& settings,
-                       SolveScratch& scratch) {
-    double previous = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < settings.refinements; ++i) {
-        evaluate_velocity_rows(island, scratch);
-        const double worst = worst_speed(scratch.rows, scratch.system);
-        if (worst < settings.tolerance_mps || worst > 0.5 * previous) {
-            return;
-        }
-        previous = worst;
-        gather_residuals(scratch);
-        const std::span<const double> lambda =
-            scratch.system.solve_with_last_factor(scratch.values);
-        gather_moves(scratch.system.moves(), scratch);
-        apply_impulses(island, lambda, scratch);
-    }
-}
-
 // --- Methods -------------------------------------------------------------------------------------
 
 // Both solve for the multipliers of scratch.rows, write scratch.lambda and gather the moves.
@@ -256,7 +226,9 @@ class DirectMethod {
                (is_unconverged_ ? k_max_unconverged_ratio : k_max_move_ratio) * largest;
     }
     bool is_unconverged() const { return is_unconverged_; }
-    // Iterative refinement of the multipliers and of the gathered moves.
+    // Iterative refinement of the multipliers and of the gathered moves: reduces the error of
+    // regularisation, which long levers amplify, until the rows are satisfied or cannot be. Further
+    // steps would only press contradicting rows against each other.
     void refine() {
         double previous = std::numeric_limits<double>::infinity();
         for (int i = 0; i < settings_.refinements; ++i) {
@@ -361,12 +333,13 @@ VelocityResult solve_island(const IslandView& island, const VelocitySettings& se
     if (!island.is_heap) {
         DirectMethod direct(island, settings, scratch);
         if (direct.solve()) {
-            const bool is_blended = limit_energy(
-                island, [&] { direct.solve(); }, [&] { direct.refine(); }, scratch);
+            direct.refine();
+            const auto solve_again = [&] {
+                direct.solve();
+                direct.refine();
+            };
+            limit_energy(island, solve_again, scratch);
             apply_impulses(island, scratch.lambda, scratch);
-            if (!is_blended) {
-                refine_velocities(island, settings, scratch);
-            }
             return {.unconverged = direct.is_unconverged(),
                     .out_of_work = scratch.system.is_out_of_work()};
         }
@@ -374,7 +347,7 @@ VelocityResult solve_island(const IslandView& island, const VelocitySettings& se
     SweepMethod sweeps(island, settings, scratch);
     sweeps.solve();
     limit_energy(
-        island, [&] { sweeps.solve(); }, [] {}, scratch);
+        island, [&] { sweeps.solve(); }, scratch);
     apply_impulses(island, scratch.lambda, scratch);
     return {
         .unconverged = !island.is_heap,
