@@ -15,8 +15,6 @@
 // while frames run.
 namespace handhold {
 
-enum class FingerName : std::uint8_t { thumb, index, middle, ring, little };
-inline constexpr std::size_t k_finger_count = 5;
 inline constexpr std::size_t k_max_links = 3;
 
 // One finger: a chain of hinges in one plane, the finger's disc. Link i runs from hinge i to hinge

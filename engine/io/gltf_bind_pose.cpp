@@ -16,7 +16,6 @@ namespace {
 // skeleton's size.
 constexpr double k_same = 1e-3;
 constexpr double k_same_scale = 0.02;  // files store floats, and some exporters round matrices
-constexpr double k_cos_posed = 0.5;    // cosine of the largest turn of a posed topmost joint
 
 std::optional<Affine> inverse_of(const Affine& map) {
     const double determinant = map.linear.determinant();
@@ -191,7 +190,7 @@ class BindPose {
             const double off =
                 (transform_point(frame, place) - transform_point(of_top, place)).norm();
             const double nearness = cosine - off / (std::abs(scale) * size);
-            if (cosine > k_cos_posed && nearness > best) {
+            if (cosine > k_min_posed_cosine && nearness > best) {
                 best = nearness;
                 nearest = frame;
             }

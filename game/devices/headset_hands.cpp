@@ -27,7 +27,7 @@ double past_dead_zone(double value) {
     return std::copysign(size, value);
 }
 
-std::optional<Pose> hand_pose(const HandReading& hand, HandSide side, const HandTuning& tuning,
+std::optional<Pose> hand_pose(const HandPoses& hand, HandSide side, const HandTuning& tuning,
                               const std::array<Pose, k_hand_count>* own_joints) {
     if (own_joints != nullptr && hand.grip_ps) {
         return *hand.grip_ps * (*own_joints)[index_of(side)];
@@ -39,6 +39,13 @@ std::optional<Pose> hand_pose(const HandReading& hand, HandSide side, const Hand
         return *hand.grip_ps * hand_in_grip(side, tuning);
     }
     return hand.wrist_ps;
+}
+
+// A finger that is not seen stays as it was last.
+void remember_curls(const FingerCurls& curls, FingerCurls& last) {
+    for (std::size_t f = 0; f < curls.size(); ++f) {
+        last[f] = curls[f] >= 0.0 ? curls[f] : last[f];
+    }
 }
 
 }  // namespace
@@ -73,28 +80,36 @@ TrackingSample read_headset(const HeadsetReading& reading, double t_s, const Han
     TrackingSample sample;
     sample.t_s = t_s;
     sample.head_ps = reading.head_ps.value_or(not_tracked());
+    sample.is_head_inferred = reading.is_head_inferred;
     for (std::size_t i = 0; i < k_hand_count; ++i) {
         const auto side = static_cast<HandSide>(i);
         const HandReading& hand = reading.hands[i];
         ControllerSample& controller = sample.controllers[i];
-        if (const std::optional<Pose> hand_ps = hand_pose(hand, side, tuning, own_joints)) {
+        const Pose joint =
+            own_joints != nullptr ? (*own_joints)[i] : default_controller_to_hand(side, tuning);
+        const HandPoses measured{hand.grip_ps, hand.palm_ps, hand.wrist_ps};
+        if (const auto hand_ps = hand_pose(measured, side, tuning, own_joints)) {
             double& curl = memory.curls[i];
             if (hand.grip_ps || hand.palm_ps) {
                 curl = 0.0;  // fingers lie about a controller all the time
-            } else if (!std::isnan(hand.curl)) {
-                curl = hand.curl;
+                memory.fingers[i] = k_unknown_curls;
+            } else {
+                curl = std::isnan(hand.curl) ? curl : hand.curl;
+                remember_curls(hand.curls, memory.fingers[i]);
             }
             const double closes = std::max({hand.squeeze, hand.trigger, curl});
             memory.grabs[i] = closes > (memory.grabs[i] ? k_opens : k_closes);
             controller.squeeze = closes;
             controller.trigger = hand.trigger;
-            const Pose joint =
-                own_joints != nullptr ? (*own_joints)[i] : default_controller_to_hand(side, tuning);
             controller.controller_ps = *hand_ps * inverse(joint);
+        } else if (const auto guess_ps = hand_pose(hand.guesses, side, tuning, own_joints)) {
+            controller.controller_ps = *guess_ps * inverse(joint);
+            controller.is_inferred = true;
         } else {
             controller.controller_ps = not_tracked();
         }
         controller.grab = memory.grabs[i];
+        controller.curls = memory.fingers[i];
     }
     return sample;
 }

@@ -27,13 +27,17 @@ double finger_curl(const Vec3& wrist, const Vec3& knuckle, const Vec3& tip);
 struct HeadsetMemory {
     std::array<bool, k_hand_count> grabs{};
     std::array<double, k_hand_count> curls{};  // HandReading::curl, where last known
-    bool turned = false;                       // one snap turn per push of the stick
+    // HandReading::curls, each where last known; unknown while a controller is held.
+    std::array<FingerCurls, k_hand_count> fingers = {k_unknown_curls, k_unknown_curls};
+    bool turned = false;  // one snap turn per push of the stick
 };
 
 // A hand closes when squeeze, trigger or finger curl exceeds 55 %, and opens when all are below 35
 // %. The palm pose is preferred to the grip pose, and both to tracked fingers. A device that is not
 // tracked gets a pose of NaN and keeps its button: losing sight of a hand does not open it. So does
-// a hand whose fingers are not seen. The web page does the same (game/web/demo/devices.js).
+// a hand whose fingers are not seen. A pose that the runtime infers is given as such, with the
+// button as it was; any measured pose of the hand is preferred to it. The web page does the same
+// (game/web/demo/devices.js).
 //
 // `own_joints`: joints of a controller profile, which replace the ones above and Tuning's. The grip
 // pose is then preferred to the palm pose and is the controller's pose itself.

@@ -8,17 +8,26 @@
 
 namespace handhold {
 
+// Poses of one hand by what gives them.
+struct HandPoses {
+    std::optional<Pose> grip_ps;   // of a controller
+    std::optional<Pose> palm_ps;   // grip pose rotated: -Z along the hand to the fingers
+    std::optional<Pose> wrist_ps;  // wrist of tracked fingers; -Z to them, +Y the back of the hand
+};
+
 // A runtime's reading of one hand at one time, in the space of its tracking. An absent pose is not
 // tracked. Grip and aim poses are OpenXR's: the grip's origin is the palm's centre on the handle,
 // -Z points along the handle to the thumb, +X into the right palm and out of the left one.
 struct HandReading {
     std::optional<Pose> grip_ps;
     std::optional<Pose> aim_ps;
-    std::optional<Pose> palm_ps;   // grip pose rotated: -Z along the hand to the fingers
-    std::optional<Pose> wrist_ps;  // wrist of tracked fingers; -Z to them, +Y the back of the hand
-    double curl = 0.0;             // curl of tracked fingers; 0: flat, 1: a fist, NaN: not seen
-    double squeeze = 0.0;          // [0, 1]
-    double trigger = 0.0;          // [0, 1]
+    std::optional<Pose> palm_ps;
+    std::optional<Pose> wrist_ps;
+    HandPoses guesses;                    // inferred by the runtime, which does not see the device
+    FingerCurls curls = k_unknown_curls;  // of tracked fingers
+    double curl = 0.0;              // curl of tracked fingers; 0: flat, 1: a fist, NaN: not seen
+    double squeeze = 0.0;           // [0, 1]
+    double trigger = 0.0;           // [0, 1]
     std::array<double, 2> stick{};  // right and forward, each [-1, 1]
     bool brake = false;
     bool calibrate = false;
@@ -26,6 +35,7 @@ struct HandReading {
 
 struct HeadsetReading {
     std::optional<Pose> head_ps;                  // point between the eyes
+    bool is_head_inferred = false;                // the runtime guesses the head's position
     std::array<HandReading, k_hand_count> hands;  // indexed by HandSide
 };
 

@@ -11,11 +11,14 @@ Playback::Playback(const Recording& recording) {
         TrackingSample sample;
         sample.t_s = recorded.t_s - first_s;
         sample.head_ps = recorded.head;
+        sample.is_head_inferred = recorded.is_head_inferred;
         for (std::size_t side = 0; side < k_hand_count; ++side) {
             sample.controllers[side].controller_ps = recorded.hands[side].controller;
             sample.controllers[side].grab = (recorded.hands[side].buttons & k_grab_buttons) != 0;
             sample.controllers[side].squeeze = recorded.hands[side].squeeze;
             sample.controllers[side].trigger = recorded.hands[side].trigger;
+            sample.controllers[side].is_inferred = recorded.hands[side].is_inferred;
+            sample.controllers[side].curls = recorded.hands[side].curls;
         }
         samples_.push_back(sample);
         calibrates_.push_back(std::ranges::all_of(

@@ -26,15 +26,18 @@ struct RecordedHand {
     // Pose of the device in tracking space: metres, floor at y = 0; all NaN while it was not
     // tracked.
     Pose controller;
-    int buttons = 0;       // mask of k_button_*, [0, 65535]
-    double squeeze = 0.0;  // [0, 1]; ControllerSample::squeeze
-    double trigger = 0.0;  // [0, 1]; ControllerSample::trigger
+    int buttons = 0;                      // mask of k_button_*, [0, 65535]
+    double squeeze = 0.0;                 // [0, 1]; ControllerSample::squeeze
+    double trigger = 0.0;                 // [0, 1]; ControllerSample::trigger
+    bool is_inferred = false;             // ControllerSample::is_inferred
+    FingerCurls curls = k_unknown_curls;  // [0, 1] or k_unknown_curl; ControllerSample::curls
 };
 
 struct RecordedSample {
     double t_s = 0.0;  // strictly increasing; may start at any time
     Pose head;  // point between the eyes, in tracking space; all NaN while it was not tracked
     std::array<RecordedHand, 2> hands;  // left, right
+    bool is_head_inferred = false;      // TrackingSample::is_head_inferred
 };
 
 // Converts a sample to what a headset would have recorded. A hand that grabs holds k_button_grip
@@ -48,9 +51,10 @@ struct Recording {
 // Refused, with the line: a required column that is missing, a row of other length, a time that
 // does not increase, a coordinate beyond 1e6 m, a quaternion further than 1e-2 from unit length
 // (the others are made unit), a time beyond 1e12 s, buttons that are no mask, a trigger outside
-// [0, 1]; and a file with less than two samples. Columns may come in any order and others may stand
-// between them. Where one of the seven cells of a pose is NaN, or its quaternion is all zeros, the
-// device was not tracked and all become NaN.
+// [0, 1], a curl that is neither in [0, 1] nor -1, an inferred flag other than 0 and 1; and a file
+// with less than two samples. Columns may come in any order and others may stand between them.
+// Where one of the seven cells of a pose is NaN, or its quaternion is all zeros, the device was not
+// tracked and all become NaN.
 Result<Recording> load_recording(const std::filesystem::path& path);
 // Parses text in memory. `file`: for messages.
 Result<Recording> parse_recording(std::string_view text, const std::string& file);

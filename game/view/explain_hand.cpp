@@ -163,6 +163,11 @@ HandStory explain_hand(const Scene& scene, const CollisionWorld& collision, Enti
             "Its tracking has been lost for %.2f s: it is frozen and neither grips nor releases.",
             world.clock.t_s - tracking.sample_t_s));
     }
+    if (tracking.state == TrackingState::inferred) {
+        story.reasons.emplace_back(
+            "No camera sees it: its pose is the runtime's guess, with which it neither grips nor "
+            "moves the player.");
+    }
     if (grab.kind != GripKind::none) {
         explain_grip(scene, hand, hand_ws, story);
         return story;

@@ -35,14 +35,13 @@ bool concerns(const HeadsetBinding& binding, std::size_t side) {
 
 }  // namespace
 
-std::optional<Pose> locate(XrSpace space, XrSpace base, XrTime time, Confidence least) {
-    const XrSpaceLocationFlags known = flags_of(least);
+std::optional<LocatedPose> locate(XrSpace space, XrSpace base, XrTime time) {
     auto location = xr_struct<XrSpaceLocation>(XR_TYPE_SPACE_LOCATION);
     if (XR_FAILED(xrLocateSpace(space, base, time, &location)) ||
-        (location.locationFlags & known) != known) {
+        !is_valid_location(location.locationFlags)) {
         return std::nullopt;
     }
-    return from_xr(location.pose);
+    return LocatedPose{from_xr(location.pose), is_inferred_location(location.locationFlags)};
 }
 
 std::optional<HeadsetActions> HeadsetActions::create(const HeadsetInstance& instance,
@@ -201,22 +200,36 @@ bool HeadsetActions::is_active(XrSession session, HeadsetAction which, std::size
                .isActive == XR_TRUE;
 }
 
-std::optional<Pose> HeadsetActions::pose(XrSession session, HeadsetAction which, std::size_t side,
-                                         XrSpace base, XrTime time) const {
+std::optional<LocatedPose> HeadsetActions::pose(XrSession session, HeadsetAction which,
+                                                std::size_t side, XrSpace base, XrTime time) const {
     const OwnedXrSpace& space = spaces_[static_cast<std::size_t>(which)][side];
     if (!space || !is_active(session, which, side)) {
         return std::nullopt;
     }
-    return locate(space.get(), base, time, Confidence::tracked);
+    return locate(space.get(), base, time);
 }
 
 void HeadsetActions::read(XrSession session, XrSpace base, XrTime time,
                           std::array<HandReading, k_hand_count>& hands) const {
     for (std::size_t side = 0; side < k_hand_count; ++side) {
         HandReading& hand = hands[side];
-        hand.grip_ps = pose(session, HeadsetAction::grip_pose, side, base, time);
-        hand.aim_ps = pose(session, HeadsetAction::aim_pose, side, base, time);
-        hand.palm_ps = pose(session, HeadsetAction::palm_pose, side, base, time);
+        const auto read_pose = [&](HeadsetAction which, std::optional<Pose>& measured,
+                                   std::optional<Pose>* guess) {
+            const std::optional<LocatedPose> found = pose(session, which, side, base, time);
+            measured.reset();
+            if (found && !found->is_inferred) {
+                measured = found->pose;
+            }
+            if (guess != nullptr) {
+                guess->reset();
+                if (found && found->is_inferred) {
+                    *guess = found->pose;
+                }
+            }
+        };
+        read_pose(HeadsetAction::grip_pose, hand.grip_ps, &hand.guesses.grip_ps);
+        read_pose(HeadsetAction::aim_pose, hand.aim_ps, nullptr);
+        read_pose(HeadsetAction::palm_pose, hand.palm_ps, &hand.guesses.palm_ps);
         hand.squeeze = number(session, HeadsetAction::squeeze, side);
         hand.trigger = number(session, HeadsetAction::trigger, side);
         hand.stick = stick(session, side);

@@ -6,6 +6,7 @@
 
 #include "game/devices/headset_hands.hpp"
 #include "game/xr/actions.hpp"
+#include "systems/rigs/finger_curls.hpp"
 
 namespace handhold {
 
@@ -56,6 +57,8 @@ void FingerTracking::read(XrSpace base, XrTime time,
                           std::array<HandReading, k_hand_count>& hands) const {
     for (std::size_t side = 0; side < k_hand_count; ++side) {
         hands[side].wrist_ps.reset();
+        hands[side].guesses.wrist_ps.reset();
+        hands[side].curls = k_unknown_curls;
         hands[side].curl = 0.0;
         if (trackers_[side] != XR_NULL_HANDLE) {
             read_hand(side, base, time, hands[side]);
@@ -72,10 +75,13 @@ void FingerTracking::read_hand(std::size_t side, XrSpace base, XrTime time,
     auto found = xr_struct<XrHandJointLocationsEXT>(XR_TYPE_HAND_JOINT_LOCATIONS_EXT);
     found.jointCount = XR_HAND_JOINT_COUNT_EXT;
     found.jointLocations = joints.data();
-    constexpr XrSpaceLocationFlags k_known = flags_of(Confidence::tracked);
     const XrHandJointLocationEXT& wrist = joints[XR_HAND_JOINT_WRIST_EXT];
     if (XR_FAILED(locate_(trackers_[side], &info, &found)) || found.isActive != XR_TRUE ||
-        (wrist.locationFlags & k_known) != k_known) {
+        !is_valid_location(wrist.locationFlags)) {
+        return;
+    }
+    if (is_inferred_location(wrist.locationFlags)) {  // and so are the fingers
+        hand.guesses.wrist_ps = from_xr(wrist.pose);
         return;
     }
     hand.wrist_ps = from_xr(wrist.pose);
@@ -107,6 +113,11 @@ void FingerTracking::read_hand(std::size_t side, XrSpace base, XrTime time,
             ++known;
         }
     }
+    TrackedJoints seen;
+    for (std::size_t joint = 0; joint < seen.size(); ++joint) {
+        seen[joint] = place(static_cast<int>(joint));
+    }
+    hand.curls = finger_curls(seen);
     hand.curl = known > 0 ? sum / known : std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -89,6 +89,9 @@ void correct(const Pose& space, HeadsetReading& reading) {
         correct_pose(hand.aim_ps);
         correct_pose(hand.palm_ps);
         correct_pose(hand.wrist_ps);
+        correct_pose(hand.guesses.grip_ps);
+        correct_pose(hand.guesses.palm_ps);
+        correct_pose(hand.guesses.wrist_ps);
     }
 }
 
@@ -297,7 +300,10 @@ HeadsetReading Headset::read(std::int64_t time_ns) const {
     const Impl& impl = *impl_;
     HeadsetReading reading;
     const XrSpace room = impl.spaces.room.get();
-    reading.head_ps = locate(impl.spaces.head.get(), room, time_ns, Confidence::inferred);
+    if (const auto head = locate(impl.spaces.head.get(), room, time_ns)) {
+        reading.head_ps = head->pose;
+        reading.is_head_inferred = head->is_inferred;
+    }
     if (impl.has_focus) {
         impl.actions->read(impl.session.get(), room, time_ns, reading.hands);
         impl.fingers.read(room, time_ns, reading.hands);

@@ -134,7 +134,7 @@ void calibrate_players(const CalibratePlayersIo& io, const CalibrationTuning& tu
         } else if (!calibration.done) {
             const HeadTracking& head = io.head.at(player);
             std::array<Vec3, k_hand_count> hands_ps{};
-            std::size_t known = is_known(head.state) ? 1 : 0;
+            std::size_t known = is_known(head.state) && !head.is_inferred ? 1 : 0;
             for (std::size_t hand = 0; hand < io.owner.size(); ++hand) {
                 const HandOwner& owner = io.owner.rows()[hand];
                 const HandTracking& tracking = io.hand.at(io.owner.owners()[hand]);

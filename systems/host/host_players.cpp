@@ -147,7 +147,7 @@ hh_result hh_player_head(const hh_world* world, hh_player player, hh_vec3* cente
             *radius_m = host.tuning.head.radius_m;
         }
         if (is_tracked != nullptr) {
-            *is_tracked = head.state == TrackingState::tracked;
+            *is_tracked = head.state == TrackingState::tracked && !head.is_inferred;
         }
     });
 }

@@ -36,14 +36,19 @@ TrackingSample read_sample(const hh_tracking_sample& sample, double end_s, bool 
     const bool is_at_end = sample.time_s > end_s && sample.time_s <= end_s + rounding_s;
     TrackingSample read;
     read.t_s = is_at_end ? end_s : sample.time_s;
-    read.head_ps = tracked_or_invalid(unchecked_pose(sample.head), sample.head_tracked != 0);
+    read.head_ps = tracked_or_invalid(unchecked_pose(sample.head),
+                                      sample.head_tracked != 0 || sample.head_inferred != 0);
     for (std::size_t i = 0; i < k_hand_count; ++i) {
         read.controllers[i].controller_ps =
-            tracked_or_invalid(unchecked_pose(sample.hands[i]), sample.hand_tracked[i] != 0);
+            tracked_or_invalid(unchecked_pose(sample.hands[i]),
+                               sample.hand_tracked[i] != 0 || sample.hand_inferred[i] != 0);
         read.controllers[i].grab = sample.grab[i] != 0;
         read.controllers[i].squeeze = sample.squeeze[i];
         read.controllers[i].trigger = sample.trigger[i];
+        read.controllers[i].is_inferred = sample.hand_inferred[i] != 0;
+        std::copy_n(sample.curls[i].fingers, k_finger_count, read.controllers[i].curls.begin());
     }
+    read.is_head_inferred = sample.head_inferred != 0;
     return read;
 }
 
@@ -57,7 +62,10 @@ TrackingSample read_sample(const EarlySample& sample) {
         read.controllers[i].grab = sample.grab[i];
         read.controllers[i].squeeze = sample.squeeze[i];
         read.controllers[i].trigger = sample.trigger[i];
+        read.controllers[i].is_inferred = sample.inferred[i];
+        read.controllers[i].curls = sample.curls[i];
     }
+    read.is_head_inferred = sample.head_inferred;
     return read;
 }
 
@@ -66,6 +74,7 @@ EarlySample early_of(const TrackingSample& sample) {
     early.t_s = sample.t_s;
     early.head_tracked = is_valid(sample.head_ps);
     early.head_ps = early.head_tracked ? sample.head_ps : Pose{};
+    early.head_inferred = sample.is_head_inferred;
     for (std::size_t i = 0; i < k_hand_count; ++i) {
         const Pose& controller_ps = sample.controllers[i].controller_ps;
         early.tracked[i] = is_valid(controller_ps);
@@ -73,6 +82,8 @@ EarlySample early_of(const TrackingSample& sample) {
         early.grab[i] = sample.controllers[i].grab;
         early.squeeze[i] = pressed_share(sample.controllers[i].squeeze);
         early.trigger[i] = pressed_share(sample.controllers[i].trigger);
+        early.inferred[i] = sample.controllers[i].is_inferred;
+        early.curls[i] = known_curls(sample.controllers[i].curls);
     }
     return early;
 }
@@ -344,6 +355,9 @@ hh_result hh_default_tracking_sample_sized(hh_tracking_sample* filled, size_t si
     hh_tracking_sample sample{};
     sample.head = sample.hands[0] = sample.hands[1] = hh_identity_pose();
     sample.head_tracked = sample.hand_tracked[0] = sample.hand_tracked[1] = true;
+    for (hh_finger_curls& curls : sample.curls) {
+        std::ranges::fill(curls.fingers, k_unknown_curl);
+    }
     return write_default(filled, size, sample);
 }
 

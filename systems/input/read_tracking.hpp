@@ -17,6 +17,7 @@ struct ReadTrackingIo {
     const Column<HandOwner>& owner;       // in
     const Column<ControllerToHand>& controller_to_hand;  // in: hands without it use Tuning's
     const Column<RecenterGuess>& recenter_guess;         // in: players without it: guesses
+    const Column<Grab>& grab;                            // in: of the last frame
     Column<HeadTracking>& head;                          // in/out
     Column<HandTracking>& hand;                          // in/out
     Column<HandHistory>& history;                        // in/out
@@ -38,6 +39,12 @@ struct ReadTrackingIo {
 // translation (recentring), later samples are corrected by HeadTracking's shift so that the head
 // stays where it was. For players whose RecenterGuess says no, such jumps are meant: head and hands
 // follow them, and gripping hands take new anchors.
+//
+// Inferred samples, whose poses the runtime guesses: an inferred hand is in TrackingState::inferred
+// and does not grip. It follows the guesses, but stays where it was last measured while it grips
+// what its player can pull on, or anything while the player's other hand grips such a thing. The
+// position of an inferred head stays while a hand of the player grips such a thing. No jump to or
+// from a guess counts as a recentring, and the next measured sample of a hand is a jump: `resumed`.
 //
 // Commands hold for their own frame. Numbers in them that are not finite count as 0.
 void read_tracking(const ReadTrackingIo& io, const Tuning& tuning, StageStats& stats);

@@ -1,6 +1,7 @@
 #include "systems/physics/solve_phases.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -103,13 +104,22 @@ bool is_searched(const Solve& s, const Island& island) {
                                [&s](std::uint32_t i) { return s.graph().bodies[i].is_searched; });
 }
 
+MovingContacts moving_contacts(const Solve& s) {
+    FrameGraph& frame = s.io.frame;
+    return {.collision = s.io.collision,
+            .proxies = frame.proxies,
+            .contacts = frame.contacts,
+            .graph = frame.graph,
+            .scratch = frame.fresh_contacts,
+            .updates = frame.proxy_updates,
+            .impacts = &frame.impacts};
+}
+
 // Sweeps colliders to the solved poses. True if contacts found there overlap.
 bool refresh_contacts(const Solve& s, OldPoints old_points) {
     FrameGraph& frame = s.io.frame;
-    const FoundContacts found =
-        refresh_contacts({s.io.collision, frame.proxies, frame.contacts, frame.graph,
-                          frame.fresh_contacts, frame.proxy_updates},
-                         {s.tuning.contact.margin_m, s.tuning.contact.sweep_m}, old_points);
+    const FoundContacts found = refresh_contacts(
+        moving_contacts(s), {s.tuning.contact.margin_m, s.tuning.contact.sweep_m}, old_points);
     if (found != FoundContacts::unchanged) {
         activate_islands(frame);
         ++s.stats.contact_rounds;
@@ -239,6 +249,22 @@ void backward(const Solve& s) {
     }
 }
 
+// Hands decide how held bodies move, not their impacts.
+void restore_free_impacts(const Solve& s) {
+    FrameGraph& frame = s.io.frame;
+    std::erase_if(frame.impacts, [&](const ContactPoint& impact) {
+        return std::ranges::any_of(std::array{impact.id_a, impact.id_b}, [&](std::uint64_t id) {
+            const std::size_t body = find_body(frame.graph, id);
+            return frame.graph.bodies[body].in_heap || frame.phase[body].held;
+        });
+    });
+    if (!frame.impacts.empty()) {
+        restore_impacts(moving_contacts(s), frame.impacts);
+        activate_islands(frame);
+        clear_errors(s);
+    }
+}
+
 void contradiction(const Solve& s) {
     HH_DETAIL_ZONE("contradiction");
     const auto wanted = [&](const Island& island) {
@@ -266,6 +292,7 @@ void solve_phases(const SolvePhasesIo& io, const Tuning& tuning, StageStats& sta
 void solve_phases_with(PositionSolver solver, const SolvePhasesIo& io, const Tuning& tuning,
                        StageStats& stats) {
     const Solve s{solver, io, tuning, stats};
+    io.frame.impacts.clear();
     clear_errors(s);
     count_heap_visits(s);
     activate_islands(io.frame);
@@ -274,6 +301,7 @@ void solve_phases_with(PositionSolver solver, const SolvePhasesIo& io, const Tun
     relax(s);
     backward(s);
     contradiction(s);
+    restore_free_impacts(s);
     stats.islands += s.graph().islands.size();
 }
 

@@ -15,4 +15,11 @@ void set_hand_limits(HandSide side, FingerRig& finger);
 // the thumb's side of the hand towards the palm's side.
 inline constexpr double k_thumb_below_rad = 1.0471975511965976;  // 60 degrees
 
+// Curl of a fist as a share of the range from open to fully curled.
+inline constexpr double k_fist_curl = 0.85;
+// Curl of a hinge in a fist, radians.
+inline double fist_rad(const FingerRig& finger, std::size_t link) {
+    return finger.lower_rad[link] + k_fist_curl * (finger.upper_rad[link] - finger.lower_rad[link]);
+}
+
 }  // namespace handhold

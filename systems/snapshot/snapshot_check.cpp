@@ -288,6 +288,14 @@ class BreachFinder {
             const auto is_share = [](double share) { return share >= 0.0 && share <= 1.0; };
             check(is_share(hand.squeeze) && is_share(hand.trigger), "hand_tracking",
                   w_.hand_tracking.owners()[row], "", "squeeze and trigger in [0, 1]");
+            check(std::ranges::all_of(
+                      hand.curls,
+                      [&](double curl) { return is_share(curl) || curl == k_unknown_curl; }),
+                  "hand_tracking", w_.hand_tracking.owners()[row], ".curls", "-1 or in [0, 1]");
+        }
+        for (std::size_t row = 0; row < w_.head_tracking.size(); ++row) {
+            check(w_.head_tracking.rows()[row].state != TrackingState::inferred, "head_tracking",
+                  w_.head_tracking.owners()[row], ".state", "never, tracked or lost");
         }
         Column<std::array<std::uint8_t, k_hand_count>> has_hand;
         for (const Entity player : w_.player.owners()) {

@@ -210,7 +210,7 @@ HandReading reading_of(const nlohmann::json& given, HandSide side) {
     const bool is_seen = given.value("seen", true);
     const bool has_controller = given.contains("controller");
     if (has_controller && is_seen) {
-        hand.grip_ps = at;
+        (given.value("guess", false) ? hand.guesses.grip_ps : hand.grip_ps) = at;
     }
     hand.squeeze = given.value("squeeze", 0.0);
     hand.trigger = given.value("trigger", 0.0);
@@ -261,7 +261,8 @@ TEST(HeadsetHands, ReadsDevicesAsThePageDoes) {
             for (std::size_t i = 0; i < k_hand_count; ++i) {
                 const nlohmann::json expected = wanted.value(k_sides[i], nlohmann::json::object());
                 const ControllerSample& hand = sample.controllers[i];
-                const bool is_tracked = is_valid(hand.controller_ps);
+                const bool is_tracked = is_valid(hand.controller_ps) && !hand.is_inferred;
+                EXPECT_EQ(hand.is_inferred, expected.value("inferred", hand.is_inferred));
                 EXPECT_EQ(is_tracked, expected.value("tracked", is_tracked));
                 EXPECT_EQ(hand.grab, expected.value("grab", hand.grab));
                 EXPECT_EQ(hand.squeeze, expected.value("squeeze", hand.squeeze));

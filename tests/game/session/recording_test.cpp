@@ -70,12 +70,15 @@ bool are_same_bits(const Pose& a, const Pose& b) {
 }
 
 bool are_same_bits(const RecordedSample& a, const RecordedSample& b) {
-    bool result = a.t_s == b.t_s && are_same_bits(a.head, b.head);
+    bool result = a.t_s == b.t_s && are_same_bits(a.head, b.head) &&
+                  a.is_head_inferred == b.is_head_inferred;
     for (std::size_t hand = 0; hand < 2; ++hand) {
         result = result && are_same_bits(a.hands[hand].controller, b.hands[hand].controller) &&
                  a.hands[hand].buttons == b.hands[hand].buttons &&
                  a.hands[hand].squeeze == b.hands[hand].squeeze &&
-                 a.hands[hand].trigger == b.hands[hand].trigger;
+                 a.hands[hand].trigger == b.hands[hand].trigger &&
+                 a.hands[hand].is_inferred == b.hands[hand].is_inferred &&
+                 a.hands[hand].curls == b.hands[hand].curls;
     }
     return result;
 }
@@ -142,6 +145,41 @@ TEST(Recording, TriggersOutsideTheirRangeAreRefused) {
     for (const char* bad : {"1.5", "-0.1", "nan"}) {
         const FileError error = error_of(with_triggers(bad));
         EXPECT_NE(error.message().find("\"rindex\""), std::string::npos) << error.message();
+    }
+}
+
+// Optional columns: guesses and curls. Recordings without them say nothing of either.
+TEST(Recording, GuessesAndCurlsAreReadAndPlayed) {
+    const auto text_of = [](const std::string& columns, const std::string& cells) {
+        std::string text = k_header + columns + "\n";
+        for (const char* t_s : {"0", "1"}) {
+            for (const std::string& cell : row_at(t_s)) {
+                text += (text.back() == '\n' ? "" : ",") + cell;
+            }
+            text += cells + "\n";
+        }
+        return text;
+    };
+    const Result<Recording> said =
+        parse_recording(text_of(",rinferred,lcurl_index,hinferred", ",1,0.5,1"), "f.csv");
+    ASSERT_TRUE(said.ok()) << said.error().message();
+    const std::vector<RecordedSample>& samples = said.value().samples;
+    EXPECT_TRUE(samples[0].is_head_inferred && samples[0].hands[1].is_inferred);
+    EXPECT_FALSE(samples[0].hands[0].is_inferred);
+    EXPECT_EQ(samples[0].hands[0].curls[1], 0.5);
+    EXPECT_EQ(samples[0].hands[0].curls[0], k_unknown_curl);
+    EXPECT_EQ(samples[0].hands[1].curls, k_unknown_curls);
+    Playback playback(said.value());
+    const TrackingSample played = playback.window(0.5).front();
+    EXPECT_TRUE(played.is_head_inferred && played.controllers[1].is_inferred);
+    EXPECT_EQ(played.controllers[0].curls[1], 0.5);
+    for (const char* cell : {",2", ",0.5", ",-1"}) {
+        EXPECT_NE(error_of(text_of(",linferred", cell)).expected.find("linferred"),
+                  std::string::npos);
+    }
+    for (const char* cell : {",1.5", ",-0.5"}) {
+        EXPECT_NE(error_of(text_of(",rcurl_thumb", cell)).expected.find("rcurl_thumb"),
+                  std::string::npos);
     }
 }
 
@@ -276,6 +314,7 @@ TEST(Recording, SavedOneLoadsAsTheSameBits) {
         const auto number = [](double low, double high) {
             return low + (high - low) * (*rc::gen::inRange(0, 1000001)) / 1e6 / std::sqrt(1.000003);
         };
+        const bool says_more = *rc::gen::arbitrary<bool>();
         Recording recording;
         for (int i = 0; i < 3; ++i) {
             RecordedSample sample;
@@ -290,6 +329,12 @@ TEST(Recording, SavedOneLoadsAsTheSameBits) {
             sample.hands[0].trigger = number(0.0, 1.0);
             sample.hands[1].trigger = number(0.0, 1.0);
             sample.hands[1].buttons = *rc::gen::inRange(0, 16);
+            if (says_more) {
+                sample.is_head_inferred = *rc::gen::arbitrary<bool>();
+                sample.hands[0].is_inferred = *rc::gen::arbitrary<bool>();
+                sample.hands[1].is_inferred = *rc::gen::arbitrary<bool>();
+                sample.hands[1].curls = {number(0.0, 1.0), 0.0, 1.0, k_unknown_curl, 0.25};
+            }
             recording.samples.push_back(sample);
         }
         recording.samples[1].head = {Vec3::Constant(std::nan("")),

@@ -91,6 +91,12 @@ typedef struct hh_pose {
     hh_quat rotation;
 } hh_pose;
 
+/* How far each finger is bent, by thumb, index, middle, ring, little: 0 straight, 1 as in a fist. Below 0
+ * or NaN: unknown; above 1: as 1. */
+typedef struct hh_finger_curls {
+    double fingers[5];
+} hh_finger_curls;
+
 /* The pose at the origin, not rotated. Any thread. */
 HH_API hh_pose hh_identity_pose(void);
 

@@ -65,7 +65,7 @@ HH_API hh_result hh_player_set_velocity(hh_world* world, hh_player player, hh_ve
 HH_API hh_result hh_player_reference_velocity(const hh_world* world, hh_player player,
                                               hh_vec3* velocity_mps);
 /* The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked: false
- * before the head's first sample and while it is lost. */
+ * before the head's first sample, and while it is lost or inferred. */
 HH_API hh_result hh_player_head(const hh_world* world, hh_player player, hh_vec3* center,
                                 double* radius_m, uint8_t* is_tracked);
 HH_API hh_result hh_player_measures(const hh_world* world, hh_player player, hh_measures* measures);
@@ -113,8 +113,12 @@ typedef struct hh_hand_state {
      * and contacts report at most the momentum that the players and bodies involved have, with the
      * hands' speed on top. */
     hh_vec3 force_impulse_ns;
-    uint8_t is_tracked;
-    uint8_t is_closed; /* the button is down */
+    uint8_t is_tracked;  /* false while the hand is lost or inferred */
+    uint8_t is_closed;   /* the button is down */
+    /* The runtime guesses where the hand is (hh_tracking_sample.hand_inferred). `tracked` is the guess
+     * for an empty hand, and for a body in it while no hand of the player moves the player; else the
+     * last pose that was measured. */
+    uint8_t is_inferred;
 } hh_hand_state;
 
 /* Grows: see base.h. Later fields come behind `hands`. */
@@ -244,6 +248,11 @@ typedef struct hh_hand_joint {
     double radius_m;
     uint8_t is_valid; /* false: the hand's rig has no such joint */
 } hh_hand_joint;
+/* How far the fingers of a tracked hand are bent, for hh_tracking_sample.curls. `joints`:
+ * HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name, in any one space; only positions are read. Curl
+ * is the sum of a finger's bends over that of a fist; -1 if a joint of the finger is not valid. Any
+ * thread. */
+HH_API hh_result hh_finger_curls_of(const hh_hand_joint* joints, hh_finger_curls* curls);
 /* The shown hand's joints: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name. */
 HH_API hh_result hh_player_hand_joints(const hh_world* world, hh_player player, hh_side side,
                                        hh_space space, hh_hand_joint* joints);

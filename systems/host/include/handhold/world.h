@@ -51,6 +51,18 @@ typedef struct hh_tracking_sample {
     /* How far the index finger's trigger is pressed, [0, 1]: bends the index finger of an empty hand,
      * and the fingers of authored grips that follow the trigger. */
     double trigger[2];
+    /* True if the runtime only guesses the head's position: OpenXR's POSITION_VALID without
+     * POSITION_TRACKED, WebXR's emulatedPosition, a low confidence. Default false; true counts before
+     * head_tracked. The head follows the guess, but while a hand grips what the player can pull on, only
+     * its rotation does. */
+    uint8_t head_inferred;
+    /* The same of the hands, before hand_tracked. An inferred hand does not grip, and never moves a player who grips: it
+     * stays where it was last measured. Opening `grab` lets go, without a throw. The shown empty hand
+     * follows the guess. Once measured again, the hand may be elsewhere: it did not travel. */
+    uint8_t hand_inferred[2];
+    /* Bends the fingers of an empty hand, before squeeze and trigger; default unknown. By gloves, or
+     * from joints by hh_finger_curls_of. */
+    hh_finger_curls curls[2];
 } hh_tracking_sample;
 
 /* Everything tracked, hands open, at time 0. The poses are for you to fill: at the origin they count
