@@ -93,7 +93,7 @@ struct FrameGraph {
 
     // Scratch.
     std::vector<ContactPoint> fresh_contacts;
-    std::vector<ContactPoint> impacts;  // of solve_phases
+    std::vector<ContactPoint> impacts;  // written by solve_phases
     // By element of the RigidBody column: index into graph.bodies.
     std::vector<std::uint32_t> body_of_row;
     // Written by build_constraints, in the order of the Grab column.

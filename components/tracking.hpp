@@ -143,9 +143,9 @@ struct EarlySample {
     std::array<double, k_hand_count> squeeze = {};  // indexed by HandSide
     std::array<double, k_hand_count> trigger = {};  // indexed by HandSide
     bool head_inferred = false;
-    std::array<bool, k_hand_count> inferred = {};  // by HandSide
+    std::array<bool, k_hand_count> inferred = {};  // indexed by HandSide
     std::array<FingerCurls, k_hand_count> curls = {k_unknown_curls,
-                                                   k_unknown_curls};  // by HandSide
+                                                   k_unknown_curls};  // hands, by HandSide
 };
 
 // A player's samples of after the last frame's end, as devices that predict give them: hosts give
@@ -153,8 +153,8 @@ struct EarlySample {
 // players with such samples have this component. Written and read by the C interface.
 struct EarlySamples {
     static constexpr std::size_t k_capacity = 64;
-    std::uint32_t count = 0;                           // at most k_capacity
-    std::array<EarlySample, k_capacity> samples = {};  // by time; as made beyond `count`
+    std::uint32_t count = 0;                           // k_capacity at most
+    std::array<EarlySample, k_capacity> samples = {};  // sorted by time; as made beyond `count`
 };
 
 // The hand's last samples in a ring, for velocities that do not depend on the frame rate. Written

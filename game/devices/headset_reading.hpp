@@ -10,7 +10,7 @@ namespace handhold {
 
 // Poses of one hand by what gives them.
 struct HandPoses {
-    std::optional<Pose> grip_ps;   // of a controller
+    std::optional<Pose> grip_ps;   // controller's
     std::optional<Pose> palm_ps;   // grip pose rotated: -Z along the hand to the fingers
     std::optional<Pose> wrist_ps;  // wrist of tracked fingers; -Z to them, +Y the back of the hand
 };
@@ -24,7 +24,7 @@ struct HandReading {
     std::optional<Pose> palm_ps;
     std::optional<Pose> wrist_ps;
     HandPoses guesses;                    // inferred by the runtime, which does not see the device
-    FingerCurls curls = k_unknown_curls;  // of tracked fingers
+    FingerCurls curls = k_unknown_curls;  // tracked fingers'
     double curl = 0.0;              // curl of tracked fingers; 0: flat, 1: a fist, NaN: not seen
     double squeeze = 0.0;           // [0, 1]
     double trigger = 0.0;           // [0, 1]

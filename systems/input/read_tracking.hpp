@@ -42,8 +42,8 @@ struct ReadTrackingIo {
 //
 // Inferred samples, whose poses the runtime guesses: an inferred hand is in TrackingState::inferred
 // and does not grip. It follows the guesses, but stays where it was last measured while it grips
-// what its player can pull on, or anything while the player's other hand grips such a thing. The
-// position of an inferred head stays while a hand of the player grips such a thing. No jump to or
+// what its player can pull on, or any body while the player's other hand does so too. The
+// position of an inferred head stays while a hand of the player does so. No jump to or
 // from a guess counts as a recentring, and the next measured sample of a hand is a jump: `resumed`.
 //
 // Commands hold for their own frame. Numbers in them that are not finite count as 0.

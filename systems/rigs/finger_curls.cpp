@@ -52,7 +52,7 @@ FingerCurls finger_curls(const TrackedJoints& joints) {
     constexpr std::size_t k_thumb_joints = 4;
     constexpr std::size_t k_finger_joints = 5;
     FingerCurls curls = k_unknown_curls;
-    std::size_t first = 2;  // after palm and wrist
+    std::size_t first = 2;  // palm and wrist come first
     for (std::size_t f = 0; f < k_finger_count; ++f) {
         const auto name = static_cast<FingerName>(f);
         const std::size_t count = name == FingerName::thumb ? k_thumb_joints : k_finger_joints;

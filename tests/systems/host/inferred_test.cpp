@@ -85,7 +85,7 @@ RC_GTEST_PROP(HostInferred, GuessesNeverMoveAPlayerWhoGrips, ()) {
 }
 
 // An empty inferred hand is shown where the runtime guesses it, to the step, and does not grip the
-// wall before it. Measured again, it grips when it closes anew.
+// wall before it. Measured again, it grips when it closes again.
 RC_GTEST_PROP(HostInferred, GuessesShowTheEmptyHandAndDoNotGrip, ()) {
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     HostScene scene;
