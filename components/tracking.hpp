@@ -130,8 +130,8 @@ struct EarlySample {
 // players with such samples have this component. Written and read by the C interface.
 struct EarlySamples {
     static constexpr std::size_t k_capacity = 64;
-    std::uint32_t count = 0;                           // at most k_capacity
-    std::array<EarlySample, k_capacity> samples = {};  // by time; as made beyond `count`
+    std::uint32_t count = 0;                           // number of samples, at most k_capacity
+    std::array<EarlySample, k_capacity> samples = {};  // ascending times
 };
 
 // The hand's last samples in a ring, for velocities that do not depend on the frame rate. Written

@@ -60,7 +60,7 @@ double finger_curl(const Vec3& wrist, const Vec3& knuckle, const Vec3& tip) {
     const Vec3 finger = tip - knuckle;
     const double lengths = hand.norm() * finger.norm();
     const double cosine = hand.dot(finger) / lengths;
-    constexpr double k_longest = 4.0;  // of a finger, in distances of knuckle and wrist
+    constexpr double k_longest = 4.0;  // longest finger, in distances of knuckle and wrist
     if (!std::isfinite(cosine) || finger.norm() > k_longest * hand.norm()) {
         return std::numeric_limits<double>::quiet_NaN();
     }

@@ -201,8 +201,8 @@ struct Motion {
     double lying;
     Pose chest_ps;
     // Displacements in this frame relative to the reference, play-space axes.
-    Vec3 moved_m;        // of the neck
-    Vec3 chest_moved_m;  // of the chest
+    Vec3 moved_m;        // the neck
+    Vec3 chest_moved_m;  // the chest
 };
 
 void play(const Motion& motion, double scale, const SpineTuning& tuning, SpineMemory& memory) {

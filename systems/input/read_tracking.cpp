@@ -268,7 +268,7 @@ void read_head(HeadTracking& head, PlaySpaceTracker space, const PlayerInput& in
     finish_device(head, has_sample, later_or_null, later_t_s, io.frame_end_s, tuning.lost_after_s,
                   stats);
     if (has_jumped) {
-        head.start_ps = head.pose_ps;  // it did not travel
+        head.start_ps = head.pose_ps;  // no travel
     }
 }
 

@@ -41,7 +41,7 @@ class SnapshotAssets {
     const ShapeLibrary* shapes_;
     std::uint64_t hash_ = 0;
     std::uint64_t scene_hash_ = 0;
-    std::vector<std::uint64_t> digests_;                              // by ShapeId::index
+    std::vector<std::uint64_t> digests_;                              // indexed by ShapeId::index
     std::vector<std::pair<std::uint64_t, std::uint32_t>> by_digest_;  // and index; sorted
 };
 
