@@ -70,7 +70,8 @@ struct AdditiveTuning {
 template <typename TuningType, typename See>
 void visit_body_tuning(TuningType& t, const See& see) {
     see("arm.learned", t.arm.learned, "", 0.0, 1.0,
-        "Weight of the fitted networks' corrections; 0: the talk's form alone.");
+        "Weight with which fitted neural networks correct the estimated chest and elbows; 0: "
+        "none.");
     see("arm.chest_limit_rad", t.arm.chest_limit_rad, "rad", 0.0, 3.0,
         "Maximum angle between the chest's facing and the head's look direction.");
     see("arm.chest_lag_s", t.arm.chest_lag_s, "s", 0.0, 10.0,
@@ -116,8 +117,8 @@ void visit_body_tuning(TuningType& t, const See& see) {
     see("spine.drag_per_s", t.spine.drag_per_s, "1/s", 0.0, 100.0,
         "Drag rate of the spine and legs relative to the reference velocity.");
     see("spine.hand_back", t.spine.hand_back, "", 0.0, 1.0,
-        "Share of a joint's correction applied back to its parent; above 0.5 the chain does not "
-        "settle.");
+        "Damping of spine and legs: share of a joint's velocity correction that is subtracted "
+        "from its parent joint. Above 0.5 the chain oscillates.");
     see("spine.speed_max_mps", t.spine.speed_max_mps, "m/s", 0.1, 1000.0,
         "Maximum speed of any spine or leg joint relative to the reference velocity.");
     see("spine.twist_lag_s", t.spine.twist_lag_s, "s", 0.0, 10.0,

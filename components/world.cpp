@@ -267,8 +267,8 @@ bool destroy(World& world, Entity entity) {
     }
     const std::span<const Entity> listed = world.joints_by_body.of(entity);
     std::vector<Entity> joints(listed.begin(), listed.end());
-    // Destroys joints from the last row to the first, so that the order in which slots become free
-    // does not depend on the cache.
+    // Destroys joints from the last to the first, so that the order in which slots become free does
+    // not depend on the cache.
     std::ranges::sort(joints, std::ranges::greater(),
                       [&world](Entity joint) { return world.joint.find_row(joint); });
     for (const Entity joint : joints) {

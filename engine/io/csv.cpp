@@ -107,7 +107,7 @@ std::optional<FileError> parse_header(std::string_view line, std::size_t line_nu
     return std::nullopt;
 }
 
-// Appends the cells of one row.
+// Appends the cells of one line.
 std::optional<FileError> parse_row(std::string_view line, std::size_t line_number, NanCells nan,
                                    const std::string& file, NumericTable& table) {
     const auto refuse = [&](std::string expected) {

@@ -9,7 +9,7 @@
 #include "components/stats.hpp"
 #include "game/run/run_log.hpp"
 
-// Figures of a whole run, shared by report.json and report.html.
+// Figures of a whole run, for report.json and report.html.
 namespace handhold {
 
 // Statistics of a list of times. Percentiles are by nearest rank: the ceil(p n)-th smallest of n, a

@@ -36,7 +36,7 @@ constexpr std::array<const char*, k_head_begin + k_pose_cells + 2 * k_hand_cells
 // Columns that older recordings lack; their cells are 0 then. By HandSide, after the others.
 constexpr std::array<const char*, k_hand_count> k_trigger_columns = {"lindex", "rindex"};
 
-// One row's cells in the order of k_columns and k_trigger_columns.
+// One line's cells in the order of k_columns and k_trigger_columns.
 using Cells = std::array<double, k_columns.size() + k_hand_count>;
 const char* column_name(std::size_t cell) {
     return cell < k_columns.size() ? k_columns[cell] : k_trigger_columns[cell - k_columns.size()];
@@ -48,7 +48,7 @@ Pose lost_pose() {
     return {Vec3::Constant(k_nan), Quat(k_nan, k_nan, k_nan, k_nan)};
 }
 
-// Reads rows into samples; the first bad cell is kept as the error.
+// Reads lines into samples; the first bad cell is kept as the error.
 class RowReader {
   public:
     explicit RowReader(std::string file) : file_(std::move(file)) {}

@@ -35,7 +35,7 @@ class PlayerView {
     void show_hand_lines(bool shows) { shows_hand_lines_ = shows; }
     // Sets RenderFrame::hidden_lines.
     void set_hidden_lines(float strength) { hidden_lines_ = strength; }
-    // Sets the positions of the controls for the player at element `row`. Other players' controls
+    // Sets the positions of the controls for the player at index `row`. Other players' controls
     // follow how far their hands are closed.
     void show_controls(std::size_t row, const std::array<ControlValues, k_hand_count>& values) {
         controls_ = PlayerControls{row, values};

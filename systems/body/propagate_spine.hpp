@@ -24,10 +24,10 @@ struct PropagateSpineIo {
     const Column<BodyMeasures>& measures;        // in
     const Column<ArmEstimate>& estimate;         // in: the chest
     const Column<HandOwner>& owner;              // in: of hands that pull the body
-    const Column<Grab>& grab;                    // in: hands without a row hold nothing
-    const Column<BodyHold>& body_hold;           // in: of hands on other players' parts
-    Column<SpineMemory>& memory;                 // in/out
-    Column<SpinePose>& pose;                     // out; in: as shown in the last frame
+    const Column<Grab>& grab;           // in: hands that are not in this column hold nothing
+    const Column<BodyHold>& body_hold;  // in: of hands on other players' parts
+    Column<SpineMemory>& memory;        // in/out
+    Column<SpinePose>& pose;            // out; in: as shown in the last frame
 };
 
 inline constexpr double k_longest_spine_s = 0.5;

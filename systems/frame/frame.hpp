@@ -67,8 +67,8 @@ void step_pose_only(World& world, FrameCaches& caches, const Tuning& tuning,
                     const FrameInput& input, StageStats& stats);
 
 // Hash of all columns, the clock, the reference velocity and, unless it is zero, gravity.
-// Identifies rows by persistent id, so it is independent of slots, creation order, thread count,
-// build, compiler and processor. docs/guide/platforms.md lists the tested targets.
+// Identifies elements by persistent id, so it is independent of slots, creation order, thread
+// count, build, compiler and processor. docs/guide/platforms.md lists the tested targets.
 std::uint64_t hash_state(const World& world);
 
 }  // namespace handhold

@@ -1,5 +1,5 @@
-// The state hash: one hash per row, of the component's name, the owner's persistent id and every
-// field. Rows are summed, so their order does not matter.
+// The state hash: one hash per element of a column, of the component's name, the owner's persistent
+// id and every field. The hashes are summed, so their order does not matter.
 #include <array>
 #include <type_traits>
 

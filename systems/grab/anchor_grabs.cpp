@@ -100,9 +100,9 @@ void set_target(const AnchorGrabsIo& io, const HandTracking& hand, Grab& grab) {
     set_target_pose(io, hand.pose_ps, hand, grab);
 }
 
-// Returns the new anchor of the hand that stays on a shared hold when the other hand lets go: the
-// staying hand's pose relative to the body it holds, at the instant of release. Uses the poses that
-// both hands together gave to the player and to a held free body.
+// Returns the new anchor of the hand that stays when the other of two hands that grip together
+// (share_hold) lets go: the staying hand's pose relative to the body it holds, at the instant of
+// release. Uses the poses that both hands together gave to the player and to a held free body.
 Pose staying_anchor_bs(const AnchorGrabsIo& io, const HandPair& leaving, bool leaving_is_first,
                        const PhaseTuning& tuning) {
     const Grab& staying = *leaving.other;
@@ -140,8 +140,9 @@ bool leaves_shared_grip(const HandPair& pair) {
            pair.other->phase == GrabPhase::holding && share_hold(pair.grab, *pair.other);
 }
 
-// Hands that let go of a shared hold leave now; the hands that stay take new anchors. All anchors
-// are found before any hand leaves, because hands of several players may drive one body.
+// Of two hands that grip together (share_hold), one that lets go leaves now; the hands that stay
+// take new anchors. All anchors are found before any hand leaves, because hands of several players
+// may drive one body.
 void leave_shared_grips(const AnchorGrabsIo& io, const PhaseTuning& tuning, StageStats& stats) {
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const HandPair pair = pair_of(io, row);
@@ -274,8 +275,8 @@ void anchor_new_grab(const AnchorGrabsIo& io, const HandPair& pair, const PhaseT
     pair.grab.phase = GrabPhase::holding;
 }
 
-// Row of the new grip whose hand closed first in this frame (edge_t_s), or the column's size if no
-// grip is new. The hand that closes first drives the body. Later hands join it, whatever their
+// Index of the new grip whose hand closed first in this frame (edge_t_s), or the column's size if
+// no grip is new. The hand that closes first drives the body. Later hands join it, whatever their
 // order in the column.
 std::size_t earliest_new_grab(const AnchorGrabsIo& io) {
     std::size_t earliest = io.grab.size();

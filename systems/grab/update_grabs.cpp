@@ -106,9 +106,9 @@ void start_grab(const UpdateGrabsIo& io, Entity hand, const GrabTarget& target, 
     }
 }
 
-// For a body that only both hands together may grip, with the hand of `row` gripping it at `mine`.
-// True if the player's other hand already holds the body, or is closed on it; that hand then grips
-// it.
+// For a body that only both hands together may grip, with the hand at index `row` gripping it at
+// `mine`. True if the player's other hand already holds the body, or is closed on it; that hand
+// then grips it.
 bool other_hand_joins(const UpdateGrabsIo& io, std::size_t row, const GrabTarget& mine,
                       const Tuning& tuning, StageStats& stats) {
     const std::size_t other = find_other_hand(io.owner, io.grab, row);
@@ -169,7 +169,7 @@ void begin_grab(const UpdateGrabsIo& io, std::size_t row, const Closing& closing
     start_grab(io, entity, *target, closing.since_s, io.grab.rows()[row], tuning, stats);
 }
 
-// Row of the player's other hand, if that grips something too.
+// Index of the player's other hand, if that grips something too.
 std::optional<std::size_t> partner_of(const UpdateGrabsIo& io, std::size_t row) {
     const std::size_t other = find_other_hand(io.owner, io.grab, row);
     return other < io.grab.size() && io.grab.rows()[other].kind != GripKind::none

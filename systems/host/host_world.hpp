@@ -129,7 +129,7 @@ struct hh_world {
     std::vector<hh_velocity_change> velocity_changes;
     std::vector<handhold::Entity> held_bodies;  // free bodies that hands held in the last step
     std::vector<handhold::SolvedPlayer> solved_players;     // scratch
-    std::vector<handhold::BodyVelocity> solved_velocities;  // scratch, by row
+    std::vector<handhold::BodyVelocity> solved_velocities;  // scratch, in the order of the column
     std::vector<handhold::BodyVelocity>
         begun_velocities;  // velocities before hh_world_begin_step, indexed like the column
     std::vector<std::uint8_t> are_placed;  // 1: placed since then; indexed like the column

@@ -69,7 +69,7 @@ void begin_edge(HandTracking& hand, const HandHistory& history, double t_s, cons
 // True if a hand could have come to `hand_ps`:
 //  - from its last sample at tracking.max_hand_speed_mps, or from where its own velocity would have
 //    taken it (fast hands are fast for several samples);
-//  - and, after a reading that was ignored, from that one too: two readings in a row must agree.
+//  - and, after a reading that was ignored, from that one too: two consecutive readings must agree.
 // A jump by d is thus believed once d / max_hand_speed_mps has passed.
 bool is_plausible(const HandTracking& hand, const HandHistory& history, const Pose& hand_ps,
                   double t_s, double max_speed_mps) {
@@ -288,7 +288,7 @@ Pose hand_in_controller(const ReadTrackingIo& io, Entity hand, HandSide side,
     return own != nullptr ? own->hand_in_controller : default_controller_to_hand(side, tuning);
 }
 
-// Rows in `io.owner` of a player's hands by side; the column's size where a hand is missing.
+// Indices in `io.owner` of a player's hands by side; the column's size where a hand is missing.
 std::array<std::size_t, k_hand_count> hand_rows_of(const ReadTrackingIo& io, Entity player,
                                                    std::size_t player_row) {
     const std::size_t none = io.owner.size();

@@ -32,7 +32,8 @@ bool comes_first(const Grips::Grip& a, const Grips::Grip& b) {
     return a.grab->since_s != b.grab->since_s ? a.grab->since_s < b.grab->since_s : a.side < b.side;
 }
 
-// `expected_row`: row of the player's hands if all hands were created in the order of the players.
+// `expected_row`: index of the player's first hand if all hands were created in the order of the
+// players.
 Grips grips_of(const LocomotePlayersIo& io, Entity player, std::size_t expected_row) {
     Grips found;
     const std::size_t first = find_hand_row(io.owner, player, expected_row);

@@ -33,8 +33,8 @@ class SnapshotAssets {
 };
 
 // Call between frames only. Saves every bit of the columns, the clock and the entity pool (free
-// slots, generations, row order). Overwrites `bytes`; allocates nothing if its capacity suffices,
-// except in the first call of the process.
+// slots, generations, order of elements). Overwrites `bytes`; allocates nothing if its capacity
+// suffices, except in the first call of the process.
 void save_snapshot(const World& world, const SnapshotAssets& assets, std::vector<std::byte>& bytes);
 
 // The restored world continues bit for bit like the saved one, with any caches built for `assets`
@@ -62,9 +62,9 @@ struct WorldDiffSettings {
     std::span<const std::string> names;
 };
 // Lists the fields in which two worlds differ, bit for bit, by persistent id, in the order of the
-// columns and of the rows of `a`: "head_tracking[player].pose_ps.position.x: a 0.1, b 0.2",
-// "grab[0x5d...1]: only in a". As in hash_state, slots and row order are ignored; but shape ids are
-// compared.
+// columns and of the elements of `a`: "head_tracking[player].pose_ps.position.x: a 0.1, b 0.2",
+// "grab[0x5d...1]: only in a". As in hash_state, slots and the order of elements are ignored; but
+// shape ids are compared.
 std::vector<std::string> diff_worlds(const World& a, const World& b,
                                      const WorldDiffSettings& settings = {});
 

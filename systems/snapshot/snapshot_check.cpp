@@ -49,7 +49,7 @@ class BreachFinder {
         }
     }
 
-    // Every owner of a row in `column` must have one in `required`.
+    // Every owner of an element in `column` must have one in `required`.
     template <typename A, typename B>
     void require(const char* name, const Column<A>& column, const char* required_name,
                  const Column<B>& required) {

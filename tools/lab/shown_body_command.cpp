@@ -115,7 +115,7 @@ class ShownBody {
         take_speeds(spine);
     }
 
-    // One row for each frame.
+    // One line for each frame.
     std::string csv() const {
         std::string text = "frame,trunk_mm,pelvis_mm,thigh_mm,shin_mm,foot_mps\n";
         for (std::size_t i = 0; i < trunk_mm_.values.size(); ++i) {

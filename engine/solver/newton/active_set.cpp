@@ -9,7 +9,8 @@ namespace handhold {
 namespace {
 
 constexpr std::uint8_t k_undecided = 2;  // becomes active in the first solve if it overlaps
-// Block pivots in a row that do not reduce the number of violating rows, before descent takes over.
+// Consecutive block pivots that do not reduce the number of violating rows, before descent takes
+// over.
 constexpr int k_max_block_pivots = 4;
 constexpr int k_max_descent_steps = 60;  // limit of factorisations in the descent
 constexpr double k_overlap_m = 1e-10;

@@ -20,7 +20,7 @@ struct StepControl {
     // did not.
     double regularisation_decrease = 0.03;
     double regularisation_increase = 10.0;
-    // This many unscaled steps in a row that each leave less than `linear_decrease_ratio` of the
+    // This many consecutive unscaled steps that each leave less than `linear_decrease_ratio` of the
     // error count as one that reduced it.
     int linear_decrease_steps = 3;
     double linear_decrease_ratio = 0.95;

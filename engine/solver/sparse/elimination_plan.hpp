@@ -172,7 +172,7 @@ class EliminationPlan {
     std::vector<std::uint32_t> merged_;
     std::vector<std::uint32_t> order_;
     std::vector<std::uint8_t> eliminated_;
-    std::vector<Candidate> candidates_;  // a heap; entries may be stale
+    std::vector<Candidate> candidates_;  // priority queue; entries may be stale
 };
 
 }  // namespace handhold

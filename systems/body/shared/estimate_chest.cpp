@@ -12,7 +12,7 @@ namespace {
 using ChestInputs = SideInputs<body_constants::k_chest_inputs>;
 using ChestAnswer = NetworkAnswer<body_constants::k_chest_outputs>;
 
-// What both sides' inputs share.
+// Inputs that are the same for both sides.
 struct ChestView {
     BodyView axes;
     std::array<Vec3, k_hand_count> hand;  // offset from the eyes in arm lengths

@@ -34,7 +34,7 @@ struct PartHit {
 };
 
 // The bodies of all players, as the last frame showed them, at the start of this frame. A player
-// without a row of `shown` has no body that can be gripped.
+// who is not in `shown` has no body that can be gripped.
 struct ShownBodies {
     const Column<RenderPose>& shown;
     const Column<BodyMeasures>& measures;  // every player of `shown`

@@ -43,11 +43,11 @@ struct GrabInstant {
 
     // The predicted pose; for a player, the head's.
     Pose body_ws(Entity body) const;
-    // What the hand grips: as body_ws, but the part of a player that its BodyHold names. `grab` is
-    // a row of `io.grab`.
+    // The pose of what the hand grips: like body_ws, but for a player's part that the hand's
+    // BodyHold names, the part's pose. `grab` is an element of `io.grab`.
     Pose gripped_ws(const Grab& grab) const;
     Pose origin_ws(Entity player) const;
-    // `hand` is a row of `io.hand`.
+    // `hand` is an element of `io.hand`.
     Pose hand_ps(const HandTracking& hand) const;
     // The origin position at which a hand on a fixed body would be on its anchor.
     Vec3 held_origin_ws(Entity player, const Grab& grab, const HandTracking& hand) const;

@@ -33,7 +33,7 @@ struct GrabSearch {
     const JointGroups& joint_groups;              // in
     const Column<AuthoredGrips>& authored_grips;  // in
     GrabRules rules;                              // in
-    const Column<RenderPose>& shown;       // in: of the last frame; without a row: heads alone
+    const Column<RenderPose>& shown;       // in: of the last frame; players not in it: heads alone
     const Column<BodyMeasures>& measures;  // in: every player of `shown`
     const Column<HandPull>& pull;          // in: of the last frame
     const Column<ReferenceVelocity>& reference;  // in: of the last frame

@@ -6,7 +6,7 @@
 #include "components/tuning.hpp"
 #include "engine/geometry/chain_fit.hpp"
 
-// Code shared by the hand stages: fingers and thumbs as chains of hinged capsules.
+// Used by several hand stages: fingers and thumbs as chains of hinged capsules.
 namespace handhold {
 
 // Returns the digit's chain in the frame in which `wrist` is given.

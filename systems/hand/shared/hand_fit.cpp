@@ -33,7 +33,7 @@ constexpr double k_bend_limit = 0.3;
 constexpr double k_fan_limit = 2.0;
 constexpr double k_claw_limit = 4.0;
 constexpr double k_digit_contact = 500.0;  // weight of contacts between the thumb and a finger
-constexpr double k_digit_reach_m = 0.03;   // digits farther apart need no row
+constexpr double k_digit_reach_m = 0.03;   // digits farther apart need no inequality
 constexpr double k_claw_share = 0.6;
 constexpr double k_clear_m = 3e-4;  // gap that contacts aim for
 // Largest step of one round: gaps are linearised.
@@ -44,8 +44,8 @@ constexpr double k_lever2 = k_fit_lever_m * k_fit_lever_m;
 
 bool is_thumb(const FingerRig& finger) { return finger.name == FingerName::thumb; }
 
-// Rows at most: four per angle (limits and steps), two per finger (bend, claw), four per pair of
-// neighbours, gaps, the palm's limits.
+// Maximum number of inequalities: four per angle (limits and steps), two per finger (bend, claw),
+// four per pair of neighbours, gaps, the palm's limits.
 static_assert(4 * (k_max_unknowns - 6) + 2 * k_finger_count + 4 * (k_finger_count - 1) +
                   HandSpheres::k_max_count + k_max_digit_gaps + 3 <=
               k_max_penalty_rows);
@@ -65,9 +65,10 @@ class Fitter {
           problem_(layout_.end(), terms) {}
 
     HandFit run() {
-        constexpr double k_gain = 1e-6;  // smallest relative gain that counts
+        constexpr double k_gain = 1e-6;  // smaller relative gains do not count
         constexpr double k_gain_m2 = 1e-12;
-        constexpr double k_worthwhile_gain = 0.01;  // relative change that gets another round
+        // relative change of the cost that justifies a next round
+        constexpr double k_worthwhile_gain = 0.01;
         double cost = evaluate();
         HandFit best = described(cost);
         best.is_converged = true;

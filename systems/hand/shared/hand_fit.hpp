@@ -35,17 +35,16 @@
 //     neighbours' total bends within k_max_apart_rad, and directions within k_max_fan_rad
 //     the palm's limits on height and tilt (PalmTuning)
 //
-// Fingers whose angles are kept have no fan and alike with their neighbours.
-// pull(x) = x^2 / (1 + x^2 / g^2) is bounded by g^2, so distant surfaces hardly attract a digit;
-// g = k_let_go_m; l = k_fit_lever_m.
-// Hinges q1, q2, q3 are numbered from the knuckle. Gaps within k_sphere_reach_m count, those of
-// tips within their own reach (hand_spheres.hpp). Costs are half of these sums. The inequalities
-// are penalties, stiffer in this order: bends, directions, claw, palm, joints, gaps; the fit shares
-// what cannot be met. Each round queries the gaps (hand_spheres.hpp), linearises and solves
-// (engine/math/penalty_quadratic.hpp). Sources: Santello, Flanders, Soechting, Postural hand
-// synergies for tool use, 1998 (fingers bend alike); Rijpkema, Girard, Computer animation of
-// knowledge-based human grasping, 1991 (2/3). The weights follow 694 labels of posed hands
-// (docs/decisions).
+// Fingers whose angles are kept have no fan and alike with their neighbours. pull(x) = x^2 / (1 +
+// x^2 / g^2) is bounded by g^2, so distant surfaces hardly attract a digit; g = k_let_go_m; l =
+// k_fit_lever_m. Hinges q1, q2, q3 are numbered from the knuckle. Gaps within k_sphere_reach_m
+// count, those of tips within their own reach (hand_spheres.hpp). Costs are half of these sums. The
+// inequalities are penalties, stiffer in this order: bends, directions, claw, palm, joints, gaps;
+// where they contradict each other, the fit divides the violation among them. Each round queries
+// the gaps (hand_spheres.hpp), linearises and solves (engine/math/penalty_quadratic.hpp). Sources:
+// Santello, Flanders, Soechting, Postural hand synergies for tool use, 1998 (fingers bend alike);
+// Rijpkema, Girard, Computer animation of knowledge-based human grasping, 1991 (2/3). The weights
+// follow 694 labels of posed hands (docs/decisions).
 namespace handhold {
 
 inline constexpr double k_fit_arm_m = 0.05;

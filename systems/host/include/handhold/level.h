@@ -32,7 +32,7 @@ typedef struct hh_compound_part {
 HH_API hh_result hh_shape_add_compound(hh_world* world, const hh_compound_part* parts, size_t count,
                                        hh_shape* shape);
 
-/* Triangles, prepared for collision and hands. Shared by worlds; immutable. */
+/* Triangles, prepared for collision and hands. Used by any number of worlds; immutable. */
 typedef struct hh_mesh hh_mesh;
 typedef struct hh_mesh_def {
     uint32_t struct_size;
@@ -118,7 +118,7 @@ HH_API hh_result hh_body_set_velocity(hh_world* world, hh_body body, hh_vec3 vel
 /* Changes the velocity by an impulse in N s at a point in the world. */
 HH_API hh_result hh_body_apply_impulse(hh_world* world, hh_body body, hh_vec3 impulse_ns,
                                        hh_vec3 point);
-/* At once, without touching what is between. Keeps the velocity. Hands that grip it let go. */
+/* At once, without collisions on the path. Keeps the velocity. Hands that grip it let go. */
 HH_API hh_result hh_body_teleport(hh_world* world, hh_body body, hh_pose pose);
 /* A kinematic body reaches the pose at the end of the next step, with the velocity that takes it
  * there, and then rests. Call it before every step in which it moves. */
