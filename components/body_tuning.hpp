@@ -17,7 +17,7 @@ inline bool is_jump(double distance_m, double dt_s) {
     return distance_m > k_jump_m + k_jump_speed_mps * dt_s;
 }
 
-// Chest, shoulders and elbows: the constants that are a matter of looks. The fitted ones are in
+// Chest, shoulders and elbows: constants chosen by eye. Those fitted to data are in
 // systems/body/shared/body_constants.hpp.
 struct ArmTuning {
     double learned = 1.0;

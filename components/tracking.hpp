@@ -67,8 +67,9 @@ struct HeadTracking {
     Pose before_ps;  // valid sample before that one
     double before_t_s = 0.0;
     TrackingState state = TrackingState::never;
-    // Corrects samples: pose_ps = (shift_m, shift_turn) * sample. When the samples jump
-    // (recentring, a tracking error), it changes so that the head stays where it was in the world.
+    // Correction of samples: pose_ps = (shift_m, shift_turn) * sample. When samples jump
+    // (recentring, a tracking error), the correction changes so that the head stays where it was in
+    // the world.
     Vec3 shift_m = Vec3::Zero();
     Quat shift_turn = Quat::Identity();  // turn about +Y
 };
@@ -107,14 +108,14 @@ struct HandTracking {
     Vec3 release_spin_ps_radps = Vec3::Zero();
 };
 
-// A player's sample of after the last frame's end, for hosts that give each sample once: it comes
-// before the next frame's samples. Only players with such a sample have this component. Written and
-// read by the C interface.
+// A sample later than the end of the last frame, for hosts that pass each sample once. It is used
+// in the next frame, before that frame's samples. Only players with such a sample have this
+// component. Written and read by the C interface.
 struct EarlySample {
     double t_s = 0.0;
     Pose head_ps;
     std::array<Pose, k_hand_count> controllers_ps;  // indexed by HandSide
-    bool head_tracked = false;                      // false: the pose says nothing
+    bool head_tracked = false;                      // false: the pose is invalid
     std::array<bool, k_hand_count> tracked = {};    // indexed by HandSide
     std::array<bool, k_hand_count> grab = {};       // indexed by HandSide
     std::array<double, k_hand_count> squeeze = {};  // indexed by HandSide

@@ -114,7 +114,8 @@ struct ContactTuning {
 
 struct SolverTuning {
     NewtonSettings positions;  // settings of solve_positions
-    // In place of positions.regularisation.drive in the forward phase: contacts outweigh hands.
+    // Replaces positions.regularisation.drive in the forward phase, where contacts must outweigh
+    // hands.
     double forward_drive_regularisation = 1e-3;
     std::int32_t friction_passes = VelocitySettings{}.friction_passes;
 };

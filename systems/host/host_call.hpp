@@ -60,7 +60,8 @@ hh_result call(Work&& work, hh_result precondition = HH_ERROR_VALUE) noexcept {
     }
 }
 
-// A definition of any version up to this library's: what it lacks keeps its default.
+// Reads a definition of any version up to this library's. Fields that an older version lacks get
+// their defaults.
 template <typename Def>
 Def read_def(const Def* def, const Def& defaults, std::size_t first_size = sizeof(Def)) {
     require(def != nullptr, HH_ERROR_NULL, "the definition is null");

@@ -140,7 +140,8 @@ void measure_impulses(hh_world& host) {
     }
 }
 
-// One contact for each of those that feel it: the head `a` is, the hands that hold it.
+// Adds one contact for each receiver: if `a` is a head, that head; if hands hold `a`, each of these
+// hands.
 void add_contact(hh_world& host, Entity a, Entity b, double impulse_ns, const Vec3& point_ws) {
     HostContact contact;
     contact.other = b;
@@ -171,8 +172,8 @@ bool was_in_contact(const hh_world& host, Entity a, Entity b) {
 }
 
 void gather_contacts(hh_world& host) {
-    constexpr double k_begin_m = 1e-4;  // farther apart is no contact yet,
-    constexpr double k_end_m = 2e-3;    // and this far apart none any more
+    constexpr double k_begin_m = 1e-4;  // a contact begins when bodies are closer than this
+    constexpr double k_end_m = 2e-3;    // a contact ends when bodies are farther apart than this
     constexpr double k_least_impulse_ns = 1e-9;
     const FrameGraph& frame = host.caches.graph;
     host.last_contacts.swap(host.contacts);
@@ -261,7 +262,7 @@ void add_touch_events(hh_world& host) {
     }
 }
 
-// A joint that came to its limit rests a little before it.
+// A joint that has reached its limit comes to rest slightly before it.
 bool is_at_limit(const Joint& joint, const JointState& state, bool was_at_limit) {
     const double near_limit = was_at_limit ? 1e-2 : 5e-3;  // rad or m
     const bool has_limits = joint.limited || joint.kind == JointKind::distance;
@@ -270,7 +271,7 @@ bool is_at_limit(const Joint& joint, const JointState& state, bool was_at_limit)
             state.coordinate >= joint.upper - near_limit);
 }
 
-// The hand that grips one of the joint's bodies, if any does.
+// Writes the hand that grips one of the joint's bodies into the event, if there is one.
 void attribute(const hh_world& host, const Joint& joint, hh_event& event) {
     for (std::size_t row = 0; row < host.world.grab.size(); ++row) {
         const Grab& grab = host.world.grab.rows()[row];

@@ -37,7 +37,8 @@ HandBone bone_of_link(const FingerRig& finger, std::uint32_t link) {
     return link == 0 ? HandBone::proximal : HandBone::intermediate;
 }
 
-// The place of one of the rig's named joints, in its link's frame or in hand space.
+// Position of the rig's joint with this name, in its link's frame or in hand space. None if the rig
+// has no such joint.
 std::optional<Vec3> named_place(const HandRig& rig, std::int32_t finger, FingerName name,
                                 HandBone bone) {
     for (const RigJoint& joint : rig.joints) {

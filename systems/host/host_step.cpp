@@ -78,13 +78,14 @@ PlayerCommands read_commands(const hh_commands& commands) {
             commands.calibrate};
 }
 
-// Elements of an array of definitions lie apart by the size that the host knows.
+// Element i of the host's array. The host's struct_size is the distance of its elements, which may
+// be of an older version.
 const hh_player_input& input_at(const hh_player_input* inputs, std::size_t i) {
     const char* const bytes = reinterpret_cast<const char*>(inputs);
     return *reinterpret_cast<const hh_player_input*>(bytes + i * inputs->struct_size);
 }
 
-// Of any version: `repeats_samples` came after the first.
+// Reads an input of any version. The first version had no `repeats_samples`.
 hh_player_input read_input(const hh_player_input* inputs, std::size_t i) {
     return read_def(&input_at(inputs, i), hh_default_player_input(),
                     offsetof(hh_player_input, repeats_samples));
@@ -176,7 +177,8 @@ hh_result step_with(hh_world* world, double dt_s, const hh_player_input* inputs,
     if (result != HH_OK) {
         return result;
     }
-    // All that a host can do wrong has been checked: what is thrown now is a defect.
+    // All host errors have been checked before: an exception from here on is a defect of the
+    // library.
     return call(
         [&] {
             hh_world& host = *world;

@@ -22,7 +22,7 @@ ColliderProxy proxy_of(const PlaceCollidersIo& io, Entity entity, const HeadTuni
         proxy.to_ws =
             origin->pose_ws * Pose{head_center_ps(io.head.at(entity), tuning), Quat::Identity()};
         const LastValidPose& valid = io.last_valid.at(entity);
-        // A head without a valid pose so far is swept from where the frame starts.
+        // A head that has no valid pose yet is swept from its pose at the start of the frame.
         const Pose start_ws = io.player_start.at(entity).pose_ws *
                               Pose{head_center_ps(io.head.at(entity), tuning), Quat::Identity()};
         proxy.from_ws = valid.known ? valid.pose_ws : start_ws;

@@ -244,8 +244,8 @@ class BreachFinder {
         }
     }
 
-    // Back-off distances and counters must be in the range that frames produce, so that no search
-    // is suspended for ever.
+    // Back-off distances and counters must be in the range that frames produce, so that no
+    // search is suspended forever.
     void check_retries() {
         constexpr double k_max_m = 1.0;
         for (std::size_t row = 0; row < w_.grip_surface.size(); ++row) {

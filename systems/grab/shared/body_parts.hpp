@@ -46,8 +46,9 @@ struct ShownBodies {
     // teleport between the frames moves the part too.
     Pose part_ps(Entity player, BodyPart part) const;
 
-    // Of equally near parts, that of the smallest id. Players in `skip` are passed over. A ray
-    // that starts inside a part does not hit that part.
+    // The queries return the nearest part; among equally near ones, that of the player with the
+    // smallest id. Players in `skip` are ignored. A ray that starts inside a part does not hit that
+    // part.
     using Skip = std::span<const std::uint64_t>;
     std::optional<PartHit> cast_ray(const Vec3& from_ws, const Vec3& to_ws, Skip skip) const;
     std::optional<PartHit> closest_point(const Vec3& point_ws, double max_distance_m,

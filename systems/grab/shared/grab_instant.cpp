@@ -32,7 +32,7 @@ Pose hand_within_frame(const HandTracking& hand, const HandHistory& history, dou
     return interpolate(*before.hand_ps, *after.hand_ps, (t - before.t) / (after.t - before.t));
 }
 
-// Target pose of a free body by its hands. `first` drives it, alone or with the other hand.
+// Pose that its hands ask of a free body. `first` drives it, alone or together with the other hand.
 Pose target_body(const GrabInstant& now, const HandPair& first) {
     const Pose origin_ws = now.hand_driven_origin_ws(first.player);
     const Pose hand_ps = now.hand_ps(first.hand);

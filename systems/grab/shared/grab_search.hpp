@@ -18,7 +18,8 @@
 // What a closing hand grips.
 namespace handhold {
 
-// Also UpdateGrabsIo. The functions below write `sight` only.
+// Inputs of the functions below and of update_grabs (UpdateGrabsIo). The functions below write only
+// `sight`.
 struct GrabSearch {
     double start_s;                               // in: of the frame; for orders
     double dt_s;                                  // in: of the frame
@@ -72,9 +73,9 @@ struct GrabSearchResult {
     Entity refused_by = k_no_entity;               // the body that refused the hand, if any
 };
 
-// What a hand at `hand_ws` grips if it closes. Bodies that refuse the hand by their GrabRule or its
-// player's GrabLayers are passed over, as if they were not there. `only`: authored grips of this
-// body alone; null: of all. Counts authored grips that are occupied or blocked.
+// Finds what a hand at `hand_ws` grips if it closes. Ignores bodies that refuse the hand by their
+// GrabRule or by its player's GrabLayers. `only`: considers only authored grips of this body; null:
+// of all bodies. Counts authored grips that are occupied or blocked.
 GrabSearchResult find_grab_target(const GrabSearch& io, Entity hand, const Pose& hand_ws,
                                   Entity only, const Tuning& tuning, StageStats& stats);
 

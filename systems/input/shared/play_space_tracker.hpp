@@ -29,8 +29,7 @@ inline double pressed_share(double reading) { return reading > 0.0 ? std::min(1.
 bool is_stale(double t_s, bool has_sample, double last_t_s);
 
 // Follows one player's readings from sample to sample and corrects those that jump with the play
-// space. Started from the state at the end of the last frame, it gives the same corrections to
-// whoever follows the same samples.
+// space. Deterministic: the same start state and the same samples give the same corrections.
 class PlaySpaceTracker {
   public:
     struct Hand {
@@ -43,8 +42,8 @@ class PlaySpaceTracker {
 
     PlaySpaceTracker(const HeadTracking& head, const std::array<Hand, k_hand_count>& hands);
 
-    // Advances to `sample`. From a jump on, all readings are corrected so that the head goes on as
-    // before (play_space) or stays where it was (head):
+    // Advances to `sample`. After a jump, all later readings are corrected so that the head
+    // continues its motion (play_space) or stays where it was (head):
     //  - play_space: head and hands moved by one transform (a turn about +Y and a translation), at
     //    least one of them farther than a device can move. What remains of each hand's motion once
     //    that transform is undone must be one that a hand can make;

@@ -47,7 +47,7 @@ HH_API hh_mesh_def hh_default_mesh_def(void);
 /* Copies and prepares a mesh. Any thread, beside steps of any world: the place for the work of
  * streaming. Cost: about 40 microseconds a triangle with fits_hands, 1 without. */
 HH_API hh_result hh_mesh_create(const hh_mesh_def* def, hh_mesh** mesh);
-/* Gives the caller's reference back; shapes keep theirs. Null: nothing happens. Any thread. */
+/* Releases the caller's reference; shapes keep theirs. Null: nothing happens. Any thread. */
 HH_API void hh_mesh_destroy(hh_mesh* mesh);
 /* A shape of a prepared mesh, for static and kinematic bodies. Cost: constant for scale 1; another
  * scale, each factor in [1e-3, 1e3], prepares the hands' surface again. */
@@ -164,13 +164,14 @@ typedef struct hh_joint_def {
     double latch_range;      /* closes within this distance; 0: no latch */
     double latch_strength;   /* opens above this force, N or N m; 0: never by force */
     hh_joint latch_handle;   /* a joint that opens it; null: none */
-    double latch_handle_at;  /* open while the handle's coordinate is at least this, either way */
+    double latch_handle_at;  /* open while |handle's coordinate| is at least this */
 } hh_joint_def;
 HH_API hh_joint_def hh_default_joint_def(void);
 HH_API hh_result hh_joint_add(hh_world* world, const hh_joint_def* def, hh_joint* joint);
 HH_API hh_result hh_joint_remove(hh_world* world, hh_joint joint);
 HH_API bool hh_joint_is_valid(const hh_world* world, hh_joint joint);
-/* The joints at a body; as hh_world_bodies. */
+/* Ids of the joints of a body; `count` gets their number. HH_ERROR_CAPACITY if it is more than
+ * `capacity`. A null buffer of capacity 0: the number only. */
 HH_API hh_result hh_body_joints(const hh_world* world, hh_body body, hh_joint* joints,
                                 size_t capacity, size_t* count);
 /* As of the last step; null outputs are skipped. A hinge counts full turns. */
@@ -179,8 +180,8 @@ HH_API hh_result hh_joint_state(const hh_world* world, hh_joint joint, double* c
 
 /* ---- Queries -------------------------------------------------------------------------------- */
 
-/* Against the shapes of all bodies, whatever their layers, and the tracked heads of players, where
- * they are now. Bodies without a shape, and surfaces of hh_world_set_surface_query, are not found.
+/* Queries test the shapes of all bodies, whatever their layers, and the tracked heads of players, at
+ * their present poses. Bodies without a shape, and surfaces of hh_world_set_surface_query, are not found.
  * HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds; the first
  * query after a change of the world also compares every body with its place before. */
 typedef struct hh_hit {
@@ -202,9 +203,9 @@ HH_API hh_result hh_world_cast_sphere(hh_world* world, double radius_m, hh_vec3 
  * where the normal points outward. */
 HH_API hh_result hh_world_closest_point(hh_world* world, hh_vec3 point, double max_distance_m,
                                         hh_player skip, hh_hit* hit);
-/* Everything that a sphere touches: the nearest point of each body and head to its centre, as
- * hh_world_closest_point gives it, in a fixed order. `count` gets their number; HH_ERROR_CAPACITY
- * if it is more than `capacity`. Radius as hh_world_closest_point's distance. */
+/* Everything that a sphere touches: the nearest point of each body and head to its centre, in
+ * a fixed order. Inside a solid distance_m is 0 and the normal points outward. `count` gets their number; HH_ERROR_CAPACITY
+ * if it is more than `capacity`. Radius in [0, 1e4] m. */
 HH_API hh_result hh_world_overlap_sphere(hh_world* world, hh_vec3 center, double radius_m,
                                          hh_player skip, hh_hit* hits, size_t capacity,
                                          size_t* count);

@@ -29,7 +29,7 @@ typedef struct hh_player_def {
     hh_measures measures;
     double scale;          /* of all measures, [0.001, 100]; default 1 */
     bool head_collides;    /* the head is a sphere of head.radius_m; default true */
-    uint32_t layers, mask; /* of the head; as hh_body_def's */
+    uint32_t layers, mask; /* of the head; it touches a body if each one's layers meet the other's mask */
     uint32_t grab_layers;  /* the hands grip bodies with one of these layers; default all */
     uint64_t user_data;
 } hh_player_def;
@@ -44,8 +44,8 @@ HH_API hh_result hh_world_players(const hh_world* world, hh_player* players, siz
 HH_API hh_result hh_player_teleport(hh_world* world, hh_player player, hh_pose origin);
 HH_API hh_result hh_player_velocity(const hh_world* world, hh_player player, hh_vec3* velocity_mps);
 HH_API hh_result hh_player_set_velocity(hh_world* world, hh_player player, hh_vec3 velocity_mps);
-/* The velocity that counts as rest for the player: of what the player gripped last, where it was
- * gripped, else the scene's. Speed against it is what a player feels: for vignettes and wind. */
+/* The velocity that counts as rest for the player: that of the body last gripped, at the gripped
+ * point, else the scene's. A player feels the speed relative to it: for vignettes and wind. */
 HH_API hh_result hh_player_reference_velocity(const hh_world* world, hh_player player,
                                               hh_vec3* velocity_mps);
 /* The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked: false
@@ -62,10 +62,11 @@ HH_API hh_result hh_player_user_data(const hh_world* world, hh_player player, ui
  * tuning's hand.controller_ numbers, which is the default. */
 HH_API hh_result hh_player_set_hand_in_controller(hh_world* world, hh_player player, hh_side side,
                                                   const hh_pose* hand_in_controller);
-/* The same numbers, for hosts that have wrists and need controllers. */
+/* Returns the pose set by hh_player_set_hand_in_controller, for hosts that have wrists and need
+ * controllers. */
 HH_API hh_result hh_player_hand_in_controller(const hh_world* world, hh_player player, hh_side side,
                                               hh_pose* hand_in_controller);
-/* The same numbers for a player who has none of their own, by the tuning alone. */
+/* Returns the tuning's pose of the wrist in a controller, for players without one of their own. */
 HH_API hh_result hh_world_hand_in_controller(const hh_world* world, hh_side side,
                                              hh_pose* hand_in_controller);
 
@@ -87,11 +88,12 @@ typedef struct hh_hand_state {
     /* The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres
      * from it, so that palm and fingers touch. */
     hh_pose shown;
-    /* The wrist in the frame of what it grips, fixed when it closed; of a player: of the part. */
+    /* The wrist in the frame of what it grips (of a gripped player: the gripped part), fixed when
+     * the hand closed. */
     hh_pose anchor;
-    double error_m;   /* distance of the tracked wrist and the anchor: 0 unless hindered */
-    /* By the hand on what it grips, in the last step: for haptics. 0 if the host's solver moved the
-     * player (hh_world_end_step): that solver knows it. While hands move only light bodies, hands
+    double error_m;   /* distance of the tracked wrist from the anchor: 0 unless something blocks it */
+    /* Impulse of the hand on what it grips in the last step, for haptics. 0 if the host's solver
+     * moved the player (hh_world_end_step): read it there. While hands move only light bodies, hands
      * and contacts report at most the momentum that the players and bodies involved have, with the
      * hands' speed on top. */
     hh_vec3 force_impulse_ns;
@@ -145,7 +147,7 @@ typedef enum hh_reason {
     HH_REASON_NONE = 0,
     HH_REASON_OPENED = 1,          /* the player opened the hand */
     HH_REASON_NO_SURFACE = 2,      /* nothing in reach, or only behind a wall */
-    HH_REASON_NOT_ALLOWED = 3,     /* by a grab rule or layers */
+    HH_REASON_NOT_ALLOWED = 3,     /* a grab rule or layers refuse the hand */
     HH_REASON_NEEDS_TWO_HANDS = 4, /* the other hand is not there, or left */
     HH_REASON_STRETCHED = 5,       /* farther from its anchor than hand.max_stretch_m */
     HH_REASON_TRACKING_LOST = 6,   /* it opened unseen, or came back too far away */

@@ -48,7 +48,7 @@ typedef struct hh_tracking_sample {
  * as not tracked. Any thread. */
 HH_API hh_tracking_sample hh_default_tracking_sample(void);
 
-/* What a player asks for in one step. */
+/* A player's commands for one step. */
 typedef struct hh_commands {
     double smooth_turn; /* [-1, 1], positive turns left */
     int32_t snap_turns; /* turns to the left begun in this step; negative: to the right */

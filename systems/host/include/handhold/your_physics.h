@@ -66,7 +66,7 @@ HH_API hh_result hh_body_set_surface(hh_world* world, hh_body body, const hh_mes
 
 typedef struct hh_body_motion {
     hh_body body;
-    hh_pose pose; /* as hh_body_def.pose; without a shape: centre of mass and principal axes */
+    hh_pose pose; /* of the shape's own frame; without a shape: centre of mass and principal axes */
     hh_vec3 velocity_mps;
     hh_vec3 angular_velocity_radps;
 } hh_body_motion;
@@ -94,14 +94,14 @@ HH_API hh_result hh_hand_find_grip(hh_world* world, hh_player player, hh_side si
                                    hh_surface_hit* hit);
 /* One frame: reads tracking and shows hands and bodies where the host put them. It moves neither
  * players nor bodies, and buttons do nothing: place bodies by hh_world_place_bodies. A move ordered
- * by hh_body_move_kinematic waits for the next step of another kind. Cost: as hh_world_step without
- * physics. */
+ * by hh_body_move_kinematic waits for the next step of another kind. Cost: that of
+ * hh_world_step without physics. */
 HH_API hh_result hh_world_step_hands(hh_world* world, double dt_s, const hh_player_input* inputs,
                                      size_t input_count);
 
 /* ---- Hands pull players through the host's solver ------------------------------------------- */
 
-/* What a hand asks of the host's solver. The player is a body of the host's: a point mass at the
+/* A constraint of a hand for the host's solver. The player is a body of the host's: a point mass at the
  * play space's origin that cannot turn. At the end of the step, with origin and body solved:
  *   POINT      origin + target.position = body * anchor.position
  *   WELD       the same, and the body's rotation is body_rotation
@@ -119,13 +119,14 @@ typedef struct hh_hand_constraint {
     hh_hand_rows rows;
     hh_pose anchor; /* the wrist in the body's frame */
     hh_pose target; /* the wrist at the end of the step: from the origin, with the world's axes */
-    /* Its velocity against the origin: while a hand lets go that of the throw, else the mean. */
+    /* The target's velocity relative to the origin: the throwing velocity while a hand lets go, else
+     * the mean over the step. */
     hh_vec3 velocity_mps;
     hh_vec3 angular_velocity_radps;
     hh_quat body_rotation;               /* in the world, at the end of the step; not for POINT */
     hh_vec3 body_angular_velocity_radps; /* that leads there; not for POINT */
-    /* The anchor in the world at the end of the step, if the solver leaves the body's velocity as
-     * it is: exact for static and kinematic bodies, which need no other end of the joint. */
+    /* The anchor in the world at the end of the step, if the body keeps its velocity. Exact for
+     * static and kinematic bodies: a joint may attach the player to this point of the world. */
     hh_pose anchor_end;
     double compliance_m_per_n; /* of the rows; 0: rigid, as in the runtime's own solver */
     double max_force_n; /* enough to stop what the hand drives from its highest speed in one step */
@@ -166,11 +167,11 @@ typedef struct hh_velocity_change {
  * teleporting, saving and other steps; hh_world_restore forgets the begun step. */
 HH_API hh_result hh_world_begin_step(hh_world* world, double dt_s, const hh_player_input* inputs,
                                      size_t input_count);
-/* Of the begun step, at most one a hand, ordered as hands were added. Valid until
- * hh_world_end_step. */
+/* Constraints of the begun step: at most one per hand, in the order in which hands were added. Valid
+ * until hh_world_end_step. */
 HH_API hh_result hh_world_hand_constraints(const hh_world* world,
                                            const hh_hand_constraint** constraints, size_t* count);
-/* One a player, in the order of hh_world_players. Valid until hh_world_end_step. */
+/* One entry per player, in the order of hh_world_players. Valid until hh_world_end_step. */
 HH_API hh_result hh_world_player_motions(const hh_world* world, const hh_player_motion** motions,
                                          size_t* count);
 /* Second half, after the host's solver. `players`: the solved play spaces; one left out moves as
