@@ -81,8 +81,8 @@ class Cover {
         const Vec3 cut = 0.5 * (from + to);
         return covers({from, cut, apex}, cuts + 1) && covers({cut, to, apex}, cuts + 1);
     }
-    // Splits off the part of the corner that is alone on its side of the cut. The other part is two
-    // triangles.
+    // Splits the piece along the cut. One corner is alone on its side: its part is one triangle,
+    // the other part two.
     bool covers_clipped(const Corners& piece, const std::array<double, 3>& beyond, int cuts) {
         std::size_t lone = 0;  // index of that corner
         for (std::size_t i = 1; i < 3; ++i) {

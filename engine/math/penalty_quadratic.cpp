@@ -37,7 +37,7 @@ void solve_positive_definite(UnknownsSquare& matrix, Unknowns& vector, std::size
     }
 }
 
-// One row along a step: value + length * along.
+// Value of an inequality along a step: value + length * along.
 struct RowOnLine {
     double value;
     double along;

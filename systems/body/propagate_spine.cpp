@@ -95,8 +95,8 @@ TickShares tick_shares(const SpineTuning& tuning) {
              range_of(SpineLinkKind::shin, tuning)}};
 }
 
-// Upper limit of a joint. At a surface legs may tuck farther than a swing takes them, as far as a
-// person's do. Afterwards the limit returns with the joint at a limited speed.
+// Upper limit of a joint. At a surface, legs may be pushed beyond their swing limit, up to a human
+// range. Afterwards the limit follows the joint back at a limited speed.
 double reached_limit(SpineLinkKind kind, double limit_rad, bool touches, double angle_rad) {
     constexpr double k_hip_rad = 1.9;
     constexpr double k_knee_rad = 2.4;
@@ -214,7 +214,7 @@ void play(const Motion& motion, double scale, const SpineTuning& tuning, SpineMe
     memory.rate_span_s = span_s;
 }
 
-// Looks for surfaces beside the body, if the stage has any.
+// Searches for surfaces beside the body, if io.surfaces is set.
 void touch_surfaces(const PropagateSpineIo& io, Entity player, const Motion& motion,
                     const TrackedFloor& floor, SpineMemory& memory) {
     if (!io.surfaces) {

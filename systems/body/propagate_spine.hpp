@@ -45,8 +45,8 @@ inline constexpr double k_longest_spine_s = 0.5;
 // (hang_body.hpp). Loose bodies in the hands pull nothing. Without a grip the trunk keeps its
 // posture below the head, and an acceleration acts through the chain's inertia alone.
 //
-// Held by trunk or leg: the body moves as one with its player and does not trail. The grip's anchor
-// is on the body, so a leg that gave way to the pull would feed it.
+// Held by trunk or leg: the body moves rigidly with its player and does not trail. The grip's
+// anchor is on the body: if a leg gave way to the pull, that would increase the pull.
 //
 // Contacts: trunk, thighs and shins stay in front of the first surface along each of them, seen
 // from the head's side, and slide along it, within the joint limits (body_contacts.hpp). They apply

@@ -8,7 +8,8 @@
 namespace handhold {
 namespace {
 
-constexpr double k_close_again_in_grip_m = 1e-6;  // authored poses are checked where they are
+// small: an authored pose is checked at the exact wrist
+constexpr double k_close_again_in_grip_m = 1e-6;
 
 void count_fallback(ChainFallback fallback, StageStats& stats) {
     if (fallback == ChainFallback::all_cuts) {

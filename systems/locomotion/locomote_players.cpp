@@ -63,8 +63,8 @@ void turn_about(PlayerOrigin& origin, const Vec3& pivot_ps, const Quat& turn_ws)
     origin.pose_ws.position = pivot_ws - origin.pose_ws.rotation * pivot_ps;
 }
 
-// Hands on parts of a player who turns stay where they are in the world. From there they follow the
-// parts (update_grabs).
+// If a player turns whose parts are gripped, those grips stay where they are in the world. From
+// there they follow the parts (update_grabs).
 void keep_holds_in_place(const LocomotePlayersIo& io, Entity player, const Pose& before_ws,
                          const Pose& now_ws) {
     for (const Entity hand : io.body_hold.owners()) {
@@ -115,7 +115,8 @@ void update_reference(const LocomotePlayersIo& io, const Grips& grips,
         reference.linear_mps = io.scene_velocity_mps;
         return;
     }
-    // At the point last gripped, not at the player: a turning body is faster at a distant player.
+    // The velocity at the point last gripped, not at the player: a turning body would be faster
+    // there.
     const Vec3 arm = io.body_pose.at(reference.body).pose_ws.rotation * reference.point_bs;
     reference.linear_mps = support->linear_mps + support->angular_radps.cross(arm);
 }

@@ -174,7 +174,8 @@ bool RowSystem::descend_active_set(std::span<const Row> rows) {
 // Moves the feasible point towards lambda until a row would start to pull; that row becomes
 // inactive.
 RowSystem::Approach RowSystem::step_towards_solution(std::span<const Row> rows) {
-    constexpr double k_full_step = 2.0;  // no row blocks; a pulling row blocks at 1 or less
+    // > 1: no row limits the step; a row that would pull limits it to 1 or less
+    constexpr double k_full_step = 2.0;
     const auto step_length_of = [&](std::size_t i) {
         const bool pulls = rows[i].unilateral && is_active(i) && lambda_[i] < 0.0;
         return pulls ? feasible_lambda_[i] / (feasible_lambda_[i] - lambda_[i]) : k_full_step;

@@ -14,7 +14,7 @@ namespace handhold {
 struct StepControl {
     double max_drive_regularisation = 1e-2;  // >= min_drive_regularisation
     double min_drive_regularisation = 1e-9;
-    // Of contacts that contradict each other; at least their initial regularisation.
+    // For contacts that contradict each other; at least their initial regularisation.
     double max_contact_regularisation = 1e-3;
     // Factor on the drives' regularisation after a step that reduced the error, and after one that
     // did not.

@@ -19,7 +19,7 @@ namespace handhold {
 // down: then drives and contacts are met in part.
 //
 // `scratch` holds the solution with restitution; `solve` solves scratch.rows again after
-// restitution was removed from them. `refine` improves the last solution, since nobody does so
+// restitution was removed from them. `refine` improves the last solution, because it is not refined
 // afterwards. Returns false if nothing had to be done.
 bool limit_energy(const IslandView& island, const std::function<void()>& solve,
                   const std::function<void()>& refine, SolveScratch& scratch);

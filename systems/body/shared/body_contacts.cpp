@@ -94,7 +94,7 @@ void search_part(const BodySurroundings& around, const Vec3& from_ws, const Vec3
     search.near = near.value_or(0);
     auto hit = around.surfaces.cast_sphere(radius_m, from_ws, to_ws, skip);
     if (hit && !(hit->distance_m > 0.0)) {
-        // It begins in a surface, which hides those further along.
+        // The cast begins inside a surface, which hides the surfaces farther along.
         hit = around.surfaces.cast_ray(from_ws, to_ws, skip);
     }
     search.hits = hit.has_value();

@@ -41,16 +41,17 @@ ChestInputs chest_inputs(const ChestView& view, HandSide side) {
     return inputs;
 }
 
-// Of turn_to_reach_across, for smoothness. Angles: of the line from shoulder to hand, from straight
-// ahead towards the other side, seen along the chest's up axis; distances in that view, in arm
-// lengths. With the excess over body_constants::k_across_rad, turn = excess^2 / (excess +
-// k_across_soft_rad); it fades in over k_across_fade from body_constants::k_across_bent.
+// Constants that make turn_to_reach_across smooth. All are measured in the view along the chest's
+// up axis: angles between straight ahead and the line from shoulder to hand, positive towards the
+// other side; distances in arm lengths. With the excess over body_constants::k_across_rad, turn =
+// excess^2 / (excess + k_across_soft_rad); it fades in over k_across_fade from
+// body_constants::k_across_bent.
 constexpr double k_across_soft_rad = 0.349;
 constexpr double k_across_fade = 0.15;
-// The turn fades out if the other hand is inside of its own shoulder by so many arm lengths: then
-// the hands are not on one side.
+// The turn fades out as the other hand is inside of its own shoulder by up to this many arm
+// lengths, because the hands are then not on one side of the body.
 constexpr double k_other_inside = 0.2;
-// Beyond these angles the hand may as well be behind the back: the turn fades to zero.
+// At these angles the turn fades to zero, because the hand may be behind the back instead.
 constexpr double k_across_fades_rad = 1.92;
 constexpr double k_across_ends_rad = 2.618;
 

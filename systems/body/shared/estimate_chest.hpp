@@ -12,8 +12,9 @@
 // Constants: body_constants.hpp, fitted by tools/lab/fit_body.
 namespace handhold {
 
-// The head as the trunk follows it: eyes and up axis. A head that looks up turns ever more about
-// the ears alone: of a pitch p the trunk follows p k / (p + k), with k = body_constants::k_nod_rad.
+// The head as the trunk follows it: eyes and up axis. The more the head looks up, the more it turns
+// about the ears alone: at a pitch p the trunk follows only p k / (p + k), with k =
+// body_constants::k_nod_rad.
 struct TrunkView {
     Vec3 eyes_ps;
     Vec3 up_ps;
@@ -35,7 +36,8 @@ struct ChestCorrection {
     double turn_rad = 0.0;  // positive: to the left
     ChestOffset offset;
 };
-// facing_ps: of the talk's form. looks_ps: as ArmMemory::looks_ps; look_ps: not filtered.
+// facing_ps: result of chest_facing. looks_ps: ArmMemory::looks_ps. look_ps: look direction, not
+// filtered.
 ChestCorrection chest_correction(const Vec3& facing_ps, const Vec3& look_ps,
                                  const std::array<Vec3, k_look_filters>& looks_ps,
                                  const TrackedBody& body, const BodyAxes& axes);

@@ -25,10 +25,10 @@ inline constexpr double k_whole_lean_rad = 80.0 / 180.0 * k_pi;
 inline constexpr double k_no_lean_rad = 130.0 / 180.0 * k_pi;
 
 // `pull_cs`: BodyPull::now in the chest's axes, of length p < 1 at the angle a from +Y. The trunk
-// turns by a p from the chest's -Y towards the opposite of the pull: not at all without a pull, and
-// nearly all the way for a strong one. From a = k_whole_lean_rad on the bend fades, and is zero
-// from k_no_lean_rad on: hands below the chest push rather than pull, and no trunk folds onto
-// itself.
+// turns by the angle a * p from the chest's -Y towards the opposite of the pull: not at all without
+// a pull, nearly the whole angle for a strong one. From a = k_whole_lean_rad on the bend fades, and
+// is zero from k_no_lean_rad on: hands below the chest push rather than pull, and no trunk folds
+// onto itself.
 TrunkLean lean_of(const Vec3& pull_cs);
 
 inline Quat leaning_chest(const Quat& chest, const TrunkLean& lean) {

@@ -13,8 +13,8 @@ namespace handhold {
 HingeChain finger_chain(const FingerRig& finger, double opposition_rad, const Pose& wrist);
 
 ChainFitSettings chain_settings(const FingerTuning& tuning);
-// A digit that penetrates less deep has no surface through its axis: it is on one side, and that is
-// the outside, from where it closed. Smallest radius of the digit's links.
+// Smallest radius of the digit's links. If a digit penetrates less than this, no surface crosses
+// the axes of its links: the axes are still outside, on the side from which the digit closed.
 double clear_depth_m(const FingerRig& finger);
 
 // The wrist held within the palm's limits.

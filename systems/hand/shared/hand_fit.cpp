@@ -241,7 +241,7 @@ class Fitter {
         }
     }
 
-    // s of hand_fit.hpp for one finger: 0 in contact, towards 1 far off.
+    // The weight s of hand_fit.hpp for one finger: 0 in contact, towards 1 far off.
     double free_share(std::size_t f) const {
         const HandSphere* const nearest = spheres_.nearest(f);
         if (nearest == nullptr) {

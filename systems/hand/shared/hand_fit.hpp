@@ -37,8 +37,8 @@
 //
 // Fingers whose angles are kept have no fan and alike with their neighbours. pull(x) = x^2 / (1 +
 // x^2 / g^2) is bounded by g^2, so distant surfaces hardly attract a digit; g = k_let_go_m; l =
-// k_fit_lever_m. Hinges q1, q2, q3 are numbered from the knuckle. Gaps within k_sphere_reach_m
-// count, those of tips within their own reach (hand_spheres.hpp). Costs are half of these sums. The
+// k_fit_lever_m. Hinges q1, q2, q3 are numbered from the knuckle. Only gaps within k_sphere_reach_m
+// count; tips have their own reach (hand_spheres.hpp). Costs are half of these sums. The
 // inequalities are penalties, stiffer in this order: bends, directions, claw, palm, joints, gaps;
 // where they contradict each other, the fit divides the violation among them. Each round queries
 // the gaps (hand_spheres.hpp), linearises and solves (engine/math/penalty_quadratic.hpp). Sources:
