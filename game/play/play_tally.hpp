@@ -42,7 +42,7 @@ class PlayTally {
     double draw_us() const { return draw_us_.empty() ? 0.0 : draw_us_.back(); }
 
     // The text of report.json: figures, fallbacks by name, and times of runtime, drawing and
-    // showing (median, p99 and max in microseconds). `state_hash`: as format_hash writes it.
+    // showing (median, p99 and max in microseconds). `state_hash`: text from format_hash.
     std::string report_json(const std::string& scene, const std::string& state_hash) const;
     // Two lines for a terminal: distances climbed and frame costs.
     std::string summary() const;

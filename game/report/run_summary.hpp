@@ -22,9 +22,9 @@ struct TimeFigures {
 };
 TimeFigures summarize_times(std::vector<double> times_us);
 
-// Worst distance between a gripping hand and its anchor. The player can follow one hand, so its
-// error should vanish. With two hands, changes of the tracked distance between them remain as
-// errors.
+// Worst distance between a gripping hand and its anchor. The player can follow a single gripping
+// hand exactly, so its error should be 0. With two gripping hands, changes of the tracked distance
+// between them remain as errors.
 struct HandErrorFigures {
     double one_hand_free_m = 0.0;  // not both hands grip; no contacts and no push-back in the frame
     double two_hands_m = 0.0;      // both hands grip, or did in the previous frame
