@@ -86,7 +86,7 @@ void visit_body_tuning(TuningType& t, const See& see) {
         "stretch.");
     see("arm.shoulder_follow_m", t.arm.shoulder_follow_m, "m", 0.0, 0.5,
         "Maximum movement of a shoulder by clavicle and reach together, before the bones stretch; "
-        "what the clavicle alone does is not limited by it.");
+        "movement by the clavicle alone is not limited.");
     see("arm.swivel_lag_s", t.arm.swivel_lag_s, "s", 0.0, 10.0,
         "Time constant with which an elbow follows its wanted direction.");
     see("arm.swivel_speed_radps", t.arm.swivel_speed_radps, "rad/s", 0.1, 1e3,
@@ -96,8 +96,8 @@ void visit_body_tuning(TuningType& t, const See& see) {
     see("arm.elbow_cone_cosine", t.arm.elbow_cone_cosine, "", -2.0, 1.0,
         "Cosine of the half angle of the cone arm.elbow_cone; -1 or less: no limit.");
     see("arm.elbow_inertia", t.arm.elbow_inertia, "", 0.0, 1.0,
-        "Share by which a bent arm's elbow keeps its position while the hand moves; 0: none, 1: "
-        "all.");
+        "How much a bent arm's elbow keeps its position while the hand moves; 0: not at all, 1: "
+        "fully.");
     see("arm.chest_speed_radps", t.arm.chest_speed_radps, "rad/s", 0.1, 1e3,
         "Maximum angular speed of the chest.");
     see("calibration.hold_s", t.calibration.hold_s, "s", 0.1, 10.0,
@@ -126,9 +126,8 @@ void visit_body_tuning(TuningType& t, const See& see) {
     see("spine.twist_limit_rad", t.spine.twist_limit_rad, "rad", 0.0, 1.5,
         "Maximum twist of each link against the link above.");
     see("spine.hang", t.spine.hang, "", 0.0, 10.0,
-        "How far the trunk turns to hang from the gripping hands: at 1, a hand at arm's length "
-        "turns "
-        "it by 0.7 of the angle. 0: off.");
+        "Strength with which the trunk turns to hang from the gripping hands; 0: off. At 1, a hand "
+        "at arm's length turns the trunk through 0.7 of the angle to hanging straight.");
     see("spine.hang_lag_s", t.spine.hang_lag_s, "s", 0.0, 10.0,
         "Mean delay with which the trunk follows the pull of the hands.");
     see("additive.idle", t.additive.idle, "", 0.0, 3.0, "Weight of the idle clip; 0: off.");
@@ -139,7 +138,8 @@ void visit_body_tuning(TuningType& t, const See& see) {
     see("additive.look", t.additive.look, "", 0.0, 3.0,
         "Weight of the clips driven by the head's look direction; 0: off.");
     see("additive.clavicle", t.additive.clavicle, "", 0.0, 3.0,
-        "Weight of the clavicle clip, whose turn comes on top of arm.clavicle_share; 0: off.");
+        "Weight of the clavicle clip, which adds to the movement that arm.clavicle_share scales; "
+        "0: off.");
 }
 
 }  // namespace handhold

@@ -89,7 +89,8 @@ struct HandSight {
     bool is_clear = true;            // no wall from outside_bs, or from the head, to the palm
 };
 
-// Which hands may grip a body. A body without one may be gripped by any hand. Written by the host.
+// Which hands may grip a body. A body without this component may be gripped by any hand. Written by
+// the host.
 struct GrabRule {
     bool left = true;
     bool right = true;
@@ -98,8 +99,8 @@ struct GrabRule {
     std::int32_t priority = 0;
 };
 
-// Layers of the bodies that a player's hands grip. A player without one grips all. Written by the
-// host.
+// Layers of the bodies that a player's hands grip. A player without this component grips all.
+// Written by the host.
 struct GrabLayers {
     std::uint32_t layers = ~0U;
 };

@@ -23,9 +23,9 @@ struct PropagateSpineIo {
     const Column<HeadTracking>& head;            // in: pose_ps; shift_m is the floor's height
     const Column<BodyMeasures>& measures;        // in
     const Column<ArmEstimate>& estimate;         // in: the chest
-    const Column<HandOwner>& owner;              // in: of hands that pull the body
+    const Column<HandOwner>& owner;              // in: hands that pull the body
     const Column<Grab>& grab;           // in: hands that are not in this column hold nothing
-    const Column<BodyHold>& body_hold;  // in: of hands on other players' parts
+    const Column<BodyHold>& body_hold;  // in: hands on other players' parts
     Column<SpineMemory>& memory;        // in/out
     Column<SpinePose>& pose;            // out; in: as shown in the last frame
 };

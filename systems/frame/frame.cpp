@@ -18,7 +18,7 @@ void read_input(const FrameContext& f) {
 
 // Everything before the solve.
 void prepare_solve(const FrameContext& f, Contacts contacts) {
-    // Intent: what players do.
+    // Intent: grabs, pulls and locomotion of players.
     group_joints(f);
     place_colliders(f, Stage::update_grabs);
     update_grabs(f);

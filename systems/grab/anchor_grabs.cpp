@@ -142,9 +142,9 @@ bool leaves_shared_grip(const HandPair& pair) {
            pair.other->phase == GrabPhase::holding && share_hold(pair.grab, *pair.other);
 }
 
-// Of two hands that grip together (share_hold), one that lets go leaves now; the hands that stay
-// take new anchors. All anchors are found before any hand leaves, because hands of several players
-// may drive one body.
+// If one of two hands that grip together (share_hold) lets go, it leaves now, and the other takes a
+// new anchor. All anchors are found before any hand leaves, because hands of several players may
+// drive one body.
 void leave_shared_grips(const AnchorGrabsIo& io, const PhaseTuning& tuning, StageStats& stats) {
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const HandPair pair = pair_of(io, row);

@@ -49,7 +49,7 @@ struct GatherSurroundingsIo {
     const Column<HandOwner>& owner;             // in
     const Column<HandTracking>& hand;           // in: pose_ps, end of the frame
     const Column<Grab>& grab;                   // in: kind, body, anchor_bs
-    const Column<BodyHold>& body_hold;          // in: of hands on a player's part
+    const Column<BodyHold>& body_hold;          // in: hands on a player's part
     const Column<PlayerOrigin>& origin;         // in: pose_ws, end of the frame
     const Column<HeadTracking>& head;           // in: pose_ps, for hands on a player's head
     const Column<RenderPose>& shown;            // in: held players, as of the last frame
@@ -74,8 +74,8 @@ struct GatherSurroundingsIo {
 //
 // Fallbacks counted: body_no_surface.
 void gather_surroundings(const GatherSurroundingsIo& io, StageStats& stats);
-// The same for the elements [first, last) of `owner`. `surroundings` must already have its full
-// size.
+// gather_surroundings for the elements [first, last) of `owner`. `surroundings` must already have
+// its full size.
 void gather_surroundings(const GatherSurroundingsIo& io, std::size_t first, std::size_t last,
                          StageStats& stats);
 

@@ -39,8 +39,8 @@ struct ReadTrackingIo {
 //
 // Commands hold for their own frame. Numbers in them that are not finite count as 0.
 void read_tracking(const ReadTrackingIo& io, const Tuning& tuning, StageStats& stats);
-// The same for the players at the indices [first, last) of `head`. Ranges that share no player may
-// be read in parallel.
+// read_tracking for the players at the indices [first, last) of `head`. Ranges that share no player
+// may be read in parallel.
 void read_tracking(const ReadTrackingIo& io, std::size_t first, std::size_t last,
                    const Tuning& tuning, StageStats& stats);
 

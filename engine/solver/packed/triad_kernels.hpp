@@ -50,7 +50,7 @@ struct WideMat3 {
 // One step of a strand pack: one link in each of its four strands. `before` and `after` are the
 // nodes outside the strand at its ends (TriadPlan::StrandPack).
 struct Links4 {
-    Wide3 value;    // residual, as TriadArrays::values
+    Wide3 value;    // residual, see TriadArrays::values
     Wide3 unknown;  // scratch of the solve
     Wide3 impulse;  // sum of lambdas, N s
     // The step's row of the factor.

@@ -51,7 +51,7 @@ Vec3 shoulder_follow(const Vec3& hand_m, double arm_m, double shifted_m, const A
 Vec3 elbow_pole(const BodyView& view, HandSide side) {
     using namespace body_constants;
     const std::size_t own = index_of(side);
-    // Of the right hand the thumb's side is back x fingers; a mirrored hand's is the opposite.
+    // On a right hand, back x fingers points to the thumb's side; on a left hand, away from it.
     const Vec3 thumb = side == HandSide::right ? view.back[own].cross(view.fingers[own])
                                                : view.fingers[own].cross(view.back[own]);
     const Vec3 rest = mirrored_if_left(Vec3(k_pole_rest[0], k_pole_rest[1], k_pole_rest[2]), side);

@@ -32,7 +32,7 @@ struct GrabFrame {
     const Column<RigidBody>& body;              // in
     const Column<Joint>& joint;                 // in
     const Column<JointState>& joint_state;      // in: at the frame's start
-    const Column<BodyHold>& body_hold;          // in: of hands on a player's part
+    const Column<BodyHold>& body_hold;          // in: hands on a player's part
     Column<Grab>& grab;                         // in/out: anchor, target, phase, two_handed
 };
 

@@ -83,7 +83,7 @@ struct FoundSurface {
     std::optional<BodyPart> part;
 };
 
-// The nearer of the two.
+// Returns the nearer of the two hits.
 template <typename ColliderHit>
 std::optional<FoundSurface> nearer(const std::optional<ColliderHit>& collider,
                                    const std::optional<PartHit>& part) {

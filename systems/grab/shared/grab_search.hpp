@@ -34,15 +34,15 @@ struct GrabSearch {
     const JointGroups& joint_groups;              // in
     const Column<AuthoredGrips>& authored_grips;  // in
     GrabRules rules;                              // in
-    const Column<RenderPose>& shown;       // in: of the last frame; players not in it: heads alone
-    const Column<BodyMeasures>& measures;  // in: every player of `shown`
-    const Column<HandPull>& pull;          // in: of the last frame
-    const Column<ReferenceVelocity>& reference;  // in: of the last frame
+    const Column<RenderPose>& shown;  // in: from the last frame; players not in it: heads alone
+    const Column<BodyMeasures>& measures;        // in: every player of `shown`
+    const Column<HandPull>& pull;                // in: from the last frame
+    const Column<ReferenceVelocity>& reference;  // in: from the last frame
     Column<HandSight>& sight;                    // in/out
     Column<Grab>& grab;                          // in/out
-    Column<AuthoredHold>& authored_hold;         // in/out: of hands in an authored grip
+    Column<AuthoredHold>& authored_hold;         // in/out: hands in an authored grip
     Column<HeadIgnores>& head_ignores;           // in/out: held bodies are added
-    Column<BodyHold>& body_hold;                 // in/out: of hands on a player's part
+    Column<BodyHold>& body_hold;                 // in/out: hands on a player's part
     Column<GrabOrder>& order;                    // in/out: carried out and removed
 
     ShownBodies bodies() const {

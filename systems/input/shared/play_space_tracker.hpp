@@ -50,7 +50,7 @@ class PlaySpaceTracker {
     //  - head: the head moved farther than TrackingTuning::max_jump_m, and the hands did not match.
     Jump follow(const TrackingSample& sample, const TrackingTuning& tuning);
 
-    // Of the sample followed last.
+    // The hand's pose in play space for `reading`, which belongs to the last sample followed.
     Pose hand_ps(const ControllerSample& reading, HandSide side) const;
     bool is_in_reach(const Vec3& hand_ps, double max_arm_m) const;
 

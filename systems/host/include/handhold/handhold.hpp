@@ -260,7 +260,7 @@ class World {
     }
     // A body's velocity in the world.
     struct Motion {
-        // Of the centre of mass.
+        // Velocity of the centre of mass.
         Vec3 velocity_mps;
         // About the world's axes.
         Vec3 angular_velocity_radps;
@@ -416,7 +416,7 @@ class World {
     Status step(double dt_s, std::span<const hh_player_input> inputs = {}) {
         return hh_world_step(world_, dt_s, inputs.data(), inputs.size());
     }
-    // The same for a world with one player.
+    // Steps a world with one player.
     Status step(double dt_s, const hh_player_input& input) {
         return hh_world_step(world_, dt_s, &input, 1);
     }

@@ -80,7 +80,7 @@ typedef struct hh_body_def {
     hh_vec3 velocity_mps;         /* each within 1e6 */
     hh_vec3 angular_velocity_radps; /* each within 1e4 */
     double mass_kg;        /* dynamic: [1e-12, 1e15], default 1 */
-    hh_vec3 inertia_kgm2;  /* about the principal axes; 0: of the solid shape. Needed without one */
+    hh_vec3 inertia_kgm2;  /* about the principal axes; 0: computed from the shape, if there is one */
     double restitution;    /* [0, 1] */
     double friction;       /* [0, 1e6], default 0.4 */
     double gravity_scale;  /* default 1; within 1000 */
@@ -174,7 +174,7 @@ HH_API bool hh_joint_is_valid(const hh_world* world, hh_joint joint);
  * `capacity`. A null buffer of capacity 0: the number only. */
 HH_API hh_result hh_body_joints(const hh_world* world, hh_body body, hh_joint* joints,
                                 size_t capacity, size_t* count);
-/* As of the last step; null outputs are skipped. A hinge counts full turns. */
+/* State after the last step; null outputs are skipped. A hinge counts full turns. */
 HH_API hh_result hh_joint_state(const hh_world* world, hh_joint joint, double* coordinate,
                                 double* speed, bool* latched);
 

@@ -153,7 +153,7 @@ typedef enum hh_reason {
     HH_REASON_TRACKING_LOST = 6,   /* it opened unseen, or came back too far away */
     HH_REASON_BODY_GONE = 7,       /* the body was removed */
     HH_REASON_BY_HOST = 8,         /* hh_hand_release, hh_hand_grip or a teleport */
-    HH_REASON_OTHER_HAND = 9       /* one of two hands on a body left */
+    HH_REASON_OTHER_HAND = 9       /* the other of two hands on a body let go */
 } hh_reason;
 
 typedef struct hh_event {

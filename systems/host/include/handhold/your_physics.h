@@ -137,7 +137,7 @@ typedef struct hh_hand_constraint {
 typedef struct hh_player_motion {
     hh_player player;
     hh_vec3 origin;       /* at the start of the step */
-    hh_vec3 velocity_mps; /* there, with what thrusters and drag did */
+    hh_vec3 velocity_mps; /* at the start of the step, with thrusters and drag applied */
     /* For this step. The player's own while a hand grips something static, kinematic or at least
      * phases.heavy_body_kg. Else 1000 times the heaviest held body, so that light bodies do not
      * shake the player; for bodies from phases.kappa_light_kg to phases.kappa_heavy_kg it falls to
@@ -152,7 +152,7 @@ typedef struct hh_player_motion {
 typedef struct hh_solved_player {
     hh_player player;
     hh_vec3 origin;       /* at the end of the step */
-    hh_vec3 velocity_mps; /* there */
+    hh_vec3 velocity_mps; /* at the end of the step */
 } hh_solved_player;
 
 /* A velocity that the host gives its body. */
