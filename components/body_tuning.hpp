@@ -82,8 +82,8 @@ void visit_body_tuning(TuningType& t, const See& see) {
     see("arm.clavicle_share", t.arm.clavicle_share, "", 0.0, 3.0,
         "Scale of the clavicle's movement; 0: rigid clavicles.");
     see("arm.reach", t.arm.reach, "", 0.5, 1.0,
-        "Share of the arm's length above which the shoulder follows the hand before the bones "
-        "stretch.");
+        "Distance of a hand from its shoulder, as a share of the arm's length, above which the "
+        "shoulder follows the hand. The bones stretch only after that.");
     see("arm.shoulder_follow_m", t.arm.shoulder_follow_m, "m", 0.0, 0.5,
         "Maximum movement of a shoulder by clavicle and reach together, before the bones stretch; "
         "movement by the clavicle alone is not limited.");

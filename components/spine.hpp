@@ -38,7 +38,7 @@ struct BodyContact {
     double surface_m = 0.0;          // includes the part's thickness
 };
 
-// The last search for a surface along a part of the body, and its answer. Written by
+// The last search for a surface along a part of the body, and its result. Written by
 // find_body_contacts, which repeats it when the part or a surface near it has moved.
 struct BodySearch {
     bool known = false;           // false: the next search casts

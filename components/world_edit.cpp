@@ -71,7 +71,7 @@ void teleport_body(World& world, Entity body, const Pose& pose_ws) {
     let_go_of(world, body, k_no_entity);
     for (HandSight& sight : world.hand_sight.rows()) {
         if (sight.frame == body) {
-            sight = {};  // the hand stays where it is
+            sight = {};  // the hand does not move: its sight is found again
         }
     }
     place_body(world, body, pose_ws);

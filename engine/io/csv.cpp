@@ -119,7 +119,7 @@ std::optional<FileError> parse_row(std::string_view line, std::size_t line_numbe
         const std::string_view cell = line.substr(begin, end - begin);
         begin = end + 1;
         if (column >= table.columns.size()) {
-            continue;  // the error below names the number of cells
+            continue;  // skipped here: the error below states the number of cells
         }
         double value = 0.0;
         if (!parse_cell(cell, nan, value)) {

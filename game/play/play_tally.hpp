@@ -17,7 +17,7 @@ namespace handhold {
 struct PlayFigures {
     std::uint64_t frames = 0;
     double played_s = 0.0;
-    // path of the play space, relative to the scene's reference velocity
+    // Path of the play space, relative to the scene's reference velocity.
     double path_m = 0.0;
     double climbed_m = 0.0;  // part of path_m during which a hand gripped a surface
     // Displacement from start to end, including the reference velocity's.

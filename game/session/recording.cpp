@@ -94,7 +94,7 @@ class RowReader {
         pose.position = Vec3(cells[begin], cells[begin + 1], cells[begin + 2]);
         pose.rotation =
             Quat(cells[begin + 6], cells[begin + 3], cells[begin + 4], cells[begin + 5]);
-        if (pose.rotation.coeffs().isZero(0.0)) {  // how some recorders write a lost device
+        if (pose.rotation.coeffs().isZero(0.0)) {  // some recorders write zeros for a lost device
             pose = lost_pose();
             return true;
         }

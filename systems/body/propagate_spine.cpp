@@ -172,7 +172,7 @@ void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemor
             memory.velocity_mps[i] += correction_mps;
         }
         if (link.parent != k_chest_link && outside == returned) {
-            // The pelvis has two thighs; each contributes half.
+            // The pelvis has two thighs; each contributes half of the correction.
             const double share = link.kind == SpineLinkKind::thigh ? 0.5 : 1.0;
             memory.velocity_mps[link.parent] -= (share * tuning.hand_back) * correction_mps;
         }
@@ -220,7 +220,8 @@ void touch_surfaces(const PropagateSpineIo& io, Entity player, const Motion& mot
     if (!io.surfaces) {
         return;
     }
-    // The eyes are near the surface of the head's collider, which may touch other surfaces.
+    // A point inside the head, because the eyes are near the surface of the head's collider, which
+    // may touch other surfaces.
     const Vec3 in_head_m(0.0, 0.0, 0.08);
     const BodySurroundings around{io.surfaces,
                                   io.persistent_id.at(player).value,
@@ -259,7 +260,7 @@ void propagate_player(const PropagateSpineIo& io, std::size_t row, const SpineTu
     const double floor_m = io.head.at(player).shift_m.y();
     const TrackedFloor floor{chest_ps.position.y() - floor_m, scale};
     const Held is_held = held(io, player);
-    // A held body's velocities are relative to its player's.
+    // While the body is held, its velocities are relative to the player's velocity.
     const Vec3 reference_ws =
         is_held.now ? io.velocity.at(player).linear_mps : io.reference.at(player).linear_mps;
     const Vec3 own_m = chest_ps.position - memory.chest_ps.position;

@@ -58,21 +58,21 @@ void finish_solve(const FrameContext& f) {
 
 // What players see of each other.
 void show(const FrameContext& f) {
-    // Palms and fingers on what they hold.
+    // Poses palms and fingers on what the hands hold.
     gather_surroundings(f);
     search_grip(f);
     constrain_palms(f);
     sweep_fingers(f);
     fit_hands(f);
 
-    // Arms, spine and legs between head and hands.
+    // Poses arms, spine and legs so that they connect head and hands.
     estimate_arms(f);
     layer_clavicles(f);
     pose_arms(f);
     propagate_spine(f);
     layer_additives(f);
 
-    // Output.
+    // Writes the poses that hosts draw.
     publish_pose(f);
     publish_body(f);
 }

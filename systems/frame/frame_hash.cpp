@@ -31,7 +31,7 @@ class FieldHasher {
         add(pose.position);
         add(pose.rotation);
     }
-    // By persistent id: a handle's slot depends on the pool's history.
+    // Hashes the persistent id, because a handle's slot depends on the pool's history.
     void add(Entity entity) const {
         const PersistentId* const id = world_.persistent_id.find(entity);
         stream_.add(id != nullptr ? id->value : std::uint64_t{0});

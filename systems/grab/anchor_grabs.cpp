@@ -359,7 +359,7 @@ void limit_hand_speeds(const AnchorGrabsIo& io, double max_speed_mps, StageStats
 
 void anchor_grabs(const AnchorGrabsIo& io, const Tuning& tuning, StageStats& stats) {
     end_broken_two_hand_grips(io, stats);
-    // New grips come before releases.
+    // Anchors new grips before it handles releases.
     for (std::size_t row = earliest_new_grab(io); row < io.grab.size();
          row = earliest_new_grab(io)) {
         anchor_new_grab(io, pair_of(io, row), tuning.phases);

@@ -129,7 +129,7 @@ bool other_hand_joins(const UpdateGrabsIo& io, std::size_t row, const GrabTarget
         return false;
     }
     if (target->hold && mine.hold && target->hold->grip == mine.hold->grip) {
-        target->hold.reset();  // a hand has an authored grip for itself
+        target->hold.reset();  // two hands cannot use the same authored grip
     }
     const double since_s = closes_now ? hand.edge_t_s : io.hand.at(io.grab.owners()[row]).edge_t_s;
     start_grab(io, entity, *target, since_s, grab, tuning, stats);

@@ -12,7 +12,7 @@ namespace handhold {
 namespace {
 
 constexpr std::int32_t k_closing_rounds = 10;
-// rounds for a hand that still shows its last fit
+// Rounds for a hand that still shows its last fit.
 constexpr std::int32_t k_closing_again_rounds = 2;
 // A warm fit continues in the next frame.
 constexpr std::int32_t k_rounds = 1;

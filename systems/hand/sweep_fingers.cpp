@@ -62,7 +62,7 @@ class FingerCloser {
         pose.closed_normal_bs = surface.normal_bs;
         pose.is_closed_in_grip = hand.authored != nullptr;
         pose.is_newly_closed = true;
-        // Thumbs last: they stop at fingers.
+        // Closes thumbs last, because they stop at fingers.
         for (const bool are_thumbs : {false, true}) {
             for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
                 if ((hand.rig->fingers[f].name == FingerName::thumb) != are_thumbs) {
@@ -90,8 +90,8 @@ class FingerCloser {
         }
     }
 
-    // Takes the digit's authored pose unless it penetrates, which is counted once per grip. Returns
-    // whether it did.
+    // Takes the digit's authored pose and returns true, unless that pose penetrates. A rejected
+    // pose is counted once per grip.
     bool take_authored_pose(const HandSurroundings& hand, const Pose& wrist_bs, std::size_t f,
                             FingerPose& pose) {
         const FingerRig& finger = hand.rig->fingers[f];

@@ -201,7 +201,8 @@ void gather_contacts(hh_world& host) {
         return std::tuple(c.player.slot, c.side, c.held.slot, c.other.slot);
     };
     std::ranges::stable_sort(host.contacts, {}, key);
-    // Points of one pair become one contact: the first, with the sum of the impulses.
+    // Merges the points of one pair into one contact: the first point, with the sum of the
+    // impulses.
     std::size_t kept = 0;
     for (const HostContact& contact : host.contacts) {
         if (kept > 0 && host.contacts[kept - 1].is_same(contact)) {
@@ -330,7 +331,7 @@ void drop_stale(Column<T>& column, const Column<Required>& required) {
 
 void begin_events(hh_world& host) {
     host.events.clear();
-    // Grips that ended between the steps: teleports.
+    // Adds events for grips that ended between the steps, by teleports.
     for (std::size_t row = 0; row < host.world.grab.size(); ++row) {
         const Entity hand = host.world.grab.owners()[row];
         HandReport& report = report_of(host, hand);

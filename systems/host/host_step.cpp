@@ -150,7 +150,7 @@ void keep_early_samples(hh_world& host, double end_s) {
 void finish_step(hh_world& host) {
     host.stats.fallbacks[static_cast<std::size_t>(Fallback::surface_answer_invalid)] +=
         host.surfaces.take_refused();
-    if (host.may_recycle_shapes) {  // the frame has run without the removed ones
+    if (host.may_recycle_shapes) {  // a frame has run since the shapes were removed
         host.shapes.recycle_removed();
         host.may_recycle_shapes = false;
     }

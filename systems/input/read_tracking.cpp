@@ -191,7 +191,7 @@ struct HandReader {
                 break;
             }
             if (is_stale(sample.t_s, has_sample, hand.sample_t_s)) {
-                continue;  // counted once a player, by the head
+                continue;  // counted once per player, for the head
             }
             if (why_not) {
                 ignore(*why_not, hand_ps, sample.t_s);

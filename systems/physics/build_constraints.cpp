@@ -41,7 +41,7 @@ void write_rigid(const BuildConstraintsIo& io, Entity entity, const RigidBody& b
 
 void write_bodies(const BuildConstraintsIo& io, const Tuning& tuning) {
     FrameGraph& frame = io.frame;
-    // Decides which bodies are heavy.
+    // heavy_body_kg decides which bodies are heavy: if it has changed, all bodies are processed.
     frame.active.all_changed |= frame.heavy_body_kg != tuning.phases.heavy_body_kg;
     frame.heavy_body_kg = tuning.phases.heavy_body_kg;
     frame.active.start_frame(frame.entities.size());
@@ -209,7 +209,7 @@ void write_joint_rows(const Joint& joint, const JointState& state, double dt_s, 
     rows.limited = joint.limited || joint.kind == JointKind::distance;
     rows.lower = joint.lower;
     rows.upper = joint.upper;
-    // Predicted, because the joint may rotate fast.
+    // Uses the predicted angle, because the joint may rotate fast.
     rows.previous = state.coordinate + state.speed * dt_s;
     rows.friction_impulse = joint.friction * dt_s;
     rows.motor_target = rows.motor_time_s = rows.motor_max_impulse = 0.0;
@@ -275,7 +275,7 @@ bool rewrite_joints(const BuildConstraintsIo& io) {
         }
         ++rewritten;
     }
-    // Sources are distinct, so all joints were rewritten.
+    // Each block has another source, so equal counts mean that all joints were rewritten.
     return rewritten == io.joint.size();
 }
 bool rewrite_hands(FrameGraph& frame) {

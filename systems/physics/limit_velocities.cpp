@@ -88,7 +88,7 @@ void clamp_handled_bodies(const LimitVelocitiesIo& io, const LocomotionTuning& t
             }
             Vec3& velocity_mps = io.body_velocity.at(frame.entities[i]).linear_mps;
             if (is_slower(velocity_mps - reference, tuning.object_speed_max_mps)) {
-                continue;  // the common case
+                continue;  // most bodies are slow enough
             }
             const double before = (frame.phase[i].velocity_before_mps - reference).norm();
             if (!driven) {

@@ -79,7 +79,8 @@ SnapshotAssets::SnapshotAssets(const ShapeLibrary& shapes, std::string_view scen
         if (shapes.has({i})) {
             hasher.add_shape(shapes.at({i}));
         } else {
-            stream.add(std::uint64_t{0});  // ids stay apart
+            // A removed shape keeps its place, so that later ids do not shift.
+            stream.add(std::uint64_t{0});
         }
     }
     hash_ = stream.value();

@@ -16,7 +16,8 @@ Quat rotation_from_drive_pair(const DrivePair& drives, const Quat& near) {
     if (apart.norm() < k_min_line_m || apart_bs.norm() < k_min_line_m) {
         return near;
     }
-    // First the direction, then the twist: a rotation about the line keeps the direction.
+    // Aligns the direction first, then the twist: a rotation about the line does not change the
+    // direction.
     const Vec3 line = apart.normalized();
     const Quat lined = rotation_between((near * apart_bs).normalized(), line) * near;
     double sine = 0.0;

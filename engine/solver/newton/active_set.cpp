@@ -90,7 +90,7 @@ void RowSystem::solve_active() {
 }
 
 std::span<const double> RowSystem::solve(std::span<const Row> rows) {
-    // Effect of the rows with a fixed multiplier on the others.
+    // Adds the effect of rows with a fixed multiplier to the residuals of the others.
     const bool has_fixed =
         std::ranges::any_of(fixed_, [](std::uint8_t is_fixed) { return is_fixed != 0; });
     if (has_fixed) {

@@ -285,8 +285,8 @@ NewtonResult iterate(const IslandView& island, const NewtonSettings& settings, d
                                          is_good_step(result.residual_m, previous,
                                                       Steps::k_has_cheap_factor, settings));
             if (result.iterations > 0 && !repeats) {
-                // While each step halves the error, later steps skip what the last one hardly
-                // moved.
+                // While each step halves the error, the next step skips the bodies that the last
+                // one hardly moved.
                 const bool halves = step.is_whole && result.residual_m < 0.5 * previous;
                 steps.prepare(
                     {.adds_stiffness = result.residual_m > settings.geometric_stiffness_from_m,

@@ -57,8 +57,8 @@ struct Links4 {
     WideSymmetric inverse;  // inverse of its own block, or the block's LDL^T
     // inverse times the block that couples the link with the next one, or with `after`
     WideMat3 next;
-    // inverse times the block that couples the link with `before`; valid up to
-    // Strands4::decoupled_step
+    // Inverse times the block that couples the link with `before`; valid up to
+    // Strands4::decoupled_step.
     WideMat3 before;
     bool has_pivots = false;
 };
@@ -67,7 +67,7 @@ struct Links4 {
 struct Strands4 {
     WideSymmetric before;  // subtracted from the block of `before`
     WideSymmetric after;
-    // rows of `after`, columns of `before`; added to the block that couples them
+    // Rows of `after`, columns of `before`; added to the block that couples them.
     WideMat3 between;
     Double4 inverse_sum;  // sum over links of 9 / (sum of its diagonal); see HarmonicMean
     std::size_t decoupled_step = 0;  // first step not coupled with `before`

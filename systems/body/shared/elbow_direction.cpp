@@ -14,7 +14,7 @@ namespace {
 // hand's distance from the shoulder in arm lengths.
 double clavicle_reach_m(double distance) {
     struct Knot {
-        // rise_m: slope from this knot to the next, per arm length
+        // A knot of the function. rise_m: slope from this knot to the next, per arm length.
         double distance, reach_m, rise_m;
     };
     constexpr std::array<Knot, 4> k_curve = {{{1.05, 0.032, (0.070 - 0.032) / (1.2 - 1.05)},

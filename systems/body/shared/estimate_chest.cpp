@@ -48,15 +48,16 @@ ChestInputs chest_inputs(const ChestView& view, HandSide side) {
 // body_constants::k_across_bent.
 constexpr double k_across_soft_rad = 0.349;
 constexpr double k_across_fade = 0.15;
-// The turn fades out as the other hand is inside of its own shoulder by up to this many arm
-// lengths, because the hands are then not on one side of the body.
+// The turn fades to zero while the other hand moves from its own shoulder inwards by this many arm
+// lengths: the hands are then no longer both on one side of the body.
 constexpr double k_other_inside = 0.2;
 // At these angles the turn fades to zero, because the hand may be behind the back instead.
 constexpr double k_across_fades_rad = 1.92;
 constexpr double k_across_ends_rad = 2.618;
 
-// The turn (rad, >= 0) for an arm that reaches across. Hands from their own shoulders, in the axes
-// of the chest and arm lengths, mirrored so that `hand` is the right one.
+// Returns the turn (rad, >= 0) for a right arm that reaches across; mirror the arguments for a left
+// arm. `hand`, `other`: positions of the hands relative to their own shoulders, in the chest's axes
+// and arm lengths.
 double across_turn(const Vec3& hand, const Vec3& other) {
     const double distance = std::sqrt(hand.x() * hand.x() + hand.z() * hand.z());
     constexpr double k_bent = body_constants::k_across_bent;

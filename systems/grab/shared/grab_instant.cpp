@@ -180,7 +180,7 @@ Pose origin_from_jointed_grab(const GrabInstant& now, Entity player, const Pose&
 Pose origin_at(const GrabInstant& now, Entity player, const Grab* holding,
                const HandTracking* holding_hand, const PhaseTuning& tuning) {
     Pose origin_ws = now.origin_ws(player);
-    // A resumed hand may have jumped: its grip says nothing.
+    // The grip of a resumed hand is not used, because the hand may have jumped.
     if (holding == nullptr || holding->phase != GrabPhase::holding || holding_hand->resumed) {
         return origin_ws;
     }

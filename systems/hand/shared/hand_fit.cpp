@@ -67,7 +67,7 @@ class Fitter {
     HandFit run() {
         constexpr double k_gain = 1e-6;  // smaller relative gains do not count
         constexpr double k_gain_m2 = 1e-12;
-        // relative change of the cost that justifies a next round
+        // Relative change of the cost that justifies a next round.
         constexpr double k_worthwhile_gain = 0.01;
         double cost = evaluate();
         HandFit best = described(cost);
@@ -156,7 +156,7 @@ class Fitter {
         }
     }
 
-    // The last hinge bends with its parent.
+    // Adds the couple term: the last hinge bends with its parent.
     void add_coupling(std::size_t f) {
         const FingerAngles& angles = pose_.fingers[f];
         const bool is_of_thumb = is_thumb(rig_.fingers[f]);
@@ -167,7 +167,7 @@ class Fitter {
                             unit(layout_.hinge(f, 2)) + unit(layout_.hinge(f, 1), -share));
     }
 
-    // How a finger bends at knuckle and middle.
+    // Adds the roll term and the bend and claw inequalities of a finger.
     void add_shape(std::size_t f) {
         const FingerAngles& angles = pose_.fingers[f];
         const Unknowns open = layout_.bend(f, -1.0);
@@ -197,7 +197,8 @@ class Fitter {
                          finger.upper_opposition_rad - angle_rad, k_joint_limit * k_lever2);
     }
 
-    // Pulls a digit's nearest sphere and its tip to the surface. Knuckles do not count.
+    // Adds the touch and tip terms, which pull a digit's nearest sphere and its tip to the surface.
+    // Spheres at knuckles are not pulled.
     void add_attraction(std::size_t f) {
         for (const HandSphere& sphere : spheres_.all()) {
             if (!sphere.is_tip || sphere.finger != static_cast<std::int32_t>(f) ||
@@ -227,7 +228,8 @@ class Fitter {
         problem_.add_constant(part, 0.5 * (pull * share - weight) * sphere.gap_m * sphere.gap_m);
     }
 
-    // Neighbours are fingers next to each other in the rig, thumbs left out.
+    // Adds the terms between neighbours: fingers next to each other in the rig, not counting
+    // thumbs.
     void add_neighbours() {
         std::size_t before = k_finger_count;
         for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
@@ -251,7 +253,7 @@ class Fitter {
         return ratio * ratio / (1.0 + ratio * ratio);
     }
 
-    // A finger whose angles are kept, like a pointing one, draws no neighbour to it.
+    // A finger whose angles are kept, like a pointing one, has no terms with its neighbours.
     void add_neighbour(std::size_t a, std::size_t b) {
         const Unknowns fan = layout_.direction(b, 1.0) + layout_.direction(a, -1.0);
         const double fan_rad = along(fan);
@@ -304,7 +306,7 @@ class Fitter {
         }
     }
 
-    // Keeps the thumb out of the fingers.
+    // Adds the inequalities that keep the thumb out of the fingers.
     void add_digit_gaps() {
         std::array<DigitGap, k_max_digit_gaps> gaps;
         const std::size_t count =
@@ -340,7 +342,7 @@ class Fitter {
         }
     }
 
-    // Change of a sphere's gap per unit of every unknown.
+    // Returns the change of a sphere's gap per unit of each unknown.
     Unknowns slope_of(const HandSphere& sphere) const {
         Unknowns slope = Unknowns::Zero();
         slope.head<3>() = sphere.away;
@@ -367,7 +369,7 @@ class Fitter {
         }
     }
 
-    // Moves by the solution of the problem that evaluate() built.
+    // Solves the problem that evaluate() built, and moves the pose by the solution.
     void step() {
         const FitPart part(FitTerm::joints, FitTerms::k_palm);  // costs nothing where it starts
         for (int i = 6; i < layout_.end(); ++i) {

@@ -105,7 +105,8 @@ ClosedThumb close_thumb(const ClosingThumb& closing, const ChainFitSettings& set
     const ThumbCloser closer(closing, tuning, scratch);
     const FingerRig& thumb = closing.thumb;
     const double rest_rad = rest_opposition_rad(thumb, tuning);
-    // Only the chosen opposition is worth a depenetration.
+    // Candidates are closed without depenetration, which is expensive; only the chosen opposition
+    // gets it.
     ChainFitSettings quick = settings;
     quick.depenetrates = false;
     const int steps = std::max(1, tuning.opposition_steps);
