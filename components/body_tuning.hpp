@@ -134,7 +134,8 @@ void visit_body_tuning(TuningType& t, const See& see) {
     see("additive.push_off", t.additive.push_off, "", 0.0, 3.0,
         "Weight of the push-off clip that plays when the last hand lets go; 0: off.");
     see("additive.push_off_speed_mps", t.additive.push_off_speed_mps, "m/s", 0.3, 100.0,
-        "Speed from which the push-off clip plays in full; it does not play below 0.2 m/s.");
+        "Player speed at a push-off from which the clip plays in full; below 0.2 m/s it does not "
+        "play.");
     see("additive.look", t.additive.look, "", 0.0, 3.0,
         "Weight of the clips driven by the head's look direction; 0: off.");
     see("additive.clavicle", t.additive.clavicle, "", 0.0, 3.0,

@@ -27,7 +27,7 @@ struct ColliderProxy {
     std::uint32_t layers = 1;
     std::uint32_t mask = ~0U;
 };
-// Bitwise equal.
+// True if the poses are bitwise equal.
 inline bool same_pose(const Pose& x, const Pose& y) {
     return x.position == y.position && x.rotation.coeffs() == y.rotation.coeffs();
 }

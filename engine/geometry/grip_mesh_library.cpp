@@ -20,8 +20,8 @@ std::size_t work_of(const Shape& shape) {
     return shape.kind == ShapeKind::mesh ? shape.mesh->triangles.size() : 1000;
 }
 
-// Round shapes above this size would be tessellated too coarsely to grip, or into too many
-// triangles.
+// True for round shapes above k_largest_round_m: they would be tessellated too coarsely to grip, or
+// into too many triangles.
 bool is_too_large(const Shape& shape) {
     const bool may_be_round = shape.kind == ShapeKind::sphere || shape.kind == ShapeKind::capsule ||
                               shape.kind == ShapeKind::cylinder ||

@@ -51,8 +51,9 @@ bool skip_letters(std::string_view& text, std::string_view prefix) {
     return true;
 }
 
-// How printf, iostreams and other languages write a NaN: "nan", "-nan", "+NaN", "nan(ind)",
-// "-nan(0x8000000000000)", and "1.#QNAN" or "-1.#IND000" by C libraries of Windows before 2015.
+// True if the cell is a NaN as printf, iostreams or other languages write it: "nan", "-nan",
+// "+NaN", "nan(ind)", "-nan(0x8000000000000)", and "1.#QNAN" or "-1.#IND000" by C libraries of
+// Windows before 2015.
 bool is_nan_text(std::string_view cell) {
     if (!cell.empty() && (cell.front() == '-' || cell.front() == '+')) {
         cell.remove_prefix(1);

@@ -20,7 +20,8 @@ struct PlayFigures {
     // Path of the play space, relative to the scene's reference velocity.
     double path_m = 0.0;
     double climbed_m = 0.0;  // part of path_m during which a hand gripped a surface
-    // Displacement from start to end, including the reference velocity's.
+    // Displacement from start to end in the world, including the motion of the scene's reference
+    // velocity.
     Vec3 moved_m = Vec3::Zero();
     std::uint64_t grips = 0;  // grips of surfaces
     // Hand over hand: one hand gripped while the other, which had gripped before, still held.

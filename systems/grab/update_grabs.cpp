@@ -45,8 +45,8 @@ struct Closing {
     Entity only = k_no_entity;  // null: anything
 };
 
-// A pulled body is gripped once it touches the palm, or has passed it by a frame's travel. At
-// HandTuning::reach_m it would stay that far away.
+// True if a pulled body can be gripped: it touches the palm, or has passed it by a frame's travel.
+// If it were gripped at HandTuning::reach_m already, it would stay that far away.
 bool is_at_palm(const GrabTarget& target, const PalmRay& ray) {
     constexpr double k_touches_m = 0.02;
     const Vec3 offset = target.point_ws - ray.palm_ws;
@@ -248,7 +248,8 @@ void release_overstretched_grabs(const UpdateGrabsIo& io, double max_stretch_m, 
     }
 }
 
-// On a player's part, the distance is that from the surface point that was gripped.
+// True if the palm is farther than `reach_m` from the gripped surface; on a player's part, from the
+// surface point that was gripped.
 bool is_out_of_reach(const UpdateGrabsIo& io, Entity hand, const Vec3& palm_ws, double reach_m) {
     const Grab& grab = io.grab.at(hand);
     if (const BodyHold* const hold = io.body_hold.find(hand)) {

@@ -109,7 +109,7 @@ HandFit best_fit(const HandSurroundings& hand, const GripSurface& surface, const
     return closed.cost < k_change_cost_share * last.cost ? closed : last;
 }
 
-// A hand at rest is fitted until the fit has converged.
+// True if the hand keeps its last fit. A hand at rest is fitted until the fit has converged.
 bool sticks(const HandSurroundings& hand, const FingerTuning& tuning, const FingerPose& pose) {
     const double travel_m = hand_travel_m(pose.fitted_wrist_bs, hand.wrist_bs);
     return travel_m < tuning.reuse_travel_m ? pose.is_converged

@@ -263,7 +263,8 @@ void add_touch_events(hh_world& host) {
     }
 }
 
-// A joint that has reached its limit comes to rest slightly before it.
+// True if the joint is at its limit, with a tolerance: joints come to rest slightly before their
+// limit.
 bool is_at_limit(const Joint& joint, const JointState& state, bool was_at_limit) {
     const double near_limit = was_at_limit ? 1e-2 : 5e-3;  // rad or m
     const bool has_limits = joint.limited || joint.kind == JointKind::distance;

@@ -42,7 +42,7 @@ struct BodyRigSlot {
 struct HandReport {
     GripKind grip = GripKind::none;
     Entity body = k_no_entity;
-    bool is_player = false;  // `body` is one
+    bool is_player = false;  // true: `body` is a player
     double since_s = 0.0;
     Vec3 impulse_ns = Vec3::Zero();  // impulse on the gripped entity
     Entity touched = k_no_entity;    // entity that the open palm touches

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double k_half_turn_rad = 3.14159265358979323846;
 
-// A sample whose time is NaN is not later.
+// True if the sample is later than the end of the frame; false for a time of NaN.
 bool is_later(double t_s, double end_s) { return std::isfinite(t_s) && t_s > end_s; }
 
 // Finds state and pose at the end of the frame, for the head and for hands alike. `later` is the

@@ -23,8 +23,8 @@ struct Grips {
 
 bool is_on_surface(const Grips::Grip& grip) { return grip.grab->kind == GripKind::surface; }
 
-// Surface grips come first, then the hand that closed earlier, then the left hand. The order in the
-// column has no effect.
+// True if grip a comes before b: surface grips first, then the hand that closed earlier, then the
+// left hand. The order in the column has no effect.
 bool comes_first(const Grips::Grip& a, const Grips::Grip& b) {
     if (is_on_surface(a) != is_on_surface(b)) {
         return is_on_surface(a);

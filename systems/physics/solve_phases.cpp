@@ -149,7 +149,8 @@ void reach(const Solve& s) {
     refresh_contacts(s, OldPoints::replaced);
 }
 
-// An island that has begun to push stays one, even if what gave way has left the wall since.
+// True if the island pushes a player. Once it has begun to push it continues, even if the body that
+// gave way is no longer at the wall.
 bool pushes_player(const Solve& s, const Island& island) {
     return is_pushed(s.io.frame, island) || may_push(s.graph(), island);
 }

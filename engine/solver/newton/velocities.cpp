@@ -22,7 +22,7 @@ double row_velocity(const IslandView& island, const Row& row) {
            row.angular_b.dot(b.spin_radps);
 }
 
-// Only joints with one free coordinate have a motor.
+// True if the joint has a motor. Only joints with one free coordinate can have one.
 bool has_motor(const RowBlock& block) {
     return (block.kind == RowKind::hinge || block.kind == RowKind::slider) &&
            block.joint.motor_max_impulse > 0.0;

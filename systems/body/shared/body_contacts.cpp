@@ -12,9 +12,10 @@
 namespace handhold {
 namespace {
 
-// For an eye height of k_scale_eye_m. Casts are wider, so that a part that rests on a surface finds
-// it again. A cast along the trunk begins in the head and is narrower than the head's sphere; one
-// along a leg begins in the pelvis and is narrower than the trunk.
+// Radii of the parts, for an eye height of k_scale_eye_m. The cast spheres are larger, so that a
+// cast finds the surface again on which a part rests. A cast along the trunk begins in the head and
+// is narrower than the head's sphere; a cast along a leg begins in the pelvis and is narrower than
+// the trunk.
 constexpr double k_trunk_radius_m = 0.09;
 constexpr double k_thigh_contact_radius_m = 0.065;
 constexpr double k_shin_contact_radius_m = 0.05;

@@ -51,7 +51,7 @@ constexpr double k_across_fade = 0.15;
 // The turn fades to zero while the other hand moves from its own shoulder inwards by this many arm
 // lengths: the hands are then no longer both on one side of the body.
 constexpr double k_other_inside = 0.2;
-// At these angles the turn fades to zero, because the hand may be behind the back instead.
+// Angles between which the turn fades to zero, because the hand may be behind the back instead.
 constexpr double k_across_fades_rad = 1.92;
 constexpr double k_across_ends_rad = 2.618;
 

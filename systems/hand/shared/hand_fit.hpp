@@ -59,10 +59,11 @@ struct HandFitGoal {
     HandPose first;  // where the rounds start; from the closing, or last frame's fit
     // Angles from the closing, which stated the digits' contacts.
     std::array<FingerAngles, k_finger_count> closed;
-    std::array<bool, k_finger_count> touches = {};   // the closing found a contact
-    std::array<bool, k_finger_count> is_clear = {};  // HandSpheres: `first` is outside solids
-    std::array<bool, k_finger_count> is_fixed = {};  // the angles are kept, as in authored poses
-    bool is_wrist_fixed = false;                     // the wrist is kept
+    std::array<bool, k_finger_count> touches = {};  // the closing found a contact
+    // `first` is known to be outside solids (see HandSpheres)
+    std::array<bool, k_finger_count> is_clear = {};
+    std::array<bool, k_finger_count> is_fixed = {};  // the angles do not change (authored poses)
+    bool is_wrist_fixed = false;                     // the wrist does not move
     std::int32_t rounds = 0;                         // maximum number of rounds
     double max_flex_rad = 0.4;                       // largest step of an angle in one round
 };

@@ -13,10 +13,10 @@ namespace handhold {
 inline constexpr double k_farthest_tracked_m = 1e4;
 inline constexpr double k_latest_s = 1e9;  // a snapshot refuses later times too
 
-// False for a pose that no tracking system can mean: not valid, or k_farthest_tracked_m or more
-// away along an axis.
+// False for a pose that cannot come from tracking: invalid, or k_farthest_tracked_m or more from
+// the origin along an axis.
 bool is_trackable(const Pose& pose_ps);
-// A controller that sleeps, or was never found, reports exactly (0, 0, 0).
+// True if the controller sleeps or was never found: it then reports exactly (0, 0, 0).
 inline bool is_asleep(const ControllerSample& reading) {
     return reading.controller_ps.position == Vec3::Zero();
 }

@@ -106,8 +106,8 @@ double heaviest_free_kg(const ConstraintGraph& graph, const Island& island) {
     return heaviest_kg;
 }
 
-// A hand whose player counts as nearly immovable in this frame: it holds a light body, and nothing
-// has pushed the player yet.
+// True if the island has a hand whose player counts as nearly immovable in this frame: the hand
+// holds a light body, and nothing has pushed the player yet.
 bool has_unyielding_hand(const FrameGraph& frame, const Island& island) {
     return any_block(frame.graph, island, [&frame](const RowBlock& block) {
         if (!is_drive(block)) {

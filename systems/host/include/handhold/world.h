@@ -83,7 +83,7 @@ HH_API hh_result hh_world_step(hh_world* world, double dt_s, const hh_player_inp
                                size_t input_count);
 /* While the game is paused: heads, hands and bodies of players follow their last sample, whatever
  * its time. The clock, bodies, joints, grips and play spaces stand still. The next hh_world_step
- * goes on: hands that are still closed grip where they are by then. */
+ * goes on: hands that are still closed grip where they are at that time. */
 HH_API hh_result hh_world_step_pose_only(hh_world* world, double dt_s,
                                          const hh_player_input* inputs, size_t input_count);
 /* The world's clock, seconds, and the number of steps. Null outputs are skipped. */

@@ -124,7 +124,7 @@ typedef struct hh_hand_constraint {
     hh_vec3 velocity_mps;
     hh_vec3 angular_velocity_radps;
     hh_quat body_rotation;               /* in the world, at the end of the step; not for POINT */
-    hh_vec3 body_angular_velocity_radps; /* that leads there; not for POINT */
+    hh_vec3 body_angular_velocity_radps; /* reaches body_rotation; not for POINT */
     /* The anchor in the world at the end of the step, if the body keeps its velocity. Exact for
      * static and kinematic bodies: a joint may attach the player to this point of the world. */
     hh_pose anchor_end;
