@@ -26,7 +26,7 @@ TimeFigures summarize_times(std::vector<double> times_us);
 // hand exactly, so its error should be 0. With two gripping hands, changes of the tracked distance
 // between them remain as errors.
 struct HandErrorFigures {
-    double one_hand_free_m = 0.0;  // not both hands grip; no contacts and no push-back in the frame
+    double one_hand_free_m = 0.0;  // frames in which one hand grips, without contacts and push-back
     double two_hands_m = 0.0;      // both hands grip, or did in the previous frame
     double any_m = 0.0;            // distance while at least one hand grips
 };

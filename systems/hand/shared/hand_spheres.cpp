@@ -13,7 +13,7 @@ namespace {
 
 constexpr double k_spacing_m = 0.018;          // largest distance between spheres of one link
 constexpr double k_extra_gap_m = 0.005;        // links farther away need no extra sphere
-constexpr double k_max_depth_inside_m = 0.03;  // deepest centre inside a solid that is found
+constexpr double k_max_depth_inside_m = 0.03;  // centres deeper inside a solid are not found
 
 double query_radius_m(const HandSphere& sphere) {
     const double reach_m = sphere.is_tip ? k_tip_reach_m : k_sphere_reach_m;
