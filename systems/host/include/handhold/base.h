@@ -137,8 +137,8 @@ HH_API hh_host_hooks hh_default_host_hooks(void);
  * Not beside any other call of the library. */
 HH_API hh_result hh_set_host_hooks(const hh_host_hooks* hooks);
 /* Sets the number of threads of the library's own pool, [1, 256]. Allowed while worlds exist, for
- * instance to use all cores while a level loads. HH_ERROR_STATE if the host lends parallel_for. Not beside any
- * other call of the library. */
+ * instance to use all cores while a level loads. HH_ERROR_STATE if the host lends parallel_for. Not
+ * beside any other call of the library. */
 HH_API hh_result hh_set_thread_count(uint32_t count);
 HH_API uint32_t hh_thread_count(void);
 

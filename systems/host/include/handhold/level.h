@@ -80,7 +80,8 @@ typedef struct hh_body_def {
     hh_vec3 velocity_mps;         /* each within 1e6 */
     hh_vec3 angular_velocity_radps; /* each within 1e4 */
     double mass_kg;        /* dynamic: [1e-12, 1e15], default 1 */
-    hh_vec3 inertia_kgm2;  /* about the principal axes; 0: computed from the shape, if there is one */
+    /* About the principal axes; 0: computed from the shape, if there is one. */
+    hh_vec3 inertia_kgm2;
     double restitution;    /* [0, 1] */
     double friction;       /* [0, 1e6], default 0.4 */
     double gravity_scale;  /* default 1; within 1000 */
@@ -180,10 +181,10 @@ HH_API hh_result hh_joint_state(const hh_world* world, hh_joint joint, double* c
 
 /* ---- Queries -------------------------------------------------------------------------------- */
 
-/* Queries test the shapes of all bodies, whatever their layers, and the tracked heads of players, at
- * their present poses. Bodies without a shape, and surfaces of hh_world_set_surface_query, are not found.
- * HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds; the first
- * query after a change of the world also compares every body with its place before. */
+/* Queries test the shapes of all bodies, whatever their layers, and the tracked heads of players,
+ * at their present poses. Bodies without a shape, and surfaces of hh_world_set_surface_query, are
+ * not found. HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds;
+ * the first query after a change of the world also compares every body with its place before. */
 typedef struct hh_hit {
     hh_body body;      /* null: a player's head, or nothing was found */
     hh_player player;  /* whose head; null: a body, or nothing was found */
@@ -203,9 +204,9 @@ HH_API hh_result hh_world_cast_sphere(hh_world* world, double radius_m, hh_vec3 
  * where the normal points outward. */
 HH_API hh_result hh_world_closest_point(hh_world* world, hh_vec3 point, double max_distance_m,
                                         hh_player skip, hh_hit* hit);
-/* Everything that a sphere touches: the nearest point of each body and head to its centre, in
- * a fixed order. Inside a solid distance_m is 0 and the normal points outward. `count` gets their number; HH_ERROR_CAPACITY
- * if it is more than `capacity`. Radius in [0, 1e4] m. */
+/* Everything that a sphere touches: the nearest point of each body and head to its centre, in a
+ * fixed order. Inside a solid distance_m is 0 and the normal points outward. `count` gets their
+ * number; HH_ERROR_CAPACITY if it is more than `capacity`. Radius in [0, 1e4] m. */
 HH_API hh_result hh_world_overlap_sphere(hh_world* world, hh_vec3 center, double radius_m,
                                          hh_player skip, hh_hit* hits, size_t capacity,
                                          size_t* count);

@@ -29,7 +29,8 @@ typedef struct hh_player_def {
     hh_measures measures;
     double scale;          /* of all measures, [0.001, 100]; default 1 */
     bool head_collides;    /* the head is a sphere of head.radius_m; default true */
-    uint32_t layers, mask; /* of the head; it touches a body if each one's layers meet the other's mask */
+    /* Of the head; it touches a body if each one's layers meet the other's mask. */
+    uint32_t layers, mask;
     uint32_t grab_layers;  /* the hands grip bodies with one of these layers; default all */
     uint64_t user_data;
 } hh_player_def;
@@ -48,8 +49,8 @@ HH_API hh_result hh_player_set_velocity(hh_world* world, hh_player player, hh_ve
  * point, else the scene's. A player feels the speed relative to it: for vignettes and wind. */
 HH_API hh_result hh_player_reference_velocity(const hh_world* world, hh_player player,
                                               hh_vec3* velocity_mps);
-/* The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked: false
- * before the head's first sample and while it is lost. */
+/* The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked:
+ * false before the head's first sample and while it is lost. */
 HH_API hh_result hh_player_head(const hh_world* world, hh_player player, hh_vec3* center,
                                 double* radius_m, bool* is_tracked);
 HH_API hh_result hh_player_measures(const hh_world* world, hh_player player, hh_measures* measures);
@@ -57,9 +58,9 @@ HH_API hh_result hh_player_set_measures(hh_world* world, hh_player player,
                                         const hh_measures* measures);
 HH_API hh_result hh_player_set_user_data(hh_world* world, hh_player player, uint64_t user_data);
 HH_API hh_result hh_player_user_data(const hh_world* world, hh_player player, uint64_t* user_data);
-/* The hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists with
- * OpenXR's axes (-Z to the fingers, +Y the back of the hand). Null: a controller's grip pose, by the
- * tuning's hand.controller_ numbers, which is the default. */
+/* The hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists
+ * with OpenXR's axes (-Z to the fingers, +Y the back of the hand). Null: a controller's grip pose,
+ * by the tuning's hand.controller_ numbers, which is the default. */
 HH_API hh_result hh_player_set_hand_in_controller(hh_world* world, hh_player player, hh_side side,
                                                   const hh_pose* hand_in_controller);
 /* Returns the pose set by hh_player_set_hand_in_controller, for hosts that have wrists and need
@@ -91,11 +92,12 @@ typedef struct hh_hand_state {
     /* The wrist in the frame of what it grips (of a gripped player: the gripped part), fixed when
      * the hand closed. */
     hh_pose anchor;
-    double error_m;   /* distance of the tracked wrist from the anchor: 0 unless something blocks it */
+    /* Distance of the tracked wrist from the anchor: 0 unless something blocks it. */
+    double error_m;
     /* Impulse of the hand on what it grips in the last step, for haptics. 0 if the host's solver
-     * moved the player (hh_world_end_step): read it there. While hands move only light bodies, hands
-     * and contacts report at most the momentum that the players and bodies involved have, with the
-     * hands' speed on top. */
+     * moved the player (hh_world_end_step): read it there. While hands move only light bodies,
+     * hands and contacts report at most the momentum that the players and bodies involved have,
+     * with the hands' speed on top. */
     hh_vec3 force_impulse_ns;
     bool is_tracked;
     bool is_closed; /* the button is down */
@@ -131,7 +133,8 @@ HH_API hh_result hh_hand_release(hh_world* world, hh_player player, hh_side side
 /* ---- Events --------------------------------------------------------------------------------- */
 
 typedef enum hh_event_kind {
-    HH_EVENT_TOUCHED = 0,        /* the palm of an empty hand came within 2 cm of a body or player */
+    /* The palm of an empty hand came within 2 cm of a body or player. */
+    HH_EVENT_TOUCHED = 0,
     HH_EVENT_GRABBED = 1,        /* a hand grips */
     HH_EVENT_RELEASED = 2,       /* the player opened the hand, or `reason` says who did */
     HH_EVENT_REFUSED = 3,        /* a hand closed and grips nothing: `reason` */

@@ -38,14 +38,15 @@ typedef struct hh_tracking_sample {
     bool head_tracked;    /* false: `head` is ignored */
     bool hand_tracked[2]; /* false: the pose is ignored, `grab` counts */
     bool grab[2];         /* a button that closes the hand is down */
-    double squeeze[2];    /* how far it is pressed, [0, 1]: bends fingers until `grab` closes them */
-    /* How far the index finger's trigger is pressed, [0, 1]: bends the index finger of an empty hand,
-     * and the fingers of authored grips that follow the trigger. */
+    /* How far that button is pressed, [0, 1]: bends fingers until `grab` closes them. */
+    double squeeze[2];
+    /* How far the index finger's trigger is pressed, [0, 1]: bends the index finger of an empty
+     * hand, and the fingers of authored grips that follow the trigger. */
     double trigger[2];
 } hh_tracking_sample;
 
-/* Everything tracked, hands open, at time 0. The poses are for you to fill: at the origin they count
- * as not tracked. Any thread. */
+/* Everything tracked, hands open, at time 0. The poses are for you to fill: at the origin they
+ * count as not tracked. Any thread. */
 HH_API hh_tracking_sample hh_default_tracking_sample(void);
 
 /* A player's commands for one step. */
@@ -67,10 +68,10 @@ typedef struct hh_player_input {
     const hh_tracking_sample* samples;
     size_t sample_count;
     hh_commands commands;
-    /* The host gives a sample that is later than the step's end again in the next step, so the world
-     * keeps none; and a sample's time is taken to the bit, where otherwise a microsecond after the
-     * end counts as the end. For hosts that have the whole stream: recordings, rollback. Default
-     * false. */
+    /* The host gives a sample that is later than the step's end again in the next step, so the
+     * world keeps none; and a sample's time is taken to the bit, where otherwise a microsecond
+     * after the end counts as the end. For hosts that have the whole stream: recordings, rollback.
+     * Default false. */
     bool repeats_samples;
 } hh_player_input;
 
@@ -104,8 +105,8 @@ HH_API hh_result hh_world_hash(const hh_world* world, uint64_t* hash);
  * in a snapshot. */
 HH_API hh_result hh_world_save(hh_world* world, void* buffer, size_t capacity, size_t* size);
 /* Back to a saved state, which then goes on bit for bit. Ids taken before the save are valid again.
- * HH_ERROR_DATA, and no change, for bytes that are damaged or were saved with other shapes. Tolerates
- * any bytes. */
+ * HH_ERROR_DATA, and no change, for bytes that are damaged or were saved with other shapes.
+ * Tolerates any bytes. */
 HH_API hh_result hh_world_restore(hh_world* world, const void* bytes, size_t size);
 
 /* What receives the impulses of constraints, index of hh_momentum's arrays. */
@@ -175,10 +176,10 @@ HH_API hh_result hh_world_set_tuning(hh_world* world, const char* name, const do
  * HH_ERROR_DATA, with the place, for unknown names and wrong numbers. */
 HH_API hh_result hh_world_load_tuning(hh_world* world, const char* json, size_t size);
 /* The additive body clips of all players, from JSON in the format of docs/reference/body_clips.md:
- * idling, pushing off, looking round, raising the arms. They rotate spine, legs and clavicles, never
- * hands. They replace the clips before. Null: none, which is the default. HH_ERROR_DATA, with the
- * place and no change, for anything else. Clips are not in a snapshot: load the same ones before
- * you restore. */
+ * idling, pushing off, looking round, raising the arms. They rotate spine, legs and clavicles,
+ * never hands. They replace the clips before. Null: none, which is the default. HH_ERROR_DATA, with
+ * the place and no change, for anything else. Clips are not in a snapshot: load the same ones
+ * before you restore. */
 HH_API hh_result hh_world_load_body_clips(hh_world* world, const char* json, size_t size);
 
 #ifdef __cplusplus

@@ -87,9 +87,9 @@ HH_API hh_result hh_player_place(hh_world* world, hh_player player, hh_pose orig
  * hold and let the hand pull the player. */
 HH_API hh_result hh_hand_hold(hh_world* world, hh_player player, hh_side side, hh_body body,
                               const hh_pose* anchor);
-/* What the hand would grip if it closed where it is, by the rules of hands that pull players: reach,
- * sight, grab rules, authored grips. A null body: nothing, or another player. distance_m: from the
- * palm. In every kind of world. HH_ERROR_STATE for a hand that was never tracked. */
+/* What the hand would grip if it closed where it is, by the rules of hands that pull players:
+ * reach, sight, grab rules, authored grips. A null body: nothing, or another player. distance_m:
+ * from the palm. In every kind of world. HH_ERROR_STATE for a hand that was never tracked. */
 HH_API hh_result hh_hand_find_grip(hh_world* world, hh_player player, hh_side side,
                                    hh_surface_hit* hit);
 /* One frame: reads tracking and shows hands and bodies where the host put them. It moves neither
@@ -101,8 +101,8 @@ HH_API hh_result hh_world_step_hands(hh_world* world, double dt_s, const hh_play
 
 /* ---- Hands pull players through the host's solver ------------------------------------------- */
 
-/* A constraint of a hand for the host's solver. The player is a body of the host's: a point mass at the
- * play space's origin that cannot turn. At the end of the step, with origin and body solved:
+/* A constraint of a hand for the host's solver. The player is a body of the host's: a point mass at
+ * the play space's origin that cannot turn. At the end of the step, with origin and body solved:
  *   POINT      origin + target.position = body * anchor.position
  *   WELD       the same, and the body's rotation is body_rotation
  *   DIRECTION  the body's rotation is body_rotation: the second of two hands on one body */
@@ -119,8 +119,8 @@ typedef struct hh_hand_constraint {
     hh_hand_rows rows;
     hh_pose anchor; /* the wrist in the body's frame */
     hh_pose target; /* the wrist at the end of the step: from the origin, with the world's axes */
-    /* The target's velocity relative to the origin: the throwing velocity while a hand lets go, else
-     * the mean over the step. */
+    /* The target's velocity relative to the origin: the throwing velocity while a hand lets go,
+     * else the mean over the step. */
     hh_vec3 velocity_mps;
     hh_vec3 angular_velocity_radps;
     hh_quat body_rotation;               /* in the world, at the end of the step; not for POINT */
@@ -167,8 +167,8 @@ typedef struct hh_velocity_change {
  * teleporting, saving and other steps; hh_world_restore forgets the begun step. */
 HH_API hh_result hh_world_begin_step(hh_world* world, double dt_s, const hh_player_input* inputs,
                                      size_t input_count);
-/* Constraints of the begun step: at most one per hand, in the order in which hands were added. Valid
- * until hh_world_end_step. */
+/* Constraints of the begun step: at most one per hand, in the order in which hands were added.
+ * Valid until hh_world_end_step. */
 HH_API hh_result hh_world_hand_constraints(const hh_world* world,
                                            const hh_hand_constraint** constraints, size_t* count);
 /* One entry per player, in the order of hh_world_players. Valid until hh_world_end_step. */
@@ -176,7 +176,8 @@ HH_API hh_result hh_world_player_motions(const hh_world* world, const hh_player_
                                          size_t* count);
 /* Second half, after the host's solver. `players`: the solved play spaces; one left out moves as
  * predicted. Bodies that the host has not placed since hh_world_begin_step rest where they were.
- * Releases grips, limits velocities and shows hands and bodies. On an error the step stays begun. */
+ * Releases grips, limits velocities and shows hands and bodies. On an error the step stays
+ * begun. */
 HH_API hh_result hh_world_end_step(hh_world* world, const hh_solved_player* players, size_t count);
 /* Velocities that the host must give its bodies: after hh_world_begin_step those of bodies that the
  * distance grab pulls, after hh_world_end_step those of thrown and limited bodies. Players':
