@@ -42,7 +42,8 @@ std::string replay_command(const PlayOptions& options, const std::string& spawn,
         std::snprintf(text.data(), text.size(), " --hz %.17g", hz);
         command += text.data();
     }
-    // The profile's joint converted the samples to hand poses.
+    // The controller profile's hand poses were used to convert the samples, so the replay needs it
+    // too.
     if (!options.models.controllers.empty()) {
         command += option("--controllers", options.models.controllers);
     }

@@ -74,8 +74,8 @@ std::vector<ControlMove> moves_of(const std::string& pointer, std::span<const Gl
     return moves;
 }
 
-// Poses of a move assume that its ancestors are at rest. Ancestors' moves are applied last and
-// carry it along.
+// The poses of a move assume that the node's ancestors are at rest. The ancestors' moves are
+// applied last and move the node along.
 Pose moved_by(std::span<const ControlMove> moves, const ControlValues& values) {
     Pose moved;
     for (const ControlMove& move : moves) {

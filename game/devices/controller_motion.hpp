@@ -39,7 +39,8 @@ struct ControlledNode {
     std::string node, from, to;
 };
 
-// The same, resolved in the model. Suffix _ms: in the model's frame, all other parts at rest.
+// A ControlledNode with the poses that its model's nodes have. Suffix _ms: in the model's frame,
+// all other parts at rest.
 struct ControlMove {
     Control control = Control::trigger;
     Pose rest_ms, from_ms, to_ms;

@@ -24,7 +24,7 @@ namespace handhold {
 struct ControllerFit {
     Pose grip_ms;
     Pose aim_ms;        // origin and -Z of the pointing ray
-    Pose hand_in_grip;  // the controller-to-hand joint: the wrist (OpenXR's axes) in the grip pose
+    Pose hand_in_grip;  // controller-to-hand pose: the wrist (OpenXR's axes) in the grip pose
 };
 // Pose of the model's frame in hand space.
 Pose controller_in_hand(const ControllerFit& fit);
@@ -55,9 +55,9 @@ struct ControllerProfile {
 Result<ControllerProfile> parse_controller_profile(std::string_view text,
                                                    const std::filesystem::path& file);
 
-// The controller-to-hand joint of a hand: its own, else Tuning's.
+// The controller-to-hand pose of a hand: its own (ControllerToHand), else the tuning's.
 Pose controller_joint(const World& world, Entity hand, HandSide side, const HandTuning& tuning);
-// Gives all hands of the world these joints. Call between frames.
+// Sets the controller-to-hand poses of all hands in the world, by HandSide. Call between frames.
 void set_controller_joints(const std::array<Pose, k_hand_count>& hand_in_grip, World& world);
 
 }  // namespace handhold

@@ -35,8 +35,9 @@ struct HeadsetMemory {
 // tracked gets a pose of NaN and keeps its button: losing sight of a hand does not open it. So does
 // a hand whose fingers are not seen. The web page does the same (game/web/demo/devices.js).
 //
-// `own_joints`: joints of a controller profile, which replace the ones above and Tuning's. The grip
-// pose is then preferred to the palm pose and is the controller's pose itself.
+// `own_joints`: controller-to-hand poses of a controller profile, which replace hand_in_grip,
+// hand_in_palm and the tuning's. The grip pose is then preferred to the palm pose, and is used as
+// the controller's pose.
 TrackingSample read_headset(const HeadsetReading& reading, double t_s, const HandTuning& tuning,
                             HeadsetMemory& memory,
                             const std::array<Pose, k_hand_count>* own_joints = nullptr);

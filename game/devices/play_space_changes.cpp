@@ -6,7 +6,8 @@ void PlaySpaceChanges::add(std::int64_t time_ns, const Pose& new_in_old) {
     if (!is_valid(new_in_old)) {
         return;
     }
-    // A change that is announced late, for a time before the last one's, takes effect with it.
+    // A change that is announced late, for a time before the last change, takes effect at the time
+    // of the last change.
     const std::int64_t last_ns = changes_.empty() ? time_ns : changes_.back().time_ns;
     const Pose last = changes_.empty() ? Pose{} : changes_.back().space;
     changes_.push_back({time_ns > last_ns ? time_ns : last_ns, last * new_in_old});

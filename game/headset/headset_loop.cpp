@@ -274,7 +274,7 @@ class HeadsetLoop {
     HeadsetFigures figures_;
     std::optional<Overlay> overlay_;  // overlay for both eyes and the panel; none: headless
     HeadsetPanel panel_;
-    UiPicture sheet_ui_;  // while it is shown
+    UiPicture sheet_ui_;  // panel content; used only while the panel is shown
     Pose head_ps_;        // head in the last reading
     Image eye_image_;     // reused
     Image mirror_image_;  // the left eye's

@@ -58,8 +58,8 @@ void HeadsetSession::step(TrackingSample sample, PlayerCommands commands, double
     feel();
 }
 
-// True if a sphere cast out of the palm hits something within reach. Colliders have the poses of
-// the last frame.
+// True if a sphere cast out of the palm hits something within reach. Colliders are still at the
+// poses of the last frame.
 bool HeadsetSession::touches(HandSide side) const {
     const RenderPose::Hand& hand =
         scene_.world.render_pose.at(player_.player).hands[index_of(side)];

@@ -16,9 +16,10 @@ class HeadsetSession {
   public:
     HeadsetSession(Scene scene, const Pose& origin_ws);
 
-    // Replaces Tuning's joint by a controller's own. Call before the first frame.
+    // Replaces the tuning's controller-to-hand poses by those of a controller profile, by HandSide.
+    // Call before the first frame.
     void set_controller_joints(const std::array<Pose, k_hand_count>& hand_in_grip);
-    // The joints set above; nullptr if none were.
+    // The poses that set_controller_joints has set; nullptr if none.
     const std::array<Pose, k_hand_count>* controller_joints() const {
         return joints_ ? &*joints_ : nullptr;
     }

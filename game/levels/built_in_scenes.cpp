@@ -49,8 +49,9 @@ SessionScript station_script() {
     SessionScript script;
     const Vec3 ahead = -Vec3::UnitZ();
     script.duration_s = 20.5;
-    // The plan: along the habitat's rail, hand over hand through the hatch, a push across the node,
-    // a catch at the node's far hatch, and a look out of the cupola behind it.
+    // The plan: the player moves hand over hand along the habitat's rail and through the hatch,
+    // pushes off across the node, catches the node's far hatch, and looks out of the cupola behind
+    // it.
     script.body = {{0.0, Vec3(-0.52, 0.50, 5.60), Vec3::Zero()},
                    {1.0, Vec3(-0.52, 0.50, 5.60), Vec3::Zero()},
                    {2.0, Vec3(-0.52, 0.50, 5.35), 0.5 * ahead},

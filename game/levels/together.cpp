@@ -49,7 +49,8 @@ SessionScript together_script() {
     move(4.2, on_arm + Vec3(0.05, -0.12, -0.05), up, across);
     move(5.2, on_arm + Vec3(-0.06, 0.06, 0.05), up, across);
     move(6.2, on_arm, up, across);
-    // She floats upwards since the hand let go. It stops her by the thigh, from the side.
+    // The partner has floated upwards since the first player's hand let go. The hand stops her by
+    // the thigh, from the side.
     const Vec3 side = Vec3::UnitZ();
     const Vec3 on_leg(1.15, 1.23, 0.135);
     const Vec3 forward = Vec3::UnitX();

@@ -17,10 +17,11 @@ namespace handhold {
 struct PlayFigures {
     std::uint64_t frames = 0;
     double played_s = 0.0;
-    // path of the play space, relative to the scene's reference velocity
+    // Path of the play space, relative to the scene's reference velocity.
     double path_m = 0.0;
     double climbed_m = 0.0;  // part of path_m during which a hand gripped a surface
-    // Displacement from start to end, including the reference velocity's.
+    // Displacement from start to end in the world, including the motion of the scene's reference
+    // velocity.
     Vec3 moved_m = Vec3::Zero();
     std::uint64_t grips = 0;  // grips of surfaces
     // Hand over hand: one hand gripped while the other, which had gripped before, still held.
@@ -42,7 +43,7 @@ class PlayTally {
     double draw_us() const { return draw_us_.empty() ? 0.0 : draw_us_.back(); }
 
     // The text of report.json: figures, fallbacks by name, and times of runtime, drawing and
-    // showing (median, p99 and max in microseconds). `state_hash`: as format_hash writes it.
+    // showing (median, p99 and max in microseconds). `state_hash`: text from format_hash.
     std::string report_json(const std::string& scene, const std::string& state_hash) const;
     // Two lines for a terminal: distances climbed and frame costs.
     std::string summary() const;

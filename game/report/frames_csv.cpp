@@ -21,7 +21,7 @@ constexpr char k_bodies_header[] = "frame,t,body,mass_kg,x,y,z,qx,qy,qz,qw,vx,vy
 constexpr std::size_t k_bytes_per_player_row = 560;
 constexpr std::size_t k_bytes_per_body_row = 300;
 
-// Writes the cells of a row, separated by commas.
+// Writes the cells of a line, separated by commas.
 class RowWriter {
   public:
     explicit RowWriter(std::string& text) : text_(text) {}

@@ -9,7 +9,7 @@
 #include "components/stats.hpp"
 #include "game/run/run_log.hpp"
 
-// Figures of a whole run, shared by report.json and report.html.
+// Figures of a whole run, for report.json and report.html.
 namespace handhold {
 
 // Statistics of a list of times. Percentiles are by nearest rank: the ceil(p n)-th smallest of n, a
@@ -22,11 +22,11 @@ struct TimeFigures {
 };
 TimeFigures summarize_times(std::vector<double> times_us);
 
-// Worst distance between a gripping hand and its anchor. The player can follow one hand, so its
-// error should vanish. With two hands, changes of the tracked distance between them remain as
-// errors.
+// Worst distance between a gripping hand and its anchor. The player can follow a single gripping
+// hand exactly, so its error should be 0. With two gripping hands, changes of the tracked distance
+// between them remain as errors.
 struct HandErrorFigures {
-    double one_hand_free_m = 0.0;  // not both hands grip; no contacts and no push-back in the frame
+    double one_hand_free_m = 0.0;  // frames in which one hand grips, without contacts and push-back
     double two_hands_m = 0.0;      // both hands grip, or did in the previous frame
     double any_m = 0.0;            // distance while at least one hand grips
 };

@@ -144,7 +144,7 @@ RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEn
         static_cast<std::uint64_t>(std::max(1.0, std::floor(seconds * settings.hz + k_rounding)));
     if (scene.world.clock.frame > 0) {
         for (Playback& playback : playbacks) {
-            playback.window(begin_s);  // skip what was played before the snapshot
+            playback.window(begin_s);  // skips the samples that were played before the snapshot
         }
     }
 

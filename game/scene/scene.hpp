@@ -69,7 +69,7 @@ struct Scene {
     std::vector<SceneSpawnPoint> spawns;    // the first is the default; may be empty
     std::vector<ScenePlayerStart> players;  // the scene's own players; may be empty
     std::vector<std::string>
-        body_names;  // names when the scene was loaded, indexed by row of world.body
+        body_names;  // names when the scene was loaded, in the order of world.body
     // By the name of a body in the scene file: its authored grips in the file's frame, and the pose
     // of the body's frame in the file's frame (not the identity for hulls and compounds).
     std::map<std::string, std::vector<SceneGrip>> grips;

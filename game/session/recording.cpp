@@ -36,7 +36,7 @@ constexpr std::array<const char*, k_head_begin + k_pose_cells + 2 * k_hand_cells
 // Columns that older recordings lack; their cells are 0 then. By HandSide, after the others.
 constexpr std::array<const char*, k_hand_count> k_trigger_columns = {"lindex", "rindex"};
 
-// One row's cells in the order of k_columns and k_trigger_columns.
+// One line's cells in the order of k_columns and k_trigger_columns.
 using Cells = std::array<double, k_columns.size() + k_hand_count>;
 const char* column_name(std::size_t cell) {
     return cell < k_columns.size() ? k_columns[cell] : k_trigger_columns[cell - k_columns.size()];
@@ -48,7 +48,7 @@ Pose lost_pose() {
     return {Vec3::Constant(k_nan), Quat(k_nan, k_nan, k_nan, k_nan)};
 }
 
-// Reads rows into samples; the first bad cell is kept as the error.
+// Reads lines into samples; the first bad cell is kept as the error.
 class RowReader {
   public:
     explicit RowReader(std::string file) : file_(std::move(file)) {}
@@ -94,7 +94,7 @@ class RowReader {
         pose.position = Vec3(cells[begin], cells[begin + 1], cells[begin + 2]);
         pose.rotation =
             Quat(cells[begin + 6], cells[begin + 3], cells[begin + 4], cells[begin + 5]);
-        if (pose.rotation.coeffs().isZero(0.0)) {  // how some recorders write a lost device
+        if (pose.rotation.coeffs().isZero(0.0)) {  // some recorders write zeros for a lost device
             pose = lost_pose();
             return true;
         }

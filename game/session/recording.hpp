@@ -45,12 +45,12 @@ struct Recording {
     std::vector<RecordedSample> samples;  // two or more; gaps and jitter are normal
 };
 
-// Refused, with the line: a required column that is missing, a row of other length, a time that
-// does not increase, a coordinate beyond 1e6 m, a quaternion further than 1e-2 from unit length
-// (the others are made unit), a time beyond 1e12 s, buttons that are no mask, a trigger outside
-// [0, 1]; and a file with less than two samples. Columns may come in any order and others may stand
-// between them. Where one of the seven cells of a pose is NaN, or its quaternion is all zeros, the
-// device was not tracked and all become NaN.
+// Refused, with the line: a required column that is missing, a line of other length, a time that
+// does not increase, a coordinate beyond 1e6 m, a quaternion whose length differs from 1 by more
+// than 1e-2 (others are normalised), a time beyond 1e12 s, buttons that are no mask, a trigger
+// outside [0, 1]; and a file with less than two samples. Columns may come in any order and others
+// may stand between them. Where one of the seven cells of a pose is NaN, or its quaternion is all
+// zeros, the device was not tracked and all become NaN.
 Result<Recording> load_recording(const std::filesystem::path& path);
 // Parses text in memory. `file`: for messages.
 Result<Recording> parse_recording(std::string_view text, const std::string& file);

@@ -108,8 +108,8 @@ ControllerModels builtin_controllers(const HandTuning& tuning) {
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         ControllerModel& model = models.sides[index_of(side)];
         add_wand(model);
-        // The model is placed in the fist. The joint between hand and controller then gives the
-        // model's tracked pose.
+        // The model is placed in the fist. The controller-to-hand pose then gives the model's
+        // tracked pose.
         const Pose joint = default_controller_to_hand(side, tuning);
         model.fit.hand_in_grip = joint;
         model.fit.grip_ms = inverse(joint * handle_in_hand(side, k_wand_grip, tuning));

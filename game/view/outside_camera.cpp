@@ -84,7 +84,7 @@ Pose OutsideCamera::beside(const RenderPose& first, const RenderPose& second) {
     const Vec3 between = second.head_ws.position - first_ws;
     Vec3 across = between.cross(up);
     const double length = across.norm();
-    if (length < 1e-3) {  // one above the other
+    if (length < 1e-3) {  // the players are one above the other
         return behind(first);
     }
     across *= (across.dot(level_ahead(first)) < 0.0 ? -1.0 : 1.0) / length;

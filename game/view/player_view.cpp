@@ -146,7 +146,7 @@ void PlayerView::add_penetrating_hands(std::size_t first, RenderFrame& frame) co
 }
 
 void PlayerView::add_player(std::size_t row, BodyFigures::Seen seen, RenderFrame& frame) {
-    // Element of the player who gets the hints, in every view.
+    // Index of the player who gets the hints, in every view.
     constexpr std::size_t k_who_plays = 0;
     const World& world = scene_->world;
     const Entity player = world.render_pose.owners()[row];

@@ -95,7 +95,7 @@ void correct(const Pose& space, HeadsetReading& reading) {
 }  // namespace
 
 struct Headset::Impl {
-    // In this order, so that objects are destroyed before those that they were made from.
+    // The order matters: objects are destroyed before those that they were made from.
     HeadsetInstance instance;
     OwnedXrSession session;
     HeadsetSpaces spaces;

@@ -252,7 +252,7 @@ void take_hands(const EstimateArmsIo& io) {
     ArmEstimate* estimate = nullptr;
     for (std::size_t row = 0; row < io.owner.size(); ++row) {
         const HandOwner& owner = io.owner.rows()[row];
-        if (owner.player != player) {  // a player's hands are usually in adjacent rows
+        if (owner.player != player) {  // a player's hands are usually adjacent
             player = owner.player;
             origin_ws = &io.origin.at(player).pose_ws;
             estimate = &io.estimate.at(player);

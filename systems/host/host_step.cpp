@@ -274,7 +274,8 @@ hh_result step_with(hh_world* world, double dt_s, const hh_player_input* inputs,
     if (result != HH_OK) {
         return result;
     }
-    // All that a host can do wrong has been checked: what is thrown now is a defect.
+    // All host errors have been checked before: an exception from here on is a defect of the
+    // library.
     return call(
         [&] {
             hh_world& host = *world;

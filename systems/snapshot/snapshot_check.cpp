@@ -49,7 +49,7 @@ class BreachFinder {
         }
     }
 
-    // Every owner of a row in `column` must have one in `required`.
+    // Every owner of an element in `column` must have one in `required`.
     template <typename A, typename B>
     void require(const char* name, const Column<A>& column, const char* required_name,
                  const Column<B>& required) {
@@ -244,8 +244,8 @@ class BreachFinder {
         }
     }
 
-    // Back-off distances and counters must be in the range that frames produce, so that no search
-    // is suspended for ever.
+    // Back-off distances and counters must be in the range that frames produce, so that no
+    // search is suspended forever.
     void check_retries() {
         constexpr double k_max_m = 1.0;
         for (std::size_t row = 0; row < w_.grip_surface.size(); ++row) {

@@ -184,7 +184,8 @@ int recorded_grips_command(const RecordedGripsOptions& options) {
 
 std::vector<std::vector<Pose>> wrist_motions(const std::vector<RecordedGrip>& grips,
                                              std::size_t frames, std::size_t count) {
-    std::vector<std::pair<const RecordedGrip*, std::size_t>> stretches;  // and where they begin
+    // Grip and first frame of each stretch.
+    std::vector<std::pair<const RecordedGrip*, std::size_t>> stretches;
     for (const RecordedGrip& grip : grips) {
         for (std::size_t begin = 0; begin + frames < grip.wrists.size(); begin += frames) {
             stretches.emplace_back(&grip, begin);

@@ -55,9 +55,9 @@ class Walls {
         return points;
     }
 
-    // How deep a sphere is in the nearest wall; 0: outside. The centre is behind a wall if it is
-    // hidden from all viewpoints; a rail does not hide it from all. It is then as deep as the
-    // centre is behind the nearest of these surfaces, plus the radius.
+    // How deep a sphere is in the nearest wall; 0: outside. The centre counts as behind a wall if
+    // it is hidden from all viewpoints (a rail does not hide it from all). The depth is then the
+    // centre's distance behind the nearest of the hiding surfaces, plus the radius.
     double depth_m(const CollisionWorld& collision, std::span<const Vec3> viewpoints,
                    const Vec3& centre_ws, double radius_m) const {
         double behind_m = 1e9;
@@ -115,7 +115,7 @@ class ShownBody {
         take_speeds(spine);
     }
 
-    // One row for each frame.
+    // One line for each frame.
     std::string csv() const {
         std::string text = "frame,trunk_mm,pelvis_mm,thigh_mm,shin_mm,foot_mps\n";
         for (std::size_t i = 0; i < trunk_mm_.values.size(); ++i) {

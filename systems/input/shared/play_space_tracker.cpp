@@ -36,7 +36,7 @@ PlaySpaceTracker::PlaySpaceTracker(const HeadTracking& head,
       corrects_jumps_(corrects_jumps),
       hands_(hands) {}
 
-// Exact where nothing was shifted.
+// Returns the pose bit for bit if there is no shift.
 Pose PlaySpaceTracker::corrected(const Pose& pose) const {
     return {shift_.rotation * pose.position + shift_.position, shift_.rotation * pose.rotation};
 }

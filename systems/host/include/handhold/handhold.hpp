@@ -119,7 +119,7 @@ inline hh_player_input input(Player player, std::span<const Sample> samples,
 class Mesh {
   public:
     Mesh() = default;
-    // `xyz`: three coordinates a vertex. Fails as hh_mesh_create: then is_valid is false.
+    // `xyz`: three coordinates per vertex. If hh_mesh_create fails, is_valid is false.
     Mesh(std::span<const float> xyz, std::span<const std::uint32_t> indices,
          bool fits_hands = true) {
         hh_mesh_def def = hh_default_mesh_def();
@@ -260,7 +260,7 @@ class World {
     }
     // A body's velocity in the world.
     struct Motion {
-        // Of the centre of mass.
+        // Velocity of the centre of mass.
         Vec3 velocity_mps;
         // About the world's axes.
         Vec3 angular_velocity_radps;
@@ -351,7 +351,7 @@ class World {
         return make<hh_player_pose>(
             [&](hh_player_pose* p) { return hh_world_player_poses(world_, &player, 1, p); });
     }
-    // The same of many players; none is written if an id is stale. `poses` is at least as long as
+    // Poses of many players; none is written if an id is stale. `poses` is at least as long as
     // `players`.
     Status poses(std::span<const Player> players, std::span<hh_player_pose> poses) const {
         return poses.size() < players.size()
@@ -416,7 +416,7 @@ class World {
     Status step(double dt_s, std::span<const hh_player_input> inputs = {}) {
         return hh_world_step(world_, dt_s, inputs.data(), inputs.size());
     }
-    // The same for a world with one player.
+    // Steps a world with one player.
     Status step(double dt_s, const hh_player_input& input) {
         return hh_world_step(world_, dt_s, &input, 1);
     }
@@ -460,7 +460,7 @@ class World {
     Status begin_step(double dt_s, std::span<const hh_player_input> inputs) {
         return hh_world_begin_step(world_, dt_s, inputs.data(), inputs.size());
     }
-    // What each hand asks of the host's solver. Valid until end_step.
+    // Constraints of the hands for the host's solver. Valid until end_step.
     std::span<const hh_hand_constraint> hand_constraints() const {
         return list<hh_hand_constraint>(&hh_world_hand_constraints);
     }
@@ -524,7 +524,8 @@ class World {
         }
         return result;
     }
-    // Returns to a saved state. Without a change if the bytes are damaged or of other shapes.
+    // Returns to a saved state. Changes nothing if the bytes are damaged or were saved with other
+    // shapes.
     Status restore(std::span<const std::byte> bytes) {
         return hh_world_restore(world_, bytes.data(), bytes.size());
     }

@@ -105,7 +105,7 @@ HH_API hh_result hh_world_step(hh_world* world, double dt_s, const hh_player_inp
                                size_t input_count);
 /* While the game is paused: heads, hands and bodies of players follow their last sample, whatever
  * its time. The clock, bodies, joints, grips and play spaces stand still. The next hh_world_step
- * goes on: hands that are still closed grip where they are by then. */
+ * goes on: hands that are still closed grip where they are at that time. */
 HH_API hh_result hh_world_step_pose_only(hh_world* world, double dt_s,
                                          const hh_player_input* inputs, size_t input_count);
 /* The world's clock, seconds, and the number of steps. Null outputs are skipped. */
@@ -207,10 +207,10 @@ HH_API hh_result hh_world_set_tuning(hh_world* world, const char* name, const do
  * HH_ERROR_DATA, with the place, for unknown names and wrong numbers. */
 HH_API hh_result hh_world_load_tuning(hh_world* world, const char* json, size_t size);
 /* The additive body clips of all players, from JSON in the format of docs/reference/body_clips.md:
- * idling, pushing off, looking round, raising the arms. They rotate spine, legs and clavicles, never
- * hands. They replace the clips before. Null: none, which is the default. HH_ERROR_DATA, with the
- * place and no change, for anything else. Clips are not in a snapshot: load the same ones before
- * you restore. */
+ * idling, pushing off, looking round, raising the arms. They rotate spine, legs and clavicles,
+ * never hands. They replace the clips before. Null: none, which is the default. HH_ERROR_DATA, with
+ * the place and no change, for anything else. Clips are not in a snapshot: load the same ones
+ * before you restore. */
 HH_API hh_result hh_world_load_body_clips(hh_world* world, const char* json, size_t size);
 
 #ifdef __cplusplus
