@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/math/math.hpp"
+#include <handhold/handhold.hpp>
 
 namespace handhold {
 
@@ -13,14 +13,14 @@ class PlaySpaceChanges {
   public:
     // From `time_ns` on, readings are given in a space whose origin lies at `new_in_old` in the
     // space before. Ignored if the pose is not valid.
-    void add(std::int64_t time_ns, const Pose& new_in_old);
+    void add(std::int64_t time_ns, const hh::Pose& new_in_old);
     // The space of readings for that time, in the first one: first = space_at(time) * reading.
-    Pose space_at(std::int64_t time_ns) const;
+    hh::Pose space_at(std::int64_t time_ns) const;
 
   private:
     struct Change {
         std::int64_t time_ns = 0;
-        Pose space;  // from then on, in the first one
+        hh::Pose space = hh::k_origin;  // from then on, in the first one
     };
     std::vector<Change> changes_;  // in the order of their times
 };

@@ -19,9 +19,19 @@ hh_world& queried_world(hh_world* world) {
     if (!world->has_placed_colliders) {
         world->caches.collision.update_shapes();
         const World& w = world->world;
-        place_colliders({w.persistent_id, w.collider, w.body, w.body_pose, w.body_start,
-                         w.player_origin, w.player_start, w.head_tracking, w.last_valid,
-                         world->caches.collision, world->caches.graph},
+        place_colliders({.persistent_id = w.persistent_id,
+                         .collider = w.collider,
+                         .filter = w.filter,
+                         .body = w.body,
+                         .body_pose = w.body_pose,
+                         .body_start = w.body_start,
+                         .body_velocity = w.body_velocity,
+                         .origin = w.player_origin,
+                         .player_start = w.player_start,
+                         .head = w.head_tracking,
+                         .last_valid = w.last_valid,
+                         .collision = world->caches.collision,
+                         .frame = world->caches.graph},
                         world->tuning.head);
         world->has_placed_colliders = true;
     }

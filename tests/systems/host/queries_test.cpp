@@ -271,6 +271,26 @@ TEST(HostPlayers, HandInControllerOfTheTuningIsThatOfPlayersWithoutTheirOwn) {
     EXPECT_FALSE(world.hand_in_controller(HH_LEFT)->position == hh::Vec3{});
 }
 
+// A player who drifts into a wall stops with the head at its face.
+TEST(HostPlayers, PushBackIsHowFarContactsMovedTheOrigin) {
+    HostScene scene;
+    scene.add_wall();
+    scene.step(3);
+    EXPECT_EQ(*scene.world.mass_kg(scene.player), 80.0);
+    EXPECT_EQ(*scene.world.push_back_m(scene.player), 0.0);
+    ASSERT_EQ(hh_player_set_velocity(scene.world.get(), scene.player, {0.0, 0.0, -1.0}), HH_OK);
+    double pushed_m = 0.0;
+    for (int i = 0; i < 60; ++i) {
+        scene.step();
+        pushed_m += *scene.world.push_back_m(scene.player);
+    }
+    EXPECT_GT(pushed_m, 0.0);
+    hh::Vec3 center{};
+    double radius_m = 0.0;
+    ASSERT_EQ(hh_player_head(scene.world.get(), scene.player, &center, &radius_m, nullptr), HH_OK);
+    EXPECT_NEAR(center.z, -0.5 + radius_m, 0.01);  // the wall's face is at z = -0.5
+}
+
 TEST(HostThreads, MayChangeWhileAWorldExists) {
     const hh::World world;
     const std::uint32_t before = hh_thread_count();
@@ -280,6 +300,35 @@ TEST(HostThreads, MayChangeWhileAWorldExists) {
     EXPECT_EQ(hh_set_thread_count(257), HH_ERROR_VALUE);
     EXPECT_EQ(hh_thread_count(), 3U);
     ASSERT_EQ(hh_set_thread_count(before), HH_OK);
+}
+
+TEST(HostTuning, NumbersAreKeptAndRestoredAtOnce) {
+    hh::World world;
+    const std::vector<double> before = world.tuning_numbers();
+    std::size_t described = 0;
+    hh_tuning_info info = hh_default_tuning_info();
+    for (std::size_t i = 0; hh_tuning_describe(i, &info) == HH_OK; ++i) {
+        double values[3] = {};
+        ASSERT_EQ(hh_world_get_tuning(world.get(), info.name, values, info.count), HH_OK);
+        for (std::size_t j = 0; j < info.count; ++j) {
+            ASSERT_LT(described, before.size());
+            EXPECT_EQ(before[described++], values[j]) << info.name;
+        }
+    }
+    EXPECT_EQ(described, before.size());
+    ASSERT_TRUE(world.tune("hand.reach_m", 0.123));
+    EXPECT_NE(world.tuning_numbers(), before);
+    ASSERT_TRUE(world.set_tuning_numbers(before));
+    EXPECT_EQ(world.tuning_numbers(), before);
+    std::vector<double> wrong = before;
+    wrong.back() = std::nan("");
+    wrong.front() += 1e-6;
+    EXPECT_EQ(world.set_tuning_numbers(wrong).result(), HH_ERROR_VALUE);
+    EXPECT_EQ(world.set_tuning_numbers(std::span(before).first(5)).result(), HH_ERROR_VALUE);
+    wrong = before;
+    wrong.push_back(0.0);
+    EXPECT_EQ(world.set_tuning_numbers(wrong).result(), HH_ERROR_VALUE);
+    EXPECT_EQ(world.tuning_numbers(), before);
 }
 
 // What a step is given of a stream of samples: those up to its end, and one after it.

@@ -49,6 +49,7 @@ using Hit = hh_hit;
 using Side = hh_side;
 
 inline constexpr Quat k_no_turn{0.0, 0.0, 0.0, 1.0};
+inline constexpr Pose k_origin{{0.0, 0.0, 0.0}, k_no_turn};
 constexpr Pose pose_at(Vec3 position, Quat rotation = k_no_turn) { return {position, rotation}; }
 
 // The result of a call.
@@ -360,6 +361,14 @@ class World {
     Maybe<Vec3> reference_velocity_mps(Player player) const {
         return make<Vec3>([&](Vec3* v) { return hh_player_reference_velocity(world_, player, v); });
     }
+    // As hh_player_push_back.
+    Maybe<double> push_back_m(Player player) const {
+        return make<double>([&](double* d) { return hh_player_push_back(world_, player, d); });
+    }
+    // As hh_player_mass.
+    Maybe<double> mass_kg(Player player) const {
+        return make<double>([&](double* m) { return hh_player_mass(world_, player, m); });
+    }
     // As hh_player_hand_in_controller.
     Maybe<Pose> hand_in_controller(Player player, Side side) const {
         return make<Pose>(
@@ -519,6 +528,12 @@ class World {
     // As hh_world_load_tuning.
     Status load_tuning(std::string_view json) {
         return hh_world_load_tuning(world_, json.data(), json.size());
+    }
+    // As hh_world_tuning_numbers.
+    std::vector<double> tuning_numbers() const { return all<double>(&hh_world_tuning_numbers); }
+    // As hh_world_set_tuning_numbers.
+    Status set_tuning_numbers(std::span<const double> numbers) {
+        return hh_world_set_tuning_numbers(world_, numbers.data(), numbers.size());
     }
     // As hh_world_load_body_clips. Empty: none.
     Status load_body_clips(std::string_view json) {
