@@ -6,8 +6,9 @@
 #include "engine/math/math.hpp"
 
 // Arms and chest. No device tracks them: they are estimated from the head and the shown hands. They
-// are for display only and never move the player. Torso axes (_ts): -Z is the horizontal direction
-// in which the chest faces; +Y is the play space's up, even if the chest leans.
+// never move their own player; hands that grip another player follow that player's arms as the last
+// frame showed them (BodyHold). Torso axes (_ts): -Z is the horizontal direction in which the chest
+// faces; +Y is the play space's up, even if the chest leans.
 namespace handhold {
 
 // A player's size. Written by calibrate_players, or by the host that adds the player.
@@ -23,7 +24,7 @@ struct BodyMeasures {
 
 // Displacement of the chest from where the head alone would place it.
 struct ChestOffset {
-    Vec3 middle_m = Vec3::Zero();  // axes of the leaning chest; for an eye height of 1.6 m
+    Vec3 middle_m = Vec3::Zero();  // axes of the leaning chest; for k_scale_eye_m
     double roll = 0.0;             // tangent; positive: the right shoulder is up
 };
 

@@ -17,9 +17,6 @@
 
 namespace handhold {
 
-// Moves one island's bodies until its constraint rows are met. Same contract as solve_positions.
-using PositionSolver = NewtonResult (*)(const IslandView&, const NewtonSettings&, SolveScratch&);
-
 // Groups of free bodies that joints connect. Both arrays are indexed by element of the RigidBody
 // column, and are empty if there are no joints.
 struct JointGroups {
@@ -71,9 +68,9 @@ struct FrameGraph {
     std::uint64_t proxy_set = 0;               // CollisionWorld::proxy_set() after place_colliders
     struct PhaseBody {
         Pose reached_ws;  // pose after the reach phase
-        // Players: 1/kappa, the factor on the player's inverse mass in the forward phase; from 0 to
-        // 1. It is 0 if the player holds only light objects, so that the objects do not move the
-        //    player.
+        // The facts from which systems/physics/shared/mass_shares.hpp decides who yields to whom.
+        // Players: kappa's share of the heaviest body that a hand holds by all its rows, from 0
+        // (light bodies do not move the player) to 1.
         double forward_share = 0.0;
         bool held = false;  // held by a hand, or connected by joints to a held body
         // Players: a hand grips a fixed, kinematic or heavy body or another player, or another
@@ -93,10 +90,6 @@ struct FrameGraph {
     std::vector<ContactPoint> contacts;  // written by find_contacts, solve_phases
     std::vector<IgnoredPair> ignored;    // written by find_contacts
     ConstraintGraph graph;  // written by build_constraints, solve_phases, solve_velocities
-
-    // solve_phases calls this for every island and phase. Measuring tools replace it to compare
-    // methods.
-    PositionSolver position_solver = &solve_positions;
 
     // Scratch.
     std::vector<ContactPoint> fresh_contacts;

@@ -71,9 +71,8 @@ struct GripSurface {
     // refined for a limited number of frames.
     bool is_converged = true;
     std::uint32_t stationary_refine_frames = 0;  // number of such frames so far
-    // A candidate was evaluated, or the candidates were listed, in this frame. Because this is
-    // expensive, no penetrating digit is refitted in this frame, and no candidate is evaluated in
-    // the next.
+    // A candidate was evaluated, or the candidates were listed, in this frame. search_grip then
+    // evaluates none in the next frame, because evaluation is expensive.
     bool evaluated_this_frame = false;
 };
 

@@ -113,7 +113,7 @@ struct ContactTuning {
 };
 
 struct SolverTuning {
-    NewtonSettings positions;  // as solve_positions takes them
+    NewtonSettings positions;  // settings of solve_positions
     // In place of positions.regularisation.drive in the forward phase: contacts outweigh hands.
     double forward_drive_regularisation = 1e-3;
     std::int32_t friction_passes = VelocitySettings{}.friction_passes;
@@ -217,8 +217,8 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "Distance of a finger's two outer cutting planes from its middle plane, in mean link "
         "radii.");
     see("finger.search_depth_m", t.finger.search_depth_m, "m", 0.0, 0.1,
-        "Penetration depth above which a finger tests every triangle in reach, and a slow hand "
-        "refits it.");
+        "Penetration depth above which a closing finger tests every triangle in reach, and above "
+        "which a finger does not take its authored pose.");
     see("finger.open_depth_m", t.finger.open_depth_m, "m", 0.0, 0.1,
         "Penetration depth above which a depenetrated finger is also opened step by step.");
     see("finger.open_step_rad", t.finger.open_step_rad, "rad", 1e-3, 1.0,

@@ -14,8 +14,8 @@ struct LocalRayHit {
 };
 // First surface point on the segment; if `from` is inside, the exit point. A compound is the union
 // of its parts: surfaces inside another part are skipped. Not for meshes. Bullet's casts are not
-// used: they miss surfaces hit from inside, and btSubsimplexConvexCast is up to 1.3 mm off on round
-// shapes.
+// used: they miss surfaces hit from inside, and btSubsimplexConvexCast was measured to be up to 1.3
+// mm off on round shapes.
 std::optional<LocalRayHit> cast_ray_on_shape(const Shape& shape, const Vec3& from, const Vec3& to);
 struct LocalSurfacePoint {
     Vec3 point = Vec3::Zero();  // point on the surface, even if the query point is inside

@@ -35,8 +35,7 @@ struct ChainFitSettings {
         0.0;  // deepest penetration of a clear sample pose; a deeper fit is opened
     double open_step_rad = 0.0;   // opening step of each hinge
     std::int32_t open_steps = 0;  // maximum number of opening steps
-    SearchOrder order = SearchOrder::best_first;
-    bool depenetrates = true;  // false: leaves a penetrating fit as it is
+    bool depenetrates = true;     // false: leaves a penetrating fit as it is
 };
 
 enum class ChainFallback : std::uint8_t {

@@ -78,11 +78,14 @@ struct DiscScratch {
     std::vector<Bounds4> bounds;  // one per four segments; the last segment is repeated
 };
 
+// Largest error of a contact; the tests hold it.
+inline constexpr double k_disc_accuracy_m = 5e-5;
+
 // Closes the chain from `sweep.from` to at most `sweep.to`. A link that touches stops its own hinge
 // and all hinges before it. The links beyond it go on closing until they touch or the sweep ends. A
 // link that overlaps a segment at the start and moves out of it is ignored until it is clear.
-// Misses no contact and finds each within 0.05 mm. Does not allocate once the scratch memory has
-// grown.
+// Misses no contact and finds each within k_disc_accuracy_m. Does not allocate once the scratch
+// memory has grown.
 DiscClosure close_chain(const DiscChain& chain, std::span<const DiscSegment> segments,
                         const DiscSweep& sweep, DiscScratch& scratch);
 

@@ -12,10 +12,12 @@
 
 namespace handhold {
 
+inline constexpr double k_largest_round_m = 64.0;
+
 // Grip meshes of a scene's shapes, built before the first frame. Equal shapes share one grip mesh:
 // the same mesh at the same scale, the same hull or compound parts, or equal primitives. Round
-// shapes with a bounding radius above 64 m have none. Immutable between calls of add, so any number
-// of threads may read it.
+// shapes with a bounding radius above k_largest_round_m have none. Immutable between calls of add,
+// so any number of threads may read it.
 class GripMeshLibrary {
   public:
     GripMeshLibrary() = default;

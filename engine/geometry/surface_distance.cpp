@@ -10,10 +10,6 @@ namespace {
 // Maximum depth of subdivision. Bisecting a triangle of 1 km this often leaves less than 1 mm.
 constexpr int k_max_cuts = 40;
 
-// Size of the smallest piece, as a fraction of the limit. Distances within this fraction of the
-// limit count as beyond the limit.
-constexpr double k_min_piece_share = 0.02;
-
 class Cover {
   public:
     Cover(const TriangleSurface& target, double limit_m)

@@ -15,8 +15,11 @@ struct FileNode {
     std::vector<int> children;
 };
 
+inline constexpr double k_max_shear = 0.02;
+
 // The rotation and translation of a frame. nullopt if the frame is scaled unevenly, sheared or
-// mirrored. Tolerance: 2 % for the axes' lengths and right angles, because files store floats.
+// mirrored. k_max_shear is the tolerance for the axes' lengths and right angles, because files
+// store floats.
 std::optional<Pose> rigid_part(const Affine& frame);
 
 struct PlacedNode {

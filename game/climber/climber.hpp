@@ -38,9 +38,9 @@ struct ClimberTask {
 };
 
 enum class ClimberHandMode : std::uint8_t {
-    rest,      // at its rest pose in front of the chest, or moving there
+    rest,      // hand at its rest pose in front of the chest, or moving there
     reaching,  // moving to its hold
-    closing,   // at its hold, button just pressed; the runtime has not gripped yet
+    closing,   // hand at its hold, button just pressed; the runtime has not gripped yet
     holding,   // holds a support: a body that the climber pulls on
     carrying,  // holds a free body, at the rest pose or moving there
 };
@@ -54,7 +54,7 @@ struct ClimberHold {
 
 struct ClimberHand {
     ClimberHandMode mode = ClimberHandMode::rest;
-    hh::Pose wrist_ps = hh::k_origin;  // without tremor
+    hh::Pose wrist_ps = hh::k_origin;  // wrist without tremor
     hh::Vec3 velocity_ps_mps = hh::Vec3{};
     ClimberHold hold;  // valid if reaching, closing or holding
     // Start and times of the current movement, or of the last one.
@@ -104,7 +104,7 @@ struct ClimberState {
 struct ClimberSight {
     hh::World& world;
     std::span<const SceneRail> rails;
-    hh::Vec3 palm_center_m{};    // of the right hand, in the wrist's frame
+    hh::Vec3 palm_center_m{};    // palm of the right hand in the frame of the wrist
     double heavy_body_kg = 0.0;  // lighter dynamic bodies cannot carry a climber
 };
 ClimberSight sight_of(Scene& scene);

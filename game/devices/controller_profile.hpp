@@ -47,7 +47,7 @@ struct ControllerSide {
 };
 struct ControllerProfile {
     std::string name;
-    std::array<ControllerSide, 2> sides;  // by HandSide
+    std::array<ControllerSide, 2> sides;  // indexed by hh::Side
 };
 
 // Reads a profile of our own format, or the profile.json of a WebXR input profile. WebXR models are

@@ -16,8 +16,8 @@ namespace handhold {
 struct DesktopInput {
     double turn_left_rad = 0.0;
     double look_up_rad = 0.0;
-    std::array<bool, 2> grip{};    // by HandSide; held down now
-    std::array<bool, 2> opened{};  // by HandSide; released at some time in the frame
+    std::array<bool, 2> grip{};    // indexed by hh::Side; held down now
+    std::array<bool, 2> opened{};  // indexed by hh::Side; released at some time in the frame
     hh::Vec3 move{};               // right, up and back in the view, each [-1, 1]
     double farther_m = 0.0;        // pushes the held body away; negative: nearer
     bool hurry = false;            // doubles the pulling speed
@@ -58,7 +58,7 @@ class DesktopBody {
     double yaw_rad_ = 0.0;
     double pitch_rad_ = 0.0;
     hh::Pose head_ps_ = hh::k_origin;
-    std::optional<PalmTarget> aim_ps_;  // on the surface in view; nullopt: none in view
+    std::optional<PalmTarget> aim_ps_;  // palm on the surface in view; nullopt: none in view
     std::array<Hand, 2> hands_;
     std::array<Use, 2> uses_{};
     bool has_hands_ = false;  // whether the hands have poses; false before the first frame

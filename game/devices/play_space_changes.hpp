@@ -20,9 +20,9 @@ class PlaySpaceChanges {
   private:
     struct Change {
         std::int64_t time_ns = 0;
-        hh::Pose space = hh::k_origin;  // from then on, in the first one
+        hh::Pose space = hh::k_origin;  // play space from then on, in the frame of the first
     };
-    std::vector<Change> changes_;  // in the order of their times
+    std::vector<Change> changes_;  // changes in the order of their times
 };
 
 }  // namespace handhold

@@ -26,8 +26,8 @@ struct PlayFigures {
     // Hand over hand: one hand gripped while the other, which had gripped before, still held.
     std::uint64_t hand_changes = 0;
     std::uint64_t hands_closed = 0;
-    std::uint64_t hands_gripped = 0;       // those of them that gripped something
-    std::vector<std::uint64_t> fallbacks;  // by index of hh_fallback_name
+    std::uint64_t hands_gripped = 0;       // grabs that gripped something
+    std::vector<std::uint64_t> fallbacks;  // indexed as hh_fallback_name
 };
 
 class PlayTally {

@@ -51,7 +51,7 @@ struct MomentumFigures {
 // The figures of a run. A worst value is NaN if any of the values is NaN, so that a broken run does
 // not look good.
 struct RunSummary {
-    std::vector<TimeFigures> stages;  // by index of hh_stage_name
+    std::vector<TimeFigures> stages;  // indexed as hh_stage_name
     TimeFigures frame;                // sum of a frame's stages
     std::uint64_t frames = 0;
     double duration_s = 0.0;  // simulated time
@@ -112,7 +112,7 @@ class RunTally {
     std::vector<PlayerTally> players_;
     MomentumTally linear_;
     MomentumTally angular_;
-    std::vector<Histogram> stages_;  // by index of hh_stage_name
+    std::vector<Histogram> stages_;  // indexed as hh_stage_name
     Histogram frame_;
 };
 

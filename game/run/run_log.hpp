@@ -14,8 +14,8 @@ namespace handhold {
 struct RunStats {
     RunStats();  // all 0
 
-    std::vector<double> stage_us;          // by index of hh_stage_name
-    std::vector<std::uint64_t> fallbacks;  // by index of hh_fallback_name
+    std::vector<double> stage_us;          // indexed as hh_stage_name
+    std::vector<std::uint64_t> fallbacks;  // indexed as hh_fallback_name
     std::uint64_t grab_onsets = 0;
     std::uint64_t grabs_gripped = 0;
     std::uint64_t islands = 0;
@@ -30,8 +30,8 @@ struct RunStats {
 };
 
 struct HandLog {
-    hh::Vec3 target_ws{};    // of the tracked hand
-    hh::Vec3 shown_ws{};     // of the shown hand; on its anchor while gripping
+    hh::Vec3 target_ws{};    // palm of the tracked hand
+    hh::Vec3 shown_ws{};     // palm of the shown hand; on its anchor while gripping
     int grip = 0;            // hh_grip_kind
     std::int32_t body = -1;  // index into RunLog::body_names; -1: none
     double error_m = 0.0;
@@ -40,9 +40,9 @@ struct HandLog {
 struct PlayerLog {
     std::uint32_t player = 0;  // index into RunLog::player_names
     hh::Vec3 origin_ws{};
-    hh::Vec3 velocity_mps{};  // of the origin
+    hh::Vec3 velocity_mps{};  // velocity of the origin
     hh::Vec3 head_ws{};
-    std::array<HandLog, 2> hands;  // by hh::Side
+    std::array<HandLog, 2> hands;  // indexed by hh::Side
     double push_back_m = 0.0;
 };
 
@@ -55,7 +55,7 @@ struct BodyLog {
 };
 
 struct FrameLog {
-    std::uint64_t frame = 0;  // from 1
+    std::uint64_t frame = 0;  // first frame: 1
     double t_s = 0.0;         // end of the frame
     RunStats stats;
     std::vector<PlayerLog> players;

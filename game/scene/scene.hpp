@@ -32,7 +32,7 @@ struct SceneVisual {
 
 struct SceneSpawnPoint {
     std::string name;
-    hh::Pose pose_ws = hh::k_origin;  // of the play space; its position is the floor point
+    hh::Pose pose_ws = hh::k_origin;  // play space; its position is the floor point
 };
 
 // The axis of a graspable straight bar in a body's frame, for scripted climbers.
@@ -54,7 +54,7 @@ struct Scene {
 
     std::string name;
     std::string description;
-    hh::World host;  // without players until they are added
+    hh::World host;  // world; has no players until they are added
     // The columns behind `host`. Those that are not const are for changes between frames.
     World& world() { return columns_of(host.get()).world; }
     const World& world() const { return columns_of(host.get()).world; }

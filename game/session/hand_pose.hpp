@@ -30,8 +30,8 @@ inline hh::Pose hand_on(const PalmTarget& place, hh::Side side, hh::Vec3 palm_ce
 
 // How hands sit in controllers and where their palms are, by a world's tuning.
 struct HandShape {
-    hh::Vec3 palm_center_m{};                 // of the right hand
-    std::array<hh::Pose, 2> in_controller{};  // by hh::Side
+    hh::Vec3 palm_center_m{};                 // palm of the right hand in the wrist's frame
+    std::array<hh::Pose, 2> in_controller{};  // indexed by hh::Side
 };
 inline HandShape hand_shape(const hh::World& world) {
     return {*world.tuning_vector("hand.palm_center_m"),

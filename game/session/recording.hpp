@@ -33,8 +33,8 @@ struct RecordedHand {
 
 struct RecordedSample {
     double t_s = 0.0;  // strictly increasing; may start at any time
-    hh::Pose head =
-        hh::k_origin;  // between the eyes, in tracking space; all NaN while it was not tracked
+    // Point between the eyes, in tracking space; all NaN while it was not tracked.
+    hh::Pose head = hh::k_origin;
     std::array<RecordedHand, 2> hands;  // left, right
 };
 
@@ -43,7 +43,7 @@ struct RecordedSample {
 RecordedSample recorded(const hh::Sample& sample);
 
 struct Recording {
-    std::vector<RecordedSample> samples;  // at least two; gaps and jitter are normal
+    std::vector<RecordedSample> samples;  // two or more; gaps and jitter are normal
 };
 
 // Refused, with the line: a required column that is missing, a row of other length, a time that

@@ -143,8 +143,7 @@ void add_cut(const HandSurroundings& hand, const GripSurface& surface, const Fin
     }
     const ChainSeed starts =
         chain_seed(hand, surface, finger_chain(finger, 0.0, inverse(hand.body_ws) * palm_ws));
-    const CrossingSearch found =
-        find_crossing(graph, disc, starts, SearchOrder::best_first, scratch);
+    const CrossingSearch found = find_crossing(graph, disc, starts, scratch);
     if (found.triangle == k_no_triangle) {
         return;
     }

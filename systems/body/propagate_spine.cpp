@@ -19,8 +19,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_longest_s = 0.5;
-
 // Angle of a link at rest, measured like the angle that its joint limit bounds.
 double rest_angle(const SpineLink& link) {
     return link.kind == SpineLinkKind::shin ? arc_tangent2(link.rest.z(), -link.rest.y()) : 0.0;
@@ -79,7 +77,7 @@ void pass_twist(const Quat& from, const Quat& to, const SpineTuning& tuning, Spi
         const double wanted = twist - passed;
         const double now =
             std::clamp((1.0 - share) * wanted, -tuning.twist_limit_rad, tuning.twist_limit_rad);
-        passed = now - wanted;  // this link's turn in the world, which the next link follows
+        passed = now - wanted;  // turn of this link in the world, which the next link follows
         twist = now;
     }
 }
@@ -88,7 +86,7 @@ void pass_twist(const Quat& from, const Quat& to, const SpineTuning& tuning, Spi
 struct TickShares {
     double back;                      // share of the return to rest per tick
     double drag;                      // factor on velocities per tick
-    std::array<JointRange, 3> range;  // by SpineLinkKind
+    std::array<JointRange, 3> range;  // indexed by SpineLinkKind
 };
 TickShares tick_shares(const SpineTuning& tuning) {
     return {std::min(1.0, tuning.return_per_s * k_spine_tick_s),
@@ -125,7 +123,7 @@ struct Ticked {
     Quat chest;
     Vec3 moved_m;  // chest displacement since the last tick
     Vec3 ahead_m;  // chest displacement from this tick to the frame's end
-    double share;  // of the frame that has passed; [0, 1]
+    double share;  // share of the frame that has passed, [0, 1]
 };
 
 void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemory& memory) {
@@ -194,7 +192,7 @@ struct Motion {
 };
 
 void play(const Motion& motion, double scale, const SpineTuning& tuning, SpineMemory& memory) {
-    const double span_s = std::min(motion.dt_s, k_longest_s);
+    const double span_s = std::min(motion.dt_s, k_longest_spine_s);
     const QuadraticPath path(motion.moved_m, span_s, memory.rate_mps, memory.rate_span_s);
     const Quat from = memory.chest_ps.rotation;
     double played_s = 0.0;

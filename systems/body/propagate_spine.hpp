@@ -30,14 +30,16 @@ struct PropagateSpineIo {
     Column<SpinePose>& pose;                     // out; in: as shown in the last frame
 };
 
+inline constexpr double k_longest_spine_s = 0.5;
+
 // Simulates spine and legs of every player as a chain of links: motion travels down from the chest,
-// link by link. The chain advances in ticks at multiples of 1/120 s of the world clock, independent
-// of the frame rate. Frames interpolate between the last two ticks.
+// link by link. The chain advances in ticks at multiples of k_spine_tick_s (spine_chain.hpp) of the
+// world clock, independent of the frame rate. Frames interpolate between the last two ticks.
 //
 // Two motions move the chain: the player's velocity relative to the reference velocity
 // (ReferenceVelocity), and the chest's motion in play space. When the play space turns or a player
 // is teleported, the chain moves along rigidly. If the chest jumps, the chain restarts from rest.
-// At most 0.5 s of a frame is simulated.
+// At most k_longest_spine_s of a frame is simulated.
 //
 // Hanging: the trunk turns towards the opposite of the direction to the gripping hands
 // (hang_body.hpp). Loose bodies in the hands pull nothing. Without a grip the trunk keeps its

@@ -5,7 +5,6 @@
 #include "systems/frame/frame_stages.hpp"
 
 namespace handhold::stages {
-namespace {
 
 // --- The stages of a frame, in order -------------------------------------------------------------
 // step_frame runs the five parts below, from top to bottom. Other kinds of frames leave parts out,
@@ -16,8 +15,6 @@ void read_input(const FrameContext& f) {
     read_tracking(f);
     calibrate_players(f);
 }
-
-enum class Contacts { searched, from_host };
 
 // Everything before the solve.
 void prepare_solve(const FrameContext& f, Contacts contacts) {
@@ -52,7 +49,7 @@ void solve(const FrameContext& f) {
     record_valid_poses(f);
 }
 
-// Limits of what the solver, ours or a host's, has found.
+// Limits the solution, whoever found it: this solver or a host's.
 void finish_solve(const FrameContext& f) {
     limit_velocities(f);
     update_joints(f);
@@ -94,7 +91,6 @@ void advance_clock(const FrameContext& f) {
     ++f.w.clock.frame;
 }
 
-}  // namespace
 }  // namespace handhold::stages
 
 namespace handhold {

@@ -261,11 +261,22 @@ void clear_contacts(const FrameContext& f) { f.graph().contacts.clear(); }
 void build_constraints(const FrameContext& f) {
     const StageTimer timer(Stage::build_constraints, f.stats);
     World& w = f.w;
-    handhold::build_constraints(
-        {f.dt_s(), w.persistent_id, w.body, w.body_pose, w.body_velocity, w.joint, w.joint_state,
-         w.player, w.player_origin, w.player_velocity, w.head_tracking, w.hand_owner, w.grab,
-         f.graph(), &w.body_hold},
-        f.tuning);
+    handhold::build_constraints({.dt_s = f.dt_s(),
+                                 .persistent_id = w.persistent_id,
+                                 .body = w.body,
+                                 .body_pose = w.body_pose,
+                                 .body_velocity = w.body_velocity,
+                                 .joint = w.joint,
+                                 .joint_state = w.joint_state,
+                                 .player = w.player,
+                                 .origin = w.player_origin,
+                                 .player_velocity = w.player_velocity,
+                                 .head = w.head_tracking,
+                                 .owner = w.hand_owner,
+                                 .grab = w.grab,
+                                 .body_hold = w.body_hold,
+                                 .frame = f.graph()},
+                                f.tuning);
 }
 
 void solve_phases(const FrameContext& f) {
@@ -289,8 +300,10 @@ void finish_positions(const FrameContext& f) {
 
 void solve_velocities(const FrameContext& f) {
     const StageTimer timer(Stage::solve_velocities, f.stats);
-    handhold::solve_velocities({f.graph(), f.w.body_velocity, f.w.player_velocity}, f.tuning,
-                               f.stats);
+    handhold::solve_velocities({.frame = f.graph(),
+                                .body_velocity = f.w.body_velocity,
+                                .player_velocity = f.w.player_velocity},
+                               f.tuning, f.stats);
 }
 
 void book_momentum(const FrameContext& f) {
@@ -300,7 +313,8 @@ void book_momentum(const FrameContext& f) {
 
 void record_valid_poses(const FrameContext& f) {
     const StageTimer timer(Stage::record_valid_poses, f.stats);
-    handhold::record_valid_poses({f.w.head_tracking, f.graph(), f.w.last_valid});
+    handhold::record_valid_poses(
+        {.head = f.w.head_tracking, .frame = f.graph(), .last_valid = f.w.last_valid});
 }
 
 void limit_velocities(const FrameContext& f) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "systems/frame/frame.hpp"
 #include "systems/grab/shared/grab_search.hpp"
 #include "systems/physics/accept_solution.hpp"
@@ -70,5 +72,17 @@ void propagate_spine(const FrameContext& f);
 void layer_additives(const FrameContext& f);
 void publish_pose(const FrameContext& f);
 void publish_body(const FrameContext& f);
+
+// The parts of a frame, in order: frame.cpp lists their stages.
+void read_input(const FrameContext& f);
+enum class Contacts : std::uint8_t { searched, from_host };
+void prepare_solve(const FrameContext& f, Contacts contacts);
+void solve(const FrameContext& f);
+void finish_solve(const FrameContext& f);
+void show(const FrameContext& f);
+// Checks the input and clears the statistics. Throws PreconditionError for invalid input.
+FrameContext begin_frame(World& world, FrameCaches& caches, const Tuning& tuning,
+                         const FrameInput& input, StageStats& stats);
+void advance_clock(const FrameContext& f);
 
 }  // namespace handhold::stages

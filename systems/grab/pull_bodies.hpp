@@ -39,7 +39,9 @@ struct PullBodiesIo {
 // PullTuning::force_n. The player loses the momentum that the body gains. The body's nearest
 // surface point approaches the moving palm and slows down on the way, so that it can be stopped.
 // Only velocities change, before prediction, so obstacles act as usual. update_grabs grips the body
-// when it is at the palm. If the hand opens, the body flies on.
+// when it is at the palm. If the hand opens, the body flies on. The pull also ends, counted as
+// pull_lost, if the hand's tracking is lost, if the body may not be pulled any more, or if it is
+// far out of reach.
 void pull_bodies(const PullBodiesIo& io, const Tuning& tuning, StageStats& stats);
 
 }  // namespace handhold

@@ -9,8 +9,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_hand_length_m = 0.25;  // bodies closer to the palm than this are gathered
-
 class Gatherer {
   public:
     Gatherer(const GatherSurroundingsIo& io, StageStats& stats) : io_(io), stats_(stats) {}

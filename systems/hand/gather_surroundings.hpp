@@ -19,20 +19,23 @@
 
 namespace handhold {
 
+inline constexpr double k_hand_length_m = 0.25;
+
 // Meshes that hands are fitted to.
 struct MeshesForHands {
     // By shape. Null: hands are fitted neither to shapes nor to parts of players.
     const GripMeshLibrary* of_shapes = nullptr;
     const Column<BodySurface>& of_bodies;  // used instead of the mesh of the body's shape
-    const PartMeshes& of_parts;            // of every part that a hand holds
+    const PartMeshes& of_parts;            // meshes of every part that a hand holds
 };
 
 // Where gather_surroundings looks for bodies near a hand.
 struct BodiesNearHands {
-    std::span<const Entity> bodies;  // in an order independent of entity slots
+    std::span<const Entity> bodies;  // bodies in an order independent of entity slots
     // Has the colliders of `bodies`. Null: every body is tested.
     const CollisionWorld* collision = nullptr;
-    std::span<const ColliderProxy> proxies = {};  // of `collision`: as `bodies`, sorted by id
+    std::span<const ColliderProxy> proxies =
+        {};  // proxies of `collision`, indexed like `bodies`, sorted by id
 };
 
 struct GatherSurroundingsIo {
@@ -62,9 +65,10 @@ struct GatherSurroundingsIo {
 // is the first hand stage; the later ones read its output and their own columns.
 //
 // The wrist of a gripping hand is at its anchor. Its rotation is the tracked one, unless the
-// gripped object turns with the hand. A body is near if its mesh's bounding box is within 0.25 m of
-// the palm. Heads have no grip mesh: a hand that grips a head is shown as tracked. A hand on
-// another player's part is fitted to the part's capsule; the body's frame is then the capsule's.
+// gripped object turns with the hand. A body is near if its mesh's bounding box is within
+// k_hand_length_m of the palm. Heads have no grip mesh: a hand that grips a head is shown as
+// tracked. A hand on another player's part is fitted to the part's capsule; the body's frame is
+// then the capsule's.
 // Where `meshes` has no mesh for the gripped body, the hand is shown as tracked.
 //
 // Fallbacks counted: body_no_surface.

@@ -203,16 +203,9 @@ GripSurface valid_last_surface(const HandSurroundings& hand, const GripSurface& 
     return surface.body == hand.body && surface.triangle < triangles ? surface : GripSurface{};
 }
 
-GripSurface surface_of_ray(const HandSurroundings& hand, double dt_s, const Tuning& tuning) {
-    const PalmFitter fitter(hand, hand.wrist_bs, dt_s, tuning.palm);
-    const auto hit = cast_palm_ray(fitter, tuning.hand);
-    return hit ? fitter.surface_at({hit->triangle, hit->point, 0.0}) : GripSurface{};
-}
-
 }  // namespace
 
-void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats,
-                 GripSearch search) {
+void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats) {
     for (const HandSurroundings& hand : io.hands) {
         GripSurface& surface = io.surface.at(hand.hand);
         if (is_null(hand.body) || hand.meshes.empty()) {
@@ -247,9 +240,7 @@ void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats
         const std::uint32_t refine_frames =
             is_stationary ? surface.stationary_refine_frames + refined : 0;
         const GripSurface last = valid_last_surface(hand, surface);
-        surface = search == GripSearch::ray_only
-                      ? surface_of_ray(hand, io.dt_s, tuning)
-                      : GripSearcher(hand, io.dt_s, tuning, last, io.scratch).run();
+        surface = GripSearcher(hand, io.dt_s, tuning, last, io.scratch).run();
         surface.stationary_refine_frames = refine_frames;
         if (surface.triangle == GripSurface::k_none) {
             stats.count(Fallback::palm_no_surface);

@@ -11,18 +11,12 @@
 
 namespace handhold {
 
-// How a palm's surface is chosen.
-enum class GripSearch : std::uint8_t {
-    smallest_sync,  // the surface of lowest full cost, see search_grip
-    ray_only,       // the surface that the palm ray hits; for comparisons
-};
-
 struct SearchGripIo {
     double dt_s;  // in: length of the frame; infinity: all candidates are evaluated at once
     std::span<const HandSurroundings> hands;  // in: body frame (_bs)
     // In/out: last frame's result, then this frame's; body frame (_bs).
     Column<GripSurface>& surface;
-    GripSearchScratch& scratch;  // memory that calls reuse: nothing is read from an earlier call
+    GripSearchScratch& scratch;  // scratch: nothing is read from an earlier call
 };
 
 // Chooses the surface under each gripping palm: the one for which the palm must move least from its
@@ -45,7 +39,6 @@ struct SearchGripIo {
 // A palm in an authored grip gets the nearest triangle, without a search. Talk row 10.
 //
 // Fallbacks counted: palm_no_surface (GripSurface::triangle is k_none).
-void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats,
-                 GripSearch search = GripSearch::smallest_sync);
+void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats);
 
 }  // namespace handhold

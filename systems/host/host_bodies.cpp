@@ -135,7 +135,8 @@ hh_result hh_body_name(const hh_world* world, hh_body body, const char** name) {
         const hh_world& host = world_of(world);
         require(name != nullptr, HH_ERROR_NULL, "the output is null");
         const std::string_view found = name_of(host.world, body_of(host, body));
-        *name = found.empty() ? "" : found.data();  // of a std::string: it ends with 0
+        *name =
+            found.empty() ? "" : found.data();  // ends with 0, because it belongs to a std::string
     });
 }
 

@@ -28,7 +28,7 @@ struct ConstHostColumns {
     const ShapeLibrary& shapes;
     const GripMeshLibrary& grip_meshes;
     const FrameCaches& caches;
-    const StageStats& stats;  // of the last step
+    const StageStats& stats;  // statistics of the last step
 };
 
 // `world` is not null. Change columns between steps only, and ask for them again after a query

@@ -51,7 +51,8 @@ hh_result hh_player_add(hh_world* world, const hh_player_def* wanted, hh_player*
                     "the name of one of the player's hands is taken");
         }
         constexpr double k_max_scale = 100.0;
-        const double scale = checked(def.scale, 1e-3, k_max_scale, "scale must lie in (0, 100]");
+        const double scale =
+            checked(def.scale, 1e-3, k_max_scale, "scale must lie in [0.001, 100]");
         PlayerDescription description;
         description.name = name;
         description.body.mass_kg = def.mass_kg;

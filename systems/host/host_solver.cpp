@@ -33,7 +33,7 @@ hh_hand_constraint constraint_of(const hh_world& host, const RowBlock& block, do
     const Quat body_rotation = block.kind == RowKind::drive_direction
                                    ? Quat(play_space * block.rotation_a_bs)
                                    : Quat(target.rotation * grab.anchor_bs.rotation.conjugate());
-    const Pose frame_bs = to_host_bs(host, grab.body, {});  // of the library, in the host's
+    const Pose frame_bs = to_host_bs(host, grab.body, {});  // library's frame in the host's
     out.body_rotation =
         to_c(Pose{Vec3::Zero(), (body_rotation * frame_bs.rotation.conjugate()).normalized()})
             .rotation;

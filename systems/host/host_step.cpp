@@ -16,9 +16,9 @@ constexpr double k_max_step_s = 10.0;
 
 // Poses that are not tracked, or that no tracking gives, become NaN: read_tracking ignores them.
 Pose tracked_or_invalid(const Pose& pose, bool is_tracked) {
-    constexpr double k_farthest_m = 1e4;
     Pose read;
-    if (is_tracked && is_valid(pose) && pose.position.cwiseAbs().maxCoeff() < k_farthest_m) {
+    if (is_tracked && is_valid(pose) &&
+        pose.position.cwiseAbs().maxCoeff() < k_farthest_tracked_m) {
         return pose;
     }
     read.position.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -131,7 +131,6 @@ void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std
 }
 
 void keep_early_samples(hh_world& host, double end_s) {
-    constexpr double k_latest_s = 1e9;
     for (std::size_t i = 0; i < host.inputs.size(); ++i) {
         const PlayerInput& input = host.inputs[i];
         host.world.early_sample.remove(input.player);

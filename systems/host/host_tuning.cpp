@@ -150,14 +150,15 @@ hh_result hh_world_set_tuning_numbers(hh_world* world, const double* values, siz
         std::size_t at = 0;
         visit_tuning(changed, [&](const TuningInfo& info, auto& field) {
             constexpr std::size_t k_own = component_count<decltype(field)>();
-            require(at + k_own <= count, HH_ERROR_VALUE, "there are more numbers than given");
+            require(at + k_own <= count, HH_ERROR_VALUE,
+                    "the tuning has more numbers than were given");
             for (std::size_t i = 0; i < k_own; ++i) {
                 require_in_range(info, values[at + i]);
             }
             write_components(field, values + at);
             at += k_own;
         });
-        require(at == count, HH_ERROR_VALUE, "there are less numbers than given");
+        require(at == count, HH_ERROR_VALUE, "the tuning has fewer numbers than were given");
         check_tuning(changed);
         host.tuning = changed;
     });

@@ -27,10 +27,10 @@ struct LocomotePlayersIo {
     Column<BodyHold>& body_hold;           // in/out: kept in place when the held player turns
 };
 
-// Moves players by their commands: snap and smooth turns, brake, thrusters. Updates the reference
-// velocity, and turns the play space with a support as LocomotionTuning::support_follow says. Two
-// hands on one turning body always make the play space follow it fully: two fixed points allow no
-// other motion.
+// Moves players by their commands: snap and smooth turns; brake and thrusters while no hand is on a
+// surface. Updates the reference velocity, and turns the play space with a support as
+// LocomotionTuning::support_follow says. Two hands on one turning body always make the play space
+// follow it fully: two fixed points allow no other motion.
 void locomote_players(const LocomotePlayersIo& io, const LocomotionTuning& tuning);
 
 }  // namespace handhold

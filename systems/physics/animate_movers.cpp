@@ -38,14 +38,14 @@ BodyVelocity mover_velocity(const Mover& mover, double t_s) {
 }
 
 BodyVelocity leg_velocity(const PosePath& torso, const LegMover& mover, double t_s) {
-    constexpr double k_step_s = 1e-4;
     const auto pose_at = [&](double at_s) {
         return crawler_bone_pose(torso, mover.gait, mover.leg, mover.bone, at_s);
     };
-    const Pose before = pose_at(t_s - k_step_s);
-    const Pose after = pose_at(t_s + k_step_s);
-    return {(after.position - before.position) / (2.0 * k_step_s),
-            rotation_to_vector(after.rotation * before.rotation.conjugate()) / (2.0 * k_step_s)};
+    const Pose before = pose_at(t_s - k_leg_step_s);
+    const Pose after = pose_at(t_s + k_leg_step_s);
+    return {
+        (after.position - before.position) / (2.0 * k_leg_step_s),
+        rotation_to_vector(after.rotation * before.rotation.conjugate()) / (2.0 * k_leg_step_s)};
 }
 
 void animate_movers(const AnimateMoversIo& io) {

@@ -3,8 +3,9 @@
 #include "components/body.hpp"
 #include "engine/ecs/column.hpp"
 
-// Moves kinematic bodies to their poses at the end of the frame, in closed form of time: nothing
-// accumulates, and a hand on a ship has no lag.
+// Moves kinematic bodies to their poses at the end of the frame: those with a Mover, PathMover or
+// LegMover in closed form of time, so that nothing accumulates and a hand on a ship has no lag;
+// those with a MoveTarget to the pose that the host asked for.
 // Talk row 6 (moving supports).
 // A LegMover whose torso has no PathMover keeps its pose and gets velocity 0.
 // Fallbacks counted: none.
@@ -28,9 +29,12 @@ void animate_movers(const AnimateMoversIo& io);
 Pose mover_pose(const Mover& mover, double t_s);
 BodyVelocity mover_velocity(const Mover& mover, double t_s);
 
+inline constexpr double k_leg_step_s = 1e-4;
+
 // World velocity of a leg's bone at time t_s, by a central difference of its pose over +-h, h =
-// 0.1 ms. Truncation error: h^2 / 6 of the third derivative, below 1e-5 m/s for feet that swing a
-// metre in 0.4 s. Rounding error: 1e-12 of the distance to the origin, divided by h.
+// k_leg_step_s. Truncation error: h^2 / 6 of the third derivative, for instance below 1e-5 m/s for
+// feet that swing a metre in 0.4 s. Rounding error: about 1e-12 of the distance to the origin,
+// divided by h.
 BodyVelocity leg_velocity(const PosePath& torso, const LegMover& mover, double t_s);
 
 }  // namespace handhold

@@ -161,8 +161,7 @@ void write_hands(const BuildConstraintsIo& io, const PhaseTuning& tuning) {
         block.b = static_cast<std::uint32_t>(b);
         block.source = static_cast<std::uint32_t>(row);
         if (grab.kind == GripKind::player) {
-            const BodyHold* const hold =
-                io.body_hold != nullptr ? io.body_hold->find(hand) : nullptr;
+            const BodyHold* const hold = io.body_hold.find(hand);
             hold_player(grab, io.head.at(grab.body), hold, frame.graph.bodies[b].pose_ws.rotation,
                         io.dt_s, block);
         }

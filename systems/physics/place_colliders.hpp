@@ -9,11 +9,11 @@
 #include "engine/ecs/column.hpp"
 
 // Lists all bodies and players by persistent id and gives their colliders to the collision world.
-// Runs before update_grabs and find_contacts. Places only bodies whose components changed since the
-// last call; for the others it compares bytes. A proxy's motion is from the last valid pose to the
-// current pose. For fixed and kinematic bodies it is from the pose at the start of the frame. A
-// player's collider is the sphere of the head, at the end of the frame. A head that was never
-// tracked has no contacts.
+// Runs before update_grabs and find_contacts. Places all players, and bodies whose components
+// changed since the last call; for the other bodies it compares bytes. A proxy's motion is from the
+// last valid pose to the current pose. For fixed and kinematic bodies, and for a head without a
+// valid pose, it is from the pose at the start of the frame. A player's collider is the sphere of
+// the head, at the end of the frame. A head that was never tracked has no contacts.
 // Fallbacks counted: none.
 namespace handhold {
 

@@ -18,7 +18,7 @@ struct PredictBodiesIo {
     const Column<PlayerVelocity>& player_velocity;  // in: world, m/s
     Column<BodyPose>& body_pose;                    // in/out, free bodies: world
     Column<BodyStart>& body_start;        // out, free bodies: pose at the frame's start, world
-    Column<BodyVelocity>& body_velocity;  // in/out, free bodies: world; out: rad/s
+    Column<BodyVelocity>& body_velocity;  // in/out, free bodies: world, m/s and rad/s
     Column<PlayerOrigin>& origin;         // in/out: world, position only
     Column<PlayerStart>& player_start;    // out: pose at the frame's start, world
 };

@@ -6,7 +6,6 @@
 
 #include "engine/core/profile.hpp"
 #include "engine/solver/contact/moving_contacts.hpp"
-#include "systems/physics/shared/phase_solve.hpp"
 
 namespace handhold {
 namespace {
@@ -20,9 +19,11 @@ constexpr double k_heap_violated_m = 1e-3;
 // the heap's bodies keep their present contacts until the next frame. Other islands are not
 // affected.
 constexpr std::uint64_t k_max_heap_visits = 12'000;
-constexpr int k_max_heap_rounds = 2;  // of a phase; what appears later waits for the next frame
+constexpr int k_max_heap_rounds =
+    2;  // rounds of a phase; contacts that appear later wait for the next frame
 
 struct Solve {
+    PositionSolver solver;
     const SolvePhasesIo& io;
     const Tuning& tuning;
     StageStats& stats;
@@ -68,7 +69,7 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
             chosen.push_back(i);
         }
     }
-    solve_chosen_islands(phase, s.tuning.solver, s.io.frame, s.stats);
+    solve_chosen_islands(phase, s.tuning.solver, s.solver, s.io.frame, s.stats);
     return chosen.size();
 }
 
@@ -259,7 +260,12 @@ void contradiction(const Solve& s) {
 }  // namespace
 
 void solve_phases(const SolvePhasesIo& io, const Tuning& tuning, StageStats& stats) {
-    const Solve s{io, tuning, stats};
+    solve_phases_with(&solve_positions, io, tuning, stats);
+}
+
+void solve_phases_with(PositionSolver solver, const SolvePhasesIo& io, const Tuning& tuning,
+                       StageStats& stats) {
+    const Solve s{solver, io, tuning, stats};
     clear_errors(s);
     count_heap_visits(s);
     activate_islands(io.frame);

@@ -4,6 +4,7 @@
 #include "components/stats.hpp"
 #include "components/tuning.hpp"
 #include "engine/collision/collision_world.hpp"
+#include "systems/physics/shared/phase_solve.hpp"
 
 // Solves the positions of the frame in phases: designer physics, in which players move objects
 // freely and are pushed only by what cannot give way.
@@ -34,5 +35,10 @@ struct SolvePhasesIo {
     FrameGraph& frame;          // in: rows; in/out: poses (world), contacts, phase
 };
 void solve_phases(const SolvePhasesIo& io, const Tuning& tuning, StageStats& stats);
+
+// solve_phases with another method in place of solve_positions. Tools that compare methods call it;
+// the runtime does not.
+void solve_phases_with(PositionSolver solver, const SolvePhasesIo& io, const Tuning& tuning,
+                       StageStats& stats);
 
 }  // namespace handhold

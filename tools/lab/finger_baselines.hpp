@@ -6,6 +6,7 @@
 #include "engine/geometry/chain_fit.hpp"
 #include "engine/geometry/grip_mesh.hpp"
 #include "engine/geometry/hinge_chain.hpp"
+#include "tools/lab/disc_search.hpp"
 
 // Other methods of closing fingers, as baselines for sweep_fingers and fit_hands. All arguments of
 // one call are in the mesh's frame.

@@ -10,7 +10,9 @@
 #include "engine/core/profile.hpp"
 #include "systems/hand/constrain_palms.hpp"
 #include "systems/hand/fit_hands.hpp"
+#include "systems/hand/search_grip.hpp"
 #include "systems/hand/shared/finger_chain.hpp"
+#include "systems/hand/shared/palm_fitter.hpp"
 #include "systems/hand/sweep_fingers.hpp"
 #include "systems/rigs/authored_hand.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
@@ -92,9 +94,30 @@ class OneHand {
     }
 
     void search(double dt_s, const Tuning& tuning, const GripVariant& variant) {
-        search_grip(
-            {.dt_s = dt_s, .hands = surroundings_, .surface = surface_, .scratch = search_scratch_},
-            tuning, stats_, variant.palm);
+        if (variant.palm == PalmChoice::ray_only) {
+            choose_by_palm_ray(dt_s, tuning);
+        } else {
+            search_grip({.dt_s = dt_s,
+                         .hands = surroundings_,
+                         .surface = surface_,
+                         .scratch = search_scratch_},
+                        tuning, stats_);
+        }
+    }
+    // Keeps the surface of a hand at rest, as search_grip does.
+    void choose_by_palm_ray(double dt_s, const Tuning& tuning) {
+        const HandSurroundings& hand = surroundings_.front();
+        GripSurface& surface = surface_.rows().front();
+        if (has_surface() &&
+            hand_travel_m(surface.wrist_bs, hand.wrist_bs) < tuning.finger.reuse_travel_m) {
+            return;
+        }
+        const PalmFitter fitter(hand, hand.wrist_bs, dt_s, tuning.palm);
+        const PalmFrame& palm = fitter.palm();
+        const auto hit = mesh_.search_bvh.cast_ray(
+            palm.center + tuning.hand.ray_back_m * palm.up,
+            palm.center - (tuning.hand.ray_length_m - tuning.hand.ray_back_m) * palm.up);
+        surface = hit ? fitter.surface_at({hit->triangle, hit->point, 0.0}) : GripSurface{};
     }
     static bool is_fitted(const GripVariant& variant) {
         return variant.fingers == FingerMethod::fit && variant.sync;
@@ -120,7 +143,7 @@ class OneHand {
                            .fingers = fingers_,
                            .traces = traces_,
                            .scratch = fit_scratch_},
-                          tuning, stats_, variant.order);
+                          tuning, stats_);
             return;
         }
         for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {

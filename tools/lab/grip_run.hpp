@@ -11,16 +11,21 @@
 #include "components/hand_surroundings.hpp"
 #include "components/tuning.hpp"
 #include "engine/geometry/grip_mesh.hpp"
-#include "systems/hand/search_grip.hpp"
 #include "tools/lab/finger_baselines.hpp"
 
 // One hand on one mesh, posed by the runtime's systems over columns of one element.
 namespace handhold::lab {
 
+// How the palm's surface is chosen.
+enum class PalmChoice : std::uint8_t {
+    smallest_sync,  // search_grip, the runtime's
+    ray_only,       // the surface that the palm ray hits
+};
+
 struct GripVariant {
     bool sync = true;  // the palm moves to its limits; else it stays at its tracked pose
-    SearchOrder order = SearchOrder::best_first;
-    GripSearch palm = GripSearch::smallest_sync;
+    SearchOrder order = SearchOrder::best_first;  // FingerMethod::talk only
+    PalmChoice palm = PalmChoice::smallest_sync;
     // The talk's fingers include its palm fit: three limits and no depenetration of knuckles and
     // heel. Only the runtime's own method fits the wrist together with the fingers.
     FingerMethod fingers = FingerMethod::fit;

@@ -16,7 +16,7 @@ bool passes(BlockFilter filter, const RowBlock& block);
 // A view of one island. Blocks between two bodies with zero inverse mass are skipped.
 struct IslandView {
     BlockFilter filter = BlockFilter::all;
-    std::span<SolverBody> bodies;  // of the whole graph; indexed by island_bodies
+    std::span<SolverBody> bodies;  // bodies of the whole graph; indexed by island_bodies
     std::span<RowBlock> blocks;
     std::span<const std::uint32_t> island_bodies;
     std::span<const std::uint32_t> island_blocks;

@@ -77,10 +77,7 @@ class RowSteps {
         return {scratch_.system.work(), scratch_.system.is_active_set_unconverged()};
     }
     void solve_with_last_factor() {
-        scratch_.values.clear();
-        for (const Row& row : scratch_.rows) {
-            scratch_.values.push_back(row.residual);
-        }
+        gather_residuals(scratch_);
         take(scratch_.system.solve_with_last_factor(scratch_.values));
     }
     double longest_move() const { return handhold::longest_move(scratch_); }

@@ -13,7 +13,7 @@ namespace handhold {
 enum class LoadStepping : std::uint8_t { none, converged, failed };
 
 struct NewtonResult {
-    int iterations = 0;                  // of all load steps
+    int iterations = 0;                  // sum over all load steps
     double initial_drive_error_m = 0.0;  // largest drive error before the first iteration
     double residual_m = 0.0;             // largest error at the end (Row::residual)
     bool converged = false;              // residual_m < tolerance_m

@@ -14,8 +14,8 @@ namespace handhold {
 // The rows at the current poses.
 struct StepErrors {
     double worst_m = 0.0;        // largest error
-    double worst_drive_m = 0.0;  // of the drives
-    double overlap_m = 0.0;      // of the contacts
+    double worst_drive_m = 0.0;  // greatest error of the drives
+    double overlap_m = 0.0;      // greatest overlap of the contacts
     bool has_contact = false;
     bool keeps_factor = false;  // the factor of the last step fits these rows
 };

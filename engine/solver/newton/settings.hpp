@@ -12,7 +12,7 @@ namespace handhold {
 // How the regularisation of drives and contacts changes from step to step, and how long a Newton
 // step may be. See regularisation_schedule.hpp.
 struct StepControl {
-    double max_drive_regularisation = 1e-2;  // at least min_drive_regularisation
+    double max_drive_regularisation = 1e-2;  // >= min_drive_regularisation
     double min_drive_regularisation = 1e-9;
     // Of contacts that contradict each other; at least their initial regularisation.
     double max_contact_regularisation = 1e-3;
@@ -31,10 +31,10 @@ struct StepControl {
 
 // Work that the solves of one island may spend in a frame. Counted, never timed, so that the same
 // frame ends at the same point everywhere. The unit is one visit of a row by a sweep, or
-// k_multiply_adds of a factorisation: about 30 ns.
+// k_multiply_adds of a factorisation: it costs about 30 ns.
 struct WorkBudget {
     static constexpr std::uint64_t k_multiply_adds = 64;
-    std::uint64_t positions = 250'000;  // of all phases together
+    std::uint64_t positions = 250'000;  // budget of all phases together
     std::uint64_t velocities = 100'000;
     std::uint64_t per_block = 60;  // added to both for each of the island's first max_blocks
     std::size_t max_blocks = 4000;

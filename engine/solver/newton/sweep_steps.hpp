@@ -24,7 +24,7 @@ class SweepSteps {
     static constexpr double k_max_loose_move_m = 0.05;
 
     static constexpr int k_max_iterations = 6;  // Newton steps of a solve
-    static constexpr int k_max_sweeps = 30;     // per Newton step
+    static constexpr int k_max_sweeps = 30;     // maximum per Newton step
     // The solve ends after a step that leaves more of the smallest error.
     static constexpr double k_stall_ratio = 0.7;
 
@@ -47,10 +47,7 @@ class SweepSteps {
         sweeps.assemble(island_.bodies, scratch_.inverse_inertia_ws, scratch_.rows, {});
         regularise(scratch_.rows, regularisation, factor, sweeps);
         sweeps.factorise();
-        scratch_.values.clear();
-        for (const Row& row : scratch_.rows) {
-            scratch_.values.push_back(row.residual);
-        }
+        gather_residuals(scratch_);
         sweeps.solve(scratch_.values,
                      {island_.max_work - std::min(work_, island_.max_work), k_max_sweeps,
                       k_heap_tolerance_m, k_tolerance_ratio * tolerance_m_});

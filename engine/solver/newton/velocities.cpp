@@ -216,10 +216,7 @@ void refine_velocities(const IslandView& island, const VelocitySettings& setting
             return;
         }
         previous = worst;
-        scratch.values.clear();
-        for (const Row& row : scratch.rows) {
-            scratch.values.push_back(row.residual);
-        }
+        gather_residuals(scratch);
         const std::span<const double> lambda =
             scratch.system.solve_with_last_factor(scratch.values);
         gather_moves(scratch.system.moves(), scratch);
@@ -318,7 +315,7 @@ class SweepMethod {
     static constexpr double k_tolerance_mps = 1e-8;
     static constexpr double k_heap_tolerance_mps = 1e-5;
     static constexpr int k_max_heap_sweeps = 60;
-    static constexpr int k_max_sweeps = 30;  // after the direct solve found no answer
+    static constexpr int k_max_sweeps = 30;  // maximum once the direct solve has found no answer
 
     SweepMethod(const IslandView& island, const VelocitySettings& settings, SolveScratch& scratch)
         : island_(island), settings_(settings), scratch_(scratch) {
@@ -335,10 +332,7 @@ class SweepMethod {
     }
     void solve() {
         RowSweeps& sweeps = scratch_.sweeps;
-        scratch_.values.clear();
-        for (const Row& row : scratch_.rows) {
-            scratch_.values.push_back(row.residual);
-        }
+        gather_residuals(scratch_);
         const std::span<const double> lambda = sweeps.solve(
             scratch_.values,
             {island_.max_work, island_.is_heap ? k_max_heap_sweeps : k_max_sweeps,

@@ -107,8 +107,7 @@ Pose ShownBodies::part_ps(Entity player, BodyPart part) const {
 template <typename Test>
 std::optional<PartHit> ShownBodies::nearest(const Vec3& near_ws, double within_m, Skip skip,
                                             const Test& test) const {
-    constexpr double k_reach_eyes =
-        2.0;  // in eye heights; parts farther from the head are not found
+    constexpr double k_reach_eyes = 2.0;  // eye heights; parts farther from the head are not found
     std::optional<PartHit> best;
     for (std::size_t row = 0; row < shown.size(); ++row) {
         const Entity player = shown.owners()[row];

@@ -26,11 +26,11 @@ Pose follow_part(const Pose& from_ps, const Pose& to_ps, const Vec3& anchor_bs,
 
 // A point on a part. `normal_ws`: unit, outward.
 struct PartHit {
-    std::uint64_t id = 0;  // of the player
+    std::uint64_t id = 0;  // id of the player
     BodyPart part = BodyPart::left_upper_arm;
     Vec3 point_ws = Vec3::Zero();
     Vec3 normal_ws = Vec3::UnitY();
-    double distance_m = 0.0;  // from the ray's start or the query point; negative: inside
+    double distance_m = 0.0;  // distance from the ray's start or the query point; negative: inside
 };
 
 // The bodies of all players, as the last frame showed them, at the start of this frame. A player

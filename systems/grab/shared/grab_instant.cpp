@@ -19,7 +19,7 @@ Pose hand_within_frame(const HandTracking& hand, const HandHistory& history, dou
     };
     Knot before{0.0, &hand.start_ps};
     Knot after{1.0, &hand.pose_ps};
-    const bool jumps = hand.resumed;  // it did not travel
+    const bool jumps = hand.resumed;  // true: the hand did not travel
     for (std::uint32_t i = 0; i < history.count && !jumps; ++i) {
         const HandHistory::Entry& entry = history.entries[i];
         const double at = (entry.t_s - start_s) / (end_s - start_s);

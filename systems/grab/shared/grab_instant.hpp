@@ -80,8 +80,8 @@ bool drives_whole_frame(const Grab& grab, const HandTracking& hand);
 Pose hand_driven_body_ws(const GrabInstant& now, Entity body, const PhaseTuning& tuning);
 
 // Pose of a held free body: it follows its hands, not its velocity. Its error stays what it was at
-// the start of the frame; a grip that began in this frame has none. `first` drives the body, alone
-// or with the other hand.
+// the start of the frame; a grip that began in this frame has none. Predicted if one of these hands
+// is `resumed`. `first` drives the body, alone or with the other hand.
 Pose held_body_ws(const GrabInstant& now, const HandPair& first);
 
 // The player's origin by a hand on a jointed body: it takes the part of the hand's travel that the

@@ -8,8 +8,8 @@ namespace handhold {
 
 // Rules that restrict which hand may grip which body. Empty columns restrict nothing.
 struct GrabRules {
-    const Column<GrabRule>& rule;           // of bodies
-    const Column<GrabLayers>& layers;       // of players
+    const Column<GrabRule>& rule;           // rules of bodies
+    const Column<GrabLayers>& layers;       // layers of players
     const Column<CollisionFilter>& filter;  // layers of bodies; without a row: the default
 
     // The body's rule; null if it has none.

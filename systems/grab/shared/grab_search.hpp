@@ -59,7 +59,7 @@ struct GrabTarget {
     Vec3 point_ws;
     Vec3 normal_ws;                     // unit, out of the solid
     std::optional<AuthoredHold> hold;   // if it is an authored grip
-    std::optional<BodyPart> part = {};  // of another player; none: their head
+    std::optional<BodyPart> part = {};  // part of another player; none: their head
 };
 
 // Advances HandSight of all hands to the start of the frame.

@@ -71,7 +71,7 @@ Pose clamp_to_limits(const HandSurroundings& hand, const Pose& tracked_bs,
 struct PalmGap {
     Vec3 along = Vec3::Zero();
     Vec3 turn = Vec3::Zero();
-    double gap_m = 0.0;  // below 0: violated
+    double gap_m = 0.0;  // negative: violated
 };
 
 class PalmGaps {

@@ -71,8 +71,7 @@ GripSurface PalmFitter::surface_at(const Candidate& candidate) const {
     surface.triangle = candidate.triangle;
     surface.point_bs = transform_point(placed_.pose, point);
     const Vec3 own_bs = placed_.pose.rotation * Vec3(side * winding_normal);
-    constexpr double k_min_cosine = 0.7;
-    if (reused_normal_bs_ && reused_normal_bs_->dot(own_bs) > k_min_cosine) {
+    if (reused_normal_bs_ && reused_normal_bs_->dot(own_bs) > k_reused_normal_cosine) {
         surface.normal_bs = *reused_normal_bs_;
     } else {
         surface.normal_bs = placed_.pose.rotation *

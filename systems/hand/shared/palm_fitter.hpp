@@ -28,6 +28,8 @@ struct FittedPalm {
     bool is_warm_started = false;  // the fit started from last frame's fit
 };
 
+inline constexpr double k_reused_normal_cosine = 0.7;
+
 // Fits one hand's palm to surfaces of the hand's first mesh, within one frame. search_grip uses it
 // to evaluate candidates. Keeps references to its constructor arguments. Precondition: the hand has
 // meshes.
@@ -42,11 +44,11 @@ class PalmFitter {
 
     const HandSurroundings& hand() const { return hand_; }
     const PlacedMesh& placed() const { return placed_; }
-    const PalmFrame& palm() const { return palm_; }  // in the mesh's frame
+    const PalmFrame& palm() const { return palm_; }  // palm in the mesh's frame
     bool is_unbudgeted() const;                      // dt_s is infinite
 
     // From now on surface_at() uses this mean normal, instead of computing it, for triangles whose
-    // normal is within about 45 degrees of it. None: computes every mean normal.
+    // normal has a cosine to it above k_reused_normal_cosine. None: computes every mean normal.
     void reuse_normal(const std::optional<Vec3>& normal_bs) { reused_normal_bs_ = normal_bs; }
 
     GripSurface surface_at(const Candidate& candidate) const;

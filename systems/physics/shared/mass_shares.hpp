@@ -18,15 +18,14 @@
 //   heavy              1      0        0      1 or H    1              V
 //   free               1      1        1      1 or H    1              1
 //   player on surface  1      0        0      1         C              1
-//   other player       kappa  kappa    0      1         C              kappa, P after a push
+//   other player       M      M        0      1         C              M, P after a push
 //
 // "On surface": a hand grips a fixed, kinematic or heavy body or another player, or another player
 // grips this one. Why each phase has these shares:
 //
 // - reach: a player who climbs is moved by the grip. A light object must not move the view of the
 //   player who waves it, so without such a grip the player is infinitely heavy.
-//   kappa: 0 up to PhaseTuning::kappa_light_kg, 1 from kappa_heavy_kg, smooth between
-//   (momentum_share of the heaviest body that a hand holds by all its rows).
+//   M: momentum_share of the heaviest body that a hand holds by all its rows.
 // - forward: players stay where reach put them and heavy bodies count as walls. What contacts then
 //   take from the hands is exactly the violation, whatever the masses.
 // - relax: only held bodies give way, because the hands press a heap that cannot.
@@ -36,10 +35,10 @@
 // - contradiction: contacts outrank hands, and no grip is left to move the player. C: 1 if the
 //   player's own collider touches and the island may push, else 0.
 // - velocities: momentum is exchanged with the masses that moved the positions. P: 1 if the push
-//   came from something that shares momentum (set_velocity_masses), else kappa of the island's
-//   heaviest free body, but at least least_player_share. V: 1 if the body was pushed, or if a hand
-//   or joint acts in its island; if a hand there yields nothing, only if one acts on the body
-//   itself. It would get momentum that no player pays for.
+//   came from something that shares momentum (set_velocity_masses), else momentum_share of the
+//   island's heaviest free body, but at least least_player_share. V: 1 if the body was pushed, or
+//   if a hand or joint acts in its island; if a hand there yields nothing, only if one acts on the
+//   body itself. It would get momentum that no player pays for.
 namespace handhold {
 
 // Of the position solve, in the order of a frame; solve_phases.hpp says what each is for.
@@ -76,7 +75,9 @@ void set_velocity_masses(const Island& island, const PhaseTuning& tuning, FrameG
 // into FrameGraph::phase, or beyond its end if no stage has seen the player yet.
 double mass_for_host_kg(const FrameGraph& frame, std::size_t player, double mass_kg);
 
-// Kappa's reciprocal: the share of a player against a body of `mass_kg`; in [0, 1].
+// The share of a player against a body of `mass_kg`, in [0, 1]: 0 up to
+// PhaseTuning::kappa_light_kg, 1 from kappa_heavy_kg, smooth between. The talk's kappa is its
+// reciprocal.
 double momentum_share(double mass_kg, const PhaseTuning& tuning);
 // Least share of a player of `mass_kg` against free bodies of which the heaviest has `heaviest_kg`;
 // in (0, 1]. Light bodies must not shake the player, who counts as up to 1000 times as heavy as

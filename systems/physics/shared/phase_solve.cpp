@@ -55,8 +55,8 @@ std::uint64_t work_left(const FrameGraph& frame, const Island& island) {
 
 }  // namespace
 
-void solve_chosen_islands(Phase phase, const SolverTuning& tuning, FrameGraph& frame,
-                          StageStats& stats) {
+void solve_chosen_islands(Phase phase, const SolverTuning& tuning, PositionSolver solver,
+                          FrameGraph& frame, StageStats& stats) {
     ConstraintGraph& graph = frame.graph;
     sort_largest_first(graph, frame.island_order);
     if (frame.island_scratch.size() < graph.islands.size()) {
@@ -77,8 +77,7 @@ void solve_chosen_islands(Phase phase, const SolverTuning& tuning, FrameGraph& f
                               island.is_heap && phase != Phase::backward,
                               work_left(frame, island)};
         const std::uint32_t index = frame.island_order[i];
-        frame.island_results[i] =
-            frame.position_solver(view, settings, frame.island_scratch[index]);
+        frame.island_results[i] = solver(view, settings, frame.island_scratch[index]);
         for (const std::uint32_t body : graph.bodies_of(island)) {
             frame.phase[body].work += frame.island_results[i].work;
         }

@@ -40,7 +40,7 @@ struct Poses {
         last_valid.add(k_player);
         last_valid.add(k_rock, {before_ws});
     }
-    void run() { record_valid_poses({head, frame, last_valid}); }
+    void run() { record_valid_poses({.head = head, .frame = frame, .last_valid = last_valid}); }
     const Pose& rock_ws() const { return last_valid.at(k_rock).pose_ws; }
 };
 

@@ -46,9 +46,10 @@ struct Phases {
         for (SolverBody& body : frame.graph.bodies) {
             body.inverse_mass = body.mass_kg > 0.0 ? 1.0 / body.mass_kg : 0.0;
         }
-        frame.position_solver = &fake_solver;
     }
-    void solve() { solve_phases({.collision = collision, .frame = frame}, tuning, stats); }
+    void solve() {
+        solve_phases_with(&fake_solver, {.collision = collision, .frame = frame}, tuning, stats);
+    }
 };
 
 TEST(SolvePhases, CountsLoadSteppingByItsResult) {

@@ -27,7 +27,7 @@ typedef struct hh_player_def {
     hh_vec3 velocity_mps;
     double mass_kg; /* default 80 */
     hh_measures measures;
-    double scale;          /* of all measures, (0, 100]; default 1 */
+    double scale;          /* of all measures, [0.001, 100]; default 1 */
     bool head_collides;    /* the head is a sphere of head.radius_m; default true */
     uint32_t layers, mask; /* of the head; as hh_body_def's */
     uint32_t grab_layers;  /* the hands grip bodies with one of these layers; default all */
@@ -50,6 +50,7 @@ HH_API hh_result hh_player_reference_velocity(const hh_world* world, hh_player p
                                               hh_vec3* velocity_mps);
 /* How far contacts moved the play space in the last step, against its hands and its velocity. */
 HH_API hh_result hh_player_push_back(const hh_world* world, hh_player player, double* distance_m);
+/* The body mass that the player was added with. */
 HH_API hh_result hh_player_mass(const hh_world* world, hh_player player, double* mass_kg);
 /* The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked: false
  * before the head's first sample and while it is lost. */
@@ -132,7 +133,7 @@ HH_API hh_result hh_hand_release(hh_world* world, hh_player player, hh_side side
 /* ---- Events --------------------------------------------------------------------------------- */
 
 typedef enum hh_event_kind {
-    HH_EVENT_TOUCHED = 0,        /* an open palm came within 2 cm of a body */
+    HH_EVENT_TOUCHED = 0,        /* the palm of an empty hand came within 2 cm of a body or player */
     HH_EVENT_GRABBED = 1,        /* a hand grips */
     HH_EVENT_RELEASED = 2,       /* the player opened the hand, or `reason` says who did */
     HH_EVENT_REFUSED = 3,        /* a hand closed and grips nothing: `reason` */

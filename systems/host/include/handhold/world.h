@@ -171,8 +171,9 @@ HH_API hh_result hh_world_get_tuning(const hh_world* world, const char* name, do
                                      size_t count);
 HH_API hh_result hh_world_set_tuning(hh_world* world, const char* name, const double* values,
                                      size_t count);
-/* All numbers at once, vectors as three, in the order of hh_tuning_describe: to compare, keep and
- * restore. `count` as for hh_world_fallbacks; to set, exactly all, and on an error none. */
+/* All numbers of the tuning, to compare, keep and restore: in the order of hh_tuning_describe, a
+ * vector as three. `count` as for hh_world_fallbacks. Set takes exactly all of them; on an error
+ * none changes. */
 HH_API hh_result hh_world_tuning_numbers(const hh_world* world, double* values, size_t capacity,
                                          size_t* count);
 HH_API hh_result hh_world_set_tuning_numbers(hh_world* world, const double* values, size_t count);
