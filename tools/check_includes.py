@@ -32,7 +32,8 @@ PUBLIC_HEADERS = "systems/host/include/"
 PLAYS_THE_INTERFACE = re.compile(r"game/(climber|session|devices|run|play|desktop|headset)/.*|game/commands/play_files\.[hc]pp")
 # Of these, the loops show what is in the columns. The others do not name them.
 NAMES_NO_COLUMNS = re.compile(r"game/(climber|session|devices|run|play)/.*")
-COLUMNS = re.compile(r"(?<!hh::)\b(World|FrameCaches|StageStats|CollisionWorld|PlayerEntities|step_frame|hash_state)\b")
+COLUMNS = re.compile(r"(?<!hh::)\b(World|FrameCaches|StageStats|CollisionWorld|PlayerEntities|step_frame|hash_state|columns_of|entity_of|from_host)\b"
+                     r"|\bscene_?(\(\))?\.(world|tuning|shapes|grip_meshes|caches|stats)\(\)")
 # The progress of a level that loads has no place in the interface.
 INTERFACE_EXCEPTIONS = {("game/play/loading.cpp", "engine/core/work_meter.hpp")}
 # Public headers for source embedders: each counts as the private headers that it includes.

@@ -93,6 +93,10 @@ class CheckIncludes(unittest.TestCase):
                      "game/play/desktop_session.cpp"):
             self.assert_breach(file, "\nvoid look(const World& world);\n", f"{file}:2 | names no column")
             self.assert_breach(file, "step_frame(a, b);\n", f"{file}:1 | names no column")
+            self.assert_breach(file, "auto& rows = scene_.world().body_pose;\n", f"{file}:1 | names no column")
+            self.assert_breach(file, "scene().tuning().hand.reach_m = 1.0;\n", f"{file}:1 | names no column")
+            self.assert_breach(file, "columns_of(scene.host.get());\n", f"{file}:1 | names no column")
+            self.assert_clean(file, "scene.host.tuning(\"hand.reach_m\");\n")
             self.assert_clean(file, "void look(const hh::World& world);  // not a World\n")
         self.assert_clean("game/desktop/play_loop.cpp", "const World& world();\n")
 
