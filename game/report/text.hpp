@@ -6,6 +6,8 @@
 // Numbers and text in reports, independent of the locale.
 namespace handhold {
 
+inline constexpr double k_mm_in_m = 1000.0;
+
 // Appends the shortest text that round-trips to the same double (at most 17 digits), so equal texts
 // mean equal bits. "nan", "inf" or "-inf" if not finite.
 void append_number(std::string& text, double value);

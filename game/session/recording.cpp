@@ -6,8 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "engine/core/text_file.hpp"
-#include "engine/io/csv.hpp"
+#include <handhold/math.hpp>
 
 namespace handhold {
 
@@ -34,18 +33,18 @@ constexpr std::array<const char*, k_head_begin + k_pose_cells + 2 * k_hand_cells
     "ly", "lz", "lqx", "lqy", "lqz", "lqw", "lbtn", "ltrig", "rx",
     "ry", "rz", "rqx", "rqy", "rqz", "rqw", "rbtn", "rtrig"};
 // Columns that older recordings lack; their cells are 0 then. By HandSide, after the others.
-constexpr std::array<const char*, k_hand_count> k_trigger_columns = {"lindex", "rindex"};
+constexpr std::array<const char*, 2> k_trigger_columns = {"lindex", "rindex"};
 
 // One line's cells in the order of k_columns and k_trigger_columns.
-using Cells = std::array<double, k_columns.size() + k_hand_count>;
+using Cells = std::array<double, k_columns.size() + 2>;
 const char* column_name(std::size_t cell) {
     return cell < k_columns.size() ? k_columns[cell] : k_trigger_columns[cell - k_columns.size()];
 }
 
 // A device that was not tracked.
-Pose lost_pose() {
+hh::Pose lost_pose() {
     constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
-    return {Vec3::Constant(k_nan), Quat(k_nan, k_nan, k_nan, k_nan)};
+    return {{k_nan, k_nan, k_nan}, hh::Quat{k_nan, k_nan, k_nan, k_nan}};
 }
 
 // Reads lines into samples; the first bad cell is kept as the error.
@@ -78,7 +77,7 @@ class RowReader {
                                  column_name(cell) + "\", found " + std::to_string(cells[cell]));
     }
 
-    bool read_pose(const Cells& cells, std::size_t begin, Pose& pose) {
+    bool read_pose(const Cells& cells, std::size_t begin, hh::Pose& pose) {
         for (std::size_t i = begin; i < begin + k_pose_cells; ++i) {
             if (std::isnan(cells[i])) {
                 pose = lost_pose();
@@ -91,21 +90,22 @@ class RowReader {
                 return false;
             }
         }
-        pose.position = Vec3(cells[begin], cells[begin + 1], cells[begin + 2]);
+        pose.position = hh::Vec3{cells[begin], cells[begin + 1], cells[begin + 2]};
         pose.rotation =
-            Quat(cells[begin + 6], cells[begin + 3], cells[begin + 4], cells[begin + 5]);
-        if (pose.rotation.coeffs().isZero(0.0)) {  // some recorders write zeros for a lost device
+            hh::Quat{cells[begin + 3], cells[begin + 4], cells[begin + 5], cells[begin + 6]};
+        if (pose.rotation == hh::Quat{}) {  // some recorders write zeros for a lost device
             pose = lost_pose();
             return true;
         }
-        const double length = pose.rotation.norm();
+        const hh::Quat& q = pose.rotation;
+        const double length = std::sqrt((q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w));
         if (!(std::abs(length - 1.0) <= k_length_tolerance)) {
             return refuse(std::string("expected a quaternion of length 1 from \"") +
                           k_columns[begin + 3] + "\" on, found one of length " +
                           std::to_string(length));
         }
         if (std::abs(length - 1.0) > k_unit_tolerance) {
-            pose.rotation.normalize();
+            pose.rotation = hh::normalized(pose.rotation);
         }
         return true;
     }
@@ -147,10 +147,10 @@ void append_exact(std::string& text, double value) {
     text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
 }
 
-void append_pose(std::string& text, const Pose& pose) {
-    const Quat& q = pose.rotation;
+void append_pose(std::string& text, const hh::Pose& pose) {
+    const hh::Quat& q = pose.rotation;
     for (const double value :
-         {pose.position.x(), pose.position.y(), pose.position.z(), q.x(), q.y(), q.z(), q.w()}) {
+         {pose.position.x, pose.position.y, pose.position.z, q.x, q.y, q.z, q.w}) {
         text += ',';
         append_exact(text, value);
     }
@@ -158,14 +158,14 @@ void append_pose(std::string& text, const Pose& pose) {
 
 }  // namespace
 
-RecordedSample recorded(const TrackingSample& sample) {
+RecordedSample recorded(const hh::Sample& sample) {
     RecordedSample out;
-    out.t_s = sample.t_s;
-    out.head = sample.head_ps;
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
-        const ControllerSample& controller = sample.controllers[side];
-        out.hands[side] = {controller.controller_ps, controller.grab ? k_button_grip : 0,
-                           controller.squeeze, controller.trigger};
+    out.t_s = sample.time_s;
+    out.head = sample.head_tracked ? sample.head : lost_pose();
+    for (std::size_t side = 0; side < 2; ++side) {
+        out.hands[side] = {sample.hand_tracked[side] ? sample.hands[side] : lost_pose(),
+                           sample.grab[side] ? k_button_grip : 0, sample.squeeze[side],
+                           sample.trigger[side]};
     }
     return out;
 }
@@ -190,8 +190,8 @@ Result<Recording> parse_recording(std::string_view text, const std::string& file
             file, "",
             "expected at least 2 samples, found " + std::to_string(table.value().row_count())};
     }
-    std::array<std::optional<std::size_t>, k_hand_count> trigger_column;
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
+    std::array<std::optional<std::size_t>, 2> trigger_column;
+    for (std::size_t side = 0; side < 2; ++side) {
         trigger_column[side] = table.value().find_column(k_trigger_columns[side]);
     }
     Recording recording;
@@ -202,7 +202,7 @@ Result<Recording> parse_recording(std::string_view text, const std::string& file
         for (std::size_t i = 0; i < k_columns.size(); ++i) {
             cells[i] = table.value().at(row, column_of[i]);
         }
-        for (std::size_t side = 0; side < k_hand_count; ++side) {
+        for (std::size_t side = 0; side < 2; ++side) {
             if (trigger_column[side]) {
                 cells[k_columns.size() + side] = table.value().at(row, *trigger_column[side]);
             }

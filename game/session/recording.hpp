@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "components/tracking.hpp"
-#include "engine/core/result.hpp"
-#include "engine/math/math.hpp"
+#include <handhold/handhold.hpp>
+
+#include "game/files/file_tools.hpp"
 
 // Recorded sessions of a headset and two controllers: docs/reference/recording_format.md.
 namespace handhold {
@@ -25,7 +25,7 @@ constexpr int k_grab_buttons = k_button_trigger | k_button_grip;
 struct RecordedHand {
     // Pose of the device in tracking space: metres, floor at y = 0; all NaN while it was not
     // tracked.
-    Pose controller;
+    hh::Pose controller = hh::k_origin;
     int buttons = 0;       // mask of k_button_*, [0, 65535]
     double squeeze = 0.0;  // [0, 1]; ControllerSample::squeeze
     double trigger = 0.0;  // [0, 1]; ControllerSample::trigger
@@ -33,13 +33,14 @@ struct RecordedHand {
 
 struct RecordedSample {
     double t_s = 0.0;  // strictly increasing; may start at any time
-    Pose head;  // point between the eyes, in tracking space; all NaN while it was not tracked
+    // Point between the eyes, in tracking space; all NaN while it was not tracked.
+    hh::Pose head = hh::k_origin;
     std::array<RecordedHand, 2> hands;  // left, right
 };
 
 // Converts a sample to what a headset would have recorded. A hand that grabs holds k_button_grip
 // down.
-RecordedSample recorded(const TrackingSample& sample);
+RecordedSample recorded(const hh::Sample& sample);
 
 struct Recording {
     std::vector<RecordedSample> samples;  // two or more; gaps and jitter are normal

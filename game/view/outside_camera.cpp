@@ -8,7 +8,7 @@ namespace handhold {
 
 void OutsideCamera::place_walls() {
     std::vector<ColliderProxy> proxies;
-    const World& world = scene_->world;
+    const World& world = scene_->world();
     for (std::size_t row = 0; row < world.body.size(); ++row) {
         const Entity body = world.body.owners()[row];
         const Collider* const collider = world.collider.find(body);

@@ -23,8 +23,8 @@ class HeadsetActions {
     XrResult sync(XrSession session);
     // Reads buttons and sticks as of the last sync(), and the poses predicted for `time` in `base`.
     void read(XrSession session, XrSpace base, XrTime time,
-              std::array<HandReading, k_hand_count>& hands) const;
-    void shake(XrSession session, HandSide side, const HapticPulse& pulse) const;
+              std::array<HandReading, 2>& hands) const;
+    void shake(XrSession session, hh::Side side, const HapticPulse& pulse) const;
 
   private:
     HeadsetActions() = default;
@@ -36,14 +36,14 @@ class HeadsetActions {
     bool button(XrSession session, HeadsetAction which, std::size_t side) const;
     std::array<double, 2> stick(XrSession session, std::size_t side) const;
     bool is_active(XrSession session, HeadsetAction which, std::size_t side) const;
-    std::optional<Pose> pose(XrSession session, HeadsetAction which, std::size_t side, XrSpace base,
-                             XrTime time) const;
+    std::optional<hh::Pose> pose(XrSession session, HeadsetAction which, std::size_t side,
+                                 XrSpace base, XrTime time) const;
 
     OwnedXrActionSet set_;
     std::array<XrAction, k_headset_action_count> actions_{};  // destroyed with their set
-    std::array<XrPath, k_hand_count> hands_{};
+    std::array<XrPath, 2> hands_{};
     // Spaces of the three pose actions, by HeadsetAction and HandSide.
-    std::array<std::array<OwnedXrSpace, k_hand_count>, 3> spaces_;
+    std::array<std::array<OwnedXrSpace, 2>, 3> spaces_;
 };
 
 // What a location must be to be used. Runtimes infer poses of devices that they do not see, as from
@@ -57,6 +57,6 @@ constexpr XrSpaceLocationFlags flags_of(Confidence least) {
 }
 // Pose of `space` in `base` at `time`; nullopt if the runtime does not know it with this
 // confidence.
-std::optional<Pose> locate(XrSpace space, XrSpace base, XrTime time, Confidence least);
+std::optional<hh::Pose> locate(XrSpace space, XrSpace base, XrTime time, Confidence least);
 
 }  // namespace handhold

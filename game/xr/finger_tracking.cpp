@@ -41,9 +41,9 @@ FingerTracking FingerTracking::create(const HeadsetInstance& instance, XrSession
     if (create == nullptr || made.destroy_ == nullptr || made.locate_ == nullptr) {
         return made;
     }
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
+    for (std::size_t side = 0; side < 2; ++side) {
         auto info = xr_struct<XrHandTrackerCreateInfoEXT>(XR_TYPE_HAND_TRACKER_CREATE_INFO_EXT);
-        info.hand = side == index_of(HandSide::left) ? XR_HAND_LEFT_EXT : XR_HAND_RIGHT_EXT;
+        info.hand = side == HH_LEFT ? XR_HAND_LEFT_EXT : XR_HAND_RIGHT_EXT;
         info.handJointSet = XR_HAND_JOINT_SET_DEFAULT_EXT;
         if (XR_FAILED(create(session, &info, &made.trackers_[side]))) {
             made.trackers_[side] = XR_NULL_HANDLE;
@@ -52,9 +52,8 @@ FingerTracking FingerTracking::create(const HeadsetInstance& instance, XrSession
     return made;
 }
 
-void FingerTracking::read(XrSpace base, XrTime time,
-                          std::array<HandReading, k_hand_count>& hands) const {
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
+void FingerTracking::read(XrSpace base, XrTime time, std::array<HandReading, 2>& hands) const {
+    for (std::size_t side = 0; side < 2; ++side) {
         hands[side].wrist_ps.reset();
         hands[side].curl = 0.0;
         if (trackers_[side] != XR_NULL_HANDLE) {

@@ -221,16 +221,15 @@ int shown_body_command(const ShownBodyOptions& options) {
         return k_exit_usage;
     }
     const Recording recording = *make_built_in_session(scene->session->built_in);
-    scene->tuning.spine.hang = options.hang.value_or(scene->tuning.spine.hang);
-    FrameCaches caches(*scene->shapes, scene->grip_meshes.get());
-    caches.body_clips = game_body_clips();
+    scene->tuning().spine.hang = options.hang.value_or(scene->tuning().spine.hang);
+    load_game_body_clips(scene->host);
     const PlayerEntities player =
-        add_scene_player(*scene, {"player0", scene->spawns.front().pose_ws, 80.0});
-    ShownBody body(scene->world, player, options.hz);
+        add_scene_player(*scene, {"player0", from_host(scene->spawns.front().pose_ws), 80.0});
+    ShownBody body(scene->world(), player, options.hz);
     const auto observe = [&](const Scene& played, const FrameLog&) {
-        body.take(played.world, caches.collision);
+        body.take(played.world(), played.caches().collision);
     };
-    run_session(*scene, caches, {player}, &recording, {options.hz, 0.0, 1}, observe);
+    run_session(*scene, player_ids({&player, 1}), &recording, {options.hz, 0.0, 1}, observe);
     const Json json = {{"scene", options.scene}, {"hz", options.hz}, {"body", body.json()}};
     if (const auto error = write_file_atomically(options.json, json.dump(1) + "\n")) {
         return refuse(*error);

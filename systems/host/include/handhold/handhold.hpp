@@ -49,6 +49,7 @@ using Hit = hh_hit;
 using Side = hh_side;
 
 inline constexpr Quat k_no_turn{0.0, 0.0, 0.0, 1.0};
+inline constexpr Pose k_origin{{0.0, 0.0, 0.0}, k_no_turn};
 constexpr Pose pose_at(Vec3 position, Quat rotation = k_no_turn) { return {position, rotation}; }
 
 // The result of a call.
@@ -372,6 +373,14 @@ class World {
     Maybe<Vec3> reference_velocity_mps(Player player) const {
         return make<Vec3>([&](Vec3* v) { return hh_player_reference_velocity(world_, player, v); });
     }
+    // How far contacts moved the play space in the last step, against its hands and its velocity.
+    Maybe<double> push_back_m(Player player) const {
+        return make<double>([&](double* d) { return hh_player_push_back(world_, player, d); });
+    }
+    // The body mass that the player was added with.
+    Maybe<double> mass_kg(Player player) const {
+        return make<double>([&](double* m) { return hh_player_mass(world_, player, m); });
+    }
     // The wrist in the frame of the player's samples.
     Maybe<Pose> hand_in_controller(Player player, Side side) const {
         return make<Pose>(
@@ -538,6 +547,12 @@ class World {
     // Sets all numbers from JSON; those that it lacks get their defaults.
     Status load_tuning(std::string_view json) {
         return hh_world_load_tuning(world_, json.data(), json.size());
+    }
+    // All numbers of the tuning, in the order of hh_tuning_describe; a vector is three.
+    std::vector<double> tuning_numbers() const { return all<double>(&hh_world_tuning_numbers); }
+    // Replaces all numbers of the tuning, in that order; on an error none changes.
+    Status set_tuning_numbers(std::span<const double> numbers) {
+        return hh_world_set_tuning_numbers(world_, numbers.data(), numbers.size());
     }
     // Replaces the additive clips of all players. Empty: none.
     Status load_body_clips(std::string_view json) {

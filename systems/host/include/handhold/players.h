@@ -65,6 +65,10 @@ HH_API hh_result hh_player_set_velocity(hh_world* world, hh_player player, hh_ve
  * point, else the scene's. A player feels the speed relative to it: for vignettes and wind. */
 HH_API hh_result hh_player_reference_velocity(const hh_world* world, hh_player player,
                                               hh_vec3* velocity_mps);
+/* How far contacts moved the play space in the last step, against its hands and its velocity. */
+HH_API hh_result hh_player_push_back(const hh_world* world, hh_player player, double* distance_m);
+/* The body mass that the player was added with. */
+HH_API hh_result hh_player_mass(const hh_world* world, hh_player player, double* mass_kg);
 /* The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked:
  * false before the head's first sample and while it is lost. */
 HH_API hh_result hh_player_head(const hh_world* world, hh_player player, hh_vec3* center,

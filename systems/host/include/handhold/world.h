@@ -203,6 +203,12 @@ HH_API hh_result hh_world_get_tuning(const hh_world* world, const char* name, do
                                      size_t count);
 HH_API hh_result hh_world_set_tuning(hh_world* world, const char* name, const double* values,
                                      size_t count);
+/* All numbers of the tuning, to compare, keep and restore: in the order of hh_tuning_describe, a
+ * vector as three. `count` as for hh_world_fallbacks. Set takes exactly all of them; on an error
+ * none changes. */
+HH_API hh_result hh_world_tuning_numbers(const hh_world* world, double* values, size_t capacity,
+                                         size_t* count);
+HH_API hh_result hh_world_set_tuning_numbers(hh_world* world, const double* values, size_t count);
 /* All numbers from JSON, {"hand": {"reach_m": 0.12}}; those that it lacks get their defaults.
  * HH_ERROR_DATA, with the place, for unknown names and wrong numbers. */
 HH_API hh_result hh_world_load_tuning(hh_world* world, const char* json, size_t size);
