@@ -226,9 +226,9 @@ ClimberMoment sense(const hh::World& world, const ClimberTask& task, const Climb
     now.t_s = world.time_s();
     now.origin_ws = player.origin;
     now.origin_mps = player.velocity_mps;
-    bool is_tracked = false;
+    std::uint8_t is_tracked = 0;
     hh_player_head(world.get(), task.player, &now.head_ws, nullptr, &is_tracked);
-    if (!is_tracked) {
+    if (is_tracked == 0) {
         now.head_ws = transform_point(now.origin_ws, state.eyes_ps);
     }
     const ClimberHold* support = &state.home;

@@ -34,6 +34,8 @@ const char* name_of_grip(hh_grip_kind kind) {
             return "authored";
         case HH_GRIP_PLAYER:
             return "player";
+        case HH_GRIP_KIND_32_BITS:
+            break;
     }
     return "unknown";
 }

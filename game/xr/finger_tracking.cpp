@@ -79,7 +79,7 @@ void FingerTracking::read_hand(std::size_t side, XrSpace base, XrTime time,
     }
     hand.wrist_ps = from_xr(wrist.pose);
     // Some runtimes locate the wrist alone: the other joints are zeros then, and not valid.
-    const auto place = [&](int joint) -> std::optional<Vec3> {
+    const auto place = [&](int joint) -> std::optional<hh::Vec3> {
         const XrHandJointLocationEXT& found_joint = joints[static_cast<std::size_t>(joint)];
         if ((found_joint.locationFlags & XR_SPACE_LOCATION_POSITION_VALID_BIT) == 0) {
             return std::nullopt;
@@ -96,8 +96,8 @@ void FingerTracking::read_hand(std::size_t side, XrSpace base, XrTime time,
     int known = 0;
     double sum = 0.0;
     for (const auto& [knuckle, tip] : k_fingers) {
-        const std::optional<Vec3> knuckle_ps = place(knuckle);
-        const std::optional<Vec3> tip_ps = place(tip);
+        const std::optional<hh::Vec3> knuckle_ps = place(knuckle);
+        const std::optional<hh::Vec3> tip_ps = place(tip);
         const double curl = knuckle_ps && tip_ps
                                 ? finger_curl(hand.wrist_ps->position, *knuckle_ps, *tip_ps)
                                 : std::numeric_limits<double>::quiet_NaN();
