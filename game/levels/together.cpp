@@ -53,7 +53,7 @@ SessionScript together_script() {
     // The partner has floated upwards since the first player's hand let go. The hand stops her by
     // the thigh, from the side.
     const hh::Vec3 side = hh::k_z;
-    const hh::Vec3 on_leg{1.15, 1.23, 0.135};
+    const hh::Vec3 on_leg{0.95, 1.23, 0.135};
     const hh::Vec3 forward = hh::k_x;
     script.holds.push_back({HH_RIGHT, 8.4, 12.4, on_leg, side, forward});
     move(9.0, on_leg, side, forward);
