@@ -137,6 +137,10 @@ int play_and_report(const RunOptions& options, PreparedRun& run) {
     if (!options.trace.empty()) {
         start_trace();
     }
+    // Before the first frame: grips add rows while they last.
+    const std::size_t bytes_per_player =
+        run.players.empty() ? 0
+                            : state_bytes(run.scene.host, player_id(run.players.front().player));
     RunTally tally;
     SnapshotTaker snapshots(options, *run.assets);
     RunLog log =
@@ -144,9 +148,7 @@ int play_and_report(const RunOptions& options, PreparedRun& run) {
     if (const auto error = snapshots.error()) {
         return refuse(*error);
     }
-    if (!run.players.empty()) {
-        log.bytes_per_player = state_bytes(run.scene.host, player_id(run.players.front().player));
-    }
+    log.bytes_per_player = bytes_per_player;
     log.input = run.session.name;
     log.spawn = run.place.name;
     if (!options.trace.empty()) {
