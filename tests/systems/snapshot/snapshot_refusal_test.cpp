@@ -232,7 +232,7 @@ TEST_F(SnapshotRefuses, RowsWithoutTheirCounterparts) {
     break_world(".next", [](World& w) { w.head_ignores.rows()[0].next = 8; });
     break_world("hand_history", [](World& w) { w.hand_history.rows()[0].count = 33; });
     break_world(".phase", [](World& w) { w.grab.rows()[0].kind = GripKind::none; });
-    break_world(".shape: expected a shape that exists",
+    break_world(".shape: expected a shape of this world",
                 [](World& w) { w.collider.rows()[0].shape.index = 1000; });
     break_world("expected a row in last_valid of the same owner",
                 [&](World& w) { w.last_valid.remove(by_name(w, "rock")); });
