@@ -30,12 +30,15 @@ Pose tracked_or_invalid(const Pose& pose, bool is_tracked) {
 }
 
 // A host that computes a step's end in another way than the world's clock, such as by dividing a
-// frame's number, differs from it by rounding.
+// frame's number, differs from it by rounding: such a sample is one of the step's end.
+double without_rounding_s(double time_s, double end_s) {
+    constexpr double k_rounding_s = 1e-6;
+    return time_s > end_s && time_s <= end_s + k_rounding_s ? end_s : time_s;
+}
+
 TrackingSample read_sample(const hh_tracking_sample& sample, double end_s, bool is_exact) {
-    const double rounding_s = is_exact ? 0.0 : 1e-6;
-    const bool is_at_end = sample.time_s > end_s && sample.time_s <= end_s + rounding_s;
     TrackingSample read;
-    read.t_s = is_at_end ? end_s : sample.time_s;
+    read.t_s = is_exact ? sample.time_s : without_rounding_s(sample.time_s, end_s);
     read.head_ps = tracked_or_invalid(unchecked_pose(sample.head), sample.head_tracked != 0);
     for (std::size_t i = 0; i < k_hand_count; ++i) {
         read.controllers[i].controller_ps =
@@ -199,6 +202,7 @@ void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std
                 const EarlySample& kept = early->samples[j];
                 if (given.sample_count == 0 || !(given.samples[0].time_s <= kept.t_s)) {
                     host.samples.push_back(read_sample(kept));
+                    host.samples.back().t_s = without_rounding_s(kept.t_s, end_s);
                 }
             }
         }

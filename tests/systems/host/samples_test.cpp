@@ -93,10 +93,14 @@ RC_GTEST_PROP(HostSamples, SamplesGivenAheadCountAtTheirTime, ()) {
             const bool is_silent = next == first && gives_empty_steps;
             RC_ASSERT(hh_world_step(scene.world.get(), dt_s, &input, is_silent ? 0 : 1) == HH_OK);
         };
-        // At most 64 samples wait: the host gives no more.
-        give(ahead, next_ahead,
-             [&](std::size_t i) { return all[i].time_s <= end_s + lead_s || i <= next_then; });
-        give(then, next_then, [&](std::size_t i) { return i == 0 || all[i - 1].time_s <= end_s; });
+        // Both know the step's samples and the one after; at most 64 wait.
+        const auto is_known = [&](std::size_t i) { return i == 0 || all[i - 1].time_s <= end_s; };
+        give(ahead, next_ahead, [&](std::size_t i) {
+            constexpr std::size_t k_most_waiting = 64;
+            const bool has_room = i < k_most_waiting || all[i - k_most_waiting].time_s <= end_s;
+            return is_known(i) || (has_room && all[i].time_s <= end_s + lead_s);
+        });
+        give(then, next_then, is_known);
         hh_player_pose a;
         hh_player_pose b;
         RC_ASSERT(hh_world_player_poses(ahead.world.get(), &ahead.player, 1, &a) == HH_OK);
