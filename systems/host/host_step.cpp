@@ -126,22 +126,24 @@ void name_other_clock(hh_world& host, double off_s) {
     log_note(text.data());
 }
 
-// Appends the samples given for a player, but for those too far ahead.
-void read_given(hh_world& host, const hh_player_input& input, double end_s) {
+// Appends the samples given for a player, but for those too far ahead. In a pause, in which the
+// world's clock stands still, samples count whatever their time.
+void read_given(hh_world& host, const hh_player_input& input, double end_s, StepKind kind) {
     constexpr double k_far_s = 0.5;
     const double start_s = host.world.clock.t_s;
+    const bool has_range = kind == StepKind::advances && input.repeats_samples == 0;
     std::size_t far = 0;
     double last_s = 0.0;
     const hh_tracking_sample defaults = hh_default_tracking_sample();
     for (std::size_t i = 0; i < input.sample_count; ++i) {
         const hh_tracking_sample sample = read_def_at(input.samples, i, defaults);
         last_s = sample.time_s;
-        if (sample.time_s > end_s + k_far_s && input.repeats_samples == 0) {
+        if (has_range && sample.time_s > end_s + k_far_s) {
             ++host.samples_too_far_ahead;
             ++far;
             continue;
         }
-        if (sample.time_s < start_s - k_far_s) {
+        if (kind == StepKind::advances && sample.time_s < start_s - k_far_s) {
             ++host.samples_too_old;
             ++far;
         }
@@ -206,7 +208,7 @@ void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std
                 }
             }
         }
-        read_given(host, given, end_s);
+        read_given(host, given, end_s, kind);
         input.samples = {host.samples.data() + first, host.samples.size() - first};
     }
 }

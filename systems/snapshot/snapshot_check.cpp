@@ -304,6 +304,10 @@ class BreachFinder {
                 used = 1;
             }
         }
+        for (std::size_t i = 0; i < w_.early_samples.size(); ++i) {
+            check(w_.early_samples.rows()[i].count <= EarlySamples::k_capacity, "early_samples",
+                  w_.early_samples.owners()[i], ".count", "at most as many as the array has");
+        }
         for (std::size_t row = 0; row < w_.hand_history.size(); ++row) {
             const HandHistory& history = w_.hand_history.rows()[row];
             check(

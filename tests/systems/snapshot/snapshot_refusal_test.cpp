@@ -232,6 +232,9 @@ TEST_F(SnapshotRefuses, RowsWithoutTheirCounterparts) {
     break_world(".next", [](World& w) { w.head_ignores.rows()[0].next = 8; });
     break_world("hand_history", [](World& w) { w.hand_history.rows()[0].count = 33; });
     break_world(".phase", [](World& w) { w.grab.rows()[0].kind = GripKind::none; });
+    break_world("].count", [](World& w) {
+        w.early_samples.add(w.player.owners()[0]).count = EarlySamples::k_capacity + 1;
+    });
     break_world(".shape: expected a shape of this world",
                 [](World& w) { w.collider.rows()[0].shape.index = 1000; });
     break_world("expected a row in last_valid of the same owner",
