@@ -75,6 +75,6 @@ void add_crawl(const ScriptedCrawl& crawl, SessionScript& script);
 // The play space at the start, in the plan's frame.
 hh::Pose session_origin(const SessionScript& script);
 // Records the plan with 90 samples a second and a hand's natural tremor.
-Recording record_session(const SessionScript& script, const HandShape& hands);
+Recording record_session(const SessionScript& script, const HandShape& shape);
 
 }  // namespace handhold
