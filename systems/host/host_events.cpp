@@ -385,8 +385,8 @@ hh_result hh_world_events_sized(const hh_world* world, const hh_event** events, 
     return call([&] {
         const hh_world& host = world_of(world);
         require(events != nullptr && count != nullptr, HH_ERROR_NULL, "an output is null");
-        constexpr std::size_t k_first_event_size = sizeof(hh_event);  // size in version 0.2.0
-        require_size(event_size, k_first_event_size, sizeof(hh_event));
+        // Its first version is that of 0.2.0.
+        require_size(event_size, sizeof(hh_event), sizeof(hh_event));
         *events = host.events.data();
         *count = host.events.size();
         if (event_size < sizeof(hh_event)) {
