@@ -66,8 +66,8 @@ struct HandRig {
     std::vector<RigJoint> joints;                    // empty: no skin
 };
 
-// A hand that has its own rig: index into FrameCaches::more_hand_rigs. A hand without one, or with
-// an index beyond the list, has the rig of its side. Written by the host.
+// A hand that has its own rig: index into FrameCaches::more_hand_rigs. A hand without this
+// component, or with an index beyond the list, has the rig of its side. Written by the host.
 struct HandRigChoice {
     std::uint32_t index = 0;
 };

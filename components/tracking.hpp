@@ -83,8 +83,9 @@ struct HeadTracking {
     Pose before_ps;  // valid sample before that one
     double before_t_s = 0.0;
     TrackingState state = TrackingState::never;
-    // Corrects samples: pose_ps = (shift_m, shift_turn) * sample. When the samples jump
-    // (recentring, a tracking error), it changes so that the head stays where it was in the world.
+    // Correction of samples: pose_ps = (shift_m, shift_turn) * sample. When samples jump
+    // (recentring, a tracking error), the correction changes so that the head stays where it was in
+    // the world.
     Vec3 shift_m = Vec3::Zero();
     Quat shift_turn = Quat::Identity();  // turn about +Y
     bool is_inferred = false;            // the last sample's position is a guess of the runtime
@@ -132,12 +133,12 @@ struct HandTracking {
     Vec3 release_spin_ps_radps = Vec3::Zero();
 };
 
-// A sample of after the last frame's end.
+// A sample later than the end of the last frame.
 struct EarlySample {
     double t_s = 0.0;
     Pose head_ps;
     std::array<Pose, k_hand_count> controllers_ps;  // indexed by HandSide
-    bool head_tracked = false;                      // false: the pose says nothing
+    bool head_tracked = false;                      // false: the pose is invalid
     std::array<bool, k_hand_count> tracked = {};    // indexed by HandSide
     std::array<bool, k_hand_count> grab = {};       // indexed by HandSide
     std::array<double, k_hand_count> squeeze = {};  // indexed by HandSide
@@ -148,13 +149,13 @@ struct EarlySample {
                                                    k_unknown_curls};  // hands, by HandSide
 };
 
-// A player's samples of after the last frame's end, as devices that predict give them: hosts give
-// each sample once, and each is used at its time. They come before the next frame's samples. Only
-// players with such samples have this component. Written and read by the C interface.
+// A player's samples later than the end of the last frame, as devices that predict poses send them.
+// Hosts pass each sample once; it is used in the frame of its time, before that frame's samples.
+// Only players with such samples have this component. Written and read by the C interface.
 struct EarlySamples {
     static constexpr std::size_t k_capacity = 64;
-    std::uint32_t count = 0;                           // k_capacity at most
-    std::array<EarlySample, k_capacity> samples = {};  // sorted by time; as made beyond `count`
+    std::uint32_t count = 0;                           // number of samples, at most k_capacity
+    std::array<EarlySample, k_capacity> samples = {};  // ascending times
 };
 
 // The hand's last samples in a ring, for velocities that do not depend on the frame rate. Written

@@ -84,7 +84,7 @@ class BindPose {
     const Affine& world_of(int node) const { return placed_[order_.at(node)].world; }
 
     bool read_skins(std::vector<BoundSkin>& skins) {
-        std::map<int, int> mesh_node;  // by skin
+        std::map<int, int> mesh_node;  // mesh node by skin
         for (const PlacedNode& placed : placed_) {
             const Node& node = element(model_.nodes, placed.node);
             if (node.mesh != k_none && node.skin != k_none &&
@@ -190,7 +190,7 @@ class BindPose {
             const double off =
                 (transform_point(frame, place) - transform_point(of_top, place)).norm();
             const double nearness = cosine - off / (std::abs(scale) * size);
-            if (cosine > k_min_posed_cosine && nearness > best) {
+            if (cosine > k_cos_posed && nearness > best) {
                 best = nearness;
                 nearest = frame;
             }
@@ -223,9 +223,9 @@ class BindPose {
     AccessorReader& reader_;
     Refusal& refusal_;
     std::vector<PlacedNode>& placed_;
-    std::map<int, std::size_t> order_;  // by node: its index in placed_
-    std::map<int, int> parent_;         // by node
-    std::map<int, Affine> bound_;       // by node that was moved: its place in the scene
+    std::map<int, std::size_t> order_;  // index in placed_, by node
+    std::map<int, int> parent_;         // parent by node
+    std::map<int, Affine> bound_;       // place in the scene of each moved node
     std::set<int> is_in_earlier_skin_;  // nodes
 };
 

@@ -1,14 +1,14 @@
 #include "game/session/recording.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
 
-#include "engine/core/text_file.hpp"
-#include "engine/io/csv.hpp"
+#include <handhold/math.hpp>
 
 namespace handhold {
 
@@ -34,34 +34,35 @@ constexpr std::array<const char*, k_head_begin + k_pose_cells + 2 * k_hand_cells
     "t",  "hx", "hy",  "hz",  "hqx", "hqy", "hqz",  "hqw",   "lx",
     "ly", "lz", "lqx", "lqy", "lqz", "lqw", "lbtn", "ltrig", "rx",
     "ry", "rz", "rqx", "rqy", "rqz", "rqw", "rbtn", "rtrig"};
-// Columns that recordings may lack, after the others: triggers by HandSide, whether head and hands
-// are inferred, curls of the left and the right hand by FingerName.
+// Columns that recordings may lack, after the others: triggers by hh::Side, whether head and hands
+// are inferred, curls of the left and the right hand thumb first.
+constexpr std::size_t k_fingers = std::size(hh_finger_curls{}.fingers);
 struct OptionalColumn {
     const char* name;
     double missing;  // the cells' value without the column
 };
-constexpr std::array<OptionalColumn, k_hand_count + 3 + k_hand_count* k_finger_count>
-    k_optional_columns = {{{"lindex", 0.0},
-                           {"rindex", 0.0},
-                           {"hinferred", 0.0},
-                           {"linferred", 0.0},
-                           {"rinferred", 0.0},
-                           {"lcurl_thumb", k_unknown_curl},
-                           {"lcurl_index", k_unknown_curl},
-                           {"lcurl_middle", k_unknown_curl},
-                           {"lcurl_ring", k_unknown_curl},
-                           {"lcurl_little", k_unknown_curl},
-                           {"rcurl_thumb", k_unknown_curl},
-                           {"rcurl_index", k_unknown_curl},
-                           {"rcurl_middle", k_unknown_curl},
-                           {"rcurl_ring", k_unknown_curl},
-                           {"rcurl_little", k_unknown_curl}}};
+constexpr std::array<OptionalColumn, 2 + 3 + 2 * k_fingers> k_optional_columns = {
+    {{"lindex", 0.0},
+     {"rindex", 0.0},
+     {"hinferred", 0.0},
+     {"linferred", 0.0},
+     {"rinferred", 0.0},
+     {"lcurl_thumb", k_curl_unknown},
+     {"lcurl_index", k_curl_unknown},
+     {"lcurl_middle", k_curl_unknown},
+     {"lcurl_ring", k_curl_unknown},
+     {"lcurl_little", k_curl_unknown},
+     {"rcurl_thumb", k_curl_unknown},
+     {"rcurl_index", k_curl_unknown},
+     {"rcurl_middle", k_curl_unknown},
+     {"rcurl_ring", k_curl_unknown},
+     {"rcurl_little", k_curl_unknown}}};
 constexpr std::size_t k_trigger_begin = k_columns.size();
-constexpr std::size_t k_inferred_begin = k_trigger_begin + k_hand_count;  // the head's, the hands'
-constexpr std::size_t k_curl_begin = k_inferred_begin + 1 + k_hand_count;
+constexpr std::size_t k_inferred_begin = k_trigger_begin + 2;  // the head's, the hands'
+constexpr std::size_t k_curl_begin = k_inferred_begin + 1 + 2;
 constexpr std::size_t k_always_written = k_inferred_begin;  // columns; others if they say something
 
-// One row's cells in the order of k_columns and k_optional_columns.
+// One line's cells in the order of k_columns and k_optional_columns.
 using Cells = std::array<double, k_columns.size() + k_optional_columns.size()>;
 const char* column_name(std::size_t cell) {
     return cell < k_columns.size() ? k_columns[cell]
@@ -69,12 +70,12 @@ const char* column_name(std::size_t cell) {
 }
 
 // A device that was not tracked.
-Pose lost_pose() {
+hh::Pose lost_pose() {
     constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
-    return {Vec3::Constant(k_nan), Quat(k_nan, k_nan, k_nan, k_nan)};
+    return {{k_nan, k_nan, k_nan}, hh::Quat{k_nan, k_nan, k_nan, k_nan}};
 }
 
-// Reads rows into samples; the first bad cell is kept as the error.
+// Reads lines into samples; the first bad cell is kept as the error.
 class RowReader {
   public:
     explicit RowReader(std::string file) : file_(std::move(file)) {}
@@ -104,7 +105,7 @@ class RowReader {
                                  column_name(cell) + "\", found " + std::to_string(cells[cell]));
     }
 
-    bool read_pose(const Cells& cells, std::size_t begin, Pose& pose) {
+    bool read_pose(const Cells& cells, std::size_t begin, hh::Pose& pose) {
         for (std::size_t i = begin; i < begin + k_pose_cells; ++i) {
             if (std::isnan(cells[i])) {
                 pose = lost_pose();
@@ -117,21 +118,22 @@ class RowReader {
                 return false;
             }
         }
-        pose.position = Vec3(cells[begin], cells[begin + 1], cells[begin + 2]);
+        pose.position = hh::Vec3{cells[begin], cells[begin + 1], cells[begin + 2]};
         pose.rotation =
-            Quat(cells[begin + 6], cells[begin + 3], cells[begin + 4], cells[begin + 5]);
-        if (pose.rotation.coeffs().isZero(0.0)) {  // how some recorders write a lost device
+            hh::Quat{cells[begin + 3], cells[begin + 4], cells[begin + 5], cells[begin + 6]};
+        if (pose.rotation == hh::Quat{}) {  // some recorders write zeros for a lost device
             pose = lost_pose();
             return true;
         }
-        const double length = pose.rotation.norm();
+        const hh::Quat& q = pose.rotation;
+        const double length = std::sqrt((q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w));
         if (!(std::abs(length - 1.0) <= k_length_tolerance)) {
             return refuse(std::string("expected a quaternion of length 1 from \"") +
                           k_columns[begin + 3] + "\" on, found one of length " +
                           std::to_string(length));
         }
         if (std::abs(length - 1.0) > k_unit_tolerance) {
-            pose.rotation.normalize();
+            pose.rotation = hh::normalized(pose.rotation);
         }
         return true;
     }
@@ -141,11 +143,13 @@ class RowReader {
         return check(cell, cells[cell] == 0.0 || flag, "0 or 1", cells);
     }
 
-    bool read_curls(const Cells& cells, std::size_t side, FingerCurls& curls) {
-        for (std::size_t f = 0; f < k_finger_count; ++f) {
-            const std::size_t cell = k_curl_begin + side * k_finger_count + f;
-            curls[f] = cells[cell];
-            if (!check(cell, curls[f] == k_unknown_curl || (curls[f] >= 0.0 && curls[f] <= 1.0),
+    bool read_curls(const Cells& cells, std::size_t side, hh_finger_curls& curls) {
+        for (std::size_t f = 0; f < k_fingers; ++f) {
+            const std::size_t cell = k_curl_begin + side * k_fingers + f;
+            curls.fingers[f] = cells[cell];
+            if (!check(cell,
+                       curls.fingers[f] == k_curl_unknown ||
+                           (curls.fingers[f] >= 0.0 && curls.fingers[f] <= 1.0),
                        "-1 or a number in [0, 1]", cells)) {
                 return false;
             }
@@ -191,10 +195,10 @@ void append_exact(std::string& text, double value) {
     text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
 }
 
-void write_pose(const Pose& pose, double* cells) {
-    const Quat& q = pose.rotation;
+void write_pose(const hh::Pose& pose, double* cells) {
+    const hh::Quat& q = pose.rotation;
     const std::array<double, k_pose_cells> values = {
-        pose.position.x(), pose.position.y(), pose.position.z(), q.x(), q.y(), q.z(), q.w()};
+        pose.position.x, pose.position.y, pose.position.z, q.x, q.y, q.z, q.w};
     std::ranges::copy(values, cells);
 }
 
@@ -203,14 +207,14 @@ Cells cells_of(const RecordedSample& sample) {
     cells[0] = sample.t_s;
     write_pose(sample.head, &cells[k_head_begin]);
     cells[k_inferred_begin] = sample.is_head_inferred ? 1.0 : 0.0;
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
+    for (std::size_t side = 0; side < 2; ++side) {
         const RecordedHand& hand = sample.hands[side];
         write_pose(hand.controller, &cells[k_hand_begin[side]]);
         cells[k_hand_begin[side] + k_pose_cells] = hand.buttons;
         cells[k_hand_begin[side] + k_pose_cells + 1] = hand.squeeze;
         cells[k_trigger_begin + side] = hand.trigger;
         cells[k_inferred_begin + 1 + side] = hand.is_inferred ? 1.0 : 0.0;
-        std::ranges::copy(hand.curls, &cells[k_curl_begin + side * k_finger_count]);
+        std::ranges::copy(hand.curls.fingers, &cells[k_curl_begin + side * k_fingers]);
     }
     return cells;
 }
@@ -231,20 +235,23 @@ std::array<bool, Cells().size()> written_columns(const Recording& recording) {
 
 }  // namespace
 
-RecordedSample recorded(const TrackingSample& sample) {
+RecordedSample recorded(const hh::Sample& sample) {
     RecordedSample out;
-    out.t_s = sample.t_s;
-    out.head = sample.head_ps;
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
-        const ControllerSample& controller = sample.controllers[side];
-        out.hands[side] = {.controller = controller.controller_ps,
-                           .buttons = controller.grab ? k_button_grip : 0,
-                           .squeeze = controller.squeeze,
-                           .trigger = controller.trigger,
-                           .is_inferred = controller.is_inferred,
-                           .curls = controller.curls};
+    out.t_s = sample.time_s;
+    out.head = sample.head_tracked || sample.head_inferred ? sample.head : lost_pose();
+    out.is_head_inferred = sample.head_inferred != 0;
+    for (std::size_t side = 0; side < 2; ++side) {
+        const bool has_pose = sample.hand_tracked[side] != 0 || sample.hand_inferred[side] != 0;
+        out.hands[side] = {.controller = has_pose ? sample.hands[side] : lost_pose(),
+                           .buttons = sample.grab[side] ? k_button_grip : 0,
+                           .squeeze = sample.squeeze[side],
+                           .trigger = sample.trigger[side],
+                           .is_inferred = sample.hand_inferred[side] != 0,
+                           .curls = sample.curls[side]};
+        for (double& curl : out.hands[side].curls.fingers) {
+            curl = curl >= 0.0 ? std::min(curl, 1.0) : k_curl_unknown;
+        }
     }
-    out.is_head_inferred = sample.is_head_inferred;
     return out;
 }
 

@@ -14,7 +14,7 @@ namespace handhold {
 // Runtimes infer poses of devices that they do not see, as from the head: valid but not tracked.
 // Such a hand would drag a gripping player who looks round.
 struct LocatedPose {
-    Pose pose;
+    hh::Pose pose;
     bool is_inferred = false;
 };
 constexpr XrSpaceLocationFlags k_valid_location =
@@ -38,8 +38,8 @@ class HeadsetActions {
     XrResult sync(XrSession session);
     // Reads buttons and sticks as of the last sync(), and the poses predicted for `time` in `base`.
     void read(XrSession session, XrSpace base, XrTime time,
-              std::array<HandReading, k_hand_count>& hands) const;
-    void shake(XrSession session, HandSide side, const HapticPulse& pulse) const;
+              std::array<HandReading, 2>& hands) const;
+    void shake(XrSession session, hh::Side side, const HapticPulse& pulse) const;
 
   private:
     HeadsetActions() = default;
@@ -56,9 +56,9 @@ class HeadsetActions {
 
     OwnedXrActionSet set_;
     std::array<XrAction, k_headset_action_count> actions_{};  // destroyed with their set
-    std::array<XrPath, k_hand_count> hands_{};
+    std::array<XrPath, 2> hands_{};
     // Spaces of the three pose actions, by HeadsetAction and HandSide.
-    std::array<std::array<OwnedXrSpace, k_hand_count>, 3> spaces_;
+    std::array<std::array<OwnedXrSpace, 2>, 3> spaces_;
 };
 
 // Pose of `space` in `base` at `time`; nullopt if the runtime does not know it.

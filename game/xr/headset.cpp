@@ -77,8 +77,8 @@ XrEnvironmentBlendMode first_blend_mode(const HeadsetInstance& instance) {
     return first;
 }
 
-void correct(const Pose& space, HeadsetReading& reading) {
-    const auto correct_pose = [&space](std::optional<Pose>& pose) {
+void correct(const hh::Pose& space, HeadsetReading& reading) {
+    const auto correct_pose = [&space](std::optional<hh::Pose>& pose) {
         if (pose) {
             *pose = space * *pose;
         }
@@ -98,7 +98,7 @@ void correct(const Pose& space, HeadsetReading& reading) {
 }  // namespace
 
 struct Headset::Impl {
-    // In this order, so that objects are destroyed before those that they were made from.
+    // The order matters: objects are destroyed before those that they were made from.
     HeadsetInstance instance;
     OwnedXrSession session;
     HeadsetSpaces spaces;
@@ -332,7 +332,7 @@ bool Headset::end_frame(const HeadsetFrame& frame, const DrawEye& draw_eye) {
     return impl.obeys(xrEndFrame(impl.session.get(), &info)) && layer != nullptr;
 }
 
-bool Headset::shake(HandSide side, const HapticPulse& pulse) const {
+bool Headset::shake(hh::Side side, const HapticPulse& pulse) const {
     const bool does = impl_->has_focus && pulse.duration_s > 0.0;
     if (does) {
         impl_->actions->shake(impl_->session.get(), side, pulse);

@@ -13,8 +13,8 @@ constexpr double k_shoulder_share = 0.25;
 constexpr double k_span_share = 0.95;
 // Distance of the shoulder joints below the eyes / arm span.
 constexpr double k_shoulder_drop_share = 0.145;
-// If the eyes are lower than this share of the eye height that the span predicts, the player is
-// seated.
+// A player counts as seated if the eyes are lower than this share of the eye height that the arm
+// span predicts.
 constexpr double k_seated_share = 0.87;
 
 // Arm span of a player whose wrists are `level_m` apart horizontally and `below_m` below the eyes.

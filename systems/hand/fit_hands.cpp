@@ -13,7 +13,8 @@ namespace handhold {
 namespace {
 
 constexpr std::int32_t k_closing_rounds = 10;
-constexpr std::int32_t k_closing_again_rounds = 2;  // rounds of a hand that shows a fit meanwhile
+// Rounds for a hand that still shows its last fit.
+constexpr std::int32_t k_closing_again_rounds = 2;
 // A warm fit continues in the next frame.
 constexpr std::int32_t k_rounds = 1;
 constexpr double k_max_flex_rad = 0.15;
@@ -119,7 +120,7 @@ HandFit best_fit(const HandSurroundings& hand, const GripSurface& surface, const
     return closed.cost < k_change_cost_share * last.cost ? closed : last;
 }
 
-// A hand at rest is fitted until the fit has converged.
+// True if the hand keeps its last fit. A hand at rest is fitted until the fit has converged.
 bool sticks(const HandSurroundings& hand, const FingerTuning& tuning, const FingerPose& pose) {
     const double travel_m = hand_travel_m(pose.fitted_wrist_bs, hand.wrist_bs);
     return travel_m < tuning.reuse_travel_m ? pose.is_converged
@@ -187,8 +188,8 @@ void follow_palm(const Pose& target_hs, double dt_s, const PalmTuning& tuning, P
     }
 }
 
-// All angles advance by the same share, the largest within their speeds: an angle that arrived
-// first would swing the digit through the surface.
+// All angles advance by the same share, the largest within their speeds: otherwise one angle would
+// reach its target first and swing the digit through the surface.
 void follow_digit(double dt_s, const FingerTuning& tuning, const FingerAngles& target,
                   FingerAngles& shown) {
     double share = 1.0;

@@ -49,8 +49,8 @@ struct FitHandsIo {
 // fist.
 //
 // The shown hand follows at PalmTuning::rate_mps, FingerTuning::close_radps (closing) and
-// open_radps (opening), all angles of a digit by the same share of their way. Only the shown hand
-// moves, never the player.
+// open_radps (opening), all angles of a digit by the same share of their remaining change. Only the
+// shown hand moves, never the player.
 //
 // Fallbacks counted: hand_penetrates, once per fit that started from a closing.
 void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats);

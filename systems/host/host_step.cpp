@@ -30,12 +30,15 @@ Pose tracked_or_invalid(const Pose& pose, bool is_tracked) {
 }
 
 // A host that computes a step's end in another way than the world's clock, such as by dividing a
-// frame's number, differs from it by rounding.
+// frame's number, differs from it by rounding: such a sample is one of the step's end.
+double without_rounding_s(double time_s, double end_s) {
+    constexpr double k_rounding_s = 1e-6;
+    return time_s > end_s && time_s <= end_s + k_rounding_s ? end_s : time_s;
+}
+
 TrackingSample read_sample(const hh_tracking_sample& sample, double end_s, bool is_exact) {
-    const double rounding_s = is_exact ? 0.0 : 1e-6;
-    const bool is_at_end = sample.time_s > end_s && sample.time_s <= end_s + rounding_s;
     TrackingSample read;
-    read.t_s = is_at_end ? end_s : sample.time_s;
+    read.t_s = is_exact ? sample.time_s : without_rounding_s(sample.time_s, end_s);
     read.head_ps = tracked_or_invalid(unchecked_pose(sample.head),
                                       sample.head_tracked != 0 || sample.head_inferred != 0);
     for (std::size_t i = 0; i < k_hand_count; ++i) {
@@ -134,22 +137,24 @@ void name_other_clock(hh_world& host, double off_s) {
     log_note(text.data());
 }
 
-// Appends the samples given for a player, but for those too far ahead.
-void read_given(hh_world& host, const hh_player_input& input, double end_s) {
+// Appends the samples given for a player, but for those too far ahead. In a pause, in which the
+// world's clock stands still, samples count whatever their time.
+void read_given(hh_world& host, const hh_player_input& input, double end_s, StepKind kind) {
     constexpr double k_far_s = 0.5;
     const double start_s = host.world.clock.t_s;
+    const bool has_range = kind == StepKind::advances && input.repeats_samples == 0;
     std::size_t far = 0;
     double last_s = 0.0;
     const hh_tracking_sample defaults = hh_default_tracking_sample();
     for (std::size_t i = 0; i < input.sample_count; ++i) {
         const hh_tracking_sample sample = read_def_at(input.samples, i, defaults);
         last_s = sample.time_s;
-        if (sample.time_s > end_s + k_far_s && input.repeats_samples == 0) {
+        if (has_range && sample.time_s > end_s + k_far_s) {
             ++host.samples_too_far_ahead;
             ++far;
             continue;
         }
-        if (sample.time_s < start_s - k_far_s) {
+        if (kind == StepKind::advances && sample.time_s < start_s - k_far_s) {
             ++host.samples_too_old;
             ++far;
         }
@@ -210,10 +215,11 @@ void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std
                 const EarlySample& kept = early->samples[j];
                 if (given.sample_count == 0 || !(given.samples[0].time_s <= kept.t_s)) {
                     host.samples.push_back(read_sample(kept));
+                    host.samples.back().t_s = without_rounding_s(kept.t_s, end_s);
                 }
             }
         }
-        read_given(host, given, end_s);
+        read_given(host, given, end_s, kind);
         input.samples = {host.samples.data() + first, host.samples.size() - first};
     }
 }
@@ -285,7 +291,8 @@ hh_result step_with(hh_world* world, double dt_s, const hh_player_input* inputs,
     if (result != HH_OK) {
         return result;
     }
-    // All that a host can do wrong has been checked: what is thrown now is a defect.
+    // All host errors have been checked before: an exception from here on is a defect of the
+    // library.
     return call(
         [&] {
             hh_world& host = *world;

@@ -16,11 +16,12 @@ namespace {
 
 constexpr double k_half_turn_rad = 3.14159265358979323846;
 
-// A sample of no time at all is not one after the frame.
+// True if the sample is later than the end of the frame; false for a time of NaN.
 bool is_later(double t_s, double end_s) { return std::isfinite(t_s) && t_s > end_s; }
 
-// Finds state and pose at the end of the frame, for the head and for hands alike.
-// `later` is the first pose after the frame's end, or null. True if a pose older than that is held.
+// Finds state and pose at the end of the frame, for the head and for hands alike. `later` is the
+// first pose after the frame's end, or null. Returns true if no later pose is usable, so that an
+// older one is held.
 template <typename Device>
 bool finish_device(Device& device, bool has_sample, const Pose* later, double later_t_s,
                    double end_s, double lost_after_s, StageStats& stats) {
@@ -32,7 +33,8 @@ bool finish_device(Device& device, bool has_sample, const Pose* later, double la
         later = nullptr;  // the motion across a gap that long is unknown
     }
     if (!has_sample) {
-        // The session begins between two samples. The later one counts in its own frame.
+        // The first frame has only a sample after its end. That sample's buttons count in its own
+        // frame.
         device.sample_ps = *later;
         device.sample_t_s = end_s;
     }
@@ -69,7 +71,7 @@ void begin_edge(HandTracking& hand, const HandHistory& history, double t_s, cons
 // True if a hand could have come to `hand_ps`:
 //  - from its last sample at tracking.max_hand_speed_mps, or from where its own velocity would have
 //    taken it (fast hands are fast for several samples);
-//  - and, after a reading that was ignored, from that one too: two readings in a row must agree.
+//  - and, after a reading that was ignored, from that one too: two consecutive readings must agree.
 // A jump by d is thus believed once d / max_hand_speed_mps has passed.
 bool is_plausible(const HandTracking& hand, const HandHistory& history, const Pose& hand_ps,
                   double t_s, double max_speed_mps) {
@@ -219,7 +221,7 @@ struct HandReader {
                 break;
             }
             if (is_stale(sample.t_s, has_sample, last_t_s())) {
-                continue;  // counted once a player, by the head
+                continue;  // counted once per player, for the head
             }
             if (why_not) {
                 ignore(*why_not, hand_ps, sample.t_s);
@@ -315,12 +317,12 @@ void read_head(HeadTracking& head, PlaySpaceTracker space, const PlayerInput& in
     finish_device(head, has_sample, later_or_null, later_t_s, io.frame_end_s, tuning.lost_after_s,
                   stats);
     if (has_jumped) {
-        head.start_ps = head.pose_ps;  // the head did not travel
+        head.start_ps = head.pose_ps;  // no travel
     }
 }
 
-// No samples and no commands for a player whom nothing is known of in this frame. Inputs mostly
-// come in the order of the players: the expected place is looked at first.
+// Returns the input of a player; an empty one if this frame has none. Inputs are mostly in the
+// order of the players, so the expected index is looked at first.
 const PlayerInput& input_of(const ReadTrackingIo& io, Entity player, std::size_t expected) {
     static const PlayerInput k_silence{};
     if (expected < io.inputs.size() && io.inputs[expected].player == player) {
@@ -332,7 +334,7 @@ const PlayerInput& input_of(const ReadTrackingIo& io, Entity player, std::size_t
     return found == io.inputs.end() ? k_silence : *found;
 }
 
-// Commands within their ranges; numbers that are not finite ask for nothing.
+// Clamps commands to their ranges. Numbers that are not finite become 0.
 PlayerCommands finite_commands(PlayerCommands commands) {
     const auto bounded = [](double value, double low) {
         return std::isfinite(value) ? std::clamp(value, low, 1.0) : 0.0;
@@ -351,7 +353,7 @@ Pose hand_in_controller(const ReadTrackingIo& io, Entity hand, HandSide side,
     return own != nullptr ? own->hand_in_controller : default_controller_to_hand(side, tuning);
 }
 
-// Rows in `io.owner` of a player's hands by side; the column's size where a hand is missing.
+// Indices in `io.owner` of a player's hands by side; the column's size where a hand is missing.
 std::array<std::size_t, k_hand_count> hand_rows_of(const ReadTrackingIo& io, Entity player,
                                                    std::size_t player_row) {
     const std::size_t none = io.owner.size();

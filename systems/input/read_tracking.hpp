@@ -30,9 +30,9 @@ struct ReadTrackingIo {
 //
 // Ignored, and counted: samples out of order; poses that are not finite; a controller at exactly
 // (0, 0, 0); a hand farther than max_arm_m from its head; a hand that would have moved faster than
-// max_hand_speed_mps. A jump of a hand is used once two samples in a row agree and the hand could
-// have travelled that far since the last sample used. If the hand then comes back elsewhere, or
-// from any other gap in its samples, it is `resumed`: it did not travel, it takes new anchors. A
+// max_hand_speed_mps. A jump of a hand is used once two consecutive samples agree and the hand
+// could have travelled that far since the last sample used. If the hand then comes back elsewhere,
+// or from any other gap in its samples, it is `resumed`: it did not travel, it takes new anchors. A
 // device silent for longer than lost_after_s is lost and its pose frozen.
 //
 // If the head jumps by more than max_jump_m, or head and hands jump by one turn about +Y and one
@@ -48,8 +48,8 @@ struct ReadTrackingIo {
 //
 // Commands hold for their own frame. Numbers in them that are not finite count as 0.
 void read_tracking(const ReadTrackingIo& io, const Tuning& tuning, StageStats& stats);
-// The same for the players of the rows [first, last) of `head`. Ranges that share no player may be
-// read in parallel.
+// read_tracking for the players at the indices [first, last) of `head`. Ranges that share no player
+// may be read in parallel.
 void read_tracking(const ReadTrackingIo& io, std::size_t first, std::size_t last,
                    const Tuning& tuning, StageStats& stats);
 

@@ -11,8 +11,8 @@
 namespace handhold {
 namespace {
 
-// Smallest violation that starts another phase, at least twice the solver's tolerance: below lie
-// rounding and the residual of a solved phase.
+// Smallest violation that starts another phase. At least twice the solver's tolerance, because
+// smaller ones are rounding errors or residuals of a solved phase.
 constexpr double k_violated_m = 2e-7;
 // Overlap within a heap from which the hands that press it give way.
 constexpr double k_heap_violated_m = 1e-3;
@@ -55,7 +55,7 @@ const IslandErrors& errors_of(const Solve& s, const Island& island) {
     return *errors;
 }
 void clear_errors(const Solve& s, const Island& island) { cached_errors(s, island).reset(); }
-// For all islands, after they were rebuilt.
+// Forgets the cached errors of all islands, after the islands were rebuilt.
 void clear_errors(const Solve& s) { s.io.frame.island_errors.assign(s.graph().islands.size(), {}); }
 
 // --- Rounds of solving and of searching contacts -------------------------------------------------
@@ -159,7 +159,8 @@ void reach(const Solve& s) {
     refresh_contacts(s, OldPoints::replaced);
 }
 
-// An island that has begun to push stays one, even if what gave way has left the wall since.
+// True if the island pushes a player. Once it has begun to push it continues, even if the body that
+// gave way is no longer at the wall.
 bool pushes_player(const Solve& s, const Island& island) {
     return is_pushed(s.io.frame, island) || may_push(s.graph(), island);
 }
@@ -170,7 +171,7 @@ bool presses_player(const Solve& s, const Island& island) {
     return errors_of(s, island).heap_m > k_heap_violated_m && pushes_player(s, island);
 }
 
-// True if forward has left such a heap: relax is next.
+// True if forward left a heap that presses the player (presses_player), so that relax must run.
 bool is_stuck(const Solve& s, const Island& island) {
     return presses_player(s, island) &&
            std::ranges::any_of(s.graph().bodies_of(island),
@@ -190,8 +191,8 @@ void forward(const Solve& s) {
     });
 }
 
-// Heaps that forward could not solve with the hands where they are: lets the held bodies give way,
-// so that backward finds the heap free of overlap.
+// Solves the heaps that forward could not solve with the hands kept at their targets: the held
+// bodies give way, so that backward starts from a heap without overlap.
 void relax(const Solve& s) {
     HH_DETAIL_ZONE("relax");
     const auto wanted = [&](const Island& island) { return presses_player(s, island); };

@@ -39,7 +39,8 @@ struct Word {
 constexpr Word sure(const char* text, BodyBone bone) { return {text, bone, 0, false, bone}; }
 constexpr Word likely(const char* text, BodyBone bone) { return {text, bone, 1, false, bone}; }
 
-// If a name contains several of these texts, the first one in the list counts.
+// Texts in names of limb joints. If a name contains several of them, the first one in the list
+// counts.
 constexpr std::array k_limb_words = {
     sure("forearm", BodyBone::forearm),
     sure("lowerarm", BodyBone::forearm),

@@ -80,7 +80,7 @@ std::optional<FileError> check_envelope(std::span<const std::byte> bytes,
         return refusal(k_schema_size_at, "a schema within the snapshot, found one of " +
                                              std::to_string(schema_bytes) + " bytes");
     }
-    // char may alias any object.
+    // Reading the bytes as char is allowed for any object.
     const std::string_view schema(
         reinterpret_cast<const char*>(bytes.data()) + k_snapshot_header_bytes, schema_bytes);
     if (schema != snapshot_schema()) {

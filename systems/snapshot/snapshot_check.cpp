@@ -49,7 +49,7 @@ class BreachFinder {
         }
     }
 
-    // Every owner of a row in `column` must have one in `required`.
+    // Every owner of an element in `column` must have one in `required`.
     template <typename A, typename B>
     void require(const char* name, const Column<A>& column, const char* required_name,
                  const Column<B>& required) {
@@ -244,8 +244,8 @@ class BreachFinder {
         }
     }
 
-    // Back-off distances and counters must be in the range that frames produce, so that no search
-    // is suspended for ever.
+    // Back-off distances and counters must be in the range that frames produce, so that no
+    // search is suspended forever.
     void check_retries() {
         constexpr double k_max_m = 1.0;
         for (std::size_t row = 0; row < w_.grip_surface.size(); ++row) {
@@ -311,6 +311,10 @@ class BreachFinder {
                 check(used == 0, "hand_owner", hand, ".side", "one hand per side");
                 used = 1;
             }
+        }
+        for (std::size_t i = 0; i < w_.early_samples.size(); ++i) {
+            check(w_.early_samples.rows()[i].count <= EarlySamples::k_capacity, "early_samples",
+                  w_.early_samples.owners()[i], ".count", "at most as many as the array has");
         }
         for (std::size_t row = 0; row < w_.hand_history.size(); ++row) {
             const HandHistory& history = w_.hand_history.rows()[row];

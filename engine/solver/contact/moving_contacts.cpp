@@ -14,7 +14,7 @@ namespace handhold {
 namespace {
 
 constexpr double k_moved_m = 1e-5;  // colliders that moved less keep their contacts
-// The same in a heap, whose pairs were all found within the margin before the solve.
+// k_moved_m for bodies in a heap, whose pairs were all found within the margin before the solve.
 constexpr double k_heap_moved_m = 1e-3;
 constexpr double k_max_slide_m =
     5e-3;  // A contact point whose bodies slid farther than this is dropped.

@@ -38,7 +38,7 @@ PlaySpaceTracker::PlaySpaceTracker(const HeadTracking& head,
       settings_(settings),
       hands_(hands) {}
 
-// Exact where nothing was shifted.
+// Returns the pose bit for bit if there is no shift.
 Pose PlaySpaceTracker::corrected(const Pose& pose) const {
     return {shift_.rotation * pose.position + shift_.position, shift_.rotation * pose.rotation};
 }

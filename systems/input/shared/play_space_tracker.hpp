@@ -13,10 +13,10 @@ namespace handhold {
 inline constexpr double k_farthest_tracked_m = 1e4;
 inline constexpr double k_latest_s = 1e9;  // a snapshot refuses later times too
 
-// False for a pose that no tracking system can mean: not valid, or k_farthest_tracked_m or more
-// away along an axis.
+// False for a pose that cannot come from tracking: invalid, or k_farthest_tracked_m or more from
+// the origin along an axis.
 bool is_trackable(const Pose& pose_ps);
-// A controller that sleeps, or was never found, reports exactly (0, 0, 0).
+// True if the controller sleeps or was never found: it then reports exactly (0, 0, 0).
 inline bool is_asleep(const ControllerSample& reading) {
     return reading.controller_ps.position == Vec3::Zero();
 }
@@ -40,8 +40,7 @@ inline double pressed_share(double reading) { return reading > 0.0 ? std::min(1.
 bool is_stale(double t_s, bool has_sample, double last_t_s);
 
 // Follows one player's readings from sample to sample and corrects those that jump with the play
-// space. Started from the state at the end of the last frame, it gives the same corrections to
-// whoever follows the same samples.
+// space. Deterministic: the same start state and the same samples give the same corrections.
 class PlaySpaceTracker {
   public:
     struct Hand {
@@ -61,8 +60,8 @@ class PlaySpaceTracker {
     PlaySpaceTracker(const HeadTracking& head, const std::array<Hand, k_hand_count>& hands)
         : PlaySpaceTracker(head, hands, Settings{}) {}
 
-    // Advances to `sample`. From a jump on, all readings are corrected so that the head goes on as
-    // before (play_space) or stays where it was (head):
+    // Advances to `sample`. After a jump, all later readings are corrected so that the head
+    // continues its motion (play_space) or stays where it was (head):
     //  - play_space: head and hands moved by one transform (a turn about +Y and a translation), at
     //    least one of them farther than a device can move. What remains of each hand's motion once
     //    that transform is undone must be one that a hand can make;
@@ -72,7 +71,7 @@ class PlaySpaceTracker {
     // may be anywhere, and nothing was recentred. Inferred hands do not vote on recentrings.
     Jump follow(const TrackingSample& sample, const TrackingTuning& tuning);
 
-    // Of the sample followed last.
+    // The hand's pose in play space for `reading`, which belongs to the last sample followed.
     Pose hand_ps(const ControllerSample& reading, HandSide side) const;
     bool is_in_reach(const Vec3& hand_ps, double max_arm_m) const;
 

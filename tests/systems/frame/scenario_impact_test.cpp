@@ -49,7 +49,7 @@ Ball add_ball_and_rail(Scenario& s, Random& random, int i, RailKind kind) {
     } else if (kind == RailKind::cylinder) {
         s.add("post" + name, still, s.shapes.add_cylinder(round_m, half_m), {at, turn});
     } else {
-        const Vec3 box(random.between(0.02, 0.3), half_m, random.between(0.05, 0.3));
+        const Vec3 box{random.between(0.02, 0.3), half_m, random.between(0.05, 0.3)};
         s.add("post" + name, still, s.shapes.add_box(box), {at, turn});
         round_line = Vec3(box.x(), 0.0, box.z());
     }

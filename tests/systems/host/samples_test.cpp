@@ -143,6 +143,22 @@ TEST(HostSamples, MoreThan64SamplesOrHalfASecondAheadAreDroppedAndCounted) {
     EXPECT_EQ(count_of(other.world, "sample_too_far_ahead"), 1U);
 }
 
+// The devices' clock goes on while the world's stands still.
+TEST(HostSamples, PausesFollowSamplesWhateverTheirTime) {
+    HostScene scene;
+    const hh::Sample before = sample_at(0.01);
+    ASSERT_TRUE(scene.world.step(0.01, hh::input(scene.player, {&before, 1})));
+    for (int i = 2; i <= 200; ++i) {
+        const hh::Sample sample = sample_at(0.01 * i);
+        const hh_player_input input = hh::input(scene.player, {&sample, 1});
+        ASSERT_TRUE(scene.world.step_pose_only(0.01, {&input, 1}));
+        hh_player_pose pose;
+        ASSERT_EQ(hh_world_player_poses(scene.world.get(), &scene.player, 1, &pose), HH_OK);
+        ASSERT_NEAR(pose.head.position.x, sample.head.position.x, 1e-12) << i;
+    }
+    EXPECT_EQ(count_of(scene.world, "sample_too_far_ahead"), 0U);
+}
+
 // Samples of a clock that is off by any amount above half a second: the counter and, once, the log.
 TEST(HostSamples, OtherClocksAreNamedOnceInTheLogAndCounted) {
     static std::vector<std::string> said;
