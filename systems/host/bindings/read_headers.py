@@ -260,6 +260,28 @@ class Purposes:
                 function["default_of"] = function["params"][0]["type"]
                 continue
             self.parameters(function)
+        for callback in self.out.callbacks:
+            self.callback(callback)
+
+    def callback(self, callback: dict) -> None:
+        """What the host's function gets: "context", "value", "text", "array" with "count", "task" with "task_context", "out"."""
+        for one, following in zip(callback["params"], [*callback["params"][1:], {"type": ""}]):
+            if "role" in one:
+                continue
+            if one["type"] == "void":
+                one["role"] = "context"
+            elif one["type"] == "hh_task":
+                one["role"], following["role"] = "task", "task_context"
+            elif one["pointer"] == 0:
+                one["role"] = "value"
+            elif one["type"] == "char":
+                one["role"] = "text"
+            elif one["const"] and following["type"] == "size_t":
+                one["role"], one["count"], following["role"] = "array", following["name"], "count"
+            elif not one["const"]:
+                one["role"] = "out"
+            else:
+                raise HeaderError(f"{callback['name']}: {one['name']}: a pointer without a purpose")
 
     def fields(self, struct: dict) -> None:
         fields = {one["name"]: one for one in struct["fields"]}
