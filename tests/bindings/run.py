@@ -93,6 +93,11 @@ def check_csharp(library: Path, work: Path) -> None:
     sources = sorted((BINDINGS / "csharp").glob("*.cs"))
     run("mcs", "-unsafe", "-warnaserror", f"-out:{work}/scenes.exe", *sources, HERE / "Scenes.cs")
     compare(expected_lines(library, work), run("mono", work / "scenes.exe", env=environment))
+    package = work / "unity"
+    run(sys.executable, "-B", SOURCE / "packaging/assemble.py", "unity", package, "--library", library)
+    unity = [*sorted(package.rglob("*.cs")), HERE / "UnityStandIns.cs", HERE / "UnityScene.cs"]
+    run("mcs", "-unsafe", "-warnaserror", "-define:UNITY_5_3_OR_NEWER", f"-out:{work}/unity.exe", *unity)
+    print(run("mono", work / "unity.exe", env=environment).strip())
 
 
 def main() -> int:

@@ -40,7 +40,7 @@ def self_of(function: dict) -> str:
 
 def given(function: dict) -> list[dict]:
     """Parameters that the caller of a wrapper gives."""
-    params = [p for p in function["params"] if p.get("role") in ("value", "handle", "text", "bytes", "array", "optional")]
+    params = [p for p in function["params"] if p.get("role") in ("value", "handle", "text", "bytes", "array", "in_place", "optional")]
     own = [p for p in function["params"] if p.get("role") == "out_array" and is_own_count(function, p)]
     return params + [{"name": p["count"], "type": "size_t", "pointer": 0, "const": False, "role": "own_count"} for p in own]
 
@@ -52,7 +52,7 @@ def is_own_count(function: dict, param: dict) -> bool:
 
 def outputs(function: dict) -> list[dict]:
     """Parameters that a wrapper returns."""
-    roles = ("out", "in_out", "out_list", "out_bytes", "out_view", "out_text", "out_array", "out_handle")
+    roles = ("out", "in_out", "out_list", "out_bytes", "out_view", "out_text", "out_array", "in_place", "out_handle")
     return [p for p in function["params"] if p.get("role") in roles]
 
 

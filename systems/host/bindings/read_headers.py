@@ -9,7 +9,7 @@ import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
-HEADERS = ("version.h", "base.h", "world.h", "level.h", "players.h", "your_physics.h")
+HEADERS = ("version.h", "base.h", "convert.h", "world.h", "level.h", "players.h", "your_physics.h")
 
 SCALARS = {"double": 8, "float": 4, "int32_t": 4, "uint32_t": 4, "uint64_t": 8, "uint8_t": 1, "size_t": 0, "char": 1, "void": 0}
 
@@ -343,6 +343,9 @@ class Purposes:
             return 3
         if is_size(0, 0) and following[0]["name"] == "count":
             one["role"], one["count"], following[0]["role"] = "out_array", "count", "count"
+            return 2
+        if is_size(0, 0) and following[0]["name"].endswith("_count"):
+            one["role"], one["count"], following[0]["role"] = "in_place", following[0]["name"], "count"
             return 2
         counted = next((p for p in params[:at] if p.get("role") == "array"), None)
         if counted is not None and one["name"].endswith("s"):

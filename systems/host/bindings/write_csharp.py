@@ -131,7 +131,7 @@ class CSharp:
                     fixes.append(f"byte* {text}_at = Library.Text({text})")
                     after.append(f"if ({text} != null) {at}.{text} = {text}_at;")
                 call.append(f"{name}.HasValue ? &{at} : null")
-            elif role in ("array", "bytes"):
+            elif role in ("array", "bytes", "in_place"):
                 params.append(f"{'byte' if role == 'bytes' else kind}[] {name}")
                 fixes.append(f"{'byte' if role == 'bytes' else kind}* {at} = {name}")
                 call.append(at)

@@ -97,9 +97,14 @@ class Python:
                 make = "raw(" if role == "bytes" else f"array({kind}, "
                 lines.append(f"{name}, {count}_ = {make}{name})")
                 words_of_call.append(name)
+            elif role == "in_place":
+                lines.append(f"{name}, {name}_at = changed({kind}, {name})")
+                words_of_call.append(f"{name}_at")
+                results.append(name)
             elif role == "count":
                 owner = next(p for p in function["params"] if p.get("count") == one["name"])
-                words_of_call.append(name if owner["role"] == "out_array" and is_own_count(function, owner) else f"{name}_")
+                words_of_call.append(name if owner["role"] == "out_array" and is_own_count(function, owner) else
+                                     f"{safe(owner['name'])}.size" if owner["role"] == "in_place" else f"{name}_")
             elif role in ("out", "in_out"):
                 lines.append(f"{name} = {kind}()")
                 words_of_call.append(f"byref({name})")
@@ -148,7 +153,7 @@ class Python:
                       "import enum",
                       "from ctypes import (CFUNCTYPE, POINTER, byref, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint8, c_uint32, c_uint64, c_void_p,",
                       "                    sizeof)", "",
-                      "from ._library import Struct, array, check, copied, empty, handle, lib, listed, optional, raw, shown, text, value", ""]
+                      "from ._library import Struct, array, changed, check, copied, empty, handle, lib, listed, optional, raw, shown, text, value", ""]
         self.lines += [f"{one['name']} = {one['value']!r}" for one in d.constants]
         for one in d.enums:
             self.lines += ["", "", f"class {pascal(one['name'])}(enum.IntEnum):", *docstring(one["doc"] or one["name"], "    ")]

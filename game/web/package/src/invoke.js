@@ -47,6 +47,12 @@ function invoke(object, name, { returns, params }, given) {
                     counted = values.length;
                     return values.length === 0 ? 0 : m.takeList(kind, values);
                 },
+                in_place: () => {
+                    const size = counted = given[0].length;
+                    const at = m.takeList(kind, next());
+                    results.push([label, () => m.readList(kind, at, size)]);
+                    return at;
+                },
                 optional: () => {
                     // A definition that is left out has the library's defaults.
                     const isDefault = given.length === 0 && structs[kind][0][0] === 'struct_size';

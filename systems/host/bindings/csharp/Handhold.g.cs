@@ -48,6 +48,15 @@ namespace Handhold {
         Error = 1,
     }
 
+    public enum Engine {
+        /// <summary>left-handed, +X right, +Y up, +Z ahead, metres</summary>
+        Unity = 0,
+        /// <summary>left-handed, +X ahead, +Y right, +Z up, centimetres</summary>
+        Unreal = 1,
+        /// <summary>as Handhold: right-handed, +X right, +Y up, -Z ahead, metres</summary>
+        Godot = 2,
+    }
+
     /// <summary>What receives the impulses of constraints, index of hh_momentum's arrays.</summary>
     public enum MomentumReceiver {
         /// <summary>dynamic ones</summary>
@@ -1148,6 +1157,34 @@ namespace Handhold {
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern uint hh_thread_count();
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern double hh_convert_metres_per_unit(Engine engine);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Vec3 hh_convert_vector_from(Engine engine, Vec3 vector);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Vec3 hh_convert_vector_to(Engine engine, Vec3 vector);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Vec3 hh_convert_direction_from(Engine engine, Vec3 direction);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Vec3 hh_convert_direction_to(Engine engine, Vec3 direction);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Vec3 hh_convert_angular_from(Engine engine, Vec3 angular_radps);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Vec3 hh_convert_angular_to(Engine engine, Vec3 angular_radps);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Quat hh_convert_rotation_from(Engine engine, Quat rotation);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Quat hh_convert_rotation_to(Engine engine, Quat rotation);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Pose hh_convert_pose_from(Engine engine, Pose pose);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Pose hh_convert_pose_to(Engine engine, Pose pose);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Vec3 hh_convert_scale_from(Engine engine, Vec3 scale);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Vec3 hh_convert_scale_to(Engine engine, Vec3 scale);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_convert_mesh_from(Engine engine, float* coordinates, UIntPtr coordinate_count, uint* indices, UIntPtr index_count);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_default_world_def_sized(WorldDef* filled, UIntPtr size);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_world_create(WorldDef* def, IntPtr* world);
@@ -1438,6 +1475,72 @@ namespace Handhold {
 
         public static unsafe uint ThreadCount() {
             return Native.hh_thread_count();
+        }
+
+        /// <summary>Metres in one of the engine's units of length: 0.01 for Unreal, else 1. For radii and distances.</summary>
+        public static unsafe double ConvertMetresPerUnit(Engine engine) {
+            return Native.hh_convert_metres_per_unit(engine);
+        }
+
+        /// <summary>Whatever scales with length: positions, velocities, accelerations, impulses, forces.</summary>
+        public static unsafe Vec3 ConvertVectorFrom(Engine engine, Vec3 vector) {
+            return Native.hh_convert_vector_from(engine, vector);
+        }
+
+        public static unsafe Vec3 ConvertVectorTo(Engine engine, Vec3 vector) {
+            return Native.hh_convert_vector_to(engine, vector);
+        }
+
+        /// <summary>Directions without a length: normals, axes.</summary>
+        public static unsafe Vec3 ConvertDirectionFrom(Engine engine, Vec3 direction) {
+            return Native.hh_convert_direction_from(engine, direction);
+        }
+
+        public static unsafe Vec3 ConvertDirectionTo(Engine engine, Vec3 direction) {
+            return Native.hh_convert_direction_to(engine, direction);
+        }
+
+        /// <summary>Angular velocities in rad/s, and other vectors along an axis of rotation. Left-handed engines count angles the other way, so the sign changes too.</summary>
+        public static unsafe Vec3 ConvertAngularFrom(Engine engine, Vec3 angular_radps) {
+            return Native.hh_convert_angular_from(engine, angular_radps);
+        }
+
+        public static unsafe Vec3 ConvertAngularTo(Engine engine, Vec3 angular_radps) {
+            return Native.hh_convert_angular_to(engine, angular_radps);
+        }
+
+        public static unsafe Quat ConvertRotationFrom(Engine engine, Quat rotation) {
+            return Native.hh_convert_rotation_from(engine, rotation);
+        }
+
+        public static unsafe Quat ConvertRotationTo(Engine engine, Quat rotation) {
+            return Native.hh_convert_rotation_to(engine, rotation);
+        }
+
+        public static unsafe Pose ConvertPoseFrom(Engine engine, Pose pose) {
+            return Native.hh_convert_pose_from(engine, pose);
+        }
+
+        public static unsafe Pose ConvertPoseTo(Engine engine, Pose pose) {
+            return Native.hh_convert_pose_to(engine, pose);
+        }
+
+        /// <summary>Scale factors of an object along its own axes, and half extents in metres: axes change places, signs do not.</summary>
+        public static unsafe Vec3 ConvertScaleFrom(Engine engine, Vec3 scale) {
+            return Native.hh_convert_scale_from(engine, scale);
+        }
+
+        public static unsafe Vec3 ConvertScaleTo(Engine engine, Vec3 scale) {
+            return Native.hh_convert_scale_to(engine, scale);
+        }
+
+        /// <summary>A mesh in place: converts x, y, z of its vertices, and reverses its triangles if the engine's front faces are clockwise (Unity, Godot), so that they are counter-clockwise from outside. HH_ERROR_VALUE, and no change, for counts that are no multiples of 3.</summary>
+        public static unsafe void ConvertMeshFrom(Engine engine, float[] coordinates, uint[] indices) {
+            fixed (float* coordinates_at = coordinates) {
+                fixed (uint* indices_at = indices) {
+                    Library.Check(Native.hh_convert_mesh_from(engine, coordinates_at, Library.Count(coordinates), indices_at, Library.Count(indices)));
+                }
+            }
         }
 
         /// <summary>Stages and fallbacks by index; null beyond the last. A fallback is counted whenever the runtime does the next best instead of what was asked. Any thread.</summary>

@@ -37,6 +37,12 @@ export declare const HH_LEFT: 0;
 export declare const HH_RIGHT: 1;
 export declare const HH_LOG_NOTE: 0;
 export declare const HH_LOG_ERROR: 1;
+/** left-handed, +X right, +Y up, +Z ahead, metres */
+export declare const HH_ENGINE_UNITY: 0;
+/** left-handed, +X ahead, +Y right, +Z up, centimetres */
+export declare const HH_ENGINE_UNREAL: 1;
+/** as Handhold: right-handed, +X right, +Y up, -Z ahead, metres */
+export declare const HH_ENGINE_GODOT: 2;
 /** dynamic ones */
 export declare const HH_MOMENTUM_BODIES: 0;
 export declare const HH_MOMENTUM_PLAYERS: 1;
@@ -660,6 +666,26 @@ export declare class LibraryCalls {
     /** Threads of the library's own pool, as hh_host_hooks.thread_count, also while worlds exist: for instance all while a level loads. HH_ERROR_STATE if the host lends parallel_for. Not beside any other call of the library. */
     setThreadCount(count: number): void;
     threadCount(): number;
+    /** Metres in one of the engine's units of length: 0.01 for Unreal, else 1. For radii and distances. */
+    convertMetresPerUnit(engine: number): number;
+    /** Whatever scales with length: positions, velocities, accelerations, impulses, forces. */
+    convertVectorFrom(engine: number, vector: Given<hh_vec3>): hh_vec3;
+    convertVectorTo(engine: number, vector: Given<hh_vec3>): hh_vec3;
+    /** Directions without a length: normals, axes. */
+    convertDirectionFrom(engine: number, direction: Given<hh_vec3>): hh_vec3;
+    convertDirectionTo(engine: number, direction: Given<hh_vec3>): hh_vec3;
+    /** Angular velocities in rad/s, and other vectors along an axis of rotation. Left-handed engines count angles the other way, so the sign changes too. */
+    convertAngularFrom(engine: number, angular_radps: Given<hh_vec3>): hh_vec3;
+    convertAngularTo(engine: number, angular_radps: Given<hh_vec3>): hh_vec3;
+    convertRotationFrom(engine: number, rotation: Given<hh_quat>): hh_quat;
+    convertRotationTo(engine: number, rotation: Given<hh_quat>): hh_quat;
+    convertPoseFrom(engine: number, pose: Given<hh_pose>): hh_pose;
+    convertPoseTo(engine: number, pose: Given<hh_pose>): hh_pose;
+    /** Scale factors of an object along its own axes, and half extents in metres: axes change places, signs do not. */
+    convertScaleFrom(engine: number, scale: Given<hh_vec3>): hh_vec3;
+    convertScaleTo(engine: number, scale: Given<hh_vec3>): hh_vec3;
+    /** A mesh in place: converts x, y, z of its vertices, and reverses its triangles if the engine's front faces are clockwise (Unity, Godot), so that they are counter-clockwise from outside. HH_ERROR_VALUE, and no change, for counts that are no multiples of 3. */
+    convertMeshFrom(engine: number, coordinates: ArrayLike<number>, indices: ArrayLike<number>): { coordinates: number[]; indices: number[] };
     /** Stages and fallbacks by index; null beyond the last. A fallback is counted whenever the runtime does the next best instead of what was asked. Any thread. */
     stageName(stage: number): string | null;
     fallbackName(fallback: number): string | null;

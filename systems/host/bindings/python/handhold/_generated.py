@@ -3,7 +3,7 @@ import enum
 from ctypes import (CFUNCTYPE, POINTER, byref, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint8, c_uint32, c_uint64, c_void_p,
                     sizeof)
 
-from ._library import Struct, array, check, copied, empty, handle, lib, listed, optional, raw, shown, text, value
+from ._library import Struct, array, changed, check, copied, empty, handle, lib, listed, optional, raw, shown, text, value
 
 HANDHOLD_VERSION_MAJOR = 0
 HANDHOLD_VERSION_MINOR = 2
@@ -37,6 +37,13 @@ class LogLevel(enum.IntEnum):
     """hh_log_level"""
     HH_LOG_NOTE = 0
     HH_LOG_ERROR = 1
+
+
+class Engine(enum.IntEnum):
+    """hh_engine"""
+    HH_ENGINE_UNITY = 0  # left-handed, +X right, +Y up, +Z ahead, metres
+    HH_ENGINE_UNREAL = 1  # left-handed, +X ahead, +Y right, +Z up, centimetres
+    HH_ENGINE_GODOT = 2  # as Handhold: right-handed, +X right, +Y up, -Z ahead, metres
 
 
 class MomentumReceiver(enum.IntEnum):
@@ -191,6 +198,9 @@ HH_LEFT = Side.HH_LEFT
 HH_RIGHT = Side.HH_RIGHT
 HH_LOG_NOTE = LogLevel.HH_LOG_NOTE
 HH_LOG_ERROR = LogLevel.HH_LOG_ERROR
+HH_ENGINE_UNITY = Engine.HH_ENGINE_UNITY
+HH_ENGINE_UNREAL = Engine.HH_ENGINE_UNREAL
+HH_ENGINE_GODOT = Engine.HH_ENGINE_GODOT
 HH_MOMENTUM_BODIES = MomentumReceiver.HH_MOMENTUM_BODIES
 HH_MOMENTUM_PLAYERS = MomentumReceiver.HH_MOMENTUM_PLAYERS
 HH_MOMENTUM_DISCARDED = MomentumReceiver.HH_MOMENTUM_DISCARDED
@@ -952,6 +962,20 @@ FUNCTIONS = {
     "hh_set_host_hooks": (c_int32, [POINTER(HostHooks)]),
     "hh_set_thread_count": (c_int32, [c_uint32]),
     "hh_thread_count": (c_uint32, []),
+    "hh_convert_metres_per_unit": (c_double, [c_int32]),
+    "hh_convert_vector_from": (Vec3, [c_int32, Vec3]),
+    "hh_convert_vector_to": (Vec3, [c_int32, Vec3]),
+    "hh_convert_direction_from": (Vec3, [c_int32, Vec3]),
+    "hh_convert_direction_to": (Vec3, [c_int32, Vec3]),
+    "hh_convert_angular_from": (Vec3, [c_int32, Vec3]),
+    "hh_convert_angular_to": (Vec3, [c_int32, Vec3]),
+    "hh_convert_rotation_from": (Quat, [c_int32, Quat]),
+    "hh_convert_rotation_to": (Quat, [c_int32, Quat]),
+    "hh_convert_pose_from": (Pose, [c_int32, Pose]),
+    "hh_convert_pose_to": (Pose, [c_int32, Pose]),
+    "hh_convert_scale_from": (Vec3, [c_int32, Vec3]),
+    "hh_convert_scale_to": (Vec3, [c_int32, Vec3]),
+    "hh_convert_mesh_from": (c_int32, [c_int32, POINTER(c_float), c_size_t, POINTER(c_uint32), c_size_t]),
     "hh_default_world_def_sized": (c_int32, [POINTER(WorldDef), c_size_t]),
     "hh_world_create": (c_int32, [POINTER(WorldDef), POINTER(c_void_p)]),
     "hh_world_destroy": (None, [c_void_p]),
@@ -1124,6 +1148,75 @@ def set_thread_count(count):
 
 def thread_count():
     return lib().hh_thread_count()
+
+
+def convert_metres_per_unit(engine):
+    """Metres in one of the engine's units of length: 0.01 for Unreal, else 1. For radii and distances."""
+    return lib().hh_convert_metres_per_unit(engine)
+
+
+def convert_vector_from(engine, vector):
+    """Whatever scales with length: positions, velocities, accelerations, impulses, forces."""
+    return lib().hh_convert_vector_from(engine, value(Vec3, vector))
+
+
+def convert_vector_to(engine, vector):
+    return lib().hh_convert_vector_to(engine, value(Vec3, vector))
+
+
+def convert_direction_from(engine, direction):
+    """Directions without a length: normals, axes."""
+    return lib().hh_convert_direction_from(engine, value(Vec3, direction))
+
+
+def convert_direction_to(engine, direction):
+    return lib().hh_convert_direction_to(engine, value(Vec3, direction))
+
+
+def convert_angular_from(engine, angular_radps):
+    """Angular velocities in rad/s, and other vectors along an axis of rotation. Left-handed engines count angles
+    the other way, so the sign changes too."""
+    return lib().hh_convert_angular_from(engine, value(Vec3, angular_radps))
+
+
+def convert_angular_to(engine, angular_radps):
+    return lib().hh_convert_angular_to(engine, value(Vec3, angular_radps))
+
+
+def convert_rotation_from(engine, rotation):
+    return lib().hh_convert_rotation_from(engine, value(Quat, rotation))
+
+
+def convert_rotation_to(engine, rotation):
+    return lib().hh_convert_rotation_to(engine, value(Quat, rotation))
+
+
+def convert_pose_from(engine, pose):
+    return lib().hh_convert_pose_from(engine, value(Pose, pose))
+
+
+def convert_pose_to(engine, pose):
+    return lib().hh_convert_pose_to(engine, value(Pose, pose))
+
+
+def convert_scale_from(engine, scale):
+    """Scale factors of an object along its own axes, and half extents in metres: axes change places, signs do
+    not."""
+    return lib().hh_convert_scale_from(engine, value(Vec3, scale))
+
+
+def convert_scale_to(engine, scale):
+    return lib().hh_convert_scale_to(engine, value(Vec3, scale))
+
+
+def convert_mesh_from(engine, coordinates, indices):
+    """A mesh in place: converts x, y, z of its vertices, and reverses its triangles if the engine's front faces
+    are clockwise (Unity, Godot), so that they are counter-clockwise from outside. HH_ERROR_VALUE, and no
+    change, for counts that are no multiples of 3."""
+    coordinates, coordinates_at = changed(c_float, coordinates)
+    indices, indices_at = changed(c_uint32, indices)
+    check(lib().hh_convert_mesh_from(engine, coordinates_at, coordinates.size, indices_at, indices.size))
+    return coordinates, indices
 
 
 def stage_name(stage):

@@ -161,6 +161,12 @@ def empty(kind, count):
     return made, made.ctypes.data_as(ctypes.POINTER(kind))
 
 
+def changed(kind, given):
+    """A copy as a numpy array, for the library to change, and its address."""
+    made = np.array(given, dtype=kind)
+    return made, made.ctypes.data_as(ctypes.POINTER(kind))
+
+
 def copied(kind, pointer, count):
     if count.value == 0:
         return np.zeros(0, dtype=kind)
