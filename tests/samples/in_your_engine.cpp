@@ -1,5 +1,5 @@
-// The samples of docs/guide/in_your_engine.md: a player in an engine with Unreal's axes and units. Exit status 0: the rig is
-// where a hand pulled it, and where the engine's own walking put it.
+// The samples of docs/guide/in_your_engine.md: a player in an engine with Unreal's axes and units.
+// Exit status 0: the rig is where a hand pulled it, and where the engine's own walking put it.
 #include <cmath>
 #include <cstdio>
 
@@ -50,8 +50,8 @@ bool step(hh::World& world, hh::Player you, const Devices& devices, Transform& r
 // [feed]
 
 // [walk]
-// The engine's character controller moves the player on foot: call it before the step, which carries
-// the player along by the velocity.
+// The engine's character controller moves the player on foot: call it before the step, which
+// carries the player along by the velocity.
 bool walk(hh::World& world, hh::Player you, const Transform& rig, hh_vec3 velocity_cmps) {
     return static_cast<bool>(world.place(you, k_engine.pose_from({rig.location, rig.rotation}),
                                          k_engine.vector_from(velocity_cmps)));
