@@ -105,7 +105,7 @@ namespace Handhold {
     }
 
     public enum EventKind {
-        /// <summary>the palm of an empty hand came within 2 cm of a body or player</summary>
+        /// <summary>The palm of an empty hand came within 2 cm of a body or player.</summary>
         Touched = 0,
         /// <summary>a hand grips</summary>
         Grabbed = 1,
@@ -133,7 +133,7 @@ namespace Handhold {
         Opened = 1,
         /// <summary>nothing in reach, or only behind a wall</summary>
         NoSurface = 2,
-        /// <summary>by a grab rule or layers</summary>
+        /// <summary>a grab rule or layers refuse the hand</summary>
         NotAllowed = 3,
         /// <summary>the other hand is not there, or left</summary>
         NeedsTwoHands = 4,
@@ -145,7 +145,7 @@ namespace Handhold {
         BodyGone = 7,
         /// <summary>hh_hand_release, hh_hand_grip or a teleport</summary>
         ByHost = 8,
-        /// <summary>one of two hands on a body left</summary>
+        /// <summary>the other of two hands on a body let go</summary>
         OtherHand = 9,
     }
 
@@ -284,6 +284,12 @@ namespace Handhold {
         public Quat rotation;
     }
 
+    /// <summary>How far each finger is bent, by thumb, index, middle, ring, little: 0 straight, 1 as in a fist. Below 0 or NaN: unknown; above 1: as 1.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct FingerCurls {
+        public DoubleArray5 fingers;
+    }
+
     /// <summary>Ids: plain values. All zero is null. An id whose object was removed finds nothing, even if its index is used again. Ids of two worlds must not be mixed; that is not always detected.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct Shape {
@@ -353,7 +359,7 @@ namespace Handhold {
         public override int GetHashCode() => (int)(index * 2654435761u ^ generation);
     }
 
-    /// <summary>What the process lends the library. Null functions: the library's own. Memory comes from the global operator new, which a program may replace as usual; the shared library and the standard library inside it then use the replacement too, once per process. Apart from that a world's blocks are taken and given back by the threads that call it, and by those of parallel_for: a replacement with an arena a thread gives each world its own. A host that uses Bullet needs its double-precision build, and sets btAlignedAllocSetCustom before the first world.</summary>
+    /// <summary>Functions of the host that the library uses. Null functions: the library's own. Memory comes from the global operator new, which a program may replace as usual; the shared library and the standard library inside it then use the replacement too, once per process. Apart from that a world's blocks are taken and given back by the threads that call it, and by those of parallel_for: a replacement with an arena a thread gives each world its own. A host that uses Bullet needs its double-precision build, and sets btAlignedAllocSetCustom before the first world.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct HostHooks {
         public uint struct_size;
@@ -416,6 +422,12 @@ namespace Handhold {
         public DoubleArray2 squeeze;
         /// <summary>How far the index finger's trigger is pressed, [0, 1]: bends the index finger of an empty hand, and the fingers of authored grips that follow the trigger.</summary>
         public DoubleArray2 trigger;
+        /// <summary>True if the runtime only guesses the head's position: OpenXR's POSITION_VALID without POSITION_TRACKED, WebXR's emulatedPosition, a low confidence. Default false; true counts before head_tracked. The head follows the guess, but while a hand grips what the player can pull on, only its rotation does.</summary>
+        public Flag head_inferred;
+        /// <summary>The same of the hands, before hand_tracked. An inferred hand does not grip, and never moves a player who grips: it stays where it was last measured. Opening `grab` lets go, without a throw. The shown empty hand follows the guess. Once measured again, the hand may be elsewhere: it did not travel.</summary>
+        public FlagArray2 hand_inferred;
+        /// <summary>Bends the fingers of an empty hand, before squeeze and trigger; default unknown. By gloves, or from joints by hh_finger_curls_of.</summary>
+        public FingerCurlsArray2 curls;
 
         /// <summary>The library's defaults.</summary>
         public static TrackingSample Default() {
@@ -581,7 +593,7 @@ namespace Handhold {
         public Vec3 angular_velocity_radps;
         /// <summary>dynamic: [1e-12, 1e15], default 1</summary>
         public double mass_kg;
-        /// <summary>about the principal axes; 0: of the solid shape. Needed without one</summary>
+        /// <summary>About the principal axes; 0: computed from the shape, if there is one.</summary>
         public Vec3 inertia_kgm2;
         /// <summary>[0, 1]</summary>
         public double restitution;
@@ -643,7 +655,7 @@ namespace Handhold {
         public double latch_strength;
         /// <summary>a joint that opens it; null: none</summary>
         public Joint latch_handle;
-        /// <summary>open while the handle's coordinate is at least this, either way</summary>
+        /// <summary>open while |handle's coordinate| is at least this</summary>
         public double latch_handle_at;
 
         /// <summary>The library's defaults.</summary>
@@ -654,7 +666,7 @@ namespace Handhold {
         }
     }
 
-    /// <summary>Against the shapes of all bodies, whatever their layers, and the tracked heads of players, where they are now. Bodies without a shape, and surfaces of hh_world_set_surface_query, are not found. HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds; the first query after a change of the world also compares every body with its place before.</summary>
+    /// <summary>Queries test the shapes of all bodies, whatever their layers, and the tracked heads of players, at their present poses. Bodies without a shape, and surfaces of hh_world_set_surface_query, are not found. HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds; the first query after a change of the world also compares every body with its place before.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct Hit {
         /// <summary>null: a player's head, or nothing was found</summary>
@@ -703,8 +715,9 @@ namespace Handhold {
         public double scale;
         /// <summary>the head is a sphere of head.radius_m; default true</summary>
         public Flag head_collides;
+        /// <summary>Layers of the head; it touches a body if each one's layers meet the other's mask.</summary>
         public uint layers;
-        /// <summary>of the head; as hh_body_def's</summary>
+        /// <summary>Layers of the head; it touches a body if each one's layers meet the other's mask.</summary>
         public uint mask;
         /// <summary>the hands grip bodies with one of these layers; default all</summary>
         public uint grab_layers;
@@ -730,15 +743,18 @@ namespace Handhold {
         public Pose tracked;
         /// <summary>The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres from it, so that palm and fingers touch.</summary>
         public Pose shown;
-        /// <summary>The wrist in the frame of what it grips, fixed when it closed; of a player: of the part.</summary>
+        /// <summary>The wrist in the frame of what it grips (of a gripped player: the gripped part), fixed when the hand closed.</summary>
         public Pose anchor;
-        /// <summary>distance of the tracked wrist and the anchor: 0 unless hindered</summary>
+        /// <summary>Distance of the tracked wrist from the anchor: 0 unless something blocks it.</summary>
         public double error_m;
-        /// <summary>By the hand on what it grips, in the last step: for haptics. 0 if the host's solver moved the player (hh_world_end_step): that solver knows it. While hands move only light bodies, hands and contacts report at most the momentum that the players and bodies involved have, with the hands' speed on top.</summary>
+        /// <summary>Impulse of the hand on what it grips in the last step, for haptics. 0 if the host's solver moved the player (hh_world_end_step): read it there. While hands move only light bodies, hands and contacts report at most the momentum that the players and bodies involved have, with the hands' speed on top.</summary>
         public Vec3 force_impulse_ns;
+        /// <summary>false while the hand is lost or inferred</summary>
         public Flag is_tracked;
         /// <summary>the button is down</summary>
         public Flag is_closed;
+        /// <summary>The runtime guesses where the hand is (hh_tracking_sample.hand_inferred). `tracked` is the guess for an empty hand, and for a body in it while no hand of the player moves the player; else the last pose that was measured.</summary>
+        public Flag is_inferred;
     }
 
     /// <summary>Grows: see base.h. Later fields come behind `hands`.</summary>
@@ -867,7 +883,7 @@ namespace Handhold {
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct BodyMotion {
         public Body body;
-        /// <summary>as hh_body_def.pose; without a shape: centre of mass and principal axes</summary>
+        /// <summary>of the shape's own frame; without a shape: centre of mass and principal axes</summary>
         public Pose pose;
         public Vec3 velocity_mps;
         public Vec3 angular_velocity_radps;
@@ -883,14 +899,14 @@ namespace Handhold {
         public Pose anchor;
         /// <summary>the wrist at the end of the step: from the origin, with the world's axes</summary>
         public Pose target;
-        /// <summary>Its velocity against the origin: while a hand lets go that of the throw, else the mean.</summary>
+        /// <summary>The target's velocity relative to the origin: the throwing velocity while a hand lets go, else the mean over the step.</summary>
         public Vec3 velocity_mps;
         public Vec3 angular_velocity_radps;
         /// <summary>in the world, at the end of the step; not for POINT</summary>
         public Quat body_rotation;
-        /// <summary>that leads there; not for POINT</summary>
+        /// <summary>reaches body_rotation; not for POINT</summary>
         public Vec3 body_angular_velocity_radps;
-        /// <summary>The anchor in the world at the end of the step, if the solver leaves the body's velocity as it is: exact for static and kinematic bodies, which need no other end of the joint.</summary>
+        /// <summary>The anchor in the world at the end of the step, if the body keeps its velocity. Exact for static and kinematic bodies: a joint may attach the player to this point of the world.</summary>
         public Pose anchor_end;
         /// <summary>of the rows; 0: rigid, as in the runtime's own solver</summary>
         public double compliance_m_per_n;
@@ -906,7 +922,7 @@ namespace Handhold {
         public Player player;
         /// <summary>at the start of the step</summary>
         public Vec3 origin;
-        /// <summary>there, with what thrusters and drag did</summary>
+        /// <summary>at the start of the step, with thrusters and drag applied</summary>
         public Vec3 velocity_mps;
         /// <summary>For this step. The player's own while a hand grips something static, kinematic or at least phases.heavy_body_kg. Else 1000 times the heaviest held body, so that light bodies do not shake the player; for bodies from phases.kappa_light_kg to phases.kappa_heavy_kg it falls to the player's own. If a held body meets something that does not give way, such as a crate at a wall, solve the step again with hh_player_def.mass_kg: the player then moves back by what the body could not move. Without that, hand and wall press against each other without a bound.</summary>
         public double mass_kg;
@@ -921,7 +937,7 @@ namespace Handhold {
         public Player player;
         /// <summary>at the end of the step</summary>
         public Vec3 origin;
-        /// <summary>there</summary>
+        /// <summary>at the end of the step</summary>
         public Vec3 velocity_mps;
     }
 
@@ -956,6 +972,29 @@ namespace Handhold {
                     case 2: e2 = value; break;
                     case 3: e3 = value; break;
                     case 4: e4 = value; break;
+                    default: throw new IndexOutOfRangeException();
+                }
+            }
+        }
+    }
+
+    /// <summary>2 elements inside of a struct. Write an element by its index; to change a part of it, read, change, write.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct FingerCurlsArray2 {
+        private FingerCurls e0, e1;
+        public const int Length = 2;
+        public FingerCurls this[int index] {
+            get {
+                switch (index) {
+                    case 0: return e0;
+                    case 1: return e1;
+                    default: throw new IndexOutOfRangeException();
+                }
+            }
+            set {
+                switch (index) {
+                    case 0: e0 = value; break;
+                    case 1: e1 = value; break;
                     default: throw new IndexOutOfRangeException();
                 }
             }
@@ -1129,6 +1168,35 @@ namespace Handhold {
         }
     }
 
+    /// <summary>5 elements inside of a struct. Write an element by its index; to change a part of it, read, change, write.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct DoubleArray5 {
+        private double e0, e1, e2, e3, e4;
+        public const int Length = 5;
+        public double this[int index] {
+            get {
+                switch (index) {
+                    case 0: return e0;
+                    case 1: return e1;
+                    case 2: return e2;
+                    case 3: return e3;
+                    case 4: return e4;
+                    default: throw new IndexOutOfRangeException();
+                }
+            }
+            set {
+                switch (index) {
+                    case 0: e0 = value; break;
+                    case 1: e1 = value; break;
+                    case 2: e2 = value; break;
+                    case 3: e3 = value; break;
+                    case 4: e4 = value; break;
+                    default: throw new IndexOutOfRangeException();
+                }
+            }
+        }
+    }
+
     /// <summary>The functions as they are: nothing is checked, and nothing is allocated.</summary>
     public static unsafe class Native {
 #if UNITY_IOS && !UNITY_EDITOR || UNITY_WEBGL && !UNITY_EDITOR
@@ -1234,6 +1302,10 @@ namespace Handhold {
         public static extern Result hh_world_get_tuning(IntPtr world, byte* name, double* values, UIntPtr count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_world_set_tuning(IntPtr world, byte* name, double* values, UIntPtr count);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_world_tuning_numbers(IntPtr world, double* values, UIntPtr capacity, UIntPtr* count);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_world_set_tuning_numbers(IntPtr world, double* values, UIntPtr count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_world_load_tuning(IntPtr world, byte* json, UIntPtr size);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
@@ -1349,6 +1421,10 @@ namespace Handhold {
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_player_reference_velocity(IntPtr world, Player player, Vec3* velocity_mps);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_player_push_back(IntPtr world, Player player, double* distance_m);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_player_mass(IntPtr world, Player player, double* mass_kg);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_player_head(IntPtr world, Player player, Vec3* center, double* radius_m, byte* is_tracked);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_player_measures(IntPtr world, Player player, Measures* measures);
@@ -1376,6 +1452,8 @@ namespace Handhold {
         public static extern Result hh_hand_release(IntPtr world, Player player, Side side);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_world_events_sized(IntPtr world, Event** events, UIntPtr* count, UIntPtr event_size);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_finger_curls_of(HandJoint* joints, FingerCurls* curls);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_player_hand_joints(IntPtr world, Player player, Side side, Space space, HandJoint* joints);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
@@ -1468,7 +1546,7 @@ namespace Handhold {
             Library.Check(Native.hh_set_host_hooks(hooks.HasValue ? &hooks_at : null));
         }
 
-        /// <summary>Threads of the library's own pool, as hh_host_hooks.thread_count, also while worlds exist: for instance all while a level loads. HH_ERROR_STATE if the host lends parallel_for. Not beside any other call of the library.</summary>
+        /// <summary>Sets the number of threads of the library's own pool, [1, 256]. Allowed while worlds exist, for instance to use all cores while a level loads. HH_ERROR_STATE if the host lends parallel_for. Not beside any other call of the library.</summary>
         public static unsafe void SetThreadCount(uint count) {
             Library.Check(Native.hh_set_thread_count(count));
         }
@@ -1561,6 +1639,18 @@ namespace Handhold {
             return info;
         }
 
+        /// <summary>How far the fingers of a tracked hand are bent, for hh_tracking_sample.curls. `joints`: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name, in any one space; only positions are read. Curl is the sum of a finger's bends over that of a fist; -1 if a joint of the finger is not valid. Any thread.</summary>
+        public static unsafe FingerCurls[] FingerCurlsOf(HandJoint? joints) {
+            FingerCurls[] curls;
+            HandJoint joints_at = joints.GetValueOrDefault();
+            FingerCurls[] curls_made = new FingerCurls[26];
+            fixed (FingerCurls* curls_at = curls_made) {
+                Library.Check(Native.hh_finger_curls_of(joints.HasValue ? &joints_at : null, curls_at));
+                curls = curls_made;
+            }
+            return curls;
+        }
+
         /// <summary>"leftUpperArm"; null beyond the last. Any thread.</summary>
         public static unsafe string BodyJointName(long joint) {
             return Library.Text(Native.hh_body_joint_name((UIntPtr)(ulong)joint));
@@ -1581,7 +1671,7 @@ namespace Handhold {
             }
         }
 
-        /// <summary>While the game is paused: heads, hands and bodies of players follow their last sample, whatever its time. The clock, bodies, joints, grips and play spaces stand still. The next hh_world_step goes on: hands that are still closed grip where they are by then.</summary>
+        /// <summary>While the game is paused: heads, hands and bodies of players follow their last sample, whatever its time. The clock, bodies, joints, grips and play spaces stand still. The next hh_world_step goes on: hands that are still closed grip where they are at that time.</summary>
         public unsafe void StepPoseOnly(double dt_s, PlayerInput[] inputs) {
             fixed (PlayerInput* inputs_at = inputs) {
                 Library.Check(Native.hh_world_step_pose_only(Handle, dt_s, inputs_at, Library.Count(inputs)));
@@ -1697,6 +1787,23 @@ namespace Handhold {
                 fixed (double* values_at = values) {
                     Library.Check(Native.hh_world_set_tuning(Handle, name_at, values_at, Library.Count(values)));
                 }
+            }
+        }
+
+        /// <summary>All numbers of the tuning, to compare, keep and restore: in the order of hh_tuning_describe, a vector as three. `count` as for hh_world_fallbacks. Set takes exactly all of them; on an error none changes.</summary>
+        public unsafe double[] TuningNumbers() {
+            double[] values;
+            UIntPtr count_at;
+            Library.Check(Native.hh_world_tuning_numbers(Handle, null, UIntPtr.Zero, &count_at));
+            double[] made = new double[(long)count_at];
+            fixed (double* made_at = made) { Library.Check(Native.hh_world_tuning_numbers(Handle, made_at, count_at, &count_at)); }
+            values = made;
+            return values;
+        }
+
+        public unsafe void SetTuningNumbers(double[] values) {
+            fixed (double* values_at = values) {
+                Library.Check(Native.hh_world_set_tuning_numbers(Handle, values_at, Library.Count(values)));
             }
         }
 
@@ -1891,7 +1998,7 @@ namespace Handhold {
             Library.Check(Native.hh_body_apply_impulse(Handle, body, impulse_ns, point));
         }
 
-        /// <summary>At once, without touching what is between. Keeps the velocity. Hands that grip it let go.</summary>
+        /// <summary>At once, without collisions on the path. Keeps the velocity. Hands that grip it let go.</summary>
         public unsafe void BodyTeleport(Body body, Pose pose) {
             Library.Check(Native.hh_body_teleport(Handle, body, pose));
         }
@@ -1962,7 +2069,7 @@ namespace Handhold {
             return Native.hh_joint_is_valid(Handle, joint) != 0;
         }
 
-        /// <summary>The joints at a body; as hh_world_bodies.</summary>
+        /// <summary>Ids of the joints of a body; `count` gets their number. HH_ERROR_CAPACITY if it is more than `capacity`. A null buffer of capacity 0: the number only.</summary>
         public unsafe Joint[] BodyJoints(Body body) {
             Joint[] joints;
             UIntPtr count_at;
@@ -1973,7 +2080,7 @@ namespace Handhold {
             return joints;
         }
 
-        /// <summary>As of the last step; null outputs are skipped. A hinge counts full turns.</summary>
+        /// <summary>State after the last step; null outputs are skipped. A hinge counts full turns.</summary>
         public unsafe void JointState(Joint joint, out double coordinate, out double speed, out bool latched) {
             double coordinate_at;
             double speed_at;
@@ -2011,7 +2118,7 @@ namespace Handhold {
             return hit;
         }
 
-        /// <summary>Everything that a sphere touches: the nearest point of each body and head to its centre, as hh_world_closest_point gives it, in a fixed order. `count` gets their number; HH_ERROR_CAPACITY if it is more than `capacity`. Radius as hh_world_closest_point's distance.</summary>
+        /// <summary>Everything that a sphere touches: the nearest point of each body and head to its centre, in a fixed order. Inside a solid distance_m is 0 and the normal points outward. `count` gets their number; HH_ERROR_CAPACITY if it is more than `capacity`. Radius in [0, 1e4] m.</summary>
         public unsafe Hit[] OverlapSphere(Vec3 center, double radius_m, Player skip) {
             Hit[] hits;
             UIntPtr count_at;
@@ -2079,7 +2186,7 @@ namespace Handhold {
             Library.Check(Native.hh_player_set_velocity(Handle, player, velocity_mps));
         }
 
-        /// <summary>The velocity that counts as rest for the player: of what the player gripped last, where it was gripped, else the scene's. Speed against it is what a player feels: for vignettes and wind.</summary>
+        /// <summary>The velocity that counts as rest for the player: that of the body last gripped, at the gripped point, else the scene's. A player feels the speed relative to it: for vignettes and wind.</summary>
         public unsafe Vec3 PlayerReferenceVelocity(Player player) {
             Vec3 velocity_mps;
             Vec3 velocity_mps_at;
@@ -2088,7 +2195,25 @@ namespace Handhold {
             return velocity_mps;
         }
 
-        /// <summary>The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked: false before the head's first sample and while it is lost.</summary>
+        /// <summary>How far contacts moved the play space in the last step, against its hands and its velocity.</summary>
+        public unsafe double PlayerPushBack(Player player) {
+            double distance_m;
+            double distance_m_at;
+            Library.Check(Native.hh_player_push_back(Handle, player, &distance_m_at));
+            distance_m = distance_m_at;
+            return distance_m;
+        }
+
+        /// <summary>The body mass that the player was added with.</summary>
+        public unsafe double PlayerMass(Player player) {
+            double mass_kg;
+            double mass_kg_at;
+            Library.Check(Native.hh_player_mass(Handle, player, &mass_kg_at));
+            mass_kg = mass_kg_at;
+            return mass_kg;
+        }
+
+        /// <summary>The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked: false before the head's first sample, and while it is lost or inferred.</summary>
         public unsafe void PlayerHead(Player player, out Vec3 center, out double radius_m, out bool is_tracked) {
             Vec3 center_at;
             double radius_m_at;
@@ -2130,7 +2255,7 @@ namespace Handhold {
             Library.Check(Native.hh_player_set_hand_in_controller(Handle, player, side, hand_in_controller.HasValue ? &hand_in_controller_at : null));
         }
 
-        /// <summary>The same numbers, for hosts that have wrists and need controllers.</summary>
+        /// <summary>Returns the pose set by hh_player_set_hand_in_controller, for hosts that have wrists and need controllers.</summary>
         public unsafe Pose PlayerHandInController(Player player, Side side) {
             Pose hand_in_controller;
             Pose hand_in_controller_at;
@@ -2139,7 +2264,7 @@ namespace Handhold {
             return hand_in_controller;
         }
 
-        /// <summary>The same numbers for a player who has none of their own, by the tuning alone.</summary>
+        /// <summary>Returns the tuning's pose of the wrist in a controller, for players without one of their own.</summary>
         public unsafe Pose HandInController(Side side) {
             Pose hand_in_controller;
             Pose hand_in_controller_at;
@@ -2301,7 +2426,7 @@ namespace Handhold {
             return hit;
         }
 
-        /// <summary>One frame: reads tracking and shows hands and bodies where the host put them. It moves neither players nor bodies, and buttons do nothing: place bodies by hh_world_place_bodies. A move ordered by hh_body_move_kinematic waits for the next step of another kind. Cost: as hh_world_step without physics.</summary>
+        /// <summary>One frame: reads tracking and shows hands and bodies where the host put them. It moves neither players nor bodies, and buttons do nothing: place bodies by hh_world_place_bodies. A move ordered by hh_body_move_kinematic waits for the next step of another kind. Cost: that of hh_world_step without physics.</summary>
         public unsafe void StepHands(double dt_s, PlayerInput[] inputs) {
             fixed (PlayerInput* inputs_at = inputs) {
                 Library.Check(Native.hh_world_step_hands(Handle, dt_s, inputs_at, Library.Count(inputs)));
@@ -2315,7 +2440,7 @@ namespace Handhold {
             }
         }
 
-        /// <summary>Of the begun step, at most one a hand, ordered as hands were added. Valid until hh_world_end_step.</summary>
+        /// <summary>Constraints of the begun step: at most one per hand, in the order in which hands were added. Valid until hh_world_end_step.</summary>
         public unsafe HandConstraint[] HandConstraints() {
             HandConstraint[] constraints;
             HandConstraint* constraints_at;
@@ -2327,7 +2452,7 @@ namespace Handhold {
             return constraints;
         }
 
-        /// <summary>One a player, in the order of hh_world_players. Valid until hh_world_end_step.</summary>
+        /// <summary>One entry per player, in the order of hh_world_players. Valid until hh_world_end_step.</summary>
         public unsafe PlayerMotion[] PlayerMotions() {
             PlayerMotion[] motions;
             PlayerMotion* motions_at;

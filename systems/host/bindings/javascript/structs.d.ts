@@ -76,7 +76,7 @@ export declare const HH_GRIP_HELD: 2;
 export declare const HH_GRIP_AUTHORED: 3;
 /** another player: head, arm, trunk or leg */
 export declare const HH_GRIP_PLAYER: 4;
-/** the palm of an empty hand came within 2 cm of a body or player */
+/** The palm of an empty hand came within 2 cm of a body or player. */
 export declare const HH_EVENT_TOUCHED: 0;
 /** a hand grips */
 export declare const HH_EVENT_GRABBED: 1;
@@ -101,7 +101,7 @@ export declare const HH_REASON_NONE: 0;
 export declare const HH_REASON_OPENED: 1;
 /** nothing in reach, or only behind a wall */
 export declare const HH_REASON_NO_SURFACE: 2;
-/** by a grab rule or layers */
+/** a grab rule or layers refuse the hand */
 export declare const HH_REASON_NOT_ALLOWED: 3;
 /** the other hand is not there, or left */
 export declare const HH_REASON_NEEDS_TWO_HANDS: 4;
@@ -113,7 +113,7 @@ export declare const HH_REASON_TRACKING_LOST: 6;
 export declare const HH_REASON_BODY_GONE: 7;
 /** hh_hand_release, hh_hand_grip or a teleport */
 export declare const HH_REASON_BY_HOST: 8;
-/** one of two hands on a body left */
+/** the other of two hands on a body let go */
 export declare const HH_REASON_OTHER_HAND: 9;
 export declare const HH_SPACE_WORLD: 0;
 /** in the parent joint's frame; roots: in the world */
@@ -189,6 +189,11 @@ export interface hh_pose {
     rotation: hh_quat;
 }
 
+/** How far each finger is bent, by thumb, index, middle, ring, little: 0 straight, 1 as in a fist. Below 0 or NaN: unknown; above 1: as 1. */
+export interface hh_finger_curls {
+    fingers: number[];
+}
+
 /** Ids: plain values. All zero is null. An id whose object was removed finds nothing, even if its index is used again. Ids of two worlds must not be mixed; that is not always detected. */
 export interface hh_shape {
     index: number;
@@ -210,7 +215,7 @@ export interface hh_player {
     generation: number;
 }
 
-/** What the process lends the library. Null functions: the library's own. Memory comes from the global operator new, which a program may replace as usual; the shared library and the standard library inside it then use the replacement too, once per process. Apart from that a world's blocks are taken and given back by the threads that call it, and by those of parallel_for: a replacement with an arena a thread gives each world its own. A host that uses Bullet needs its double-precision build, and sets btAlignedAllocSetCustom before the first world. */
+/** Functions of the host that the library uses. Null functions: the library's own. Memory comes from the global operator new, which a program may replace as usual; the shared library and the standard library inside it then use the replacement too, once per process. Apart from that a world's blocks are taken and given back by the threads that call it, and by those of parallel_for: a replacement with an arena a thread gives each world its own. A host that uses Bullet needs its double-precision build, and sets btAlignedAllocSetCustom before the first world. */
 export interface hh_host_hooks {
     /** Called by any thread that calls the library. `message` is one line, valid during the call. */
     log: ((level: number, message: string) => void) | null;
@@ -251,6 +256,12 @@ export interface hh_tracking_sample {
     squeeze: number[];
     /** How far the index finger's trigger is pressed, [0, 1]: bends the index finger of an empty hand, and the fingers of authored grips that follow the trigger. */
     trigger: number[];
+    /** True if the runtime only guesses the head's position: OpenXR's POSITION_VALID without POSITION_TRACKED, WebXR's emulatedPosition, a low confidence. Default false; true counts before head_tracked. The head follows the guess, but while a hand grips what the player can pull on, only its rotation does. */
+    head_inferred: boolean;
+    /** The same of the hands, before hand_tracked. An inferred hand does not grip, and never moves a player who grips: it stays where it was last measured. Opening `grab` lets go, without a throw. The shown empty hand follows the guess. Once measured again, the hand may be elsewhere: it did not travel. */
+    hand_inferred: boolean[];
+    /** Bends the fingers of an empty hand, before squeeze and trigger; default unknown. By gloves, or from joints by hh_finger_curls_of. */
+    curls: hh_finger_curls[];
 }
 
 /** What a player asks for in one step. All zero: nothing. Grows with hh_player_input, of which it is the last field: later versions add fields whose 0 means nothing, too. */
@@ -364,7 +375,7 @@ export interface hh_body_def {
     angular_velocity_radps: hh_vec3;
     /** dynamic: [1e-12, 1e15], default 1 */
     mass_kg: number;
-    /** about the principal axes; 0: of the solid shape. Needed without one */
+    /** About the principal axes; 0: computed from the shape, if there is one. */
     inertia_kgm2: hh_vec3;
     /** [0, 1] */
     restitution: number;
@@ -417,11 +428,11 @@ export interface hh_joint_def {
     latch_strength: number;
     /** a joint that opens it; null: none */
     latch_handle: hh_joint;
-    /** open while the handle's coordinate is at least this, either way */
+    /** open while |handle's coordinate| is at least this */
     latch_handle_at: number;
 }
 
-/** Against the shapes of all bodies, whatever their layers, and the tracked heads of players, where they are now. Bodies without a shape, and surfaces of hh_world_set_surface_query, are not found. HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds; the first query after a change of the world also compares every body with its place before. */
+/** Queries test the shapes of all bodies, whatever their layers, and the tracked heads of players, at their present poses. Bodies without a shape, and surfaces of hh_world_set_surface_query, are not found. HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds; the first query after a change of the world also compares every body with its place before. */
 export interface hh_hit {
     /** null: a player's head, or nothing was found */
     body: hh_body;
@@ -459,8 +470,9 @@ export interface hh_player_def {
     scale: number;
     /** the head is a sphere of head.radius_m; default true */
     head_collides: boolean;
+    /** Layers of the head; it touches a body if each one's layers meet the other's mask. */
     layers: number;
-    /** of the head; as hh_body_def's */
+    /** Layers of the head; it touches a body if each one's layers meet the other's mask. */
     mask: number;
     /** the hands grip bodies with one of these layers; default all */
     grab_layers: number;
@@ -478,15 +490,18 @@ export interface hh_hand_state {
     tracked: hh_pose;
     /** The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres from it, so that palm and fingers touch. */
     shown: hh_pose;
-    /** The wrist in the frame of what it grips, fixed when it closed; of a player: of the part. */
+    /** The wrist in the frame of what it grips (of a gripped player: the gripped part), fixed when the hand closed. */
     anchor: hh_pose;
-    /** distance of the tracked wrist and the anchor: 0 unless hindered */
+    /** Distance of the tracked wrist from the anchor: 0 unless something blocks it. */
     error_m: number;
-    /** By the hand on what it grips, in the last step: for haptics. 0 if the host's solver moved the player (hh_world_end_step): that solver knows it. While hands move only light bodies, hands and contacts report at most the momentum that the players and bodies involved have, with the hands' speed on top. */
+    /** Impulse of the hand on what it grips in the last step, for haptics. 0 if the host's solver moved the player (hh_world_end_step): read it there. While hands move only light bodies, hands and contacts report at most the momentum that the players and bodies involved have, with the hands' speed on top. */
     force_impulse_ns: hh_vec3;
+    /** false while the hand is lost or inferred */
     is_tracked: boolean;
     /** the button is down */
     is_closed: boolean;
+    /** The runtime guesses where the hand is (hh_tracking_sample.hand_inferred). `tracked` is the guess for an empty hand, and for a body in it while no hand of the player moves the player; else the last pose that was measured. */
+    is_inferred: boolean;
 }
 
 /** Grows: see base.h. Later fields come behind `hands`. */
@@ -588,7 +603,7 @@ export interface hh_surface_query {
 
 export interface hh_body_motion {
     body: hh_body;
-    /** as hh_body_def.pose; without a shape: centre of mass and principal axes */
+    /** of the shape's own frame; without a shape: centre of mass and principal axes */
     pose: hh_pose;
     velocity_mps: hh_vec3;
     angular_velocity_radps: hh_vec3;
@@ -603,14 +618,14 @@ export interface hh_hand_constraint {
     anchor: hh_pose;
     /** the wrist at the end of the step: from the origin, with the world's axes */
     target: hh_pose;
-    /** Its velocity against the origin: while a hand lets go that of the throw, else the mean. */
+    /** The target's velocity relative to the origin: the throwing velocity while a hand lets go, else the mean over the step. */
     velocity_mps: hh_vec3;
     angular_velocity_radps: hh_vec3;
     /** in the world, at the end of the step; not for POINT */
     body_rotation: hh_quat;
-    /** that leads there; not for POINT */
+    /** reaches body_rotation; not for POINT */
     body_angular_velocity_radps: hh_vec3;
-    /** The anchor in the world at the end of the step, if the solver leaves the body's velocity as it is: exact for static and kinematic bodies, which need no other end of the joint. */
+    /** The anchor in the world at the end of the step, if the body keeps its velocity. Exact for static and kinematic bodies: a joint may attach the player to this point of the world. */
     anchor_end: hh_pose;
     /** of the rows; 0: rigid, as in the runtime's own solver */
     compliance_m_per_n: number;
@@ -625,7 +640,7 @@ export interface hh_player_motion {
     player: hh_player;
     /** at the start of the step */
     origin: hh_vec3;
-    /** there, with what thrusters and drag did */
+    /** at the start of the step, with thrusters and drag applied */
     velocity_mps: hh_vec3;
     /** For this step. The player's own while a hand grips something static, kinematic or at least phases.heavy_body_kg. Else 1000 times the heaviest held body, so that light bodies do not shake the player; for bodies from phases.kappa_light_kg to phases.kappa_heavy_kg it falls to the player's own. If a held body meets something that does not give way, such as a crate at a wall, solve the step again with hh_player_def.mass_kg: the player then moves back by what the body could not move. Without that, hand and wall press against each other without a bound. */
     mass_kg: number;
@@ -639,7 +654,7 @@ export interface hh_solved_player {
     player: hh_player;
     /** at the end of the step */
     origin: hh_vec3;
-    /** there */
+    /** at the end of the step */
     velocity_mps: hh_vec3;
 }
 
@@ -663,7 +678,7 @@ export declare class LibraryCalls {
     atan2(y: number, x: number): number;
     /** Sets the hooks of the process; null: back to the defaults. HH_ERROR_STATE while a world exists. Not beside any other call of the library. */
     setHostHooks(hooks: Given<hh_host_hooks> | null): void;
-    /** Threads of the library's own pool, as hh_host_hooks.thread_count, also while worlds exist: for instance all while a level loads. HH_ERROR_STATE if the host lends parallel_for. Not beside any other call of the library. */
+    /** Sets the number of threads of the library's own pool, [1, 256]. Allowed while worlds exist, for instance to use all cores while a level loads. HH_ERROR_STATE if the host lends parallel_for. Not beside any other call of the library. */
     setThreadCount(count: number): void;
     threadCount(): number;
     /** Metres in one of the engine's units of length: 0.01 for Unreal, else 1. For radii and distances. */
@@ -691,6 +706,8 @@ export declare class LibraryCalls {
     fallbackName(fallback: number): string | null;
     /** The number with this index; HH_ERROR_VALUE beyond the last. Any thread. */
     tuningDescribe(index: number): hh_tuning_info;
+    /** How far the fingers of a tracked hand are bent, for hh_tracking_sample.curls. `joints`: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name, in any one space; only positions are read. Curl is the sum of a finger's bends over that of a fist; -1 if a joint of the finger is not valid. Any thread. */
+    fingerCurlsOf(joints: Given<hh_hand_joint> | null): hh_finger_curls[];
     /** "leftUpperArm"; null beyond the last. Any thread. */
     bodyJointName(joint: number): string | null;
     /** The parent's index; -1 for the hips and beyond the last. */
@@ -701,7 +718,7 @@ export declare class LibraryCalls {
 export declare class WorldCalls {
     /** Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players without one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are clamped. Cost: about 0.15 ms a gripping player, plus contacts. */
     step(dt_s: number, inputs: Given<hh_player_input>[]): void;
-    /** While the game is paused: heads, hands and bodies of players follow their last sample, whatever its time. The clock, bodies, joints, grips and play spaces stand still. The next hh_world_step goes on: hands that are still closed grip where they are by then. */
+    /** While the game is paused: heads, hands and bodies of players follow their last sample, whatever its time. The clock, bodies, joints, grips and play spaces stand still. The next hh_world_step goes on: hands that are still closed grip where they are at that time. */
     stepPoseOnly(dt_s: number, inputs: Given<hh_player_input>[]): void;
     /** The world's clock, seconds, and the number of steps. Null outputs are skipped. */
     time(): { time_s: number; frame: bigint };
@@ -724,6 +741,9 @@ export declare class WorldCalls {
     /** Reads and changes one number by name, between steps. `count` must be the number's. HH_ERROR_NAME for an unknown name, HH_ERROR_VALUE out of range. */
     getTuning(name: string | null, count: number): number[];
     setTuning(name: string | null, values: ArrayLike<number>): void;
+    /** All numbers of the tuning, to compare, keep and restore: in the order of hh_tuning_describe, a vector as three. `count` as for hh_world_fallbacks. Set takes exactly all of them; on an error none changes. */
+    tuningNumbers(): number[];
+    setTuningNumbers(values: ArrayLike<number>): void;
     /** All numbers from JSON, {"hand": {"reach_m": 0.12}}; those that it lacks get their defaults. HH_ERROR_DATA, with the place, for unknown names and wrong numbers. */
     loadTuning(json: Uint8Array | string | null): void;
     /** The additive body clips of all players, from JSON in the format of docs/reference/body_clips.md: idling, pushing off, looking round, raising the arms. They rotate spine, legs and clavicles, never hands. They replace the clips before. Null: none, which is the default. HH_ERROR_DATA, with the place and no change, for anything else. Clips are not in a snapshot: load the same ones before you restore. */
@@ -766,7 +786,7 @@ export declare class WorldCalls {
     bodySetVelocity(body: Given<hh_body>, velocity_mps: Given<hh_vec3>, angular_velocity_radps: Given<hh_vec3>): void;
     /** Changes the velocity by an impulse in N s at a point in the world. */
     bodyApplyImpulse(body: Given<hh_body>, impulse_ns: Given<hh_vec3>, point: Given<hh_vec3>): void;
-    /** At once, without touching what is between. Keeps the velocity. Hands that grip it let go. */
+    /** At once, without collisions on the path. Keeps the velocity. Hands that grip it let go. */
     bodyTeleport(body: Given<hh_body>, pose: Given<hh_pose>): void;
     /** A kinematic body reaches the pose at the end of the next step, with the velocity that takes it there, and then rests. Call it before every step in which it moves. */
     bodyMoveKinematic(body: Given<hh_body>, pose: Given<hh_pose>): void;
@@ -781,9 +801,9 @@ export declare class WorldCalls {
     jointAdd(def: Given<hh_joint_def> | null): hh_joint;
     jointRemove(joint: Given<hh_joint>): void;
     jointIsValid(joint: Given<hh_joint>): boolean;
-    /** The joints at a body; as hh_world_bodies. */
+    /** Ids of the joints of a body; `count` gets their number. HH_ERROR_CAPACITY if it is more than `capacity`. A null buffer of capacity 0: the number only. */
     bodyJoints(body: Given<hh_body>): hh_joint[];
-    /** As of the last step; null outputs are skipped. A hinge counts full turns. */
+    /** State after the last step; null outputs are skipped. A hinge counts full turns. */
     jointState(joint: Given<hh_joint>): { coordinate: number; speed: number; latched: boolean };
     /** First surface that the segment hits, from outside or inside; distance_m: from `from`. `skip`: a player whose head counts as not there; null: none. Coordinates within 1e9 m. */
     castRay(from: Given<hh_vec3>, to: Given<hh_vec3>, skip: Given<hh_player>): hh_hit;
@@ -791,7 +811,7 @@ export declare class WorldCalls {
     castSphere(radius_m: number, from: Given<hh_vec3>, to: Given<hh_vec3>, skip: Given<hh_player>): hh_hit;
     /** Nearest surface point within max_distance_m of the point, [0, 1e4]; distance_m: 0 inside a solid, where the normal points outward. */
     closestPoint(point: Given<hh_vec3>, max_distance_m: number, skip: Given<hh_player>): hh_hit;
-    /** Everything that a sphere touches: the nearest point of each body and head to its centre, as hh_world_closest_point gives it, in a fixed order. `count` gets their number; HH_ERROR_CAPACITY if it is more than `capacity`. Radius as hh_world_closest_point's distance. */
+    /** Everything that a sphere touches: the nearest point of each body and head to its centre, in a fixed order. Inside a solid distance_m is 0 and the normal points outward. `count` gets their number; HH_ERROR_CAPACITY if it is more than `capacity`. Radius in [0, 1e4] m. */
     overlapSphere(center: Given<hh_vec3>, radius_m: number, skip: Given<hh_player>): hh_hit[];
     playerAdd(def: Given<hh_player_def> | null): hh_player;
     playerRemove(player: Given<hh_player>): void;
@@ -805,9 +825,13 @@ export declare class WorldCalls {
     playerTeleport(player: Given<hh_player>, origin: Given<hh_pose>): void;
     playerVelocity(player: Given<hh_player>): hh_vec3;
     playerSetVelocity(player: Given<hh_player>, velocity_mps: Given<hh_vec3>): void;
-    /** The velocity that counts as rest for the player: of what the player gripped last, where it was gripped, else the scene's. Speed against it is what a player feels: for vignettes and wind. */
+    /** The velocity that counts as rest for the player: that of the body last gripped, at the gripped point, else the scene's. A player feels the speed relative to it: for vignettes and wind. */
     playerReferenceVelocity(player: Given<hh_player>): hh_vec3;
-    /** The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked: false before the head's first sample and while it is lost. */
+    /** How far contacts moved the play space in the last step, against its hands and its velocity. */
+    playerPushBack(player: Given<hh_player>): number;
+    /** The body mass that the player was added with. */
+    playerMass(player: Given<hh_player>): number;
+    /** The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked: false before the head's first sample, and while it is lost or inferred. */
     playerHead(player: Given<hh_player>): { center: hh_vec3; radius_m: number; is_tracked: boolean };
     playerMeasures(player: Given<hh_player>): hh_measures;
     playerSetMeasures(player: Given<hh_player>, measures: Given<hh_measures> | null): void;
@@ -815,9 +839,9 @@ export declare class WorldCalls {
     playerUserData(player: Given<hh_player>): bigint;
     /** The hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists with OpenXR's axes (-Z to the fingers, +Y the back of the hand). Null: a controller's grip pose, by the tuning's hand.controller_ numbers, which is the default. */
     playerSetHandInController(player: Given<hh_player>, side: number, hand_in_controller: Given<hh_pose> | null): void;
-    /** The same numbers, for hosts that have wrists and need controllers. */
+    /** Returns the pose set by hh_player_set_hand_in_controller, for hosts that have wrists and need controllers. */
     playerHandInController(player: Given<hh_player>, side: number): hh_pose;
-    /** The same numbers for a player who has none of their own, by the tuning alone. */
+    /** Returns the tuning's pose of the wrist in a controller, for players without one of their own. */
     handInController(side: number): hh_pose;
     /** One hand. `hand_size`: bytes of hh_hand_state as the host knows it. */
     playerHand(player: Given<hh_player>, side: number): hh_hand_state;
@@ -857,13 +881,13 @@ export declare class WorldCalls {
     handHold(player: Given<hh_player>, side: number, body: Given<hh_body>, anchor: Given<hh_pose> | null): void;
     /** What the hand would grip if it closed where it is, by the rules of hands that pull players: reach, sight, grab rules, authored grips. A null body: nothing, or another player. distance_m: from the palm. In every kind of world. HH_ERROR_STATE for a hand that was never tracked. */
     handFindGrip(player: Given<hh_player>, side: number): hh_surface_hit;
-    /** One frame: reads tracking and shows hands and bodies where the host put them. It moves neither players nor bodies, and buttons do nothing: place bodies by hh_world_place_bodies. A move ordered by hh_body_move_kinematic waits for the next step of another kind. Cost: as hh_world_step without physics. */
+    /** One frame: reads tracking and shows hands and bodies where the host put them. It moves neither players nor bodies, and buttons do nothing: place bodies by hh_world_place_bodies. A move ordered by hh_body_move_kinematic waits for the next step of another kind. Cost: that of hh_world_step without physics. */
     stepHands(dt_s: number, inputs: Given<hh_player_input>[]): void;
     /** First half of a step: tracking, grips and constraints. Bodies must be placed where they are. Until hh_world_end_step, HH_ERROR_STATE for adding or removing bodies, joints and players, for teleporting, saving and other steps; hh_world_restore forgets the begun step. */
     beginStep(dt_s: number, inputs: Given<hh_player_input>[]): void;
-    /** Of the begun step, at most one a hand, ordered as hands were added. Valid until hh_world_end_step. */
+    /** Constraints of the begun step: at most one per hand, in the order in which hands were added. Valid until hh_world_end_step. */
     handConstraints(): hh_hand_constraint[];
-    /** One a player, in the order of hh_world_players. Valid until hh_world_end_step. */
+    /** One entry per player, in the order of hh_world_players. Valid until hh_world_end_step. */
     playerMotions(): hh_player_motion[];
     /** Second half, after the host's solver. `players`: the solved play spaces; one left out moves as predicted. Bodies that the host has not placed since hh_world_begin_step rest where they were. Releases grips, limits velocities and shows hands and bodies. On an error the step stays begun. */
     endStep(players: Given<hh_solved_player>[]): void;

@@ -82,7 +82,7 @@ class GripKind(enum.IntEnum):
 
 class EventKind(enum.IntEnum):
     """hh_event_kind"""
-    HH_EVENT_TOUCHED = 0  # the palm of an empty hand came within 2 cm of a body or player
+    HH_EVENT_TOUCHED = 0  # The palm of an empty hand came within 2 cm of a body or player.
     HH_EVENT_GRABBED = 1  # a hand grips
     HH_EVENT_RELEASED = 2  # the player opened the hand, or `reason` says who did
     HH_EVENT_REFUSED = 3  # a hand closed and grips nothing: `reason`
@@ -100,13 +100,13 @@ class Reason(enum.IntEnum):
     HH_REASON_NONE = 0
     HH_REASON_OPENED = 1  # the player opened the hand
     HH_REASON_NO_SURFACE = 2  # nothing in reach, or only behind a wall
-    HH_REASON_NOT_ALLOWED = 3  # by a grab rule or layers
+    HH_REASON_NOT_ALLOWED = 3  # a grab rule or layers refuse the hand
     HH_REASON_NEEDS_TWO_HANDS = 4  # the other hand is not there, or left
     HH_REASON_STRETCHED = 5  # farther from its anchor than hand.max_stretch_m
     HH_REASON_TRACKING_LOST = 6  # it opened unseen, or came back too far away
     HH_REASON_BODY_GONE = 7  # the body was removed
     HH_REASON_BY_HOST = 8  # hh_hand_release, hh_hand_grip or a teleport
-    HH_REASON_OTHER_HAND = 9  # one of two hands on a body left
+    HH_REASON_OTHER_HAND = 9  # the other of two hands on a body let go
 
 
 class Space(enum.IntEnum):
@@ -324,6 +324,14 @@ class Pose(Struct):
     ]
 
 
+class FingerCurls(Struct):
+    """How far each finger is bent, by thumb, index, middle, ring, little: 0 straight, 1 as in a fist. Below 0 or
+    NaN: unknown; above 1: as 1."""
+    _fields_ = [
+        ("fingers", c_double * 5),
+    ]
+
+
 class Shape(Struct):
     """Ids: plain values. All zero is null. An id whose object was removed finds nothing, even if its index is
     used again. Ids of two worlds must not be mixed; that is not always detected."""
@@ -361,12 +369,12 @@ HostHooksParallelFor = CFUNCTYPE(None, c_void_p, c_size_t, Task, c_void_p)
 
 
 class HostHooks(Struct):
-    """What the process lends the library. Null functions: the library's own. Memory comes from the global
-    operator new, which a program may replace as usual; the shared library and the standard library inside it
-    then use the replacement too, once per process. Apart from that a world's blocks are taken and given back
-    by the threads that call it, and by those of parallel_for: a replacement with an arena a thread gives each
-    world its own. A host that uses Bullet needs its double-precision build, and sets btAlignedAllocSetCustom
-    before the first world.
+    """Functions of the host that the library uses. Null functions: the library's own. Memory comes from the
+    global operator new, which a program may replace as usual; the shared library and the standard library
+    inside it then use the replacement too, once per process. Apart from that a world's blocks are taken and
+    given back by the threads that call it, and by those of parallel_for: a replacement with an arena a thread
+    gives each world its own. A host that uses Bullet needs its double-precision build, and sets
+    btAlignedAllocSetCustom before the first world.
     context: passed to each of the functions
     log: Called by any thread that calls the library. `message` is one line, valid during the call.
     assert_failed: A defect of the library was found; the call then returns HH_ERROR_INTERNAL.
@@ -417,7 +425,16 @@ class TrackingSample(Struct):
     grab: a button that closes the hand is down
     squeeze: how far it is pressed, [0, 1]: bends fingers until `grab` closes them
     trigger: How far the index finger's trigger is pressed, [0, 1]: bends the index finger of an empty hand,
-    and the fingers of authored grips that follow the trigger."""
+    and the fingers of authored grips that follow the trigger.
+    head_inferred: True if the runtime only guesses the head's position: OpenXR's POSITION_VALID without
+    POSITION_TRACKED, WebXR's emulatedPosition, a low confidence. Default false; true counts before
+    head_tracked. The head follows the guess, but while a hand grips what the player can pull on, only its
+    rotation does.
+    hand_inferred: The same of the hands, before hand_tracked. An inferred hand does not grip, and never moves
+    a player who grips: it stays where it was last measured. Opening `grab` lets go, without a throw. The
+    shown empty hand follows the guess. Once measured again, the hand may be elsewhere: it did not travel.
+    curls: Bends the fingers of an empty hand, before squeeze and trigger; default unknown. By gloves, or from
+    joints by hh_finger_curls_of."""
     _fields_ = [
         ("struct_size", c_uint32),
         ("time_s", c_double),
@@ -428,6 +445,9 @@ class TrackingSample(Struct):
         ("grab", c_uint8 * 2),
         ("squeeze", c_double * 2),
         ("trigger", c_double * 2),
+        ("head_inferred", c_uint8),
+        ("hand_inferred", c_uint8 * 2),
+        ("curls", FingerCurls * 2),
     ]
     _default_ = "hh_default_tracking_sample_sized"
 
@@ -572,7 +592,7 @@ class BodyDef(Struct):
     velocity_mps: each within 1e6
     angular_velocity_radps: each within 1e4
     mass_kg: dynamic: [1e-12, 1e15], default 1
-    inertia_kgm2: about the principal axes; 0: of the solid shape. Needed without one
+    inertia_kgm2: About the principal axes; 0: computed from the shape, if there is one.
     restitution: [0, 1]
     friction: [0, 1e6], default 0.4
     gravity_scale: default 1; within 1000
@@ -620,7 +640,7 @@ class JointDef(Struct):
     latch_range: closes within this distance; 0: no latch
     latch_strength: opens above this force, N or N m; 0: never by force
     latch_handle: a joint that opens it; null: none
-    latch_handle_at: open while the handle's coordinate is at least this, either way"""
+    latch_handle_at: open while |handle's coordinate| is at least this"""
     _fields_ = [
         ("struct_size", c_uint32),
         ("name", c_char_p),
@@ -646,10 +666,10 @@ class JointDef(Struct):
 
 
 class Hit(Struct):
-    """Against the shapes of all bodies, whatever their layers, and the tracked heads of players, where they are
-    now. Bodies without a shape, and surfaces of hh_world_set_surface_query, are not found. HH_ERROR_STATE
-    between hh_world_begin_step and hh_world_end_step. Cost: microseconds; the first query after a change of
-    the world also compares every body with its place before.
+    """Queries test the shapes of all bodies, whatever their layers, and the tracked heads of players, at their
+    present poses. Bodies without a shape, and surfaces of hh_world_set_surface_query, are not found.
+    HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds; the first query
+    after a change of the world also compares every body with its place before.
     body: null: a player's head, or nothing was found
     player: whose head; null: a body, or nothing was found
     point: on the surface, in the world
@@ -684,7 +704,8 @@ class PlayerDef(Struct):
     mass_kg: default 80
     scale: of all measures, [0.001, 100]; default 1
     head_collides: the head is a sphere of head.radius_m; default true
-    mask: of the head; as hh_body_def's
+    layers: Layers of the head; it touches a body if each one's layers meet the other's mask.
+    mask: Layers of the head; it touches a body if each one's layers meet the other's mask.
     grab_layers: the hands grip bodies with one of these layers; default all"""
     _fields_ = [
         ("struct_size", c_uint32),
@@ -710,13 +731,18 @@ class HandState(Struct):
     tracked: the wrist in the world, as the devices say
     shown: The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres from it,
     so that palm and fingers touch.
-    anchor: The wrist in the frame of what it grips, fixed when it closed; of a player: of the part.
-    error_m: distance of the tracked wrist and the anchor: 0 unless hindered
-    force_impulse_ns: By the hand on what it grips, in the last step: for haptics. 0 if the host's solver
-    moved the player (hh_world_end_step): that solver knows it. While hands move only light bodies, hands and
+    anchor: The wrist in the frame of what it grips (of a gripped player: the gripped part), fixed when the
+    hand closed.
+    error_m: Distance of the tracked wrist from the anchor: 0 unless something blocks it.
+    force_impulse_ns: Impulse of the hand on what it grips in the last step, for haptics. 0 if the host's
+    solver moved the player (hh_world_end_step): read it there. While hands move only light bodies, hands and
     contacts report at most the momentum that the players and bodies involved have, with the hands' speed on
     top.
-    is_closed: the button is down"""
+    is_tracked: false while the hand is lost or inferred
+    is_closed: the button is down
+    is_inferred: The runtime guesses where the hand is (hh_tracking_sample.hand_inferred). `tracked` is the
+    guess for an empty hand, and for a body in it while no hand of the player moves the player; else the last
+    pose that was measured."""
     _fields_ = [
         ("grip", c_int32),
         ("body", Body),
@@ -728,6 +754,7 @@ class HandState(Struct):
         ("force_impulse_ns", Vec3),
         ("is_tracked", c_uint8),
         ("is_closed", c_uint8),
+        ("is_inferred", c_uint8),
     ]
 
 
@@ -869,7 +896,7 @@ class SurfaceQuery(Struct):
 
 class BodyMotion(Struct):
     """hh_body_motion
-    pose: as hh_body_def.pose; without a shape: centre of mass and principal axes"""
+    pose: of the shape's own frame; without a shape: centre of mass and principal axes"""
     _fields_ = [
         ("body", Body),
         ("pose", Pose),
@@ -882,11 +909,12 @@ class HandConstraint(Struct):
     """hh_hand_constraint
     anchor: the wrist in the body's frame
     target: the wrist at the end of the step: from the origin, with the world's axes
-    velocity_mps: Its velocity against the origin: while a hand lets go that of the throw, else the mean.
+    velocity_mps: The target's velocity relative to the origin: the throwing velocity while a hand lets go,
+    else the mean over the step.
     body_rotation: in the world, at the end of the step; not for POINT
-    body_angular_velocity_radps: that leads there; not for POINT
-    anchor_end: The anchor in the world at the end of the step, if the solver leaves the body's velocity as it
-    is: exact for static and kinematic bodies, which need no other end of the joint.
+    body_angular_velocity_radps: reaches body_rotation; not for POINT
+    anchor_end: The anchor in the world at the end of the step, if the body keeps its velocity. Exact for
+    static and kinematic bodies: a joint may attach the player to this point of the world.
     compliance_m_per_n: of the rows; 0: rigid, as in the runtime's own solver
     max_force_n: enough to stop what the hand drives from its highest speed in one step
     is_releasing: the hand lets go in this step"""
@@ -911,7 +939,7 @@ class HandConstraint(Struct):
 class PlayerMotion(Struct):
     """A player's body in the host's solver.
     origin: at the start of the step
-    velocity_mps: there, with what thrusters and drag did
+    velocity_mps: at the start of the step, with thrusters and drag applied
     mass_kg: For this step. The player's own while a hand grips something static, kinematic or at least
     phases.heavy_body_kg. Else 1000 times the heaviest held body, so that light bodies do not shake the
     player; for bodies from phases.kappa_light_kg to phases.kappa_heavy_kg it falls to the player's own. If a
@@ -933,7 +961,7 @@ class PlayerMotion(Struct):
 class SolvedPlayer(Struct):
     """hh_solved_player
     origin: at the end of the step
-    velocity_mps: there"""
+    velocity_mps: at the end of the step"""
     _fields_ = [
         ("player", Player),
         ("origin", Vec3),
@@ -1001,6 +1029,8 @@ FUNCTIONS = {
     "hh_tuning_describe": (c_int32, [c_size_t, POINTER(TuningInfo)]),
     "hh_world_get_tuning": (c_int32, [c_void_p, c_char_p, POINTER(c_double), c_size_t]),
     "hh_world_set_tuning": (c_int32, [c_void_p, c_char_p, POINTER(c_double), c_size_t]),
+    "hh_world_tuning_numbers": (c_int32, [c_void_p, POINTER(c_double), c_size_t, POINTER(c_size_t)]),
+    "hh_world_set_tuning_numbers": (c_int32, [c_void_p, POINTER(c_double), c_size_t]),
     "hh_world_load_tuning": (c_int32, [c_void_p, c_char_p, c_size_t]),
     "hh_world_load_body_clips": (c_int32, [c_void_p, c_char_p, c_size_t]),
     "hh_shape_add_box": (c_int32, [c_void_p, Vec3, POINTER(Shape)]),
@@ -1058,6 +1088,8 @@ FUNCTIONS = {
     "hh_player_velocity": (c_int32, [c_void_p, Player, POINTER(Vec3)]),
     "hh_player_set_velocity": (c_int32, [c_void_p, Player, Vec3]),
     "hh_player_reference_velocity": (c_int32, [c_void_p, Player, POINTER(Vec3)]),
+    "hh_player_push_back": (c_int32, [c_void_p, Player, POINTER(c_double)]),
+    "hh_player_mass": (c_int32, [c_void_p, Player, POINTER(c_double)]),
     "hh_player_head": (c_int32, [c_void_p, Player, POINTER(Vec3), POINTER(c_double), POINTER(c_uint8)]),
     "hh_player_measures": (c_int32, [c_void_p, Player, POINTER(Measures)]),
     "hh_player_set_measures": (c_int32, [c_void_p, Player, POINTER(Measures)]),
@@ -1072,6 +1104,7 @@ FUNCTIONS = {
     "hh_hand_grip": (c_int32, [c_void_p, Player, c_int32, Body]),
     "hh_hand_release": (c_int32, [c_void_p, Player, c_int32]),
     "hh_world_events_sized": (c_int32, [c_void_p, POINTER(POINTER(Event)), POINTER(c_size_t), c_size_t]),
+    "hh_finger_curls_of": (c_int32, [POINTER(HandJoint), POINTER(FingerCurls)]),
     "hh_player_hand_joints": (c_int32, [c_void_p, Player, c_int32, c_int32, POINTER(HandJoint)]),
     "hh_body_joint_name": (c_char_p, [c_size_t]),
     "hh_body_joint_parent": (c_int32, [c_size_t]),
@@ -1140,9 +1173,9 @@ def set_host_hooks(hooks=None):
 
 
 def set_thread_count(count):
-    """Threads of the library's own pool, as hh_host_hooks.thread_count, also while worlds exist: for instance
-    all while a level loads. HH_ERROR_STATE if the host lends parallel_for. Not beside any other call of the
-    library."""
+    """Sets the number of threads of the library's own pool, [1, 256]. Allowed while worlds exist, for instance
+    to use all cores while a level loads. HH_ERROR_STATE if the host lends parallel_for. Not beside any other
+    call of the library."""
     check(lib().hh_set_thread_count(count))
 
 
@@ -1236,6 +1269,15 @@ def tuning_describe(index):
     return info
 
 
+def finger_curls_of(joints=None):
+    """How far the fingers of a tracked hand are bent, for hh_tracking_sample.curls. `joints`:
+    HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name, in any one space; only positions are read. Curl is
+    the sum of a finger's bends over that of a fist; -1 if a joint of the finger is not valid. Any thread."""
+    curls, curls_at = empty(FingerCurls, 26)
+    check(lib().hh_finger_curls_of(optional(HandJoint, joints), curls_at))
+    return curls
+
+
 def body_joint_name(joint):
     """"leftUpperArm"; null beyond the last. Any thread."""
     return shown(lib().hh_body_joint_name(joint))
@@ -1261,7 +1303,7 @@ class WorldCalls:
     def step_pose_only(self, dt_s, inputs):
         """While the game is paused: heads, hands and bodies of players follow their last sample, whatever its
         time. The clock, bodies, joints, grips and play spaces stand still. The next hh_world_step goes on:
-        hands that are still closed grip where they are by then."""
+        hands that are still closed grip where they are at that time."""
         inputs, input_count_ = array(PlayerInput, inputs)
         check(lib().hh_world_step_pose_only(self._handle, dt_s, inputs, input_count_))
 
@@ -1333,6 +1375,15 @@ class WorldCalls:
     def set_tuning(self, name, values):
         values, count_ = array(c_double, values)
         check(lib().hh_world_set_tuning(self._handle, text(name), values, count_))
+
+    def tuning_numbers(self):
+        """All numbers of the tuning, to compare, keep and restore: in the order of hh_tuning_describe, a vector
+        as three. `count` as for hh_world_fallbacks. Set takes exactly all of them; on an error none changes."""
+        return listed(c_double, lambda buffer, capacity, count: lib().hh_world_tuning_numbers(self._handle, buffer, capacity, count))
+
+    def set_tuning_numbers(self, values):
+        values, count_ = array(c_double, values)
+        check(lib().hh_world_set_tuning_numbers(self._handle, values, count_))
 
     def load_tuning(self, json):
         """All numbers from JSON, {"hand": {"reach_m": 0.12}}; those that it lacks get their defaults.
@@ -1467,7 +1518,7 @@ class WorldCalls:
         check(lib().hh_body_apply_impulse(self._handle, value(Body, body), value(Vec3, impulse_ns), value(Vec3, point)))
 
     def body_teleport(self, body, pose):
-        """At once, without touching what is between. Keeps the velocity. Hands that grip it let go."""
+        """At once, without collisions on the path. Keeps the velocity. Hands that grip it let go."""
         check(lib().hh_body_teleport(self._handle, value(Body, body), value(Pose, pose)))
 
     def body_move_kinematic(self, body, pose):
@@ -1515,11 +1566,12 @@ class WorldCalls:
         return bool(lib().hh_joint_is_valid(self._handle, value(Joint, joint)))
 
     def body_joints(self, body):
-        """The joints at a body; as hh_world_bodies."""
+        """Ids of the joints of a body; `count` gets their number. HH_ERROR_CAPACITY if it is more than
+        `capacity`. A null buffer of capacity 0: the number only."""
         return listed(Joint, lambda buffer, capacity, count: lib().hh_body_joints(self._handle, value(Body, body), buffer, capacity, count))
 
     def joint_state(self, joint):
-        """As of the last step; null outputs are skipped. A hinge counts full turns."""
+        """State after the last step; null outputs are skipped. A hinge counts full turns."""
         coordinate = c_double()
         speed = c_double()
         latched = c_uint8()
@@ -1548,9 +1600,9 @@ class WorldCalls:
         return hit
 
     def overlap_sphere(self, center, radius_m, skip):
-        """Everything that a sphere touches: the nearest point of each body and head to its centre, as
-        hh_world_closest_point gives it, in a fixed order. `count` gets their number; HH_ERROR_CAPACITY if it
-        is more than `capacity`. Radius as hh_world_closest_point's distance."""
+        """Everything that a sphere touches: the nearest point of each body and head to its centre, in a fixed
+        order. Inside a solid distance_m is 0 and the normal points outward. `count` gets their number;
+        HH_ERROR_CAPACITY if it is more than `capacity`. Radius in [0, 1e4] m."""
         return listed(Hit, lambda buffer, capacity, count: lib().hh_world_overlap_sphere(self._handle, value(Vec3, center), radius_m, value(Player, skip), buffer, capacity, count))
 
     def player_add(self, definition=None, **fields):
@@ -1596,15 +1648,27 @@ class WorldCalls:
         check(lib().hh_player_set_velocity(self._handle, value(Player, player), value(Vec3, velocity_mps)))
 
     def player_reference_velocity(self, player):
-        """The velocity that counts as rest for the player: of what the player gripped last, where it was
-        gripped, else the scene's. Speed against it is what a player feels: for vignettes and wind."""
+        """The velocity that counts as rest for the player: that of the body last gripped, at the gripped point,
+        else the scene's. A player feels the speed relative to it: for vignettes and wind."""
         velocity_mps = Vec3()
         check(lib().hh_player_reference_velocity(self._handle, value(Player, player), byref(velocity_mps)))
         return velocity_mps
 
+    def player_push_back(self, player):
+        """How far contacts moved the play space in the last step, against its hands and its velocity."""
+        distance_m = c_double()
+        check(lib().hh_player_push_back(self._handle, value(Player, player), byref(distance_m)))
+        return distance_m.value
+
+    def player_mass(self, player):
+        """The body mass that the player was added with."""
+        mass_kg = c_double()
+        check(lib().hh_player_mass(self._handle, value(Player, player), byref(mass_kg)))
+        return mass_kg.value
+
     def player_head(self, player):
         """The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked: false
-        before the head's first sample and while it is lost."""
+        before the head's first sample, and while it is lost or inferred."""
         center = Vec3()
         radius_m = c_double()
         is_tracked = c_uint8()
@@ -1634,13 +1698,14 @@ class WorldCalls:
         check(lib().hh_player_set_hand_in_controller(self._handle, value(Player, player), side, optional(Pose, hand_in_controller)))
 
     def player_hand_in_controller(self, player, side):
-        """The same numbers, for hosts that have wrists and need controllers."""
+        """Returns the pose set by hh_player_set_hand_in_controller, for hosts that have wrists and need
+        controllers."""
         hand_in_controller = Pose()
         check(lib().hh_player_hand_in_controller(self._handle, value(Player, player), side, byref(hand_in_controller)))
         return hand_in_controller
 
     def hand_in_controller(self, side):
-        """The same numbers for a player who has none of their own, by the tuning alone."""
+        """Returns the tuning's pose of the wrist in a controller, for players without one of their own."""
         hand_in_controller = Pose()
         check(lib().hh_world_hand_in_controller(self._handle, side, byref(hand_in_controller)))
         return hand_in_controller
@@ -1767,7 +1832,7 @@ class WorldCalls:
     def step_hands(self, dt_s, inputs):
         """One frame: reads tracking and shows hands and bodies where the host put them. It moves neither players
         nor bodies, and buttons do nothing: place bodies by hh_world_place_bodies. A move ordered by
-        hh_body_move_kinematic waits for the next step of another kind. Cost: as hh_world_step without
+        hh_body_move_kinematic waits for the next step of another kind. Cost: that of hh_world_step without
         physics."""
         inputs, input_count_ = array(PlayerInput, inputs)
         check(lib().hh_world_step_hands(self._handle, dt_s, inputs, input_count_))
@@ -1780,14 +1845,15 @@ class WorldCalls:
         check(lib().hh_world_begin_step(self._handle, dt_s, inputs, input_count_))
 
     def hand_constraints(self):
-        """Of the begun step, at most one a hand, ordered as hands were added. Valid until hh_world_end_step."""
+        """Constraints of the begun step: at most one per hand, in the order in which hands were added. Valid
+        until hh_world_end_step."""
         constraints = POINTER(HandConstraint)()
         count = c_size_t()
         check(lib().hh_world_hand_constraints(self._handle, byref(constraints), byref(count)))
         return copied(HandConstraint, constraints, count)
 
     def player_motions(self):
-        """One a player, in the order of hh_world_players. Valid until hh_world_end_step."""
+        """One entry per player, in the order of hh_world_players. Valid until hh_world_end_step."""
         motions = POINTER(PlayerMotion)()
         count = c_size_t()
         check(lib().hh_world_player_motions(self._handle, byref(motions), byref(count)))
