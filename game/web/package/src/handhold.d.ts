@@ -1,13 +1,9 @@
 import type {
-    hh_body, hh_body_def, hh_commands, hh_compound_part, hh_event, hh_grip_def, hh_hand_joint, hh_joint, hh_joint_def,
-    hh_player, hh_player_def, hh_player_pose, hh_pose, hh_quat, hh_shape, hh_tracking_sample, hh_vec3, hh_world_def,
-    hh_world_stats,
+    Given, LibraryCalls, Mesh, WorldCalls, hh_body, hh_body_def, hh_commands, hh_compound_part, hh_grip_def, hh_hand_joint,
+    hh_joint, hh_joint_def, hh_mesh_def, hh_player, hh_player_def, hh_player_pose, hh_pose, hh_quat, hh_shape, hh_tracking_sample, hh_vec3,
+    hh_world_def, hh_world_stats,
 } from './structs.js';
 export * from './structs.js';
-
-/** Fields that are left out keep the library's defaults, also inside of structs. */
-export type Given<T> = T extends (infer One)[] ? Given<One>[]
-    : T extends object ? { [Field in keyof T]?: Given<T[Field]> } : T;
 
 export declare class HandholdError extends Error {
     constructor(result: number, text: string);
@@ -18,14 +14,13 @@ export declare class HandholdError extends Error {
 /** Loads the library; without a source: the file beside this module. */
 export declare function loadHandhold(source?: URL | string | BufferSource | WebAssembly.Module): Promise<Handhold>;
 
-/** A mesh made by Handhold.createMesh. */
-export type Mesh = number & { readonly mesh: unique symbol };
-
-export declare class Handhold {
+/** Functions without a world. All of LibraryCalls are those of the C headers without hh_. */
+declare const LibraryBase: new () => Omit<LibraryCalls, 'version'>;
+export declare class Handhold extends LibraryBase {
     private constructor();
     version(): string;
     createWorld(definition?: Given<hh_world_def>): World;
-    createMesh(mesh: { positions: ArrayLike<number>; indices: ArrayLike<number>; fits_hands?: boolean }): Mesh;
+    createMesh(mesh: Given<hh_mesh_def>): Mesh;
     destroyMesh(mesh: Mesh): void;
 }
 
@@ -37,8 +32,11 @@ export interface PlayerInput {
     commands?: Given<hh_commands>;
 }
 
-/** Functions throw a HandholdError when the library refuses a call; the call then changed nothing. */
-export declare class World {
+/** Every function of a world is a method: hh_world_x as x, hh_body_x and the others as bodyX. Those below have short names, or
+ * defaults. Methods throw a HandholdError when the library refuses a call; the call then changed nothing. What a callback throws is
+ * thrown when the call that made it has ended. */
+declare const WorldBase: new () => Omit<WorldCalls, 'bodyJoints' | 'getTuning' | 'setTuning' | 'step' | 'stepPoseOnly'>;
+export declare class World extends WorldBase {
     private constructor();
     destroy(): void;
 
@@ -54,9 +52,6 @@ export declare class World {
     addBody(definition: Given<hh_body_def>): hh_body;
     removeBody(body: hh_body): void;
     findBody(name: string): hh_body;
-    bodies(): hh_body[];
-    bodyPose(body: hh_body): hh_pose;
-    bodyPoses(bodies: hh_body[]): hh_pose[];
     setBodyVelocity(body: hh_body, velocity_mps: hh_vec3, angular_velocity_radps?: hh_vec3): void;
     applyImpulse(body: hh_body, impulse_ns: hh_vec3, point: hh_vec3): void;
     teleportBody(body: hh_body, pose: { position?: hh_vec3; rotation?: hh_quat }): void;
@@ -64,18 +59,18 @@ export declare class World {
 
     addJoint(definition: Given<hh_joint_def>): hh_joint;
     removeJoint(joint: hh_joint): void;
-    jointState(joint: hh_joint): { coordinate: number; speed: number; latched: boolean };
 
     addPlayer(definition?: Given<hh_player_def>): hh_player;
     removePlayer(player: hh_player): void;
     teleportPlayer(player: hh_player, origin: { position?: hh_vec3; rotation?: hh_quat }): void;
     setHandInController(player: hh_player, side: number, hand_in_controller: { position?: hh_vec3; rotation?: hh_quat } | null): void;
     playerPose(player: hh_player): hh_player_pose;
-    playerPoses(players: hh_player[]): hh_player_pose[];
     /** 26 joints as WebXR and XR_EXT_hand_tracking have them, the palm first. */
     handJoints(player: hh_player, side: number, space: number): hh_hand_joint[];
     /** By HH_HIPS and the other constants. */
     bodyJoints(player: hh_player, space: number): hh_pose[];
+    /** Hinges and other joints at a body. */
+    bodyJoints(body: hh_body): hh_joint[];
     grip(player: hh_player, side: number, body: hh_body): void;
     releaseHand(player: hh_player, side: number): void;
     addGrip(body: hh_body, definition: Given<hh_grip_def>): void;
@@ -88,17 +83,8 @@ export declare class World {
 
     step(dt_s: number, inputs?: PlayerInput[]): void;
     stepPoseOnly(dt_s: number, inputs?: PlayerInput[]): void;
-    time(): { time_s: number; frame: bigint };
-    events(): hh_event[];
-    hash(): bigint;
     stats(): hh_world_stats;
-    save(): Uint8Array;
-    restore(bytes: Uint8Array): void;
 
-    setGravity(gravity_mps2: hh_vec3): void;
     setTuning(name: string, ...values: number[]): void;
     getTuning(name: string, count?: number): number[];
-    loadTuning(json: string): void;
-    /** Additive clips of all players' bodies, in the format of docs/reference/body_clips.md; null: none. */
-    loadBodyClips(json: string | null): void;
 }

@@ -20,7 +20,7 @@ export function layoutOf(kind) {
     if (layout !== undefined) {
         return layout;
     }
-    if (kind === 'text') {
+    if (kind === 'text' || kind === 'list' || kind === 'callback') {
         layout = { size: 4, align: 4 };
     } else if (scalars[kind] !== undefined) {
         layout = { size: scalars[kind].size, align: scalars[kind].size };
@@ -28,10 +28,11 @@ export function layoutOf(kind) {
         let size = 0;
         let align = 1;
         const fields = [];
-        for (const [name, type, count] of structs[kind]) {
+        for (const [name, type, length, more] of structs[kind]) {
+            const count = length || undefined;
             const one = layoutOf(type);
             size = Math.ceil(size / one.align) * one.align;
-            fields.push({ name, type, count, offset: size, step: one.size });
+            fields.push({ name, type, count, more, offset: size, step: one.size });
             size += one.size * (count ?? 1);
             align = Math.max(align, one.align);
         }
@@ -41,8 +42,13 @@ export function layoutOf(kind) {
     return layout;
 }
 
+/** True for structs that begin with struct_size: the library has their defaults. */
+const grows = (kind) => structs[kind]?.[0][0] === 'struct_size';
+
 /** Scratch memory of one call, and views that stay valid when the memory grows. */
 export class Memory {
+    /** JavaScript functions that the library calls. */
+    functions;
     #exports;
     #view;
     #begin = 0;
@@ -52,6 +58,7 @@ export class Memory {
 
     constructor(exports) {
         this.#exports = exports;
+        this.functions = new Functions(this, exports.__indirect_function_table);
     }
 
     get view() {
@@ -64,7 +71,7 @@ export class Memory {
         return new Uint8Array(this.#exports.memory.buffer, at, size);
     }
 
-    /** Memory until the next release(), zeroed. */
+    /** Memory until release() with a mark that was taken before, zeroed. */
     take(size) {
         if (this.#begin === 0) {
             this.#size = 1 << 16;
@@ -81,9 +88,12 @@ export class Memory {
         this.bytes(at, aligned).fill(0);
         return at;
     }
-    release() {
-        this.#used = 0;
-        for (const at of this.#extra.splice(0)) {
+    mark() {
+        return [this.#used, this.#extra.length];
+    }
+    release([used, extra]) {
+        this.#used = used;
+        for (const at of this.#extra.splice(extra)) {
             this.#exports.free(at);
         }
     }
@@ -123,7 +133,7 @@ export class Memory {
         }
         const object = {};
         for (const { name, type, count, offset, step } of layoutOf(kind).fields) {
-            if (name !== 'struct_size') {
+            if (name !== 'struct_size' && type !== 'list' && type !== 'callback') {
                 object[name] = count === undefined ? this.read(type, at + offset)
                     : Array.from({ length: count }, (_, i) => this.read(type, at + offset + i * step));
             }
@@ -155,22 +165,142 @@ export class Memory {
                 }
             }
         }
-        for (const { name, type, count, offset, step } of fields) {
+        for (const { name, type, count, more, offset, step } of fields) {
             const given = value[name];
             if (given === undefined) {
                 continue;
             }
-            if (count === undefined) {
+            if (type === 'list') {
+                this.view.setUint32(at + offset, this.takeList(more.of, given ?? []), true);
+                const counter = fields.find((field) => field.name === more.count);
+                this.view.setUint32(at + counter.offset, (given?.length ?? 0) / more.each, true);
+            } else if (type === 'callback') {
+                this.view.setUint32(at + offset, given === null ? 0 : this.functions.install(given, more), true);
+            } else if (count === undefined) {
                 this.write(type, at + offset, given);
             } else {
                 given.slice(0, count).forEach((one, i) => this.write(type, at + offset + i * step, one));
             }
         }
     }
+    /** One struct or number until release(): the library's defaults, or else zero and no rotation, and what `given` says. */
+    takeOne(kind, given = {}) {
+        const at = this.take(layoutOf(kind).size);
+        this.fill(kind, at);
+        this.write(kind, at, given);
+        return at;
+    }
     takeList(kind, values) {
         const { size } = layoutOf(kind);
         const at = this.take(size * values.length);
-        values.forEach((value, i) => this.write(kind, at + i * size, value));
+        Array.from(values).forEach((value, i) => {
+            this.fill(kind, at + i * size);
+            this.write(kind, at + i * size, value);
+        });
         return at;
+    }
+    /** Fills zeroed memory with the defaults of a struct. */
+    fill(kind, at) {
+        if (grows(kind)) {
+            const result = this.#exports[`hh_default_${kind.slice(3)}_sized`](at, layoutOf(kind).size);
+            if (result !== 0) {
+                throw new Error(`no defaults of ${kind}: result ${result}`);
+            }
+        } else if (kind === 'hh_quat') {
+            this.view.setFloat64(at + 24, 1, true);
+        } else if (structs[kind] !== undefined) {
+            for (const { type, count, offset, step } of layoutOf(kind).fields) {
+                for (let i = 0; structs[type] !== undefined && i < (count ?? 1); ++i) {
+                    this.fill(type, at + offset + i * step);
+                }
+            }
+        }
+    }
+}
+
+const wasmTypes = { f64: 0x7c, f32: 0x7d, u64: 0x7e };
+const wasmType = (kind) => wasmTypes[kind] ?? 0x7f; // structs are passed by their address
+
+// A WebAssembly function that calls `work`: a module that imports it and exports it again. (WebAssembly.Function is not in every browser.)
+function wasmFunction(work, params, returns) {
+    const name = (text) => [text.length, ...new TextEncoder().encode(text)];
+    const section = (id, bytes) => [id, bytes.length, ...bytes];
+    const type = [0x60, params.length, ...params, ...(returns === undefined ? [0] : [1, returns])];
+    const bytes = [0, 0x61, 0x73, 0x6d, 1, 0, 0, 0, ...section(1, [1, ...type]), ...section(2, [1, ...name('e'), ...name('f'), 0, 0]),
+        ...section(7, [1, ...name('f'), 0, 0])];
+    return new WebAssembly.Instance(new WebAssembly.Module(new Uint8Array(bytes)), { e: { f: work } }).exports.f;
+}
+
+/** JavaScript functions in the library's table. What they throw reaches the caller when the library's call has ended. */
+class Functions {
+    #memory;
+    #table;
+    #free = [];
+    #installed = [];
+    #error;
+
+    constructor(memory, table) {
+        this.#memory = memory;
+        this.#table = table;
+    }
+    install(work, { returns, params }) {
+        if (typeof work !== 'function') {
+            throw new TypeError('a function is needed');
+        }
+        const call = (...words) => {
+            try {
+                return this.#call(work, returns, params, words);
+            } catch (error) {
+                this.#error ??= { error };
+                return 0;
+            }
+        };
+        const at = this.#free.pop() ?? this.#table.grow(1);
+        this.#table.set(at, wasmFunction(call, params.map(([, kind]) => wasmType(kind)), returns === 'void' ? undefined : wasmType(returns)));
+        this.#installed.push(at);
+        return at;
+    }
+    #call(work, returns, params, words) {
+        const m = this.#memory;
+        const given = [];
+        let out;
+        params.forEach(([role, kind], i) => {
+            const word = words[i];
+            if (role === 'value') {
+                given.push(structs[kind] === undefined ? word : m.read(kind, word));
+            } else if (role === 'text') {
+                given.push(m.text(word));
+            } else if (role === 'array') {
+                given.push(m.readList(kind, word, words[i + 1]));
+            } else if (role === 'task') {
+                given.push((index) => this.#table.get(word)(words[i + 1], index));
+            } else if (role === 'out') {
+                out = { kind, at: word };
+            }
+        });
+        const answer = work(...given);
+        if (out === undefined || answer === null || answer === undefined) {
+            return Number(out === undefined && returns !== 'void' ? answer : 0);
+        }
+        m.write(out.kind, out.at, answer);
+        return 1;
+    }
+    /** The functions that were installed since the last call. */
+    takeInstalled() {
+        return this.#installed.splice(0);
+    }
+    remove(places) {
+        for (const at of places) {
+            this.#table.set(at, null);
+            this.#free.push(at);
+        }
+    }
+    /** Throws what a function has thrown. */
+    rethrow() {
+        const thrown = this.#error;
+        this.#error = undefined;
+        if (thrown !== undefined) {
+            throw thrown.error;
+        }
     }
 }

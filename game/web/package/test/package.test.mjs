@@ -6,12 +6,14 @@ import { resolve } from 'node:path';
 import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { playSameScene } from './same_scene.mjs';
+import { playWall } from './wall_scene.mjs';
 
 const folder = pathToFileURL(resolve(process.env.HANDHOLD_PACKAGE) + '/');
 const handholdModule = await import(new URL('handhold.js', folder));
 const { loadHandhold, HandholdError, structs, HH_DYNAMIC, HH_ERROR_HANDLE, HH_ERROR_VALUE, HH_GRIP_HELD, HH_GRIP_SURFACE, HH_HEAD, HH_HINGE,
     HH_LEFT, HH_LEFT_FOOT, HH_RIGHT, HH_SPACE_WORLD } = handholdModule;
 const { layoutOf } = await import(new URL('memory.js', folder));
+const { calls } = await import(new URL('calls.js', folder));
 const handhold = await loadHandhold();
 
 const rotation = { x: Math.SQRT1_2, y: 0, z: 0, w: Math.SQRT1_2 };
@@ -46,10 +48,49 @@ test('every struct has the size that the library expects', () => {
         handhold.scratch((m) => {
             const at = m.take(layoutOf(kind).size + 64);
             m.bytes(at, layoutOf(kind).size + 64).fill(0xa5);
-            handhold.fillDefault(kind, at);
+            m.fill(kind, at);
             assert.equal(m.view.getUint32(at, true), layoutOf(kind).size, kind);
         });
     }
+});
+
+test('every function of the library is a method', () => {
+    const offered = new Set(Object.values(calls).map((call) => call.method));
+    const byHand = /^hh_(default_\w+_sized|world_create|world_destroy|mesh_create|mesh_destroy|last_error)$/;
+    const exported = Object.keys(handhold.exports).filter((name) => name.startsWith('hh_'));
+    assert.ok(exported.length >= 130);
+    for (const name of exported.filter((one) => !byHand.test(one))) {
+        const { method, of } = calls[name];
+        assert.equal(typeof (of === '' ? handhold : handholdModule.World.prototype)[method], 'function', name);
+    }
+    assert.equal(offered.size, Object.keys(calls).length);
+});
+
+test("a host's own physics gets the hash of a native program that makes the same calls", (context) => {
+    const { line, calls: queries } = playWall(handhold, handholdModule);
+    context.diagnostic(`${line}, ${queries} queries`);
+    assert.match(line, /^0x[0-9a-f]{16} grabs 1 moved_mm 200\.000$/);
+    if (process.env.HANDHOLD_NATIVE_WALL !== undefined) {
+        assert.equal(line, execFileSync(process.env.HANDHOLD_NATIVE_WALL, { encoding: 'utf8' }).trim());
+    }
+});
+
+test('what a query throws reaches the caller, and places in the table are used again', () => {
+    const world = handhold.createWorld();
+    const table = handhold.exports.__indirect_function_table;
+    const player = world.addPlayer();
+    const wall = world.addBody({ pose: { position: { x: 0, y: 1.5, z: -0.6 } } });
+    const broken = { closest_point() { throw new RangeError('no level'); } };
+    world.setSurfaceQuery(broken);
+    const length = table.length;
+    for (let i = 0; i < 10; ++i) {
+        world.setSurfaceQuery(broken);
+    }
+    assert.ok(table.length <= length + 1);
+    assert.throws(() => play({ world, wall, player }, 1, 60), RangeError);
+    world.setSurfaceQuery(null);
+    play({ world, wall, player }, 61, 70);
+    world.destroy();
 });
 
 test('a hand on a wall moves the player as much as it moves towards the body', () => {

@@ -4,6 +4,7 @@
 /* Handhold: hands that grip any surface, inside the physics step. The C interface, for any
  * language: conventions in base.h. C++ hosts may use handhold.hpp, which wraps it. */
 #include <handhold/base.h>
+#include <handhold/convert.h>
 #include <handhold/level.h>
 #include <handhold/players.h>
 #include <handhold/world.h>

@@ -1,0 +1,256 @@
+// Handhold in C#: what is not generated. Ownership of worlds and meshes, errors as exceptions, inputs, and surfaces of a host with physics of its
+// own. Names, units and defaults are those of the C headers; methods of a World are the functions hh_world_x as X, and hh_body_x as BodyX.
+using System;
+using System.Runtime.InteropServices;
+using System.Text;
+#if UNITY_5_3_OR_NEWER
+using AOT;
+#endif
+
+namespace Handhold {
+    /// <summary>A call that the library refused. It has changed nothing.</summary>
+    public class HandholdException : Exception {
+        public readonly Result Result;
+        public HandholdException(Result result, string text) : base(text) { Result = result; }
+    }
+
+    /// <summary>uint8_t of the C interface: 0 is false.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Flag {
+        private byte value;
+        public static implicit operator bool(Flag flag) => flag.value != 0;
+        public static implicit operator Flag(bool value) => new Flag { value = (byte)(value ? 1 : 0) };
+        public override string ToString() => value != 0 ? "true" : "false";
+    }
+
+    public partial struct Pose {
+        public Pose(Vec3 position, Quat rotation) {
+            this.position = position;
+            this.rotation = rotation;
+        }
+        public Pose(Vec3 position) : this(position, new Quat(0, 0, 0, 1)) { }
+        /// <summary>The pose at the origin, not rotated.</summary>
+        public static Pose Identity => new Pose(new Vec3(0, 0, 0));
+    }
+
+    /// <summary>Functions without a world.</summary>
+    public static unsafe partial class Library {
+        /// <summary>Throws for all results but Result.Ok.</summary>
+        public static void Check(Result result) {
+            if (result != Result.Ok) {
+                throw new HandholdException(result, Text(Native.hh_result_text(result)) + ": " + Text(Native.hh_last_error()));
+            }
+        }
+        internal static UIntPtr Count(Array list) => (UIntPtr)(uint)(list == null ? 0 : list.Length);
+        /// <summary>A text with its final 0; null stays null.</summary>
+        internal static byte[] Text(string text) {
+            if (text == null) {
+                return null;
+            }
+            byte[] bytes = new byte[Encoding.UTF8.GetByteCount(text) + 1];
+            Encoding.UTF8.GetBytes(text, 0, text.Length, bytes, 0);
+            return bytes;
+        }
+        internal static string Text(byte* at) {
+            if (at == null) {
+                return null;
+            }
+            int size = 0;
+            while (at[size] != 0) {
+                ++size;
+            }
+            byte[] bytes = new byte[size];
+            Marshal.Copy((IntPtr)at, bytes, 0, size);
+            return Encoding.UTF8.GetString(bytes);
+        }
+    }
+
+    /// <summary>Triangles for shapes and surfaces: hh_mesh_create. Shapes keep what they need after Dispose.</summary>
+    public sealed unsafe class Mesh : IDisposable {
+        public IntPtr Handle { get; private set; }
+
+        /// <summary>positions: x, y, z of each vertex, metres. indices: three for each triangle, counter-clockwise from outside.</summary>
+        public Mesh(float[] positions, uint[] indices, bool fitsHands = true) {
+            MeshDef def = MeshDef.Default();
+            fixed (float* positionsAt = positions) fixed (uint* indicesAt = indices) {
+                def.positions = positionsAt;
+                def.vertex_count = (UIntPtr)(uint)(positions.Length / 3);
+                def.indices = indicesAt;
+                def.index_count = (UIntPtr)(uint)indices.Length;
+                def.fits_hands = fitsHands;
+                IntPtr made;
+                Library.Check(Native.hh_mesh_create(&def, &made));
+                Handle = made;
+            }
+        }
+        public void Dispose() {
+            Native.hh_mesh_destroy(Handle);
+            Handle = IntPtr.Zero;
+            GC.SuppressFinalize(this);
+        }
+        ~Mesh() { Dispose(); }
+    }
+
+    /// <summary>The surfaces of a host with physics of its own: hh_surface_query. Each function returns false if it finds nothing.
+    /// They are called inside of steps, by the thread that steps. Exceptions are caught and count as nothing found.</summary>
+    public interface ISurfaces {
+        bool CastRay(Vec3 from, Vec3 to, SkippedBodies skip, out SurfaceHit hit);
+        bool CastSphere(double radius_m, Vec3 from, Vec3 to, SkippedBodies skip, out SurfaceHit hit);
+        bool ClosestPoint(Vec3 point, double max_distance_m, SkippedBodies skip, out SurfaceHit hit);
+        bool ClosestPointOn(Body body, Vec3 point, out SurfaceHit hit);
+    }
+
+    /// <summary>Bodies that count as not there. Valid during the query.</summary>
+    public unsafe struct SkippedBodies {
+        private readonly Body* first;
+        private readonly long count;
+        internal SkippedBodies(Body* first, UIntPtr count) {
+            this.first = first;
+            this.count = (long)count;
+        }
+        public bool Contains(Body body) {
+            for (long i = 0; i < count; ++i) {
+                if (first[i] == body) {
+                    return true;
+                }
+            }
+            return false;
+        }
+    }
+
+    /// <summary>A simulation with its shapes, bodies and players. Dispose it. Calls on one world must not overlap.</summary>
+    public sealed unsafe partial class World : IDisposable {
+        public IntPtr Handle { get; private set; }
+        private GCHandle surfaces;
+
+        public World() : this(WorldDef.Default()) { }
+        public World(WorldDef def) {
+            IntPtr made;
+            Library.Check(Native.hh_world_create(&def, &made));
+            Handle = made;
+        }
+        public void Dispose() {
+            Native.hh_world_destroy(Handle);
+            Handle = IntPtr.Zero;
+            if (surfaces.IsAllocated) {
+                surfaces.Free();
+            }
+            GC.SuppressFinalize(this);
+        }
+        ~World() { Dispose(); }
+
+        /// <summary>Steps a world with one player.</summary>
+        public void Step(double dt_s, Player player, TrackingSample[] samples, Commands commands = default(Commands)) {
+            fixed (TrackingSample* samplesAt = samples) {
+                PlayerInput input = InputOf(player, samplesAt, samples == null ? 0 : samples.Length, commands);
+                Library.Check(Native.hh_world_step(Handle, dt_s, &input, (UIntPtr)1));
+            }
+        }
+        /// <summary>First half of a step around the host's solver, with one player: hh_world_begin_step.</summary>
+        public void BeginStep(double dt_s, Player player, TrackingSample[] samples, Commands commands = default(Commands)) {
+            fixed (TrackingSample* samplesAt = samples) {
+                PlayerInput input = InputOf(player, samplesAt, samples == null ? 0 : samples.Length, commands);
+                Library.Check(Native.hh_world_begin_step(Handle, dt_s, &input, (UIntPtr)1));
+            }
+        }
+        /// <summary>Input of one player. The samples must stay where they are until the step is done: pinned, or native.</summary>
+        public static PlayerInput InputOf(Player player, TrackingSample* samples, int count, Commands commands) {
+            PlayerInput input = PlayerInput.Default();
+            input.player = player;
+            input.samples = samples;
+            input.sample_count = (UIntPtr)(uint)count;
+            input.commands = commands;
+            return input;
+        }
+        /// <summary>Samples are wrists with OpenXR's axes, not controllers.</summary>
+        public void UseWrists(Player player) {
+            PlayerSetHandInController(player, Side.Left, Pose.Identity);
+            PlayerSetHandInController(player, Side.Right, Pose.Identity);
+        }
+        public PlayerPose PlayerPose(Player player) => PlayerPoses(new[] { player })[0];
+
+        /// <summary>Hands ask `asked` from now on; null: the world's shapes.</summary>
+        public void SetSurfaces(ISurfaces asked) {
+            GCHandle before = surfaces;
+            surfaces = default(GCHandle);
+            if (asked == null) {
+                Library.Check(Native.hh_world_set_surface_query(Handle, null));
+            } else {
+                surfaces = GCHandle.Alloc(asked);
+                SurfaceQuery query = SurfaceQuery.Default();
+                query.context = GCHandle.ToIntPtr(surfaces);
+                query.cast_ray = Marshal.GetFunctionPointerForDelegate(castRay);
+                query.cast_sphere = Marshal.GetFunctionPointerForDelegate(castSphere);
+                query.closest_point = Marshal.GetFunctionPointerForDelegate(closestPoint);
+                query.closest_point_on = Marshal.GetFunctionPointerForDelegate(closestPointOn);
+                Library.Check(Native.hh_world_set_surface_query(Handle, &query));
+            }
+            if (before.IsAllocated) {
+                before.Free();
+            }
+        }
+
+        // Static functions, which IL2CPP can pass to native code; kept here so that the collector leaves them.
+        private static readonly SurfaceQueryCastRay castRay = CastRay;
+        private static readonly SurfaceQueryCastSphere castSphere = CastSphere;
+        private static readonly SurfaceQueryClosestPoint closestPoint = ClosestPoint;
+        private static readonly SurfaceQueryClosestPointOn closestPointOn = ClosestPointOn;
+
+        private static ISurfaces Of(IntPtr context) => (ISurfaces)GCHandle.FromIntPtr(context).Target;
+        private static byte Answer(bool isFound, SurfaceHit found, SurfaceHit* hit) {
+            if (isFound) {
+                *hit = found;
+            }
+            return (byte)(isFound ? 1 : 0);
+        }
+        private static byte Failed(Exception error) {
+            Console.Error.WriteLine("A surface query threw: " + error);
+            return 0;
+        }
+
+        [MonoPInvokeCallback(typeof(SurfaceQueryCastRay))]
+        private static byte CastRay(IntPtr context, Vec3 from, Vec3 to, Body* skip, UIntPtr count, SurfaceHit* hit) {
+            try {
+                SurfaceHit found;
+                return Answer(Of(context).CastRay(from, to, new SkippedBodies(skip, count), out found), found, hit);
+            } catch (Exception error) {
+                return Failed(error);
+            }
+        }
+        [MonoPInvokeCallback(typeof(SurfaceQueryCastSphere))]
+        private static byte CastSphere(IntPtr context, double radius, Vec3 from, Vec3 to, Body* skip, UIntPtr count, SurfaceHit* hit) {
+            try {
+                SurfaceHit found;
+                return Answer(Of(context).CastSphere(radius, from, to, new SkippedBodies(skip, count), out found), found, hit);
+            } catch (Exception error) {
+                return Failed(error);
+            }
+        }
+        [MonoPInvokeCallback(typeof(SurfaceQueryClosestPoint))]
+        private static byte ClosestPoint(IntPtr context, Vec3 point, double max, Body* skip, UIntPtr count, SurfaceHit* hit) {
+            try {
+                SurfaceHit found;
+                return Answer(Of(context).ClosestPoint(point, max, new SkippedBodies(skip, count), out found), found, hit);
+            } catch (Exception error) {
+                return Failed(error);
+            }
+        }
+        [MonoPInvokeCallback(typeof(SurfaceQueryClosestPointOn))]
+        private static byte ClosestPointOn(IntPtr context, Body body, Vec3 point, SurfaceHit* hit) {
+            try {
+                SurfaceHit found;
+                return Answer(Of(context).ClosestPointOn(body, point, out found), found, hit);
+            } catch (Exception error) {
+                return Failed(error);
+            }
+        }
+    }
+
+#if !UNITY_5_3_OR_NEWER
+    // Unity's compilers look for this name.
+    [AttributeUsage(AttributeTargets.Method)]
+    internal sealed class MonoPInvokeCallbackAttribute : Attribute {
+        public MonoPInvokeCallbackAttribute(Type type) { }
+    }
+#endif
+}

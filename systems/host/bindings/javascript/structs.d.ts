@@ -1,0 +1,898 @@
+// Made from the C headers by systems/host/bindings/generate.py; do not edit.
+
+/** Fields that are left out keep the library's defaults, also inside of structs. */
+export type Given<T> = T extends (...words: never[]) => unknown ? T : T extends (infer One)[] ? Given<One>[]
+    : T extends object ? { [Field in keyof T]?: Given<T[Field]> } : T;
+
+/** A mesh made by Handhold.createMesh. */
+export type Mesh = number & { readonly mesh: unique symbol };
+
+export declare const HANDHOLD_VERSION_MAJOR: 0;
+export declare const HANDHOLD_VERSION_MINOR: 2;
+export declare const HANDHOLD_VERSION_PATCH: 0;
+export declare const HANDHOLD_VERSION_TEXT: "0.2.0";
+export declare const HH_HAND_JOINT_COUNT: 26;
+export declare const HH_OK: 0;
+/** a pointer that is needed is null */
+export declare const HH_ERROR_NULL: 1;
+/** a size of a struct is not of a version that the library knows */
+export declare const HH_ERROR_VERSION: 2;
+/** an id is null, stale or of another world */
+export declare const HH_ERROR_HANDLE: 3;
+/** a number is NaN or out of range, or a combination makes no sense */
+export declare const HH_ERROR_VALUE: 4;
+/** a name is taken, or nothing has it */
+export declare const HH_ERROR_NAME: 5;
+/** not possible now, for instance a shape in use */
+export declare const HH_ERROR_STATE: 6;
+/** the buffer is too small; the count says how much is needed */
+export declare const HH_ERROR_CAPACITY: 7;
+/** bytes that cannot be read: a snapshot, a glTF file, JSON */
+export declare const HH_ERROR_DATA: 8;
+/** no memory left */
+export declare const HH_ERROR_MEMORY: 9;
+/** a defect of the library; hh_host_hooks.assert_failed was called */
+export declare const HH_ERROR_INTERNAL: 10;
+export declare const HH_LEFT: 0;
+export declare const HH_RIGHT: 1;
+export declare const HH_LOG_NOTE: 0;
+export declare const HH_LOG_ERROR: 1;
+/** left-handed, +X right, +Y up, +Z ahead, metres */
+export declare const HH_ENGINE_UNITY: 0;
+/** left-handed, +X ahead, +Y right, +Z up, centimetres */
+export declare const HH_ENGINE_UNREAL: 1;
+/** as Handhold: right-handed, +X right, +Y up, -Z ahead, metres */
+export declare const HH_ENGINE_GODOT: 2;
+/** dynamic ones */
+export declare const HH_MOMENTUM_BODIES: 0;
+export declare const HH_MOMENTUM_PLAYERS: 1;
+/** that hands moved bodies with, without pushing the player back */
+export declare const HH_MOMENTUM_DISCARDED: 2;
+/** static and kinematic bodies */
+export declare const HH_MOMENTUM_STATICS: 3;
+export declare const HH_MOMENTUM_RECEIVERS: 4;
+/** never moves, except by hh_body_teleport */
+export declare const HH_STATIC: 0;
+/** moved by hh_body_move_kinematic; pushes others and carries hands */
+export declare const HH_KINEMATIC: 1;
+/** moved by its velocity, contacts, joints and hands */
+export declare const HH_DYNAMIC: 2;
+/** points coincide; the angle between both axes, a cone, rad */
+export declare const HH_BALL: 0;
+/** turns about the axis, rad */
+export declare const HH_HINGE: 1;
+/** moves along the axis, m */
+export declare const HH_SLIDER: 2;
+/** no coordinate */
+export declare const HH_FIXED: 3;
+/** distance of two points, m; lower 0: a rope; equal limits: a rod */
+export declare const HH_DISTANCE: 4;
+export declare const HH_GRIP_NONE: 0;
+/** something static, kinematic or heavy: the player moves */
+export declare const HH_GRIP_SURFACE: 1;
+/** a dynamic body: it moves with the hand */
+export declare const HH_GRIP_HELD: 2;
+/** in one of the body's authored grips */
+export declare const HH_GRIP_AUTHORED: 3;
+/** another player: head, arm, trunk or leg */
+export declare const HH_GRIP_PLAYER: 4;
+/** The palm of an empty hand came within 2 cm of a body or player. */
+export declare const HH_EVENT_TOUCHED: 0;
+/** a hand grips */
+export declare const HH_EVENT_GRABBED: 1;
+/** the player opened the hand, or `reason` says who did */
+export declare const HH_EVENT_RELEASED: 2;
+/** a hand closed and grips nothing: `reason` */
+export declare const HH_EVENT_REFUSED: 3;
+/** a hand lost its grip: `reason` */
+export declare const HH_EVENT_SLIPPED: 4;
+/** the player's head, or what a hand holds, hits a body */
+export declare const HH_EVENT_CONTACT_BEGAN: 5;
+export declare const HH_EVENT_CONTACT_ENDED: 6;
+/** of `joint` */
+export declare const HH_EVENT_LATCH_CLOSED: 7;
+export declare const HH_EVENT_LATCH_OPENED: 8;
+/** a joint came to its lower or upper limit */
+export declare const HH_EVENT_LIMIT_REACHED: 9;
+/** hh_player_pose.origin was changed so that a recentring moves nothing. HH_REASON_BY_HOST: by hh_player_recenter; HH_REASON_NONE: the samples jumped. `position`: the head. */
+export declare const HH_EVENT_RECENTRED: 10;
+export declare const HH_REASON_NONE: 0;
+/** the player opened the hand */
+export declare const HH_REASON_OPENED: 1;
+/** nothing in reach, or only behind a wall */
+export declare const HH_REASON_NO_SURFACE: 2;
+/** a grab rule or layers refuse the hand */
+export declare const HH_REASON_NOT_ALLOWED: 3;
+/** the other hand is not there, or left */
+export declare const HH_REASON_NEEDS_TWO_HANDS: 4;
+/** farther from its anchor than hand.max_stretch_m */
+export declare const HH_REASON_STRETCHED: 5;
+/** it opened unseen, or came back too far away */
+export declare const HH_REASON_TRACKING_LOST: 6;
+/** the body was removed */
+export declare const HH_REASON_BODY_GONE: 7;
+/** hh_hand_release, hh_hand_grip or a teleport */
+export declare const HH_REASON_BY_HOST: 8;
+/** the other of two hands on a body let go */
+export declare const HH_REASON_OTHER_HAND: 9;
+export declare const HH_SPACE_WORLD: 0;
+/** in the parent joint's frame; roots: in the world */
+export declare const HH_SPACE_PARENT: 1;
+export declare const HH_HAND_PALM: 0;
+export declare const HH_HAND_WRIST: 1;
+export declare const HH_THUMB_METACARPAL: 2;
+export declare const HH_THUMB_PROXIMAL: 3;
+export declare const HH_THUMB_DISTAL: 4;
+export declare const HH_THUMB_TIP: 5;
+export declare const HH_INDEX_METACARPAL: 6;
+export declare const HH_INDEX_PROXIMAL: 7;
+export declare const HH_INDEX_INTERMEDIATE: 8;
+export declare const HH_INDEX_DISTAL: 9;
+export declare const HH_INDEX_TIP: 10;
+export declare const HH_MIDDLE_METACARPAL: 11;
+export declare const HH_MIDDLE_PROXIMAL: 12;
+export declare const HH_MIDDLE_INTERMEDIATE: 13;
+export declare const HH_MIDDLE_DISTAL: 14;
+export declare const HH_MIDDLE_TIP: 15;
+export declare const HH_RING_METACARPAL: 16;
+export declare const HH_RING_PROXIMAL: 17;
+export declare const HH_RING_INTERMEDIATE: 18;
+export declare const HH_RING_DISTAL: 19;
+export declare const HH_RING_TIP: 20;
+export declare const HH_LITTLE_METACARPAL: 21;
+export declare const HH_LITTLE_PROXIMAL: 22;
+export declare const HH_LITTLE_INTERMEDIATE: 23;
+export declare const HH_LITTLE_DISTAL: 24;
+export declare const HH_LITTLE_TIP: 25;
+export declare const HH_HIPS: 0;
+export declare const HH_SPINE: 1;
+export declare const HH_CHEST: 2;
+export declare const HH_UPPER_CHEST: 3;
+export declare const HH_NECK: 4;
+export declare const HH_HEAD: 5;
+export declare const HH_LEFT_SHOULDER: 6;
+export declare const HH_LEFT_UPPER_ARM: 7;
+export declare const HH_LEFT_LOWER_ARM: 8;
+export declare const HH_LEFT_HAND: 9;
+export declare const HH_RIGHT_SHOULDER: 10;
+export declare const HH_RIGHT_UPPER_ARM: 11;
+export declare const HH_RIGHT_LOWER_ARM: 12;
+export declare const HH_RIGHT_HAND: 13;
+export declare const HH_LEFT_UPPER_LEG: 14;
+export declare const HH_LEFT_LOWER_LEG: 15;
+export declare const HH_LEFT_FOOT: 16;
+export declare const HH_RIGHT_UPPER_LEG: 17;
+export declare const HH_RIGHT_LOWER_LEG: 18;
+export declare const HH_RIGHT_FOOT: 19;
+export declare const HH_BODY_JOINT_COUNT: 20;
+export declare const HH_ROWS_POINT: 0;
+export declare const HH_ROWS_WELD: 1;
+export declare const HH_ROWS_DIRECTION: 2;
+
+export interface hh_vec3 {
+    x: number;
+    y: number;
+    z: number;
+}
+
+export interface hh_quat {
+    x: number;
+    y: number;
+    z: number;
+    w: number;
+}
+
+/** A rigid transform: rotates, then translates. Inputs need a unit rotation within 0.001. */
+export interface hh_pose {
+    /** metres */
+    position: hh_vec3;
+    rotation: hh_quat;
+}
+
+/** How far each finger is bent, by thumb, index, middle, ring, little: 0 straight, 1 as in a fist. Below 0 or NaN: unknown; above 1: as 1. */
+export interface hh_finger_curls {
+    fingers: number[];
+}
+
+/** Ids: plain values. All zero is null. An id whose object was removed finds nothing, even if its index is used again. Ids of two worlds must not be mixed; that is not always detected. */
+export interface hh_shape {
+    index: number;
+    generation: number;
+}
+
+export interface hh_body {
+    index: number;
+    generation: number;
+}
+
+export interface hh_joint {
+    index: number;
+    generation: number;
+}
+
+export interface hh_player {
+    index: number;
+    generation: number;
+}
+
+/** Functions of the host that the library uses. Null functions: the library's own. Memory comes from the global operator new, which a program may replace as usual; the shared library and the standard library inside it then use the replacement too, once per process. Apart from that a world's blocks are taken and given back by the threads that call it, and by those of parallel_for: a replacement with an arena a thread gives each world its own. A host that uses Bullet needs its double-precision build, and sets btAlignedAllocSetCustom before the first world. */
+export interface hh_host_hooks {
+    /** Called by any thread that calls the library. `message` is one line, valid during the call. */
+    log: ((level: number, message: string) => void) | null;
+    /** A defect of the library was found; the call then returns HH_ERROR_INTERNAL. */
+    assert_failed: ((message: string) => void) | null;
+    /** Calls task(task_context, i) once for every i in [0, count), on any threads, and returns when all are done. Indices should start in ascending order. */
+    parallel_for: ((count: number, task: (index: number) => void) => void) | null;
+    /** Without parallel_for: threads of the library's own pool, the caller's included. [1, 256]; default 1. Results do not depend on it. */
+    thread_count: number;
+}
+
+export interface hh_world_def {
+    /** Fingers and palms close on what they grip. Default true. Without it no shape needs a grip mesh, hands are shown as tracked, and meshes are added faster: for servers. */
+    fits_hands: boolean;
+    /** HH_EVENT_TOUCHED is reported: one query a hand and step. Default true. */
+    reports_touches: boolean;
+    /** of dynamic bodies; default 0. Each axis within 1e4 */
+    gravity_mps2: hh_vec3;
+    /** of the scene: what counts as rest. Each axis within 1e6 */
+    reference_velocity_mps: hh_vec3;
+}
+
+/** One reading of the headset and both controllers. A pose at exactly (0, 0, 0) counts as not tracked, since runtimes report devices that sleep so. */
+export interface hh_tracking_sample {
+    /** On the world's clock: hh_world_time plus the step for a sample at the step's end. Later than the sample before, else it is ignored and counted as sample_out_of_order. More than 0.5 s after the step's end: dropped and counted as sample_too_far_ahead; more than 0.5 s before its start: counted as sample_too_old. If all of a step's samples are so far off, the log is told once that they are on another clock. */
+    time_s: number;
+    /** between the eyes, in play space: the frame that the tracking is given in */
+    head: hh_pose;
+    /** controllers, by hh_side; see hh_player_set_hand_in_controller */
+    hands: hh_pose[];
+    /** false: `head` is ignored */
+    head_tracked: boolean;
+    /** false: the pose is ignored, `grab` counts */
+    hand_tracked: boolean[];
+    /** a button that closes the hand is down */
+    grab: boolean[];
+    /** how far it is pressed, [0, 1]: bends fingers until `grab` closes them */
+    squeeze: number[];
+    /** How far the index finger's trigger is pressed, [0, 1]: bends the index finger of an empty hand, and the fingers of authored grips that follow the trigger. */
+    trigger: number[];
+    /** True if the runtime only guesses the head's position: OpenXR's POSITION_VALID without POSITION_TRACKED, WebXR's emulatedPosition, a low confidence. Default false; true counts before head_tracked. The head follows the guess, but while a hand grips what the player can pull on, only its rotation does. */
+    head_inferred: boolean;
+    /** The same of the hands, before hand_tracked. An inferred hand does not grip, and never moves a player who grips: it stays where it was last measured. Opening `grab` lets go, without a throw. The shown empty hand follows the guess. Once measured again, the hand may be elsewhere: it did not travel. */
+    hand_inferred: boolean[];
+    /** Bends the fingers of an empty hand, before squeeze and trigger; default unknown. By gloves, or from joints by hh_finger_curls_of. */
+    curls: hh_finger_curls[];
+}
+
+/** What a player asks for in one step. All zero: nothing. Grows with hh_player_input, of which it is the last field: later versions add fields whose 0 means nothing, too. */
+export interface hh_commands {
+    /** [-1, 1], positive turns left */
+    smooth_turn: number;
+    /** turns to the left begun in this step; negative: to the right */
+    snap_turns: number;
+    /** [0, 1] */
+    brake: number;
+    /** play space, each in [-1, 1]; needs locomotion.thruster_mps2 above 0 */
+    thrust: hh_vec3;
+    /** held while the player holds a T-pose: measures the body */
+    calibrate: boolean;
+}
+
+/** One player's input of one step. Fill by hh_default_player_input. */
+export interface hh_player_input {
+    player: hh_player;
+    /** Sorted by time: those since the last step. Give each once. Up to 64 may be later than this step's end, by at most 0.5 s, as predicted poses are: the poses at the end are then interpolated, and each sample is kept for the step of its time, also if that step has no input. A sample replaces those kept of its time or later. None: the devices are silent but for samples that were kept. */
+    samples: hh_tracking_sample[];
+    /** The host gives a sample that is later than the step's end again in the next step, so the world keeps none; and a sample's time is taken to the bit, where otherwise a microsecond after the end counts as the end. For hosts that have the whole stream: recordings, rollback. Default 0. */
+    repeats_samples: boolean;
+    commands: hh_commands;
+}
+
+/** Sums of all impulses of a step, by hh_momentum_receiver. Each array's sum is 0. */
+export interface hh_momentum {
+    linear_kgmps: hh_vec3[];
+    /** about the world's origin */
+    angular_kgm2ps: hh_vec3[];
+}
+
+/** Numbers of the last step. */
+export interface hh_world_stats {
+    bodies: bigint;
+    joints: bigint;
+    players: bigint;
+    /** now */
+    shapes: bigint;
+    contacts: bigint;
+    /** groups of bodies that constraints connect */
+    islands: bigint;
+    /** of all solves */
+    newton_iterations: bigint;
+    /** largest distance of a gripping hand from its anchor */
+    hand_error_m: number;
+    /** worst contact overlap at the end */
+    overlap_m: number;
+    /** worst joint */
+    joint_error_m: number;
+    /** sum of all stages */
+    step_us: number;
+    /** worst direction or angle of a joint beyond its limit */
+    joint_error_rad: number;
+    /** islands in which something pushed a player back */
+    islands_pushed: bigint;
+    /** searches for contacts inside the solve */
+    contact_rounds: bigint;
+    /** hands that closed */
+    hands_closed: bigint;
+    /** those of them that gripped something */
+    hands_gripped: bigint;
+    momentum: hh_momentum;
+}
+
+/** A tunable number, or a vector of three. Texts live as long as the process. */
+export interface hh_tuning_info {
+    /** "hand.reach_m" */
+    name: string | null;
+    /** "m", "" */
+    unit: string | null;
+    what: string | null;
+    low: number;
+    /** of each component */
+    high: number;
+    /** 1 or 3 */
+    count: number;
+}
+
+/** A part of a compound: any shape but a mesh or a compound. */
+export interface hh_compound_part {
+    shape: hh_shape;
+    /** in the compound's frame */
+    pose: hh_pose;
+    /** of all parts, or 0 for all: by volume */
+    mass_kg: number;
+}
+
+export interface hh_mesh_def {
+    /** x, y, z of each vertex, metres */
+    positions: ArrayLike<number>;
+    /** bytes from one vertex to the next; 0: 12 */
+    vertex_stride: number;
+    indices: ArrayLike<number>;
+    /** default true; false: hands on it are shown as tracked */
+    fits_hands: boolean;
+}
+
+/** A body's pose is that of its shape's own frame, as the host made it: the library finds centre of mass and principal axes by itself. Velocities are those of the centre of mass, in the world. */
+export interface hh_body_def {
+    /** unique in the world, identifies the body in hashes; null: by its id */
+    name: string | null;
+    kind: number;
+    /** null: touches nothing */
+    shape: hh_shape;
+    pose: hh_pose;
+    /** each within 1e6 */
+    velocity_mps: hh_vec3;
+    /** each within 1e4 */
+    angular_velocity_radps: hh_vec3;
+    /** dynamic: [1e-12, 1e15], default 1 */
+    mass_kg: number;
+    /** About the principal axes; 0: computed from the shape, if there is one. */
+    inertia_kgm2: hh_vec3;
+    /** [0, 1] */
+    restitution: number;
+    /** [0, 1e6], default 0.4 */
+    friction: number;
+    /** default 1; within 1000 */
+    gravity_scale: number;
+    layers: number;
+    /** two bodies touch if each one's layers meet the other's mask */
+    mask: number;
+    grab_left: boolean;
+    /** which hands may grip it; default both */
+    grab_right: boolean;
+    /** only both hands of one player at once */
+    grab_two_hands: boolean;
+    /** of bodies in reach, hands take one of highest priority; default 0 */
+    grab_priority: number;
+    /** the host's; not part of the state */
+    user_data: bigint;
+}
+
+export interface hh_joint_def {
+    /** unique in the world; null: by its id */
+    name: string | null;
+    kind: number;
+    /** null: the world */
+    body_a: hh_body;
+    body_b: hh_body;
+    /** in the world, with the bodies where they are now: x is the joint's axis */
+    frame: hh_pose;
+    /** HH_DISTANCE: the point on body_b, in the world; the point on body_a is frame's. */
+    point_b: hh_vec3;
+    /** the two bodies touch each other; default false */
+    collides: boolean;
+    /** lower and upper apply; distance joints are always limited */
+    limited: boolean;
+    lower: number;
+    upper: number;
+    /** N, or N m about a hinge or any axis of a ball; >= 0 */
+    friction: number;
+    /** a rest position at each multiple; 0: none */
+    detent_spacing: number;
+    /** N or N m */
+    detent_strength: number;
+    /** the coordinate is locked when it comes near this */
+    latch_at: number;
+    /** closes within this distance; 0: no latch */
+    latch_range: number;
+    /** opens above this force, N or N m; 0: never by force */
+    latch_strength: number;
+    /** a joint that opens it; null: none */
+    latch_handle: hh_joint;
+    /** open while |handle's coordinate| is at least this */
+    latch_handle_at: number;
+}
+
+/** Queries test the shapes of all bodies, whatever their layers, and the tracked heads of players, at their present poses. Bodies without a shape, and surfaces of hh_world_set_surface_query, are not found. HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds; the first query after a change of the world also compares every body with its place before. */
+export interface hh_hit {
+    /** null: a player's head, or nothing was found */
+    body: hh_body;
+    /** whose head; null: a body, or nothing was found */
+    player: hh_player;
+    /** on the surface, in the world */
+    point: hh_vec3;
+    /** unit, to the side that the query came from */
+    normal: hh_vec3;
+    /** see each query */
+    distance_m: number;
+}
+
+/** Sizes of a player's body, each in [0.05, 5] m. */
+export interface hh_measures {
+    /** standing */
+    eye_height_m: number;
+    /** between the shoulder joints */
+    shoulder_width_m: number;
+    upper_arm_m: number;
+    /** to the wrist */
+    forearm_m: number;
+}
+
+export interface hh_player_def {
+    /** unique in the world; null: by its id */
+    name: string | null;
+    /** the space of the samples in the world */
+    origin: hh_pose;
+    velocity_mps: hh_vec3;
+    /** default 80 */
+    mass_kg: number;
+    measures: hh_measures;
+    /** of all measures, [0.001, 100]; default 1 */
+    scale: number;
+    /** the head is a sphere of head.radius_m; default true */
+    head_collides: boolean;
+    /** Layers of the head; it touches a body if each one's layers meet the other's mask. */
+    layers: number;
+    /** Layers of the head; it touches a body if each one's layers meet the other's mask. */
+    mask: number;
+    /** the hands grip bodies with one of these layers; default all */
+    grab_layers: number;
+    user_data: bigint;
+}
+
+/** Grows: see base.h. */
+export interface hh_hand_state {
+    grip: number;
+    /** gripped; null: none */
+    body: hh_body;
+    /** gripped player; null: none */
+    other: hh_player;
+    /** the wrist in the world, as the devices say */
+    tracked: hh_pose;
+    /** The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres from it, so that palm and fingers touch. */
+    shown: hh_pose;
+    /** The wrist in the frame of what it grips (of a gripped player: the gripped part), fixed when the hand closed. */
+    anchor: hh_pose;
+    /** Distance of the tracked wrist from the anchor: 0 unless something blocks it. */
+    error_m: number;
+    /** Impulse of the hand on what it grips in the last step, for haptics. 0 if the host's solver moved the player (hh_world_end_step): read it there. While hands move only light bodies, hands and contacts report at most the momentum that the players and bodies involved have, with the hands' speed on top. */
+    force_impulse_ns: hh_vec3;
+    /** false while the hand is lost or inferred */
+    is_tracked: boolean;
+    /** the button is down */
+    is_closed: boolean;
+    /** The runtime guesses where the hand is (hh_tracking_sample.hand_inferred). `tracked` is the guess for an empty hand, and for a body in it while no hand of the player moves the player; else the last pose that was measured. */
+    is_inferred: boolean;
+}
+
+/** Grows: see base.h. Later fields come behind `hands`. */
+export interface hh_player_pose {
+    /** The space of the samples in the world: put the camera rig here. Controllers at origin * sample are where the hands are, also after a recentring, which changes it so that nothing in the world moves. */
+    origin: hh_pose;
+    /** between the eyes, in the world */
+    head: hh_pose;
+    /** of the play space */
+    velocity_mps: hh_vec3;
+    /** by hh_side */
+    hands: hh_hand_state[];
+}
+
+/** Grows: see base.h. Later versions also have more kinds and reasons: ignore those you do not know. */
+export interface hh_event {
+    kind: number;
+    reason: number;
+    /** null: a joint's event that concerns no hand */
+    player: hh_player;
+    /** hh_side; -1: no hand: the head or a joint alone */
+    side: number;
+    /** touched, gripped, held or hit; null: a player, or nothing */
+    body: hh_body;
+    /** gripped or hit player; null: none */
+    other: hh_player;
+    /** contacts: what the hand holds; null: the head */
+    held: hh_body;
+    /** of latches and limits */
+    joint: hh_joint;
+    /** in the world */
+    position: hh_vec3;
+    /** of a contact that began: >= 0, for haptics and sound */
+    impulse_ns: number;
+}
+
+export interface hh_hand_joint {
+    pose: hh_pose;
+    radius_m: number;
+    /** false: the hand's rig has no such joint */
+    is_valid: boolean;
+}
+
+export interface hh_finger {
+    /** false: the finger closes on the surface as usual */
+    is_posed: boolean;
+    /** of its hinges, from the palm */
+    curl_rad: number[];
+    /** thumb */
+    opposition_rad: number;
+    /** The finger moves from these angles to the pressed ones as far as the sample's `trigger` is pressed. The pressed angles may reach into the body: a trigger gives way. */
+    follows_trigger: boolean;
+    pressed_curl_rad: number[];
+    pressed_opposition_rad: number;
+}
+
+export interface hh_grip_hand {
+    /** false: this hand cannot take the grip */
+    is_used: boolean;
+    /** in the body's frame */
+    wrist: hh_pose;
+    /** thumb, index, middle, ring, little */
+    fingers: hh_finger[];
+}
+
+export interface hh_grip_def {
+    /** by hh_side */
+    hands: hh_grip_hand[];
+    /** of several in reach, the highest is taken */
+    priority: number;
+    /** of the palm, [0, 10]; default 0.08 */
+    snap_radius_m: number;
+    /** [0, pi]; default pi / 3 */
+    snap_angle_rad: number;
+}
+
+/** What a query found. Ignored, and counted as surface_answer_invalid: a body that is not in the world, numbers that are not finite, a normal of length zero. */
+export interface hh_surface_hit {
+    body: hh_body;
+    /** on the surface, in the world */
+    point: hh_vec3;
+    /** out of the solid or towards the query; need not have length 1 */
+    normal: hh_vec3;
+    /** see each query */
+    distance_m: number;
+}
+
+/** Queries against the host's surfaces. Each returns true if it found something, and then fills `hit`. `skip`: bodies that count as not there. Called only inside hh_world_step, _step_hands, _begin_step, _end_step, _step_pose_only and hh_hand_find_grip of this world, by the thread that made that call. A query may read the world; calls that change it return HH_ERROR_STATE. Per player and frame: about 3 queries, up to 50 when a hand closes behind walls or among bodies. */
+export interface hh_surface_query {
+    /** First surface that the segment hits, from outside or inside. distance_m is not read. */
+    cast_ray: ((from: hh_vec3, to: hh_vec3, skip: hh_body[]) => Given<hh_surface_hit> | null) | null;
+    /** First impact of a sphere moving along a segment; distance_m: how far its centre has moved. For the distance grab (pull.reach_m above 0), and to keep trunk and legs out of surfaces: about one query per player and frame. Null: neither. */
+    cast_sphere: ((radius_m: number, from: hh_vec3, to: hh_vec3, skip: hh_body[]) => Given<hh_surface_hit> | null) | null;
+    /** Nearest surface point within max_distance_m; distance_m: 0 inside a solid. */
+    closest_point: ((point: hh_vec3, max_distance_m: number, skip: hh_body[]) => Given<hh_surface_hit> | null) | null;
+    /** Nearest surface point of one body, at any distance; distance_m: 0 inside a solid. */
+    closest_point_on: ((body: hh_body, point: hh_vec3) => Given<hh_surface_hit> | null) | null;
+}
+
+export interface hh_body_motion {
+    body: hh_body;
+    /** of the shape's own frame; without a shape: centre of mass and principal axes */
+    pose: hh_pose;
+    velocity_mps: hh_vec3;
+    angular_velocity_radps: hh_vec3;
+}
+
+export interface hh_hand_constraint {
+    player: hh_player;
+    side: number;
+    body: hh_body;
+    rows: number;
+    /** the wrist in the body's frame */
+    anchor: hh_pose;
+    /** the wrist at the end of the step: from the origin, with the world's axes */
+    target: hh_pose;
+    /** The target's velocity relative to the origin: the throwing velocity while a hand lets go, else the mean over the step. */
+    velocity_mps: hh_vec3;
+    angular_velocity_radps: hh_vec3;
+    /** in the world, at the end of the step; not for POINT */
+    body_rotation: hh_quat;
+    /** reaches body_rotation; not for POINT */
+    body_angular_velocity_radps: hh_vec3;
+    /** The anchor in the world at the end of the step, if the body keeps its velocity. Exact for static and kinematic bodies: a joint may attach the player to this point of the world. */
+    anchor_end: hh_pose;
+    /** of the rows; 0: rigid, as in the runtime's own solver */
+    compliance_m_per_n: number;
+    /** enough to stop what the hand drives from its highest speed in one step */
+    max_force_n: number;
+    /** the hand lets go in this step */
+    is_releasing: boolean;
+}
+
+/** A player's body in the host's solver. */
+export interface hh_player_motion {
+    player: hh_player;
+    /** at the start of the step */
+    origin: hh_vec3;
+    /** at the start of the step, with thrusters and drag applied */
+    velocity_mps: hh_vec3;
+    /** For this step. The player's own while a hand grips something static, kinematic or at least phases.heavy_body_kg. Else 1000 times the heaviest held body, so that light bodies do not shake the player; for bodies from phases.kappa_light_kg to phases.kappa_heavy_kg it falls to the player's own. If a held body meets something that does not give way, such as a crate at a wall, solve the step again with hh_player_def.mass_kg: the player then moves back by what the body could not move. Without that, hand and wall press against each other without a bound. */
+    mass_kg: number;
+    /** of the head's centre: from the origin, with the world's axes */
+    head: hh_pose;
+    /** the host may let this sphere collide, on the player's body */
+    head_radius_m: number;
+}
+
+export interface hh_solved_player {
+    player: hh_player;
+    /** at the end of the step */
+    origin: hh_vec3;
+    /** at the end of the step */
+    velocity_mps: hh_vec3;
+}
+
+/** A velocity that the host gives its body. */
+export interface hh_velocity_change {
+    body: hh_body;
+    velocity_mps: hh_vec3;
+    angular_velocity_radps: hh_vec3;
+}
+
+/** Every function of the library, as a method. They throw a HandholdError if the library refuses the call. */
+export declare class LibraryCalls {
+    /** The result's name, "HH_ERROR_HANDLE". Never null. Any thread. */
+    resultText(result: number): string | null;
+    /** The version of the library that is running: compare with HANDHOLD_VERSION_MAJOR and so on. Null pointers are skipped. Any thread. */
+    version(): { major: number; minor: number; patch: number };
+    /** The pose at the origin, not rotated. Any thread. */
+    identityPose(): hh_pose;
+    /** Equal on every machine and compiler, unlike sin, cos and atan2 of C: for inputs that must replay bit for bit. Errors are below 1e-14 up to 1e6 rad; beyond that, and for NaN, sine is 0 and cosine 1. Null outputs are skipped. hh_atan2 gives 0 for (0, 0) and NaN. Any thread. */
+    sinCos(angle_rad: number): { sine: number; cosine: number };
+    atan2(y: number, x: number): number;
+    /** Sets the hooks of the process; null: back to the defaults. HH_ERROR_STATE while a world exists. Not beside any other call of the library. */
+    setHostHooks(hooks: Given<hh_host_hooks> | null): void;
+    /** Sets the number of threads of the library's own pool, [1, 256]. Allowed while worlds exist, for instance to use all cores while a level loads. HH_ERROR_STATE if the host lends parallel_for. Not beside any other call of the library. */
+    setThreadCount(count: number): void;
+    threadCount(): number;
+    /** Metres in one of the engine's units of length: 0.01 for Unreal, else 1. For radii and distances. */
+    convertMetresPerUnit(engine: number): number;
+    /** Whatever scales with length: positions, velocities, accelerations, impulses, forces. */
+    convertVectorFrom(engine: number, vector: Given<hh_vec3>): hh_vec3;
+    convertVectorTo(engine: number, vector: Given<hh_vec3>): hh_vec3;
+    /** Directions without a length: normals, axes. */
+    convertDirectionFrom(engine: number, direction: Given<hh_vec3>): hh_vec3;
+    convertDirectionTo(engine: number, direction: Given<hh_vec3>): hh_vec3;
+    /** Angular velocities in rad/s, and other vectors along an axis of rotation. Left-handed engines count angles the other way, so the sign changes too. */
+    convertAngularFrom(engine: number, angular_radps: Given<hh_vec3>): hh_vec3;
+    convertAngularTo(engine: number, angular_radps: Given<hh_vec3>): hh_vec3;
+    convertRotationFrom(engine: number, rotation: Given<hh_quat>): hh_quat;
+    convertRotationTo(engine: number, rotation: Given<hh_quat>): hh_quat;
+    convertPoseFrom(engine: number, pose: Given<hh_pose>): hh_pose;
+    convertPoseTo(engine: number, pose: Given<hh_pose>): hh_pose;
+    /** Scale factors of an object along its own axes, and half extents in metres: axes change places, signs do not. */
+    convertScaleFrom(engine: number, scale: Given<hh_vec3>): hh_vec3;
+    convertScaleTo(engine: number, scale: Given<hh_vec3>): hh_vec3;
+    /** A mesh in place: converts x, y, z of its vertices, and reverses its triangles if the engine's front faces are clockwise (Unity, Godot), so that they are counter-clockwise from outside. HH_ERROR_VALUE, and no change, for counts that are no multiples of 3. */
+    convertMeshFrom(engine: number, coordinates: ArrayLike<number>, indices: ArrayLike<number>): { coordinates: number[]; indices: number[] };
+    /** Stages and fallbacks by index; null beyond the last. A fallback is counted whenever the runtime does the next best instead of what was asked. Any thread. */
+    stageName(stage: number): string | null;
+    fallbackName(fallback: number): string | null;
+    /** The number with this index; HH_ERROR_VALUE beyond the last. Any thread. */
+    tuningDescribe(index: number): hh_tuning_info;
+    /** How far the fingers of a tracked hand are bent, for hh_tracking_sample.curls. `joints`: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name, in any one space; only positions are read. Curl is the sum of a finger's bends over that of a fist; -1 if a joint of the finger is not valid. Any thread. */
+    fingerCurlsOf(joints: Given<hh_hand_joint> | null): hh_finger_curls[];
+    /** "leftUpperArm"; null beyond the last. Any thread. */
+    bodyJointName(joint: number): string | null;
+    /** The parent's index; -1 for the hips and beyond the last. */
+    bodyJointParent(joint: number): number;
+}
+
+/** Every function of a world, as a method. They throw a HandholdError if the library refuses the call. */
+export declare class WorldCalls {
+    /** Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players without one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are clamped. Cost: about 0.15 ms a gripping player, plus contacts. */
+    step(dt_s: number, inputs: Given<hh_player_input>[]): void;
+    /** While the game is paused: heads, hands and bodies of players follow their last sample, whatever its time. The clock, bodies, joints, grips and play spaces stand still. The next hh_world_step goes on: hands that are still closed grip where they are at that time. */
+    stepPoseOnly(dt_s: number, inputs: Given<hh_player_input>[]): void;
+    /** The world's clock, seconds, and the number of steps. Null outputs are skipped. */
+    time(): { time_s: number; frame: bigint };
+    /** Acceleration of dynamic bodies; players float. Each axis within 1e4 m/s^2. */
+    setGravity(gravity_mps2: Given<hh_vec3>): void;
+    /** Velocity of the scene: drifting players come to rest against it. Each axis within 1e6 m/s. */
+    setReferenceVelocity(velocity_mps: Given<hh_vec3>): void;
+    gravity(): hh_vec3;
+    referenceVelocity(): hh_vec3;
+    /** Hash of the whole state. Equal on every machine, compiler and number of threads after equal calls with equal names. Cost: linear in the state, about 0.1 ms for a scene of 100 bodies. */
+    hash(): bigint;
+    /** Saves every bit of the state. Writes the number of bytes to `size`. A null `buffer` only asks for it. HH_ERROR_CAPACITY if it is more than `capacity`. Rigs, tuning and user data are not in a snapshot. Shapes are named by their content: a world that restores it needs equal ones, whatever their ids. */
+    save(): Uint8Array;
+    /** Back to a saved state, which then goes on bit for bit. Ids taken before the save are valid again. HH_ERROR_DATA, and no change, for bytes that are damaged or name a shape that this world has not. Tolerates any bytes. */
+    restore(bytes: Uint8Array | string | null): void;
+    getStats(): hh_world_stats;
+    /** Time of each stage, microseconds, and how often each fallback occurred, in the last step. `count` gets the number of entries; HH_ERROR_CAPACITY if it is more than `capacity`. */
+    stageTimes(): number[];
+    fallbacks(): bigint[];
+    /** Reads and changes one number by name, between steps. `count` must be the number's. HH_ERROR_NAME for an unknown name, HH_ERROR_VALUE out of range. */
+    getTuning(name: string | null, count: number): number[];
+    setTuning(name: string | null, values: ArrayLike<number>): void;
+    /** All numbers of the tuning, to compare, keep and restore: in the order of hh_tuning_describe, a vector as three. `count` as for hh_world_fallbacks. Set takes exactly all of them; on an error none changes. */
+    tuningNumbers(): number[];
+    setTuningNumbers(values: ArrayLike<number>): void;
+    /** All numbers from JSON, {"hand": {"reach_m": 0.12}}; those that it lacks get their defaults. HH_ERROR_DATA, with the place, for unknown names and wrong numbers. */
+    loadTuning(json: Uint8Array | string | null): void;
+    /** The additive body clips of all players, from JSON in the format of docs/reference/body_clips.md: idling, pushing off, looking round, raising the arms. They rotate spine, legs and clavicles, never hands. They replace the clips before. Null: none, which is the default. HH_ERROR_DATA, with the place and no change, for anything else. Clips are not in a snapshot: load the same ones before you restore. */
+    loadBodyClips(json: Uint8Array | string | null): void;
+    /** In a world with fits_hands, a new shape gets a surface for hands on the calling thread; a shape equal to one that is there costs microseconds. Costs are of one core of a desktop. Round shapes cost more than a frame: add them while loading, or keep one of each size. Box: 0.02 ms. */
+    shapeAddBox(half_extents_m: Given<hh_vec3>): hh_shape;
+    /** Cost with fits_hands: 50 ms at 0.1 m, growing with the radius to 400 ms at 1 m; none above 64 m. */
+    shapeAddSphere(radius_m: number): hh_shape;
+    /** Along Y; half_height_m without the caps. Cost: as a sphere. */
+    shapeAddCapsule(radius_m: number, half_height_m: number): hh_shape;
+    /** Along Y. Cost with fits_hands: 0.4 ms at 0.1 m. */
+    shapeAddCylinder(radius_m: number, half_height_m: number): hh_shape;
+    /** Convex hull of points that are not coplanar. Cost with fits_hands: 1.6 ms for 64 points. */
+    shapeAddHull(points: Given<hh_vec3>[]): hh_shape;
+    /** 1 to 64 parts that move as one. It keeps copies: the parts may be removed. Cost with fits_hands: of all its parts as if they were new. */
+    shapeAddCompound(parts: Given<hh_compound_part>[]): hh_shape;
+    /** A shape of a prepared mesh, for static and kinematic bodies. Cost: constant for scale 1; another scale, each factor in [1e-3, 1e3], prepares the hands' surface again. */
+    shapeAddMesh(mesh: Mesh | null, scale: Given<hh_vec3>): hh_shape;
+    /** HH_ERROR_STATE while a body or a player has the shape. */
+    shapeRemove(shape: Given<hh_shape>): void;
+    shapeIsValid(shape: Given<hh_shape>): boolean;
+    /** Number of shapes. */
+    shapeCount(): number;
+    /** Adds a body. Cost: constant, whatever else is in the world. */
+    bodyAdd(def: Given<hh_body_def> | null): hh_body;
+    /** Removes a body with its joints. Hands that grip it are empty at once; the event follows in the next step. */
+    bodyRemove(body: Given<hh_body>): void;
+    bodyIsValid(body: Given<hh_body>): boolean;
+    bodyFind(name: string | null): hh_body;
+    /** Valid until a body is added or removed. Empty if the name came only with a snapshot. */
+    bodyName(body: Given<hh_body>): string;
+    /** Ids of all bodies; `count` gets their number. HH_ERROR_CAPACITY if it is more than `capacity`. A null buffer of capacity 0: the number only. */
+    bodies(): hh_body[];
+    bodyPose(body: Given<hh_body>): hh_pose;
+    /** Poses of many bodies in one call; HH_ERROR_HANDLE, and nothing written, if one is stale. */
+    bodyPoses(bodies: Given<hh_body>[]): hh_pose[];
+    /** Null outputs are skipped. */
+    bodyVelocity(body: Given<hh_body>): { velocity_mps: hh_vec3; angular_velocity_radps: hh_vec3 };
+    /** Dynamic bodies only, as are impulses: HH_ERROR_STATE. */
+    bodySetVelocity(body: Given<hh_body>, velocity_mps: Given<hh_vec3>, angular_velocity_radps: Given<hh_vec3>): void;
+    /** Changes the velocity by an impulse in N s at a point in the world. */
+    bodyApplyImpulse(body: Given<hh_body>, impulse_ns: Given<hh_vec3>, point: Given<hh_vec3>): void;
+    /** At once, without collisions on the path. Keeps the velocity. Hands that grip it let go. */
+    bodyTeleport(body: Given<hh_body>, pose: Given<hh_pose>): void;
+    /** A kinematic body reaches the pose at the end of the next step, with the velocity that takes it there, and then rests. Call it before every step in which it moves. */
+    bodyMoveKinematic(body: Given<hh_body>, pose: Given<hh_pose>): void;
+    bodySetGravityScale(body: Given<hh_body>, scale: number): void;
+    bodySetLayers(body: Given<hh_body>, layers: number, mask: number): void;
+    bodySetGrabRule(body: Given<hh_body>, left: boolean, right: boolean, two_hands: boolean, priority: number): void;
+    bodyGetKind(body: Given<hh_body>): number;
+    /** 0 of a body that is not dynamic: nothing that acts on it moves it. */
+    bodyMass(body: Given<hh_body>): number;
+    bodySetUserData(body: Given<hh_body>, user_data: bigint): void;
+    bodyUserData(body: Given<hh_body>): bigint;
+    jointAdd(def: Given<hh_joint_def> | null): hh_joint;
+    jointRemove(joint: Given<hh_joint>): void;
+    jointIsValid(joint: Given<hh_joint>): boolean;
+    /** Ids of the joints of a body; `count` gets their number. HH_ERROR_CAPACITY if it is more than `capacity`. A null buffer of capacity 0: the number only. */
+    bodyJoints(body: Given<hh_body>): hh_joint[];
+    /** State after the last step; null outputs are skipped. A hinge counts full turns. */
+    jointState(joint: Given<hh_joint>): { coordinate: number; speed: number; latched: boolean };
+    /** First surface that the segment hits, from outside or inside; distance_m: from `from`. `skip`: a player whose head counts as not there; null: none. Coordinates within 1e9 m. */
+    castRay(from: Given<hh_vec3>, to: Given<hh_vec3>, skip: Given<hh_player>): hh_hit;
+    /** First impact of a sphere that moves along the segment, radius within 1e4 m; distance_m: how far its centre has moved, 0 if it touches something at the start. */
+    castSphere(radius_m: number, from: Given<hh_vec3>, to: Given<hh_vec3>, skip: Given<hh_player>): hh_hit;
+    /** Nearest surface point within max_distance_m of the point, [0, 1e4]; distance_m: 0 inside a solid, where the normal points outward. */
+    closestPoint(point: Given<hh_vec3>, max_distance_m: number, skip: Given<hh_player>): hh_hit;
+    /** Everything that a sphere touches: the nearest point of each body and head to its centre, in a fixed order. Inside a solid distance_m is 0 and the normal points outward. `count` gets their number; HH_ERROR_CAPACITY if it is more than `capacity`. Radius in [0, 1e4] m. */
+    overlapSphere(center: Given<hh_vec3>, radius_m: number, skip: Given<hh_player>): hh_hit[];
+    playerAdd(def: Given<hh_player_def> | null): hh_player;
+    playerRemove(player: Given<hh_player>): void;
+    playerIsValid(player: Given<hh_player>): boolean;
+    players(): hh_player[];
+    /** The headset's runtime, or the host, has recentred: from the next sample on, poses are given in a space that lies at `new_in_old` in the space before (OpenXR: poseInPreviousSpace). Level: it turns about +Y only, within 0.001. View, hands and grips stay where they are in the world; hh_player_pose.origin changes at once, HH_EVENT_RECENTRED follows in the next step. From now on the host announces all recentrings, as after hh_player_set_recenter_guess(world, player, 0). */
+    playerRecenter(player: Given<hh_player>, new_in_old: Given<hh_pose>): void;
+    /** `guesses` 1, the default: if head and hands jump by one turn about +Y and one translation, or the head by more than tracking.max_jump_m, the runtime has recentred, and nothing in the world moves. 0: the host announces recentrings, and every other jump is meant, such as a turn that the host puts into its samples: view and hands follow it, and gripping hands take new anchors. Part of the state. */
+    playerSetRecenterGuess(player: Given<hh_player>, guesses: boolean): void;
+    /** The play space is there at once, at rest. Dynamic bodies in the hands that no joint holds come along; hands let go of everything else. */
+    playerTeleport(player: Given<hh_player>, origin: Given<hh_pose>): void;
+    playerVelocity(player: Given<hh_player>): hh_vec3;
+    playerSetVelocity(player: Given<hh_player>, velocity_mps: Given<hh_vec3>): void;
+    /** The velocity that counts as rest for the player: that of the body last gripped, at the gripped point, else the scene's. A player feels the speed relative to it: for vignettes and wind. */
+    playerReferenceVelocity(player: Given<hh_player>): hh_vec3;
+    /** How far contacts moved the play space in the last step, against its hands and its velocity. */
+    playerPushBack(player: Given<hh_player>): number;
+    /** The body mass that the player was added with. */
+    playerMass(player: Given<hh_player>): number;
+    /** The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked: false before the head's first sample, and while it is lost or inferred. */
+    playerHead(player: Given<hh_player>): { center: hh_vec3; radius_m: number; is_tracked: boolean };
+    playerMeasures(player: Given<hh_player>): hh_measures;
+    playerSetMeasures(player: Given<hh_player>, measures: Given<hh_measures> | null): void;
+    playerSetUserData(player: Given<hh_player>, user_data: bigint): void;
+    playerUserData(player: Given<hh_player>): bigint;
+    /** The hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists with OpenXR's axes (-Z to the fingers, +Y the back of the hand). Null: a controller's grip pose, by the tuning's hand.controller_ numbers, which is the default. */
+    playerSetHandInController(player: Given<hh_player>, side: number, hand_in_controller: Given<hh_pose> | null): void;
+    /** Returns the pose set by hh_player_set_hand_in_controller, for hosts that have wrists and need controllers. */
+    playerHandInController(player: Given<hh_player>, side: number): hh_pose;
+    /** Returns the tuning's pose of the wrist in a controller, for players without one of their own. */
+    handInController(side: number): hh_pose;
+    /** One hand. `hand_size`: bytes of hh_hand_state as the host knows it. */
+    playerHand(player: Given<hh_player>, side: number): hh_hand_state;
+    /** True if the player can pull on what the hand grips: something static, kinematic or heavy, another player, or a body that joints connect to something fixed, such as a lever. False if the hand is empty, or what it holds comes along. */
+    handMovesPlayer(player: Given<hh_player>, side: number): boolean;
+    /** Poses of many players in one call; HH_ERROR_HANDLE, and nothing written, if one is stale. `pose_size`, `hand_size`: bytes of hh_player_pose and hh_hand_state as the host knows them. */
+    playerPoses(players: Given<hh_player>[]): hh_player_pose[];
+    /** In the next step the hand grips `body` where both are, at any distance, whatever the grab rules say; only a body for two hands needs an order for both. No grip begins while the player opens the hand. It holds until hh_hand_release or until the player opens the hand. If the player closes the hand before that, it grips what is in reach instead; with nothing in reach, the grip stays. HH_ERROR_STATE for a hand that was never tracked. */
+    handGrip(player: Given<hh_player>, side: number, body: Given<hh_body>): void;
+    /** In the next step the hand lets go, without a throw. It grips again when the player opens and closes it. HH_OK also for an empty hand. */
+    handRelease(player: Given<hh_player>, side: number): void;
+    /** The events of the last step, in a fixed order. Valid until the next step, restore, destroy or call of this function. `event_size`: bytes of hh_event as the host knows it; the list's elements lie so far apart. */
+    events(): hh_event[];
+    /** The shown hand's joints: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name. */
+    playerHandJoints(player: Given<hh_player>, side: number, space: number): hh_hand_joint[];
+    /** HH_BODY_JOINT_COUNT elements. */
+    playerBodyJoints(player: Given<hh_player>, space: number): hh_pose[];
+    /** The player's hand gets the proportions of the skeleton in a glTF file (.glb, or .gltf with its data inside) whose joints have WebXR's or OpenXR's names. Null bytes: the built-in hand. HH_ERROR_DATA says what the file lacks. */
+    playerSetHandRig(player: Given<hh_player>, side: number, gltf: Uint8Array | string | null): void;
+    /** The player's body drives a humanoid skeleton from a glTF file. Null bytes: none. */
+    playerSetBodyRig(player: Given<hh_player>, gltf: Uint8Array | string | null): void;
+    /** Joints of the player's body rig, in the file's order. HH_ERROR_STATE without a rig. */
+    playerSkeleton(player: Given<hh_player>, space: number): hh_pose[];
+    /** Name and parent (-1: none) of one of these joints. The name is valid while the rig is set. */
+    playerSkeletonJoint(player: Given<hh_player>, joint: number): { name: string; parent: number };
+    /** Adds an authored grip to a body, at most 4: hands that close near it take it. */
+    bodyAddGrip(body: Given<hh_body>, def: Given<hh_grip_def> | null): void;
+    /** From now on hands and legs ask the host, not the world's shapes. Null: back to the shapes. */
+    setSurfaceQuery(query: Given<hh_surface_query> | null): void;
+    /** The triangles that palm and fingers close on, in the body's frame; null: none. Not needed for gripping. The body must have no shape. HH_ERROR_STATE if it has, or if the mesh or the world was made without fits_hands. */
+    bodySetSurface(body: Given<hh_body>, mesh: Mesh | null): void;
+    /** Where bodies are now, after the host's own step. Unlike a teleport it ends no grip. A kinematic body rests there until hh_body_move_kinematic says where it will be at the end of the next step. Places all or, on an error, none. */
+    placeBodies(motions: Given<hh_body_motion>[]): void;
+    /** Where a player's hh_player_pose.origin is now, by the host's locomotion. Unlike a teleport it ends no grip, and the body goes on moving. */
+    playerPlace(player: Given<hh_player>, origin: Given<hh_pose>, velocity_mps: Given<hh_vec3>): void;
+    /** The hand holds `body` from now on; a null id: nothing. `anchor`: the wrist in the body's frame; null: where both are now. For hosts that use hh_world_step_hands only: the other steps keep the hold and let the hand pull the player. */
+    handHold(player: Given<hh_player>, side: number, body: Given<hh_body>, anchor: Given<hh_pose> | null): void;
+    /** What the hand would grip if it closed where it is, by the rules of hands that pull players: reach, sight, grab rules, authored grips. A null body: nothing, or another player. distance_m: from the palm. In every kind of world. HH_ERROR_STATE for a hand that was never tracked. */
+    handFindGrip(player: Given<hh_player>, side: number): hh_surface_hit;
+    /** One frame: reads tracking and shows hands and bodies where the host put them. It moves neither players nor bodies, and buttons do nothing: place bodies by hh_world_place_bodies. A move ordered by hh_body_move_kinematic waits for the next step of another kind. Cost: that of hh_world_step without physics. */
+    stepHands(dt_s: number, inputs: Given<hh_player_input>[]): void;
+    /** First half of a step: tracking, grips and constraints. Bodies must be placed where they are. Until hh_world_end_step, HH_ERROR_STATE for adding or removing bodies, joints and players, for teleporting, saving and other steps; hh_world_restore forgets the begun step. */
+    beginStep(dt_s: number, inputs: Given<hh_player_input>[]): void;
+    /** Constraints of the begun step: at most one per hand, in the order in which hands were added. Valid until hh_world_end_step. */
+    handConstraints(): hh_hand_constraint[];
+    /** One entry per player, in the order of hh_world_players. Valid until hh_world_end_step. */
+    playerMotions(): hh_player_motion[];
+    /** Second half, after the host's solver. `players`: the solved play spaces; one left out moves as predicted. Bodies that the host has not placed since hh_world_begin_step rest where they were. Releases grips, limits velocities and shows hands and bodies. On an error the step stays begun. */
+    endStep(players: Given<hh_solved_player>[]): void;
+    /** Velocities that the host must give its bodies: after hh_world_begin_step those of bodies that the distance grab pulls, after hh_world_end_step those of thrown and limited bodies. Players': hh_player_velocity. Valid until the next step. */
+    velocityChanges(): hh_velocity_change[];
+    /** After hh_world_step: dynamic bodies that hands hold, and those that joints connect to them. The host makes its own kinematic, takes pose and velocity from here, and places all others before the next step. They touch nothing of the host's, but push what its solver pushes. */
+    heldBodies(): hh_body[];
+}

@@ -1,0 +1,106 @@
+"""Handhold in Python, for tools: the C interface with ctypes and numpy.
+
+Names, units and defaults are those of the C headers (systems/host/include/handhold). Methods of a World are the functions hh_world_x as x, and
+hh_body_x, hh_player_x and the others as body_x, player_x. Lists come back as numpy arrays with the structs' fields: poses["position"]["x"].
+A call that the library refuses raises HandholdError, and nothing has changed.
+"""
+import ctypes
+import traceback
+
+from . import _generated
+from ._generated import *  # noqa: F401,F403
+from ._generated import HH_LEFT, HH_RIGHT, MeshDef, PlayerInput, Pose, SurfaceQuery, WorldCalls, WorldDef
+from ._library import HandholdError, check, lib, load, optional  # noqa: F401
+
+
+class Mesh:
+    """Triangles for shapes and surfaces: hh_mesh_create. Shapes keep what they need; close() gives the memory back."""
+
+    def __init__(self, definition=None, **fields):
+        self._handle = ctypes.c_void_p()
+        check(lib().hh_mesh_create(optional(MeshDef, definition, fields), ctypes.byref(self._handle)))
+
+    def close(self) -> None:
+        lib().hh_mesh_destroy(self._handle)
+        self._handle = ctypes.c_void_p()
+
+    def __del__(self):
+        if getattr(self, "_handle", None):
+            self.close()
+
+
+class Surfaces:
+    """The surfaces of a host with physics of its own: hh_surface_query. Each function returns a SurfaceHit, or None if it finds nothing. `skip`:
+    bodies that count as not there."""
+
+    def cast_ray(self, start, end, skip):
+        return None
+
+    def closest_point(self, point, max_distance_m, skip):
+        return None
+
+    def closest_point_on(self, body, point):
+        return None
+
+
+class World(WorldCalls):
+    """A simulation: hh_world_create. Close it, or use it in a `with` statement."""
+
+    def __init__(self, definition=None, **fields):
+        self._handle = ctypes.c_void_p()
+        self._query = None
+        check(lib().hh_world_create(optional(WorldDef, definition, fields), ctypes.byref(self._handle)))
+
+    def close(self) -> None:
+        lib().hh_world_destroy(self._handle)
+        self._handle = ctypes.c_void_p()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *error):
+        self.close()
+
+    def __del__(self):
+        if getattr(self, "_handle", None):
+            self.close()
+
+    def step_player(self, dt_s, player, samples, **commands) -> None:
+        """hh_world_step for a world with one player. `samples`: TrackingSamples or dictionaries of their fields."""
+        self.step(dt_s, [PlayerInput(player=player, samples=samples, commands=commands)])
+
+    def use_wrists(self, player) -> None:
+        """Samples are wrists with OpenXR's axes, not controllers."""
+        for side in (HH_LEFT, HH_RIGHT):
+            self.player_set_hand_in_controller(player, side, Pose())
+
+    def player_pose(self, player):
+        """hh_player_pose of one player: origin, head, velocity_mps, hands."""
+        return _generated.PlayerPose.from_buffer_copy(self.player_poses([player])[0].tobytes())
+
+    def set_surfaces(self, surfaces) -> None:
+        """Hands ask `surfaces` from now on (a Surfaces, or anything with its functions); None: the world's shapes."""
+        query = None
+        if surfaces is not None:
+            query = SurfaceQuery(cast_ray=_answer(lambda start, end, skip, count: surfaces.cast_ray(start, end, skip[:count])),
+                                 closest_point=_answer(lambda point, max_m, skip, count: surfaces.closest_point(point, max_m, skip[:count])),
+                                 closest_point_on=_answer(surfaces.closest_point_on))
+            if hasattr(surfaces, "cast_sphere"):
+                query.cast_sphere = _answer(lambda radius_m, start, end, skip, count: surfaces.cast_sphere(radius_m, start, end, skip[:count]))
+        self.set_surface_query(query)
+        self._query = query  # its functions live as long as the world may call them
+
+
+def _answer(find):
+    def call(context, *words):
+        *given, hit = words
+        try:
+            found = find(*given)
+        except Exception:  # must not cross the library
+            traceback.print_exc()
+            return 0
+        if found is None:
+            return 0
+        hit[0] = found
+        return 1
+    return call

@@ -1,0 +1,1882 @@
+"""The C interface's structs, enums and functions. Made by systems/host/bindings/generate.py; do not edit."""
+import enum
+from ctypes import (CFUNCTYPE, POINTER, byref, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint8, c_uint32, c_uint64, c_void_p,
+                    sizeof)
+
+from ._library import Struct, array, changed, check, copied, empty, handle, lib, listed, optional, raw, shown, text, value
+
+HANDHOLD_VERSION_MAJOR = 0
+HANDHOLD_VERSION_MINOR = 2
+HANDHOLD_VERSION_PATCH = 0
+HANDHOLD_VERSION_TEXT = '0.2.0'
+HH_HAND_JOINT_COUNT = 26
+
+
+class Result(enum.IntEnum):
+    """hh_result"""
+    HH_OK = 0
+    HH_ERROR_NULL = 1  # a pointer that is needed is null
+    HH_ERROR_VERSION = 2  # a size of a struct is not of a version that the library knows
+    HH_ERROR_HANDLE = 3  # an id is null, stale or of another world
+    HH_ERROR_VALUE = 4  # a number is NaN or out of range, or a combination makes no sense
+    HH_ERROR_NAME = 5  # a name is taken, or nothing has it
+    HH_ERROR_STATE = 6  # not possible now, for instance a shape in use
+    HH_ERROR_CAPACITY = 7  # the buffer is too small; the count says how much is needed
+    HH_ERROR_DATA = 8  # bytes that cannot be read: a snapshot, a glTF file, JSON
+    HH_ERROR_MEMORY = 9  # no memory left
+    HH_ERROR_INTERNAL = 10  # a defect of the library; hh_host_hooks.assert_failed was called
+
+
+class Side(enum.IntEnum):
+    """hh_side"""
+    HH_LEFT = 0
+    HH_RIGHT = 1
+
+
+class LogLevel(enum.IntEnum):
+    """hh_log_level"""
+    HH_LOG_NOTE = 0
+    HH_LOG_ERROR = 1
+
+
+class Engine(enum.IntEnum):
+    """hh_engine"""
+    HH_ENGINE_UNITY = 0  # left-handed, +X right, +Y up, +Z ahead, metres
+    HH_ENGINE_UNREAL = 1  # left-handed, +X ahead, +Y right, +Z up, centimetres
+    HH_ENGINE_GODOT = 2  # as Handhold: right-handed, +X right, +Y up, -Z ahead, metres
+
+
+class MomentumReceiver(enum.IntEnum):
+    """What receives the impulses of constraints, index of hh_momentum's arrays."""
+    HH_MOMENTUM_BODIES = 0  # dynamic ones
+    HH_MOMENTUM_PLAYERS = 1
+    HH_MOMENTUM_DISCARDED = 2  # that hands moved bodies with, without pushing the player back
+    HH_MOMENTUM_STATICS = 3  # static and kinematic bodies
+    HH_MOMENTUM_RECEIVERS = 4
+
+
+class BodyKind(enum.IntEnum):
+    """hh_body_kind"""
+    HH_STATIC = 0  # never moves, except by hh_body_teleport
+    HH_KINEMATIC = 1  # moved by hh_body_move_kinematic; pushes others and carries hands
+    HH_DYNAMIC = 2  # moved by its velocity, contacts, joints and hands
+
+
+class JointKind(enum.IntEnum):
+    """Each has a coordinate, which limits, friction, detents and latches act on."""
+    HH_BALL = 0  # points coincide; the angle between both axes, a cone, rad
+    HH_HINGE = 1  # turns about the axis, rad
+    HH_SLIDER = 2  # moves along the axis, m
+    HH_FIXED = 3  # no coordinate
+    HH_DISTANCE = 4  # distance of two points, m; lower 0: a rope; equal limits: a rod
+
+
+class GripKind(enum.IntEnum):
+    """hh_grip_kind"""
+    HH_GRIP_NONE = 0
+    HH_GRIP_SURFACE = 1  # something static, kinematic or heavy: the player moves
+    HH_GRIP_HELD = 2  # a dynamic body: it moves with the hand
+    HH_GRIP_AUTHORED = 3  # in one of the body's authored grips
+    HH_GRIP_PLAYER = 4  # another player: head, arm, trunk or leg
+
+
+class EventKind(enum.IntEnum):
+    """hh_event_kind"""
+    HH_EVENT_TOUCHED = 0  # The palm of an empty hand came within 2 cm of a body or player.
+    HH_EVENT_GRABBED = 1  # a hand grips
+    HH_EVENT_RELEASED = 2  # the player opened the hand, or `reason` says who did
+    HH_EVENT_REFUSED = 3  # a hand closed and grips nothing: `reason`
+    HH_EVENT_SLIPPED = 4  # a hand lost its grip: `reason`
+    HH_EVENT_CONTACT_BEGAN = 5  # the player's head, or what a hand holds, hits a body
+    HH_EVENT_CONTACT_ENDED = 6
+    HH_EVENT_LATCH_CLOSED = 7  # of `joint`
+    HH_EVENT_LATCH_OPENED = 8
+    HH_EVENT_LIMIT_REACHED = 9  # a joint came to its lower or upper limit
+    HH_EVENT_RECENTRED = 10  # hh_player_pose.origin was changed so that a recentring moves nothing. HH_REASON_BY_HOST: by hh_player_recenter; HH_REASON_NONE: the samples jumped. `position`: the head.
+
+
+class Reason(enum.IntEnum):
+    """hh_reason"""
+    HH_REASON_NONE = 0
+    HH_REASON_OPENED = 1  # the player opened the hand
+    HH_REASON_NO_SURFACE = 2  # nothing in reach, or only behind a wall
+    HH_REASON_NOT_ALLOWED = 3  # a grab rule or layers refuse the hand
+    HH_REASON_NEEDS_TWO_HANDS = 4  # the other hand is not there, or left
+    HH_REASON_STRETCHED = 5  # farther from its anchor than hand.max_stretch_m
+    HH_REASON_TRACKING_LOST = 6  # it opened unseen, or came back too far away
+    HH_REASON_BODY_GONE = 7  # the body was removed
+    HH_REASON_BY_HOST = 8  # hh_hand_release, hh_hand_grip or a teleport
+    HH_REASON_OTHER_HAND = 9  # the other of two hands on a body let go
+
+
+class Space(enum.IntEnum):
+    """hh_space"""
+    HH_SPACE_WORLD = 0
+    HH_SPACE_PARENT = 1  # in the parent joint's frame; roots: in the world
+
+
+class HandJointName(enum.IntEnum):
+    """Joints as XR_EXT_hand_tracking has them, in its order and with its axes. The parent of palm and
+    metacarpals is the wrist."""
+    HH_HAND_PALM = 0
+    HH_HAND_WRIST = 1
+    HH_THUMB_METACARPAL = 2
+    HH_THUMB_PROXIMAL = 3
+    HH_THUMB_DISTAL = 4
+    HH_THUMB_TIP = 5
+    HH_INDEX_METACARPAL = 6
+    HH_INDEX_PROXIMAL = 7
+    HH_INDEX_INTERMEDIATE = 8
+    HH_INDEX_DISTAL = 9
+    HH_INDEX_TIP = 10
+    HH_MIDDLE_METACARPAL = 11
+    HH_MIDDLE_PROXIMAL = 12
+    HH_MIDDLE_INTERMEDIATE = 13
+    HH_MIDDLE_DISTAL = 14
+    HH_MIDDLE_TIP = 15
+    HH_RING_METACARPAL = 16
+    HH_RING_PROXIMAL = 17
+    HH_RING_INTERMEDIATE = 18
+    HH_RING_DISTAL = 19
+    HH_RING_TIP = 20
+    HH_LITTLE_METACARPAL = 21
+    HH_LITTLE_PROXIMAL = 22
+    HH_LITTLE_INTERMEDIATE = 23
+    HH_LITTLE_DISTAL = 24
+    HH_LITTLE_TIP = 25
+
+
+class BodyJoint(enum.IntEnum):
+    """Joints of a humanoid, with VRM's names. Trunk, head and legs: +Y up along the bone, -Z to the front. Arms:
+    -Z along the bone, +Y on the elbow's side. Hands: the wrist's axes."""
+    HH_HIPS = 0
+    HH_SPINE = 1
+    HH_CHEST = 2
+    HH_UPPER_CHEST = 3
+    HH_NECK = 4
+    HH_HEAD = 5
+    HH_LEFT_SHOULDER = 6
+    HH_LEFT_UPPER_ARM = 7
+    HH_LEFT_LOWER_ARM = 8
+    HH_LEFT_HAND = 9
+    HH_RIGHT_SHOULDER = 10
+    HH_RIGHT_UPPER_ARM = 11
+    HH_RIGHT_LOWER_ARM = 12
+    HH_RIGHT_HAND = 13
+    HH_LEFT_UPPER_LEG = 14
+    HH_LEFT_LOWER_LEG = 15
+    HH_LEFT_FOOT = 16
+    HH_RIGHT_UPPER_LEG = 17
+    HH_RIGHT_LOWER_LEG = 18
+    HH_RIGHT_FOOT = 19
+    HH_BODY_JOINT_COUNT = 20
+
+
+class HandRows(enum.IntEnum):
+    """What a hand asks of the host's solver. The player is a body of the host's: a point mass at the play
+    space's origin that cannot turn: at hh_player_pose.origin until a recentring, which does not move it. At
+    the end of the step, with origin and body solved: POINT origin + target.position = body * anchor.position
+    WELD the same, and the body's rotation is body_rotation DIRECTION the body's rotation is body_rotation:
+    the second of two hands on one body"""
+    HH_ROWS_POINT = 0
+    HH_ROWS_WELD = 1
+    HH_ROWS_DIRECTION = 2
+
+
+HH_OK = Result.HH_OK
+HH_ERROR_NULL = Result.HH_ERROR_NULL
+HH_ERROR_VERSION = Result.HH_ERROR_VERSION
+HH_ERROR_HANDLE = Result.HH_ERROR_HANDLE
+HH_ERROR_VALUE = Result.HH_ERROR_VALUE
+HH_ERROR_NAME = Result.HH_ERROR_NAME
+HH_ERROR_STATE = Result.HH_ERROR_STATE
+HH_ERROR_CAPACITY = Result.HH_ERROR_CAPACITY
+HH_ERROR_DATA = Result.HH_ERROR_DATA
+HH_ERROR_MEMORY = Result.HH_ERROR_MEMORY
+HH_ERROR_INTERNAL = Result.HH_ERROR_INTERNAL
+HH_LEFT = Side.HH_LEFT
+HH_RIGHT = Side.HH_RIGHT
+HH_LOG_NOTE = LogLevel.HH_LOG_NOTE
+HH_LOG_ERROR = LogLevel.HH_LOG_ERROR
+HH_ENGINE_UNITY = Engine.HH_ENGINE_UNITY
+HH_ENGINE_UNREAL = Engine.HH_ENGINE_UNREAL
+HH_ENGINE_GODOT = Engine.HH_ENGINE_GODOT
+HH_MOMENTUM_BODIES = MomentumReceiver.HH_MOMENTUM_BODIES
+HH_MOMENTUM_PLAYERS = MomentumReceiver.HH_MOMENTUM_PLAYERS
+HH_MOMENTUM_DISCARDED = MomentumReceiver.HH_MOMENTUM_DISCARDED
+HH_MOMENTUM_STATICS = MomentumReceiver.HH_MOMENTUM_STATICS
+HH_MOMENTUM_RECEIVERS = MomentumReceiver.HH_MOMENTUM_RECEIVERS
+HH_STATIC = BodyKind.HH_STATIC
+HH_KINEMATIC = BodyKind.HH_KINEMATIC
+HH_DYNAMIC = BodyKind.HH_DYNAMIC
+HH_BALL = JointKind.HH_BALL
+HH_HINGE = JointKind.HH_HINGE
+HH_SLIDER = JointKind.HH_SLIDER
+HH_FIXED = JointKind.HH_FIXED
+HH_DISTANCE = JointKind.HH_DISTANCE
+HH_GRIP_NONE = GripKind.HH_GRIP_NONE
+HH_GRIP_SURFACE = GripKind.HH_GRIP_SURFACE
+HH_GRIP_HELD = GripKind.HH_GRIP_HELD
+HH_GRIP_AUTHORED = GripKind.HH_GRIP_AUTHORED
+HH_GRIP_PLAYER = GripKind.HH_GRIP_PLAYER
+HH_EVENT_TOUCHED = EventKind.HH_EVENT_TOUCHED
+HH_EVENT_GRABBED = EventKind.HH_EVENT_GRABBED
+HH_EVENT_RELEASED = EventKind.HH_EVENT_RELEASED
+HH_EVENT_REFUSED = EventKind.HH_EVENT_REFUSED
+HH_EVENT_SLIPPED = EventKind.HH_EVENT_SLIPPED
+HH_EVENT_CONTACT_BEGAN = EventKind.HH_EVENT_CONTACT_BEGAN
+HH_EVENT_CONTACT_ENDED = EventKind.HH_EVENT_CONTACT_ENDED
+HH_EVENT_LATCH_CLOSED = EventKind.HH_EVENT_LATCH_CLOSED
+HH_EVENT_LATCH_OPENED = EventKind.HH_EVENT_LATCH_OPENED
+HH_EVENT_LIMIT_REACHED = EventKind.HH_EVENT_LIMIT_REACHED
+HH_EVENT_RECENTRED = EventKind.HH_EVENT_RECENTRED
+HH_REASON_NONE = Reason.HH_REASON_NONE
+HH_REASON_OPENED = Reason.HH_REASON_OPENED
+HH_REASON_NO_SURFACE = Reason.HH_REASON_NO_SURFACE
+HH_REASON_NOT_ALLOWED = Reason.HH_REASON_NOT_ALLOWED
+HH_REASON_NEEDS_TWO_HANDS = Reason.HH_REASON_NEEDS_TWO_HANDS
+HH_REASON_STRETCHED = Reason.HH_REASON_STRETCHED
+HH_REASON_TRACKING_LOST = Reason.HH_REASON_TRACKING_LOST
+HH_REASON_BODY_GONE = Reason.HH_REASON_BODY_GONE
+HH_REASON_BY_HOST = Reason.HH_REASON_BY_HOST
+HH_REASON_OTHER_HAND = Reason.HH_REASON_OTHER_HAND
+HH_SPACE_WORLD = Space.HH_SPACE_WORLD
+HH_SPACE_PARENT = Space.HH_SPACE_PARENT
+HH_HAND_PALM = HandJointName.HH_HAND_PALM
+HH_HAND_WRIST = HandJointName.HH_HAND_WRIST
+HH_THUMB_METACARPAL = HandJointName.HH_THUMB_METACARPAL
+HH_THUMB_PROXIMAL = HandJointName.HH_THUMB_PROXIMAL
+HH_THUMB_DISTAL = HandJointName.HH_THUMB_DISTAL
+HH_THUMB_TIP = HandJointName.HH_THUMB_TIP
+HH_INDEX_METACARPAL = HandJointName.HH_INDEX_METACARPAL
+HH_INDEX_PROXIMAL = HandJointName.HH_INDEX_PROXIMAL
+HH_INDEX_INTERMEDIATE = HandJointName.HH_INDEX_INTERMEDIATE
+HH_INDEX_DISTAL = HandJointName.HH_INDEX_DISTAL
+HH_INDEX_TIP = HandJointName.HH_INDEX_TIP
+HH_MIDDLE_METACARPAL = HandJointName.HH_MIDDLE_METACARPAL
+HH_MIDDLE_PROXIMAL = HandJointName.HH_MIDDLE_PROXIMAL
+HH_MIDDLE_INTERMEDIATE = HandJointName.HH_MIDDLE_INTERMEDIATE
+HH_MIDDLE_DISTAL = HandJointName.HH_MIDDLE_DISTAL
+HH_MIDDLE_TIP = HandJointName.HH_MIDDLE_TIP
+HH_RING_METACARPAL = HandJointName.HH_RING_METACARPAL
+HH_RING_PROXIMAL = HandJointName.HH_RING_PROXIMAL
+HH_RING_INTERMEDIATE = HandJointName.HH_RING_INTERMEDIATE
+HH_RING_DISTAL = HandJointName.HH_RING_DISTAL
+HH_RING_TIP = HandJointName.HH_RING_TIP
+HH_LITTLE_METACARPAL = HandJointName.HH_LITTLE_METACARPAL
+HH_LITTLE_PROXIMAL = HandJointName.HH_LITTLE_PROXIMAL
+HH_LITTLE_INTERMEDIATE = HandJointName.HH_LITTLE_INTERMEDIATE
+HH_LITTLE_DISTAL = HandJointName.HH_LITTLE_DISTAL
+HH_LITTLE_TIP = HandJointName.HH_LITTLE_TIP
+HH_HIPS = BodyJoint.HH_HIPS
+HH_SPINE = BodyJoint.HH_SPINE
+HH_CHEST = BodyJoint.HH_CHEST
+HH_UPPER_CHEST = BodyJoint.HH_UPPER_CHEST
+HH_NECK = BodyJoint.HH_NECK
+HH_HEAD = BodyJoint.HH_HEAD
+HH_LEFT_SHOULDER = BodyJoint.HH_LEFT_SHOULDER
+HH_LEFT_UPPER_ARM = BodyJoint.HH_LEFT_UPPER_ARM
+HH_LEFT_LOWER_ARM = BodyJoint.HH_LEFT_LOWER_ARM
+HH_LEFT_HAND = BodyJoint.HH_LEFT_HAND
+HH_RIGHT_SHOULDER = BodyJoint.HH_RIGHT_SHOULDER
+HH_RIGHT_UPPER_ARM = BodyJoint.HH_RIGHT_UPPER_ARM
+HH_RIGHT_LOWER_ARM = BodyJoint.HH_RIGHT_LOWER_ARM
+HH_RIGHT_HAND = BodyJoint.HH_RIGHT_HAND
+HH_LEFT_UPPER_LEG = BodyJoint.HH_LEFT_UPPER_LEG
+HH_LEFT_LOWER_LEG = BodyJoint.HH_LEFT_LOWER_LEG
+HH_LEFT_FOOT = BodyJoint.HH_LEFT_FOOT
+HH_RIGHT_UPPER_LEG = BodyJoint.HH_RIGHT_UPPER_LEG
+HH_RIGHT_LOWER_LEG = BodyJoint.HH_RIGHT_LOWER_LEG
+HH_RIGHT_FOOT = BodyJoint.HH_RIGHT_FOOT
+HH_BODY_JOINT_COUNT = BodyJoint.HH_BODY_JOINT_COUNT
+HH_ROWS_POINT = HandRows.HH_ROWS_POINT
+HH_ROWS_WELD = HandRows.HH_ROWS_WELD
+HH_ROWS_DIRECTION = HandRows.HH_ROWS_DIRECTION
+
+Task = CFUNCTYPE(None, c_void_p, c_size_t)
+
+
+class Vec3(Struct):
+    """hh_vec3"""
+    _fields_ = [
+        ("x", c_double),
+        ("y", c_double),
+        ("z", c_double),
+    ]
+
+
+class Quat(Struct):
+    """hh_quat"""
+    _fields_ = [
+        ("x", c_double),
+        ("y", c_double),
+        ("z", c_double),
+        ("w", c_double),
+    ]
+
+
+class Pose(Struct):
+    """A rigid transform: rotates, then translates. Inputs need a unit rotation within 0.001.
+    position: metres"""
+    _fields_ = [
+        ("position", Vec3),
+        ("rotation", Quat),
+    ]
+
+
+class FingerCurls(Struct):
+    """How far each finger is bent, by thumb, index, middle, ring, little: 0 straight, 1 as in a fist. Below 0 or
+    NaN: unknown; above 1: as 1."""
+    _fields_ = [
+        ("fingers", c_double * 5),
+    ]
+
+
+class Shape(Struct):
+    """Ids: plain values. All zero is null. An id whose object was removed finds nothing, even if its index is
+    used again. Ids of two worlds must not be mixed; that is not always detected."""
+    _fields_ = [
+        ("index", c_uint32),
+        ("generation", c_uint32),
+    ]
+
+
+class Body(Struct):
+    """hh_body"""
+    _fields_ = [
+        ("index", c_uint32),
+        ("generation", c_uint32),
+    ]
+
+
+class Joint(Struct):
+    """hh_joint"""
+    _fields_ = [
+        ("index", c_uint32),
+        ("generation", c_uint32),
+    ]
+
+
+class Player(Struct):
+    """hh_player"""
+    _fields_ = [
+        ("index", c_uint32),
+        ("generation", c_uint32),
+    ]
+HostHooksLog = CFUNCTYPE(None, c_void_p, c_int32, c_char_p)
+HostHooksAssertFailed = CFUNCTYPE(None, c_void_p, c_char_p)
+HostHooksParallelFor = CFUNCTYPE(None, c_void_p, c_size_t, Task, c_void_p)
+
+
+class HostHooks(Struct):
+    """Functions of the host that the library uses. Null functions: the library's own. Memory comes from the
+    global operator new, which a program may replace as usual; the shared library and the standard library
+    inside it then use the replacement too, once per process. Apart from that a world's blocks are taken and
+    given back by the threads that call it, and by those of parallel_for: a replacement with an arena a thread
+    gives each world its own. A host that uses Bullet needs its double-precision build, and sets
+    btAlignedAllocSetCustom before the first world.
+    context: passed to each of the functions
+    log: Called by any thread that calls the library. `message` is one line, valid during the call.
+    assert_failed: A defect of the library was found; the call then returns HH_ERROR_INTERNAL.
+    parallel_for: Calls task(task_context, i) once for every i in [0, count), on any threads, and returns when
+    all are done. Indices should start in ascending order.
+    thread_count: Without parallel_for: threads of the library's own pool, the caller's included. [1, 256];
+    default 1. Results do not depend on it."""
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("context", c_void_p),
+        ("log", HostHooksLog),
+        ("assert_failed", HostHooksAssertFailed),
+        ("parallel_for", HostHooksParallelFor),
+        ("thread_count", c_uint32),
+    ]
+    _default_ = "hh_default_host_hooks_sized"
+
+
+class WorldDef(Struct):
+    """hh_world_def
+    fits_hands: Fingers and palms close on what they grip. Default true. Without it no shape needs a grip
+    mesh, hands are shown as tracked, and meshes are added faster: for servers.
+    reports_touches: HH_EVENT_TOUCHED is reported: one query a hand and step. Default true.
+    gravity_mps2: of dynamic bodies; default 0. Each axis within 1e4
+    reference_velocity_mps: of the scene: what counts as rest. Each axis within 1e6"""
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("fits_hands", c_uint8),
+        ("reports_touches", c_uint8),
+        ("gravity_mps2", Vec3),
+        ("reference_velocity_mps", Vec3),
+    ]
+    _default_ = "hh_default_world_def_sized"
+
+
+class TrackingSample(Struct):
+    """One reading of the headset and both controllers. A pose at exactly (0, 0, 0) counts as not tracked, since
+    runtimes report devices that sleep so.
+    time_s: On the world's clock: hh_world_time plus the step for a sample at the step's end. Later than the
+    sample before, else it is ignored and counted as sample_out_of_order. More than 0.5 s after the step's
+    end: dropped and counted as sample_too_far_ahead; more than 0.5 s before its start: counted as
+    sample_too_old. If all of a step's samples are so far off, the log is told once that they are on another
+    clock.
+    head: between the eyes, in play space: the frame that the tracking is given in
+    hands: controllers, by hh_side; see hh_player_set_hand_in_controller
+    head_tracked: false: `head` is ignored
+    hand_tracked: false: the pose is ignored, `grab` counts
+    grab: a button that closes the hand is down
+    squeeze: how far it is pressed, [0, 1]: bends fingers until `grab` closes them
+    trigger: How far the index finger's trigger is pressed, [0, 1]: bends the index finger of an empty hand,
+    and the fingers of authored grips that follow the trigger.
+    head_inferred: True if the runtime only guesses the head's position: OpenXR's POSITION_VALID without
+    POSITION_TRACKED, WebXR's emulatedPosition, a low confidence. Default false; true counts before
+    head_tracked. The head follows the guess, but while a hand grips what the player can pull on, only its
+    rotation does.
+    hand_inferred: The same of the hands, before hand_tracked. An inferred hand does not grip, and never moves
+    a player who grips: it stays where it was last measured. Opening `grab` lets go, without a throw. The
+    shown empty hand follows the guess. Once measured again, the hand may be elsewhere: it did not travel.
+    curls: Bends the fingers of an empty hand, before squeeze and trigger; default unknown. By gloves, or from
+    joints by hh_finger_curls_of."""
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("time_s", c_double),
+        ("head", Pose),
+        ("hands", Pose * 2),
+        ("head_tracked", c_uint8),
+        ("hand_tracked", c_uint8 * 2),
+        ("grab", c_uint8 * 2),
+        ("squeeze", c_double * 2),
+        ("trigger", c_double * 2),
+        ("head_inferred", c_uint8),
+        ("hand_inferred", c_uint8 * 2),
+        ("curls", FingerCurls * 2),
+    ]
+    _default_ = "hh_default_tracking_sample_sized"
+
+
+class Commands(Struct):
+    """What a player asks for in one step. All zero: nothing. Grows with hh_player_input, of which it is the last
+    field: later versions add fields whose 0 means nothing, too.
+    smooth_turn: [-1, 1], positive turns left
+    snap_turns: turns to the left begun in this step; negative: to the right
+    brake: [0, 1]
+    thrust: play space, each in [-1, 1]; needs locomotion.thruster_mps2 above 0
+    calibrate: held while the player holds a T-pose: measures the body"""
+    _fields_ = [
+        ("smooth_turn", c_double),
+        ("snap_turns", c_int32),
+        ("brake", c_double),
+        ("thrust", Vec3),
+        ("calibrate", c_uint8),
+    ]
+
+
+class PlayerInput(Struct):
+    """One player's input of one step. Fill by hh_default_player_input.
+    samples: Sorted by time: those since the last step. Give each once. Up to 64 may be later than this step's
+    end, by at most 0.5 s, as predicted poses are: the poses at the end are then interpolated, and each sample
+    is kept for the step of its time, also if that step has no input. A sample replaces those kept of its time
+    or later. None: the devices are silent but for samples that were kept.
+    repeats_samples: The host gives a sample that is later than the step's end again in the next step, so the
+    world keeps none; and a sample's time is taken to the bit, where otherwise a microsecond after the end
+    counts as the end. For hosts that have the whole stream: recordings, rollback. Default 0."""
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("player", Player),
+        ("samples", POINTER(TrackingSample)),
+        ("sample_count", c_size_t),
+        ("repeats_samples", c_uint8),
+        ("commands", Commands),
+    ]
+    _default_ = "hh_default_player_input_sized"
+    _arrays_ = {'samples': ('sample_count', 1)}
+
+
+class Momentum(Struct):
+    """Sums of all impulses of a step, by hh_momentum_receiver. Each array's sum is 0.
+    angular_kgm2ps: about the world's origin"""
+    _fields_ = [
+        ("linear_kgmps", Vec3 * 4),
+        ("angular_kgm2ps", Vec3 * 4),
+    ]
+
+
+class WorldStats(Struct):
+    """Numbers of the last step.
+    shapes: now
+    islands: groups of bodies that constraints connect
+    newton_iterations: of all solves
+    hand_error_m: largest distance of a gripping hand from its anchor
+    overlap_m: worst contact overlap at the end
+    joint_error_m: worst joint
+    step_us: sum of all stages
+    joint_error_rad: worst direction or angle of a joint beyond its limit
+    islands_pushed: islands in which something pushed a player back
+    contact_rounds: searches for contacts inside the solve
+    hands_closed: hands that closed
+    hands_gripped: those of them that gripped something"""
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("bodies", c_uint64),
+        ("joints", c_uint64),
+        ("players", c_uint64),
+        ("shapes", c_uint64),
+        ("contacts", c_uint64),
+        ("islands", c_uint64),
+        ("newton_iterations", c_uint64),
+        ("hand_error_m", c_double),
+        ("overlap_m", c_double),
+        ("joint_error_m", c_double),
+        ("step_us", c_double),
+        ("joint_error_rad", c_double),
+        ("islands_pushed", c_uint64),
+        ("contact_rounds", c_uint64),
+        ("hands_closed", c_uint64),
+        ("hands_gripped", c_uint64),
+        ("momentum", Momentum),
+    ]
+    _default_ = "hh_default_world_stats_sized"
+
+
+class TuningInfo(Struct):
+    """A tunable number, or a vector of three. Texts live as long as the process.
+    name: "hand.reach_m"
+    unit: "m", ""
+    high: of each component
+    count: 1 or 3"""
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("name", c_char_p),
+        ("unit", c_char_p),
+        ("what", c_char_p),
+        ("low", c_double),
+        ("high", c_double),
+        ("count", c_size_t),
+    ]
+    _default_ = "hh_default_tuning_info_sized"
+
+
+class CompoundPart(Struct):
+    """A part of a compound: any shape but a mesh or a compound.
+    pose: in the compound's frame
+    mass_kg: of all parts, or 0 for all: by volume"""
+    _fields_ = [
+        ("shape", Shape),
+        ("pose", Pose),
+        ("mass_kg", c_double),
+    ]
+
+
+class MeshDef(Struct):
+    """hh_mesh_def
+    positions: x, y, z of each vertex, metres
+    vertex_stride: bytes from one vertex to the next; 0: 12
+    index_count: a multiple of 3, at most 3 * 2^21
+    fits_hands: default true; false: hands on it are shown as tracked"""
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("positions", POINTER(c_float)),
+        ("vertex_count", c_size_t),
+        ("vertex_stride", c_size_t),
+        ("indices", POINTER(c_uint32)),
+        ("index_count", c_size_t),
+        ("fits_hands", c_uint8),
+    ]
+    _default_ = "hh_default_mesh_def_sized"
+    _arrays_ = {'positions': ('vertex_count', 3), 'indices': ('index_count', 1)}
+
+
+class BodyDef(Struct):
+    """A body's pose is that of its shape's own frame, as the host made it: the library finds centre of mass and
+    principal axes by itself. Velocities are those of the centre of mass, in the world.
+    name: unique in the world, identifies the body in hashes; null: by its id
+    shape: null: touches nothing
+    velocity_mps: each within 1e6
+    angular_velocity_radps: each within 1e4
+    mass_kg: dynamic: [1e-12, 1e15], default 1
+    inertia_kgm2: About the principal axes; 0: computed from the shape, if there is one.
+    restitution: [0, 1]
+    friction: [0, 1e6], default 0.4
+    gravity_scale: default 1; within 1000
+    mask: two bodies touch if each one's layers meet the other's mask
+    grab_right: which hands may grip it; default both
+    grab_two_hands: only both hands of one player at once
+    grab_priority: of bodies in reach, hands take one of highest priority; default 0
+    user_data: the host's; not part of the state"""
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("name", c_char_p),
+        ("kind", c_int32),
+        ("shape", Shape),
+        ("pose", Pose),
+        ("velocity_mps", Vec3),
+        ("angular_velocity_radps", Vec3),
+        ("mass_kg", c_double),
+        ("inertia_kgm2", Vec3),
+        ("restitution", c_double),
+        ("friction", c_double),
+        ("gravity_scale", c_double),
+        ("layers", c_uint32),
+        ("mask", c_uint32),
+        ("grab_left", c_uint8),
+        ("grab_right", c_uint8),
+        ("grab_two_hands", c_uint8),
+        ("grab_priority", c_int32),
+        ("user_data", c_uint64),
+    ]
+    _default_ = "hh_default_body_def_sized"
+
+
+class JointDef(Struct):
+    """hh_joint_def
+    name: unique in the world; null: by its id
+    body_a: null: the world
+    frame: in the world, with the bodies where they are now: x is the joint's axis
+    point_b: HH_DISTANCE: the point on body_b, in the world; the point on body_a is frame's.
+    collides: the two bodies touch each other; default false
+    limited: lower and upper apply; distance joints are always limited
+    friction: N, or N m about a hinge or any axis of a ball; >= 0
+    detent_spacing: a rest position at each multiple; 0: none
+    detent_strength: N or N m
+    latch_at: the coordinate is locked when it comes near this
+    latch_range: closes within this distance; 0: no latch
+    latch_strength: opens above this force, N or N m; 0: never by force
+    latch_handle: a joint that opens it; null: none
+    latch_handle_at: open while |handle's coordinate| is at least this"""
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("name", c_char_p),
+        ("kind", c_int32),
+        ("body_a", Body),
+        ("body_b", Body),
+        ("frame", Pose),
+        ("point_b", Vec3),
+        ("collides", c_uint8),
+        ("limited", c_uint8),
+        ("lower", c_double),
+        ("upper", c_double),
+        ("friction", c_double),
+        ("detent_spacing", c_double),
+        ("detent_strength", c_double),
+        ("latch_at", c_double),
+        ("latch_range", c_double),
+        ("latch_strength", c_double),
+        ("latch_handle", Joint),
+        ("latch_handle_at", c_double),
+    ]
+    _default_ = "hh_default_joint_def_sized"
+
+
+class Hit(Struct):
+    """Queries test the shapes of all bodies, whatever their layers, and the tracked heads of players, at their
+    present poses. Bodies without a shape, and surfaces of hh_world_set_surface_query, are not found.
+    HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds; the first query
+    after a change of the world also compares every body with its place before.
+    body: null: a player's head, or nothing was found
+    player: whose head; null: a body, or nothing was found
+    point: on the surface, in the world
+    normal: unit, to the side that the query came from
+    distance_m: see each query"""
+    _fields_ = [
+        ("body", Body),
+        ("player", Player),
+        ("point", Vec3),
+        ("normal", Vec3),
+        ("distance_m", c_double),
+    ]
+
+
+class Measures(Struct):
+    """Sizes of a player's body, each in [0.05, 5] m.
+    eye_height_m: standing
+    shoulder_width_m: between the shoulder joints
+    forearm_m: to the wrist"""
+    _fields_ = [
+        ("eye_height_m", c_double),
+        ("shoulder_width_m", c_double),
+        ("upper_arm_m", c_double),
+        ("forearm_m", c_double),
+    ]
+
+
+class PlayerDef(Struct):
+    """hh_player_def
+    name: unique in the world; null: by its id
+    origin: the space of the samples in the world
+    mass_kg: default 80
+    scale: of all measures, [0.001, 100]; default 1
+    head_collides: the head is a sphere of head.radius_m; default true
+    layers: Layers of the head; it touches a body if each one's layers meet the other's mask.
+    mask: Layers of the head; it touches a body if each one's layers meet the other's mask.
+    grab_layers: the hands grip bodies with one of these layers; default all"""
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("name", c_char_p),
+        ("origin", Pose),
+        ("velocity_mps", Vec3),
+        ("mass_kg", c_double),
+        ("measures", Measures),
+        ("scale", c_double),
+        ("head_collides", c_uint8),
+        ("layers", c_uint32),
+        ("mask", c_uint32),
+        ("grab_layers", c_uint32),
+        ("user_data", c_uint64),
+    ]
+    _default_ = "hh_default_player_def_sized"
+
+
+class HandState(Struct):
+    """Grows: see base.h.
+    body: gripped; null: none
+    other: gripped player; null: none
+    tracked: the wrist in the world, as the devices say
+    shown: The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres from it,
+    so that palm and fingers touch.
+    anchor: The wrist in the frame of what it grips (of a gripped player: the gripped part), fixed when the
+    hand closed.
+    error_m: Distance of the tracked wrist from the anchor: 0 unless something blocks it.
+    force_impulse_ns: Impulse of the hand on what it grips in the last step, for haptics. 0 if the host's
+    solver moved the player (hh_world_end_step): read it there. While hands move only light bodies, hands and
+    contacts report at most the momentum that the players and bodies involved have, with the hands' speed on
+    top.
+    is_tracked: false while the hand is lost or inferred
+    is_closed: the button is down
+    is_inferred: The runtime guesses where the hand is (hh_tracking_sample.hand_inferred). `tracked` is the
+    guess for an empty hand, and for a body in it while no hand of the player moves the player; else the last
+    pose that was measured."""
+    _fields_ = [
+        ("grip", c_int32),
+        ("body", Body),
+        ("other", Player),
+        ("tracked", Pose),
+        ("shown", Pose),
+        ("anchor", Pose),
+        ("error_m", c_double),
+        ("force_impulse_ns", Vec3),
+        ("is_tracked", c_uint8),
+        ("is_closed", c_uint8),
+        ("is_inferred", c_uint8),
+    ]
+
+
+class PlayerPose(Struct):
+    """Grows: see base.h. Later fields come behind `hands`.
+    origin: The space of the samples in the world: put the camera rig here. Controllers at origin * sample are
+    where the hands are, also after a recentring, which changes it so that nothing in the world moves.
+    head: between the eyes, in the world
+    velocity_mps: of the play space
+    hands: by hh_side"""
+    _fields_ = [
+        ("origin", Pose),
+        ("head", Pose),
+        ("velocity_mps", Vec3),
+        ("hands", HandState * 2),
+    ]
+
+
+class Event(Struct):
+    """Grows: see base.h. Later versions also have more kinds and reasons: ignore those you do not know.
+    player: null: a joint's event that concerns no hand
+    side: hh_side; -1: no hand: the head or a joint alone
+    body: touched, gripped, held or hit; null: a player, or nothing
+    other: gripped or hit player; null: none
+    held: contacts: what the hand holds; null: the head
+    joint: of latches and limits
+    position: in the world
+    impulse_ns: of a contact that began: >= 0, for haptics and sound"""
+    _fields_ = [
+        ("kind", c_int32),
+        ("reason", c_int32),
+        ("player", Player),
+        ("side", c_int32),
+        ("body", Body),
+        ("other", Player),
+        ("held", Body),
+        ("joint", Joint),
+        ("position", Vec3),
+        ("impulse_ns", c_double),
+    ]
+
+
+class HandJoint(Struct):
+    """hh_hand_joint
+    is_valid: false: the hand's rig has no such joint"""
+    _fields_ = [
+        ("pose", Pose),
+        ("radius_m", c_double),
+        ("is_valid", c_uint8),
+    ]
+
+
+class Finger(Struct):
+    """hh_finger
+    is_posed: false: the finger closes on the surface as usual
+    curl_rad: of its hinges, from the palm
+    opposition_rad: thumb
+    follows_trigger: The finger moves from these angles to the pressed ones as far as the sample's `trigger`
+    is pressed. The pressed angles may reach into the body: a trigger gives way."""
+    _fields_ = [
+        ("is_posed", c_uint8),
+        ("curl_rad", c_double * 3),
+        ("opposition_rad", c_double),
+        ("follows_trigger", c_uint8),
+        ("pressed_curl_rad", c_double * 3),
+        ("pressed_opposition_rad", c_double),
+    ]
+
+
+class GripHand(Struct):
+    """hh_grip_hand
+    is_used: false: this hand cannot take the grip
+    wrist: in the body's frame
+    fingers: thumb, index, middle, ring, little"""
+    _fields_ = [
+        ("is_used", c_uint8),
+        ("wrist", Pose),
+        ("fingers", Finger * 5),
+    ]
+
+
+class GripDef(Struct):
+    """hh_grip_def
+    hands: by hh_side
+    priority: of several in reach, the highest is taken
+    snap_radius_m: of the palm, [0, 10]; default 0.08
+    snap_angle_rad: [0, pi]; default pi / 3"""
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("hands", GripHand * 2),
+        ("priority", c_int32),
+        ("snap_radius_m", c_double),
+        ("snap_angle_rad", c_double),
+    ]
+    _default_ = "hh_default_grip_def_sized"
+
+
+class SurfaceHit(Struct):
+    """What a query found. Ignored, and counted as surface_answer_invalid: a body that is not in the world,
+    numbers that are not finite, a normal of length zero.
+    point: on the surface, in the world
+    normal: out of the solid or towards the query; need not have length 1
+    distance_m: see each query"""
+    _fields_ = [
+        ("body", Body),
+        ("point", Vec3),
+        ("normal", Vec3),
+        ("distance_m", c_double),
+    ]
+SurfaceQueryCastRay = CFUNCTYPE(c_uint8, c_void_p, Vec3, Vec3, POINTER(Body), c_size_t, POINTER(SurfaceHit))
+SurfaceQueryCastSphere = CFUNCTYPE(c_uint8, c_void_p, c_double, Vec3, Vec3, POINTER(Body), c_size_t, POINTER(SurfaceHit))
+SurfaceQueryClosestPoint = CFUNCTYPE(c_uint8, c_void_p, Vec3, c_double, POINTER(Body), c_size_t, POINTER(SurfaceHit))
+SurfaceQueryClosestPointOn = CFUNCTYPE(c_uint8, c_void_p, Body, Vec3, POINTER(SurfaceHit))
+
+
+class SurfaceQuery(Struct):
+    """Queries against the host's surfaces. Each returns true if it found something, and then fills `hit`.
+    `skip`: bodies that count as not there. Called only inside hh_world_step, _step_hands, _begin_step,
+    _end_step, _step_pose_only and hh_hand_find_grip of this world, by the thread that made that call. A query
+    may read the world; calls that change it return HH_ERROR_STATE. Per player and frame: about 3 queries, up
+    to 50 when a hand closes behind walls or among bodies.
+    context: passed to each of the functions
+    cast_ray: First surface that the segment hits, from outside or inside. distance_m is not read.
+    cast_sphere: First impact of a sphere moving along a segment; distance_m: how far its centre has moved.
+    For the distance grab (pull.reach_m above 0), and to keep trunk and legs out of surfaces: about one query
+    per player and frame. Null: neither.
+    closest_point: Nearest surface point within max_distance_m; distance_m: 0 inside a solid.
+    closest_point_on: Nearest surface point of one body, at any distance; distance_m: 0 inside a solid."""
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("context", c_void_p),
+        ("cast_ray", SurfaceQueryCastRay),
+        ("cast_sphere", SurfaceQueryCastSphere),
+        ("closest_point", SurfaceQueryClosestPoint),
+        ("closest_point_on", SurfaceQueryClosestPointOn),
+    ]
+    _default_ = "hh_default_surface_query_sized"
+
+
+class BodyMotion(Struct):
+    """hh_body_motion
+    pose: of the shape's own frame; without a shape: centre of mass and principal axes"""
+    _fields_ = [
+        ("body", Body),
+        ("pose", Pose),
+        ("velocity_mps", Vec3),
+        ("angular_velocity_radps", Vec3),
+    ]
+
+
+class HandConstraint(Struct):
+    """hh_hand_constraint
+    anchor: the wrist in the body's frame
+    target: the wrist at the end of the step: from the origin, with the world's axes
+    velocity_mps: The target's velocity relative to the origin: the throwing velocity while a hand lets go,
+    else the mean over the step.
+    body_rotation: in the world, at the end of the step; not for POINT
+    body_angular_velocity_radps: reaches body_rotation; not for POINT
+    anchor_end: The anchor in the world at the end of the step, if the body keeps its velocity. Exact for
+    static and kinematic bodies: a joint may attach the player to this point of the world.
+    compliance_m_per_n: of the rows; 0: rigid, as in the runtime's own solver
+    max_force_n: enough to stop what the hand drives from its highest speed in one step
+    is_releasing: the hand lets go in this step"""
+    _fields_ = [
+        ("player", Player),
+        ("side", c_int32),
+        ("body", Body),
+        ("rows", c_int32),
+        ("anchor", Pose),
+        ("target", Pose),
+        ("velocity_mps", Vec3),
+        ("angular_velocity_radps", Vec3),
+        ("body_rotation", Quat),
+        ("body_angular_velocity_radps", Vec3),
+        ("anchor_end", Pose),
+        ("compliance_m_per_n", c_double),
+        ("max_force_n", c_double),
+        ("is_releasing", c_uint8),
+    ]
+
+
+class PlayerMotion(Struct):
+    """A player's body in the host's solver.
+    origin: at the start of the step
+    velocity_mps: at the start of the step, with thrusters and drag applied
+    mass_kg: For this step. The player's own while a hand grips something static, kinematic or at least
+    phases.heavy_body_kg. Else 1000 times the heaviest held body, so that light bodies do not shake the
+    player; for bodies from phases.kappa_light_kg to phases.kappa_heavy_kg it falls to the player's own. If a
+    held body meets something that does not give way, such as a crate at a wall, solve the step again with
+    hh_player_def.mass_kg: the player then moves back by what the body could not move. Without that, hand and
+    wall press against each other without a bound.
+    head: of the head's centre: from the origin, with the world's axes
+    head_radius_m: the host may let this sphere collide, on the player's body"""
+    _fields_ = [
+        ("player", Player),
+        ("origin", Vec3),
+        ("velocity_mps", Vec3),
+        ("mass_kg", c_double),
+        ("head", Pose),
+        ("head_radius_m", c_double),
+    ]
+
+
+class SolvedPlayer(Struct):
+    """hh_solved_player
+    origin: at the end of the step
+    velocity_mps: at the end of the step"""
+    _fields_ = [
+        ("player", Player),
+        ("origin", Vec3),
+        ("velocity_mps", Vec3),
+    ]
+
+
+class VelocityChange(Struct):
+    """A velocity that the host gives its body."""
+    _fields_ = [
+        ("body", Body),
+        ("velocity_mps", Vec3),
+        ("angular_velocity_radps", Vec3),
+    ]
+
+
+# Result and parameters of each function.
+FUNCTIONS = {
+    "hh_result_text": (c_char_p, [c_int32]),
+    "hh_last_error": (c_char_p, []),
+    "hh_version": (None, [POINTER(c_uint32), POINTER(c_uint32), POINTER(c_uint32)]),
+    "hh_identity_pose": (Pose, []),
+    "hh_sin_cos": (None, [c_double, POINTER(c_double), POINTER(c_double)]),
+    "hh_atan2": (c_double, [c_double, c_double]),
+    "hh_default_host_hooks_sized": (c_int32, [POINTER(HostHooks), c_size_t]),
+    "hh_set_host_hooks": (c_int32, [POINTER(HostHooks)]),
+    "hh_set_thread_count": (c_int32, [c_uint32]),
+    "hh_thread_count": (c_uint32, []),
+    "hh_convert_metres_per_unit": (c_double, [c_int32]),
+    "hh_convert_vector_from": (Vec3, [c_int32, Vec3]),
+    "hh_convert_vector_to": (Vec3, [c_int32, Vec3]),
+    "hh_convert_direction_from": (Vec3, [c_int32, Vec3]),
+    "hh_convert_direction_to": (Vec3, [c_int32, Vec3]),
+    "hh_convert_angular_from": (Vec3, [c_int32, Vec3]),
+    "hh_convert_angular_to": (Vec3, [c_int32, Vec3]),
+    "hh_convert_rotation_from": (Quat, [c_int32, Quat]),
+    "hh_convert_rotation_to": (Quat, [c_int32, Quat]),
+    "hh_convert_pose_from": (Pose, [c_int32, Pose]),
+    "hh_convert_pose_to": (Pose, [c_int32, Pose]),
+    "hh_convert_scale_from": (Vec3, [c_int32, Vec3]),
+    "hh_convert_scale_to": (Vec3, [c_int32, Vec3]),
+    "hh_convert_mesh_from": (c_int32, [c_int32, POINTER(c_float), c_size_t, POINTER(c_uint32), c_size_t]),
+    "hh_default_world_def_sized": (c_int32, [POINTER(WorldDef), c_size_t]),
+    "hh_world_create": (c_int32, [POINTER(WorldDef), POINTER(c_void_p)]),
+    "hh_world_destroy": (None, [c_void_p]),
+    "hh_default_tracking_sample_sized": (c_int32, [POINTER(TrackingSample), c_size_t]),
+    "hh_default_player_input_sized": (c_int32, [POINTER(PlayerInput), c_size_t]),
+    "hh_world_step": (c_int32, [c_void_p, c_double, POINTER(PlayerInput), c_size_t]),
+    "hh_world_step_pose_only": (c_int32, [c_void_p, c_double, POINTER(PlayerInput), c_size_t]),
+    "hh_world_time": (c_int32, [c_void_p, POINTER(c_double), POINTER(c_uint64)]),
+    "hh_world_set_gravity": (c_int32, [c_void_p, Vec3]),
+    "hh_world_set_reference_velocity": (c_int32, [c_void_p, Vec3]),
+    "hh_world_gravity": (c_int32, [c_void_p, POINTER(Vec3)]),
+    "hh_world_reference_velocity": (c_int32, [c_void_p, POINTER(Vec3)]),
+    "hh_world_hash": (c_int32, [c_void_p, POINTER(c_uint64)]),
+    "hh_world_save": (c_int32, [c_void_p, c_void_p, c_size_t, POINTER(c_size_t)]),
+    "hh_world_restore": (c_int32, [c_void_p, c_void_p, c_size_t]),
+    "hh_default_world_stats_sized": (c_int32, [POINTER(WorldStats), c_size_t]),
+    "hh_world_get_stats": (c_int32, [c_void_p, POINTER(WorldStats)]),
+    "hh_stage_name": (c_char_p, [c_size_t]),
+    "hh_fallback_name": (c_char_p, [c_size_t]),
+    "hh_world_stage_times": (c_int32, [c_void_p, POINTER(c_double), c_size_t, POINTER(c_size_t)]),
+    "hh_world_fallbacks": (c_int32, [c_void_p, POINTER(c_uint64), c_size_t, POINTER(c_size_t)]),
+    "hh_default_tuning_info_sized": (c_int32, [POINTER(TuningInfo), c_size_t]),
+    "hh_tuning_describe": (c_int32, [c_size_t, POINTER(TuningInfo)]),
+    "hh_world_get_tuning": (c_int32, [c_void_p, c_char_p, POINTER(c_double), c_size_t]),
+    "hh_world_set_tuning": (c_int32, [c_void_p, c_char_p, POINTER(c_double), c_size_t]),
+    "hh_world_tuning_numbers": (c_int32, [c_void_p, POINTER(c_double), c_size_t, POINTER(c_size_t)]),
+    "hh_world_set_tuning_numbers": (c_int32, [c_void_p, POINTER(c_double), c_size_t]),
+    "hh_world_load_tuning": (c_int32, [c_void_p, c_char_p, c_size_t]),
+    "hh_world_load_body_clips": (c_int32, [c_void_p, c_char_p, c_size_t]),
+    "hh_shape_add_box": (c_int32, [c_void_p, Vec3, POINTER(Shape)]),
+    "hh_shape_add_sphere": (c_int32, [c_void_p, c_double, POINTER(Shape)]),
+    "hh_shape_add_capsule": (c_int32, [c_void_p, c_double, c_double, POINTER(Shape)]),
+    "hh_shape_add_cylinder": (c_int32, [c_void_p, c_double, c_double, POINTER(Shape)]),
+    "hh_shape_add_hull": (c_int32, [c_void_p, POINTER(Vec3), c_size_t, POINTER(Shape)]),
+    "hh_shape_add_compound": (c_int32, [c_void_p, POINTER(CompoundPart), c_size_t, POINTER(Shape)]),
+    "hh_default_mesh_def_sized": (c_int32, [POINTER(MeshDef), c_size_t]),
+    "hh_mesh_create": (c_int32, [POINTER(MeshDef), POINTER(c_void_p)]),
+    "hh_mesh_destroy": (None, [c_void_p]),
+    "hh_shape_add_mesh": (c_int32, [c_void_p, c_void_p, Vec3, POINTER(Shape)]),
+    "hh_shape_remove": (c_int32, [c_void_p, Shape]),
+    "hh_shape_is_valid": (c_uint8, [c_void_p, Shape]),
+    "hh_world_shape_count": (c_int32, [c_void_p, POINTER(c_size_t)]),
+    "hh_default_body_def_sized": (c_int32, [POINTER(BodyDef), c_size_t]),
+    "hh_body_add": (c_int32, [c_void_p, POINTER(BodyDef), POINTER(Body)]),
+    "hh_body_remove": (c_int32, [c_void_p, Body]),
+    "hh_body_is_valid": (c_uint8, [c_void_p, Body]),
+    "hh_body_find": (c_int32, [c_void_p, c_char_p, POINTER(Body)]),
+    "hh_body_name": (c_int32, [c_void_p, Body, POINTER(c_char_p)]),
+    "hh_world_bodies": (c_int32, [c_void_p, POINTER(Body), c_size_t, POINTER(c_size_t)]),
+    "hh_body_pose": (c_int32, [c_void_p, Body, POINTER(Pose)]),
+    "hh_world_body_poses": (c_int32, [c_void_p, POINTER(Body), c_size_t, POINTER(Pose)]),
+    "hh_body_velocity": (c_int32, [c_void_p, Body, POINTER(Vec3), POINTER(Vec3)]),
+    "hh_body_set_velocity": (c_int32, [c_void_p, Body, Vec3, Vec3]),
+    "hh_body_apply_impulse": (c_int32, [c_void_p, Body, Vec3, Vec3]),
+    "hh_body_teleport": (c_int32, [c_void_p, Body, Pose]),
+    "hh_body_move_kinematic": (c_int32, [c_void_p, Body, Pose]),
+    "hh_body_set_gravity_scale": (c_int32, [c_void_p, Body, c_double]),
+    "hh_body_set_layers": (c_int32, [c_void_p, Body, c_uint32, c_uint32]),
+    "hh_body_set_grab_rule": (c_int32, [c_void_p, Body, c_uint8, c_uint8, c_uint8, c_int32]),
+    "hh_body_get_kind": (c_int32, [c_void_p, Body, POINTER(c_int32)]),
+    "hh_body_mass": (c_int32, [c_void_p, Body, POINTER(c_double)]),
+    "hh_body_set_user_data": (c_int32, [c_void_p, Body, c_uint64]),
+    "hh_body_user_data": (c_int32, [c_void_p, Body, POINTER(c_uint64)]),
+    "hh_default_joint_def_sized": (c_int32, [POINTER(JointDef), c_size_t]),
+    "hh_joint_add": (c_int32, [c_void_p, POINTER(JointDef), POINTER(Joint)]),
+    "hh_joint_remove": (c_int32, [c_void_p, Joint]),
+    "hh_joint_is_valid": (c_uint8, [c_void_p, Joint]),
+    "hh_body_joints": (c_int32, [c_void_p, Body, POINTER(Joint), c_size_t, POINTER(c_size_t)]),
+    "hh_joint_state": (c_int32, [c_void_p, Joint, POINTER(c_double), POINTER(c_double), POINTER(c_uint8)]),
+    "hh_world_cast_ray": (c_int32, [c_void_p, Vec3, Vec3, Player, POINTER(Hit)]),
+    "hh_world_cast_sphere": (c_int32, [c_void_p, c_double, Vec3, Vec3, Player, POINTER(Hit)]),
+    "hh_world_closest_point": (c_int32, [c_void_p, Vec3, c_double, Player, POINTER(Hit)]),
+    "hh_world_overlap_sphere": (c_int32, [c_void_p, Vec3, c_double, Player, POINTER(Hit), c_size_t, POINTER(c_size_t)]),
+    "hh_default_player_def_sized": (c_int32, [POINTER(PlayerDef), c_size_t]),
+    "hh_player_add": (c_int32, [c_void_p, POINTER(PlayerDef), POINTER(Player)]),
+    "hh_player_remove": (c_int32, [c_void_p, Player]),
+    "hh_player_is_valid": (c_uint8, [c_void_p, Player]),
+    "hh_world_players": (c_int32, [c_void_p, POINTER(Player), c_size_t, POINTER(c_size_t)]),
+    "hh_player_recenter": (c_int32, [c_void_p, Player, Pose]),
+    "hh_player_set_recenter_guess": (c_int32, [c_void_p, Player, c_uint8]),
+    "hh_player_teleport": (c_int32, [c_void_p, Player, Pose]),
+    "hh_player_velocity": (c_int32, [c_void_p, Player, POINTER(Vec3)]),
+    "hh_player_set_velocity": (c_int32, [c_void_p, Player, Vec3]),
+    "hh_player_reference_velocity": (c_int32, [c_void_p, Player, POINTER(Vec3)]),
+    "hh_player_push_back": (c_int32, [c_void_p, Player, POINTER(c_double)]),
+    "hh_player_mass": (c_int32, [c_void_p, Player, POINTER(c_double)]),
+    "hh_player_head": (c_int32, [c_void_p, Player, POINTER(Vec3), POINTER(c_double), POINTER(c_uint8)]),
+    "hh_player_measures": (c_int32, [c_void_p, Player, POINTER(Measures)]),
+    "hh_player_set_measures": (c_int32, [c_void_p, Player, POINTER(Measures)]),
+    "hh_player_set_user_data": (c_int32, [c_void_p, Player, c_uint64]),
+    "hh_player_user_data": (c_int32, [c_void_p, Player, POINTER(c_uint64)]),
+    "hh_player_set_hand_in_controller": (c_int32, [c_void_p, Player, c_int32, POINTER(Pose)]),
+    "hh_player_hand_in_controller": (c_int32, [c_void_p, Player, c_int32, POINTER(Pose)]),
+    "hh_world_hand_in_controller": (c_int32, [c_void_p, c_int32, POINTER(Pose)]),
+    "hh_player_hand_sized": (c_int32, [c_void_p, Player, c_int32, POINTER(HandState), c_size_t]),
+    "hh_hand_moves_player": (c_int32, [c_void_p, Player, c_int32, POINTER(c_uint8)]),
+    "hh_world_player_poses_sized": (c_int32, [c_void_p, POINTER(Player), c_size_t, POINTER(PlayerPose), c_size_t, c_size_t]),
+    "hh_hand_grip": (c_int32, [c_void_p, Player, c_int32, Body]),
+    "hh_hand_release": (c_int32, [c_void_p, Player, c_int32]),
+    "hh_world_events_sized": (c_int32, [c_void_p, POINTER(POINTER(Event)), POINTER(c_size_t), c_size_t]),
+    "hh_finger_curls_of": (c_int32, [POINTER(HandJoint), POINTER(FingerCurls)]),
+    "hh_player_hand_joints": (c_int32, [c_void_p, Player, c_int32, c_int32, POINTER(HandJoint)]),
+    "hh_body_joint_name": (c_char_p, [c_size_t]),
+    "hh_body_joint_parent": (c_int32, [c_size_t]),
+    "hh_player_body_joints": (c_int32, [c_void_p, Player, c_int32, POINTER(Pose)]),
+    "hh_player_set_hand_rig": (c_int32, [c_void_p, Player, c_int32, c_void_p, c_size_t]),
+    "hh_player_set_body_rig": (c_int32, [c_void_p, Player, c_void_p, c_size_t]),
+    "hh_player_skeleton": (c_int32, [c_void_p, Player, c_int32, POINTER(Pose), c_size_t, POINTER(c_size_t)]),
+    "hh_player_skeleton_joint": (c_int32, [c_void_p, Player, c_size_t, POINTER(c_char_p), POINTER(c_int32)]),
+    "hh_default_grip_def_sized": (c_int32, [POINTER(GripDef), c_size_t]),
+    "hh_body_add_grip": (c_int32, [c_void_p, Body, POINTER(GripDef)]),
+    "hh_default_surface_query_sized": (c_int32, [POINTER(SurfaceQuery), c_size_t]),
+    "hh_world_set_surface_query": (c_int32, [c_void_p, POINTER(SurfaceQuery)]),
+    "hh_body_set_surface": (c_int32, [c_void_p, Body, c_void_p]),
+    "hh_world_place_bodies": (c_int32, [c_void_p, POINTER(BodyMotion), c_size_t]),
+    "hh_player_place": (c_int32, [c_void_p, Player, Pose, Vec3]),
+    "hh_hand_hold": (c_int32, [c_void_p, Player, c_int32, Body, POINTER(Pose)]),
+    "hh_hand_find_grip": (c_int32, [c_void_p, Player, c_int32, POINTER(SurfaceHit)]),
+    "hh_world_step_hands": (c_int32, [c_void_p, c_double, POINTER(PlayerInput), c_size_t]),
+    "hh_world_begin_step": (c_int32, [c_void_p, c_double, POINTER(PlayerInput), c_size_t]),
+    "hh_world_hand_constraints": (c_int32, [c_void_p, POINTER(POINTER(HandConstraint)), POINTER(c_size_t)]),
+    "hh_world_player_motions": (c_int32, [c_void_p, POINTER(POINTER(PlayerMotion)), POINTER(c_size_t)]),
+    "hh_world_end_step": (c_int32, [c_void_p, POINTER(SolvedPlayer), c_size_t]),
+    "hh_world_velocity_changes": (c_int32, [c_void_p, POINTER(POINTER(VelocityChange)), POINTER(c_size_t)]),
+    "hh_world_held_bodies": (c_int32, [c_void_p, POINTER(Body), c_size_t, POINTER(c_size_t)]),
+}
+
+
+def result_text(result):
+    """The result's name, "HH_ERROR_HANDLE". Never null. Any thread."""
+    return shown(lib().hh_result_text(result))
+
+
+def version():
+    """The version of the library that is running: compare with HANDHOLD_VERSION_MAJOR and so on. Null pointers
+    are skipped. Any thread."""
+    major = c_uint32()
+    minor = c_uint32()
+    patch = c_uint32()
+    lib().hh_version(byref(major), byref(minor), byref(patch))
+    return major.value, minor.value, patch.value
+
+
+def identity_pose():
+    """The pose at the origin, not rotated. Any thread."""
+    return lib().hh_identity_pose()
+
+
+def sin_cos(angle_rad):
+    """Equal on every machine and compiler, unlike sin, cos and atan2 of C: for inputs that must replay bit for
+    bit. Errors are below 1e-14 up to 1e6 rad; beyond that, and for NaN, sine is 0 and cosine 1. Null outputs
+    are skipped. hh_atan2 gives 0 for (0, 0) and NaN. Any thread."""
+    sine = c_double()
+    cosine = c_double()
+    lib().hh_sin_cos(angle_rad, byref(sine), byref(cosine))
+    return sine.value, cosine.value
+
+
+def atan2(y, x):
+    return lib().hh_atan2(y, x)
+
+
+def set_host_hooks(hooks=None):
+    """Sets the hooks of the process; null: back to the defaults. HH_ERROR_STATE while a world exists. Not beside
+    any other call of the library."""
+    check(lib().hh_set_host_hooks(optional(HostHooks, hooks)))
+
+
+def set_thread_count(count):
+    """Sets the number of threads of the library's own pool, [1, 256]. Allowed while worlds exist, for instance
+    to use all cores while a level loads. HH_ERROR_STATE if the host lends parallel_for. Not beside any other
+    call of the library."""
+    check(lib().hh_set_thread_count(count))
+
+
+def thread_count():
+    return lib().hh_thread_count()
+
+
+def convert_metres_per_unit(engine):
+    """Metres in one of the engine's units of length: 0.01 for Unreal, else 1. For radii and distances."""
+    return lib().hh_convert_metres_per_unit(engine)
+
+
+def convert_vector_from(engine, vector):
+    """Whatever scales with length: positions, velocities, accelerations, impulses, forces."""
+    return lib().hh_convert_vector_from(engine, value(Vec3, vector))
+
+
+def convert_vector_to(engine, vector):
+    return lib().hh_convert_vector_to(engine, value(Vec3, vector))
+
+
+def convert_direction_from(engine, direction):
+    """Directions without a length: normals, axes."""
+    return lib().hh_convert_direction_from(engine, value(Vec3, direction))
+
+
+def convert_direction_to(engine, direction):
+    return lib().hh_convert_direction_to(engine, value(Vec3, direction))
+
+
+def convert_angular_from(engine, angular_radps):
+    """Angular velocities in rad/s, and other vectors along an axis of rotation. Left-handed engines count angles
+    the other way, so the sign changes too."""
+    return lib().hh_convert_angular_from(engine, value(Vec3, angular_radps))
+
+
+def convert_angular_to(engine, angular_radps):
+    return lib().hh_convert_angular_to(engine, value(Vec3, angular_radps))
+
+
+def convert_rotation_from(engine, rotation):
+    return lib().hh_convert_rotation_from(engine, value(Quat, rotation))
+
+
+def convert_rotation_to(engine, rotation):
+    return lib().hh_convert_rotation_to(engine, value(Quat, rotation))
+
+
+def convert_pose_from(engine, pose):
+    return lib().hh_convert_pose_from(engine, value(Pose, pose))
+
+
+def convert_pose_to(engine, pose):
+    return lib().hh_convert_pose_to(engine, value(Pose, pose))
+
+
+def convert_scale_from(engine, scale):
+    """Scale factors of an object along its own axes, and half extents in metres: axes change places, signs do
+    not."""
+    return lib().hh_convert_scale_from(engine, value(Vec3, scale))
+
+
+def convert_scale_to(engine, scale):
+    return lib().hh_convert_scale_to(engine, value(Vec3, scale))
+
+
+def convert_mesh_from(engine, coordinates, indices):
+    """A mesh in place: converts x, y, z of its vertices, and reverses its triangles if the engine's front faces
+    are clockwise (Unity, Godot), so that they are counter-clockwise from outside. HH_ERROR_VALUE, and no
+    change, for counts that are no multiples of 3."""
+    coordinates, coordinates_at = changed(c_float, coordinates)
+    indices, indices_at = changed(c_uint32, indices)
+    check(lib().hh_convert_mesh_from(engine, coordinates_at, coordinates.size, indices_at, indices.size))
+    return coordinates, indices
+
+
+def stage_name(stage):
+    """Stages and fallbacks by index; null beyond the last. A fallback is counted whenever the runtime does the
+    next best instead of what was asked. Any thread."""
+    return shown(lib().hh_stage_name(stage))
+
+
+def fallback_name(fallback):
+    return shown(lib().hh_fallback_name(fallback))
+
+
+def tuning_describe(index):
+    """The number with this index; HH_ERROR_VALUE beyond the last. Any thread."""
+    info = TuningInfo()
+    check(lib().hh_tuning_describe(index, byref(info)))
+    return info
+
+
+def finger_curls_of(joints=None):
+    """How far the fingers of a tracked hand are bent, for hh_tracking_sample.curls. `joints`:
+    HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name, in any one space; only positions are read. Curl is
+    the sum of a finger's bends over that of a fist; -1 if a joint of the finger is not valid. Any thread."""
+    curls, curls_at = empty(FingerCurls, 26)
+    check(lib().hh_finger_curls_of(optional(HandJoint, joints), curls_at))
+    return curls
+
+
+def body_joint_name(joint):
+    """"leftUpperArm"; null beyond the last. Any thread."""
+    return shown(lib().hh_body_joint_name(joint))
+
+
+def body_joint_parent(joint):
+    """The parent's index; -1 for the hips and beyond the last."""
+    return lib().hh_body_joint_parent(joint)
+
+
+class WorldCalls:
+    """Every function of a world, as a method. Calls that fail raise HandholdError and change nothing."""
+
+    _handle = None
+
+    def step(self, dt_s, inputs):
+        """Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players without
+        one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are
+        clamped. Cost: about 0.15 ms a gripping player, plus contacts."""
+        inputs, input_count_ = array(PlayerInput, inputs)
+        check(lib().hh_world_step(self._handle, dt_s, inputs, input_count_))
+
+    def step_pose_only(self, dt_s, inputs):
+        """While the game is paused: heads, hands and bodies of players follow their last sample, whatever its
+        time. The clock, bodies, joints, grips and play spaces stand still. The next hh_world_step goes on:
+        hands that are still closed grip where they are at that time."""
+        inputs, input_count_ = array(PlayerInput, inputs)
+        check(lib().hh_world_step_pose_only(self._handle, dt_s, inputs, input_count_))
+
+    def time(self):
+        """The world's clock, seconds, and the number of steps. Null outputs are skipped."""
+        time_s = c_double()
+        frame = c_uint64()
+        check(lib().hh_world_time(self._handle, byref(time_s), byref(frame)))
+        return time_s.value, frame.value
+
+    def set_gravity(self, gravity_mps2):
+        """Acceleration of dynamic bodies; players float. Each axis within 1e4 m/s^2."""
+        check(lib().hh_world_set_gravity(self._handle, value(Vec3, gravity_mps2)))
+
+    def set_reference_velocity(self, velocity_mps):
+        """Velocity of the scene: drifting players come to rest against it. Each axis within 1e6 m/s."""
+        check(lib().hh_world_set_reference_velocity(self._handle, value(Vec3, velocity_mps)))
+
+    def gravity(self):
+        gravity_mps2 = Vec3()
+        check(lib().hh_world_gravity(self._handle, byref(gravity_mps2)))
+        return gravity_mps2
+
+    def reference_velocity(self):
+        velocity_mps = Vec3()
+        check(lib().hh_world_reference_velocity(self._handle, byref(velocity_mps)))
+        return velocity_mps
+
+    def hash(self):
+        """Hash of the whole state. Equal on every machine, compiler and number of threads after equal calls with
+        equal names. Cost: linear in the state, about 0.1 ms for a scene of 100 bodies."""
+        hash = c_uint64()
+        check(lib().hh_world_hash(self._handle, byref(hash)))
+        return hash.value
+
+    def save(self):
+        """Saves every bit of the state. Writes the number of bytes to `size`. A null `buffer` only asks for it.
+        HH_ERROR_CAPACITY if it is more than `capacity`. Rigs, tuning and user data are not in a snapshot.
+        Shapes are named by their content: a world that restores it needs equal ones, whatever their ids."""
+        return listed(c_uint8, lambda buffer, capacity, count: lib().hh_world_save(self._handle, buffer, capacity, count))
+
+    def restore(self, bytes):
+        """Back to a saved state, which then goes on bit for bit. Ids taken before the save are valid again.
+        HH_ERROR_DATA, and no change, for bytes that are damaged or name a shape that this world has not.
+        Tolerates any bytes."""
+        bytes, size_ = raw(bytes)
+        check(lib().hh_world_restore(self._handle, bytes, size_))
+
+    def get_stats(self):
+        stats = WorldStats()
+        check(lib().hh_world_get_stats(self._handle, byref(stats)))
+        return stats
+
+    def stage_times(self):
+        """Time of each stage, microseconds, and how often each fallback occurred, in the last step. `count` gets
+        the number of entries; HH_ERROR_CAPACITY if it is more than `capacity`."""
+        return listed(c_double, lambda buffer, capacity, count: lib().hh_world_stage_times(self._handle, buffer, capacity, count))
+
+    def fallbacks(self):
+        return listed(c_uint64, lambda buffer, capacity, count: lib().hh_world_fallbacks(self._handle, buffer, capacity, count))
+
+    def get_tuning(self, name, count):
+        """Reads and changes one number by name, between steps. `count` must be the number's. HH_ERROR_NAME for
+        an unknown name, HH_ERROR_VALUE out of range."""
+        values, values_at = empty(c_double, count)
+        check(lib().hh_world_get_tuning(self._handle, text(name), values_at, count))
+        return values
+
+    def set_tuning(self, name, values):
+        values, count_ = array(c_double, values)
+        check(lib().hh_world_set_tuning(self._handle, text(name), values, count_))
+
+    def tuning_numbers(self):
+        """All numbers of the tuning, to compare, keep and restore: in the order of hh_tuning_describe, a vector
+        as three. `count` as for hh_world_fallbacks. Set takes exactly all of them; on an error none changes."""
+        return listed(c_double, lambda buffer, capacity, count: lib().hh_world_tuning_numbers(self._handle, buffer, capacity, count))
+
+    def set_tuning_numbers(self, values):
+        values, count_ = array(c_double, values)
+        check(lib().hh_world_set_tuning_numbers(self._handle, values, count_))
+
+    def load_tuning(self, json):
+        """All numbers from JSON, {"hand": {"reach_m": 0.12}}; those that it lacks get their defaults.
+        HH_ERROR_DATA, with the place, for unknown names and wrong numbers."""
+        json, size_ = raw(json)
+        check(lib().hh_world_load_tuning(self._handle, json, size_))
+
+    def load_body_clips(self, json):
+        """The additive body clips of all players, from JSON in the format of docs/reference/body_clips.md:
+        idling, pushing off, looking round, raising the arms. They rotate spine, legs and clavicles, never
+        hands. They replace the clips before. Null: none, which is the default. HH_ERROR_DATA, with the place
+        and no change, for anything else. Clips are not in a snapshot: load the same ones before you restore."""
+        json, size_ = raw(json)
+        check(lib().hh_world_load_body_clips(self._handle, json, size_))
+
+    def shape_add_box(self, half_extents_m):
+        """In a world with fits_hands, a new shape gets a surface for hands on the calling thread; a shape equal
+        to one that is there costs microseconds. Costs are of one core of a desktop. Round shapes cost more
+        than a frame: add them while loading, or keep one of each size. Box: 0.02 ms."""
+        shape = Shape()
+        check(lib().hh_shape_add_box(self._handle, value(Vec3, half_extents_m), byref(shape)))
+        return shape
+
+    def shape_add_sphere(self, radius_m):
+        """Cost with fits_hands: 50 ms at 0.1 m, growing with the radius to 400 ms at 1 m; none above 64 m."""
+        shape = Shape()
+        check(lib().hh_shape_add_sphere(self._handle, radius_m, byref(shape)))
+        return shape
+
+    def shape_add_capsule(self, radius_m, half_height_m):
+        """Along Y; half_height_m without the caps. Cost: as a sphere."""
+        shape = Shape()
+        check(lib().hh_shape_add_capsule(self._handle, radius_m, half_height_m, byref(shape)))
+        return shape
+
+    def shape_add_cylinder(self, radius_m, half_height_m):
+        """Along Y. Cost with fits_hands: 0.4 ms at 0.1 m."""
+        shape = Shape()
+        check(lib().hh_shape_add_cylinder(self._handle, radius_m, half_height_m, byref(shape)))
+        return shape
+
+    def shape_add_hull(self, points):
+        """Convex hull of points that are not coplanar. Cost with fits_hands: 1.6 ms for 64 points."""
+        points, count_ = array(Vec3, points)
+        shape = Shape()
+        check(lib().hh_shape_add_hull(self._handle, points, count_, byref(shape)))
+        return shape
+
+    def shape_add_compound(self, parts):
+        """1 to 64 parts that move as one. It keeps copies: the parts may be removed. Cost with fits_hands: of
+        all its parts as if they were new."""
+        parts, count_ = array(CompoundPart, parts)
+        shape = Shape()
+        check(lib().hh_shape_add_compound(self._handle, parts, count_, byref(shape)))
+        return shape
+
+    def shape_add_mesh(self, mesh, scale):
+        """A shape of a prepared mesh, for static and kinematic bodies. Cost: constant for scale 1; another
+        scale, each factor in [1e-3, 1e3], prepares the hands' surface again."""
+        shape = Shape()
+        check(lib().hh_shape_add_mesh(self._handle, handle(mesh), value(Vec3, scale), byref(shape)))
+        return shape
+
+    def shape_remove(self, shape):
+        """HH_ERROR_STATE while a body or a player has the shape."""
+        check(lib().hh_shape_remove(self._handle, value(Shape, shape)))
+
+    def shape_is_valid(self, shape):
+        return bool(lib().hh_shape_is_valid(self._handle, value(Shape, shape)))
+
+    def shape_count(self):
+        """Number of shapes."""
+        count = c_size_t()
+        check(lib().hh_world_shape_count(self._handle, byref(count)))
+        return count.value
+
+    def body_add(self, definition=None, **fields):
+        """Adds a body. Cost: constant, whatever else is in the world."""
+        body = Body()
+        check(lib().hh_body_add(self._handle, optional(BodyDef, definition, fields), byref(body)))
+        return body
+
+    def body_remove(self, body):
+        """Removes a body with its joints. Hands that grip it are empty at once; the event follows in the next
+        step."""
+        check(lib().hh_body_remove(self._handle, value(Body, body)))
+
+    def body_is_valid(self, body):
+        return bool(lib().hh_body_is_valid(self._handle, value(Body, body)))
+
+    def body_find(self, name):
+        body = Body()
+        check(lib().hh_body_find(self._handle, text(name), byref(body)))
+        return body
+
+    def body_name(self, body):
+        """Valid until a body is added or removed. Empty if the name came only with a snapshot."""
+        name = c_char_p()
+        check(lib().hh_body_name(self._handle, value(Body, body), byref(name)))
+        return shown(name.value)
+
+    def bodies(self):
+        """Ids of all bodies; `count` gets their number. HH_ERROR_CAPACITY if it is more than `capacity`. A null
+        buffer of capacity 0: the number only."""
+        return listed(Body, lambda buffer, capacity, count: lib().hh_world_bodies(self._handle, buffer, capacity, count))
+
+    def body_pose(self, body):
+        pose = Pose()
+        check(lib().hh_body_pose(self._handle, value(Body, body), byref(pose)))
+        return pose
+
+    def body_poses(self, bodies):
+        """Poses of many bodies in one call; HH_ERROR_HANDLE, and nothing written, if one is stale."""
+        bodies, count_ = array(Body, bodies)
+        poses, poses_at = empty(Pose, count_)
+        check(lib().hh_world_body_poses(self._handle, bodies, count_, poses_at))
+        return poses
+
+    def body_velocity(self, body):
+        """Null outputs are skipped."""
+        velocity_mps = Vec3()
+        angular_velocity_radps = Vec3()
+        check(lib().hh_body_velocity(self._handle, value(Body, body), byref(velocity_mps), byref(angular_velocity_radps)))
+        return velocity_mps, angular_velocity_radps
+
+    def body_set_velocity(self, body, velocity_mps, angular_velocity_radps):
+        """Dynamic bodies only, as are impulses: HH_ERROR_STATE."""
+        check(lib().hh_body_set_velocity(self._handle, value(Body, body), value(Vec3, velocity_mps), value(Vec3, angular_velocity_radps)))
+
+    def body_apply_impulse(self, body, impulse_ns, point):
+        """Changes the velocity by an impulse in N s at a point in the world."""
+        check(lib().hh_body_apply_impulse(self._handle, value(Body, body), value(Vec3, impulse_ns), value(Vec3, point)))
+
+    def body_teleport(self, body, pose):
+        """At once, without collisions on the path. Keeps the velocity. Hands that grip it let go."""
+        check(lib().hh_body_teleport(self._handle, value(Body, body), value(Pose, pose)))
+
+    def body_move_kinematic(self, body, pose):
+        """A kinematic body reaches the pose at the end of the next step, with the velocity that takes it there,
+        and then rests. Call it before every step in which it moves."""
+        check(lib().hh_body_move_kinematic(self._handle, value(Body, body), value(Pose, pose)))
+
+    def body_set_gravity_scale(self, body, scale):
+        check(lib().hh_body_set_gravity_scale(self._handle, value(Body, body), scale))
+
+    def body_set_layers(self, body, layers, mask):
+        check(lib().hh_body_set_layers(self._handle, value(Body, body), layers, mask))
+
+    def body_set_grab_rule(self, body, left, right, two_hands, priority):
+        check(lib().hh_body_set_grab_rule(self._handle, value(Body, body), left, right, two_hands, priority))
+
+    def body_get_kind(self, body):
+        kind = c_int32()
+        check(lib().hh_body_get_kind(self._handle, value(Body, body), byref(kind)))
+        return kind.value
+
+    def body_mass(self, body):
+        """0 of a body that is not dynamic: nothing that acts on it moves it."""
+        mass_kg = c_double()
+        check(lib().hh_body_mass(self._handle, value(Body, body), byref(mass_kg)))
+        return mass_kg.value
+
+    def body_set_user_data(self, body, user_data):
+        check(lib().hh_body_set_user_data(self._handle, value(Body, body), user_data))
+
+    def body_user_data(self, body):
+        user_data = c_uint64()
+        check(lib().hh_body_user_data(self._handle, value(Body, body), byref(user_data)))
+        return user_data.value
+
+    def joint_add(self, definition=None, **fields):
+        joint = Joint()
+        check(lib().hh_joint_add(self._handle, optional(JointDef, definition, fields), byref(joint)))
+        return joint
+
+    def joint_remove(self, joint):
+        check(lib().hh_joint_remove(self._handle, value(Joint, joint)))
+
+    def joint_is_valid(self, joint):
+        return bool(lib().hh_joint_is_valid(self._handle, value(Joint, joint)))
+
+    def body_joints(self, body):
+        """Ids of the joints of a body; `count` gets their number. HH_ERROR_CAPACITY if it is more than
+        `capacity`. A null buffer of capacity 0: the number only."""
+        return listed(Joint, lambda buffer, capacity, count: lib().hh_body_joints(self._handle, value(Body, body), buffer, capacity, count))
+
+    def joint_state(self, joint):
+        """State after the last step; null outputs are skipped. A hinge counts full turns."""
+        coordinate = c_double()
+        speed = c_double()
+        latched = c_uint8()
+        check(lib().hh_joint_state(self._handle, value(Joint, joint), byref(coordinate), byref(speed), byref(latched)))
+        return coordinate.value, speed.value, bool(latched.value)
+
+    def cast_ray(self, start, end, skip):
+        """First surface that the segment hits, from outside or inside; distance_m: from `from`. `skip`: a player
+        whose head counts as not there; null: none. Coordinates within 1e9 m."""
+        hit = Hit()
+        check(lib().hh_world_cast_ray(self._handle, value(Vec3, start), value(Vec3, end), value(Player, skip), byref(hit)))
+        return hit
+
+    def cast_sphere(self, radius_m, start, end, skip):
+        """First impact of a sphere that moves along the segment, radius within 1e4 m; distance_m: how far its
+        centre has moved, 0 if it touches something at the start."""
+        hit = Hit()
+        check(lib().hh_world_cast_sphere(self._handle, radius_m, value(Vec3, start), value(Vec3, end), value(Player, skip), byref(hit)))
+        return hit
+
+    def closest_point(self, point, max_distance_m, skip):
+        """Nearest surface point within max_distance_m of the point, [0, 1e4]; distance_m: 0 inside a solid,
+        where the normal points outward."""
+        hit = Hit()
+        check(lib().hh_world_closest_point(self._handle, value(Vec3, point), max_distance_m, value(Player, skip), byref(hit)))
+        return hit
+
+    def overlap_sphere(self, center, radius_m, skip):
+        """Everything that a sphere touches: the nearest point of each body and head to its centre, in a fixed
+        order. Inside a solid distance_m is 0 and the normal points outward. `count` gets their number;
+        HH_ERROR_CAPACITY if it is more than `capacity`. Radius in [0, 1e4] m."""
+        return listed(Hit, lambda buffer, capacity, count: lib().hh_world_overlap_sphere(self._handle, value(Vec3, center), radius_m, value(Player, skip), buffer, capacity, count))
+
+    def player_add(self, definition=None, **fields):
+        player = Player()
+        check(lib().hh_player_add(self._handle, optional(PlayerDef, definition, fields), byref(player)))
+        return player
+
+    def player_remove(self, player):
+        check(lib().hh_player_remove(self._handle, value(Player, player)))
+
+    def player_is_valid(self, player):
+        return bool(lib().hh_player_is_valid(self._handle, value(Player, player)))
+
+    def players(self):
+        return listed(Player, lambda buffer, capacity, count: lib().hh_world_players(self._handle, buffer, capacity, count))
+
+    def player_recenter(self, player, new_in_old):
+        """The headset's runtime, or the host, has recentred: from the next sample on, poses are given in a space
+        that lies at `new_in_old` in the space before (OpenXR: poseInPreviousSpace). Level: it turns about +Y
+        only, within 0.001. View, hands and grips stay where they are in the world; hh_player_pose.origin
+        changes at once, HH_EVENT_RECENTRED follows in the next step. From now on the host announces all
+        recentrings, as after hh_player_set_recenter_guess(world, player, 0)."""
+        check(lib().hh_player_recenter(self._handle, value(Player, player), value(Pose, new_in_old)))
+
+    def player_set_recenter_guess(self, player, guesses):
+        """`guesses` 1, the default: if head and hands jump by one turn about +Y and one translation, or the head
+        by more than tracking.max_jump_m, the runtime has recentred, and nothing in the world moves. 0: the
+        host announces recentrings, and every other jump is meant, such as a turn that the host puts into its
+        samples: view and hands follow it, and gripping hands take new anchors. Part of the state."""
+        check(lib().hh_player_set_recenter_guess(self._handle, value(Player, player), guesses))
+
+    def player_teleport(self, player, origin):
+        """The play space is there at once, at rest. Dynamic bodies in the hands that no joint holds come along;
+        hands let go of everything else."""
+        check(lib().hh_player_teleport(self._handle, value(Player, player), value(Pose, origin)))
+
+    def player_velocity(self, player):
+        velocity_mps = Vec3()
+        check(lib().hh_player_velocity(self._handle, value(Player, player), byref(velocity_mps)))
+        return velocity_mps
+
+    def player_set_velocity(self, player, velocity_mps):
+        check(lib().hh_player_set_velocity(self._handle, value(Player, player), value(Vec3, velocity_mps)))
+
+    def player_reference_velocity(self, player):
+        """The velocity that counts as rest for the player: that of the body last gripped, at the gripped point,
+        else the scene's. A player feels the speed relative to it: for vignettes and wind."""
+        velocity_mps = Vec3()
+        check(lib().hh_player_reference_velocity(self._handle, value(Player, player), byref(velocity_mps)))
+        return velocity_mps
+
+    def player_push_back(self, player):
+        """How far contacts moved the play space in the last step, against its hands and its velocity."""
+        distance_m = c_double()
+        check(lib().hh_player_push_back(self._handle, value(Player, player), byref(distance_m)))
+        return distance_m.value
+
+    def player_mass(self, player):
+        """The body mass that the player was added with."""
+        mass_kg = c_double()
+        check(lib().hh_player_mass(self._handle, value(Player, player), byref(mass_kg)))
+        return mass_kg.value
+
+    def player_head(self, player):
+        """The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked: false
+        before the head's first sample, and while it is lost or inferred."""
+        center = Vec3()
+        radius_m = c_double()
+        is_tracked = c_uint8()
+        check(lib().hh_player_head(self._handle, value(Player, player), byref(center), byref(radius_m), byref(is_tracked)))
+        return center, radius_m.value, bool(is_tracked.value)
+
+    def player_measures(self, player):
+        measures = Measures()
+        check(lib().hh_player_measures(self._handle, value(Player, player), byref(measures)))
+        return measures
+
+    def player_set_measures(self, player, measures=None):
+        check(lib().hh_player_set_measures(self._handle, value(Player, player), optional(Measures, measures)))
+
+    def player_set_user_data(self, player, user_data):
+        check(lib().hh_player_set_user_data(self._handle, value(Player, player), user_data))
+
+    def player_user_data(self, player):
+        user_data = c_uint64()
+        check(lib().hh_player_user_data(self._handle, value(Player, player), byref(user_data)))
+        return user_data.value
+
+    def player_set_hand_in_controller(self, player, side, hand_in_controller=None):
+        """The hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists with
+        OpenXR's axes (-Z to the fingers, +Y the back of the hand). Null: a controller's grip pose, by the
+        tuning's hand.controller_ numbers, which is the default."""
+        check(lib().hh_player_set_hand_in_controller(self._handle, value(Player, player), side, optional(Pose, hand_in_controller)))
+
+    def player_hand_in_controller(self, player, side):
+        """Returns the pose set by hh_player_set_hand_in_controller, for hosts that have wrists and need
+        controllers."""
+        hand_in_controller = Pose()
+        check(lib().hh_player_hand_in_controller(self._handle, value(Player, player), side, byref(hand_in_controller)))
+        return hand_in_controller
+
+    def hand_in_controller(self, side):
+        """Returns the tuning's pose of the wrist in a controller, for players without one of their own."""
+        hand_in_controller = Pose()
+        check(lib().hh_world_hand_in_controller(self._handle, side, byref(hand_in_controller)))
+        return hand_in_controller
+
+    def player_hand(self, player, side):
+        """One hand. `hand_size`: bytes of hh_hand_state as the host knows it."""
+        hand = HandState()
+        check(lib().hh_player_hand_sized(self._handle, value(Player, player), side, byref(hand), sizeof(HandState)))
+        return hand
+
+    def hand_moves_player(self, player, side):
+        """True if the player can pull on what the hand grips: something static, kinematic or heavy, another
+        player, or a body that joints connect to something fixed, such as a lever. False if the hand is empty,
+        or what it holds comes along."""
+        moves_player = c_uint8()
+        check(lib().hh_hand_moves_player(self._handle, value(Player, player), side, byref(moves_player)))
+        return bool(moves_player.value)
+
+    def player_poses(self, players):
+        """Poses of many players in one call; HH_ERROR_HANDLE, and nothing written, if one is stale. `pose_size`,
+        `hand_size`: bytes of hh_player_pose and hh_hand_state as the host knows them."""
+        players, count_ = array(Player, players)
+        poses, poses_at = empty(PlayerPose, count_)
+        check(lib().hh_world_player_poses_sized(self._handle, players, count_, poses_at, sizeof(PlayerPose), sizeof(HandState)))
+        return poses
+
+    def hand_grip(self, player, side, body):
+        """In the next step the hand grips `body` where both are, at any distance, whatever the grab rules say;
+        only a body for two hands needs an order for both. No grip begins while the player opens the hand. It
+        holds until hh_hand_release or until the player opens the hand. If the player closes the hand before
+        that, it grips what is in reach instead; with nothing in reach, the grip stays. HH_ERROR_STATE for a
+        hand that was never tracked."""
+        check(lib().hh_hand_grip(self._handle, value(Player, player), side, value(Body, body)))
+
+    def hand_release(self, player, side):
+        """In the next step the hand lets go, without a throw. It grips again when the player opens and closes
+        it. HH_OK also for an empty hand."""
+        check(lib().hh_hand_release(self._handle, value(Player, player), side))
+
+    def events(self):
+        """The events of the last step, in a fixed order. Valid until the next step, restore, destroy or call of
+        this function. `event_size`: bytes of hh_event as the host knows it; the list's elements lie so far
+        apart."""
+        events = POINTER(Event)()
+        count = c_size_t()
+        check(lib().hh_world_events_sized(self._handle, byref(events), byref(count), sizeof(Event)))
+        return copied(Event, events, count)
+
+    def player_hand_joints(self, player, side, space):
+        """The shown hand's joints: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name."""
+        joints, joints_at = empty(HandJoint, 26)
+        check(lib().hh_player_hand_joints(self._handle, value(Player, player), side, space, joints_at))
+        return joints
+
+    def player_body_joints(self, player, space):
+        """HH_BODY_JOINT_COUNT elements."""
+        joints, joints_at = empty(Pose, 20)
+        check(lib().hh_player_body_joints(self._handle, value(Player, player), space, joints_at))
+        return joints
+
+    def player_set_hand_rig(self, player, side, gltf):
+        """The player's hand gets the proportions of the skeleton in a glTF file (.glb, or .gltf with its data
+        inside) whose joints have WebXR's or OpenXR's names. Null bytes: the built-in hand. HH_ERROR_DATA says
+        what the file lacks."""
+        gltf, size_ = raw(gltf)
+        check(lib().hh_player_set_hand_rig(self._handle, value(Player, player), side, gltf, size_))
+
+    def player_set_body_rig(self, player, gltf):
+        """The player's body drives a humanoid skeleton from a glTF file. Null bytes: none."""
+        gltf, size_ = raw(gltf)
+        check(lib().hh_player_set_body_rig(self._handle, value(Player, player), gltf, size_))
+
+    def player_skeleton(self, player, space):
+        """Joints of the player's body rig, in the file's order. HH_ERROR_STATE without a rig."""
+        return listed(Pose, lambda buffer, capacity, count: lib().hh_player_skeleton(self._handle, value(Player, player), space, buffer, capacity, count))
+
+    def player_skeleton_joint(self, player, joint):
+        """Name and parent (-1: none) of one of these joints. The name is valid while the rig is set."""
+        name = c_char_p()
+        parent = c_int32()
+        check(lib().hh_player_skeleton_joint(self._handle, value(Player, player), joint, byref(name), byref(parent)))
+        return shown(name.value), parent.value
+
+    def body_add_grip(self, body, definition=None, **fields):
+        """Adds an authored grip to a body, at most 4: hands that close near it take it."""
+        check(lib().hh_body_add_grip(self._handle, value(Body, body), optional(GripDef, definition, fields)))
+
+    def set_surface_query(self, query=None):
+        """From now on hands and legs ask the host, not the world's shapes. Null: back to the shapes."""
+        check(lib().hh_world_set_surface_query(self._handle, optional(SurfaceQuery, query)))
+
+    def body_set_surface(self, body, mesh):
+        """The triangles that palm and fingers close on, in the body's frame; null: none. Not needed for
+        gripping. The body must have no shape. HH_ERROR_STATE if it has, or if the mesh or the world was made
+        without fits_hands."""
+        check(lib().hh_body_set_surface(self._handle, value(Body, body), handle(mesh)))
+
+    def place_bodies(self, motions):
+        """Where bodies are now, after the host's own step. Unlike a teleport it ends no grip. A kinematic body
+        rests there until hh_body_move_kinematic says where it will be at the end of the next step. Places all
+        or, on an error, none."""
+        motions, count_ = array(BodyMotion, motions)
+        check(lib().hh_world_place_bodies(self._handle, motions, count_))
+
+    def player_place(self, player, origin, velocity_mps):
+        """Where a player's hh_player_pose.origin is now, by the host's locomotion. Unlike a teleport it ends no
+        grip, and the body goes on moving."""
+        check(lib().hh_player_place(self._handle, value(Player, player), value(Pose, origin), value(Vec3, velocity_mps)))
+
+    def hand_hold(self, player, side, body, anchor=None):
+        """The hand holds `body` from now on; a null id: nothing. `anchor`: the wrist in the body's frame; null:
+        where both are now. For hosts that use hh_world_step_hands only: the other steps keep the hold and let
+        the hand pull the player."""
+        check(lib().hh_hand_hold(self._handle, value(Player, player), side, value(Body, body), optional(Pose, anchor)))
+
+    def hand_find_grip(self, player, side):
+        """What the hand would grip if it closed where it is, by the rules of hands that pull players: reach,
+        sight, grab rules, authored grips. A null body: nothing, or another player. distance_m: from the palm.
+        In every kind of world. HH_ERROR_STATE for a hand that was never tracked."""
+        hit = SurfaceHit()
+        check(lib().hh_hand_find_grip(self._handle, value(Player, player), side, byref(hit)))
+        return hit
+
+    def step_hands(self, dt_s, inputs):
+        """One frame: reads tracking and shows hands and bodies where the host put them. It moves neither players
+        nor bodies, and buttons do nothing: place bodies by hh_world_place_bodies. A move ordered by
+        hh_body_move_kinematic waits for the next step of another kind. Cost: that of hh_world_step without
+        physics."""
+        inputs, input_count_ = array(PlayerInput, inputs)
+        check(lib().hh_world_step_hands(self._handle, dt_s, inputs, input_count_))
+
+    def begin_step(self, dt_s, inputs):
+        """First half of a step: tracking, grips and constraints. Bodies must be placed where they are. Until
+        hh_world_end_step, HH_ERROR_STATE for adding or removing bodies, joints and players, for teleporting,
+        saving and other steps; hh_world_restore forgets the begun step."""
+        inputs, input_count_ = array(PlayerInput, inputs)
+        check(lib().hh_world_begin_step(self._handle, dt_s, inputs, input_count_))
+
+    def hand_constraints(self):
+        """Constraints of the begun step: at most one per hand, in the order in which hands were added. Valid
+        until hh_world_end_step."""
+        constraints = POINTER(HandConstraint)()
+        count = c_size_t()
+        check(lib().hh_world_hand_constraints(self._handle, byref(constraints), byref(count)))
+        return copied(HandConstraint, constraints, count)
+
+    def player_motions(self):
+        """One entry per player, in the order of hh_world_players. Valid until hh_world_end_step."""
+        motions = POINTER(PlayerMotion)()
+        count = c_size_t()
+        check(lib().hh_world_player_motions(self._handle, byref(motions), byref(count)))
+        return copied(PlayerMotion, motions, count)
+
+    def end_step(self, players):
+        """Second half, after the host's solver. `players`: the solved play spaces; one left out moves as
+        predicted. Bodies that the host has not placed since hh_world_begin_step rest where they were.
+        Releases grips, limits velocities and shows hands and bodies. On an error the step stays begun."""
+        players, count_ = array(SolvedPlayer, players)
+        check(lib().hh_world_end_step(self._handle, players, count_))
+
+    def velocity_changes(self):
+        """Velocities that the host must give its bodies: after hh_world_begin_step those of bodies that the
+        distance grab pulls, after hh_world_end_step those of thrown and limited bodies. Players':
+        hh_player_velocity. Valid until the next step."""
+        changes = POINTER(VelocityChange)()
+        count = c_size_t()
+        check(lib().hh_world_velocity_changes(self._handle, byref(changes), byref(count)))
+        return copied(VelocityChange, changes, count)
+
+    def held_bodies(self):
+        """After hh_world_step: dynamic bodies that hands hold, and those that joints connect to them. The host
+        makes its own kinematic, takes pose and velocity from here, and places all others before the next
+        step. They touch nothing of the host's, but push what its solver pushes."""
+        return listed(Body, lambda buffer, capacity, count: lib().hh_world_held_bodies(self._handle, buffer, capacity, count))

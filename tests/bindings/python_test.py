@@ -1,0 +1,95 @@
+"""What the Python binding offers beside the two scenes: errors, lists, texts, meshes, snapshots, and conversions from numpy."""
+import unittest
+
+import numpy as np
+
+import handhold as hh
+
+
+class Binding(unittest.TestCase):
+    def setUp(self):
+        self.world = hh.World(gravity_mps2=(0.0, -10.0, 0.0))
+
+    def tearDown(self):
+        self.world.close()
+
+    def test_refused_calls_raise_with_result_and_text_and_change_nothing(self):
+        before = self.world.hash()
+        with self.assertRaises(hh.HandholdError) as caught:
+            self.world.shape_add_sphere(-1.0)
+        self.assertEqual(caught.exception.result, hh.HH_ERROR_VALUE)
+        self.assertGreater(len(str(caught.exception)), 20)
+        self.assertEqual(self.world.hash(), before)
+
+    def test_unknown_fields_are_refused(self):
+        with self.assertRaises(TypeError):
+            hh.BodyDef(weight=3.0)
+        with self.assertRaises(AttributeError):
+            hh.BodyDef().weight = 3.0
+
+    def test_null_handles_ids_and_definitions_never_crash(self):
+        self.assertFalse(self.world.body_is_valid(None))
+        with self.assertRaises(hh.HandholdError):
+            self.world.body_pose(None)
+        closed = hh.World()
+        closed.close()
+        with self.assertRaises(hh.HandholdError):
+            closed.hash()
+
+    def test_definitions_have_the_defaults_of_the_library(self):
+        self.assertEqual(hh.BodyDef().friction, 0.4)
+        self.assertEqual(hh.PlayerDef().mass_kg, 80.0)
+        self.assertEqual(hh.Pose().rotation, hh.Quat(0.0, 0.0, 0.0, 1.0))
+
+    def test_lists_are_arrays_with_the_fields_of_the_structs(self):
+        shape = self.world.shape_add_box((0.1, 0.1, 0.1))
+        given = [self.world.body_add(shape=shape, name=f"b{i}", pose=((float(i), 0.0, 0.0),)) for i in range(5)]
+        bodies = self.world.bodies()
+        self.assertEqual([self.world.body_name(body) for body in bodies], [f"b{i}" for i in range(5)])
+        np.testing.assert_array_equal(self.world.body_poses(bodies)["position"]["x"], np.arange(5.0))
+        np.testing.assert_array_equal(self.world.body_poses(given)["position"]["x"], np.arange(5.0))
+        self.assertEqual(self.world.body_find("b3"), given[3])
+
+    def test_meshes_and_hulls_take_arrays_of_numpy(self):
+        positions = np.array([[-5, 0, -5], [-5, 0, 5], [5, 0, 5], [5, 0, -5]], dtype=np.float32)
+        mesh = hh.Mesh(positions=positions, indices=np.array([0, 1, 2, 0, 2, 3], dtype=np.uint32))
+        self.world.body_add(shape=self.world.shape_add_mesh(mesh, (1.0, 1.0, 1.0)))
+        mesh.close()
+        corners = np.array([[x, y, z] for x in (-0.1, 0.1) for y in (-0.1, 0.1) for z in (-0.1, 0.1)])
+        crate = self.world.body_add(kind=hh.HH_DYNAMIC, shape=self.world.shape_add_hull(corners), pose=((0.0, 0.3, 0.0),))
+        for _ in range(180):
+            self.world.step(1.0 / 90.0, [])
+        self.assertAlmostEqual(self.world.body_pose(crate).position.y, 0.1, delta=0.01)
+        hit = self.world.cast_ray((1.0, 1.0, 1.0), (1.0, -1.0, 1.0), None)
+        self.assertAlmostEqual(hit.distance_m, 1.0, delta=1e-6)
+
+    def test_snapshots_go_back(self):
+        body = self.world.body_add(kind=hh.HH_DYNAMIC, shape=self.world.shape_add_sphere(0.1))
+        saved = self.world.save()
+        before = self.world.hash()
+        self.world.body_set_velocity(body, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+        self.world.step(1.0 / 90.0, [])
+        self.assertNotEqual(self.world.hash(), before)
+        self.world.restore(saved)
+        self.assertEqual(self.world.hash(), before)
+
+    def test_tuning_statistics_and_counters_have_names(self):
+        self.assertEqual(hh.tuning_describe(0).name.decode().count("."), 1)
+        self.world.set_tuning("hand.reach_m", [0.2])
+        np.testing.assert_array_equal(self.world.get_tuning("hand.reach_m", 1), [0.2])
+        self.assertEqual(len(self.world.fallbacks()), sum(hh.fallback_name(i) is not None for i in range(500)))
+        self.assertEqual(self.world.get_stats().bodies, 0)
+
+    def test_host_hooks_hear_what_is_wrong(self):
+        self.world.close()
+        heard = []
+        hooks = hh.HostHooks(log=lambda context, level, message: heard.append(message.decode()))
+        hh.set_host_hooks(hooks)
+        with hh.World() as world, self.assertRaises(hh.HandholdError):
+            world.shape_add_sphere(float("nan"))
+        hh.set_host_hooks(None)
+        self.assertEqual(len(heard), 1)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=0)

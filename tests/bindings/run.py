@@ -1,0 +1,117 @@
+#!/usr/bin/env python3
+"""Tests a binding of the C interface against the shared library of a build.
+
+usage: tests/bindings/run.py generated|layouts|python|csharp BUILD WORK     WORK: a folder of its own, emptied first
+    generated   the generated files are what the headers say
+    layouts     C compilers agree with handhold.json on every size, offset and value: this machine's, and clang's for wasm32 if there is one
+    python      the Python binding gets the state hashes of C programs that make the same calls
+    csharp      the C# binding does, under Mono; the Unity package compiles against stand-ins of Unity's types
+Exit status 0: it does, 77: Mono, numpy or another program is missing
+"""
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+SOURCE = HERE.parent.parent
+BINDINGS = SOURCE / "systems/host/bindings"
+INCLUDE = SOURCE / "systems/host/include"
+
+
+def run(*command, **options) -> str:
+    done = subprocess.run([str(word) for word in command], text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **options)
+    if done.returncode != 0:
+        print(" ".join(map(str, command)), done.stdout, sep="\n", file=sys.stderr)
+        raise SystemExit(1)
+    return done.stdout
+
+
+def skip(what: str) -> None:
+    print(f"skipped: {what} is missing (tools/install_packages test)")
+    raise SystemExit(77)
+
+
+def expected_lines(library: Path, work: Path) -> list[str]:
+    """What C programs print that make the calls of the bindings' tests."""
+    lines = []
+    for source in (SOURCE / "tests/portability/grip_hash.c", HERE / "wall_hash.c"):
+        program = work / source.stem
+        run("cc", "-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", f"-I{INCLUDE}", source, library, "-lm", f"-Wl,-rpath,{library.parent}",
+            "-o", program)
+        lines.append(run(program).partition(" step_us")[0].strip())
+    return lines
+
+
+def compare(expected: list[str], said: str) -> None:
+    lines = said.strip().splitlines()
+    if lines != expected:
+        print("C says", *expected, "the binding says", *lines, sep="\n", file=sys.stderr)
+        raise SystemExit(1)
+    print("\n".join(lines))
+
+
+def check_generated() -> None:
+    run(sys.executable, "-B", BINDINGS / "generate.py", "--check")
+
+
+def check_layouts(work: Path) -> None:
+    described = json.loads((BINDINGS / "handhold.json").read_text(encoding="utf-8"))
+    values = [f'HH_SAME({value["name"]}, {value["value"]});' for enum in described["enums"] for value in enum["values"]]
+    compilers = {"64": ["cc"], "wasm32": ["clang", "--target=wasm32", "-ffreestanding"]}
+    for name, command in compilers.items():
+        if shutil.which(command[0]) is None:
+            print(f"{name}: skipped, {command[0]} is missing")
+            continue
+        checks = []
+        for struct in described["structs"]:
+            layout = struct["layout"][name]
+            checks.append(f'HH_SAME(sizeof({struct["name"]}), {layout["size"]});')
+            checks += [f'HH_SAME(offsetof({struct["name"]}, {one["name"]}), {at});' for one, at in zip(struct["fields"], layout["offsets"])]
+        source = work / f"layouts_{name}.c"
+        source.write_text("#include <stddef.h>\n#include <handhold/handhold.h>\n"
+                          "#define HH_SAME(a, b) _Static_assert((a) == (b), #a)\n" + "\n".join(checks + values) + "\n", encoding="utf-8")
+        run(*command, "-std=c11", "-fsyntax-only", f"-I{INCLUDE}", source)
+        print(f"{name}: {len(described['structs'])} structs, {len(checks)} sizes and offsets, {len(values)} values")
+
+
+def check_python(library: Path, work: Path) -> None:
+    if subprocess.run([sys.executable, "-c", "import numpy"], stderr=subprocess.DEVNULL).returncode != 0:
+        skip("numpy of this Python")
+    environment = dict(os.environ, PYTHONPATH=str(BINDINGS / "python"), HANDHOLD_LIBRARY=str(library))
+    compare(expected_lines(library, work), run(sys.executable, "-B", HERE / "scenes.py", env=environment))
+    print(run(sys.executable, "-B", HERE / "python_test.py", env=environment))
+
+
+def check_csharp(library: Path, work: Path) -> None:
+    for program in ("mcs", "mono"):
+        if shutil.which(program) is None:
+            skip(f"Mono's {program}")
+    environment = dict(os.environ, LD_LIBRARY_PATH=str(library.parent))
+    sources = sorted((BINDINGS / "csharp").glob("*.cs"))
+    run("mcs", "-unsafe", "-warnaserror", f"-out:{work}/scenes.exe", *sources, HERE / "Scenes.cs")
+    compare(expected_lines(library, work), run("mono", work / "scenes.exe", env=environment))
+    package = work / "unity"
+    run(sys.executable, "-B", SOURCE / "packaging/assemble.py", "unity", package, "--library", library)
+    unity = [*sorted(package.rglob("*.cs")), HERE / "UnityStandIns.cs", HERE / "UnityScene.cs"]
+    run("mcs", "-unsafe", "-warnaserror", "-define:UNITY_5_3_OR_NEWER", f"-out:{work}/unity.exe", *unity)
+    print(run("mono", work / "unity.exe", env=environment).strip())
+
+
+def main() -> int:
+    if len(sys.argv) != 4 or sys.argv[1] not in ("generated", "layouts", "python", "csharp"):
+        print(__doc__, file=sys.stderr)
+        return 2
+    name, build, work = sys.argv[1], Path(sys.argv[2]).resolve(), Path(sys.argv[3]).resolve()
+    shutil.rmtree(work, ignore_errors=True)
+    work.mkdir(parents=True)
+    library = build / "libhandhold.so"
+    {"generated": check_generated, "layouts": lambda: check_layouts(work), "python": lambda: check_python(library, work),
+     "csharp": lambda: check_csharp(library, work)}[name]()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
