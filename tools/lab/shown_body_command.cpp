@@ -32,10 +32,10 @@ constexpr double k_shin_radius_m = 0.05;
 class Walls {
   public:
     explicit Walls(const World& world) {
-        for (std::size_t row = 0; row < world.persistent_id.size(); ++row) {
-            const RigidBody* const body = world.body.find(world.persistent_id.owners()[row]);
+        for (std::size_t index = 0; index < world.persistent_id.size(); ++index) {
+            const RigidBody* const body = world.body.find(world.persistent_id.owners()[index]);
             if (body == nullptr || body->kind == BodyKind::free) {
-                skip_.push_back(world.persistent_id.rows()[row].value);
+                skip_.push_back(world.persistent_id.elements()[index].value);
             }
         }
     }

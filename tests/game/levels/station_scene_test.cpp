@@ -117,12 +117,12 @@ TEST(StationTools, FloatClearOfEverythingAtFirst) {
     Scene scene = *make_built_in_scene("station");
     FrameCaches caches(scene.shapes(), &scene.grip_meshes());
     std::vector<ColliderProxy> proxies;
-    for (std::size_t row = 0; row < scene.world().body.size(); ++row) {
-        const Entity body = scene.world().body.owners()[row];
+    for (std::size_t index = 0; index < scene.world().body.size(); ++index) {
+        const Entity body = scene.world().body.owners()[index];
         const Pose& pose = scene.world().body_pose.at(body).pose_ws;
         proxies.push_back({scene.world().persistent_id.at(body).value,
                            scene.world().collider.at(body).shape, pose, pose,
-                           scene.world().body.rows()[row].kind == BodyKind::free});
+                           scene.world().body.elements()[index].kind == BodyKind::free});
     }
     std::sort(proxies.begin(), proxies.end(),
               [](const ColliderProxy& a, const ColliderProxy& b) { return a.id < b.id; });
