@@ -16,7 +16,7 @@ struct ActiveBodies {
     std::vector<std::uint32_t> list;   // active bodies of this frame, in no particular order
     std::vector<std::uint32_t> noted;  // changed since the last build_constraints; without order
     bool is_tracked = false;           // place_colliders ran since the last build_constraints
-    bool all_changed = true;
+    bool all_changed = true;           // start_frame makes all bodies active
 
     // Reserves memory for indices below `count` and clears both lists.
     void reset(std::size_t count) {
@@ -46,8 +46,8 @@ struct ActiveBodies {
             list.push_back(body);
         }
     }
-    // Starts a frame of `count` bodies. The noted bodies are active, or all if !is_tracked or
-    // all_changed.
+    // Starts a frame of `count` bodies. Makes the noted bodies active, or all bodies if
+    // place_colliders has not run (!is_tracked) or all_changed is set.
     void start_frame(std::size_t count) {
         if (is_listed_.size() <= count) {
             reset(count);

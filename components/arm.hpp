@@ -24,8 +24,9 @@ struct BodyMeasures {
 
 // Displacement of the chest from where the head alone would place it.
 struct ChestOffset {
-    Vec3 middle_m = Vec3::Zero();  // axes of the leaning chest; for k_scale_eye_m
-    double roll = 0.0;             // tangent; positive: the right shoulder is up
+    // In the axes of the leaning chest; for a player of eye height k_scale_eye_m.
+    Vec3 middle_m = Vec3::Zero();
+    double roll = 0.0;  // tangent of the roll angle; positive: the right shoulder is up
 };
 
 inline constexpr std::size_t k_look_filters = 3;
@@ -40,7 +41,8 @@ struct ArmMemory {
         Pose hand_ps;                   // shown hand at the end of the last frame
     };
     bool known = false;  // false: the next frame re-initialises this state
-    // Horizontal unit vectors: the head's look direction, low-pass filtered, from fast to slow.
+    // The head's look direction after low-pass filters of different time constants, the shortest
+    // first. Horizontal unit vectors.
     std::array<Vec3, k_look_filters> looks_ps = {-Vec3::UnitZ(), -Vec3::UnitZ(), -Vec3::UnitZ()};
     Vec3 facing_ps = -Vec3::UnitZ();     // horizontal unit vector: where the chest faces
     ChestOffset chest;                   // low-pass filtered
@@ -52,7 +54,8 @@ struct ArmMemory {
 // to the shoulder: 0 is the centre, 1 the shoulder.
 inline constexpr double k_clavicle_from = 0.12;
 
-// Estimated chest, shoulders and elbow directions. Written by estimate_arms.
+// Estimated chest, shoulders and elbow directions. Written by estimate_arms; layer_additives adds
+// the clavicles' clip.
 struct ArmEstimate {
     struct Arm {
         Pose hand_ps;  // shown hand
@@ -62,8 +65,11 @@ struct ArmEstimate {
     };
     Pose chest_ps;  // midway between the shoulders' rest positions; -Z ahead, +Y up
     Vec3 facing_ps = -Vec3::UnitZ();  // horizontal unit vector: where the chest faces
-    double lying = 0.0;               // [0, 1]; 1: the player lies, the trunk as the head's +Y
-    // From the point about which a neck bends, which stays if nothing else moves, to the chest.
+    // How far the player lies, [0, 1]. 0: upright, bent or crouching. 1: lying, with the trunk
+    // along the head's Y axis.
+    double lying = 0.0;
+    // Vector to the chest from the point about which the neck bends (neck_pivot). If only the neck
+    // bends, that point stays in place, although the estimated chest moves a little.
     Vec3 from_neck_m = Vec3::Zero();
     std::array<Arm, k_hand_count> arms;  // indexed by HandSide
 };

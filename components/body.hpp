@@ -14,7 +14,7 @@ namespace handhold {
 
 enum class BodyKind : std::uint8_t {
     fixed,      // never moves
-    kinematic,  // moved by a Mover, PathMover or LegMover; contacts and constraints do not move it
+    kinematic,  // moved by a mover or a MoveTarget; contacts and constraints do not move it
     free,       // moved by its velocity and by constraints
 };
 
@@ -41,8 +41,8 @@ struct BodyPose {
 struct BodyStart {
     Pose pose_ws;
 };
-// Velocity of the centre of mass, in the world. Written by animate_movers (kinematic bodies) and
-// solve_velocities, limit_velocities (free bodies).
+// Velocity of the centre of mass, in the world. Written by animate_movers for kinematic bodies, and
+// by pull_bodies, predict_bodies, solve_velocities and limit_velocities for free bodies.
 struct BodyVelocity {
     Vec3 linear_mps = Vec3::Zero();
     Vec3 angular_radps = Vec3::Zero();
@@ -54,8 +54,9 @@ struct Collider {
     ShapeId shape;
 };
 
-// Start pose of the next frame's sweep: the last pose in which the body penetrated nothing. For
-// players, the pose of the head's collider. Written by record_valid_poses.
+// Start pose of the next frame's sweep: the last pose in which the body penetrated nothing. While
+// the body penetrates a fixed or kinematic body, the pose moves along with that body. For players,
+// the pose of the head's collider. Written by record_valid_poses.
 struct LastValidPose {
     Pose pose_ws;
     bool known = true;  // false for a player whose head has not been tracked yet
@@ -85,9 +86,10 @@ struct GravityScale {
     double scale = 1.0;
 };
 
-// Contacts of bodies and players' heads: two touch only if each one's layers meet the other's mask.
-// Hands grip a body if its layers meet their player's GrabLayers. A body without this component has
-// layer 1 and all masks. Written by the host.
+// Which bodies and players' heads collide: two of them only if `layers` of each has a bit in common
+// with `mask` of the other. A hand grips a body only if the body's `layers` have a bit in common
+// with its player's GrabLayers. Without this component, `layers` is 1 and all bits of `mask` are
+// set. Written by the host.
 struct CollisionFilter {
     std::uint32_t layers = 1;
     std::uint32_t mask = ~0U;

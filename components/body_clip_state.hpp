@@ -11,7 +11,9 @@ struct BodyClipState {
     // length. A new push-off starts only after the clip has ended.
     double push_off_s = 0.0;
     double push_off_weight = 0.0;  // [0, 1], from the speed at release; 0: no push-off yet
-    double outside = 1.0;  // [0, 1]: factor on the clips' turns that keeps the body out of surfaces
+    // Scale of the clips' rotations, [0, 1]. Below 1 if the clips would turn the body into a
+    // surface.
+    double outside = 1.0;
 };
 
 }  // namespace handhold

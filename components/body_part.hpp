@@ -28,11 +28,11 @@ inline constexpr std::size_t k_gripped_parts = 13;
 // True for trunk and legs: they swing when the player is pulled, while arms follow tracked hands.
 inline constexpr bool swings(BodyPart part) { return part >= BodyPart::upper_spine; }
 
-// A hand's grip on a part of another player's body. Only such hands have it; a hand that grips a
-// head has none. Poses are in the held player's play space and follow the shown part, at least one
-// frame later (HandTuning::part_speed_mps, swing_lag_s). The frame is the bone's (ArmPose,
-// SpinePose). Written by update_grabs; locomote_players keeps it in place in the world when the
-// held player turns.
+// A hand's grip on a part of another player's body. Only hands with such a grip have this
+// component; a hand that grips a head has none. The poses are those of the part's bone (ArmPose,
+// SpinePose) in the held player's play space. They follow the shown bone with a delay of at least
+// one frame (HandTuning::part_speed_mps, swing_lag_s). Written by update_grabs. When the held
+// player turns, locomote_players changes the poses so that they stay in place in the world.
 struct BodyHold {
     BodyPart part = BodyPart::left_upper_arm;
     Pose start_ps;  // pose at the start of the frame

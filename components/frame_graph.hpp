@@ -64,22 +64,28 @@ struct FrameGraph {
     Watches watches;
     std::vector<std::uint32_t> index_of_slot;  // index into `entities`, indexed by Entity::slot
     std::vector<ColliderProxy> proxy_updates;  // scratch: proxies to send to the collision world
-    double heavy_body_kg = 0.0;                // limit of the last build_constraints
+    double heavy_body_kg = 0.0;                // PhaseTuning's value in the last build_constraints
     std::uint64_t proxy_set = 0;               // CollisionWorld::proxy_set() after place_colliders
     struct PhaseBody {
         Pose reached_ws;  // pose after the reach phase
-        // From here to grips_surface: inputs of systems/physics/shared/mass_shares.hpp, which
-        // decides who yields to whom. Players: momentum_share of the heaviest body that a hand
-        // holds by all its rows, from 0 (light bodies do not move the player) to 1.
+        // From the next three fields, systems/physics/shared/mass_shares.hpp decides which bodies
+        // each phase may move.
+        //
+        // Players: momentum_share of the heaviest body that a hand holds rigidly (Grab::kind is
+        // held, not Grab::jointed), from 0 (light bodies do not move the player) to 1.
         double forward_share = 0.0;
         bool held = false;  // held by a hand, or connected by joints to a held body
         // Players: a hand grips a fixed, kinematic or heavy body or another player, or another
         // player grips this one.
         bool grips_surface = false;
-        bool pushed = false;  // the backward or contradiction phase ran on the body's island
-        Vec3 velocity_before_mps = Vec3::Zero();  // players: velocity before the velocity solve
-        std::uint64_t work = 0;  // spent by the position solves of its islands (WorkBudget)
-        // contacts in its heaps visited by the contact searches of this frame
+        // The body's island may push players in this frame. Set by the relax, backward and
+        // contradiction phases (mark_pushed), and by accept_solution for players whose hands grip.
+        bool pushed = false;
+        Vec3 velocity_before_mps = Vec3::Zero();  // velocity before the velocity solve
+        // Work that the position solves of the body's islands have spent (WorkBudget). The backward
+        // phase starts again from 0.
+        std::uint64_t work = 0;
+        // Number of contacts that this frame's contact searches have visited in the body's heaps.
         std::uint64_t visits = 0;
     };
     // graph.bodies has one more element at the end, the world, if a joint connects a body to the
@@ -99,7 +105,7 @@ struct FrameGraph {
     std::vector<std::uint32_t> body_of_element;
     // Written by build_constraints, in the order of the Grab column.
     std::vector<RowBlock> hand_blocks;
-    std::vector<std::uint32_t> island_order;  // islands, largest first
+    std::vector<std::uint32_t> island_order;  // islands to solve, largest first
     std::vector<NewtonResult> island_results;
     // A penetrating body or player that finish_positions may restore to its last valid pose, with
     // its state after the phases.
@@ -107,28 +113,31 @@ struct FrameGraph {
         std::uint32_t body = 0;
         // Index into the islands as solve_phases built them (the islands are rebuilt afterwards).
         std::uint32_t island = 0;
-        // Largest error of the body's constraint rows, except hand rows, and of its hidden
+        // Largest error of the body's constraint rows, except those of hands, and of its hidden
         // overlaps.
         double error_m = 0.0;
-        // The body that carries it along with its motion in this frame: the fixed or kinematic body
-        // that it penetrates, or the listed body because of which it was added. Itself if none.
+        // The body whose motion in this frame also moved valid_ws: the fixed or kinematic body that
+        // this body penetrates, or the listed body whose overlap added this body to the list.
+        // `body` itself if there is none.
         std::uint32_t carrier = 0;
-        Pose valid_ws;  // last valid pose of the body, carried along by the carrier
+        Pose valid_ws;  // last valid pose of the body, moved with the carrier
         Pose pose_ws;   // pose and velocities as the phases left them
         Vec3 velocity_mps = Vec3::Zero();
         Vec3 spin_radps = Vec3::Zero();
-        bool is_restored = false;  // true once the restore is kept
+        bool is_restored = false;  // true: the restore to valid_ws is kept
     };
-    // Sorted by island. Within an island, those kept at the first evaluation come first.
+    // Sorted by island. Within an island, bodies whose restore was kept at the first evaluation
+    // come first.
     std::vector<PenetratingBody> penetrating_bodies;
     MissedOverlaps hidden_overlaps;  // written by finish_positions; read by record_valid_poses
-    // Largest errors, one per island. Exact, or an upper bound if the island's last solve
-    // converged. Nullopt until they are first needed.
+    // Cache of the largest errors, one element per island. Exact, or an upper bound if the island's
+    // last solve converged. nullopt: not computed since the island last changed.
     std::vector<std::optional<IslandErrors>> island_errors;
     std::vector<VelocityResult> velocity_results;  // indexed by island
     std::vector<SolveScratch> island_scratch;
-    std::vector<double> overlap_m;             // overlap depth, indexed by body
-    std::vector<std::uint32_t> overlaps_with;  // overlapped body, indexed by body; itself if none
+    std::vector<double> overlap_m;  // overlap depth, indexed by body
+    // Overlapped body, indexed by body; the body itself if there is none.
+    std::vector<std::uint32_t> overlaps_with;
 };
 
 // Makes the bodies of all islands active, because the solver may move them.

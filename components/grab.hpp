@@ -26,7 +26,8 @@ enum class GripKind : std::uint8_t {
     none = 0,
     // A point on a fixed, kinematic or heavy body: three constraint rows; the hand may turn.
     surface = 1,
-    // A free body: six constraint rows, or three if joints connect the body to something fixed.
+    // A free body: six constraint rows, or three if joints connect the body to something that a
+    // hand cannot move (Grab::jointed).
     held = 2,
     // The hand is in an authored grip (AuthoredHold). Used for display and reports only: the hand's
     // Grab itself has kind surface or held.
@@ -46,13 +47,14 @@ enum class GrabPhase : std::uint8_t {
 };
 
 // Written by update_grabs (kind, phase, body, hit), anchor_grabs (anchor, target, two_handed) and
-// finish_positions (error). _bs is the gripped body's frame; if `body` is another player, the frame
-// of the part that the hand's BodyHold names, or of their head if the hand has none.
+// finish_positions (error); limit_velocities clears released grips. _bs is the gripped body's
+// frame. If `body` is another player, _bs is the frame of the part in the hand's BodyHold, or of
+// that player's head if the hand has no BodyHold.
 struct Grab {
     GripKind kind = GripKind::none;
     GrabPhase phase = GrabPhase::none;
     Entity body = k_no_entity;
-    Vec3 hit_bs = Vec3::Zero();          // where the palm ray hit the surface
+    Vec3 hit_bs = Vec3::Zero();          // gripped point of the surface
     Vec3 hit_normal_bs = Vec3::UnitY();  // unit, out of the solid
     Pose anchor_bs;  // tracked hand at the instant of the grab, so that the hand does not jump
     Pose target_ps;  // target of the hand constraint at the end of the frame
@@ -64,11 +66,12 @@ struct Grab {
     // first hand, its direction follows the line between the hands, and its twist about that line
     // is the mean of both hands' twists.
     bool two_handed = false;
-    // Joints connect the held body to something fixed; the hand may turn on it as on a surface.
+    // Joints connect the held body to something that a hand cannot move (JointGroups::anchored).
+    // The hand may turn on it, as on a surface.
     bool jointed = false;
-    // Displacement of the hand by tracking errors: the hand's first anchor in the frame of the
-    // present one. Identity: none. A held free body moves back into the hand by it
-    // (move_into_hand).
+    // How far tracking errors have moved the hand on the body: the hand's original anchor in the
+    // frame of anchor_bs. Identity: not at all. move_into_hand reduces it for a held free body,
+    // which so returns to its place in the hand.
     Pose slip_hs;
 };
 // True if the player can pull on what the hand grips. False for a loose body, which would just move
@@ -86,7 +89,8 @@ struct HandSight {
     Vec3 outside_bs = Vec3::Zero();  // point in `frame`
     Entity frame = k_no_entity;      // body that the player last gripped; null: the world
     bool is_known = false;           // false: the palm counts as outside
-    bool is_clear = true;            // no wall from outside_bs, or from the head, to the palm
+    // No wall stands between outside_bs and the palm, or none between the head and the palm.
+    bool is_clear = true;
 };
 
 // Which hands may grip a body. A body without this component may be gripped by any hand. Written by
@@ -94,7 +98,7 @@ struct HandSight {
 struct GrabRule {
     bool left = true;
     bool right = true;
-    bool two_hands = false;  // only by both hands of one player at once
+    bool two_hands = false;  // true: only both hands of one player together may grip the body
     // A closing hand grips the body of highest priority within its reach. Default 0.
     std::int32_t priority = 0;
 };

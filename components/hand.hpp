@@ -17,9 +17,9 @@
 //   where a finger stops  systems/hand/sweep_fingers.hpp    -> FingerPose::closed
 //   the fit               systems/hand/fit_hands.hpp        -> PalmOffset, PalmPose, FingerPose
 //
-// Distances named `*_in_m` and `travel_*` are wrist travel in the gripped body's frame: translation
-// plus 0.1 m per radian of rotation (hand_travel_m). For `*_in_m`, elapsed time also counts as
-// travel, so that a stationary hand is checked again too.
+// Distances named `*_in_m` are wrist travel in the gripped body's frame: translation plus 0.1 m per
+// radian of rotation (hand_travel_m). Elapsed time also counts as travel, so that a stationary hand
+// is checked again too.
 namespace handhold {
 
 // One sample pose per finger (see systems/hand/shared/finger_clearance.hpp), by index into
@@ -50,8 +50,8 @@ struct GripSurface {
     // surface has clearance and the lowest closed-form cost of all.
     double candidate_recheck_in_m = 0.0;
     // Progress of a candidate search that is spread over frames: the triangles of its candidates.
-    // Those before evaluated_count were evaluated or skipped; those from there to candidate_count
-    // come next.
+    // Candidates before index evaluated_count were evaluated or skipped; those from there up to
+    // candidate_count come next.
     static constexpr std::size_t k_max_candidates = 14;
     std::array<std::uint32_t, k_max_candidates> candidates = {};
     std::uint32_t evaluated_count = 0;  // 0: no search is in progress
@@ -83,13 +83,13 @@ struct PalmOffset {
     // Written by constrain_palms: the palm within its limits, or in its authored grip.
     Vec3 held_m = Vec3::Zero();
     Vec3 held_turn_rad = Vec3::Zero();
-    // Written by fit_hands: the fitted wrist, and the shown one, which follows it at up to
-    // PalmTuning::rate_mps.
+    // Written by fit_hands. `target`: the fitted wrist. `shown`: the shown wrist, which follows the
+    // fitted wrist at up to PalmTuning::rate_mps.
     Vec3 target_m = Vec3::Zero();
     Vec3 target_turn_rad = Vec3::Zero();
     Vec3 shown_m = Vec3::Zero();
     Vec3 shown_turn_rad = Vec3::Zero();
-    // Cache key of `held`, which is kept while all of these are unchanged.
+    // Cache key of held_m and held_turn_rad, which are kept while all of these are unchanged.
     Pose solved_wrist_bs;  // tracked wrist
     std::uint64_t solved_signature = 0;
     std::uint32_t solved_triangle = GripSurface::k_none;
@@ -104,8 +104,8 @@ struct PalmPose {
 struct FingerPose {
     std::array<FingerAngles, k_finger_count> shown;   // follows `target` at the tuned rates
     std::array<FingerAngles, k_finger_count> target;  // written by fit_hands
-    // The last closing, written by sweep_fingers: angles, and whether the digit touched something
-    // and is known to be outside solids.
+    // Result of the last closing, written by sweep_fingers: the angles, whether the digit touched
+    // something, and whether it is known to be outside solids.
     std::array<FingerAngles, k_finger_count> closed;
     std::array<bool, k_finger_count> touches = {};
     std::array<bool, k_finger_count> is_closed_clear = {};
@@ -115,15 +115,15 @@ struct FingerPose {
     // Cache key of the closing. The digits close again on another body, at another place of its
     // surface, in another grip, or after enough wrist travel. Null body: not closed.
     Entity closed_body = k_no_entity;
-    Pose closed_wrist_bs;  // wrist of the closed hand with the held palm
+    Pose closed_wrist_bs;  // wrist at the closing, with PalmOffset::held_m and held_turn_rad
     Vec3 closed_point_bs = Vec3::Zero();
     Vec3 closed_normal_bs = Vec3::UnitY();
-    bool is_closed_in_grip = false;  // closed by an authored grip
+    bool is_closed_in_grip = false;  // the hand was in an authored grip at the closing
     // True until fit_hands has fitted the closing.
     bool is_newly_closed = false;
-    // The body that `target` was fitted to; null: none. Below, the digits that this fit left
-    // outside of solids.
+    // The body that `target` was fitted to; null: none.
     Entity fitted_body = k_no_entity;
+    // The digits that this fit left outside of solids.
     std::array<bool, k_finger_count> is_clear = {};
     // Cache key of the target: tracked wrist and HandSurroundings::signature of the last fit.
     Pose fitted_wrist_bs;

@@ -2,7 +2,7 @@
 
 #include "components/world.hpp"
 
-// visit_fields for hands and grips: fields.hpp.
+// visit_fields for the components of hands and grips (see fields.hpp).
 namespace handhold {
 
 template <typename V>

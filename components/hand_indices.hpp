@@ -40,7 +40,7 @@ inline std::size_t find_other_hand(const Column<HandOwner>& owner, const Column<
 }
 
 // True if two hands of one player hold the same free body, and no joints connect it to something
-// fixed.
+// that a hand cannot move.
 inline bool share_free_body(const Grab& a, const Grab& b) {
     return a.kind == GripKind::held && b.kind == GripKind::held && a.body == b.body && !a.jointed &&
            !b.jointed;

@@ -17,7 +17,7 @@ struct HandScratch {
     std::vector<std::array<FingerTrace, k_finger_count>> traces;
     // Scratch memory of one slice of the hands. The hand stages process slices in parallel.
     struct Slice {
-        StageStats stats;  // only fallbacks
+        StageStats stats;  // counts only fallbacks
         GripSearchScratch search;
         ChainFitScratch fit;
         std::vector<PenaltyRow> fit_rows;

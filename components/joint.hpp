@@ -44,7 +44,7 @@ struct Joint {
     double upper = 0.0;
     // Maximum friction: N along a slider, N m about a hinge or any axis of a ball.
     double friction = 0.0;
-    double detent_spacing = 0.0;   // detents lie at its multiples, rad or m; 0: no detents
+    double detent_spacing = 0.0;   // detents lie at multiples of this, rad or m; 0: no detents
     double detent_strength = 0.0;  // maximum force towards the nearest detent, N or N m
     JointLatch latch;
 };

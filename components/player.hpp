@@ -21,11 +21,11 @@ struct PlayerBody {
 struct PlayerOrigin {
     Pose pose_ws;
 };
-// PlayerOrigin at the start of the frame. Written by predict_bodies.
+// Pose of the play space at the start of the frame. Written by predict_bodies.
 struct PlayerStart {
     Pose pose_ws;
 };
-// Velocity of the play space, without the tracked motion of the head in it. Written by
+// Velocity of the play space, without the tracked motion of the head in it. Written by pull_bodies,
 // locomote_players, solve_velocities and limit_velocities.
 struct PlayerVelocity {
     Vec3 linear_mps = Vec3::Zero();
@@ -42,8 +42,8 @@ struct PushBack {
 // locomote_players.
 struct ReferenceVelocity {
     Vec3 linear_mps = Vec3::Zero();
-    Entity body = k_no_entity;     // last gripped; null: none yet
-    Vec3 point_bs = Vec3::Zero();  // where it was gripped
+    Entity body = k_no_entity;     // body last gripped; null: none yet
+    Vec3 point_bs = Vec3::Zero();  // point at which the body was gripped
 };
 
 // Bodies that do not collide with the player's head: those in the player's hands, and released ones

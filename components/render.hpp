@@ -19,7 +19,7 @@ struct RenderPose {
         Vec3 ray_from_ws = Vec3::Zero();  // start and end of the palm ray
         Vec3 ray_to_ws = Vec3::Zero();
         GripKind grip = GripKind::none;
-        std::array<FingerAngles, k_finger_count> fingers;  // indexed by index in HandRig::fingers
+        std::array<FingerAngles, k_finger_count> fingers;  // one per finger of HandRig::fingers
     };
     Pose head_ws;
     Vec3 head_center_ws = Vec3::Zero();    // centre of the head's collider

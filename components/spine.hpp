@@ -41,7 +41,7 @@ struct BodyContact {
 // The last search for a surface along a part of the body, and its result. Written by
 // find_body_contacts, which repeats it when the part or a surface near it has moved.
 struct BodySearch {
-    bool known = false;           // false: the next search casts
+    bool known = false;           // false: no result yet, so the next search must cast
     Vec3 from_ws = Vec3::Zero();  // cast from here to to_ws
     Vec3 to_ws = Vec3::Zero();
     std::uint64_t near = 0;  // hash of the cast's radius and of SurfaceQuery::hash_near
@@ -65,11 +65,12 @@ struct BodyPull {
 // are relative to the reference velocity `reference_ws_mps`. The chain advances in fixed time
 // steps, called ticks (k_spine_tick_s).
 struct SpineMemory {
-    bool known = false;                     // false: the next frame starts from rest
-    double since_tick_s = 0.0;              // time since the last tick; [0, k_spine_tick_s)
-    Vec3 moved_m = Vec3::Zero();            // neck's displacement since the last tick
-    Pose chest_ps;                          // chest at the end of the last frame
-    Vec3 neck_ps = Vec3::Zero();            // neck then: chest less ArmEstimate::from_neck_m
+    bool known = false;           // false: the next frame starts from rest
+    double since_tick_s = 0.0;    // time since the last tick; [0, k_spine_tick_s)
+    Vec3 moved_m = Vec3::Zero();  // neck's displacement since the last tick
+    Pose chest_ps;                // chest at the end of the last frame
+    // Neck at the end of the last frame: the chest's position minus ArmEstimate::from_neck_m.
+    Vec3 neck_ps = Vec3::Zero();
     Vec3 rate_mps = Vec3::Zero();           // velocity of the neck in the last frame
     double rate_span_s = 1.0;               // duration of the last frame; > 0
     Quat tick_chest_ps = Quat::Identity();  // chest rotation at the last tick
@@ -86,7 +87,7 @@ struct SpineMemory {
     BodyPull pull;
 };
 
-// Written by propagate_spine.
+// World poses of trunk and legs. Written by propagate_spine; layer_additives adds the clips.
 struct SpinePose {
     struct Leg {
         Pose thigh_ws;  // origin: hip

@@ -25,7 +25,7 @@ enum class Stage : std::uint8_t {
     find_contacts,
     build_constraints,
     solve_phases,
-    solve_velocities,  // and limit_velocities
+    solve_velocities,  // includes limit_velocities
     book_momentum,
     record_valid_poses,
     update_joints,
@@ -55,7 +55,8 @@ enum class Fallback : std::uint8_t {
     hand_implausible,      // faster than TrackingTuning::max_hand_speed_mps: sample ignored
     space_recentred,       // head and hands jumped as one rigid body: the player stays put
     sample_too_far_ahead,  // a sample more than 0.5 s or 64 samples after the frame: dropped
-    sample_too_old,        // a sample more than 0.5 s before the frame: another clock's?
+    // A sample more than 0.5 s before the frame, probably stamped by another clock.
+    sample_too_old,
     // Grabs.
     grab_no_surface,       // a hand closed with no surface in reach
     grip_stretched,        // hand farther from its anchor than HandTuning::max_stretch_m: let go
@@ -73,15 +74,17 @@ enum class Fallback : std::uint8_t {
     grab_out_of_sight,     // a wall stands between hand and surface: nothing gripped
     // Physics.
     contact_rounds_exhausted,  // new contacts appeared in every allowed round
-    contacts_contradict,       // hand rows were dropped so that contacts could be met
+    contacts_contradict,       // hands' constraints were dropped so that contacts could be met
     contacts_unresolved,       // contacts still overlap at the end of the frame
     // An island's penetrating bodies were restored to their last valid pose.
     restored_last_valid_pose,
     // A solve ended before its active set (pushing contacts and limits) converged.
     active_set_not_converged,
-    hands_load_stepped,      // a solve ran out of iterations, then converged by load stepping
-    load_stepping_failed,    // load stepping failed too: the first result is kept
-    friction_not_converged,  // stick or slip did not converge: the last iterate is used, or sweeps
+    hands_load_stepped,    // a solve ran out of iterations, then converged by load stepping
+    load_stepping_failed,  // load stepping failed too: the first result is kept
+    // A direct velocity solve did not converge or has no plausible result. Its last iterate or a
+    // solve by sweeps is used.
+    friction_not_converged,
     // An island spent its WorkBudget: its solve continues in the next frame.
     solver_budget,
     // Contacts of a deeply overlapping pair were postponed: CollisionWork::deferred_pairs.
@@ -92,9 +95,9 @@ enum class Fallback : std::uint8_t {
     // Fingers and palms.
     finger_full_search,   // the seeded searches did not suffice: all triangles in reach were tested
     finger_depenetrated,  // the closed finger penetrated: moved to a sample pose
-    finger_opened,        // the finger still penetrated: opened step by step
+    finger_opened,        // the finger, closed or in a sample pose, penetrated: opened step by step
     finger_no_contact,    // a closing digit touches nothing: it bends like its neighbours
-    hand_penetrates,      // the fitted hand still penetrates by more than 3 mm: shown like that
+    hand_penetrates,      // the fitted hand still penetrates by more than 3 mm: shown penetrating
     body_no_surface,      // the gripped body has no grip mesh: hand shown as tracked
     palm_no_surface,      // no surface near a gripping palm: hand shown as tracked
     // Authored grips.
@@ -134,7 +137,7 @@ struct HandNote {
 
 struct StageStats {
     std::array<std::uint64_t, static_cast<std::size_t>(Fallback::count)> fallbacks{};
-    // By Stage: time in this frame.
+    // Duration of each stage in this frame, indexed by Stage.
     std::array<double, static_cast<std::size_t>(Stage::count)> stage_us{};
 
     std::uint64_t grab_onsets = 0;
@@ -146,7 +149,7 @@ struct StageStats {
     std::uint64_t narrowphase_calls = 0;  // pairs whose contacts were computed, in all passes
     std::uint64_t bounds_updates = 0;     // colliders whose place in the broadphase was updated
     std::uint64_t tree_queries = 0;       // searches of the broadphase for pairs
-    std::uint64_t active_bodies = 0;      // bodies and players that the physics stages looked at
+    std::uint64_t active_bodies = 0;      // bodies and players that the physics stages processed
     std::uint64_t newton_iterations = 0;  // sum over all islands and phases
     double residual_m = 0.0;              // deepest contact overlap at the end of the frame
     double joint_error_m = 0.0;  // largest distance of a joint's points, or slider limit violation
@@ -155,7 +158,7 @@ struct StageStats {
     MomentumLedger ledger;
     std::vector<HandNote> hand_notes;  // chronological
 
-    // Empties everything; keeps the memory of the notes.
+    // Resets everything; keeps the capacity of hand_notes.
     void clear() {
         std::vector<HandNote> notes = std::move(hand_notes);
         *this = {};

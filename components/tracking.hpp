@@ -21,7 +21,7 @@ inline constexpr std::size_t k_finger_count = 5;
 
 // How far each finger is bent, indexed by FingerName: 0 straight, 1 as in a fist.
 using FingerCurls = std::array<double, k_finger_count>;
-inline constexpr double k_unknown_curl = -1.0;  // nobody measures the finger
+inline constexpr double k_unknown_curl = -1.0;  // the curl is not measured
 inline constexpr FingerCurls k_unknown_curls = {k_unknown_curl, k_unknown_curl, k_unknown_curl,
                                                 k_unknown_curl, k_unknown_curl};
 
@@ -29,13 +29,15 @@ inline constexpr FingerCurls k_unknown_curls = {k_unknown_curl, k_unknown_curl, 
 // unit length, or a position of exactly (0, 0, 0).
 struct ControllerSample {
     Pose controller_ps;
-    bool grab = false;     // true: the button that closes the hand is pressed
-    double squeeze = 0.0;  // how far it is pressed, [0, 1]; bends the fingers of an empty hand
+    bool grab = false;  // true: the button that closes the hand is pressed
+    // How far the button that closes the hand is pressed, [0, 1]. Bends the fingers of an empty
+    // hand.
+    double squeeze = 0.0;
     // How far the index finger's trigger is pressed, [0, 1]. Bends the index finger of an empty
     // hand, and the fingers of authored grips that follow the trigger.
     double trigger = 0.0;
     bool is_inferred = false;  // true: the runtime guesses the pose, it does not see the device
-    // Shapes an empty hand; before squeeze and trigger where a finger's curl is known.
+    // Bends the fingers of an empty hand. A known curl is used instead of squeeze and trigger.
     FingerCurls curls = k_unknown_curls;
 };
 // Readings of all devices at one time. Input, not state.
@@ -49,18 +51,20 @@ struct TrackingSample {
 // Commands from sticks and buttons for one frame. All zero: none.
 // Written by read_tracking from the frame's input; read by locomote_players.
 struct PlayerCommands {
-    double smooth_turn = 0.0;       // [-1, 1], positive turns left
-    std::int32_t snap_turns = 0;    // turns to the left begun in this frame; negative to the right
-    double brake = 0.0;             // [0, 1]
-    Vec3 thrust_ps = Vec3::Zero();  // each in [-1, 1]; used only if Tuning allows thrusters
-    bool calibrate = false;         // down while the player holds a T-pose
+    double smooth_turn = 0.0;     // [-1, 1], positive turns left
+    std::int32_t snap_turns = 0;  // turns to the left begun in this frame; negative to the right
+    double brake = 0.0;           // [0, 1]
+    // Each component is in [-1, 1]. Used only if LocomotionTuning::thruster_mps2 is above 0.
+    Vec3 thrust_ps = Vec3::Zero();
+    bool calibrate = false;  // true while the calibration button is held, in a T-pose
 };
 
 // Input of one player for one frame.
 struct PlayerInput {
     Entity player;
     // Sorted by time: the samples since the end of the last frame and, if known, one after the end
-    // of this frame. Poses are interpolated to that one; without it the last pose is held.
+    // of this frame. Poses at the end of the frame are interpolated between the samples before and
+    // after it; without a sample after it, they are those of the last sample.
     std::span<const TrackingSample> samples;
     PlayerCommands commands;
 };
@@ -80,7 +84,7 @@ struct HeadTracking {
     Pose start_ps;   // pose at the start of the frame
     Pose sample_ps;  // last valid sample at or before the end of the frame
     double sample_t_s = 0.0;
-    Pose before_ps;  // valid sample before that one
+    Pose before_ps;  // the valid sample before sample_ps
     double before_t_s = 0.0;
     TrackingState state = TrackingState::never;
     // Correction of samples: pose_ps = (shift_m, shift_turn) * sample. When samples jump
@@ -91,10 +95,11 @@ struct HeadTracking {
     bool is_inferred = false;            // the last sample's position is a guess of the runtime
 };
 
-// Whether jumps of all samples count as recentrings of the device, which the player does not see.
-// Only players with another answer than yes have this component. Written by the host.
+// Whether a jump of head and hands together is taken for a recentring of the device, which must not
+// move the player. Players without this component: yes. Written by the host.
 struct RecenterGuess {
-    bool guesses = false;  // false: the host announces recentrings, every other jump is meant
+    // False: the host announces recentrings; in any other jump the player really moved.
+    bool guesses = false;
 };
 
 enum class GrabEdge : std::uint8_t { none, onset, release };
@@ -113,18 +118,18 @@ struct HandTracking {
     bool resumed = false;
     // Samples after sample_ps were ignored or missing: the next one may lie elsewhere.
     bool interrupted = false;
-    // Last valid sample, used or not. Newer than sample_ps if it was ignored because the hand would
-    // have moved too fast.
+    // Last valid sample, whether it was used or not. It is newer than sample_ps if it was ignored
+    // because the hand would have moved too fast.
     Pose reading_ps;
     double reading_t_s = 0.0;
-    double inferred_t_s = 0.0;  // time of the last guess; used in state `inferred`
+    double inferred_t_s = 0.0;  // time of the last inferred sample; used in state `inferred`
     // At most one edge per frame and hand. If a button bounces faster, the next frame begins with
     // the next edge.
     GrabEdge edge = GrabEdge::none;
     double edge_t_s = 0.0;                // time of the edge's sample, within the frame
-    Pose edge_ps;                         // hand at that time
-    bool pressed = false;                 // state after the edge
-    bool raw_pressed = false;             // value in the last sample
+    Pose edge_ps;                         // hand at edge_t_s
+    bool pressed = false;                 // state of the grab button after the edge
+    bool raw_pressed = false;             // state of the grab button in the last sample
     double squeeze = 0.0;                 // value in the last sample, [0, 1]
     double trigger = 0.0;                 // value in the last sample, [0, 1]
     FingerCurls curls = k_unknown_curls;  // value in the last sample: [0, 1] or k_unknown_curl
@@ -146,7 +151,7 @@ struct EarlySample {
     bool head_inferred = false;
     std::array<bool, k_hand_count> inferred = {};  // indexed by HandSide
     std::array<FingerCurls, k_hand_count> curls = {k_unknown_curls,
-                                                   k_unknown_curls};  // hands, by HandSide
+                                                   k_unknown_curls};  // indexed by HandSide
 };
 
 // A player's samples later than the end of the last frame, as devices that predict poses send them.

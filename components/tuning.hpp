@@ -114,8 +114,8 @@ struct ContactTuning {
 
 struct SolverTuning {
     NewtonSettings positions;  // settings of solve_positions
-    // Replaces positions.regularisation.drive in the forward phase, where contacts must outweigh
-    // hands.
+    // Replaces positions.regularisation.drive in the forward phase, in which hands must yield to
+    // contacts.
     double forward_drive_regularisation = 1e-3;
     std::int32_t friction_passes = VelocitySettings{}.friction_passes;
 };
@@ -215,14 +215,13 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     see("palm.rate_mps", t.palm.rate_mps, "m/s", 0.0, 1e6,
         "Maximum speed at which the shown hand moves relative to the tracked hand.");
     see("finger.plane_offset", t.finger.plane_offset, "", 0.0, 0.99,
-        "Distance of a finger's two outer cutting planes from its middle plane, in mean link "
-        "radii.");
+        "A closing finger is tested against the cuts of the surface in three parallel planes; "
+        "distance of the outer two from the middle one, in mean link radii.");
     see("finger.search_depth_m", t.finger.search_depth_m, "m", 0.0, 0.1,
         "Penetration depth above which a closing finger tests every triangle in reach, and above "
         "which a finger does not take its authored pose.");
     see("finger.open_depth_m", t.finger.open_depth_m, "m", 0.0, 0.1,
-        "Penetration depth left after depenetration above which a finger is also opened step by "
-        "step.");
+        "Penetration depth above which a fitted finger is opened step by step.");
     see("finger.open_step_rad", t.finger.open_step_rad, "rad", 1e-3, 1.0,
         "Opening step while a finger is depenetrated.");
     see("finger.open_steps", t.finger.open_steps, "", 0.0, 64.0,
@@ -238,7 +237,8 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     see("thumb.rest_opposition_rad", t.thumb.rest_opposition_rad, "rad", -3.2, 3.2,
         "Opposition angle of a thumb in its rest pose.");
     see("thumb.penetration_cost", t.thumb.penetration_cost, "", 0.0, 1e3,
-        "Cost of a thumb fit per metre of penetration; other thumb costs are metres.");
+        "Cost of a thumb fit per metre of penetration or of overlap with fingers; other thumb "
+        "costs are metres.");
     see("thumb.open_cost_m", t.thumb.open_cost_m, "m", 0.0, 1.0,
         "Cost of a thumb fit that touches nothing.");
     see("thumb.tip_gap_cost", t.thumb.tip_gap_cost, "", 0.0, 1e3,
@@ -249,13 +249,16 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     see("head.center_m", t.head.center_m, "m", -0.5, 0.5,
         "Centre of the head's collider in the tracked head's frame.");
     see("head.restitution", t.head.restitution, "", 0.0, 1.0,
-        "Restitution of a drifting head that hits a wall; 0: no bounce, 1: full bounce.");
+        "Restitution of a head that hits something, unless the other body's is larger; 0: no "
+        "bounce, 1: full bounce.");
     see("head.friction", t.head.friction, "", 0.0, 10.0,
         "Coulomb friction coefficient of the head; 0: it slides freely along walls.");
     see("locomotion.release_speed_max_mps", t.locomotion.release_speed_max_mps, "m/s", 0.0, 1e6,
         "Maximum speed of a player after a release or push, relative to the reference velocity.");
     see("locomotion.object_speed_max_mps", t.locomotion.object_speed_max_mps, "m/s", 0.0, 1e6,
-        "Maximum speed of a thrown object, relative to the reference velocity.");
+        "Maximum speed of a thrown object, relative to the reference velocity; also of a held or "
+        "pushed object, unless it was already faster or something driven or heavy moves it "
+        "faster.");
     see("locomotion.object_spin_max_radps", t.locomotion.object_spin_max_radps, "rad/s", 0.0, 1e3,
         "Maximum angular speed of a free body.");
     see("locomotion.drift_drag_per_s", t.locomotion.drift_drag_per_s, "1/s", 0.0, 100.0,
@@ -271,12 +274,14 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     see("locomotion.support_follow", t.locomotion.support_follow, "", 0.0, 2.0,
         "Whether the play space turns with a gripped body: 0 no, 1 yaw only, 2 fully.");
     see("phases.kappa_light_kg", t.phases.kappa_light_kg, "kg", 0.0, 1e9,
-        "Mass below which a held free object never moves the player.");
+        "Mass up to which a held free object moves the player only if it is pressed against "
+        "something that cannot give way.");
     see("phases.kappa_heavy_kg", t.phases.kappa_heavy_kg, "kg", 1e-6, 1e9,
         "Mass from which a held object exchanges momentum with the player exactly; must exceed "
         "phases.kappa_light_kg.");
     see("phases.heavy_body_kg", t.phases.heavy_body_kg, "kg", 1e-6, 1e9,
-        "Mass from which a free body is gripped like a wall, unmoved by the forward phase.");
+        "Mass from which a free body is gripped like a wall and counts as immovable in the forward "
+        "phase.");
     see("contact.margin_m", t.contact.margin_m, "m", 1e-3, 0.2,
         "Distance up to which contacts are created before colliders touch.");
     see("contact.sweep_m", t.contact.sweep_m, "m", 1e-4, 0.1,
@@ -284,9 +289,11 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     see("contact.restitution_speed_mps", t.contact.restitution_speed_mps, "m/s", 0.0, 100.0,
         "Impact speed below which bodies do not bounce.");
     see("contact.max_rounds", t.contact.max_rounds, "", 1.0, 16.0,
-        "Maximum number of times a phase is solved again with contacts found at its result.");
+        "Maximum number of solves of a phase; it is solved again while contacts that are found at "
+        "its result overlap.");
     see("contact.restore_depth_m", t.contact.restore_depth_m, "m", 1e-6, 10.0,
-        "Overlap depth above which an unresolved free body is restored to its last valid pose.");
+        "Overlap depth above which a free body that still overlaps after the solve is restored to "
+        "its last valid pose.");
     see("solver.max_iterations", t.solver.positions.max_iterations, "", 1.0, 1000.0,
         "Maximum Newton iterations per phase; load stepping may use five times as many.");
     see("solver.tolerance_m", t.solver.positions.tolerance_m, "m", 1e-12, 1e-3,
@@ -294,41 +301,44 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     see("solver.step_tolerance_m", t.solver.positions.step_tolerance_m, "m", 1e-14, 1e-3,
         "Newton step length below which a phase ends.");
     see("solver.drive_regularisation", t.solver.positions.regularisation.drive, "", 1e-9, 1e-2,
-        "Initial relative regularisation of hand rows outside the forward phase; larger: hands "
-        "yield more.");
+        "Initial relative regularisation of the hands' constraints in all phases but the forward "
+        "phase; larger: hands yield more.");
     see("solver.forward_drive_regularisation", t.solver.forward_drive_regularisation, "", 1e-9,
         1e-2,
-        "Initial relative regularisation of hand rows in the forward phase, where contacts "
-        "outweigh hands.");
+        "Initial relative regularisation of the hands' constraints in the forward phase, which "
+        "solves contacts of free bodies; larger: hands yield more to contacts.");
     see("solver.contact_regularisation", t.solver.positions.regularisation.contact, "", 1e-12, 1e-3,
-        "Relative regularisation of contact rows; larger: conflicting contacts yield more.");
+        "Relative regularisation of contacts; larger: conflicting contacts yield more.");
     see("solver.joint_regularisation", t.solver.positions.regularisation.joint, "", 1e-14, 1e-3,
-        "Relative regularisation of joint rows; joint limits use 100 times as much.");
+        "Relative regularisation of joints; joint limits use 100 times as much.");
     see("solver.max_drive_regularisation", t.solver.positions.schedule.max_drive_regularisation, "",
         1e-9, 1.0,
-        "Upper bound of the hand regularisation, reached while the error does not fall; at least "
-        "solver.min_drive_regularisation.");
+        "Upper bound to which the hand regularisation rises while Newton steps do not reduce the "
+        "error enough; at least solver.min_drive_regularisation.");
     see("solver.min_drive_regularisation", t.solver.positions.schedule.min_drive_regularisation, "",
-        1e-12, 1e-2, "Lower bound of the hand regularisation, reached while the error falls.");
+        1e-12, 1e-2,
+        "Lower bound to which the hand regularisation falls while Newton steps converge.");
     see("solver.max_contact_regularisation", t.solver.positions.schedule.max_contact_regularisation,
         "", 1e-12, 1e-2,
         "Upper bound of the contact regularisation while contacts conflict; at least "
         "solver.contact_regularisation.");
     see("solver.regularisation_decrease", t.solver.positions.schedule.regularisation_decrease, "",
         1e-6, 1.0,
-        "Factor applied to the hand regularisation after a step that reduces the error.");
+        "Factor on the hand regularisation after a Newton step that halves the smallest error so "
+        "far, or after solver.linear_decrease_steps slower ones.");
     see("solver.regularisation_increase", t.solver.positions.schedule.regularisation_increase, "",
         1.0, 1e6,
-        "Factor applied to the hand regularisation after a step that does not reduce the error.");
+        "Factor on the hand regularisation after any Newton step to which "
+        "solver.regularisation_decrease does not apply.");
     see("solver.linear_decrease_steps", t.solver.positions.schedule.linear_decrease_steps, "", 1.0,
         1000.0,
-        "Number of consecutive full Newton steps with only a slow fall of the error after which "
-        "the "
-        "hand regularisation is reduced, as after one fast step.");
+        "After this many consecutive Newton steps that each leave less than "
+        "solver.linear_decrease_ratio of the error, the hand regularisation is reduced as after a "
+        "step that halves it. Steps that were scaled down or have contacts do not count.");
     see("solver.linear_decrease_ratio", t.solver.positions.schedule.linear_decrease_ratio, "", 0.0,
         1.0,
-        "A Newton step that leaves less than this share of the error counts towards "
-        "solver.linear_decrease_steps.");
+        "A Newton step that leaves less than this share of the smallest error so far counts "
+        "towards solver.linear_decrease_steps.");
     see("solver.max_step_rotation_rad", t.solver.positions.schedule.max_step_rotation_rad, "rad",
         1e-3, 3.0, "Maximum rotation of a body in one Newton step; larger steps are scaled down.");
     see("solver.min_step_scale", t.solver.positions.schedule.min_step_scale, "", 0.0, 1.0,

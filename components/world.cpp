@@ -40,8 +40,8 @@ Entity add_named(World& world, std::string_view name) {
     const Entity entity = world.entities.create();
     world.persistent_id.add(entity, id);
     world.entity_by_id.add(id, entity);
-    // Names outlive their entities, because a snapshot may restore those. Names of destroyed
-    // entities are dropped once they are the majority.
+    // Names outlive their entities, because a snapshot may restore a destroyed entity. Once most
+    // names belong to destroyed entities, those names are dropped.
     if (world.name_of_id.size() > 2 * world.persistent_id.size() + 64) {
         std::erase_if(world.name_of_id, [&world](const auto& named) {
             return is_null(world.entity_by_id.find({named.first}));

@@ -66,7 +66,7 @@ struct World {
     Column<HeadTracking> head_tracking;
     Column<HeadIgnores> head_ignores;
     Column<RenderPose> render_pose;
-    Column<BodyMeasures> body_measures;  // first of eight columns that every player has
+    Column<BodyMeasures> body_measures;  // every player has this and the next seven components
     Column<Calibration> calibration;
     Column<ArmMemory> arm_memory;
     Column<ArmEstimate> arm_estimate;
@@ -90,7 +90,7 @@ struct World {
     Column<BodyHold> body_hold;            // only hands on another player's arm, trunk or leg
     Column<HandPull> hand_pull;            // only hands that pull a body from a distance
     Column<EarlySamples> early_samples;    // only players with samples later than the last frame
-    Column<RecenterGuess> recenter_guess;  // only players whose samples' jumps are meant
+    Column<RecenterGuess> recenter_guess;  // only players whose host announces recentrings
     Column<GrabLayers> grab_layers;        // only players whose hands do not grip everything
     Column<GrabOrder> grab_order;          // only hands with an order for the next frame
     Column<HandRigChoice> hand_rig;        // only hands with a rig of their own
@@ -225,7 +225,8 @@ PlayerEntities add_player(World& world, const PlayerDescription& description,
 // false for a stale handle. The cost does not depend on the number of other entities.
 bool destroy(World& world, Entity entity);
 
-// Rebuilds the caches if the columns were filled in another way, for example from a snapshot.
+// Rebuilds the caches if the columns were filled without the functions above, for example from a
+// snapshot.
 void sync_index(World& world);
 
 // Returns k_no_entity if no entity has the id. Constant cost.

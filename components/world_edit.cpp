@@ -71,7 +71,7 @@ void teleport_body(World& world, Entity body, const Pose& pose_ws) {
     let_go_of(world, body, k_no_entity);
     for (HandSight& sight : world.hand_sight.elements()) {
         if (sight.frame == body) {
-            sight = {};  // the hand does not move: its sight is found again
+            sight = {};  // outside_bs moved with the body, but the hand did not
         }
     }
     place_body(world, body, pose_ws);

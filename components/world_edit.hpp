@@ -18,10 +18,10 @@ void teleport_body(World& world, Entity body, const Pose& pose_ws);
 
 // Places a player's play space at `origin_ws` at once, at rest relative to the scene. Free bodies
 // in the player's hands that no joint holds come along; the hands let go of everything else. Hands
-// of other players let go of this player's head and of bodies that come along.
+// of other players let go of this player and of the bodies that come along.
 void teleport_player(World& world, Entity player, const Pose& origin_ws);
 
-// The player's hand on that side. Throws if there is no such player.
+// Returns the player's hand on that side. Throws if there is no such player.
 Entity hand_of(const World& world, Entity player, HandSide side);
 
 }  // namespace handhold

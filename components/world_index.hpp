@@ -48,8 +48,8 @@ class JointsByBody {
     void clear();
 
   private:
-    std::vector<std::vector<Entity>>
-        by_slot_;  // joints of a body, indexed by the body's Entity::slot
+    // Joints of each body, indexed by the body's Entity::slot.
+    std::vector<std::vector<Entity>> by_slot_;
     std::size_t size_ = 0;
 };
 

@@ -14,15 +14,16 @@ struct JointRange {
     double share = 1.0;  // (0, 1]
 };
 
-// Directions are in the parent link's frame. `angle_rad` is read as the last tick's angle and set
-// to this tick's.
+// Directions are in the parent link's frame. `angle_rad`: in, the last tick's angle; out, this
+// tick's.
 
-// Cone about `rest`. The angle is measured from `rest`. `towards`, `rest` and the result are unit
-// vectors.
+// Limits `towards` to a cone about `rest`. The angle is measured from `rest`. `towards`, `rest` and
+// the result are unit vectors.
 Vec3 clamp_to_cone(const Vec3& towards, const Vec3& rest, const JointRange& range,
                    double& angle_rad);
 
-// Hinge about X. The angle is measured from -Y towards +Z. The result is perpendicular to X.
+// Limits `towards` to a hinge about X. The angle is measured from -Y towards +Z. The result is
+// perpendicular to X.
 Vec3 clamp_to_hinge(const Vec3& towards, const JointRange& range, double& angle_rad);
 
 }  // namespace handhold

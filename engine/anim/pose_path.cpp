@@ -76,7 +76,7 @@ class PeriodicSpline {
 
   private:
     static void check_turn(double cosine, std::size_t key) {
-        // `cosine`: of half the angle between the rotations.
+        // `cosine` is the cosine of half the angle between the rotations.
         double sine = 0.0;
         double min_cosine = 1.0;
         sin_cos(0.5 * k_max_path_turn_rad, sine, min_cosine);
@@ -103,8 +103,8 @@ Vec4 rate_of(const PathKey& key) {
             key.quaternion_rate[3]};
 }
 
-// Cubic Hermite segment from value a with rate ra to value b with rate rb. It takes step_s; s is
-// the fraction of it.
+// Cubic Hermite segment from value a with rate ra to value b with rate rb. It lasts step_s seconds;
+// s in [0, 1] is the share that has passed.
 template <typename Vector>
 struct Cubic {
     Vector value;

@@ -23,7 +23,8 @@ struct PathKey {
 
 // Plain data, usable as a component.
 struct PosePath {
-    std::array<PathKey, k_max_path_keys> keys;  // the first `count`, evenly spaced over the period
+    // only the first `count` are used; evenly spaced over the period
+    std::array<PathKey, k_max_path_keys> keys;
     std::uint32_t count = 0;
     double period_s = 1.0;
 };

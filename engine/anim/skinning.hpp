@@ -23,8 +23,8 @@ struct SkinVerticesInput {
     std::span<const Vec3> positions;
     std::span<const Vec3> normals;         // one per vertex, unit length
     std::span<const SkinWeights> weights;  // one per vertex; joint indices < carry.size()
-    std::span<const Affine>
-        carry;  // one per joint: transform from its bind pose to its current pose
+    // one per joint: transform from its bind pose to its current pose
+    std::span<const Affine> carry;
 };
 
 // Moves each vertex by the weighted mean of its joints' transforms. Resizes the outputs to the

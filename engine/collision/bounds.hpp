@@ -7,7 +7,7 @@
 namespace handhold {
 
 // Margin added to swept bounds so that rounding errors never hide a contact. Rounding errors of
-// doubles are much smaller, for instance even 100 km from the origin.
+// doubles are much smaller, even 100 km from the origin.
 constexpr double k_rounding_m = 1e-6;
 
 struct Bounds {

@@ -74,8 +74,8 @@ class Broadphase {
     int depth() const { return btDbvt::maxdepth(tree_.m_root); }
 
   private:
-    // Makes bodies_ the proxies that have a shape. Bodies that were in bodies_ before keep their
-    // data.
+    // Rebuilds bodies_ from the proxies that have a shape. Bodies that were in bodies_ before keep
+    // their data.
     void match_bodies(std::span<const ColliderProxy> proxies);
     void replace(BroadphaseBody& body, const ColliderProxy& proxy, const ShapeExtent& extent);
     void place(BroadphaseBody& body, const ShapeExtent& extent);

@@ -1,7 +1,7 @@
 // Implementation of CollisionWorld. Bullet finds the candidates (btDbvt over swept bounds, a
 // quantised tree over each mesh's triangles) and tests rays against triangles. bullet_separation
-// and bullet_manifold use Bullet to measure distances and to clip faces. docs/decisions/, 10 lists
-// what is implemented here instead, and why.
+// and bullet_manifold use Bullet to measure distances and to clip faces. Decisions 10 and 12
+// (docs/decisions/) say what is implemented here instead, and why.
 #include <algorithm>
 #include <array>
 #include <iterator>
@@ -255,7 +255,7 @@ void CollisionWorld::find_contacts(const ContactLimits& limits,
     }
     auto find = [&](std::size_t i) {
         world.found[i].clear();
-        // Without this, a body's first contacts would allocate.
+        // Reserves memory before the first contacts occur, so that a warm frame does not allocate.
         world.found[i].reserve(k_usual_contacts);
         world.find_contacts_of(world.body_pairs[i], limits, world.found[i]);
     };

@@ -15,8 +15,8 @@
 #include "engine/geometry/shape_library.hpp"
 
 // Convex shapes in Bullet's representation. All values of one call are in "near space" (suffix
-// _ns): b's axes with the origin at a's position. So precision does not depend on the distance from
-// the world's origin. Between calls only allocated memory is kept.
+// _ns): b's axes with the origin at a's position. Precision therefore does not depend on the
+// distance from the world's origin. Between calls only allocated memory is kept.
 namespace handhold {
 
 // The curved side of a cylinder.
@@ -29,7 +29,7 @@ struct Barrel {
 // radius_m.
 struct Convex {
     const btConvexShape* shape = nullptr;  // shape whose Bullet margin equals radius_m
-    // Null for spheres and capsules; of a cylinder only its two ends.
+    // Null for spheres and capsules. The faces of a cylinder are its two ends only.
     const btConvexPolyhedron* faces = nullptr;
     // `faces` with the side planes moved outwards by a nanometre, for clipping.
     const btConvexPolyhedron* prisms = nullptr;
@@ -38,7 +38,7 @@ struct Convex {
     const Corners* corners_ns = nullptr;  // triangle: its corners; null otherwise
     const Barrel* barrel = nullptr;       // cylinder: its curved side; null otherwise
 
-    Vec3 centre_ns() const { return from_bullet(pose_ns.getOrigin()); }  // point of the core
+    Vec3 centre_ns() const { return from_bullet(pose_ns.getOrigin()); }  // a point inside the core
     // Support point of the core: its farthest point along `direction`.
     Vec3 support(const Vec3& direction) const;
     Vec3 face_normal(int face) const;
@@ -87,7 +87,7 @@ class ConvexPart {
     // Upper bound of the distance between the body's origin and any point of the core: the lever
     // arm of the body's rotation.
     double arm_m() const { return pose_bs_.position.norm() + shape_.core_reach_m(); }
-    // In the body's frame, about the body's origin.
+    // Extent in the body's frame; the radius is about the body's origin.
     const ShapeExtent& extent() const { return extent_; }
 
   private:

@@ -52,8 +52,8 @@ struct Approach {
     int steps = 0;
 };
 enum class ApproachState : std::uint8_t { continues, touches, misses };
-// begin_approach takes cheap first steps; nullopt only if a does not touch b before `limit`, a
-// fraction of the motion. advance moves to a later fraction, up to which a cannot touch
+// begin_approach takes cheap first steps. It returns nullopt only if a does not touch b before
+// `limit`, a fraction of the motion. advance moves to a later fraction, up to which a cannot touch
 // b. A caller with many shapes always advances the one with the smallest fraction.
 std::optional<Approach> begin_approach(const ConvexPart& a, const RelativeMotion& motion,
                                        const Convex& b, double limit);

@@ -15,8 +15,8 @@
 class btBvhTriangleMeshShape;
 
 // Finds the triangles of a mesh in a box or on a ray, through Bullet's quantised BVH. Bullet builds
-// the tree. The traversal is written here and writes nothing: Bullet's counts its steps in a
-// global, which is a data race.
+// the tree. The traversal is this file's own and modifies nothing: Bullet's traversal counts its
+// steps in a global, which is a data race.
 namespace handhold {
 
 // BVH of one unscaled mesh. Refers to the mesh, which must outlive it.

@@ -46,7 +46,9 @@ struct CollisionWorld::Impl {
     // Fills body_pairs and pairs. A body that has no pairs costs nothing if nothing near it changed
     // since the last pass.
     void find_pairs(double margin_m);
-    // Why find_pairs visits a body. If there are several reasons, the highest value is kept.
+    // Why find_pairs visits a body. listed: the body had pairs in the last pass; dirty: it is near
+    // a change, its ignored pairs changed, or all bodies are visited; changed: it changed itself.
+    // If there are several reasons, the highest value is kept.
     enum class Visit : std::uint8_t { none, listed, dirty, changed };
     void mark(std::size_t body, Visit visit, std::size_t slot);
     void mark_near_changes(double margin_m);
@@ -80,20 +82,21 @@ struct CollisionWorld::Impl {
     BroadphaseScratch broadphase_scratch;
     std::vector<std::size_t> visits;   // bodies, ascending
     std::vector<Visit> visit_of_body;  // all none between passes
-    // By body. Visit::changed: index into near_ends. Visit::listed: index into last_body_pairs.
+    // Indexed by body. Visit::changed: index into near_ends. Visit::listed: index into
+    // last_body_pairs.
     std::vector<std::uint32_t> slot_of_visit;
     struct FreePair {
         std::size_t other;
         bool deep;
     };
     std::vector<FreePair> free_pairs;  // pairs of one body
-    std::vector<std::size_t>
-        near_changed;                      // bodies near each changed body, one range after another
+    // bodies near each changed body, one range after another
+    std::vector<std::size_t> near_changed;
     std::vector<std::size_t> near_ends;    // end of each range; in the order of changed()
     std::vector<std::uint64_t> dirty_ids;  // colliders whose ignored pairs changed
     double last_margin_m = 0.0;
-    std::vector<BodyPairs>
-        body_pairs;  // ascending by id; only bodies that were searched or have pairs
+    // ascending by id; only bodies that were searched or have pairs
+    std::vector<BodyPairs> body_pairs;
     std::vector<std::size_t> pairs;          // indices of the other bodies into broadphase.bodies()
     std::vector<BodyPairs> last_body_pairs;  // pairs of the last pass
     std::vector<std::size_t> last_pairs;

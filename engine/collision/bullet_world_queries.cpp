@@ -29,8 +29,9 @@ bool contains(std::span<const std::uint64_t> ids, std::uint64_t id) {
     return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
-// True only if a sphere that moves from the origin by `move` stays away from the triangle: a plane
-// between them, parallel to the triangle or across the line to its centre.
+// True only if a sphere that moves from the origin by `move` misses the triangle. Tests two
+// separating planes: one parallel to the triangle, and one perpendicular to the shortest line from
+// the path to the triangle's centre.
 bool sphere_misses(const Corners& corners, const Vec3& move, double radius_m) {
     const auto is_between = [&](const Vec3& normal) {
         const double a = normal.dot(corners[0]);

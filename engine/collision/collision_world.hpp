@@ -44,8 +44,8 @@ struct IgnoredPair {
     friend auto operator<=>(const IgnoredPair&, const IgnoredPair&) = default;
 };
 
-// A contact point of two colliders. When the bodies have moved rigidly, its separation is normal_ws
-// . (point_a_ws - point_b_ws); negative: penetration.
+// A contact point of two colliders. After the bodies have moved rigidly, its separation is
+// dot(normal_ws, point_a_ws - point_b_ws); negative: penetration.
 struct ContactPoint {
     std::uint64_t id_a = 0;  // always a free collider
     // Two free colliders: id_a < id_b.
@@ -59,7 +59,8 @@ struct ContactPoint {
 };
 
 struct ContactLimits {
-    // Contacts with a larger separation are dropped; > 0. A pair whose sweep touched keeps one.
+    // Contacts with a larger separation are dropped; > 0. A pair whose sweep touched keeps at least
+    // one.
     double margin_m = 0.02;
     // Pairs whose relative displacement exceeds this are swept; > 0.
     double sweep_m = 0.005;
@@ -69,13 +70,14 @@ struct ContactLimits {
 struct CollisionWork {
     std::uint64_t narrowphase_calls = 0;  // pairs whose contacts were computed, not recalled
     std::uint64_t bounds_updates = 0;     // colliders whose place in the tree was updated
-    std::uint64_t tree_queries = 0;       // count in find_contacts
+    std::uint64_t tree_queries = 0;       // queries of the broadphase's tree by find_contacts
     // Pairs that find_contacts left out because one of the two bodies overlaps too many others
     // deeply. They are found once those bodies have separated.
     std::uint64_t deferred_pairs = 0;
 };
 
-// The BVH of a mesh. Keeps a reference to the mesh, which must outlive it. Any thread.
+// The BVH of a mesh. Keeps a reference to the mesh, which must outlive it. May be built on any
+// thread.
 class TriangleTree;
 std::shared_ptr<const TriangleTree> build_triangle_tree(const Mesh& mesh);
 
@@ -169,7 +171,8 @@ class CollisionWorld {
     // id.
     std::optional<SurfacePoint> closest_point_on(std::uint64_t id, const Vec3& point_ws) const;
 
-    // Longest path in the broadphase's tree: what placing or removing one collider may cost.
+    // Length of the longest path in the broadphase's tree, which bounds the cost of placing or
+    // removing one collider.
     int broadphase_depth() const;
 
   private:

@@ -12,7 +12,7 @@ namespace handhold {
 // A triangle near a body, in near space: b's axes with the origin at a's position.
 struct NearTriangle {
     Corners corners_ns;
-    Vec3 normal = Vec3::UnitY();  // unit; on either side, because levels have mixed winding
+    Vec3 normal = Vec3::UnitY();  // unit; either side, because level meshes have mixed winding
     Bounds box_ns;
 };
 

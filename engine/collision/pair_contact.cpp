@@ -162,8 +162,9 @@ void add_contacts_at(const PairIo& io, const Pose& pose_ns, const Pose& from_ns)
     }
 }
 
-// After the touch a may rotate on, as a rolling ball does, and points that did not touch become the
-// deepest. For each contact plane found at `touch_ns`, adds a's deepest point at `to_ns`.
+// After the touch, a may continue to rotate, as a rolling ball does, so that points that did not
+// touch become the deepest. For each contact plane found at `touch_ns`, adds a's deepest point at
+// `to_ns`.
 void add_deepest_at_end(const PairIo& io, const Pose& touch_ns, const Pose& to_ns) {
     std::vector<NearContact>& contacts = io.scratch.contacts;
     const auto depth_at_end = [&](const NearContact& contact) {
@@ -192,9 +193,9 @@ void add_deepest_at_end(const PairIo& io, const Pose& touch_ns, const Pose& to_n
 }
 
 // Appends the contacts found at `pose_ns` that are within the margin at `to_ns`. If the sweep
-// touched and none is within the margin, appends the nearest one: the rest of the motion may leave
-// the touch behind and end in another part of b, and overlaps are looked for only in pairs with a
-// contact.
+// touched and no contact is within the margin, appends the nearest one: the rest of the motion may
+// leave this contact and end inside another part of b, and overlaps are searched only in pairs with
+// a contact (find_missed_overlaps).
 void append_contacts(const PairIo& io, const Pose& pose_ns, const Pose& to_ns, bool touched) {
     std::uint32_t feature = 0;
     std::optional<ContactPoint> nearest;

@@ -352,7 +352,8 @@ LocalSurfacePoint closest_on_shape(const Shape& shape, const Vec3& point) {
 }
 
 LocalSurfacePoint closest_on_triangle_surface(const Corners& corners, const Vec3& point) {
-    // Smaller distances count as 0, because the direction to the point is then rounding noise.
+    // At smaller distances the direction to the point is rounding noise: uses the triangle's
+    // normal.
     constexpr double k_on_surface_m = 1e-9;
     const Vec3 surface = closest_on_triangle(point, corners);
     const Vec3 along = point - surface;

@@ -10,8 +10,8 @@ class PreconditionError : public std::logic_error {
     using std::logic_error::logic_error;
 };
 
-// Throws PreconditionError: "column.at: no row for this entity (value 7)". Defined in a source, so
-// that headers compile without exceptions.
+// Throws PreconditionError: "at: no element for this entity (value 7)". Defined in a source file,
+// so that headers compile without exceptions.
 [[noreturn]] void fail_precondition(const char* function, const char* what,
                                     const std::string& value);
 

@@ -9,12 +9,12 @@
 namespace handhold {
 
 // While alive, this thread computes in the environment that the library is written for: no
-// exception traps, rounding to nearest, denormals kept (but see FlushDenormals). Afterwards the
-// thread has the environment of before, to the bit, sticky flags included. Cost: a few nanoseconds.
+// exception traps, rounding to nearest, denormals kept (but see FlushDenormals). The destructor
+// restores the previous environment bit by bit, sticky flags included. Cost: a few nanoseconds.
 //
-// Traps would end programs in places that mean what they compute: slab tests divide by a
-// direction's zero and compare with infinity, lanes of four that stand for nothing hold infinite
-// sentinels or integers. Their results are never used, or are used as infinity.
+// Traps would end programs at operations that are intended: slab tests divide by the zero
+// components of a direction and compare with infinity, and unused lanes of four hold infinite
+// sentinels or integers. Such results are never used, or are used as infinity.
 //
 // Only the control register of scalar and vector instructions is set: MXCSR on x86, FPCR and FPSR
 // on 64-bit Arm. The library contains no x87 instructions. WebAssembly has a single environment.

@@ -48,7 +48,7 @@ struct Job {
     std::atomic<std::size_t> next = 0;
 };
 
-// A task in the hands of a ParallelBackend.
+// A task passed to a ParallelBackend.
 struct LentTask {
     void* const context;
     const IndexedTask task;

@@ -17,7 +17,7 @@ using IndexedTask = void (*)(void* context, std::size_t index);
 // all are done.
 using ParallelBackend = void (*)(void* context, std::size_t count, IndexedTask task,
                                  void* task_context);
-// Replaces the library's own threads; null: back to them. Call between frames only.
+// Replaces the library's own threads; null: restores them. Call between frames only.
 void set_parallel_backend(ParallelBackend backend, void* context);
 
 // Calls task(context, i) once for every i in [0, count) and returns when all are done. Indices

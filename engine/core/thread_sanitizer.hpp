@@ -14,7 +14,7 @@
 namespace handhold {
 
 #ifdef HH_THREAD_SANITIZER
-// What this thread did before release_memory happens before what other threads do after
+// All that this thread does before release_memory happens before all that other threads do after
 // acquire_memory with the same address.
 void release_memory(const void* address);
 void acquire_memory(const void* address);

@@ -5,7 +5,7 @@
 
 namespace handhold {
 
-// Progress of long work, for a progress bar. The code that works adds to it, in units of its
+// Progress of long work, for a progress bar. The code that does the work counts it, in units of its
 // choice; any thread may read it. There is one meter per process.
 struct WorkMeter {
     std::atomic<std::uint64_t> planned = 0;

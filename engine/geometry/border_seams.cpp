@@ -129,8 +129,10 @@ std::vector<SeamCut> find_cuts(const SurfaceGraph& graph, const Borders& borders
     return cuts;
 }
 
-// A piece of a split triangle. rest_of[i]: number of the original side of which edge i is the part
-// that later cuts may split; k_no_side if edge i is not such a part.
+// A piece of a split triangle. The cuts of one side of the triangle come in ascending order, so
+// each of them splits the part of the side that lies beyond the cut before. rest_of[i]: the side
+// whose last part, beyond all cuts so far, is edge i; k_no_side if edge i is not the last part of a
+// side.
 struct Piece {
     Triangle corners;
     std::array<std::uint32_t, 3> rest_of;
@@ -142,8 +144,8 @@ Vec3 area_of(const SurfaceGraph& graph, const Triangle& corners) {
         {graph.positions[corners[0]], graph.positions[corners[1]], graph.positions[corners[2]]});
 }
 
-// Splits the piece with the uncut part of side `cut.side`. Cuts of one side must come in ascending
-// order. Returns false and changes nothing if a new piece would be flipped or degenerate.
+// Splits the piece that has the last part of side `cut.side` (Piece::rest_of). Returns false and
+// changes nothing if a new piece would be flipped or degenerate.
 bool cut_piece(const SurfaceGraph& graph, const Vec3& area, const SeamCut& cut,
                std::vector<Piece>& pieces) {
     for (std::size_t p = 0; p < pieces.size(); ++p) {

@@ -9,14 +9,16 @@
 namespace handhold {
 namespace {
 
-// Largest leaf, in triangles. A set of at most two leaves is split into a full leaf and the rest.
+// Largest number of triangles in a leaf. A node whose triangles fit into two leaves is split into a
+// full leaf and the rest.
 constexpr std::uint32_t k_leaf = 4;
-// Deeper sets are split in halves, which limits the query stack.
+// From this depth on, nodes are split into halves with equally many triangles. This bounds the
+// tree's depth and with it the stack of a query.
 constexpr std::uint32_t k_planned_depth = 30;
-constexpr double k_padding =
-    0x1p-22;  // padding of a box relative to the mesh's size: four float roundings
+// Padding of a box, relative to the mesh's size: four float roundings.
+constexpr double k_padding = 0x1p-22;
 
-// Cost of testing triangles: their number of groups of four, because four are tested at once.
+// Cost of testing triangles: the number of groups of four, because four are tested at once.
 std::uint32_t fours_of(std::uint32_t triangles) { return (triangles + k_leaf - 1) / k_leaf; }
 
 }  // namespace

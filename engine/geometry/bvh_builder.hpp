@@ -11,10 +11,11 @@
 
 namespace handhold {
 
-// Builds a TriangleBvh top-down. Each binary split is the cheapest of k_bins planes along each axis
-// by the surface area heuristic. Binary nodes are then collapsed to nodes with four children,
-// largest area first. The order of a set's triangles has no effect, so the tree is the same on
-// every compiler and library.
+// Builds a TriangleBvh top-down. Along each axis, the triangles of a node are sorted into k_bins
+// bins; the node is split at the bin border that is cheapest by the surface area heuristic. Binary
+// nodes are then collapsed to nodes with four children, by opening the child with the largest area
+// first. The order in which std::partition leaves the triangles has no effect, so the tree is the
+// same with every compiler and standard library.
 class BvhBuilder {
   public:
     BvhBuilder(TriangleBvh& bvh, std::span<const Vec3> positions,
@@ -41,7 +42,7 @@ class BvhBuilder {
     // A binary node. The children of an inner node are adjacent.
     struct Pair {
         Box box;
-        std::uint32_t first = 0;  // inner: first child; leaf: first item, later first slot
+        std::uint32_t first = 0;  // inner: first child; leaf: first item, then (fill_leaves) slot
         std::uint32_t count = 0;  // leaf: number of items; 0: inner
     };
     struct Work {
@@ -53,7 +54,7 @@ class BvhBuilder {
     struct Split {
         std::size_t axis = 0;
         std::uint32_t bin = 0;  // first bin of the upper side
-        // Sum over both sides of: groups of four triangles times half the box's area.
+        // Sum over both sides: number of groups of four triangles, times half the box's area.
         double cost = 0.0;
         bool found = false;
     };
@@ -65,7 +66,7 @@ class BvhBuilder {
         std::array<Box, k_bins> boxes;
         std::array<std::uint32_t, k_bins> counts;
     };
-    // The bin of the item's middle along each axis.
+    // The bin of the item's middle along each axis. `middles`: bounding box of all items' middles.
     static Int4 bins_of(const Item& item, const Box& middles);
     Split best_split(const Work& work, const Box& middles) const;
     static Split best_split_along(std::size_t axis, const Bins& bins, std::uint32_t all);
@@ -83,7 +84,7 @@ class BvhBuilder {
     float padding_ = 0.0F;
     std::vector<Item> items_;
     std::vector<Pair> pairs_;            // root first
-    std::vector<std::uint32_t> copied_;  // index in the tree's positions, one per position
+    std::vector<std::uint32_t> copied_;  // index of each input position in the tree's positions
 };
 
 }  // namespace handhold

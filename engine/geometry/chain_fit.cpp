@@ -195,8 +195,8 @@ class ChainFitter {
         }
     }
 
-    // Best sample poses for a chain that penetrates after closing. A clear pose penetrates less
-    // than a given depth.
+    // Best sample poses for a chain that penetrates after closing. A pose is clear if it penetrates
+    // at most as deep as evaluate_sample_poses is told.
     struct SamplePoses {
         std::optional<Angles> touching;           // clear and touching, nearest to rest_rad
         std::optional<Angles> clear;              // clear, nearest to rest_rad
@@ -204,10 +204,10 @@ class ChainFitter {
         double min_m = 0.0;                       // depth of least_penetrating
     };
 
-    // Replaces a penetrating pose by a sample pose. Other poses may be clear if the chain
-    // penetrates when straight, or closed onto a surface that it only grazes. Prefers a clear pose
-    // that touches. If a clear pose touches nothing, closes it again until it does. If no pose is
-    // clear, takes the one that penetrates least.
+    // Replaces a penetrating pose by a sample pose. A clear pose may exist although closing ended
+    // with penetration: the chain may have penetrated from the start, or have closed onto a surface
+    // that it only grazes. Prefers a clear pose that touches. If a clear pose touches nothing,
+    // closes it again until it does. If no pose is clear, takes the one that penetrates least.
     void depenetrate() {
         const double clear_m = std::min(settings_.open_depth_m, fit_.depth_m);
         const Angles penetrating_rad = fit_.angle_rad;

@@ -29,10 +29,12 @@ using ChainSeed = std::array<GraphPoint, 2>;
 // sets them from the tuning.
 struct ChainFitSettings {
     double plane_offset = 0.0;  // outer planes' offset from the middle one, in mean link radii
-    // If the fit penetrates deeper: all cuts are used, then sample poses.
+    // If a fit penetrates deeper than this, it is repeated with all cuts in reach. If that
+    // penetrates deeper too, a sample pose replaces it.
     double search_depth_m = 0.0;
-    double open_depth_m =
-        0.0;  // deepest penetration of a clear sample pose; a deeper fit is opened
+    // A sample pose that penetrates at most this deep counts as clear. A fit that penetrates deeper
+    // than this in the end is opened step by step.
+    double open_depth_m = 0.0;
     double open_step_rad = 0.0;   // opening step of each hinge
     std::int32_t open_steps = 0;  // maximum number of opening steps
     bool depenetrates = true;     // false: leaves a penetrating fit as it is
@@ -41,11 +43,11 @@ struct ChainFitSettings {
 enum class ChainFallback : std::uint8_t {
     none,
     all_cuts,   // the cuts that the graph search found did not suffice: used all cuts in reach
-    rest_pose,  // there was nothing to touch
+    rest_pose,  // the closing chain touches nothing: used the rest pose
     // The closed chain penetrated: used a clear sample pose, or the one that penetrates least. It
     // may touch nothing.
     sample_pose,
-    opened,  // the sample pose penetrated too: opened step by step
+    opened,  // the closed chain or its sample pose penetrated: opened step by step
 };
 
 struct ChainFit {
@@ -60,7 +62,8 @@ struct ChainFit {
     // the crossing counts as penetrating.
     double depth_m = 0.0;
     ChainFallback fallback = ChainFallback::none;
-    // Only with ChainFitSettings::depenetrates off: the fit would have been depenetrated.
+    // Only if ChainFitSettings::depenetrates is false: the fit penetrates so deep that it would
+    // otherwise have been replaced by a sample pose or opened.
     bool needs_depenetration = false;
     std::uint32_t discs = 0;   // planes searched
     std::uint32_t pops = 0;    // triangles popped by the graph searches
@@ -77,7 +80,8 @@ struct ChainFitScratch {
     std::vector<DiscSegment> segments;
 };
 
-// If no pose is clear, returns the one that penetrates least. `meshes` may be empty.
+// Closes the chain over the meshes. If no pose is clear, returns the one that penetrates least.
+// `meshes` may be empty.
 ChainFit fit_chain(const HingeChain& chain, std::span<const PlacedMesh> meshes,
                    const ChainSeed& seed, const ChainFitSettings& settings,
                    ChainFitScratch& scratch);

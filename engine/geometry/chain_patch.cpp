@@ -39,8 +39,8 @@ class ChainPatch::PenetrationSearch {
         update_limits();
     }
 
-    // Adds those of four triangles that may be nearer than the nearest found so far. `number`:
-    // index of the first of the four.
+    // Adds the triangles of a group of four that may be nearer than the nearest found so far.
+    // `number`: place of the first of the four (ChainPatch::exact).
     void add_candidates(const ReachedTriangles4& four, const Int4& is_wanted,
                         std::uint32_t number) {
         Int4 is_near = is_wanted & is_in_box(four);

@@ -46,9 +46,10 @@ class ChainPatch {
     // others.
     void gather(const ChainReach& reach, std::span<const PlacedMesh> meshes);
 
-    // Cuts the gathered triangles with the plane at `offset_m`. Appends the segments, labelled
-    // `plane`, those of the first mesh first, and returns the number of those. Computed in floats,
-    // as is the reach's boundary. Precondition: |offset_m| <= half width of the reach.
+    // Cuts the gathered triangles with the plane at `offset_m`. Appends the segments with the label
+    // `plane`, the first mesh's before the others', and returns the number of the first mesh's.
+    // Computed in floats, as is the reach's boundary. Precondition: |offset_m| <= half width of the
+    // reach.
     std::size_t cut(double offset_m, std::uint32_t plane, std::vector<DiscSegment>& segments);
 
     // Penetration of a capsule whose axis lies in the chain's plane and inside box `box` of the
@@ -70,9 +71,8 @@ class ChainPatch {
         Frame(const GripMesh& mesh, const Pose& base, std::size_t first);
         Triangle triangle(std::uint32_t slot) const;
         std::uint32_t number(std::uint32_t slot) const;  // triangle index in the mesh
-        std::size_t first() const {
-            return first_;
-        }  // index into fours_ of this mesh's first entry
+        // Index into fours_ of this mesh's first entry.
+        std::size_t first() const { return first_; }
 
       private:
         Vec3 turned(const Vec3& direction) const;
@@ -90,17 +90,17 @@ class ChainPatch {
     void gather_mesh(const ChainReach& reach, const PlacedMesh& placed);
     const Triangle& exact(std::uint32_t place);  // place = 4 * index into fours_ + lane
 
-    // Those of four triangles that reach into one box.
+    // Which triangles of one group of four reach into a box.
     struct Boxed {
         Int4 is_near = {};
-        std::uint32_t four = 0;
+        std::uint32_t four = 0;  // index into fours_
     };
 
     static constexpr std::uint32_t k_not_placed = ~0U;
 
     // Groups of four triangles, in the order of meshes, then of their trees.
     std::vector<ReachedTriangles4> fours_;
-    std::vector<Int4> is_near_;  // lanes that reach into any box
+    std::vector<Int4> is_near_;  // triangles of each group that reach into any box
     std::vector<std::uint32_t> first_slot_;
     std::vector<std::array<std::uint32_t, 4>> placed_;  // index into triangles_, or k_not_placed
     std::array<std::vector<Boxed>, k_max_disc_links> boxed_;

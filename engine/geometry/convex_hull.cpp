@@ -41,7 +41,7 @@ double width_of(const ConvexHull& hull) {
         for (std::size_t i = 0; i < face.loop.size(); ++i) {
             const std::uint32_t from = face.loop[i];
             const std::uint32_t to = face.loop[(i + 1) % face.loop.size()];
-            if (from < to) {  // each edge has two faces
+            if (from < to) {  // lists each edge once, although two faces share it
                 edges.push_back((hull.corners[to] - hull.corners[from]).normalized());
             }
         }

@@ -65,6 +65,7 @@ struct DiscScratch {
         // The pair overlapped when first queried and is moving apart. It is ignored until it is
         // clear.
         bool leaving = false;
+        // The pair was queried before, or was apart earlier in this closing.
         bool seen = false;
     };
     // Bounding boxes of four segments: [axis][segment].
@@ -73,12 +74,12 @@ struct DiscScratch {
         std::array<Float4, 2> high = {};
     };
     std::vector<Pair> pairs;  // pairs whose swept bounds came near each other
-    std::vector<std::uint32_t>
-        paired;                   // one per segment; bit i: the pair with link i is in `pairs`
+    // One element per segment. Bit i: the pair with link i is in `pairs`.
+    std::vector<std::uint32_t> paired;
     std::vector<Bounds4> bounds;  // one per four segments; the last segment is repeated
 };
 
-// Largest error of a contact; the tests hold it.
+// Upper bound on the error of a contact's distance. The tests check that it holds.
 inline constexpr double k_disc_accuracy_m = 5e-5;
 
 // Closes the chain from `sweep.from` to at most `sweep.to`. A link that touches stops its own hinge

@@ -17,7 +17,7 @@ b2Vec2 to_box2d(const Vec2& v) {
 
 b2DistanceProxy proxy_of(const b2Vec2* ends) {
     b2DistanceProxy proxy;
-    proxy.Set(ends, 2, 0.0F);  // no radius: Box2D's shapes would add 10 mm
+    proxy.Set(ends, 2, 0.0F);  // no radius, unlike Box2D's own shapes
     return proxy;
 }
 

@@ -16,8 +16,8 @@ namespace handhold {
 struct Disc {
     Vec3 center = Vec3::Zero();
     Vec3 x_axis = Vec3::UnitX();  // unit: disc space's +X
-    Vec3 y_axis = Vec3::UnitY();  // unit, across x_axis
-    Vec3 normal = Vec3::UnitZ();  // unit: x_axis x y_axis
+    Vec3 y_axis = Vec3::UnitY();  // unit, perpendicular to x_axis
+    Vec3 normal = Vec3::UnitZ();  // cross product of x_axis and y_axis
     double radius_m = 0.1;
     std::uint32_t plane = 0;  // label for its segments
 };
@@ -58,12 +58,12 @@ inline constexpr std::uint32_t k_max_starts = 16;
 inline constexpr std::uint32_t k_max_steps = 512;
 inline constexpr double k_straight_m = 2.5e-4;  // simplification tolerance of a cut
 
-// A* over neighbours, from all `starts` at once, for a triangle whose cut reaches into the disc.
-// Path lengths are measured over the closest points of the edges crossed since the node's start.
-// The estimate of the rest is twice the distance from the triangle to the plane. Gives up after
-// k_max_pops visits in total, or if every open node lies more than k_prune_m (disc_cut.hpp) outside
-// the disc's radius. Preconditions: at most k_max_starts starts; each start's triangle belongs to
-// the graph or is k_no_triangle.
+// Searches for a triangle whose cut reaches into the disc: A* over neighbouring triangles, from all
+// `starts` at once. A path runs from point to point, over the closest point of each edge that it
+// crosses. The estimate of the rest is twice the distance from the triangle to the plane. Gives up
+// after k_max_pops visits in total, or when no triangle is left that can be reached over edges
+// within k_prune_m (disc_cut.hpp) of the disc. Preconditions: at most k_max_starts starts; each
+// start's triangle belongs to the graph or is k_no_triangle.
 CrossingSearch find_crossing(const SurfaceGraph& graph, const Disc& disc,
                              std::span<const GraphPoint> starts, TraceScratch& scratch);
 
@@ -78,7 +78,8 @@ std::uint32_t walk_crossing(const SurfaceGraph& graph, const Disc& disc, std::ui
 // segment is shortened to its part near the centre.
 void add_segment(const DiscSegment& segment, double radius_m, std::vector<DiscSegment>& segments);
 
-// add_segment without the test, for a segment that passed a float test: rounding might reject it.
+// Like add_segment, without the distance test. For a segment that passed this test in floats: it
+// might fail in doubles because of rounding.
 void add_near_part(const DiscSegment& segment, double radius_m, std::vector<DiscSegment>& segments);
 
 }  // namespace handhold

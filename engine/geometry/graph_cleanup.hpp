@@ -8,8 +8,8 @@ namespace handhold {
 
 void drop_not_finite(SurfaceGraph& graph);  // triangles with a corner that is NaN or infinite
 void drop_degenerate(SurfaceGraph& graph);  // triangles with zero area or two equal corners
-// Triangles with the same corners in the same order as an earlier one. A triangle with the reverse
-// order is kept.
+// Drops triangles with the same corners in the same cyclic order as an earlier triangle. A triangle
+// with the reverse order is kept.
 void drop_duplicates(SurfaceGraph& graph);
 
 }  // namespace handhold

@@ -5,8 +5,8 @@
 
 #include "engine/geometry/surface_graph.hpp"
 
-// Makes a surface graph of welded triangles: neighbours, normals, components and consistent
-// winding.
+// Completes a surface graph of welded triangles: computes neighbours, normals and components, and
+// makes the winding consistent.
 namespace handhold {
 
 // Computes neighbours, normals and the report's counts from positions and triangles. Precondition:

@@ -239,7 +239,7 @@ GripMesh cached_grip_mesh(const Mesh& mesh, const GripMeshSettings& settings,
 
 GripMesh cached_grip_mesh(const Shape& shape, const GripMeshSettings& settings,
                           const fs::path& directory) {
-    // Other shapes are not cached: building them takes no longer than reading a file.
+    // Only meshes are cached: building another shape takes no longer than reading a file.
     if (shape.kind != ShapeKind::mesh) {
         return build_grip_mesh(shape, settings);
     }

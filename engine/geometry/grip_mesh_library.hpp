@@ -59,7 +59,7 @@ class GripMeshLibrary {
     std::vector<std::uint32_t> mesh_of_shape_;  // indexed by ShapeId::index; k_no_triangle: no mesh
     struct Entry {
         std::shared_ptr<const GripMesh> mesh;  // null: unused
-        std::uint32_t users = 0;               // shapes
+        std::uint32_t users = 0;               // number of shapes that use the mesh
     };
     std::vector<Entry> meshes_;
     std::vector<std::uint32_t> unused_;  // indices into meshes_

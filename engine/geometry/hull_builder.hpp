@@ -13,7 +13,7 @@
 namespace handhold {
 
 // Quickhull over triangles, which are merged into faces at the end. An initial tetrahedron grows by
-// the farthest outside point until no point is outside.
+// the farthest outside point until no point is outside or the hull has k_max_hull_corners corners.
 class HullBuilder {
   public:
     // `points`: sorted and unique.

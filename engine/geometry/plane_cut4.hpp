@@ -23,7 +23,8 @@ struct Segments4 {
     }
 };
 
-// The plane at `offset_m` along the third axis. Ignores cuts beyond `radius_m` of the origin.
+// Cuts triangles with the plane at `offset_m` along the third axis. Ignores cuts that lie farther
+// than `radius_m` from the plane's origin.
 class PlaneCut4 {
   public:
     PlaneCut4(double offset_m, double radius_m)

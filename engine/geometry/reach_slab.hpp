@@ -56,9 +56,8 @@ class ReachSlab {
     // floats are inaccurate farther out, and nothing there is in reach.
     ReachedTriangles4 bounds_of(const Triangles4& four, ReachMasks4& is_near) const;
 
-    double rounding_margin_m() const {
-        return rounding_margin_m_;
-    }  // upper bound on the float rounding error
+    // Upper bound on the float rounding error.
+    double rounding_margin_m() const { return rounding_margin_m_; }
 
   private:
     // An axis-aligned box in the plane; each number is in all lanes.

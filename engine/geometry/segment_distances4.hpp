@@ -35,8 +35,9 @@ class SegmentDistances4 {
     static Float4 abs_of(const Vectors4& v) { return abs_of(v[0]) + abs_of(v[1]) + abs_of(v[2]); }
     Float4 on_segment(const Float4& along) const { return lower(higher(along, Float4{}), length_); }
 
-    // Closest points of two lines. The point on the segment is clamped, then the point on the edge,
-    // then the point on the segment again.
+    // Squared distance between the segment and edge i. Starts with the closest points of their
+    // lines. Then the point on the segment is clamped to it, then the point on the edge, then the
+    // point on the segment again.
     Float4 to_edge(std::size_t i) const {
         const Float4 tiny = splat(1e-30F);
         const Vectors4& from = corner_[i];
@@ -54,8 +55,8 @@ class SegmentDistances4 {
         return x * x + y * y + z * z;
     }
 
-    // Distance from the segment's ends to the triangle's interior; 0 if the segment crosses the
-    // triangle. Reduced by `margin`, the error of a sliver's inexact normal.
+    // Squared distance from the segment's ends to the triangle's interior; 0 if the segment crosses
+    // the triangle. The distance is reduced by the error of a sliver's inexact normal.
     Float4 to_inside() const {
         const Float4 zero = {};
         const Float4 far = splat(1e30F);

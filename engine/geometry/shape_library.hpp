@@ -108,8 +108,8 @@ class ShapeLibrary {
     ShapeId add_round(ShapeKind kind, double radius_m, double half_height_m);
     std::vector<Shape> shapes_;
     std::vector<Slot> slots_;             // parallel to shapes_
-    std::vector<std::uint32_t> removed_;  // not reusable yet
-    std::vector<std::uint32_t> free_;     // reusable
+    std::vector<std::uint32_t> removed_;  // indices of removed shapes that are not reusable yet
+    std::vector<std::uint32_t> free_;     // indices of removed shapes that are reusable
     std::uint64_t revision_ = 0;
 };
 

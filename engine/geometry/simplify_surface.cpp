@@ -22,8 +22,8 @@ namespace {
 using Triangle = std::array<std::uint32_t, 3>;
 
 constexpr std::size_t k_smallest_part = 8;  // smaller components are kept as they are
-// Each attempt locks the vertices around deviations of the last. Every fourth one also halves the
-// error.
+// Each attempt locks the vertices around the deviations of the attempt before. After every fourth
+// attempt, and after one that leaves no triangle, the error limit is halved too.
 constexpr int k_max_attempts = 9;
 
 // Components of at least k_divided_from triangles are divided into tiles of at most k_largest_tile

@@ -46,8 +46,9 @@ class Cover {
     const Vec3& far_point() const { return far_point_; }  // valid after covers() returned false
 
   private:
-    // Splits the piece along the edge of the nearest triangle over which it reaches farthest. The
-    // part above that triangle is near it; the other part looks for another triangle.
+    // Splits the piece along one edge of the nearest triangle (hint_): the edge beyond which the
+    // piece reaches farthest. The part above the triangle may then be near it as a whole. For the
+    // other part, another triangle is searched.
     bool covers_parts(const Corners& piece, int cuts) {
         const Corners near = corners_of(hint_);
         const Vec3 area = area_vector(near);
@@ -81,8 +82,8 @@ class Cover {
         const Vec3 cut = 0.5 * (from + to);
         return covers({from, cut, apex}, cuts + 1) && covers({cut, to, apex}, cuts + 1);
     }
-    // Splits the piece along the cut. One corner is alone on its side: its part is one triangle,
-    // the other part two.
+    // Splits the piece along the line where `beyond` is 0. One corner is alone on its side: its
+    // part is one triangle, the other part two.
     bool covers_clipped(const Corners& piece, const std::array<double, 3>& beyond, int cuts) {
         std::size_t lone = 0;  // index of the corner that is alone on its side
         for (std::size_t i = 1; i < 3; ++i) {

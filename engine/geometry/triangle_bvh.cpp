@@ -12,13 +12,14 @@
 namespace handhold {
 namespace {
 
-// A segment in the frame of Woop's test, which shears it so that it runs along one axis from the
-// origin.
+// A segment and its shear, as Woop's test needs them: the shear maps the segment to one that runs
+// along axis[2] from the origin.
 struct ShearedRay {
     Vec3 from;
-    std::array<int, 3> axis;      // axis[2]: the axis along which the displacement is largest
-    std::array<double, 3> shear;  // x, y: displacement relative to that along axis[2]; z: 1 /
-                                  // displacement along axis[2]
+    std::array<int, 3> axis;  // axis[2]: the axis along which the displacement is largest
+    // Let d be the displacement along axis[2]. [0], [1]: displacement along axis[0] and axis[1],
+    // divided by d. [2]: 1 / d.
+    std::array<double, 3> shear;
 };
 
 ShearedRay shear(const Vec3& from, const Vec3& displacement) {

@@ -22,7 +22,7 @@
 namespace handhold {
 
 struct TriangleHit {
-    std::uint32_t triangle = 0;  // index when the tree was built
+    std::uint32_t triangle = 0;  // index in the list from which the tree was built
     Vec3 point = Vec3::Zero();   // point on the triangle
     double distance_m = 0.0;     // distance from the ray's start or the query point
 };
@@ -48,9 +48,10 @@ class TriangleBvh {
     template <typename Visit>
     void visit_in_sphere(const Vec3& center, double radius_m, Visit&& visit) const;
 
-    // Sums area vectors (twice the area up to max_area_m2, times the cosine of the angle to `side`)
-    // of the triangles within radius_m that face `side`, a unit vector; a few that are slightly
-    // farther away may be included. Computed in floats: errors scale with the mesh's size.
+    // Sums the unit normals of the triangles within radius_m that face `side`, a unit vector. The
+    // weight of a normal is twice the triangle's area, but at most max_area_m2, times the cosine of
+    // the angle between normal and `side`. A few triangles that are slightly farther away may be
+    // included. Computed in floats: errors scale with the mesh's size.
     Vec3 areas_in_sphere(const Vec3& center, double radius_m, const Vec3& side,
                          double max_area_m2) const;
 
@@ -64,8 +65,8 @@ class TriangleBvh {
     // Upper bound on the absolute values of all corner coordinates relative to origin().
     double reach_m() const { return std::max(high_.maxCoeff(), -low_.minCoeff()); }
 
-    // A triangle of a visited leaf: its index when the tree was built, and its corners.
-    // Precondition: slot < 4 * number of leaves.
+    // A triangle of a visited leaf: its index in the list from which the tree was built, and its
+    // corners. Precondition: slot < 4 * number of leaves.
     std::uint32_t number_at(std::uint32_t slot) const { return numbers_[slot]; }
     std::array<Vec3, 3> corners_at(std::uint32_t slot) const {
         const auto& [a, b, c] = slots_[slot];
@@ -78,9 +79,8 @@ class TriangleBvh {
         return triangle_count_ > 0 && out.squaredNorm() <= radius_m * radius_m;
     }
 
-    std::size_t triangle_count() const {
-        return triangle_count_;
-    }  // skips triangles that are not finite
+    // Number of triangles in the tree. Triangles with a non-finite corner are not in it.
+    std::size_t triangle_count() const { return triangle_count_; }
     std::size_t memory_bytes() const;
 
   private:
@@ -118,8 +118,9 @@ class TriangleBvh {
     std::vector<Vec3> positions_;
     // In leaf order. Each leaf has four slots; unused slots repeat its last triangle.
     std::vector<std::array<std::uint32_t, 3>> slots_;  // corner indices
-    std::vector<std::uint32_t> numbers_;  // indices of the triangles when the tree was built
-    std::vector<Triangles4> fours_;       // one per leaf
+    // Triangle indices in the list from which the tree was built.
+    std::vector<std::uint32_t> numbers_;
+    std::vector<Triangles4> fours_;  // one per leaf
     std::size_t triangle_count_ = 0;
 };
 

@@ -15,8 +15,8 @@ namespace handhold {
 struct NumericTable {
     std::vector<std::string> columns;  // names are unique and not empty
     std::vector<double> cells;         // line by line; columns.size() per line
-    std::vector<std::size_t> lines;    // number of each line in the file, from 1
-    std::size_t header_line = 1;       // the line of the names
+    std::vector<std::size_t> lines;    // line number in the file of each line of cells, from 1
+    std::size_t header_line = 1;       // line number of the column names
 
     std::size_t row_count() const { return lines.size(); }
     double at(std::size_t row, std::size_t column) const {
@@ -27,8 +27,8 @@ struct NumericTable {
 
 enum class NanCells { refused, allowed };
 
-// Reads a strict CSV table. The first line holds unique, non-empty names. Every other line has as
-// many cells, each a finite decimal number in C notation without spaces, quotes or a leading plus.
+// Reads a strict CSV table. The first line holds unique, non-empty names. Every other line has one
+// cell per name: a finite decimal number in C notation without spaces, quotes or a leading plus.
 // With NanCells::allowed a cell may also be NaN in any spelling of printf ("nan", "-nan",
 // "-nan(ind)", "1.#QNAN"). Lines without text are skipped. Cells are separated by commas. Lines end
 // in LF or CRLF; the last line may have no end. A byte order mark is skipped. The result does not

@@ -65,7 +65,7 @@ Result<GlbChunks> split_glb(std::string_view bytes, const std::string& file) {
             chunks.json = content;
         } else if (chunk == 1 && type == k_bin_chunk) {
             chunks.binary = content;
-        }  // the specification says to ignore other chunks
+        }  // other chunks are ignored, as the specification requires
         at += k_chunk_header_bytes + length;
     }
     return chunks;

@@ -28,11 +28,12 @@ struct ColorRun {
 
 // One mesh node of the file's scene, with all of its instances (EXT_mesh_gpu_instancing).
 struct LevelPart {
-    // In the scene's frame, metres. Its name is the node's; its colour is that of the first of
-    // color_runs.
+    // In the scene's frame, metres. Its name is that of the node; if that is empty, that of the
+    // node's mesh; if both are empty, "node 3" for node 3. Its colour is that of color_runs[0].
     Mesh mesh;
     std::string pointer;  // JSON pointer of the node: "/nodes/3"
-    // extras.synthetic of the node or its mesh: true if it is not from the model's author.
+    // True if extras.synthetic of the node or its mesh says that the model's author did not make
+    // it.
     bool synthetic = false;
     std::vector<ColorRun> color_runs;  // ascending by triangle; empty if there are no triangles
 };

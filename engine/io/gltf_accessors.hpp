@@ -29,7 +29,7 @@ class AccessorReader {
     // error.
     bool check(int accessor, Elements elements, const std::string& place);
     // Reads components_of(elements) floats per element. Normalised integers are divided by their
-    // largest value; weights always are.
+    // type's largest value. Integer weights always count as normalised.
     bool read_floats(int accessor, Elements elements, const std::string& place,
                      std::vector<float>& out);
     bool read_indices(int accessor, const std::string& place, std::vector<std::uint32_t>& out);

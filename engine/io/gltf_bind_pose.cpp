@@ -12,8 +12,8 @@
 namespace handhold::gltf {
 namespace {
 
-// How far two maps may differ that are the same but for rounding: parts of the scale, and of the
-// skeleton's size.
+// Maps that differ by less than this count as equal: their linear parts relative to the scale, the
+// points that they map relative to the skeleton's size.
 constexpr double k_same = 1e-3;
 constexpr double k_same_scale = 0.02;  // files store floats, and some exporters round matrices
 
@@ -30,11 +30,10 @@ std::optional<Affine> inverse_of(const Affine& map) {
     return Affine{inverse, Vec3(-(inverse * map.translation))};
 }
 
-// Cube root of the volume's scale, negative if mirrored.
+// The map's mean scale factor: cube root of its determinant, negative if it mirrors.
 double scale_of(const Affine& map) { return std::cbrt(map.linear.determinant()); }
 
-// Cosine of the angle between the turns of two maps of the same scale, taken from the mean of their
-// axes' cosines: (trace - 1) / 2.
+// Cosine of the rotation angle between two maps of the same scale: (trace - 1) / 2.
 double cos_between(const Affine& a, const Affine& b) {
     const Mat3 turn = a.linear.inverse() * b.linear;
     return 0.5 * (turn.trace() - 1.0);
@@ -107,7 +106,7 @@ class BindPose {
         return true;
     }
 
-    // The joints that the scene has, with a matrix that can be inverted.
+    // Returns the joints that are nodes of the scene and whose matrices can be inverted.
     std::vector<BoundJoint> read_joints(std::span<const int> nodes,
                                         std::span<const float> matrices) const {
         std::vector<BoundJoint> joints;
@@ -134,7 +133,7 @@ class BindPose {
         for (const BoundJoint& joint : skin.joints) {
             size = std::max(size, (joint.bind.translation - first).norm());
         }
-        if (!(size > 0.0)) {  // equal matrices: they do not say where the joints were
+        if (!(size > 0.0)) {  // all joints at one point: the matrices do not give a pose
             return;
         }
         const BoundJoint& top = *std::min_element(skin.joints.begin(), skin.joints.end(),
@@ -159,8 +158,8 @@ class BindPose {
         }
     }
 
-    // True if all joints are where they were bound, by the map of the mesh to the scene. `size`: of
-    // the skeleton, in the mesh's units.
+    // True if all joints are where they were bound, given the map `to_scene` from the mesh to the
+    // scene. `size`: size of the skeleton in the mesh's units.
     bool agree_on(const BoundSkin& skin, const Affine& to_scene, double size) const {
         const double scale = to_scene.linear.norm() / std::sqrt(3.0);
         return std::all_of(skin.joints.begin(), skin.joints.end(), [&](const BoundJoint& joint) {
@@ -198,7 +197,8 @@ class BindPose {
         return nearest;
     }
 
-    // Moves nodes to their places in bound_, and the others along with the node above them.
+    // Moves the nodes in bound_ to their places there, and all other nodes along with their
+    // parents.
     void move_nodes() {
         std::map<int, Affine> before;
         for (PlacedNode& placed : placed_) {
@@ -225,8 +225,8 @@ class BindPose {
     std::vector<PlacedNode>& placed_;
     std::map<int, std::size_t> order_;  // index in placed_, by node
     std::map<int, int> parent_;         // parent by node
-    std::map<int, Affine> bound_;       // place in the scene of each moved node
-    std::set<int> is_in_earlier_skin_;  // nodes
+    std::map<int, Affine> bound_;       // new transform into the scene of each moved node
+    std::set<int> is_in_earlier_skin_;  // nodes of the skins that were bound before
 };
 
 }  // namespace

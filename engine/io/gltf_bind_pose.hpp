@@ -9,19 +9,27 @@
 // The pose in which a file's meshes were bound to their joints. Private to engine/io/gltf*.
 namespace handhold::gltf {
 
+// Cosine of the largest rotation between G and a frame that may replace it (pose_as_bound).
 inline constexpr double k_cos_posed = 0.5;
 
-// Poses skeletons as they were bound. A file's nodes have any pose, such as the first frame of an
-// animation; the skins' inverse bind matrices say where the joints were when the mesh was bound:
+// Poses skeletons as they were bound. A file's nodes may have any pose, such as the first frame of
+// an animation; the skins' inverse bind matrices say where the joints were when the mesh was bound:
 //
 //   bound_j = G inverse(B_j)     B_j: inverse bind matrix of joint j, from the mesh to the joint
-//                                G: from the mesh to the scene; node_j B_j in a bound file
+//                                G: from the mesh to the scene
+//                                node_j: from joint j's node to the scene, as the file has it
 //
-// G is that of the skin's topmost joint, unless the frame of the mesh's node, of the node above
-// that joint or of the scene has the same scale, is turned against it by an angle whose cosine is
-// above k_cos_posed and puts the joint near where it is: then the topmost joint is posed too, and G
-// is the nearest of these frames. Nodes that no skin lists keep their place in the node above them.
-// A skin whose joints all agree on G is left as it is, and so is one without usable matrices.
+// If the nodes are in the bind pose, node_j B_j is G for every joint j; such a skin is left as it
+// is. Otherwise G is node_j B_j of one joint j that is assumed to be in its bind pose: a joint that
+// an earlier, at least equally large skin has too, or else the topmost joint.
+//
+// For the topmost joint, that G is replaced by one of three frames if one is near it: that of the
+// joint's parent node, of the mesh's node, or of the scene. Near means: the same scale, a rotation
+// whose cosine is above k_cos_posed, and nearly the same place for the joint. The nearest frame
+// becomes G, and the topmost joint is moved too.
+//
+// Nodes that no skin lists keep their transform relative to their parent. A skin without usable
+// matrices is left as it is.
 //
 // `placed`: the nodes of the scene, parents first. Returns false after an error.
 bool pose_as_bound(const Model& model, AccessorReader& reader, Refusal& refusal,

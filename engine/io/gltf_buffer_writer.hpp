@@ -10,7 +10,7 @@
 
 #include "engine/io/gltf_writer.hpp"
 
-// Used by all glTF writers.
+// Builds the binary buffer and the material JSON of a glTF file, for all glTF writers.
 namespace handhold {
 
 // Keeps keys in the order of insertion, so that files are easier to read.

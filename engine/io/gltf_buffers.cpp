@@ -89,8 +89,8 @@ std::optional<std::filesystem::path> path_below(const std::filesystem::path& fol
 }
 
 // The file that a relative URI names below `folder`; nullopt for an absolute path, a scheme, or a
-// path that leaves the folder. Exporters that do not escape names write "a%20b.bin" for a file with
-// that very name: the unescaped name comes first.
+// path that leaves the folder. Some exporters do not escape names: their "a%20b.bin" is a file with
+// that very name. So if no file has the decoded name, the URI itself is the name.
 std::optional<std::filesystem::path> file_below(const std::filesystem::path& folder,
                                                 const std::string& uri) {
     const std::optional<std::filesystem::path> decoded = path_below(folder, decode_percent(uri));
@@ -108,7 +108,7 @@ Result<std::string> read_data_uri(std::string_view uri, std::uint64_t max_bytes)
     if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(k_encoding)) {
         return refuse("expected a data URI in base64");
     }
-    const std::string text = decode_percent(uri.substr(comma + 1));  // "%3D" at the end, mostly
+    const std::string text = decode_percent(uri.substr(comma + 1));  // mostly a "%3D" for "="
     if (text.size() / 4 * 3 > max_bytes) {
         return refuse("expected fewer bytes in all buffers");
     }

@@ -12,7 +12,7 @@ namespace handhold::gltf {
 // The bytes of a model's buffers. Private to engine/io/gltf*.
 class Buffers {
   public:
-    // Reads data URIs and files below the folder of `path`; data URIs only if `path` is empty.
+    // Reads data URIs and files below the folder of `path`; if `path` is empty, only data URIs.
     // Refuses any other URI, a file that cannot be read, fewer bytes than the buffer claims, and
     // more than k_max_file_bytes in total.
     bool load(const Model& model, const std::filesystem::path& path, Refusal& refusal);

@@ -24,8 +24,8 @@ struct DracoGeometry {
     std::vector<std::vector<float>> values;
 };
 
-// nullopt if the bytes are malformed, lack a requested attribute, or hold more vertices or
-// triangles than `max_count`. Always nullopt in a build without Draco.
+// Decodes a mesh. Returns nullopt if the bytes are malformed, lack a requested attribute, or hold
+// more vertices or triangles than `max_count`. Always returns nullopt in a build without Draco.
 std::optional<DracoGeometry> decode_draco(std::string_view bytes,
                                           std::span<const DracoRequest> requests,
                                           std::size_t max_count);

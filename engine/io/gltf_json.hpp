@@ -31,13 +31,14 @@ std::map<std::string, int> read_attributes(const JsonValue& object);
 // The numbers of an array, which must have `count` elements. Empty if the array is absent.
 std::vector<double> read_numbers(const JsonValue& array, std::size_t count);
 
-// The extension `name` of an object. Does not exist if the object has no such extension.
+// The extension `name` of an object. If the object has no such extension, the result does not exist
+// (JsonValue::exists).
 JsonValue extension_of(const JsonValue& object, const char* name);
 
-// Clamps factors to the specification's range and adds their number to `clamped`.
+// Clamps factors to the specification's range. Adds the number of clamped factors to `clamped`.
 Material parse_material(const JsonValue& value, std::size_t& clamped);
 
-// Fills the model's buffers, views and accessors. Needs Model::binary.
+// Fills the model's buffers, views and accessors. Precondition: Model::binary is set.
 void parse_data_layout(const JsonValue& root, Model& model);
 
 }  // namespace handhold::gltf

@@ -62,8 +62,8 @@ bool changes_geometry(std::string_view extension) {
            extension == k_instancing || (extension == k_draco && has_draco());
 }
 
-// True if geometry is correct without the extension. The ones listed change only appearance, lights
-// or metadata.
+// True if geometry is correct without the extension. The extensions listed here change only
+// appearance, lights or metadata.
 bool may_be_ignored(std::string_view extension) {
     constexpr std::array<std::string_view, 13> k_families = {"KHR_materials_",
                                                              "KHR_texture_",

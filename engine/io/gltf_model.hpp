@@ -15,7 +15,7 @@
 // follow the Khronos specification, section 5. Private to engine/io/gltf*.
 namespace handhold::gltf {
 
-constexpr int k_none = -1;  // index of nothing
+constexpr int k_none = -1;  // stands for an index that the file does not give
 
 enum class ComponentType {
     int8 = 5120,
@@ -39,7 +39,7 @@ struct Meshopt {
     int buffer = k_none;
     std::uint64_t offset = 0, bytes = 0;
     std::uint64_t stride = 0;  // bytes of a decoded element
-    std::uint64_t count = 0;   // decoded elements
+    std::uint64_t count = 0;   // number of decoded elements
     Mode mode = Mode::attributes;
     Filter filter = Filter::none;
 };
@@ -107,7 +107,7 @@ struct Node {
     int skin = k_none;
     std::vector<int> children;
     Affine local;  // transform into the parent's frame
-    // The members of its extras that are a number or an array of numbers.
+    // The members of the node's extras that are numbers or arrays of numbers.
     std::map<std::string, std::vector<double>> numbers;
     // EXT_mesh_gpu_instancing: accessors by name ("TRANSLATION", "ROTATION", "SCALE").
     std::optional<std::map<std::string, int>> instances;
@@ -126,7 +126,7 @@ struct Model {
     std::vector<Material> materials;
     std::vector<Node> nodes;
     std::vector<Skin> skins;
-    std::vector<std::vector<int>> scenes;  // root nodes
+    std::vector<std::vector<int>> scenes;  // root nodes of each scene
     int scene = k_none;
     std::string_view binary;         // binary chunk; points into the parsed bytes
     std::vector<std::string> notes;  // remarks about parts that were ignored or clamped

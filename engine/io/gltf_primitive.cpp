@@ -9,7 +9,7 @@
 namespace handhold::gltf {
 namespace {
 
-constexpr std::size_t k_max_sets = 4;  // sets of four joints each
+constexpr std::size_t k_max_sets = 4;  // maximum number of sets of four joints
 
 // An attribute to read and the destination of its values.
 struct Attribute {

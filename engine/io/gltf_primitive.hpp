@@ -18,7 +18,8 @@ struct PrimitiveData {
     std::vector<std::uint32_t> indices;  // each below `vertices`
     std::vector<float> positions;        // 3 per vertex
     std::vector<float> normals;          // 3 per vertex; empty if the primitive has none
-    // By set (JOINTS_0, JOINTS_1, ...), 4 per vertex. `joints` and `weights` have equally many.
+    // Indexed by set (JOINTS_0, JOINTS_1, ...); 4 values per vertex. `joints` and `weights` have
+    // equally many sets.
     std::vector<std::vector<float>> joints, weights;
 };
 

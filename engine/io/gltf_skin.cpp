@@ -66,7 +66,7 @@ class SkinReader {
     std::vector<PlacedNode> placed_;
     gltf::SkinJoints joints_;
     gltf::PrimitiveData primitive_;            // scratch
-    std::vector<gltf::Influence> influences_;  // scratch: those of one vertex, heaviest first
+    std::vector<gltf::Influence> influences_;  // scratch: influences of one vertex's joints
     std::size_t skipped_primitives_ = 0;
     std::size_t reduced_vertices_ = 0;     // vertices with more than four joints
     std::size_t unweighted_vertices_ = 0;  // vertices without a weight above 0
@@ -159,8 +159,8 @@ bool SkinReader::append_skinned(const gltf::SkinBinding& binding, const std::str
     return true;
 }
 
-// Appends the four heaviest influences, scaled to a sum of 1. Sets `to_scene` to the map of the
-// vertex.
+// Appends the four heaviest influences, scaled to a sum of 1. Sets `to_scene` to the vertex's map
+// into the scene: the weighted mean of its joints' maps.
 void SkinReader::append_weights(const gltf::SkinBinding& binding, Affine& to_scene) {
     constexpr float k_min_sum = 1e-12F;
     SkinWeights weights;

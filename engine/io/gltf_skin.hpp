@@ -20,7 +20,7 @@ namespace handhold {
 struct SkinJoint {
     std::string name;          // name of the joint's node; may be empty
     std::int32_t parent = -1;  // index of the nearest joint above it; -1: none
-    Pose bind_ms;              // pose in which the mesh was bound, without scale
+    Pose bind_ms;              // joint's pose when the mesh was bound, without scale
     // Extras of the joint's node that are numbers or arrays of numbers.
     std::map<std::string, std::vector<double>> numbers = {};
 };
@@ -49,8 +49,8 @@ constexpr std::size_t k_max_skin_joints = 1024;
 // Errors, with the JSON pointer of the cause: load_gltf_level's errors about geometry; no skin or
 // more than one; joints that are not nodes of the scene, are listed twice, or are scaled unevenly
 // or sheared; weights that are negative or not finite. A joint may be mirrored if its scale is
-// otherwise even: bind_ms then keeps the direction of its Y axis, and is turned about it towards
-// its Z axis.
+// otherwise even: the Y axis of bind_ms then has the direction of the joint's Y axis, and the Z
+// axis of bind_ms is as close as possible to the joint's.
 Result<SkinnedMesh> load_gltf_skin(const std::filesystem::path& path);
 // Reads from memory. `path` is used in messages and gives the folder of external buffers.
 Result<SkinnedMesh> parse_gltf_skin(std::string_view bytes, const std::filesystem::path& path);

@@ -55,7 +55,7 @@ bool SkinBindings::bind_skin(int skin, SkinBinding& binding) {
 // Multiplies the slots' maps by the inverse bind matrices, which are applied first.
 bool SkinBindings::apply_inverse_binds(int skin, SkinBinding& binding) {
     const int accessor = element(model_.skins, skin).inverse_binds;
-    if (accessor == k_none) {  // then they are identities (specification, 3.7.3.1)
+    if (accessor == k_none) {  // all matrices are identities (specification, 3.7.3.1)
         return true;
     }
     const std::string place = pointer("skins", skin) + "/inverseBindMatrices";

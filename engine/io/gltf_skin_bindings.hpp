@@ -20,7 +20,8 @@ struct SkinSlot {
     Affine to_scene;
 };
 
-// The slots that move a mesh: those of its skin, or those of its node.
+// The slots that move a mesh: those of its skin or, for a mesh without a skin, one slot for each
+// instance of its node.
 struct SkinBinding {
     std::vector<SkinSlot> slots;
     bool is_skinned = false;

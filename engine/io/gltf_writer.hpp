@@ -7,7 +7,7 @@
 #include <vector>
 
 // Writes geometry as glTF 2.0. Source: Khronos glTF 2.0 specification, sections 3.5 to 3.9 and 4;
-// KHR_materials_emissive_strength for emissive factors above 1.
+// KHR_materials_emissive_strength for GltfMaterial::emissive.
 namespace handhold {
 
 struct GltfMaterial {

@@ -56,7 +56,7 @@ class JsonValue {
     double number(const NumberRange& range = {}) const;
     std::int64_t integer(std::int64_t low, std::int64_t high) const;  // no fraction, no exponent
     bool flag() const;
-    std::string text() const;  // not empty
+    std::string text() const;  // an empty text is an error
     Vec3 vector(const NumberRange& range = {}) const;
     // A quaternion x, y, z, w. Its length must be within 1e-2 of 1; the result is normalised.
     Quat rotation() const;

@@ -18,8 +18,8 @@ struct FileNode {
 inline constexpr double k_max_shear = 0.02;
 
 // The rotation and translation of a frame. nullopt if the frame is scaled unevenly, sheared or
-// mirrored. k_max_shear is the tolerance for the axes' lengths and right angles, because files
-// store floats.
+// mirrored. Deviations up to k_max_shear are tolerated, because files store floats: elements of the
+// strain (A^T A - 1) / 2, where A is the linear part divided by its scale.
 std::optional<Pose> rigid_part(const Affine& frame);
 
 struct PlacedNode {

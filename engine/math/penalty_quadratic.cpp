@@ -44,10 +44,10 @@ struct RowOnLine {
     double weight;
 };
 
-// Step length in [0, 1] that minimises the function whose slope along the step is
-//   slope + length * curvature + the rows' parts.
-// The slope rises with the length and is linear between the rows' changes: Newton's method between
-// bounds finds its zero.
+// Returns the step length in [0, 1] that minimises the function along the step. Its slope is
+//   slope_at_zero + length * curvature + the contributions of the violated rows.
+// The slope rises with the length, and is linear between the lengths at which a row changes between
+// violated and satisfied. Newton's method, kept between bounds, finds its zero.
 double best_length(double slope_at_zero, double curvature, std::span<const RowOnLine> rows) {
     constexpr double k_same = 1e-9;
     double low = 0.0;

@@ -5,8 +5,8 @@
 
 #include "engine/math/math.hpp"
 
-// A small dense quadratic programme whose inequalities are penalties: what cannot be met is divided
-// by least squares, so that a solution always exists.
+// A small dense quadratic programme whose inequalities are penalties: inequalities that cannot all
+// be satisfied are violated in the least-squares sense, so that a solution always exists.
 namespace handhold {
 
 inline constexpr std::size_t k_max_unknowns = 26;

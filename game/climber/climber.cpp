@@ -47,7 +47,7 @@ std::size_t count_hands(const ClimberState& state, ClimberHandMode mode) {
 enum class Felt : std::uint8_t { nothing, support, free_body };
 Felt feel(const ClimberMind& mind, const hh_hand_state& hand) {
     if (hand.grip == HH_GRIP_NONE || hand.body == hh::Body{}) {
-        return Felt::nothing;  // or another player
+        return Felt::nothing;  // the hand is empty or grips another player
     }
     const double mass_kg = mind.sight.world.mass_kg(hand.body).value_or(0.0);
     return mass_kg > 0.0 && mass_kg < mind.sight.heavy_body_kg ? Felt::free_body : Felt::support;

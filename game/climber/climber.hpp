@@ -29,9 +29,11 @@ struct ClimberTask {
     hh::Player player{};
     // Visited in order; the climber stays at the last one. Empty: wanders.
     std::vector<ClimberWaypoint> waypoints;
-    double sample_hz = 90.0;      // [10, 1000]; a hand that closes adds a sample of its own
-    double cruise_mps = 0.6;      // [0.2, 1]
-    bool may_leap = true;         // push off if nothing is in reach
+    // Rate of the regular samples, [10, 1000]. A hand that closes between two of them adds a
+    // sample.
+    double sample_hz = 90.0;
+    double cruise_mps = 0.6;      // speed along the heading, [0.2, 1]
+    bool may_leap = true;         // true: pushes off if no hold is in reach
     bool picks_up_bodies = true;  // picks up free bodies and throws them
     // Releases one hand before the other closes, so both never hold at once.
     bool single_hand = false;
@@ -57,7 +59,7 @@ struct ClimberHand {
     hh::Pose wrist_ps = hh::k_origin;  // wrist without tremor
     hh::Vec3 velocity_ps_mps = hh::Vec3{};
     ClimberHold hold;  // valid if reaching, closing or holding
-    // Start and times of the current movement, or of the last one.
+    // Start pose, start velocity and times of the current movement, or of the last one.
     hh::Pose from_ps = hh::k_origin;
     hh::Vec3 from_velocity_ps_mps = hh::Vec3{};
     double from_s = 0.0;
@@ -68,13 +70,14 @@ struct ClimberHand {
 // A climber's complete state. Copies of this state and of the world continue identically.
 struct ClimberState {
     Random random;
-    std::uint64_t next_sample = 0;  // number of the next regular sample, at next_sample / sample_hz
+    std::uint64_t next_sample = 0;  // index of the next regular sample; time: index / sample_hz
     hh::Sample last =
         hh::sample();          // the newest sample; its time may be after the end of the frame
     bool first_given = false;  // whether climb() has returned the sample of the start pose
     double tremor_phase_rad = 0.0;
 
-    // The climber's body at time last.t_s. The head's velocity is that of the play space.
+    // The climber's body at time last.time_s. The head counts as fixed in play space, so it has the
+    // velocity of the play space.
     hh::Vec3 eyes_ps = hh::Vec3{};
     hh::Quat look_ps = hh::k_no_turn;
     double chest_yaw_rad = 0.0;
@@ -82,7 +85,7 @@ struct ClimberState {
     hh::Vec3 velocity_ps_mps = hh::Vec3{};  // velocity of the head relative to the support
     hh::Vec3 wanted_ps_mps = hh::Vec3{};    // target of velocity_ps_mps
 
-    // What the climber plans to do, and what the plans follow from.
+    // The climber's plan, and the observations that it is based on.
     hh::Vec3 heading_ws = -hh::k_z;  // unit
     hh::Vec3 gaze_ws = -hh::k_z;     // unit
     double heading_until_s = 0.0;
@@ -100,11 +103,11 @@ struct ClimberState {
     hh::Vec3 thrust_ps = hh::Vec3{};
 };
 
-// What a climber can query, and what it knows of itself.
+// The world as a climber queries it, and constants that a climber's decisions need.
 struct ClimberSight {
     hh::World& world;
     std::span<const SceneRail> rails;
-    hh::Vec3 palm_center_m{};    // palm of the right hand in the frame of the wrist
+    hh::Vec3 palm_center_m{};    // centre of the right palm, in the frame of the wrist
     double heavy_body_kg = 0.0;  // lighter dynamic bodies cannot carry a climber
 };
 ClimberSight sight_of(Scene& scene);

@@ -24,10 +24,11 @@ namespace {
 constexpr double k_acceleration_mps2 = 2.5;
 constexpr double k_braking_mps2 = 5.0;  // deceleration, also when catching a hold
 constexpr double k_hurry_per_s = 8.0;   // rate at which the velocity approaches the wanted velocity
-// An arm may lengthen by this rate times the length that it has left.
+// A pulling arm extends at most at this rate times the length left until it is straight.
 constexpr double k_stretch_rate_per_s = 4.0;
-constexpr double k_turn_radps = 1.2;       // rotation of the chest
-constexpr double k_climber_lift_m = 0.06;  // height of a moving hand above the surface
+constexpr double k_turn_radps = 1.2;  // maximum turn rate of the chest
+// Distance of a reaching hand from the straight path at half time, along the hold's normal.
+constexpr double k_climber_lift_m = 0.06;
 constexpr double k_rest_s = 0.5;
 constexpr double k_tremor_m = 0.0005;  // amplitude of the hands' tremor
 
@@ -82,8 +83,8 @@ bool pulls(const ClimberHand& hand) {
     return hand.mode == ClimberHandMode::holding || hand.mode == ClimberHandMode::closing;
 }
 
-// Moves the head's velocity towards the wanted velocity with limited acceleration. Slows down
-// before an arm is straight.
+// Moves the head's velocity towards the wanted velocity with limited acceleration. Limits it so
+// that no pulling arm becomes straight.
 void pull_body(double dt_s, ClimberState& state) {
     hh::Vec3 change = (k_hurry_per_s * dt_s) * (state.wanted_ps_mps - state.velocity_ps_mps);
     const bool brakes = length(state.wanted_ps_mps) < length(state.velocity_ps_mps);
@@ -133,7 +134,7 @@ void turn_body(double dt_s, const hh::Quat& play_space, ClimberState& state) {
     state.look_ps = look.rotation;
 }
 
-// A hold in play space: the tracked wrist of a hand there, and the surface's outward normal.
+// A hold in play space: the wrist of a hand that grips it, and the surface's outward normal.
 struct HoldPlace {
     hh::Pose wrist_ps = hh::k_origin;
     hh::Vec3 away_ps{};

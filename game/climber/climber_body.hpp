@@ -40,7 +40,7 @@ void let_go(ClimberState& state, hh::Side side);  // opens the hand and moves it
 // The time of the next sample: the next regular time, or an earlier time at which a reaching hand
 // closes. Counts the sample if it is regular.
 double next_sample_time(const ClimberTask& task, ClimberState& state);
-// Moves head and hands from the newest sample's time to `t_s`, at most some tens of milliseconds.
+// Moves head and hands from the newest sample's time to `t_s`.
 void move_body(const hh::World& world, const ClimberMoment& now, double t_s, ClimberState& state);
 // Head and controllers at `t_s` as a headset would report them, with hand tremor.
 hh::Sample sample_body(const hh::World& world, const ClimberTask& task, double t_s,

@@ -44,7 +44,7 @@ struct Search {
     hh::Vec3 eyes_ws{};
     hh::Vec3 shoulder_ws{};
     hh::Vec3 wrist_ws{};
-    hh::Vec3 outward_ws{};  // towards the hand's side
+    hh::Vec3 outward_ws{};  // unit; from the chest towards the hand's side
     hh::Vec3 body_mps{};    // velocity of the play space in the world
 };
 
@@ -189,8 +189,8 @@ void query_rails(const Search& search, Random& random, std::optional<HoldCandida
     }
 }
 
-// Orients the hand. On a rail the fingers go round the bar; on another surface they point along it.
-// Both ways they point away from the shoulder.
+// Returns the hold at a candidate, with the wrist's pose. The fingers wrap around a rail and lie
+// along any other surface. In both cases they point away from the shoulder.
 ClimberHold make_hold(const Search& search, const HoldCandidate& chosen) {
     const Seen& seen = chosen.seen;
     const hh::Vec3 out = seen.point_ws - search.shoulder_ws;

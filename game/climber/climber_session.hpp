@@ -12,7 +12,9 @@ namespace handhold {
 struct ClimbPlan {
     hh::Pose origin_ws = hh::k_origin;
     std::vector<ClimberWaypoint> waypoints;  // empty: wanders
-    double seconds = 20.0;  // maximum; the session ends linger_s after the last waypoint is reached
+    // Maximum length. The session ends earlier if linger_s have passed since the last waypoint was
+    // reached.
+    double seconds = 20.0;
     double linger_s = 1.5;
     double cruise_mps = 0.6;
     bool may_leap = true;

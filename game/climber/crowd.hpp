@@ -16,7 +16,7 @@ namespace handhold {
 std::vector<hh::Pose> spread_players(Scene& scene, const hh::Pose& first_ws, std::size_t count,
                                      std::uint64_t seed);
 
-// The head of a player who stands upright at this origin.
+// Eye position of a player who stands upright at this origin.
 hh::Vec3 head_over(const hh::Pose& origin_ws);
 
 // Several climbers in one scene.
@@ -26,7 +26,7 @@ class Crowd {
     Crowd(const hh::World& world, std::span<const hh::Player> players, std::uint64_t seed);
 
     // Sets inputs[i] to the input of player i for the frame that ends at `frame_end_s`. The samples
-    // stay valid until the next call. `sight`: of the world with the players.
+    // stay valid until the next call. `sight` must be that of the world with the players.
     void drive(const ClimberSight& sight, double frame_end_s, std::span<hh_player_input> inputs);
 
     // The climbers' complete state. Copies of this and of the world continue identically.

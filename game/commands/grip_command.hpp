@@ -10,8 +10,8 @@ struct ExportGripOptions {
     std::string body;
     std::string grip;  // name of an authored grip or of a new one
     std::string hand = "right";
-    // New grip only: where the hand closes, in the body's frame: x, y, z, then the quaternion's x,
-    // y, z, w. The fit starts there.
+    // New grip only: pose of the wrist where the hand closes and the fit starts, in the frame of
+    // the body's shape in the scene file: x, y, z, then the quaternion's x, y, z, w.
     std::vector<double> wrist;
     std::string out;
 };

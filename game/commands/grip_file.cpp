@@ -25,7 +25,8 @@ constexpr const char* k_radius_key = "grip_snap_radius_m";
 constexpr const char* k_angle_key = "grip_snap_angle_deg";
 constexpr const char* k_mirror_key = "grip_mirror_axis";
 constexpr const char* k_posed_key = "grip_posed_fingers";
-// Four angles in degrees: three curls and the opposition; followed by the finger's name.
+// Prefix of a key that ends with a finger's name. The value of such a key is four angles in
+// degrees: three curls and the opposition.
 constexpr const char* k_pressed_key = "grip_pressed_deg_";
 
 const char* text_of(HandSide side) { return side == HandSide::left ? "left" : "right"; }

@@ -21,21 +21,22 @@ namespace handhold {
 // Authors move and turn joints, or the hand and the object as a whole.
 struct GripScene {
     SceneGrip
-        grip;  // grip of this side's hand; only the wrist and the set of posed fingers are used
+        grip;  // the grip; of its hands only that of `side` is used, with `fingers` as shown pose
     HandSide side = HandSide::right;
     std::array<FingerAngles, k_finger_count> fingers;  // shown pose, by index in HandRig::fingers
     Pose controller_in_hand;
     std::vector<GltfMaterial> materials;
-    std::vector<GltfSurface> object;  // surfaces in the frame of the grip
+    std::vector<GltfSurface> object;  // surfaces of the held object, in the frame of wrist_bs
 };
 // Returns the bytes of a .glb file. Its hand is the mesh of the game's robot, built for `rig`.
 std::string write_grip_glb(const GripScene& scene, const HandRig& rig);
 
 // Reads the grip: the wrist relative to the node "object", and the joints' rotations as hinge
-// angles of the rig, clamped to its limits. Extras of the wrist's node hold priority, zone, mirror
-// and the set of posed fingers. Missing extras get default values: all fingers are posed. Errors
-// name the JSON pointer: no node "object", no hand or several, a missing joint, or values out of
-// range.
+// angles of the rig, clamped to its limits. Extras of the wrist's node hold the priority, the snap
+// radius and angle, the mirror axis, the set of posed fingers, and the pressed angles of fingers
+// that follow the trigger. Missing extras get default values; by default all fingers are posed.
+// Fails, with the JSON pointer of the place, if there is not exactly one hand and one node
+// "object", if a joint is missing, or if a value is out of range.
 Result<SceneGrip> parse_grip_glb(std::string_view bytes, const std::filesystem::path& path,
                                  const std::array<HandRig, k_hand_count>& rigs);
 

@@ -7,7 +7,7 @@
 namespace handhold {
 
 // Exclusive access to an output folder. The operating system holds the lock: it ends with the
-// process and leaves no file.
+// process and leaves no file. A folder on a file system without locks is not locked.
 class OutputFolder {
   public:
     // Creates the folder and its parents if needed. Fails if the path is not a folder, or if
@@ -19,7 +19,7 @@ class OutputFolder {
 
   private:
     explicit OutputFolder(int descriptor) : descriptor_(descriptor) {}
-    int descriptor_ = -1;  // -1: moved from, or a file system without locks
+    int descriptor_ = -1;  // the folder's file descriptor; -1: moved from
 };
 
 }  // namespace handhold

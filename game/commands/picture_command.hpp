@@ -11,8 +11,8 @@ struct PictureOptions {
     std::string scene;
     std::string out;         // folder for the pictures
     std::string spawn;       // name of a spawn; empty: all
-    double yaw_deg = 0.0;    // view direction, to the left of the spawn's
-    double pitch_deg = 0.0;  // view direction, upwards
+    double yaw_deg = 0.0;    // angle of the view direction to the left of the spawn's
+    double pitch_deg = 0.0;  // angle of the view direction upwards
     double seconds = 0.0;    // simulated time before the picture
     std::string hands;       // "open", "fist": both hands in front of the eyes; empty: none
     std::string grips_of;    // name of a body: draw its authored grips from four sides instead
@@ -23,7 +23,7 @@ struct PictureOptions {
 
 // `handhold pictures`: saves the view from each spawn as DIR/<spawn>.png. With `grips_of`: saves
 // that body with a right hand in its first authored grip and a left hand in its second, as
-// DIR/<body>_<side>.png. file_name encodes the names. Returns the exit status.
+// DIR/<body>_<side>.png. Names are encoded with file_name(). Returns the exit status.
 int picture_command(const PictureOptions& options);
 
 }  // namespace handhold

@@ -21,7 +21,7 @@ int refuse_window(const std::string& why_not) {
     return k_exit_no_window;
 }
 
-// What stays from scene to scene.
+// State that is kept when the user changes to another scene.
 struct PlayProgram {
     PlayOptions options;
     PlayerModels models;

@@ -56,7 +56,7 @@ struct PreparedRun {
     double length_s() const { return session_length_s(recording(), settings); }
 };
 
-// Loads what the options name.
+// Loads the scene, the player models and the recordings, and opens the output folder.
 std::optional<FileError> load_files(const RunOptions& options, PreparedRun& run) {
     Result<Scene> scene = load_scene_with_progress(options.scene);
     if (!scene) {
@@ -137,7 +137,7 @@ int play_and_report(const RunOptions& options, PreparedRun& run) {
     if (!options.trace.empty()) {
         start_trace();
     }
-    // Before the first frame: grips add rows while they last.
+    // Measured before the first frame, because a grip adds elements to columns while it lasts.
     const std::size_t bytes_per_player =
         run.players.empty() ? 0
                             : state_bytes(run.scene.host, player_id(run.players.front().player));

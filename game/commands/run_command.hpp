@@ -16,8 +16,8 @@ struct RunOptions {
     std::vector<std::string> more_inputs;  // recordings of the second player, the third, ...
     // Spawn of the first player; empty: the scene's first; "auto": see find_spawn.
     std::string spawn;
-    // Spawns of the second player, the third, ... Players without one get the scene's next
-    // spawns, then spread places.
+    // Spawns of the second player, the third, ...; only together with `spawn`. Without `spawn`,
+    // players with recordings start at the scene's spawns in order. All others are spread out.
     std::vector<std::string> more_spawns;
     std::string trace;  // file for a Chrome trace of the stages; empty: none
     std::string out;    // folder; empty: no files
@@ -31,8 +31,8 @@ struct RunOptions {
     std::string resume;  // snapshot to start from, of this scene and these players; empty: none
     double hz = 90.0;
     double seconds = 0.0;  // length of the run; 0: as long as the session
-    // Number of players. 0: the scene's own players if there are enough; else one per
-    // recording, but at least 1 + Scene::climbers.
+    // Number of players. 0: the scene's own players if they are enough for the recordings and
+    // `spawn` is empty; else one per recording, but at least 1 + Scene::climbers.
     int players = 0;
     std::uint64_t seed = 1;  // seed of start places and climbers
     bool climbers = false;   // all players climb; no recording is played

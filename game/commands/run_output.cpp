@@ -25,7 +25,7 @@ std::optional<FileError> write_picture(const std::filesystem::path& folder, cons
                                  std::string(shot.png.begin(), shot.png.end()));
 }
 
-// Finishes the video, and takes the pictures into the report.
+// Finishes the video, and moves the pictures into the report's media.
 void finish_film(RunFilm& film) {
     if (film.camera == nullptr) {
         return;

@@ -26,7 +26,7 @@ struct RunFilm {
     std::optional<FileError> error;  // error of the first picture that could not be written
 };
 
-// Prints why there are no pictures if they cannot be drawn.
+// Starts the film if the options ask for pictures. Prints the reason if none can be drawn.
 RunFilm open_run_film(const RunOptions& options, const Scene& scene, PlayerModels models,
                       double session_s);
 

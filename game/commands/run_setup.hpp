@@ -24,7 +24,8 @@ struct RunSession {
 // Loads the players' recordings: those of --input, else the scene's session, else none.
 Result<RunSession> load_session(const RunOptions& options, const Scene& scene);
 
-// Limits the session's length. Times in a recording are arbitrary: two samples may be years apart.
+// Refuses sessions longer than 1e6 s, because times in a recording are arbitrary: two samples may
+// be years apart.
 std::optional<FileError> check_length(const RunOptions& options, const std::string& name,
                                       double length_s);
 
@@ -41,8 +42,8 @@ Result<StartPlace> choose_place(const RunOptions& options, const std::string& sp
 // The number of players who have recordings; the first player counts even without one.
 std::size_t recorded_players(const RunSession& session);
 
-// Start places of players with recordings: `first`, then those of --spawn, then the scene's next
-// spawns. Returns fewer places than recordings if the scene has no more spawns.
+// Start places of the players with recordings: `first`, then options.more_spawns or, without
+// --spawn, the scene's next spawns. May return fewer places than there are recordings.
 Result<std::vector<StartPlace>> choose_places(const RunOptions& options, const StartPlace& first,
                                               Scene& scene, const RunSession& session);
 

@@ -8,11 +8,11 @@
 
 namespace handhold {
 
-// A session that can be played.
+// A session that is ready for its first frame.
 struct ReadySession {
     Scene& scene;
     const std::vector<PlayerEntities>& players;
-    const Recording* recording = nullptr;  // null: nobody plays
+    const Recording* recording = nullptr;  // the first player's; null: none
     RunSettings settings;
 };
 

@@ -32,7 +32,8 @@ class SnapshotTaker {
 };
 
 // Replaces the scene's initial state by the snapshot of --resume, if given. Players keep their
-// persistent ids. Fails if there are climbers, because a snapshot does not contain their plans.
+// persistent ids. Fails if there are climbers and --resume or --snapshot is given, because a
+// snapshot does not contain their plans.
 std::optional<FileError> resume_from_snapshot(const RunOptions& options,
                                               const RunSettings& settings,
                                               const SnapshotAssets& assets, Scene& scene,

@@ -24,8 +24,8 @@ struct ShotFilm::Impl {
     PlayerView view;
     OutsideCamera outside;
     Overlay overlay;
-    std::unique_ptr<VideoWriter> video;  // film of the running shot
-    std::size_t now = 0;                 // index of the running shot, or of the next
+    std::unique_ptr<VideoWriter> video;  // film of the running shot; null: none is running
+    std::size_t now = 0;                 // index of the running shot or, if none runs, of the next
     double next_frame_s = 0.0;
     std::size_t saved = 0;
     std::string failure;
@@ -141,7 +141,7 @@ struct ShotFilm::Impl {
         video.reset();
     }
 
-    // True if the running shot is complete.
+    // Draws the shot if it is due at `t_s`. Returns true if the shot is complete.
     bool advance(const Shot& shot, double t_s) {
         constexpr double k_rounding_s = 1e-6;
         if (t_s + k_rounding_s < shot.at_s) {

@@ -22,8 +22,8 @@ struct ShotFilmSettings {
     PlayerModels models;
 };
 
-// Draws the shots of one scene while its session is played: <name>.png or <name>.mp4 in the folder.
-// Only reads the world.
+// Draws the shots of one scene while its session is played, and saves them as <name>.png or
+// <name>.mp4 in ShotFilmSettings::out. Only reads the world.
 class ShotFilm {
   public:
     // Null, with the reason in `why_not`, if nothing can be drawn on this machine. `scene` must

@@ -37,12 +37,15 @@ struct Shot {
     HandSide side = HandSide::right;  // hand of ShotView::hand
     // ShotView::body: the body's name; ShotView::player: the player's name
     std::string body;
-    // Right, up and back in the first player's play space; ShotView::place: in the world's axes.
+    // The camera's position relative to the palm, chest or other point that `view` names: right, up
+    // and back in the first player's play space. ShotView::place: the position in the world.
     Vec3 from_m = Vec3(0.3, 0.2, 0.3);
-    Vec3 target_m = Vec3::Zero();  // added to the point that the view looks at; same axes
-    double fov_deg = 60.0;         // vertical
-    bool marks = true;             // lines of palms, grips and heads
-    double through = 0.22;         // [0, 1]; opacity of lines behind geometry
+    // Offset of the point that the camera looks at from the point that `view` names, in the same
+    // axes. ShotView::place: the point itself, in the world.
+    Vec3 target_m = Vec3::Zero();
+    double fov_deg = 60.0;  // vertical
+    bool marks = true;      // lines of palms, grips and heads
+    double through = 0.22;  // [0, 1]; opacity of lines behind geometry
     GizmoSet gizmos = k_no_gizmos;
 };
 

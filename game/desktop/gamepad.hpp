@@ -22,7 +22,9 @@ struct GamepadState {
 // What read_gamepad remembers between calls.
 struct GamepadMemory {
     std::array<bool, 2> grips{};
-    bool turned = false;  // limits snap turns to one per press
+    // Whether the pad was pressed left or right in the last call. Limits snap turns to one per
+    // press.
+    bool turned = false;
 };
 
 // Left stick: moves right and back; shoulder buttons: down (left) and up (right). Right stick:
@@ -31,8 +33,8 @@ struct GamepadMemory {
 DesktopInput read_gamepad(const GamepadState& state, const PlaySettings& settings, double dt_s,
                           GamepadMemory& memory);
 
-// Combines the input of two devices. A button is held if it is held on either device; motions add
-// up to full speed at most.
+// Combines the input of two devices. A button is held if it is held on either device. Movements and
+// turns are added; `move` and `smooth_turn` are limited to full deflection.
 DesktopInput combine(const DesktopInput& a, const DesktopInput& b);
 
 }  // namespace handhold

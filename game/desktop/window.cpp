@@ -45,7 +45,7 @@ struct Window::Impl {
     int texture_width = 0;
     int texture_height = 0;
     bool holds_mouse = false;
-    UiInput ui;  // persistent part: mouse position and buttons
+    UiInput ui;  // mouse position and buttons, which persist from poll to poll; the rest is unused
 
     Impl() = default;
     Impl(const Impl&) = delete;

@@ -15,7 +15,7 @@
 
 namespace handhold {
 
-// Keys with a function other than movement, in the order in which they were pressed.
+// Keys with a function other than movement.
 enum class PlayKey : std::uint8_t { help, inspector, menu, view, free_mouse, pause, step, leave };
 
 // Events at a window since the last poll.
@@ -23,13 +23,13 @@ struct WindowEvents {
     DesktopInput input;  // keyboard and, while the window holds it, mouse
     UiInput ui;
     std::optional<GamepadState> gamepad;  // the first connected one
-    std::vector<PlayKey> pressed;
-    bool rewinds = false;  // held down
+    std::vector<PlayKey> pressed;         // keys in the order in which they were pressed
+    bool rewinds = false;                 // the rewind key is held down
     bool quit = false;
 };
 
 // A window that shows pictures, with keyboard, mouse and a gamepad. Pictures keep their aspect
-// ratio. The only class that uses SDL. One at a time.
+// ratio. The only class that uses SDL. A program may have one window at a time.
 class Window {
   public:
     // Null, with the reason in `why_not`, if there is no display.

@@ -46,7 +46,7 @@ struct ModelNode {
     std::string name;
     std::string pointer;                // JSON pointer in the file
     std::optional<std::size_t> parent;  // index; nullopt: a root
-    std::optional<hh::Pose> pose_ms;    // nullopt: it is scaled
+    std::optional<hh::Pose> pose_ms;    // nullopt: the node is scaled
 };
 
 // A ControlledNode with the poses that its model's nodes have. Suffix _ms: in the model's frame,
@@ -57,8 +57,9 @@ struct ControlMove {
     hh::Pose from_ms = hh::k_origin;
     hh::Pose to_ms = hh::k_origin;
 };
-// Moves of the node with this pointer and of its ancestors, the outermost first. Left out: nodes
-// that the model lacks, that are scaled, or that are no siblings of their end poses.
+// Returns the moves of the node with this JSON pointer and of its ancestors, outermost first. A
+// node has a move if `controlled` lists it, if the nodes of both its end poses are its siblings,
+// and if none of the three is scaled.
 std::vector<ControlMove> moves_of(const std::string& pointer, std::span<const ModelNode> nodes,
                                   std::span<const ControlledNode> controlled);
 // Transform of a part from its rest pose to the given values, in the model's frame.

@@ -14,7 +14,7 @@ constexpr std::array<const char*, 2> k_controller_sides = {"left", "right"};
 
 constexpr double k_near_m = 1.0;
 
-// The palm's centre by the default tuning.
+// Centre of the right palm, from the default tuning.
 hh::Vec3 default_palm_center_m() { return hand_shape(hh::World()).palm_center_m; }
 
 hh::Pose read_joint(const JsonValue& value, hh::Side side) {
@@ -76,8 +76,8 @@ bool is_layout_of(std::string_view key, std::string_view side) {
     return false;
 }
 
-// The control of a component's property. None for properties without a reading: touches, stick
-// clicks.
+// The control that a component's property shows. nullopt for properties that HandReading lacks,
+// such as touches and stick clicks.
 std::optional<Control> webxr_control(const std::string& component, const std::string& property,
                                      bool has_stick) {
     const bool is_stick = component == "xr-standard-thumbstick";

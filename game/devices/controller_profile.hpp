@@ -19,7 +19,7 @@
 // to the thumb, +X perpendicular to the palm: into the right palm, out of the left one.
 namespace handhold {
 
-// One side. Suffix _ms: in the frame of the controller's model.
+// How one hand holds its controller. Suffix _ms: in the frame of the controller's model.
 struct ControllerFit {
     hh::Pose grip_ms = hh::k_origin;
     hh::Pose aim_ms = hh::k_origin;  // origin and -Z of the pointing ray
@@ -32,11 +32,13 @@ hh::Pose controller_in_hand(const ControllerFit& fit);
 // A handle that lies across the palm.
 struct HandleGrip {
     double radius_m = 0.017;
-    double slant_rad = 0.55;  // tilt of the thumb end towards the fingers; 0: perpendicular
-    double along_m = 0.018;   // grip pose from the palm's centre along the handle, to the thumb
+    double slant_rad = 0.55;  // tilt of the thumb end towards the fingers; 0: across the hand
+    // Distance of the grip pose's origin from the palm's centre, along the handle towards the
+    // thumb.
+    double along_m = 0.018;
 };
-// Grip pose in hand space. The left hand's is the mirror image of the right hand's, whose palm's
-// centre is given.
+// Grip pose in hand space. The left hand's is the mirror image of the right hand's.
+// `palm_center_m`: the right palm's centre, for both sides.
 hh::Pose handle_in_hand(hh::Side side, const HandleGrip& handle, hh::Vec3 palm_center_m);
 
 // The contents of a profile, before its models are read.

@@ -138,7 +138,7 @@ hh::Sample DesktopBody::advance(hh::World& world, hh::Player player, const Deskt
         if (!has_hands_) {
             hand.hand_ps = rest_ps(side, palm_center_m);
         }
-        // Empty, or it holds something that comes along.
+        // True if the hand is empty, or holds a body that comes along instead of moving the player.
         const bool carries = !world.moves_player(player, side);
         uses_[i] = !input.grip[i] || input.opened[i] ? Use::opens
                    : !hand.closed                    ? Use::reaches

@@ -34,7 +34,7 @@ std::optional<hh::Pose> hand_pose(const HandPoses& hand, hh::Side side, hh::Vec3
     return hand.wrist_ps;
 }
 
-// A finger that is not seen stays as it was last.
+// A finger that is not seen keeps its last curl.
 void remember_curls(const hh_finger_curls& curls, hh_finger_curls& last) {
     for (std::size_t f = 0; f < std::size(last.fingers); ++f) {
         last.fingers[f] = curls.fingers[f] >= 0.0 ? curls.fingers[f] : last.fingers[f];
@@ -59,7 +59,8 @@ double finger_curl(const hh::Vec3& wrist, const hh::Vec3& knuckle, const hh::Vec
     const hh::Vec3 finger = tip - knuckle;
     const double lengths = hh::length(hand) * hh::length(finger);
     const double cosine = hh::dot(hand, finger) / lengths;
-    constexpr double k_longest = 4.0;  // longest finger, in distances of knuckle and wrist
+    // Maximum length of a finger, as a multiple of the distance from the wrist to the knuckle.
+    constexpr double k_longest = 4.0;
     if (!std::isfinite(cosine) || hh::length(finger) > k_longest * hh::length(hand)) {
         return std::numeric_limits<double>::quiet_NaN();
     }
@@ -83,7 +84,7 @@ hh::Sample read_headset(const HeadsetReading& reading, double t_s, const HandSha
         if (hand_ps) {
             double& curl = memory.curls[side];
             if (hand.grip_ps || hand.palm_ps) {
-                curl = 0.0;  // fingers lie about a controller all the time
+                curl = 0.0;  // a hand with a controller closes by its buttons only
                 memory.fingers[side] = k_curls_unknown;
             } else {
                 curl = std::isnan(hand.curl) ? curl : hand.curl;

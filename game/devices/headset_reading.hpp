@@ -12,7 +12,7 @@ namespace handhold {
 // Poses of one hand, by the device that gives them.
 struct HandPoses {
     std::optional<hh::Pose> grip_ps;   // pose of a controller
-    std::optional<hh::Pose> palm_ps;   // grip pose rotated: -Z along the hand to the fingers
+    std::optional<hh::Pose> palm_ps;   // palm's centre, on the skin; -Z points to the fingers
     std::optional<hh::Pose> wrist_ps;  // tracked wrist; -Z to the fingers, +Y the back of the hand
 };
 
@@ -43,7 +43,7 @@ struct HeadsetReading {
 // A short vibration of a controller.
 struct HapticPulse {
     double amplitude = 0.0;   // [0, 1]
-    double duration_s = 0.0;  // 0: none
+    double duration_s = 0.0;  // 0: no vibration
 };
 
 }  // namespace handhold

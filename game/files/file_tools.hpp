@@ -1,8 +1,8 @@
 #pragma once
 
-// The engine's tools for files, for code of the game that otherwise knows the library's interface
-// only: results with errors that name file and place, text files, CSV, JSON, and names that are
-// safe to print.
+// The engine's tools for files, collected for code of the game that otherwise uses only the
+// library's public interface: results with errors that name file and place, text files, CSV, JSON,
+// and names that are safe to print.
 #include <handhold/handhold.hpp>
 
 #include "engine/core/printable.hpp"
@@ -12,8 +12,8 @@
 
 namespace handhold {
 
-// Reads members "position_m" and "rotation_xyzw" of an object, which are optional, and no others.
-// Each coordinate within `limit_m`. A missing object: the origin.
+// Reads a pose from an object with the optional members "position_m" and "rotation_xyzw" and no
+// others. Coordinates must be in [-limit_m, limit_m]. A missing object gives the identity.
 hh::Pose read_pose(const JsonValue& value, double limit_m);
 
 }  // namespace handhold

@@ -4,8 +4,8 @@
 
 namespace handhold {
 
-// Simulation frames for a headset's display: one per refresh, all of one length, even if pictures
-// are late. A recorded session therefore replays at `hz` bit for bit.
+// Counts simulation frames for a headset's display: one per refresh, all of the same length, even
+// if pictures are late. A recorded session therefore replays at hz() bit for bit.
 class HeadsetClock {
   public:
     // Number of frames to simulate before a picture that is shown at display_ns. 0 if that refresh
@@ -14,12 +14,13 @@ class HeadsetClock {
     // time lags behind.
     int advance(std::int64_t display_ns, std::int64_t period_ns);
 
-    // No time passes until the next advance(): the runtime was gone, or has another clock.
+    // Call after the runtime was reopened: the time until the next advance() is not simulated, and
+    // the runtime's clock may have changed.
     void pause() { runs_ = false; }
 
     double hz() const { return hz_; }
     double dt_s() const { return 1.0 / hz_; }
-    // Display time of a frame of the last advance(), counted from its end; 0: its last frame.
+    // Display time of a frame of the last advance(). `before_last`: number of frames after it.
     std::int64_t frame_ns(int before_last) const;
 
     static constexpr int k_max_frames = 9;

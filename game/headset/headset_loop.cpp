@@ -28,7 +28,7 @@ double microseconds_since(std::int64_t begin_ns) {
     return 1e-3 * static_cast<double>(clock_ns() - begin_ns);
 }
 
-// Copies an eye's picture into its half of `both`: left, right.
+// Copies an eye's picture into a half of `both`. `which`: 0 left, 1 right.
 void put_beside(const Image& eye, std::size_t which, Image& both) {
     const int width = eye.width_px;
     both.width_px = 2 * width;
@@ -78,7 +78,7 @@ class HeadsetLoop {
 
   private:
     const hh::World& world() const { return stage_.session.world(); }
-    // For pictures.
+    // The world's columns, for drawing and notices.
     const World& columns() const { return stage_.session.scene().world(); }
 
     bool begin(std::string& why_not) {
@@ -107,7 +107,7 @@ class HeadsetLoop {
         return false;
     }
 
-    // Frames must go on while the runtime ends the session.
+    // Ends the session. Submits empty frames until the runtime has ended it, as OpenXR requires.
     void leave() {
         constexpr int k_max_frames = 200;
         headset_->ask_to_leave();
@@ -118,7 +118,8 @@ class HeadsetLoop {
         }
     }
 
-    // Reads the requests to end that come from this side: a signal, the mirror window.
+    // Reads requests to end the session that do not come from the headset: a signal, or the mirror
+    // window.
     void look_around() {
         ends_ = ends_ || (stage_.asked_to_end != nullptr && *stage_.asked_to_end != 0);
         if (stage_.mirror == nullptr) {
@@ -131,7 +132,7 @@ class HeadsetLoop {
 
     void frame() {
         const HeadsetFrame frame = headset_->begin_frame();
-        if (frame.display_ns == 0) {  // lost: the next poll() reports it
+        if (frame.display_ns == 0) {  // the runtime is lost; the next poll() reports it
             return;
         }
         headset_->sync();
@@ -285,7 +286,7 @@ class HeadsetLoop {
     UiPicture sheet_ui_;               // panel content; used only while the panel is shown
     hh::Pose head_ps_ = hh::k_origin;  // head in the last reading
     Image eye_image_;                  // reused
-    Image mirror_image_;               // the left eye's
+    Image mirror_image_;               // the left eye's picture
     std::uint64_t frames_ = 0;
     double next_status_s_ = 0.0;
     bool ends_ = false;

@@ -24,14 +24,15 @@ struct HeadsetStage {
     EyeSize eye_size;
     PlayTally& tally;
     Image& picture;               // both eyes side by side, if options ask for a picture
-    std::FILE* status = nullptr;  // a line every 0.1 s; null: none
-    const volatile std::sig_atomic_t* asked_to_end = nullptr;  // not 0: leave
+    std::FILE* status = nullptr;  // gets a line every 0.1 s; null: none
+    // The session ends when the value is not 0; may be null.
+    const volatile std::sig_atomic_t* asked_to_end = nullptr;
     double hz = 90.0;  // out: frames per second of the session
 };
 
 // Simulates one frame per refresh of the display and draws it for its display time. If the runtime
-// is lost, it is reopened within half a minute, during which no time passes. False, with the
-// reason, if that fails.
+// is lost, tries for about half a minute to reopen it; this time is not simulated. Returns false,
+// with the reason in `why_not`, if the session cannot be started or reopened.
 bool play_in_headset(HeadsetStage& stage, std::unique_ptr<Headset> headset, std::string& why_not);
 
 }  // namespace handhold

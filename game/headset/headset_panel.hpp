@@ -13,8 +13,9 @@ class HeadsetPanel {
     static constexpr double k_below_m = 0.18;  // distance below the eyes
     static constexpr double k_width_m = 0.7;
 
-    // Call once per reading. The left calibrate button shows the sheet before the head, or hides
-    // it, when it is released without the right one having been pressed: both request calibration.
+    // Call once per reading. Releasing the left calibrate button shows the sheet in front of the
+    // head, or hides it. A press during which the right calibrate button was held too does not
+    // count, because both buttons together request calibration.
     void follow(const HeadsetReading& reading);
 
     bool shows() const { return shows_; }
@@ -24,12 +25,12 @@ class HeadsetPanel {
   private:
     bool shows_ = false;
     bool is_down_ = false;
-    bool was_both_ = false;  // both buttons, while the left one was down
+    bool was_both_ = false;  // the right button was held too during this press of the left one
     std::optional<hh::Pose> head_ps_;
     hh::Pose pose_ps_ = hh::k_origin;
 };
 
-// Pose of a panel before a head, upright and facing it, for any look direction.
+// Pose of an upright panel in front of a head, facing the eyes. Valid for every look direction.
 hh::Pose panel_before(const hh::Pose& head_ps);
 
 }  // namespace handhold

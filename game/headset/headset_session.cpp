@@ -14,8 +14,9 @@ namespace {
 
 constexpr HapticPulse k_touch_pulse{0.25, 0.015};
 constexpr HapticPulse k_grip_pulse{0.8, 0.04};
-constexpr double k_touch_radius_m = 0.02;  // radius of a sphere in the palm
-constexpr double k_touch_reach_m = 0.03;   // reach beyond the palm's skin
+constexpr double k_touch_radius_m = 0.02;  // radius of the sphere that is cast out of the palm
+// A surface up to this far in front of the palm's skin counts as touched.
+constexpr double k_touch_reach_m = 0.03;
 
 }  // namespace
 
@@ -48,7 +49,7 @@ void HeadsetSession::step(hh::Sample sample, hh_commands commands, double dt_s) 
         }
     }
     if (*world.tuning("locomotion.thruster_mps2") == 0.0) {
-        commands.thrust = {};  // has no effect, but commands are state
+        commands.thrust = {};  // the thrust has no effect, but commands are part of the state
     }
     used_sticks_ = used_sticks_ || commands.brake > 0.0 || commands.smooth_turn != 0.0 ||
                    commands.snap_turns != 0 || !(commands.thrust == hh::Vec3{});

@@ -15,14 +15,16 @@ class HeadsetSession {
   public:
     HeadsetSession(Scene scene, const hh::Pose& origin_ws);
 
-    // Replaces Tuning's joint by a controller's own. Call before the first frame.
+    // Replaces the tuning's controller-to-hand poses by those of a controller profile, by hh::Side.
+    // Call before the first frame.
     void set_controller_joints(const std::array<hh::Pose, 2>& hand_in_grip);
-    // The joints set above; nullptr if none were.
+    // The poses given to set_controller_joints; nullptr if none were.
     const std::array<hh::Pose, 2>* controller_joints() const {
         return joints_ ? &*joints_ : nullptr;
     }
 
-    // Steps one frame of dt_s. `sample` is taken at its end; in the first frame also at its start.
+    // Steps one frame of dt_s. `sample` counts for the frame's end; in the first frame also for its
+    // start.
     void step(hh::Sample sample, hh_commands commands, double dt_s);
 
     // Vibration of the controllers after the last frame: weak if a palm came close to a surface,
@@ -34,8 +36,9 @@ class HeadsetSession {
     hh::Player player() const { return player_; }
     double t_s() const { return scene_.host.time_s(); }
 
-    // Records the input from the first frame on. Replayed from the same place at the same rate, it
-    // gives the same state bit for bit, except for turns, brake and thrusters.
+    // Records tracking; call before the first frame. A replay from the same place at the same rate
+    // gives the same state bit for bit, unless the player used turns, brake or thrusters:
+    // recordings do not contain them.
     void record() { records_ = true; }
     const Recording& recording() const { return recording_; }
     bool used_sticks() const { return used_sticks_; }

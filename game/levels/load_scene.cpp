@@ -11,7 +11,7 @@
 namespace handhold {
 namespace {
 
-// A level by itself: each mesh node is a static body.
+// A scene that contains only a level: each of its mesh nodes becomes a static body.
 SceneFile level_scene(const std::filesystem::path& path) {
     SceneFile file;
     file.name = path.stem().string();

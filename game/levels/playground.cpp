@@ -45,7 +45,7 @@ void crawl(double from_s, double from_x_m, double to_x_m, SessionScript& script)
     add_crawl(hands, script);
 }
 
-// A grab by the right hand and the motions that follow.
+// Adds a grab by the right hand, and the motions that follow, to a script.
 struct Work {
     SessionScript& script;
     double from_s;

@@ -9,9 +9,10 @@ namespace handhold {
 // caller must add its grip meshes (add_grip_meshes).
 Scene make_reach_scene();
 
-// The session of the reach scene. A canister is pulled from two metres away and taken. A safe is
-// too heavy and stays. A ball is released on its way and flies past. Then the hands are pulled
-// apart on one rail and pushed into a slab, where ghosts show the tracked hands.
+// The session of the reach scene. The right hand pulls a canister from two metres away and takes
+// it. It pulls at a safe, which is too heavy and stays. It opens while a ball is on its way, so the
+// ball flies past. Then both hands hold one rail and are tracked too far apart, and the right hand
+// is pushed into a slab; ghosts show the tracked hands.
 SessionScript reach_script();
 
 }  // namespace handhold

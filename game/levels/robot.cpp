@@ -137,7 +137,8 @@ Pose way_at(double along_m) {
 
 // Equipment on the hull inside the robot's path, low enough for the swinging legs.
 void add_island(StationKit& kit) {
-    // Along the middle: two tanks, a mast with a dish, boxes, and a rail around them.
+    // Along the middle: two tanks, and between them a box with a mast and a dish. Beside them: two
+    // rails.
     for (const double z : {-2.2, 2.2}) {
         kit.add(Material::foil,
                 make_capsule(Vec3(0.0, 0.38, z - 1.0), Vec3(0.0, 0.38, z + 1.0), 0.42, 28), {});
@@ -164,8 +165,8 @@ void add_island(StationKit& kit) {
     }
 }
 
-// Bolts in a plate's corners and, on some plates, a stripe or a grille. They rise less than 6 mm,
-// because feet may land anywhere.
+// Adds bolts to a plate's corners and, on some plates, a stripe or a grille. They rise
+// at most 6 mm, because feet may land anywhere.
 void add_plate_marks(StationKit& kit, const Vec3& center, std::size_t salt) {
     const Vec3 top = center + Vec3(0.0, 0.075, 0.0);
     for (int corner = 0; corner < 4; ++corner) {

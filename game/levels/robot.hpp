@@ -6,7 +6,7 @@
 #include "engine/anim/crawler_leg.hpp"
 #include "game/levels/station.hpp"
 
-// A robot that crawls over a hull, and the hull: visuals and geometry. Lengths in metres.
+// A robot that crawls over a hull, and that hull: meshes, legs, gait and path. Lengths in metres.
 namespace handhold {
 
 inline constexpr std::size_t k_robot_legs = 6;
@@ -27,8 +27,8 @@ Structure make_robot_bone(const CrawlerLeg& leg, LegBone bone);
 
 // Hull plates flush with y = 0, 26 m x 20 m, with equipment inside and outside the robot's path.
 Structure make_robot_hull();
-// One lap of the robot's path, heading along it. Starts in the middle of a straight that leads to
-// -Z.
+// One lap of the robot's path. The poses face along the path. It starts in the middle of a straight
+// that leads to -Z.
 PosePath make_robot_path();
 
 }  // namespace handhold

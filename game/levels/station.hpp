@@ -13,7 +13,7 @@ namespace handhold {
 
 // The straight part of a handrail, along its axis.
 struct HandrailSpan {
-    std::string name;  // "hab/left_upper"
+    std::string name;  // "<section>/<rail>", such as "hab/left_upper"
     Vec3 start = Vec3::Zero();
     Vec3 end = Vec3::Zero();
     double radius_m = 0.0175;

@@ -21,8 +21,8 @@ namespace handhold {
 
 enum class SectionType : std::uint8_t { node, module, cupola, truss };
 
-// How a module's far end is closed. `open`: the door stands open, outside. `hatch`: another section
-// can be attached.
+// How a module's far end is closed. `open`: the door stands open, outside. `hatch`: a node can be
+// attached.
 enum class EndKind : std::uint8_t { hatch, door, window, open };
 
 enum class WallSide : std::uint8_t { floor, right, ceiling, left };
@@ -50,15 +50,15 @@ struct StationSection {
     std::string name;
     SectionType type = SectionType::module;
     std::string attached_to;  // name of an earlier section; empty: placed by `pose`
-    // Attached to a node: port, in quarter turns from the node's +Z to the left; to a module:
-    // unused.
+    // The node's port to which the section is attached, in quarter turns to the left from the
+    // node's +Z. Unused if the section is attached to a module.
     int port = 0;
     Pose pose;
-    std::size_t racks = 5;  // module: length in racks; truss: bays
+    std::size_t racks = 5;  // module: number of racks along each wall; truss: number of bays
     EndKind far_end = EndKind::door;
     Color accent = {0.5F, 0.5F, 0.5F};
     std::size_t seed = 1;
-    // module: one for each rack, by WallSide.
+    // Modules only: the kind of every rack along each wall, indexed by WallSide.
     std::array<std::vector<RackKind>, k_wall_count> walls;
     std::vector<RailLine> rails;
     std::vector<HoseLine> hoses;

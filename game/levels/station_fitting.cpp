@@ -57,7 +57,7 @@ void add_plant(StationKit& kit, const Pose& frame, const Vec3& foot, double heig
     }
 }
 
-// Two trays of plants under light strips, in a bay.
+// Two trays of plants, each in its own bay between two light strips.
 void add_garden(StationKit& kit, const Pose& frame, double z0, std::size_t seed) {
     const double middle = z0 + 0.5 * k_rack_pitch_m;
     for (std::size_t tray = 0; tray < 2; ++tray) {

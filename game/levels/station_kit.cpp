@@ -118,7 +118,7 @@ void StationKit::handrail(const std::string& name, const Pose& frame, const Vec3
                           const Vec3& b) {
     const double height = k_rail_clearance_m + k_rail_radius_m;
     const Vec3 up(0.0, height, 0.0);
-    const Vec3 low(0.0, -0.012, 0.0);  // ends of bar and posts, inside the wall
+    const Vec3 low(0.0, -0.012, 0.0);  // offset of the ends of bar and posts, inside the wall
     const Vec3 along = (b - a).normalized();
     const double bend = 0.028;
     const std::array<Vec3, 6> path = {a + low,

@@ -11,9 +11,9 @@ namespace {
 
 constexpr double k_liner_half_m = 1.42;
 constexpr double k_hull_radius_m = 1.90;
-constexpr double k_plate_m = 0.12;           // thickness of an end
-constexpr double k_recess_m = 0.015;         // depth of an end's outside behind the hull's rim
-constexpr double k_end_clearance_m = 0.17;   // distance from an end's outside to the first rack
+constexpr double k_plate_m = 0.12;           // thickness of an end plate
+constexpr double k_recess_m = 0.015;         // depth of an end plate behind the hull's rim
+constexpr double k_end_clearance_m = 0.17;   // distance from the hull's rim to the first rack
 constexpr double k_module_corner_m = 1.365;  // distance from the axis to a stand-off's face
 constexpr double k_hatch_corner_m = 0.22;
 
@@ -153,7 +153,7 @@ void add_standoffs(StationKit& kit, const Module& module) {
     }
 }
 
-// The outside: shields between the hull's bands, and a rail along the top.
+// Adds the outside: shields between the hull's bands, and a strip for rails along the top.
 void add_outside(StationKit& kit, const Module& module) {
     const double length = module_length_m(module.section);
     constexpr std::size_t k_around = 10;
@@ -173,7 +173,7 @@ void add_outside(StationKit& kit, const Module& module) {
                       Vec3(0.40, 0.045, 0.125 * length - 0.16));
         }
     }
-    // The rail is mounted on a strip above the bands and the shields.
+    // The strip is above the bands and the shields. add_described_parts mounts rails on it.
     const Pose top = module.pose * k_top;
     kit.panel(Material::metal, top, Vec3(0.0, -0.04, 0.5 * length),
               Vec3(0.045, 0.04, 0.5 * length - 0.3));

@@ -13,14 +13,14 @@ inline constexpr double k_vestibule_length_m = 0.30;
 // Precondition: a section of type module.
 double module_length_m(const StationSection& section);
 
-// A cylinder with four walls of racks, stand-offs with lamps and cables between the walls, and a
-// vestibule at the near end. `pose`: of the section.
+// Builds a cylinder with four walls of racks, stand-offs with lamps and cables between the walls,
+// and a vestibule at the near end. `pose`: the section's frame in the station.
 void build_module(Structure& out, const StationSection& section, const Pose& pose);
 
-// The passage between two sections, from z = -k_vestibule_length_m to 0 of `pose`. It overlaps both
-// sections by 20 mm.
+// Adds the passage between two sections, from z = -k_vestibule_length_m to z = 0 in the frame
+// `pose`. The passage overlaps both sections by 20 mm.
 void add_vestibule(StationKit& kit, const Pose& pose);
-// A closed door in a hatchway. `frame` as in dress_hatch_plate.
+// Adds a closed door in a hatchway. `frame`: as in dress_hatch_plate.
 void add_door(StationKit& kit, const Pose& frame);
 
 // The frame of a wall at `distance_m` from the Z axis. `angle_rad`: rotation about Z; 0 is the

@@ -78,8 +78,8 @@ Ring octagon_ring(double radius_m, double z) {
 }
 
 void add_cupola(StationKit& kit, const Pose& pose) {
-    constexpr double k_base_m = 0.98;   // circumradius where it meets the node
-    constexpr double k_front_m = 0.58;  // circumradius of the front pane
+    constexpr double k_base_m = 0.98;   // circumradius of the slanted panes at the node
+    constexpr double k_front_m = 0.58;  // circumradius of the slanted panes at the front
     constexpr double k_start_m = 0.14;
     constexpr double k_end_m = 0.72;
     const std::array<Ring, 4> base = {octagon_ring(0.88, -0.02), octagon_ring(1.08, -0.02),

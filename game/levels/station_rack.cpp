@@ -77,7 +77,7 @@ void add_screen(StationKit& kit, const Pose& frame, const Cell& cell, std::size_
 void add_bay(StationKit& kit, const Pose& frame, const Cell& cell, std::size_t seed) {
     kit.block(Material::liner, frame, Vec3(cell.x, -0.27, cell.z),
               Vec3(cell.half_x - k_gap_m, 0.02, cell.half_z - k_gap_m));
-    // Soft bags, one or two across, each held by a strap.
+    // Two or three soft bags in a row along Z, each with two straps.
     const int count = cell.half_z > 0.3 ? 3 : 2;
     for (int i = 0; i < count; ++i) {
         const auto salt = static_cast<std::size_t>(i);

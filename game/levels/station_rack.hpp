@@ -19,7 +19,7 @@ inline constexpr double k_track_m = 0.56;
 // place to sleep. bench: a glove box and screens.
 enum class RackKind : std::uint8_t { deck, equipment, lights, stowage, garden, bunk, bench };
 
-// Half the width of a front, between the two tracks.
+// Half the width of a rack's front, which lies between the two tracks.
 inline constexpr double k_bay_half_m = 0.47;
 
 // One rack of one wall, from z0 to z0 + k_rack_pitch_m in `frame` (y = 0 is the wall's face, X is

@@ -37,7 +37,7 @@ SessionScript together_script() {
     const hh::Vec3 up = hh::k_y;
     script.holds.push_back(
         {HH_LEFT, 0.4, 13.6, hh::Vec3{-0.25, 1.05, -0.25} + 0.02 * back, back, up});
-    // The right hand lies on the other's left forearm from above, fingers across it.
+    // The right hand lies on the partner's left forearm from above, with the fingers across it.
     const hh::Vec3 across = -hh::k_z;
     const hh::Vec3 on_arm{0.42, 1.52, 0.22};
     const auto move = [&](double t_s, const hh::Vec3& palm, const hh::Vec3& away,

@@ -9,8 +9,8 @@ namespace handhold {
 // meshes (add_grip_meshes).
 Scene make_together_scene();
 
-// The session of the first player, who holds the rail with the left hand. The right hand takes the
-// other's forearm, moves her about, and then holds her by the thigh.
+// The session of the first player, who holds the rail with the left hand. The right hand grips the
+// partner's forearm, moves her about, releases her, and then holds her by the thigh.
 SessionScript together_script();
 
 // The session of the second player. She floats, waves the arm that is held, and holds nothing.

@@ -12,8 +12,8 @@
 namespace handhold {
 namespace {
 
-// Triangles between the rings that start at the vertices `low` and `high`. Either ring may be a
-// single point.
+// Adds the triangles between two rings, each given by its first vertex and its number of points.
+// Either ring may be a single point.
 void add_band(Mesh& mesh, std::pair<std::uint32_t, std::size_t> low,
               std::pair<std::uint32_t, std::size_t> high) {
     const std::size_t count = std::max(low.second, high.second);

@@ -5,7 +5,8 @@
 
 #include "engine/geometry/mesh.hpp"
 
-// Closed surfaces lofted over rings of points. Lengths in metres; counter-clockwise from outside.
+// Closed surfaces lofted over rings of points. Lengths in metres; triangles are counter-clockwise
+// seen from outside.
 namespace handhold {
 
 // Points around +Z, counter-clockwise seen from +Z.
@@ -33,7 +34,7 @@ Ring make_outline(const RoundedRect& rect, double z_m);
 Ring round_outline(const Ring& outline, double radius_m);
 Ring at_height(Ring ring, double z_m);
 
-// One step of a surface of revolution around Z. Radius 0 is allowed at both ends.
+// One ring of a surface of revolution around Z. Only the first and the last may have radius 0.
 struct ProfilePoint {
     double radius_m = 0.0;
     double z_m = 0.0;

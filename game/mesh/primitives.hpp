@@ -6,9 +6,9 @@
 #include "game/mesh/loft.hpp"
 #include "game/mesh/mesh_edit.hpp"
 
-// Basic shapes of the game. Every function returns a closed, welded surface, counter-clockwise from
-// outside; lengths in metres. Some shapes become colliders and thereby state, so libm trigonometry
-// is not allowed here.
+// Basic shapes of the game. Every mesh is a closed, welded surface; its triangles are
+// counter-clockwise seen from outside. Lengths in metres. Some shapes become colliders and thereby
+// state, so libm trigonometry is not allowed here.
 namespace handhold {
 
 Mesh make_box(const Vec3& half_m);

@@ -19,8 +19,8 @@ enum class MeshId : std::uint32_t {};
 
 // How a surface reflects and emits light.
 struct Look {
-    // Multiple of the colour that is added to the reflected light. 1: as bright as a lit white
-    // wall; lamps have 2 to 4.
+    // Multiple of the colour that is added to the reflected light. 1: a white surface is as bright
+    // as a lit white wall; lamps have about 2.
     float emissive = 0.0F;
     float opacity = 1.0F;  // less than 1: blended, drawn after opaque surfaces, casts no shadow
     float gloss = 0.25F;   // 0 chalk .. 1 polished
@@ -44,15 +44,15 @@ struct Line {
 };
 
 // A transparent mesh that shows a tracked hand's pose, drawn over the scene and through walls.
-// Casts no shadow. Strengths are opacities in [0, 1].
+// Casts no shadow. `seen` and `hidden` are opacities in [0, 1].
 struct Ghost {
     MeshId mesh{};
     Pose pose_ws;
     Color color = {0.35F, 0.75F, 1.0F};
-    float seen = 0.5F;            // where visible
-    float hidden = 0.35F;         // where geometry hides it
+    float seen = 0.5F;            // opacity where nothing is in front of the ghost
+    float hidden = 0.35F;         // opacity where geometry hides the ghost
     double hidden_from_m = 0.0;   // distance behind the geometry where `hidden` starts to apply
-    double hidden_full_m = 0.01;  // distance where it applies fully; above hidden_from_m
+    double hidden_full_m = 0.01;  // distance where `hidden` applies fully; above hidden_from_m
     // True: the ghost is not drawn where an instance with is_own is in front of it. `hidden` does
     // not apply there.
     bool own_hides = false;
@@ -62,7 +62,7 @@ struct Ghost {
 // walls.
 struct Lamp {
     Vec3 position_ws = Vec3::Zero();
-    Color color = {1.0F, 1.0F, 1.0F};  // multiplied by the intensity at 1 m
+    Color color = {1.0F, 1.0F, 1.0F};  // linear RGB times the lamp's intensity at 1 m
     double reach_m = 4.0;              // > 0
 };
 
@@ -89,7 +89,7 @@ struct EyeFrustum {
 struct Camera {
     Pose pose_ws;
     double vertical_fov_rad = 1.2;
-    std::optional<EyeFrustum> frustum;  // instead of vertical_fov_rad
+    std::optional<EyeFrustum> frustum;  // replaces vertical_fov_rad; nullopt: symmetric view
     double near_m = 0.03;
 };
 

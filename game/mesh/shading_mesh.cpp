@@ -25,8 +25,8 @@ std::uint64_t place_key(const Vec3& p) {
     return hash.value();
 }
 
-// Sum of the normals at one position whose triangles are within the smoothing angle of `own`.
-// Triangles of the opposite winding count as flipped.
+// Mean normal of the triangles at one position that are within the smoothing angle of `own`,
+// weighted by the triangles' corner angles. Triangles of the opposite winding count as flipped.
 Vec3 smooth_normal(const std::vector<Corner>& around, const Vec3& own) {
     Vec3 sum = Vec3::Zero();
     for (const Corner& corner : around) {

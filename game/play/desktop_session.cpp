@@ -10,7 +10,7 @@
 namespace handhold {
 namespace {
 
-// A session's calls of the interface fail only by a defect.
+// Throws if a call of the library failed. Calls of a session fail only because of a defect.
 void expect_done(const hh::Status& status) {
     if (!status) {
         throw std::logic_error(std::string(status.text()));

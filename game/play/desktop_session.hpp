@@ -39,7 +39,8 @@ class DesktopSession {
     void set_controller_joints(const std::array<hh::Pose, 2>& hand_in_grip);
 
     const Scene& scene() const { return scene_; }
-    // To change its tuning between frames; recordings do not contain that.
+    // Gives access to the tuning, which may be changed between frames. Recordings do not contain
+    // such changes.
     Scene& scene() { return scene_; }
     const hh::World& world() const { return scene_.host; }
     hh::World& world() { return scene_.host; }

@@ -17,13 +17,13 @@ namespace handhold {
 struct PlayFigures {
     std::uint64_t frames = 0;
     double played_s = 0.0;
-    // Path of the play space, relative to the scene's reference velocity.
+    // Length of the play space's path, relative to the scene's reference velocity.
     double path_m = 0.0;
-    double climbed_m = 0.0;  // part of path_m during which a hand gripped a surface
+    double climbed_m = 0.0;  // part of path_m during which a grip moved the player
     // Displacement from start to end in the world, including the motion of the scene's reference
     // velocity.
     hh::Vec3 moved_m{};
-    std::uint64_t grips = 0;  // grips of surfaces
+    std::uint64_t grips = 0;  // number of grips that moved the player
     // Hand over hand: one hand gripped while the other, which had gripped before, still held.
     std::uint64_t hand_changes = 0;
     std::uint64_t hands_closed = 0;
@@ -65,7 +65,7 @@ struct HeadsetFigures {
     HeadsetReading reading;  // the last reading
     bool has_focus = false;
     bool shows_panel = false;
-    // How often the XR runtime was lost, and recovered.
+    // How often the XR runtime was lost.
     std::uint64_t losses = 0;
     std::uint64_t pictures = 0;             // counted once for both eyes
     std::array<std::uint64_t, 2> shakes{};  // haptic pulses, by hh::Side

@@ -20,8 +20,8 @@ class SessionHistory {
 
     // Steps the session by a frame and records it.
     void step(DesktopSession& session, const DesktopInput& input);
-    // Rewinds by `frames`, or by as many as are recorded, and forgets the later ones. Returns the
-    // number of frames rewound. The session keeps its current tuning; replayed frames use the
+    // Rewinds by `frames`, or by as many frames as are recorded, and forgets the rewound frames.
+    // Returns their number. The session keeps its current tuning; replayed frames use the
     // tuning of their time.
     std::size_t rewind(DesktopSession& session, std::size_t frames);
 

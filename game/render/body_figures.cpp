@@ -35,8 +35,8 @@ Region region_of(const BodyRig& rig, const Vec3& position_ms, const SkinWeights&
     }
 }
 
-// Binds skin of the hands to the forearms' ends. The figure's hands are not drawn, and what is
-// drawn of its wrists must not bend with them.
+// Rebinds skin that is bound to a hand to the same side's forearm joint nearest the wrist. The
+// figure's hands are not drawn, so the visible skin at the wrists must not bend with them.
 void bind_wrists_to_forearms(const BodyRig& rig, SkinnedMesh& figure) {
     std::array<std::optional<std::uint16_t>, k_hand_count> ends;
     const auto carrier_of = [&rig](std::size_t joint) -> const BodyRig::Carrier& {
@@ -123,8 +123,8 @@ BodyFigures::BodyFigures(BodyModel model, Renderer& renderer) : model_(std::move
     copies_.push_back(make_copy(renderer));
 }
 
-// Splits the figure into pieces: each triangle belongs to the region of most of its corners. Leaves
-// out hands.
+// Splits the figure into pieces: each triangle belongs to the region of most of its corners. The
+// hands' triangles are left out.
 void BodyFigures::cut_pieces() {
     const SkinnedMesh& figure = model_.figure;
     std::vector<Region> regions;

@@ -9,7 +9,7 @@
 #include "game/render/renderer.hpp"
 #include "systems/rigs/body_rig_fit.hpp"
 
-// Draws bodies: the built-in robot's, or a loaded figure's.
+// Draws players' bodies: the built-in robot, or a figure loaded from a file.
 namespace handhold {
 
 struct BodyModel {
@@ -44,7 +44,7 @@ class BodyFigures {
         Look look;
         bool is_head = false;
     };
-    using Copy = std::vector<MeshId>;  // meshes of one player, by piece
+    using Copy = std::vector<MeshId>;  // meshes of one player, indexed as pieces_
 
     void cut_pieces();
     Copy make_copy(Renderer& renderer) const;

@@ -7,7 +7,7 @@
 
 #include "game/mesh/loft.hpp"
 
-// Building kit of the robot's figures: solids grouped by material.
+// Builds the meshes of the robot and its controller from solids, grouped by material.
 namespace handhold {
 
 enum class FigureMaterial { shell, joint, accent, metal };
@@ -25,7 +25,7 @@ class FigureKit {
   public:
     void add(FigureMaterial material, const Mesh& solid, const Pose& at = {});
     void mirror();  // mirrors all surfaces through x = 0
-    // All parts, transformed by `at`.
+    // Returns a copy of this kit, transformed by `at`.
     FigureKit placed(const Pose& at) const;
 
     // The meshes that have triangles, welded, coloured and named "<name>/shell", ...
@@ -41,7 +41,7 @@ const char* figure_material_text(FigureMaterial material);
 std::array<float, 3> figure_color(FigureMaterial material);
 float figure_gloss(FigureMaterial material);
 
-// Figures are built along +Z; half a turn about Y makes them point forward.
+// Half a turn about Y. Parts are built along +Z; this pose makes them point forward, along -Z.
 const Pose& figure_forward();
 
 }  // namespace handhold

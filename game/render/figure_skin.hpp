@@ -19,7 +19,7 @@ class FigureSkin {
     // Adds all parts of a kit.
     void add(const FigureKit& kit, const Pose& at, std::uint16_t joint, const std::string& name);
 
-    // For write_skinned_glb: the skin on these joints, and the materials of its surfaces.
+    // The inputs of write_skinned_glb: the skin with these joints, and its surfaces' materials.
     GltfSkin finish(std::vector<SkinJoint> joints) const;
     static std::vector<GltfMaterial> materials();
 

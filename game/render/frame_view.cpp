@@ -61,8 +61,8 @@ std::array<double, 4> to_clip(const FrameView& view, const Vec3& point_cs) {
 bool sees_sphere(const FrameView& view, const Vec3& center_cs, double radius_m) {
     const Vec3 c = view.from_view.conjugate() * center_cs;
     const double ahead = -c.z();
-    // Distance outside the farther of two opposite side planes through the eye; negative inside. At
-    // distance 1, the picture extends from middle - half to middle + half.
+    // Signed distance of the centre outside two opposite sides of the frustum, the larger of both;
+    // negative inside. At distance 1, the picture extends from middle - half to middle + half.
     const auto outside = [ahead](double across, double middle, double half) {
         const double above = middle + half;
         const double below = middle - half;

@@ -38,7 +38,7 @@ struct ShadowView {
     double radius_m = 1.0;
     double reach_m = 1.0;
     double texel_m = 0.01;
-    Matrix4 cs_to_clip{};     // z = -1 at the farthest caster
+    Matrix4 cs_to_clip{};     // z = -1 at a caster reach_m towards the light
     Matrix4 cs_to_texture{};  // cs_to_clip, mapped to [0, 1]
 };
 // The region moves by whole texels, so shadows do not crawl when the camera moves.
@@ -49,8 +49,8 @@ bool casts_shadow(const ShadowView& shadow, const Vec3& center_cs, double radius
 // the camera.
 Matrix4 make_model_matrix(const Quat& rotation, const Vec3& origin_cs);
 
-// The `limit` lamps that contribute most light around the camera, in the order of
-// RenderFrame::lamps.
+// Chooses at most `limit` lamps: those with the smallest distance minus reach_m from a point 1 m in
+// front of the camera. Keeps the order of RenderFrame::lamps.
 std::vector<Lamp> choose_lamps(const RenderFrame& frame, std::size_t limit);
 
 struct LineVertex {

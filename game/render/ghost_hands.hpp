@@ -24,14 +24,14 @@ struct GhostSettings {
     // so hands do not shine through them.
     double fade_start_m = 0.045;
     double fade_full_m = 0.09;
-    float penetrating = 0.62F;
+    float penetrating = 0.62F;  // opacity of a hand that shines through a wall
     Color tracked = {0.10F, 0.52F, 0.95F};
     // An empty hand near an authored grip shows the grip's hand pose. The hint starts near the
     // grip's zone and is brighter inside it.
     float snap_near = 0.22F;  // maximum opacity outside the zone
     float snap_within = 0.42F;
     Color snap = {0.35F, 1.0F, 0.45F};
-    Color lost = {1.0F, 0.55F, 0.15F};  // tracking is lost: the last known pose
+    Color lost = {1.0F, 0.55F, 0.15F};  // colour at the last known pose while tracking is lost
 };
 
 // Opacity factor of the ghost, [0, 1]; 0 if tracked and shown pose are nearly equal.

@@ -18,8 +18,8 @@ class GhostPass {
   public:
     // False, with the reason in `why_not`, if the graphics driver cannot create the resources.
     bool create(GlApi api, std::string& why_not);
-    // Draws all ghosts and leaves the scene's target bound. Returns the number of meshes drawn, in
-    // both passes. Precondition: the ghosts' meshes are in `meshes`, and the depth test is on.
+    // Draws all ghosts and leaves the scene's target bound. Returns the number of draw calls.
+    // Precondition: the ghosts' meshes are in `meshes`, and the depth test is on.
     int draw(const RenderFrame& frame, const FrameView& view, std::span<const GpuMesh> meshes,
              const PicturePasses& passes);
 
@@ -35,7 +35,7 @@ class GhostPass {
 
     GlProgram depth_program_, own_program_, ghost_program_;
     GlTexture depth_;       // created with the first ghost
-    GlFramebuffer target_;  // scene's colours with depth_
+    GlFramebuffer target_;  // the scene's colour texture, with depth_ as depth buffer
 };
 
 }  // namespace handhold

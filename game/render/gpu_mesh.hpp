@@ -16,7 +16,7 @@ struct GpuMesh {
     GlBuffer vertices;
     GlBuffer indices;
     GLsizei index_count = 0;
-    std::uint32_t vertices_named = 0;  // moving mesh: number of vertices that its triangles use
+    std::uint32_t vertices_named = 0;  // moving mesh: highest vertex index of its triangles + 1
     GLsizei moving_index_count = 0;    // moving mesh: index count once it has vertices
     Vec3 center = Vec3::Zero();
     double radius_m = 0.0;

@@ -9,7 +9,7 @@
 #include "game/render/renderer.hpp"
 #include "systems/rigs/hand_rig_fit.hpp"
 
-// Drawing of hands: the robot's rigid parts, or a loaded skin.
+// Draws hands: the robot's rigid parts, or a loaded skin.
 namespace handhold {
 
 // One side's hand. Without a skin, the robot's parts are built for the rig.
@@ -29,8 +29,8 @@ Result<HandModels> load_hand_models(const std::filesystem::path& left,
 // left and files[1] right. Precondition: 0 or 2 files.
 Result<HandModels> choose_hand_models(std::span<const std::string> files);
 
-// Poses in hand space of all joints of a skin with these finger angles, by index in
-// HandRig::joints.
+// Returns the poses in hand space of all joints of the rig's skin for these finger angles, indexed
+// as HandRig::joints.
 std::vector<Pose> skeleton_pose(const HandRig& rig,
                                 const std::array<FingerAngles, k_finger_count>& fingers);
 
@@ -46,7 +46,7 @@ class HandFigures {
              RenderFrame& frame) {
         add(side, wrist_ws, wrist_ws.rotation, fingers, renderer, frame);
     }
-    // `forearm_ws`: rotation of the forearm (-Z to the hand), with which the robot's cuff turns.
+    // `forearm_ws`: rotation of the forearm (-Z to the hand); the robot's cuff turns with it.
     void add(HandSide side, const Pose& wrist_ws, const Quat& forearm_ws,
              const std::array<FingerAngles, k_finger_count>& fingers, Renderer& renderer,
              RenderFrame& frame);
@@ -62,7 +62,7 @@ class HandFigures {
         Look look;
         bool is_cuff = false;
     };
-    // A skin deforms, so every hand of a picture has its own copies, one per colour.
+    // Meshes of one drawn hand, one per colour of its skin. A skin deforms, so hands share no mesh.
     using SkinCopy = std::vector<MeshId>;
 
     void add_parts(HandSide side, const Pose& wrist_ws, const Quat& forearm_ws,

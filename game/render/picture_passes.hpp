@@ -37,10 +37,10 @@ class PicturePasses {
         return {size_.width_px * size_.samples_across, size_.height_px * size_.samples_across};
     }
     // Produces the finished picture from the scene target. `sheet`, `ui`: panels in the world and
-    // on top; may be null. Precondition: any vertex array is bound.
+    // on top; may be null. Precondition: some vertex array is bound.
     void finish(const FrameView& view, const Sheet* sheet, const UiPicture* ui);
-    // Copies the finished bytes unchanged into a texture of the same size, rows from the
-    // bottom. Does not encode them a second time if the texture is sRGB.
+    // Copies the finished bytes unchanged into a texture of the same size, bottom row first. If the
+    // texture is sRGB, the bytes are not encoded a second time.
     void copy_into(GLuint texture);
     // Reads the finished picture, or the texture that it was last copied into.
     void read(Image& out) const;

@@ -190,8 +190,8 @@ void main() {
 }
 )";
 
-// Composes the picture upside down, because rows are read back from the top. If the scene has four
-// samples per pixel, the linear filter averages them.
+// Composes the picture upside down, so that glReadPixels returns the top row first. If the scene
+// has four samples per pixel, the linear filter averages them.
 inline constexpr const char* k_composite_fragment = R"(
 in vec2 uv;
 uniform sampler2D picture;

@@ -19,7 +19,7 @@ struct UiPicture;  // ui_picture.hpp
 // Cost of the last picture.
 struct RenderCounters {
     int draw_calls = 0;      // draw calls of meshes, in all passes
-    int triangles = 0;       // submitted, in all passes
+    int triangles = 0;       // triangles of instances, submitted in all passes; without ghosts
     int instances_seen = 0;  // inside the camera's frustum
     int instances_given = 0;
 };
@@ -57,7 +57,7 @@ class Renderer {
     // be null.
     void draw(const RenderFrame& frame, Image& out, const UiPicture* ui = nullptr);
     // Like draw(), but into an OpenGL texture of the same size with eight sRGB bits per channel,
-    // rows from the bottom. If `copy` is given, reads the texture back into it.
+    // bottom row first. If `copy` is given, reads the texture back into it.
     void draw_into(std::uint32_t texture, const RenderFrame& frame, Image* copy = nullptr,
                    const UiPicture* ui = nullptr);
 

@@ -13,13 +13,14 @@ struct HandPart {
     std::uint32_t link = 0;
     FigureMaterial material = FigureMaterial::shell;
     Mesh mesh;  // mesh in the link's frame; parts of the palm: in hand space
-    // Part of the cuff behind the wrist: turns about it with the forearm, if there is one.
+    // Part of the cuff behind the wrist. The cuff turns with the forearm, or with the hand if no
+    // forearm is known.
     bool is_cuff = false;
 };
 
 // Builds shells, pads and hinges for the rig's lengths and radii, for any number of fingers and
-// links. Pads are flush with the rig's capsules. On the palm's side nothing protrudes by more than
-// a millimetre. The parts of a left rig mirror those of the right rig.
+// links. Pads are flush with the rig's capsules. On the palm's side no finger part protrudes from
+// its capsule by more than a millimetre. The parts of a left rig mirror those of the right rig.
 std::vector<HandPart> make_robot_hand(const HandRig& rig);
 
 // Parts of one palm or link, for pictures of hands that are posed part by part. The palm is in hand

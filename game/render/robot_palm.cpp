@@ -17,7 +17,7 @@ Vec3 turned(const Vec3& in_hand) { return {-in_hand.x(), in_hand.y(), -in_hand.z
 struct PalmFigures {
     std::vector<Vec3> knuckles;
     std::vector<double> radii;
-    double low_x = -0.03, high_x = 0.03;  // outer sides of the row of knuckles
+    double low_x = -0.03, high_x = 0.03;  // outer sides of the first and last knuckle
     double end_z = 0.08;                  // end of the body, in front of the knuckles' drums
     double below = -0.014;                // y of the palm's surface
     double above = 0.011;                 // y of the back's surface

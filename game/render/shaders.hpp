@@ -159,7 +159,8 @@ out vec4 color;
 void main() { color = vec4(pow(tint, vec3(1.0 / 2.2)), strength); }
 )";
 
-// Panels. The first row of the picture is the lowest row of the target.
+// Panels over the picture. The target is upside down: its lowest row is the picture's top, so y
+// needs no flip.
 inline constexpr const char* k_ui_vertex = R"(
 layout(location = 0) in vec2 place_px;
 layout(location = 1) in vec2 glyph_uv;
@@ -181,8 +182,8 @@ out vec4 color;
 void main() { color = tint * texture(glyphs, uv); }
 )";
 
-// Panels on a sheet in the world. The first row of the target is the picture's top; the first row
-// of the scene's depths is the picture's bottom.
+// Panels on a sheet in the world. The target is upside down (its lowest row is the picture's top);
+// the scene's depths are upright.
 inline constexpr const char* k_sheet_vertex = R"(
 layout(location = 0) in vec2 place_px;
 layout(location = 1) in vec2 glyph_uv;

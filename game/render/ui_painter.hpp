@@ -10,7 +10,7 @@
 
 namespace handhold {
 
-// Draws panels over the bound target, whose first row is the top.
+// Draws panels over the bound target, which is upside down: its lowest row is the picture's top.
 class UiPainter {
   public:
     // False, with the compiler's message in `why_not`, if the programs do not compile.

@@ -4,7 +4,7 @@
 
 namespace handhold {
 
-// A sentence for people: what happened, and what the runtime did instead.
+// A sentence for readers of a report: what happened, and what the runtime did instead.
 const char* meaning_of(Fallback reason);
 
 }  // namespace handhold

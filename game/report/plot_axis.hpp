@@ -12,17 +12,18 @@ struct AxisTick {
 };
 
 struct PlotAxis {
-    double low = 0.0;  // value at from_px, < high; its decimal logarithm if the axis is logarithmic
+    // Values at from_px and to_px, low < high; on a logarithmic axis their decimal logarithms.
+    double low = 0.0;
     double high = 1.0;
     double from_px = 0.0;
     double to_px = 1.0;
     bool is_logarithmic = false;
     std::vector<AxisTick> ticks;
-    // Power of ten that the labels are to be multiplied by, "10⁻⁶", or empty; shown before the
-    // unit.
+    // Power of ten by which the labels must be multiplied, for example "10⁻⁶", shown before the
+    // unit; empty: 1.
     std::string factor;
 
-    // On a logarithmic axis, values below the range, also zero and negative ones, map to the low
+    // On a logarithmic axis, values below the range (also zero and negative values) map to the low
     // end.
     double to_pixel(double value) const;
 };
@@ -36,7 +37,7 @@ std::vector<double> choose_ticks(double low, double high, int count);
 PlotAxis make_exact_axis(double low, double high, int tick_count);
 // Like make_exact_axis, but extended to the next ticks outside.
 PlotAxis make_rounded_axis(double low, double high, int tick_count);
-// A logarithmic axis of the whole decades around [low, high], at most the six highest.
+// A logarithmic axis that covers [low, high] with whole decades; of more than six, the six highest.
 // Precondition: 0 < low <= high.
 PlotAxis make_logarithmic_axis(double low, double high);
 

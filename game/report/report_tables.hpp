@@ -15,7 +15,8 @@ std::string make_stage_table(const RunSummary& summary);
 std::string make_work_table(const RunSummary& summary, std::size_t frames);
 // All fallbacks with their meanings; those that never occurred are greyed.
 std::string make_fallback_table(const RunSummary& summary);
-// Momentum by receiver, and the residual of the sum.
+// The momentum that objects, players, the virtual player and fixed bodies received, and how far
+// their sum is from zero, relative to all impulses.
 std::string make_momentum_table(const MomentumFigures& momentum);
 std::string make_player_table(const RunSummary& summary);
 

@@ -78,7 +78,7 @@ void add_hand_errors(const FrameLog& frame, const PlayerLog& player,
 // all shorter times.
 constexpr double k_first_us = 0.01;
 constexpr double k_class_width = 1.01;
-constexpr std::size_t k_classes = 2400;  // the last class is at minutes
+constexpr std::size_t k_classes = 2400;  // the last class is at about 4 minutes
 
 std::size_t class_of(double time_us) {
     if (!(time_us > k_first_us)) {

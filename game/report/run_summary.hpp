@@ -41,9 +41,9 @@ struct PlayerFigures {
 // Impulses summed over all frames.
 struct MomentumFigures {
     hh_momentum sum{};
-    // How far momentum is from being conserved. For each frame, takes the length of the sum over
-    // receivers; sums these lengths over the frames, so that frames cannot cancel each other.
-    // Divides by the summed lengths of all impulses; 0 if there were none.
+    // How far momentum is from being conserved: the length of the receivers' sum, added up over the
+    // frames (so that frames cannot cancel each other), divided by the lengths of all impulses,
+    // added up. 0 if there were no impulses.
     double linear_residual = 0.0;
     double angular_residual = 0.0;
 };
@@ -62,7 +62,7 @@ struct RunSummary {
     // Error of the worst joint: distance between its two points, or distance beyond a slider's
     // limit.
     double joint_error_m = 0.0;
-    double joint_error_rad = 0.0;  // worst joint: directions and angles
+    double joint_error_rad = 0.0;  // error of the worst joint in a direction or an angle
     HandErrorFigures hand_error;
     double push_back_m = 0.0;  // worst frame and player
     MomentumFigures momentum;

@@ -339,8 +339,8 @@ std::string draw_line_plot(const LinePlot& plot) {
 }
 
 std::string line_plot_css() {
-    // Hues that colour-blind readers can tell apart, in order of use; darker on a light background,
-    // lighter on a dark one.
+    // Hues that colour-blind readers can tell apart, in order of use. They are darker for a light
+    // background and lighter for a dark one.
     constexpr std::array<const char*, k_plot_colors> k_on_light = {"#1f6fd0", "#d9600a", "#0f8a63",
                                                                    "#8a4fc4", "#c2307a", "#8a6a10"};
     constexpr std::array<const char*, k_plot_colors> k_on_dark = {"#6fb0ff", "#ff9d57", "#4fcf9a",

@@ -13,8 +13,8 @@ inline constexpr double k_mm_in_m = 1000.0;
 void append_number(std::string& text, double value);
 // Appends a number with a fixed number of decimals. "nan", "inf" or "-inf" if not finite.
 void append_fixed(std::string& text, double value, int decimals);
-// Formats a number for people, in UTF-8: "12 346" or "0.0416" with at least four significant
-// digits, without trailing zeros; "−1.25×10⁻⁷" with three.
+// Formats a number for people, in UTF-8: "12 346" or "0.0416" (at least four significant digits, no
+// trailing zeros); magnitudes below 1e-3 or from 1e9 on as "−1.25×10⁻⁷" (three digits).
 std::string format_figure(double value);
 // Formats as "10⁻⁶".
 std::string format_power_of_ten(int exponent);

@@ -85,7 +85,7 @@ void log_stats(const hh::World& world, RunStats& log) {
     log.momentum = stats.momentum;
 }
 
-// Writes one frame to a log, which is overwritten. A log that was used before needs no allocation.
+// Overwrites `log` with the last frame. Does not allocate if `log` held a frame before.
 void log_frame(const hh::World& world, std::span<const hh::Player> players,
                const LoggedBodies& bodies, FrameLog& log) {
     log.players.clear();
@@ -159,8 +159,8 @@ RunLog run_session(Scene& scene, std::span<const hh::Player> players, const Reco
     }
     const double begin_s = world.time_s();
     const double seconds = session_length_s(recording, settings) - begin_s;
-    constexpr double k_rounding =
-        1e-3;  // share of a frame; the clock is a sum with rounding errors
+    // Tolerance as a share of a frame, because the clock is a sum with rounding errors.
+    constexpr double k_rounding = 1e-3;
     const auto frames =
         static_cast<std::uint64_t>(std::max(1.0, std::floor(seconds * settings.hz + k_rounding)));
     if (world.frame() > 0) {
@@ -171,8 +171,8 @@ RunLog run_session(Scene& scene, std::span<const hh::Player> players, const Reco
 
     const LoggedBodies bodies(world);
     RunLog log = begin_log(scene, players, bodies, settings);
-    // Enough for minutes. A file may claim any length, which must not decide how much memory is
-    // reserved.
+    // Reserves memory for at most k_frames_reserved frames (about two minutes at 90 Hz), because a
+    // recording may claim any length.
     log.frames.reserve(settings.keep_frames ? std::min<std::uint64_t>(frames, k_frames_reserved)
                                             : 1);
     const std::size_t recorded = std::min(players.size(), settings.climbers_from);

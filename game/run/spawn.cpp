@@ -63,8 +63,8 @@ struct SpawnTuning {
     double reach_m;
 };
 
-// The session as it would go if every grab gripped a fixed body. Poses are in play space, relative
-// to the start origin.
+// The session as it would go if every grab gripped a fixed body. Poses are relative to the play
+// space at the start.
 struct Rehearsal {
     std::vector<GrabRay> grabs;   // palm rays at the starts of the grabs
     std::vector<hh::Vec3> heads;  // centres of the head's collider over time
@@ -129,8 +129,8 @@ struct SpawnEvaluator {
     const Rehearsal& rehearsal;
     const SpawnTuning& tuning;
 
-    // Rates a start origin: the number of grabs that would find a surface; negative if the head
-    // starts too near to a surface. Later positions of the head near a surface cost a little.
+    // Rates a start origin: the number of grabs that would find a surface, minus 0.3 for each later
+    // head position too near a surface; -1 if the first head position is too near a surface.
     double score(const hh::Pose& origin_ws) const {
         double score = 0.0;
         for (std::size_t i = 0; i < rehearsal.heads.size(); ++i) {
@@ -221,8 +221,8 @@ std::vector<Candidate> propose(const Scene& scene, const SpawnEvaluator& evaluat
         const hh::Quat rotation = normalized(upright * hh::rotation_about(hh::k_y, angle));
         for (std::size_t i = 0; i < k_surface_points; ++i) {
             const SurfaceSampler::Sample sample = surface.draw(random);
-            // Chooses a side of the surface and one of the first three grabs (the head, if there
-            // are none), which is placed next to the surface.
+            // Chooses at random a side of the surface and one of the first three grabs, and places
+            // its palm next to the surface. Without grabs, places the head.
             const double side = random.unit() < 0.5 ? -1.0 : 1.0;
             const std::size_t grabs = std::min<std::size_t>(evaluator.rehearsal.grabs.size(), 3);
             const auto pick = static_cast<std::size_t>(random.unit() * static_cast<double>(grabs));

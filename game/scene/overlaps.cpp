@@ -22,14 +22,14 @@ class OverlapFinder {
             name_of_id_[id] =
                 index < scene.body_names.size() ? scene.body_names[index] : std::string("a body");
         }
-        scene.host.closest_point({}, 0.0);  // a query places all colliders
+        scene.host.closest_point({}, 0.0);  // places all colliders at their bodies' poses
     }
 
     void add_bodies() {
         std::vector<ContactPoint> contacts;
         collision_.set_ignored_pairs({});
         collision_.find_contacts({}, contacts);
-        // Deepest contact, by pair of ids.
+        // Depth of the deepest contact of each pair of ids.
         std::map<std::pair<std::uint64_t, std::uint64_t>, double> depth_m;
         for (const ContactPoint& contact : contacts) {
             double& deepest_m = depth_m[{contact.id_a, contact.id_b}];

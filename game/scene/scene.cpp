@@ -58,7 +58,7 @@ void add_grip_meshes(Scene& scene) {
         of_bodies.push_back(collider.shape);
     }
     scene.grip_meshes().add(scene.shapes(), of_bodies, {}, grip_mesh_cache());
-    scene.caches().collision.update_shapes();  // here rather than in the first frame
+    scene.caches().collision.update_shapes();  // else the first frame would do this work
 }
 
 void set_grip_mesh_cache(const std::filesystem::path& directory) { grip_mesh_cache() = directory; }

@@ -54,8 +54,8 @@ struct Scene {
 
     std::string name;
     std::string description;
-    hh::World host;  // world; has no players until they are added
-    // The columns behind `host`. Those that are not const are for changes between frames.
+    hh::World host;  // has no players until they are added
+    // The columns behind `host`. Change them only between frames.
     World& world() { return columns_of(host.get()).world; }
     const World& world() const { return columns_of(host.get()).world; }
     Tuning& tuning() { return columns_of(host.get()).tuning; }
@@ -77,15 +77,16 @@ struct Scene {
     std::vector<SceneRail> rails;           // may be empty
     std::vector<SceneSpawnPoint> spawns;    // the first is the default; may be empty
     std::vector<ScenePlayerStart> players;  // the scene's own players; may be empty
-    std::vector<std::string>
-        body_names;  // names when the scene was loaded, in the order of world.body
-    // By the name of a body in the scene file: its authored grips in the file's frame, and the pose
-    // of the body's frame in the file's frame (not the identity for hulls and compounds).
+    // Names of the bodies when the scene was loaded, in the order of World::body.
+    std::vector<std::string> body_names;
+    // Both maps have a body's name in the scene file as key. Values: the body's authored grips in
+    // the file's frame; the pose of the body's frame in the file's frame (not the identity for
+    // hulls and compounds).
     std::map<std::string, std::vector<SceneGrip>> grips;
     std::map<std::string, Pose> body_in_file;
     std::optional<SceneSession> session;  // session that shows the scene
     std::vector<std::string> notes;       // remarks about the loaded files; see GltfLevel::notes
-    int climbers = 0;  // scripted climbers beside the first player, unless --players says otherwise
+    int climbers = 0;  // scripted climbers besides the first player; --players overrides it
 };
 
 // A function that loads the levels and meshes that a scene file names.
@@ -102,11 +103,11 @@ void add_grip_meshes(Scene& scene);
 // for the whole process. Call it before scenes are loaded.
 void set_grip_mesh_cache(const std::filesystem::path& directory);
 
-// `wanted`, with primes (') appended until the name and those of the player's hands are free.
+// Returns `wanted` with primes (') appended until its name and those of its hands are free.
 std::string free_player_name(const World& world, std::string wanted);
 // Adds a player to the world, at the start pose and with the scene's reference velocity.
 PlayerEntities add_scene_player(Scene& scene, const ScenePlayerStart& start);
-// The same; a name that is taken gets primes (free_player_name).
+// Like the overload above, but appends primes to a name that is taken (free_player_name).
 hh::Player add_scene_player(Scene& scene, const std::string& name, const hh::Pose& origin,
                             double mass_kg = 80.0);
 // Ids of players, for calls of the interface.

@@ -68,7 +68,7 @@ class SceneBuilder {
 
   private:
     // Reserves a name. Names within the file are already unique, but those of levels' parts and
-    // players' hands are not. Returns false, and keeps the error, if the name is taken.
+    // players' hands are not. Returns false and sets error_ if the name is taken.
     bool take_name(const std::string& name) {
         if (!error_ && !names_.insert(name).second) {
             error_ =
@@ -80,7 +80,7 @@ class SceneBuilder {
 
     Vec3 turned(const Vec3& vector) const { return file_.world_transform.rotation * vector; }
 
-    // nullopt, with the error kept, if the file cannot be loaded.
+    // Returns nullopt and sets error_ if the file cannot be loaded.
     std::optional<GltfLevel> load(const std::filesystem::path& path) {
         if (error_) {
             return std::nullopt;
@@ -140,7 +140,7 @@ class SceneBuilder {
         }
     }
 
-    // All parts of a file as one mesh. Bodies that name the same file share the mesh.
+    // Returns all parts of a file as one mesh. Bodies that name the same file share the mesh.
     std::shared_ptr<const Mesh> load_mesh(const std::filesystem::path& path) {
         std::shared_ptr<const Mesh>& mesh = meshes_[path];
         if (mesh != nullptr) {
@@ -347,7 +347,7 @@ class SceneBuilder {
     std::string place_;            // JSON pointer of the element that is being added
     std::set<std::string> names_;  // taken names
     std::map<std::filesystem::path, std::shared_ptr<const Mesh>> meshes_;
-    // By kind and dimensions of the shape.
+    // Key: kind and dimensions of the shape.
     std::map<std::array<double, 6>, std::shared_ptr<const Mesh>> shape_meshes_;
     std::optional<FileError> error_;
 };

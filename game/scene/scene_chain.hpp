@@ -7,8 +7,8 @@
 
 namespace handhold {
 
-// Reads a chain of a scene's JSON (docs/reference/scene_format.md, "Chains") and appends its parts
-// to the scene: capsules "<name>/0", ... and ball joints "<name>/joint/0", ...
+// Reads a chain from a scene's JSON (docs/reference/scene_format.md, "Chains") and appends its
+// parts to the scene: capsules "<name>/0", ... and ball joints "<name>/joint/0", ...
 void read_scene_chain(const JsonValue& value, const std::string& name, SceneJointNames& names,
                       SceneFile& scene);
 

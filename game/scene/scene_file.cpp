@@ -22,7 +22,7 @@ constexpr NumberRange k_period_s = {1e-3, 1e6, false};
 constexpr NumberRange k_reach_m = {0.0, 1e6, true};
 constexpr NumberRange k_angle_deg = {-360.0, 360.0, false};
 
-// Reads the sections of one document, which keeps the first error.
+// Reads the sections of one document. The document keeps the first error.
 class SceneReader {
   public:
     SceneReader(const JsonValue& root, std::filesystem::path folder)
@@ -46,7 +46,7 @@ class SceneReader {
 
     JsonValue root_;
     std::filesystem::path folder_;
-    // Names of bodies, joints and players, which share the persistent ids.
+    // Names of bodies, joints and players. All must differ, because they give the persistent ids.
     std::set<std::string> entity_names_;
     SceneJointNames joint_names_;
     std::set<std::string> spawn_names_;

@@ -100,12 +100,12 @@ struct SceneFile {
 };
 
 // Limits: coordinates 1e6 m, sizes of shapes [1e-3, 1e4] m, speeds 1e5 m/s and 1e3 rad/s, masses
-// [1e-6, 1e12] kg. Errors name the JSON pointer and the value: values out of range or of the wrong
-// type, unknown keys and keys that do not fit the body's kind, names that are taken, free bodies
-// shaped by a mesh, players without a spawn.
+// [1e-6, 1e12] kg. Errors are: values out of range or of the wrong type, unknown keys and keys that
+// do not fit the body's kind, names that are taken, free bodies shaped by a mesh, players without a
+// spawn. Each names the JSON pointer and the value.
 Result<SceneFile> load_scene_file(const std::filesystem::path& path);
-// Like load_scene_file, for text in memory. `path`: for messages; relative paths start at its
-// folder.
+// Like load_scene_file, for text in memory. `path`: file named in errors; relative paths start at
+// its folder.
 Result<SceneFile> parse_scene_file(std::string_view text, const std::filesystem::path& path);
 
 }  // namespace handhold

@@ -14,15 +14,16 @@ namespace handhold {
 struct SceneGrip {
     std::string name;  // unique among the body's grips
     AuthoredGrip grip;
-    // Normal axis of the mirror plane through the frame's origin, 0 to 2; the left hand is the
-    // right hand's mirror image.
+    // The hands are mirror images of each other in the plane through the frame's origin with this
+    // normal: 0 x, 1 y, 2 z. k_no_mirror: the hands are independent.
     int mirror_axis = k_no_mirror;
     static constexpr int k_no_mirror = -1;
 };
 
 // Limits: wrists 1e3 m, curls [-30, 130] and oppositions [-180, 180] degrees, priorities [-100,
-// 100], zones 1 m and 180 degrees. Errors name the JSON pointer and the value: values out of range,
-// a grip for no hand, a mirror beside two hands, unknown fingers and keys, a name in `taken`.
+// 100], zones 1 m and 180 degrees. Errors are: values out of range, a grip without a hand, a mirror
+// although both hands are given, unknown fingers and keys, a name in `taken`. Each names the JSON
+// pointer and the value.
 SceneGrip read_scene_grip(const JsonValue& value, std::set<std::string>& taken);
 
 // The grip as a JSON object. read_scene_grip reads the same grip back, except for the rounding of

@@ -18,14 +18,14 @@ struct SceneJoint {
     std::string b;  // name of a body
     // Joint that releases the latch: name of an earlier joint; empty: none.
     std::string handle;
-    bool handle_is_angle = true;  // true: a hinge; false: a slider
+    bool handle_is_angle = true;  // true: the handle is a hinge; false: a slider
     Pose pose;                    // joint's frame in the scene at time 0
     // Distance joints: the end on body a; other kinds: the frame's origin.
     Vec3 end_a = Vec3::Zero();
     Joint joint;  // kind and numbers; the builder sets entities and frames
 };
 
-// Kinds of the bodies and joints that were read so far, by name.
+// Kinds of the bodies and joints that were read so far; the keys are their names.
 struct SceneJointNames {
     std::map<std::string, BodyKind> bodies;
     std::map<std::string, JointKind> joints;

@@ -28,13 +28,13 @@ struct SceneShape {
 struct SceneShapePart {
     SceneShape shape;      // neither mesh nor compound
     Pose pose;             // pose in the compound's frame
-    double mass_kg = 0.0;  // 0 for all parts: the mass is divided by volume
+    double mass_kg = 0.0;  // 0 for all parts: the body's mass is divided by volume
 };
 
-// Reads a shape that a ShapeLibrary accepts. Errors name the JSON pointer and the value: numbers
-// out of range, hull points without volume or within a millimetre of a plane, compounds of meshes
-// or compounds, masses of only some parts. Files are named, not opened; their paths are resolved
-// against `folder`.
+// Reads a shape that a ShapeLibrary accepts. Errors are: numbers out of range, hull points that fit
+// between two planes a millimetre apart, compounds that contain meshes or compounds, masses for
+// only some of a compound's parts. Each names the JSON pointer and the value. Files are named, not
+// opened; their paths are resolved against `folder`.
 SceneShape read_scene_shape(const JsonValue& value, const std::filesystem::path& folder);
 // "scale": one factor or three; absent: 1.
 Vec3 read_scale(const JsonValue& value);

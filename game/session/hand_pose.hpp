@@ -7,16 +7,17 @@
 
 namespace handhold {
 
-// A pose of a palm that touches a surface.
+// Pose of a palm that touches a surface.
 struct PalmTarget {
     hh::Vec3 palm = hh::Vec3{};
     hh::Vec3 away = hh::k_y;  // unit, from the surface into the palm
-    // Not parallel to `away`; only the part perpendicular to `away` counts.
+    // Direction of the fingers, not parallel to `away`. Only the part perpendicular to `away`
+    // counts.
     hh::Vec3 fingers = -hh::k_z;
 };
 
-// The wrist of a hand whose palm is at `place`. `palm_center_m`: of the right hand, the tuning's
-// hand.palm_center_m.
+// Returns the pose of the wrist of a hand whose palm is at `place`. `palm_center_m`: the right
+// hand's palm in the wrist's frame (tuning hand.palm_center_m).
 inline hh::Pose hand_on(const PalmTarget& place, hh::Side side, hh::Vec3 palm_center_m) {
     const hh::Vec3 across =
         hh::normalized(place.fingers - place.away * hh::dot(place.away, place.fingers));
@@ -28,10 +29,10 @@ inline hh::Pose hand_on(const PalmTarget& place, hh::Side side, hh::Vec3 palm_ce
     return pose;
 }
 
-// How hands sit in controllers and where their palms are, by a world's tuning.
+// A world's geometry of hands: where the palm is, and how a hand is placed in its controller.
 struct HandShape {
     hh::Vec3 palm_center_m{};                 // palm of the right hand in the wrist's frame
-    std::array<hh::Pose, 2> in_controller{};  // indexed by hh::Side
+    std::array<hh::Pose, 2> in_controller{};  // wrist in the controller, indexed by hh::Side
 };
 inline HandShape hand_shape(const hh::World& world) {
     return {*world.tuning_vector("hand.palm_center_m"),

@@ -37,9 +37,9 @@ std::span<const hh::Sample> Playback::window(double frame_end_s) {
     while (next_ < samples_.size() && samples_[next_].time_s <= frame_end_s) {
         ++next_;
     }
-    // A sample lies exactly at the frame's end, as in a session that was recorded frame by
-    // frame. In this frame that session did not know the next sample yet: a hand that is found
-    // again there was still lost here.
+    // If a sample is exactly at the frame's end, the following one is not returned yet. Such
+    // samples come from sessions that were recorded frame by frame, where this frame did not know
+    // the following sample. For example, tracking may be found again there but was still lost here.
     const bool ends_with_frame = next_ > begin && samples_[next_ - 1].time_s == frame_end_s;
     const std::size_t end = next_ < samples_.size() && !ends_with_frame ? next_ + 1 : next_;
     return std::span(samples_).subspan(begin, end - begin);

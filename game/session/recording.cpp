@@ -14,14 +14,14 @@ namespace handhold {
 
 namespace {
 
-// Any epoch: clocks that count from the year 1 are at 6e10 s. The rounding of a double is still
-// 0.1 ms here.
+// Allows clocks of any epoch: one that counts from the year 1 is at 6e10 s. At 1e12 s, doubles are
+// still only 0.12 ms apart.
 constexpr double k_max_time_s = 1e12;
 constexpr double k_max_recorded_m = 1e6;
 constexpr double k_max_buttons = 65535.0;
 constexpr double k_length_tolerance = 1e-2;
-// A quaternion this near to unit length is not normalised. That could change its last bits, but a
-// saved recording must load unchanged.
+// A quaternion this near to unit length is not normalised. Normalising could change its last bits,
+// but a saved recording must load unchanged.
 constexpr double k_unit_tolerance = 1e-14;
 
 constexpr std::size_t k_pose_cells = 7;
@@ -34,12 +34,12 @@ constexpr std::array<const char*, k_head_begin + k_pose_cells + 2 * k_hand_cells
     "t",  "hx", "hy",  "hz",  "hqx", "hqy", "hqz",  "hqw",   "lx",
     "ly", "lz", "lqx", "lqy", "lqz", "lqw", "lbtn", "ltrig", "rx",
     "ry", "rz", "rqx", "rqy", "rqz", "rqw", "rbtn", "rtrig"};
-// Columns that recordings may lack, after the others: triggers by hh::Side, whether head and hands
-// are inferred, curls of the left and the right hand thumb first.
+// Columns that recordings may lack. They are written after k_columns: triggers (left, right), flags
+// of inferred poses (head, left, right), curls of the left and then the right hand, thumb first.
 constexpr std::size_t k_fingers = std::size(hh_finger_curls{}.fingers);
 struct OptionalColumn {
     const char* name;
-    double missing;  // the cells' value without the column
+    double missing;  // value of its cells if a recording lacks the column
 };
 constexpr std::array<OptionalColumn, 2 + 3 + 2 * k_fingers> k_optional_columns = {
     {{"lindex", 0.0},
@@ -58,9 +58,10 @@ constexpr std::array<OptionalColumn, 2 + 3 + 2 * k_fingers> k_optional_columns =
      {"rcurl_ring", k_curl_unknown},
      {"rcurl_little", k_curl_unknown}}};
 constexpr std::size_t k_trigger_begin = k_columns.size();
-constexpr std::size_t k_inferred_begin = k_trigger_begin + 2;  // the head's, the hands'
+constexpr std::size_t k_inferred_begin = k_trigger_begin + 2;  // flags: head, left hand, right hand
 constexpr std::size_t k_curl_begin = k_inferred_begin + 1 + 2;
-constexpr std::size_t k_always_written = k_inferred_begin;  // columns; others if they say something
+// Number of columns that are always written; for the others see written_columns.
+constexpr std::size_t k_always_written = k_inferred_begin;
 
 // One line's cells in the order of k_columns and k_optional_columns.
 using Cells = std::array<double, k_columns.size() + k_optional_columns.size()>;
@@ -69,7 +70,7 @@ const char* column_name(std::size_t cell) {
                                    : k_optional_columns[cell - k_columns.size()].name;
 }
 
-// A device that was not tracked.
+// The pose of a device that was not tracked.
 hh::Pose lost_pose() {
     constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
     return {{k_nan, k_nan, k_nan}, hh::Quat{k_nan, k_nan, k_nan, k_nan}};
@@ -219,7 +220,8 @@ Cells cells_of(const RecordedSample& sample) {
     return cells;
 }
 
-// Which columns are written: the optional ones only if a sample differs from their missing value.
+// Returns which columns are written. A column beyond k_always_written is written only if a sample's
+// value differs from OptionalColumn::missing.
 std::array<bool, Cells().size()> written_columns(const Recording& recording) {
     std::array<bool, Cells().size()> written{};
     std::fill_n(written.begin(), k_always_written, true);

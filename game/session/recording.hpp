@@ -50,15 +50,15 @@ struct Recording {
     std::vector<RecordedSample> samples;  // two or more; gaps and jitter are normal
 };
 
-// Refused, with the line: a required column that is missing, a line of other length, a time that
-// does not increase, a coordinate beyond 1e6 m, a quaternion whose length differs from 1 by more
-// than 1e-2 (others are normalised), a time beyond 1e12 s, buttons that are no mask, a trigger
-// outside [0, 1], a curl outside [0, 1] other than -1, a flag other than 0 and 1; and a file with
-// less than two samples. Columns may come in any order and others may stand between them. Where one
-// of the seven cells of a pose is NaN, or its quaternion is all zeros, the device was not tracked
-// and all become NaN.
+// Errors that name the line: a required column that is missing, a line with too few or too many
+// cells, a time that does not increase, a time beyond 1e12 s, a coordinate beyond 1e6 m, a
+// quaternion whose length differs from 1 by more than 1e-2 (others are normalised), buttons that
+// are no integer in [0, 65535], a squeeze or trigger outside [0, 1], a curl outside [0, 1] other
+// than -1, a flag other than 0 and 1. A file with less than two samples is an error too. Columns
+// may come in any order; other columns of numbers are ignored. If any of a pose's seven cells is
+// NaN, or if its quaternion is all zeros, the device was not tracked and all seven become NaN.
 Result<Recording> load_recording(const std::filesystem::path& path);
-// Parses text in memory. `file`: for messages.
+// Parses text in memory. `file`: name used in errors.
 Result<Recording> parse_recording(std::string_view text, const std::string& file);
 
 // Writes enough digits to keep every bit: a recording that was loaded is saved unchanged and

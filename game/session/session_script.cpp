@@ -49,11 +49,10 @@ struct HandKey {
     double t_s = 0.0;
     hh::Pose hand = hh::k_origin;  // the wrist
     hh::Vec3 away = hh::k_y;
-    bool holds = false;  // holds until the next key
+    bool holds = false;  // true: the hand holds from this key to the next one
 };
 
-// Rest pose of a hand: beside and in front of the chest, palm down, relative to the eyes at that
-// time.
+// Rest pose of a hand: beside and in front of the chest, palm down, relative to the eyes at `t_s`.
 HandKey rest_key(const SessionScript& script, hh::Side side, double t_s, const HandShape& shape) {
     const double outward = side == HH_RIGHT ? 1.0 : -1.0;
     const hh::Vec3 palm =
@@ -164,7 +163,7 @@ void add_crawl(const ScriptedCrawl& crawl, SessionScript& script) {
         if (hold.until_s - hold.from_s < 0.2) {
             break;
         }
-        // The hold is where the body will be after half of the hold's time.
+        // The palm is beside the place where the eyes will be at half of the hold's time.
         const hh::Vec3 eyes = eyes_at(script.body, t_s + 0.5 * k_held * k_period_s);
         const hh::Vec3 on_bar =
             crawl.bar_start + crawl.along * dot(crawl.along, eyes - crawl.bar_start);
@@ -196,8 +195,8 @@ Recording record_session(const SessionScript& script, const HandShape& shape) {
     for (int i = 0; i < count; ++i) {
         RecordedSample sample;
         sample.t_s = i / k_sample_hz;
-        // The recorded person stands in the room and only sways; gripping hands move the play
-        // space.
+        // The recorded person only sways in the room. The planned motion of the eyes is a motion of
+        // the play space.
         const hh::Vec3 sway =
             hh::Vec3{0.02 * hh::sine(0.4 * sample.t_s), 0.01 * hh::sine(0.5 * sample.t_s),
                      0.02 * hh::sine(0.3 * sample.t_s)};

@@ -13,7 +13,7 @@
 // in play space follows from the plan.
 namespace handhold {
 
-// A hand on a bar or a surface.
+// A hand that grips a bar or a surface from `from_s` until `until_s`.
 struct ScriptedHold {
     hh::Side side = HH_LEFT;
     double from_s = 0.0;
@@ -23,8 +23,8 @@ struct ScriptedHold {
     hh::Vec3 fingers = -hh::k_z;  // unit, across `away`
 };
 
-// A planned position of the eyes. Between two of them: a cubic with the velocities of both. If both
-// velocities point along the line between the positions and are equal, the motion is uniform.
+// A planned position and velocity of the eyes. Between two of these, the eyes follow the cubic that
+// has both velocities; after the last one, they move at constant velocity.
 struct ScriptedBody {
     double t_s = 0.0;
     hh::Vec3 eyes = hh::Vec3{};
@@ -40,12 +40,12 @@ struct ScriptedReach {
     hh::Vec3 fingers = -hh::k_z;
 };
 
-// The index finger presses its trigger down within 0.15 s from `from_s` on and releases it within
+// The index finger presses its trigger, taking 0.15 s from `from_s` on, and releases it in the last
 // 0.15 s before `until_s`.
 struct ScriptedPress {
     hh::Side side = HH_LEFT;
     double from_s = 0.0;
-    double until_s = 0.0;  // 0.3 s later or more
+    double until_s = 0.0;  // not before from_s + 0.3
 };
 
 struct SessionScript {
@@ -53,7 +53,7 @@ struct SessionScript {
     // Height of the eyes above the play space's floor point at the start.
     double eye_height_m = 1.6;
     double duration_s = 0.0;
-    std::vector<ScriptedBody> body;   // indexed by time, first at 0
+    std::vector<ScriptedBody> body;   // sorted by time; the first is at 0
     std::vector<ScriptedHold> holds;  // sorted by time for each hand, not overlapping
     std::vector<ScriptedReach> reaches;
     std::vector<ScriptedPress> presses;  // not overlapping

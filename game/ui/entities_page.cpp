@@ -15,7 +15,7 @@ namespace {
 
 const ImVec4 k_key_color(0.55F, 0.85F, 1.0F, 1.0F);
 const ImVec4 k_soft(0.62F, 0.66F, 0.70F, 1.0F);
-constexpr std::size_t k_max_listed = 8;  // elements of an array
+constexpr std::size_t k_max_listed = 8;  // elements shown of an array
 
 // Shows every field of a component; structs and arrays as trees.
 class FieldShower {

@@ -14,8 +14,8 @@ void help_line(const char* control, const char* what) {
 
 }  // namespace
 
-// Shows a panel of fixed size without a table. The layout starts from scratch for each picture, so
-// no widths are known from a previous frame.
+// Shows a panel of fixed size without a table: a table takes its widths from the previous frame,
+// but each picture here is laid out from scratch.
 void show_headset_help(const HeadsetHelp& help) {
     ImGui::SetNextWindowPos(ImVec2(0.0F, 0.0F));
     ImGui::SetNextWindowSize(

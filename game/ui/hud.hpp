@@ -6,11 +6,11 @@ namespace handhold {
 
 // Content of the overlay while somebody plays.
 struct Hud {
-    bool can_reach = false;  // highlights the mark in the centre
+    bool can_reach = false;  // true: highlights the mark in the centre
     bool shows_mark = true;
     bool shows_help = true;
     bool paused = false;
-    double rewound_s = 0.0;  // how far the session is rewound
+    double rewound_s = 0.0;  // time by which the paused session is rewound
     double vignette = 0.0;   // [0, 1]; darkness of the edges
     std::string footer;      // one line of costs
 };
@@ -18,7 +18,7 @@ void show_hud(const Hud& hud);
 // One line at the bottom of a film's picture.
 void show_caption(const std::string& caption);
 
-// The help text: one line each for keys, mouse and gamepad.
+// A short help for the terminal: looking around, reaching, and pulling oneself along.
 const char* help_text();
 
 }  // namespace handhold

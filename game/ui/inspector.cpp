@@ -125,7 +125,8 @@ ImVec4 text_color(FitTerm term) {
     return {color[0], color[1], color[2], 1.0F};
 }
 
-// A part's cells: its gap, then the cost of each listed term, the largest one in its colour.
+// One column of the table of costs, for the palm or a finger: its gap, then the cost of each listed
+// term. The term that most shapes it is shown in colour.
 struct FitColumn {
     const char* name;
     const FitTerms::Costs* cost_m2;
@@ -175,7 +176,7 @@ void show_terms(std::span<const FitColumn> columns) {
     }
 }
 
-// Shows why a gripping hand is shaped as it is; nothing for other hands.
+// Shows why a gripping hand is shaped as it is. Shows nothing for other hands.
 void show_fit(const InspectorView& view, Entity hand) {
     const Scene& scene = view.session.scene();
     const FrameCaches& caches = std::as_const(view.session).scene().caches();

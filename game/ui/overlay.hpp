@@ -9,8 +9,7 @@
 // picture, so they also appear in saved pictures and need no window.
 namespace handhold {
 
-// The functions of game/ui may be called between begin() and end(). At most one overlay may be
-// between these calls.
+// The functions of game/ui may be called between begin() and end(). At most one overlay may exist.
 class Overlay {
   public:
     Overlay(int width_px, int height_px);
@@ -21,7 +20,7 @@ class Overlay {
     // Sets the size from the next begin() on; letters keep their size.
     void resize(int width_px, int height_px);
     void begin(const UiInput& input, double dt_s);
-    // The panels as triangles; valid until the next begin().
+    // Returns the panels as triangles; valid until the next begin().
     const UiPicture& end();
 
     // True while a text field of a panel has the focus, so that the game must ignore keyboard and

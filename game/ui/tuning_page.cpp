@@ -180,7 +180,7 @@ void show_tuning_page(const InspectorView& view) {
     ImGui::BeginChild("numbers");
     Tuning wanted = tuning;
     if (show_numbers(wanted)) {
-        // Applies the checks of tuning files: a rejected value is not used.
+        // Applies the checks of tuning files. If they reject a value, the tuning does not change.
         const Result<Tuning> checked = parse_tuning(tuning_to_json(wanted), "tuning");
         if (checked) {
             tuning = wanted;

@@ -28,7 +28,7 @@ enum class UiKey : std::uint8_t {
     count
 };
 
-// Current input for the panels. Positions in pixels of the picture.
+// Current input for the panels. Positions are in pixels of the picture.
 struct UiInput {
     std::array<float, 2> mouse_px = {-1e6F, -1e6F};  // far away: no mouse
     std::array<bool, 3> buttons{};                   // left, right, middle
@@ -36,7 +36,7 @@ struct UiInput {
     std::array<bool, static_cast<std::size_t>(UiKey::count)> keys{};
     bool ctrl = false;
     bool shift = false;
-    std::string text;  // typed since the last call, UTF-8
+    std::string text;  // text typed since the last call, UTF-8
 };
 
 }  // namespace handhold

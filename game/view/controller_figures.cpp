@@ -14,7 +14,7 @@ namespace {
 // on the handle, because the wand's head is longer.
 constexpr HandleGrip k_wand_grip = {HandleGrip{}.radius_m, HandleGrip{}.slant_rad, -0.015};
 
-// Replaces white. Pictures have no textures, so a material whose colour is in a texture would be
+// Replaces white. The renderer has no textures, so a material whose colour is in a texture would be
 // white.
 constexpr Color k_textured_color = {0.045F, 0.048F, 0.055F};
 constexpr Color k_white = {1.0F, 1.0F, 1.0F};
@@ -114,8 +114,8 @@ ControllerModels builtin_controllers(const HandShape& shape) {
     for (const hh::Side side : {HH_LEFT, HH_RIGHT}) {
         ControllerModel& model = models.sides[side];
         add_wand(model);
-        // The model is placed in the fist. The controller-to-hand pose then gives the model's
-        // tracked pose.
+        // Chooses the tracked pose's place in the model so that the handle lies in the fist when
+        // the hand has its tuned pose in the controller.
         const hh::Pose& joint = shape.in_controller[side];
         model.fit.hand_in_grip = joint;
         model.fit.grip_ms =

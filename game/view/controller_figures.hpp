@@ -15,16 +15,18 @@ namespace handhold {
 
 struct ControllerModel {
     std::vector<LevelMesh> meshes;
-    // The movements of meshes[i] with the controls, outermost first, by index in `meshes`.
+    // moves[i]: how the controls move meshes[i], outermost move first.
     std::vector<std::vector<ControlMove>> moves;
     ControllerFit fit;
 };
 struct ControllerModels {
     std::string name;
     std::array<ControllerModel, k_hand_count> sides;  // indexed by HandSide
-    bool has_own_joint = false;                       // false: Tuning's joint applies
+    // True: the models define the hands' poses in the controllers; false: the tuning's poses apply.
+    bool has_own_joint = false;
     std::vector<std::string> notes = {};  // remarks about the loaded files; see GltfLevel::notes
 
+    // The hands' poses in the controllers' grip frames, indexed by hh::Side.
     std::array<hh::Pose, 2> joints() const;
 };
 

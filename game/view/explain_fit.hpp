@@ -11,16 +11,16 @@
 // Why a gripping hand is shaped as it is: the terms of its fit (systems/hand/shared/hand_fit.hpp).
 namespace handhold {
 
-// Terms of the shown hand, with the surroundings of the last frame. Nullopt if the hand is on no
-// surface, and right after a restore.
+// Returns the terms of the shown hand's fit to the surroundings of the last frame. nullopt if the
+// hand is on no surface, and right after a restore, because the surroundings are not state.
 std::optional<FitTerms> fit_terms_of(const World& world, const FrameCaches& caches,
                                      const Tuning& tuning, Entity hand);
 
-// If a part's largest term costs less than this, no term shapes it. A palm that is 1 mm off costs
-// this much.
+// If the largest term of a part (palm or finger) costs less than this, no term counts as shaping
+// it. A palm that is 1 mm away from its tracked position costs this much.
 inline constexpr double k_small_cost_m2 = 5e-7;
 
-// The term that most shapes a part; nullopt if all are small.
+// Returns the term that costs most in a part; nullopt if all are small.
 std::optional<FitTerm> shaping_term(const FitTerms::Costs& cost_m2);
 Color color_of(FitTerm term);  // same colour in gizmos and tables
 inline constexpr Color k_at_ease = {0.75F, 0.75F, 0.8F};

@@ -14,9 +14,9 @@ namespace {
 
 enum class View { first_person, outside };
 
-// The player nearest to the first one within k_near_m; null if there is none.
+// Returns the other player nearest to the first one, within k_near_m; null if there is none.
 const RenderPose* player_near_first(const World& world) {
-    constexpr double k_near_m = 1.8;  // least distance between heads
+    constexpr double k_near_m = 1.8;  // largest distance between the heads
     const auto& players = world.render_pose.elements();
     const RenderPose* nearest = nullptr;
     double nearest_m = k_near_m;
@@ -77,7 +77,7 @@ struct SessionFilm::Impl {
     }
 
     void watch(const FrameLog& frame) {
-        bool grabbed = false;  // or holds another player
+        bool grabbed = false;  // a hand has just gripped, or it grips another player
         for (std::size_t side = 0; side < k_hand_count && !frame.players.empty(); ++side) {
             const int grip = frame.players[0].hands[side].grip;
             grabbed = grabbed || (grip != 0 && last_grip[side] == 0) ||

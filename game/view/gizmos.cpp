@@ -115,7 +115,7 @@ void add_spine(const SpinePose& pose, std::vector<Line>& out) {
 }
 
 void add_velocities(const World& world, std::vector<Line>& out) {
-    constexpr double k_shown_s = 0.25;  // velocities are drawn as the path of this time
+    constexpr double k_shown_s = 0.25;  // a velocity is drawn as the path travelled in this time
     constexpr double k_min_mps = 1e-3;
     for (std::size_t index = 0; index < world.body_velocity.size(); ++index) {
         const BodyVelocity& velocity = world.body_velocity.elements()[index];
@@ -157,7 +157,7 @@ void add_joint(const FrameGraph& graph, const RowBlock& block, std::vector<Line>
     }
 }
 
-// Draws the residual of a block, a thousand times as long.
+// Draws the residual of a block, magnified by k_residual_scale.
 void add_residual(const FrameGraph& graph, const RowBlock& block, std::vector<Line>& out) {
     const Vec3 point_ws = transform_point(graph.graph.bodies[block.b].pose_ws, block.point_b_bs);
     // Uses the block's error, not the distance of its points: a slider's points may be apart

@@ -12,7 +12,7 @@
 // Debug lines over the picture: what the stages of a frame found and did.
 namespace handhold {
 
-// In the order of the stages.
+// Kinds of debug lines, each with the stage whose work it shows.
 enum class Gizmo : std::uint8_t {
     tracked_hands,  // read_tracking
     palm_rays,      // update_grabs
@@ -43,8 +43,8 @@ struct GizmoInfo {
 GizmoInfo info_of(Gizmo gizmo);
 
 // Appends the lines of the gizmos that are on, for the last frame. Contacts, joints, islands,
-// residuals and the hands' surroundings exist only in the caches, so these gizmos are empty right
-// after a restore.
+// residuals and the hands' surroundings exist only in the caches, so gizmos that show these are
+// empty right after a restore.
 void add_gizmos(const World& world, const FrameCaches& caches, const Tuning& tuning,
                 const GizmoSet& on, std::vector<Line>& out);
 

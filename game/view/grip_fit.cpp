@@ -13,7 +13,7 @@ namespace handhold {
 FittedGrip fit_grip(const GripMesh& mesh, const HandRig& rig, const Pose& wrist_bs,
                     const Tuning& tuning, const AuthoredHand* authored) {
     constexpr double k_at_once_s = std::numeric_limits<double>::infinity();
-    constexpr int k_max_frames = 40;  // frames until the fit of a hand at rest converges
+    constexpr int k_max_frames = 40;  // enough for the fit of a hand at rest to converge
     EntityPool entities;
     const Entity hand = entities.create();
     const Entity body = entities.create();

@@ -73,7 +73,7 @@ void add_search(const HandSurroundings& hand, const GripSurface& chosen, const T
         }
     };
     const std::size_t count = scratch.found.size();
-    for (std::size_t i = count; i-- > 0;) {  // earlier triangles are drawn over later ones
+    for (std::size_t i = count; i-- > 0;) {  // triangles visited first are drawn on top
         const float share =
             static_cast<float>(i) / static_cast<float>(std::max<std::size_t>(count, 2) - 1);
         outline(scratch.found[i].triangle, blend(k_first_visited, k_last_visited, share), 1.5);
@@ -105,7 +105,7 @@ void add_palm_limits(const HandSurroundings& hand, const GripSurface& surface, c
     out.push_back({point_ws, palm_center_ws, k_limit, 1.5});
 }
 
-// The point of the hand's surroundings nearest to `point_ws`, within `within_m`.
+// Returns the point of the hand's surroundings nearest to `point_ws`, within `within_m`.
 std::optional<Vec3> nearest_ws(const HandSurroundings& hand, const Vec3& point_ws,
                                double within_m) {
     std::optional<Vec3> nearest;
@@ -122,8 +122,8 @@ std::optional<Vec3> nearest_ws(const HandSurroundings& hand, const Vec3& point_w
 }
 
 // Draws where the finger's disc cuts the surface, and a line from the search's start point to the
-// cut. The stage may have reused the last frame's result, so this searches again: for the open
-// finger's middle plane, on the gripped body's search detail.
+// cut. The stage may have reused the last frame's result, so this function searches again, with the
+// disc in the open finger's middle plane and on the search detail of the gripped body's mesh.
 void add_cut(const HandSurroundings& hand, const GripSurface& surface, const FingerRig& finger,
              const Pose& palm_ws, TraceScratch& scratch, std::vector<Line>& out) {
     constexpr double k_shown_m = 1.5e-3;  // offset from the surface
@@ -166,7 +166,7 @@ void add_cut(const HandSurroundings& hand, const GripSurface& surface, const Fin
     }
 }
 
-// Draws a sphere of the zone's radius around the palm's place in each authored grip.
+// For each authored grip, draws a sphere of the zone's radius around the palm of the authored pose.
 void add_snap_zones(const World& world, const Tuning& tuning, std::vector<Line>& out) {
     for (std::size_t index = 0; index < world.authored_grips.size(); ++index) {
         const AuthoredGrips& grips = world.authored_grips.elements()[index];
@@ -187,7 +187,8 @@ void add_snap_zones(const World& world, const Tuning& tuning, std::vector<Line>&
     }
 }
 
-// Draws the disc that a finger flexes in, from open to closed, its links, and their contact points.
+// Draws the sector in which a finger flexes, from open to closed, its links, and lines to the
+// points that the links touch.
 void add_finger(const HandSurroundings& hand, const FingerRig& finger, const FingerAngles& angles,
                 const Pose& palm_ws, std::vector<Line>& out) {
     constexpr double k_touch_m = 1.5e-3;

@@ -8,8 +8,9 @@
 
 namespace handhold {
 
-// Appends debug lines of the hand stages for every gripping hand, for the last frame. Repeats the
-// search to get the order in which triangles were visited; changes nothing.
+// Appends debug lines of the hand stages for the last frame, and the zones of all authored grips.
+// Repeats each gripping hand's search to get the order in which triangles were visited. Changes
+// nothing else.
 void add_hand_gizmos(const World& world, const FrameCaches& caches, const Tuning& tuning,
                      const GizmoSet& on, std::vector<Line>& out);
 

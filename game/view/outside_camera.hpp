@@ -10,7 +10,8 @@
 
 namespace handhold {
 
-// Where the camera is while somebody plays.
+// Where the camera is while somebody plays: at the player's eyes, in front of the player looking
+// back, behind the player, or flying freely (FreeCamera).
 enum class PlayerViewpoint : std::uint8_t { eyes, mirror, behind, free };
 inline constexpr int k_player_viewpoints = 4;
 
@@ -25,11 +26,11 @@ class OutsideCamera {
     // In front of the player, looking back. The left hand is on the right, as in a photograph. The
     // same as `behind` if walls leave less than 0.6 m.
     Pose before(const RenderPose& render);
-    // From the side of two players, so that both are seen, and the first from behind.
+    // Looks at two players from the side, so that both are seen, and the first one from behind.
     Pose beside(const RenderPose& first, const RenderPose& second);
 
   private:
-    // Offset ahead, up and to the right of the target, metres.
+    // Offset of the camera from its target: ahead, up and to the right, metres.
     using Offset = std::array<double, 3>;
     // Looks at the target from one of the offsets. If a wall is in the way, the position is moved
     // in front of the wall. A later offset is chosen only if its position is farther from the

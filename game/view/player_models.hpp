@@ -20,8 +20,8 @@ struct PlayerModels {
     GhostSettings ghosts;
     std::vector<std::string> notes = {};  // remarks about the loaded files; see GltfLevel::notes
 
-    // The hands' poses in the controllers' grip frames, by hh::Side, if the profile defines them;
-    // otherwise Tuning's apply.
+    // The hands' poses in the controllers' grip frames, indexed by hh::Side; nullopt: the profile
+    // does not define them, and the tuning's poses apply.
     std::optional<std::array<hh::Pose, 2>> controller_joints() const {
         return controllers && controllers->has_own_joint ? std::optional(controllers->joints())
                                                          : std::nullopt;

@@ -136,8 +136,8 @@ void PlayerView::add_pull(Entity hand, const RenderPose::Hand& shown, RenderFram
     }
 }
 
-// Adds ghosts of all instances from index `first` on. They shine through geometry that is not the
-// player's own.
+// Adds a ghost of each instance from index `first` on. These ghosts show an empty hand through
+// geometry that is not the player's own.
 void PlayerView::add_penetrating_hands(std::size_t first, RenderFrame& frame) const {
     for (std::size_t i = first; i < frame.instances.size(); ++i) {
         const Instance& part = frame.instances[i];
@@ -147,7 +147,7 @@ void PlayerView::add_penetrating_hands(std::size_t first, RenderFrame& frame) co
 }
 
 void PlayerView::add_player(std::size_t index, BodyFigures::Seen seen, RenderFrame& frame) {
-    // Index of the player who gets the hints, in every view.
+    // This player's snap hints are drawn in every view, other players' only in their own view.
     constexpr std::size_t k_who_plays = 0;
     const World& world = scene_->world();
     const Entity player = world.render_pose.owners()[index];

@@ -35,8 +35,8 @@ class PlayerView {
     void show_hand_lines(bool shows) { shows_hand_lines_ = shows; }
     // Sets RenderFrame::hidden_lines.
     void set_hidden_lines(float strength) { hidden_lines_ = strength; }
-    // Sets the positions of the controls for the player at `index`. Other players' controls
-    // follow how far their hands are closed.
+    // Sets the positions of the controls for the player at `index`. Other players' controls are
+    // shown pressed or released as their hands are closed or open.
     void show_controls(std::size_t index, const std::array<ControlValues, k_hand_count>& values) {
         controls_ = PlayerControls{index, values};
     }
@@ -69,7 +69,7 @@ class PlayerView {
 
     const Scene* scene_;
     Renderer renderer_;            // each renderer has its own meshes
-    std::vector<MeshId> visuals_;  // indexed by Scene::visuals
+    std::vector<MeshId> visuals_;  // indexed as Scene::visuals
     HandFigures hands_;
     BodyFigures body_;
     std::optional<ControllerFigures> controllers_;

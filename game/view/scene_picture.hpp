@@ -7,7 +7,7 @@
 
 namespace handhold {
 
-// Adds the scene's meshes to a renderer; indexed like Scene::visuals.
+// Adds the scene's meshes to a renderer. The result is indexed as Scene::visuals.
 std::vector<MeshId> add_scene_meshes(const Scene& scene, Renderer& renderer);
 
 // The current state of the scene: bodies, lamps and backdrop. The caller adds camera and players.

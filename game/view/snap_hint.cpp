@@ -33,7 +33,7 @@ std::optional<SnapHint> find_snap_hint(const World& world, Entity hand, const Ha
             }
             const Pose wrist_ws = body_ws * there.wrist_bs;
             const GripSync sync = grip_sync(tracked_ws, wrist_ws, palm_hs);
-            // Distance from the grip's pose; 1 at the zone's boundary.
+            // Distance from the grip's pose relative to the zone's size; 1 at the zone's boundary.
             const double off = std::max(sync.palm_m / std::max(grip.snap_radius_m, 1e-6),
                                         sync.turn_rad / std::max(grip.snap_angle_rad, 1e-6));
             const SnapHint hint{wrist_ws, there, 1.0 - off / k_near, off <= 1.0};

@@ -94,7 +94,7 @@ bool HeadsetActions::create_actions(bool has_palms, std::string& why_not) {
 // Skips profiles that the runtime does not know; one known profile is enough.
 bool HeadsetActions::suggest(XrInstance instance, bool has_palms, std::string& why_not) const {
     bool any = false;
-    std::string refusal;  // reason of the last failed profile; reported only if none is known
+    std::string refusal;  // why the last refused profile failed; reported if all are refused
     for (const HeadsetProfile& profile : headset_profiles()) {
         std::vector<XrActionSuggestedBinding> bindings;
         for (const HeadsetBinding& binding : profile.bindings) {
@@ -211,7 +211,7 @@ void HeadsetActions::read(XrSession session, XrSpace base, XrTime time,
                           std::array<HandReading, 2>& hands) const {
     for (std::size_t side = 0; side < 2; ++side) {
         HandReading& hand = hands[side];
-        // The pose, and the guess: at most one of them is known.
+        // Sets `measured` if the pose is tracked, `guess` if it is inferred, and resets the rest.
         const auto read_pose = [&](HeadsetAction which, std::optional<hh::Pose>& measured,
                                    std::optional<hh::Pose>& guess) {
             const std::optional<LocatedPose> found = pose(session, which, side, base, time);

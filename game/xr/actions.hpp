@@ -11,8 +11,9 @@
 
 namespace handhold {
 
-// Runtimes infer poses of devices that they do not see, as from the head: valid but not tracked.
-// Such a hand would drag a gripping player who looks round.
+// A pose that the XR runtime has located. If the runtime does not see a device, it may infer a
+// pose, for example from the head's: valid but not tracked. A gripping hand with such a pose would
+// drag a player who turns the head, so inferred poses are marked.
 struct LocatedPose {
     hh::Pose pose;
     bool is_inferred = false;
@@ -57,7 +58,7 @@ class HeadsetActions {
     OwnedXrActionSet set_;
     std::array<XrAction, k_headset_action_count> actions_{};  // destroyed with their set
     std::array<XrPath, 2> hands_{};
-    // Spaces of the three pose actions, by HeadsetAction and HandSide.
+    // Spaces of the three pose actions, indexed by HeadsetAction and hh::Side.
     std::array<std::array<OwnedXrSpace, 2>, 3> spaces_;
 };
 

@@ -28,12 +28,12 @@ struct HeadsetActionName {
     HeadsetAction action;
     ActionKind kind;
     const char* name;  // OpenXR allows a to z, digits, -, _ and .
-    const char* said;  // shown in the runtime's settings
+    const char* said;  // name shown in the runtime's settings
 };
-// By HeadsetAction.
+// Indexed by HeadsetAction.
 extern const std::array<HeadsetActionName, k_headset_action_count> k_headset_actions;
 
-// One control of a hand's controller. `path` follows /user/hand/left or /user/hand/right.
+// One control of a hand's controller. `path` is appended to /user/hand/left or /user/hand/right.
 struct HeadsetBinding {
     HeadsetAction action;
     const char* path;

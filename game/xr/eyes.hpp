@@ -20,12 +20,12 @@ class Eyes {
 
     struct Place {
         XrSpace room = XR_NULL_HANDLE;
-        hh::Pose room_in_readings = hh::k_origin;  // room's space in that of the readings
+        hh::Pose room_in_readings = hh::k_origin;  // `room` in the space of Headset::read()
     };
-    // Draws both eyes at their poses for `time` into pictures of the runtime. False if the runtime
-    // gives no poses or lends no picture.
+    // Draws both eyes, at their poses predicted for `time`, into textures of the runtime. False if
+    // the runtime gives no poses or no texture.
     bool draw(XrSession session, const Place& place, XrTime time, const DrawEye& draw_eye);
-    // What draw() made, for the end of a frame. Valid until the next draw().
+    // The layer with the pictures of the last draw(), for xrEndFrame. Valid until the next draw().
     const XrCompositionLayerBaseHeader* layer() const;
 
   private:

@@ -78,12 +78,12 @@ void FingerTracking::read_hand(std::size_t side, XrSpace base, XrTime time,
         !is_valid_location(wrist.locationFlags)) {
         return;
     }
-    if (is_inferred_location(wrist.locationFlags)) {  // and so are the fingers
+    if (is_inferred_location(wrist.locationFlags)) {  // then the fingers are inferred too
         hand.guesses.wrist_ps = from_xr(wrist.pose);
         return;
     }
     hand.wrist_ps = from_xr(wrist.pose);
-    // Some runtimes locate the wrist alone: the other joints are zeros then, and not valid.
+    // Some runtimes locate only the wrist. Their other joints are zeros and not marked as valid.
     const auto place = [&](int joint) -> std::optional<hh::Vec3> {
         const XrHandJointLocationEXT& found_joint = joints[static_cast<std::size_t>(joint)];
         if ((found_joint.locationFlags & XR_SPACE_LOCATION_POSITION_VALID_BIT) == 0) {
@@ -91,8 +91,8 @@ void FingerTracking::read_hand(std::size_t side, XrSpace base, XrTime time,
         }
         return from_xr(found_joint.pose).position;
     };
-    // The curl is the mean of those of middle, ring and little finger that are seen: index and
-    // thumb may point while the hand is closed.
+    // The curl is the mean curl of the middle, ring and little fingers, as far as they are seen.
+    // Index finger and thumb may point while the hand is closed.
     constexpr std::array<std::array<int, 2>, 3> k_fingers = {{
         {XR_HAND_JOINT_MIDDLE_PROXIMAL_EXT, XR_HAND_JOINT_MIDDLE_TIP_EXT},
         {XR_HAND_JOINT_RING_PROXIMAL_EXT, XR_HAND_JOINT_RING_TIP_EXT},

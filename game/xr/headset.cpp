@@ -59,7 +59,7 @@ std::optional<OwnedXrSession> create_session(const HeadsetInstance& instance, co
     return session;
 }
 
-// The runtime's preferred blend mode. See-through headsets have no opaque one.
+// Returns the runtime's preferred blend mode. See-through headsets do not support the opaque mode.
 XrEnvironmentBlendMode first_blend_mode(const HeadsetInstance& instance) {
     XrEnvironmentBlendMode first = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
     std::uint32_t count = 0;
@@ -98,7 +98,7 @@ void correct(const hh::Pose& space, HeadsetReading& reading) {
 }  // namespace
 
 struct Headset::Impl {
-    // The order matters: objects are destroyed before those that they were made from.
+    // The order matters: each object is destroyed before those that it was created from.
     HeadsetInstance instance;
     OwnedXrSession session;
     HeadsetSpaces spaces;
@@ -184,7 +184,7 @@ std::int64_t Headset::Impl::now_ns() {
 HeadsetFrame Headset::Impl::begin_headless_frame() {
     const std::int64_t now = now_ns();
     std::int64_t next = last_ns + k_headless_period_ns;
-    if (last_ns == 0 || next < now) {  // late: the next frame is due at once
+    if (last_ns == 0 || next < now) {  // first frame, or late: skips the missed frames
         const std::int64_t late = last_ns == 0 ? 0 : (now - next) / k_headless_period_ns;
         next = last_ns == 0 ? now : next + late * k_headless_period_ns;
     }
@@ -283,7 +283,7 @@ HeadsetFrame Headset::begin_frame() {
     auto state = xr_struct<XrFrameState>(XR_TYPE_FRAME_STATE);
     if (!impl.obeys(xrWaitFrame(impl.session.get(), nullptr, &state)) ||
         !impl.obeys(xrBeginFrame(impl.session.get(), nullptr))) {
-        impl.lost = true;  // whatever the result says: the session is useless without frames
+        impl.lost = true;  // any error counts: a session without frames is useless
         return {};
     }
     return {state.predictedDisplayTime, state.predictedDisplayPeriod,

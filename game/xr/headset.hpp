@@ -25,8 +25,8 @@ struct EyeSizes {
     EyeSize largest;
 };
 
-// A picture to be drawn for one eye. `texture`: OpenGL name of a texture of the runtime; rows from
-// the bottom up, bytes in sRGB.
+// A picture to be drawn for one eye. `texture`: OpenGL name of a texture of the runtime; bottom row
+// first, bytes in sRGB.
 struct EyePicture {
     std::size_t eye = 0;             // 0 left, 1 right
     hh::Pose eye_ps = hh::k_origin;  // eye in play space
@@ -40,7 +40,7 @@ using DrawEye = std::function<void(const EyePicture&)>;
 enum class HeadsetState : std::uint8_t {
     waits,  // the runtime wants no frames now; poll again
     runs,
-    lost,   // session is over for good; a new Headset may find the runtime again
+    lost,   // the session cannot continue; a new Headset may find the runtime again
     leaves  // the session is over: the player or the program asked to leave
 };
 
@@ -56,21 +56,22 @@ struct HeadsetFrame {
 // Only game/xr/ uses OpenXR. In builds without OpenXR, open() fails and says so.
 class Headset {
   public:
-    // Returns nullptr, with a reason of one line, if there is no runtime or no headset. headless:
-    // poses and buttons only, without pictures and graphics card (XR_MND_headless).
+    // Returns nullptr, and a one-line reason in why_not, if there is no runtime or no headset, or
+    // if the runtime lacks a required extension. headless: poses and buttons only, without pictures
+    // and graphics card (XR_MND_headless).
     static std::unique_ptr<Headset> open(bool headless, std::string& why_not);
     ~Headset();
     Headset(const Headset&) = delete;
     Headset& operator=(const Headset&) = delete;
 
-    // 0 if headless, or if the runtime does not say.
+    // All sizes are 0 if headless, or if the runtime does not tell them.
     EyeSizes eye_sizes() const;
     // Runtime and headset: "Monado 25.0.0, Monado: Remote HMD". After begin() also the tracking
     // space.
     const std::string& description() const;
 
     // Creates the session, with pictures of this size. `gl` must be current and outlive this
-    // object; null if headless. Returns false, with the reason, if the runtime refuses.
+    // object; null if headless. Returns false, with the reason in why_not, if the runtime refuses.
     bool begin(const GlContext* gl, const EyeSize& size, std::string& why_not);
     // Handles the runtime's pending events: begins or ends the session when the runtime asks for
     // it, and notices when the session or the runtime is lost.

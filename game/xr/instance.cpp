@@ -38,7 +38,8 @@ bool list_extensions(std::vector<XrExtensionProperties>& extensions, std::string
     return true;
 }
 
-// Extensions to enable: those that the runtime has (`there`) and this kind of session uses.
+// Returns the extensions to enable: those that the runtime has (`there`) and that this kind of
+// session uses.
 std::vector<const char*> choose_extensions(const std::vector<XrExtensionProperties>& there,
                                            bool headless, HeadsetFeatures& features) {
     const auto has = [&](std::string_view name) {
@@ -64,7 +65,7 @@ std::vector<const char*> choose_extensions(const std::vector<XrExtensionProperti
     static_cast<void>(k_local_floor);
 #endif
     features.hand_tracking = ask(true, XR_EXT_HAND_TRACKING_EXTENSION_NAME);
-    features.palm_pose = ask(true, k_palm_pose);  // the extension adds only a path
+    features.palm_pose = ask(true, k_palm_pose);  // adds only an input path
     return chosen;
 }
 
@@ -142,8 +143,8 @@ bool xr_succeeds(XrResult result, const char* call, std::string& why_not) {
 }
 
 std::optional<HeadsetInstance> open_headset_instance(bool headless, std::string& why_not) {
-    // Keeps the loader from printing a page if there is no runtime. Users who want the page set the
-    // variable themselves.
+    // Keeps the OpenXR loader from printing many lines if there is no runtime. Users who want these
+    // lines set the variable themselves; their value is kept.
     constexpr int k_keep = 0;
     // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody else reads the environment meanwhile
     ::setenv("XR_LOADER_DEBUG", "none", k_keep);

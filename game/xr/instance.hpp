@@ -7,7 +7,7 @@
 
 namespace handhold {
 
-// Optional OpenXR extensions that the game uses if the runtime has them.
+// OpenXR extensions that the game uses; true: enabled, and supported by the headset.
 struct HeadsetFeatures {
     bool headless = false;
     bool opengl_egl = false;
@@ -26,8 +26,9 @@ struct HeadsetInstance {
     std::string system_name;
 };
 
-// Returns nullopt, with a reason of one line, if there is no runtime or no headset, or if the
-// runtime lacks an extension that drawing (headless: a session without pictures) needs.
+// Returns nullopt, and a one-line reason in why_not, if there is no runtime or no headset, or if
+// the runtime lacks a required extension. Required are the extensions for drawing or, if headless,
+// those for a session without pictures.
 std::optional<HeadsetInstance> open_headset_instance(bool headless, std::string& why_not);
 
 }  // namespace handhold

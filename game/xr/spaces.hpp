@@ -7,7 +7,7 @@
 
 namespace handhold {
 
-// OpenXR's spaces of the tracked room, with the floor at y = 0, and of the head.
+// OpenXR spaces: that of the tracked room, with the floor at y = 0, and that of the head.
 struct HeadsetSpaces {
     OwnedXrSpace room;
     OwnedXrSpace head;

@@ -1,7 +1,7 @@
 #pragma once
 
-// Includes OpenXR's headers, for OpenGL through EGL; the only file that does. Uses API 1.0. Code
-// for anything newer than Debian 12's headers (1.0.20) is inside #ifdef.
+// Includes OpenXR's headers, for OpenGL through EGL; no other file includes them. Uses API 1.0.
+// Code that needs headers newer than Debian 12's (1.0.20) is inside #ifdef.
 #include <ctime>
 #include <string>
 #include <utility>
@@ -52,7 +52,7 @@ using OwnedXrSpace = XrOwned<XrSpace, &xrDestroySpace>;
 using OwnedXrActionSet = XrOwned<XrActionSet, &xrDestroyActionSet>;
 using OwnedXrSwapchain = XrOwned<XrSwapchain, &xrDestroySwapchain>;
 
-// An OpenXR structure with its type filled in.
+// Returns an OpenXR structure that is zero except for its type.
 template <class T>
 T xr_struct(XrStructureType type) {
     T value{};
@@ -64,7 +64,7 @@ T xr_struct(XrStructureType type) {
 // result.
 bool xr_succeeds(XrResult result, const char* call, std::string& why_not);
 
-// A function of an extension; null if the runtime lacks it.
+// Returns a function of an extension; null if the runtime lacks it.
 template <class Function>
 Function xr_function(XrInstance instance, const char* name) {
     PFN_xrVoidFunction function = nullptr;

@@ -88,7 +88,8 @@ std::optional<TPose> read_t_pose(const Vec3& head_ps, const Vec3& left_ps, const
     constexpr double k_level = 0.12;  // largest height difference of the hands / span
     // Largest distance of the head from the middle between the hands / span.
     constexpr double k_middle = 0.15;
-    constexpr double k_level_arms = 0.30;  // lowest hands of level arms, below the eyes / span
+    // Arms count as level if the hands are at most this far below the eyes, in arm spans.
+    constexpr double k_level_arms = 0.30;
     const Vec3 line = right_ps - left_ps;
     const Vec3 level(line.x(), 0.0, line.z());
     const Vec3 middle = 0.5 * (left_ps + right_ps);

@@ -33,7 +33,7 @@ struct TPose {
     double eyes_m = 0.0;  // height of the eyes above the floor
     double span_m = 0.0;  // arm span: distance between the wrists with the arms held level
 };
-// Heights of the hands in a pose that is measured, below the eyes / arm span.
+// Least and greatest height of the eyes above the hands in a T- or A-pose, in arm spans.
 inline constexpr double k_highest_hands = 0.02;
 inline constexpr double k_lowest_hands = 0.47;
 

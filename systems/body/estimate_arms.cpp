@@ -23,8 +23,8 @@ bool has_jumped(const Vec3& before, const Vec3& now, double dt_s) {
 struct Step {
     double dt_s = 0.0;
     std::array<double, k_look_filters> look_shares{};  // filter gains for the look direction
-    double chest_share = 0.0;                          // share that moves the chest
-    TurnLimit limit;                                   // smooth form of ArmTuning::chest_limit_rad
+    double chest_share = 0.0;                          // filter gain for the chest
+    TurnLimit limit;                                   // ArmTuning::chest_limit_rad
     const ArmTuning& tuning;
 };
 Step step_of(double dt_s, const ArmTuning& tuning) {
@@ -36,7 +36,7 @@ Step step_of(double dt_s, const ArmTuning& tuning) {
     return step;
 }
 
-// Follows the look direction, then estimates the chest. Returns the look direction.
+// Follows the look direction, then estimates the chest. Returns the unfiltered look direction.
 Vec3 estimate_chest(const TrackedBody& body, const BodyAxes& axes, const Step& step, bool reset,
                     ArmMemory& memory, ArmEstimate& out) {
     const ArmTuning& tuning = step.tuning;
@@ -83,7 +83,7 @@ Vec3 estimate_chest(const TrackedBody& body, const BodyAxes& axes, const Step& s
     return now_ps;
 }
 
-// The line of an arm whose shoulder at rest is `rest_ps`.
+// The line from shoulder to hand of an arm whose shoulder at rest is at `rest_ps`.
 ArmLine line_of(const Vec3& facing, const Vec3& rest_ps, const Vec3& hand_ps, double arm_m,
                 const ArmMemory::Arm& memory, const ArmTuning& tuning) {
     const Vec3 hand_ts = to_facing(facing, hand_ps - rest_ps);
@@ -106,10 +106,11 @@ struct ArmStep {
     const ArmLine& line;
 };
 
-// `bend_ts`, turned about the arm's axis as little as keeps the elbow above the tracked floor.
+// Returns `bend_ts`, turned about the arm's axis by the smallest angle that keeps the elbow above
+// the tracked floor.
 Vec3 bend_above_floor(const ElbowCircle& circle, const Vec3& axis_ts, const Vec3& bend_ts,
                       double floor_m) {
-    constexpr double k_elbow_m = 0.04;  // half as thick as an arm
+    constexpr double k_elbow_m = 0.04;  // half the thickness of an arm
     const double least_m = floor_m + k_elbow_m - circle.middle_ts.y();
     if (circle.radius_m * bend_ts.y() >= least_m || circle.radius_m < 1e-6) {
         return bend_ts;
@@ -117,7 +118,7 @@ Vec3 bend_above_floor(const ElbowCircle& circle, const Vec3& axis_ts, const Vec3
     const Vec3 up = Vec3::UnitY() - axis_ts * axis_ts.y();
     const double length = up.norm();
     if (length < 1e-3) {
-        return bend_ts;  // a vertical arm's elbow is as high in all directions
+        return bend_ts;  // a vertical arm: the elbow's height is fixed
     }
     const Vec3 rising = up * (1.0 / length);
     const double rise = std::clamp(least_m / (circle.radius_m * length), -1.0, 1.0);
@@ -128,7 +129,8 @@ Vec3 bend_above_floor(const ElbowCircle& circle, const Vec3& axis_ts, const Vec3
     return rise * rising + std::sqrt(1.0 - rise * rise) * level;
 }
 
-// Returns the bend that is shown: as ArmMemory has it, above the floor.
+// Updates ArmMemory's elbow direction. Returns the direction to show, which keeps the elbow above
+// the floor.
 Vec3 estimate_elbow(const Step& step, const ArmStep& arm, ArmMemory::Arm& memory,
                     ArmEstimate::Arm& out) {
     const ArmTuning& tuning = step.tuning;
@@ -202,8 +204,8 @@ Pose between(const Pose& a, const Pose& b, double share) {
 }
 
 // Divides frames much longer than k_step_s into steps, with head and hands interpolated linearly.
-// The state then evolves nearly equally at any frame rate down to 10 Hz. k_round_up keeps the frame
-// lengths at which the number of steps changes away from usual frame rates.
+// The state then evolves nearly equally at any frame rate down to 10 Hz. k_round_up ensures that
+// the number of steps does not change at the frame length of a usual frame rate.
 void estimate_player(const TrackedBody& now, const Step& frame, ArmMemory& memory,
                      ArmEstimate& out) {
     constexpr double k_step_s = 1.0 / 90.0;

@@ -58,7 +58,7 @@ void turn_body(const ClipTurns& turns, SpinePose& pose) {
     }
 }
 
-// Lower ends of the links, by link.
+// World positions of the links' lower ends, indexed by link.
 BodyLinkVectors ends_of(const SpinePose& pose) {
     BodyLinkVectors ends;
     for (std::size_t i = 0; i + 1 < k_spine_links; ++i) {
@@ -72,8 +72,8 @@ BodyLinkVectors ends_of(const SpinePose& pose) {
     return ends;
 }
 
-// Returns the largest share of a motion for which no link enters its surface, or enters it farther.
-// Exact for straight paths of the joints.
+// Returns the largest share of a motion at which no link enters its surface, or penetrates it
+// deeper than before. Exact for straight paths of the joints.
 double share_outside(const BodyLinkVectors& from_ws, const BodyLinkVectors& to_ws,
                      const SpineMemory& memory, const Vec3& chest_ws, const Quat& to_world) {
     double share = 1.0;

@@ -30,7 +30,7 @@ struct LayerAdditivesIo {
     double dt_s;                                 // in: > 0
     const BodyClips& clips;                      // in: all but the clavicle clip
     const Column<HeadTracking>& head;            // in
-    const Column<PlayerOrigin>& origin;          // in: the contacts are relative to it
+    const Column<PlayerOrigin>& origin;          // in: turns contacts to world axes
     const Column<PlayerVelocity>& velocity;      // in
     const Column<ReferenceVelocity>& reference;  // in
     const Column<HandOwner>& owner;              // in
@@ -41,7 +41,7 @@ struct LayerAdditivesIo {
     Column<SpinePose>& pose;                     // in/out: all bones except the chest
 };
 
-// Rates of the factor on the clips' turns at a surface.
+// Greatest rates of change of BodyClipState::outside, the factor on the clips' turns at a surface.
 inline constexpr double k_outside_falls_per_s = 6.0;
 inline constexpr double k_outside_rises_per_s = 1.0;
 

@@ -10,7 +10,7 @@ namespace handhold {
 
 struct PoseArmsIo {
     const Column<PlayerOrigin>& origin;    // in
-    const Column<BodyMeasures>& measures;  // in: every player
+    const Column<BodyMeasures>& measures;  // in: has every player
     const Column<HandOwner>& owner;        // in
     const Column<PalmPose>& palm;          // in
     const Column<ArmEstimate>& estimate;   // in

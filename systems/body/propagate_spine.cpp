@@ -94,7 +94,7 @@ void pass_twist(const Quat& from, const Quat& to, const SpineTuning& tuning, Spi
 
 // Values of a tick that do not depend on the player.
 struct TickShares {
-    double back;                      // share of the return to rest per tick
+    double back;                      // share of the way back to rest per tick
     double drag;                      // factor on velocities per tick
     std::array<JointRange, 3> range;  // indexed by SpineLinkKind
 };
@@ -278,8 +278,8 @@ void propagate_player(const PropagateSpineIo& io, std::size_t index, const Spine
     // While the body is held, its velocities are relative to the player's velocity.
     const Vec3 reference_ws =
         is_held.now ? io.velocity.at(player).linear_mps : io.reference.at(player).linear_mps;
-    // A neck that bends moves the chest a little. That is no motion of the body, which would swing:
-    // the chain goes along rigidly.
+    // A bending neck moves the chest a little. This must not make the body swing, so the chain
+    // moves with it rigidly.
     const Vec3 neck_ps = chest_ps.position - io.estimate.at(player).from_neck_m;
     const Vec3 own_m = neck_ps - memory.neck_ps;
     const Quat to_ps = origin_ws.rotation.conjugate();

@@ -56,7 +56,7 @@ void finish_solve(const FrameContext& f) {
     discard_broken_results(f);
 }
 
-// What players see of each other.
+// The hands and bodies that players see.
 void show(const FrameContext& f) {
     // Poses palms and fingers on what the hands hold.
     gather_surroundings(f);

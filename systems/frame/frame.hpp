@@ -41,7 +41,8 @@ struct FrameCaches {
     CollisionWorld collision;
     FrameGraph graph;
     const GripMeshLibrary* meshes_for_hands = nullptr;
-    // Surfaces that hands and legs query instead of colliders. The object must outlive every frame.
+    // Surfaces that hands and legs query instead of colliders; empty: colliders. The queried object
+    // must outlive every frame.
     SurfaceQuery host_surfaces;
     // Assets. Set them again whenever new caches are made.
     std::array<HandRig, k_hand_count> hand_rigs = {builtin_hand_rig(HandSide::left),

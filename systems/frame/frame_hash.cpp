@@ -1,5 +1,5 @@
-// The state hash: one hash per element of a column, of the component's name, the owner's persistent
-// id and every field. The hashes are summed, so their order does not matter.
+// The state hash. Each element gets a hash of its column's name, its owner's persistent id and its
+// fields. These hashes are summed, so the order of elements does not matter.
 #include <array>
 #include <type_traits>
 
@@ -78,7 +78,7 @@ std::uint64_t hash_state(const World& world) {
     for (int axis = 0; axis < 3; ++axis) {
         stream.add(world.reference_velocity_mps[axis]);
     }
-    if (world.gravity_mps2 != Vec3::Zero()) {  // a world without gravity keeps its older hash
+    if (world.gravity_mps2 != Vec3::Zero()) {  // keeps the hashes of worlds made before gravity
         for (int axis = 0; axis < 3; ++axis) {
             stream.add(world.gravity_mps2[axis]);
         }

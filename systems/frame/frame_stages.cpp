@@ -82,7 +82,7 @@ void group_joints(const FrameContext& f) {
                            f.tuning.phases);
 }
 
-// Runs twice per frame. Each run's time is added to `needed_by`, the stage that needs the
+// Runs twice per step_frame. Each run's time is added to `needed_by`, the stage that needs the
 // colliders.
 void place_colliders(const FrameContext& f, Stage needed_by) {
     const StageTimer timer(needed_by, f.stats);

@@ -23,7 +23,7 @@ void slip_to(const Pose& anchor_bs, Grab& grab) {
 }
 
 // The hand's anchor at the start of the frame, when all poses are known exactly. For a resumed
-// hand: at its present pose.
+// hand, its present pose is used.
 Pose anchor_at_start_bs(const AnchorGrabsIo& io, Entity player, const HandTracking& hand,
                         const Grab& grab) {
     const GrabInstant start{io, 0.0};
@@ -184,8 +184,8 @@ void drop_lost_grabs(const AnchorGrabsIo& io, StageStats& stats) {
 }
 
 // Moves a free body into the hand that holds it:
-//  - into its authored grip, at the rate of shown palms. The grip is authored relative to the
-//    controller, so a gun points where the controller points;
+//  - into its authored grip, at the rate at which shown palms move. The grip is authored relative
+//    to the controller, so a gun points where the controller points;
 //  - else back to where the hand first held it, if tracking errors moved the hand.
 // A body in two hands gets its pose from both: then only the displacement by tracking errors is
 // undone.
@@ -255,13 +255,16 @@ bool follow_leader(const AnchorGrabsIo& io, const HandPair& leaving) {
 }
 
 void anchor_new_grab(const AnchorGrabsIo& io, const HandPair& pair, const PhaseTuning& tuning) {
-    if (pair.hand.edge != GrabEdge::onset) {  // a pulled body reached the palm
+    // The hand closed before this frame: it grips a pulled body, obeys a host's order, or joins a
+    // grip of both hands.
+    if (pair.hand.edge != GrabEdge::onset) {
         take_anchor_at_start(io, pair.player, pair.hand, pair.grab);
         pair.grab.phase = GrabPhase::holding;
         return;
     }
     const GrabInstant now{io, fraction_of(io, pair.hand.edge_t_s)};
-    // Hands that close at one instant both take predicted anchors: neither drives the other.
+    // Two hands that close at the same instant both use predicted poses for their anchors: neither
+    // hand drives the other's.
     const bool at_once = pair.other != nullptr && pair.other_hand->edge == GrabEdge::onset &&
                          pair.other_hand->edge_t_s == pair.hand.edge_t_s;
     const Grab* const leading = at_once ? nullptr : pair.other;
@@ -334,7 +337,8 @@ void set_targets(const AnchorGrabsIo& io) {
     }
 }
 
-// A hand moves what it grips, and its player, at most at max_speed_mps: the grip slips by the rest.
+// A hand moves what it grips, and its player, at most at max_speed_mps: the grip slips by the
+// excess.
 void limit_hand_speeds(const AnchorGrabsIo& io, double max_speed_mps, StageStats& stats) {
     const double max_m = max_speed_mps * (io.end_s - io.start_s);
     for (std::size_t index = 0; index < io.grab.size(); ++index) {

@@ -10,7 +10,8 @@
 namespace handhold {
 namespace {
 
-constexpr double k_lost_ratio = 1.5;  // distance at which a pull ends, as a share of the reach
+// A pull ends at this distance, as a multiple of the reach.
+constexpr double k_lost_ratio = 1.5;
 
 PalmRay ray_of(const PullBodiesIo& io, Entity hand, const Pose& hand_ps, const HandTuning& tuning) {
     const HandOwner& owner = io.owner.at(hand);
@@ -72,7 +73,8 @@ Entity body_of_id(const PullBodiesIo& io, std::uint64_t id) {
     return found != owners.end() ? *found : k_no_entity;
 }
 
-// The body that the palm points at. Null, and counted, if there is none or it may not be pulled.
+// The body that the palm points at. Null if there is none, or if it may not be pulled, which is
+// counted.
 Entity find_pullable_body(const PullBodiesIo& io, Entity hand, const Tuning& tuning,
                           StageStats& stats) {
     const PalmRay ray = ray_of(io, hand, io.hand.at(hand).edge_ps, tuning.hand);
@@ -132,7 +134,7 @@ void apply_pull(const PullBodiesIo& io, Entity hand, Entity pulled, const Tuning
     const double body_kg = io.body.at(pulled).mass_kg;
     const double player_kg = io.player.at(player).mass_kg;
     const double reduced_kg = body_kg * player_kg / (body_kg + player_kg);
-    // v^2 = 2 (F/2) / m d: half of the force can stop it within the remaining distance.
+    // v^2 = 2 (F/2) / m d: half of the force can stop the body within the remaining distance.
     const double stoppable_mps = std::sqrt(tuning.pull.force_n / reduced_kg * distance_m);
     const double speed_mps = std::min(tuning.pull.speed_mps, stoppable_mps);
     const Vec3 palm_mps = player_mps + (palm_end_ws - palm_ws) / io.dt_s;

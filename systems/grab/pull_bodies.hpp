@@ -22,14 +22,15 @@ struct PullBodiesIo {
     const Column<Grab>& grab;                   // in
     const Column<HandSight>& sight;             // in
     const Column<PlayerBody>& player;           // in
-    const Column<PlayerOrigin>& origin;         // in: at the start of the frame, turned
-    const Column<RigidBody>& body;              // in
-    const Column<BodyPose>& body_pose;          // in: at the start of the frame
-    const JointGroups& joint_groups;            // in
-    GrabRules rules;                            // in
-    Column<HandPull>& pull;                     // in/out
-    Column<BodyVelocity>& body_velocity;        // in/out
-    Column<PlayerVelocity>& player_velocity;    // in/out
+    // in: at the start of the frame, after locomote_players turned it
+    const Column<PlayerOrigin>& origin;
+    const Column<RigidBody>& body;            // in
+    const Column<BodyPose>& body_pose;        // in: at the start of the frame
+    const JointGroups& joint_groups;          // in
+    GrabRules rules;                          // in
+    Column<HandPull>& pull;                   // in/out
+    Column<BodyVelocity>& body_velocity;      // in/out
+    Column<PlayerVelocity>& player_velocity;  // in/out
 };
 
 // The distance grab. Off if PullTuning::reach_m is 0, the default. A hand that closes on nothing,

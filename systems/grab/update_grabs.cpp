@@ -42,7 +42,7 @@ void ignore_for_head(HeadIgnores& ignores, Entity body, StageStats& stats) {
 struct Closing {
     Pose hand_ps;
     double since_s = 0.0;
-    Entity only = k_no_entity;  // null: anything
+    Entity only = k_no_entity;  // the pulled body; null: any body may be gripped
 };
 
 // True if a pulled body can be gripped: it touches the palm, or has passed it by a frame's travel.
@@ -53,7 +53,7 @@ bool is_at_palm(const GrabTarget& target, const PalmRay& ray) {
     return offset.norm() <= k_touches_m || offset.dot(ray.to_ws - ray.from_ws) <= 0.0;
 }
 
-// Gives the hand a BodyHold if it grips a part of a player, and takes that of an earlier grip away.
+// Gives the hand a BodyHold if it grips a part of a player, and removes that of an earlier grip.
 const BodyHold* hold_part(const UpdateGrabsIo& io, Entity hand, const GrabTarget& target) {
     io.body_hold.remove(hand);
     if (!target.part) {
@@ -63,7 +63,8 @@ const BodyHold* hold_part(const UpdateGrabsIo& io, Entity hand, const GrabTarget
     return &io.body_hold.add(hand, {*target.part, part_ps, part_ps});
 }
 
-// Grips on parts follow the shown bodies.
+// Moves grips on players' parts along with the shown bodies, and removes the BodyHold of grips that
+// ended.
 void follow_parts(const UpdateGrabsIo& io, const HandTuning& tuning) {
     for (const Entity hand : io.grab.owners()) {
         BodyHold* const hold = io.body_hold.find(hand);
@@ -106,9 +107,9 @@ void start_grab(const UpdateGrabsIo& io, Entity hand, const GrabTarget& target, 
     }
 }
 
-// Tries to grip a body that needs both hands; the hand at `index` grips it at `mine`. Returns
-// true if the player's other hand already holds the body, or is closed at it: then that hand grips
-// the body here.
+// Tries to grip a body that needs both hands; the hand at `index` grips it at `mine`. Returns true
+// if the player's other hand already holds the body, or is closed at it; in the latter case that
+// hand grips the body now.
 bool other_hand_joins(const UpdateGrabsIo& io, std::size_t index, const GrabTarget& mine,
                       const Tuning& tuning, StageStats& stats) {
     const std::size_t other = find_other_hand(io.owner, io.grab, index);
@@ -137,7 +138,8 @@ bool other_hand_joins(const UpdateGrabsIo& io, std::size_t index, const GrabTarg
     return true;
 }
 
-// True if a closing hand already grips a body for two hands, because other_hand_joins came first.
+// True if a closing hand already grips a body for two hands, because other_hand_joins started that
+// grip earlier in this frame.
 bool has_joined(const UpdateGrabsIo& io, const Grab& grab, const HandTracking& hand) {
     const GrabRule* const rule = io.rules.rule_of(grab.body);
     return rule != nullptr && rule->two_hands && grab.kind != GripKind::none &&
@@ -155,7 +157,7 @@ void begin_grab(const UpdateGrabsIo& io, std::size_t index, const Closing& closi
     const auto& target = found.target;
     if (!is_null(closing.only) &&
         (!target || target->body != closing.only || !(target->hold || is_at_palm(*target, ray)))) {
-        return;  // the pulled body is not there yet
+        return;  // the pulled body is not at the palm yet
     }
     io.authored_hold.remove(entity);
     if (!target) {
@@ -179,7 +181,7 @@ std::optional<std::size_t> partner_of(const UpdateGrabsIo& io, std::size_t index
                : std::nullopt;
 }
 
-// Pose of what is gripped at the start of the frame.
+// Pose of the gripped body, head or part at the start of the frame.
 Pose gripped_start_ws(const UpdateGrabsIo& io, Entity gripped, const BodyHold* hold) {
     const BodyPose* const body = io.body_pose.find(gripped);
     return body != nullptr ? body->pose_ws
@@ -285,8 +287,8 @@ void release_grabs_out_of_reach(const UpdateGrabsIo& io, const HandTuning& tunin
     }
 }
 
-// An authored hold ends with its grip, or once a hand that may turn on its body has turned farther
-// than leave_angle_rad.
+// An authored hold ends with its grip, or once a hand that may turn on its body has turned away
+// from the authored pose by more than leave_angle_rad.
 void update_authored_hold(const UpdateGrabsIo& io, Entity entity, const Grab& grab,
                           StageStats& stats) {
     const AuthoredHold* const hold = io.authored_hold.find(entity);
@@ -311,7 +313,7 @@ void update_authored_hold(const UpdateGrabsIo& io, Entity entity, const Grab& gr
     }
 }
 
-// Ends two-handed grips that one of the hands has left or leaves now.
+// Ends grips on two-handed bodies (GrabRule::two_hands) if one of the hands has left or leaves now.
 void release_half_held_bodies(const UpdateGrabsIo& io, StageStats& stats) {
     for (std::size_t index = 0; index < io.grab.size(); ++index) {
         const Grab& grab = io.grab.elements()[index];
@@ -336,7 +338,7 @@ void carry_out_orders(const UpdateGrabsIo& io, const Tuning& tuning, StageStats&
         io.order.remove(hand);
         const std::size_t index = io.grab.find_index(hand);
         if (index >= io.grab.size()) {
-            continue;  // no hand
+            continue;  // not a hand
         }
         const bool has_body = io.body.contains(body) ||
                               (io.origin.contains(body) && body != io.owner.at(hand).player &&

@@ -19,7 +19,7 @@ void place(Device& device, const Pose& pose_ps) {
     device.pose_ps = device.start_ps = device.sample_ps = pose_ps;
 }
 
-// From the devices' space to play space.
+// Converts a pose from the devices' space to play space.
 Pose corrected(const HeadTracking& head, const Pose& pose) {
     return {head.shift_turn * pose.position + head.shift_m, head.shift_turn * pose.rotation};
 }

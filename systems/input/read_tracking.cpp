@@ -94,13 +94,14 @@ struct HandReader {
     const ReadTrackingIo& io;
     const Tuning& tuning;
     StageStats& stats;
-    bool freezes_guesses = false;  // the hand must not move
+    bool freezes_guesses = false;  // guesses do not move the hand
     bool has_sample = false;
     bool has_jumped = false;
     bool is_inferred = false;        // the last reading used was a guess
     std::optional<Pose> guess_ps{};  // the last guess of this frame
 
-    // Why a reading is ignored; none if it counts. `is_meant`: so is any jump of the devices.
+    // Why a reading is ignored; none if it is used. `is_meant`: the devices jumped as intended, so
+    // any travel of the hand is plausible.
     std::optional<Fallback> refusal(const ControllerSample& reading, const Pose& hand_ps,
                                     double t_s, bool is_meant) const {
         if (!is_trackable(reading.controller_ps)) {
@@ -135,9 +136,9 @@ struct HandReader {
         }
     }
 
-    // The runtime says where the hand may be.
+    // Uses a pose that the runtime guessed.
     void follow_guess(const Pose& hand_ps, double t_s) {
-        if (!has_sample) {  // there is a hand, though nobody has seen it yet
+        if (!has_sample) {  // no sample of the hand was measured yet
             hand.sample_ps = hand.reading_ps = hand_ps;
             hand.sample_t_s = hand.reading_t_s = t_s;
             has_sample = true;
@@ -148,7 +149,8 @@ struct HandReader {
         guess_ps = hand_ps;
     }
 
-    // The devices were moved: the hand did not travel, and its velocity is unknown.
+    // `is_meant`: the devices were moved as intended. The hand did not travel, and its velocity is
+    // unknown.
     void jump_with_space(bool is_meant) {
         if (is_meant) {
             hand.interrupted = has_sample;
@@ -258,7 +260,9 @@ struct HandReader {
     }
 
     void finish(TrackingState before, const Pose* later, double later_t_s) {
-        constexpr double k_longest_hold_s = 0.05;  // devices of 30 Hz and more are never late
+        // A pose that is held longer than this interrupts the hand. Devices of 30 Hz and more never
+        // exceed it.
+        constexpr double k_longest_hold_s = 0.05;
         const bool is_held = finish_device(hand, has_sample, later, later_t_s, io.frame_end_s,
                                            tuning.tracking.lost_after_s, stats);
         hand.interrupted =
@@ -368,7 +372,7 @@ std::array<std::size_t, k_hand_count> hand_indices_of(const ReadTrackingIo& io, 
     return indices;
 }
 
-// True if one of the player's hands grips what the player can pull on.
+// True if one of the player's hands grips something that the player can pull on.
 bool is_holding_on(const ReadTrackingIo& io, const std::array<std::size_t, k_hand_count>& indices) {
     return std::ranges::any_of(indices, [&](std::size_t index) {
         const Grab* const grab =

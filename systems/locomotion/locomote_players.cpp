@@ -116,8 +116,8 @@ void update_reference(const LocomotePlayersIo& io, const Grips& grips,
         reference.linear_mps = io.scene_velocity_mps;
         return;
     }
-    // The velocity at the point last gripped, not at the player: a turning body would be faster
-    // there.
+    // The velocity at the point last gripped, not at the player, where a turning body may be much
+    // faster.
     const Vec3 arm = io.body_pose.at(reference.body).pose_ws.rotation * reference.point_bs;
     reference.linear_mps = support->linear_mps + support->angular_radps.cross(arm);
 }

@@ -13,7 +13,7 @@ namespace handhold {
 
 struct LocomotePlayersIo {
     double dt_s;                                // in
-    Vec3 scene_velocity_mps;                    // in: reference until something is gripped
+    Vec3 scene_velocity_mps;                    // in: reference until a surface is gripped
     const Column<PlayerCommands>& commands;     // in
     const Column<HeadTracking>& head;           // in
     const Column<HandOwner>& owner;             // in
@@ -28,9 +28,9 @@ struct LocomotePlayersIo {
 };
 
 // Moves players by their commands: snap and smooth turns; brake and thrusters while no hand is on a
-// surface. Updates the reference velocity, and turns the play space with a support as
-// LocomotionTuning::support_follow says. Two hands on one turning body always make the play space
-// follow it fully: two fixed points allow no other motion.
+// surface. Updates the reference velocity, and turns the play space with the support (the body
+// whose surface a hand grips) as LocomotionTuning::support_follow says. Two hands on one turning
+// body always make the play space follow it fully: two fixed points allow no other motion.
 void locomote_players(const LocomotePlayersIo& io, const LocomotionTuning& tuning);
 
 }  // namespace handhold

@@ -11,14 +11,15 @@
 // Takes the results of a host's own solver for the frame's hand constraints. Replaces the stages
 // from solve_phases to record_valid_poses.
 //
-// What a hand releases gets the hand's release velocity, like after solve_velocities: a solver's
-// velocity also contains its position corrections. This applies to a hand that let go of a surface
-// or of a body that it alone held without joints to something immovable, and only if the hand was
-// within k_follows_m of its anchor at the end of the frame. Otherwise something stopped the body,
-// and the host's velocity is kept. Fallbacks counted: none.
+// A release happens at the velocity of the hand, as after solve_velocities, because the velocities
+// of a host's solver also contain its position corrections. A hand that lets go of a surface sets
+// its player's velocity. A hand that lets go of a body sets the body's velocity, if it alone held
+// the body and no joints connect the body to something immovable. If the hand was farther than
+// k_follows_m from its anchor at the end of the frame, something stopped the body or player, and
+// the host's velocity is kept. Fallbacks counted: none.
 namespace handhold {
 
-// A hand that is farther from its anchor did not follow it.
+// Largest distance of a hand from its anchor at which the hand counts as having followed it.
 inline constexpr double k_follows_m = 1e-3;
 
 // A player's play space after a host's solver. The solver does not rotate it.
@@ -29,7 +30,7 @@ struct SolvedPlayer {
 };
 
 struct AcceptSolutionIo {
-    std::span<const SolvedPlayer> players;  // in: players without one move as predicted
+    std::span<const SolvedPlayer> players;  // in: a player without an element moves as predicted
     const Column<BodyPose>& body_pose;      // in: world, by the host's solver
     Column<BodyVelocity>& body_velocity;    // in/out, thrown bodies: world, m/s and rad/s
     FrameGraph& frame;                      // in/out: graph, phase; out: push_backs

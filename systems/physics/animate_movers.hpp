@@ -3,9 +3,9 @@
 #include "components/body.hpp"
 #include "engine/ecs/column.hpp"
 
-// Moves kinematic bodies to their poses at the end of the frame: those with a Mover, PathMover or
-// LegMover in closed form of time, so that nothing accumulates and a hand on a ship has no lag;
-// those with a MoveTarget to the pose that the host asked for.
+// Moves kinematic bodies to their poses at the end of the frame. Poses of bodies with a Mover,
+// PathMover or LegMover are computed in closed form from the time, so that no error accumulates and
+// a hand on a ship has no lag. Bodies with a MoveTarget move to the pose that the host asked for.
 // Talk row 6 (moving supports).
 // A LegMover whose torso has no PathMover keeps its pose and gets velocity 0.
 // Fallbacks counted: none.

@@ -13,7 +13,7 @@ bool is_object(const SolverBody& body) {
     return body.role != BodyRole::translating && body.inverse_mass > 0.0;
 }
 
-// Books one side of a row's impulse, by receiver.
+// Adds the impulse and couple that act on `body` at point_ws to the ledger.
 void book_impulse(const SolverBody& body, const Vec3& point_ws, const Vec3& impulse,
                   const Vec3& couple, MomentumLedger& ledger) {
     const Vec3 angular = point_ws.cross(impulse) + couple;
@@ -22,8 +22,8 @@ void book_impulse(const SolverBody& body, const Vec3& point_ws, const Vec3& impu
                angular);
         return;
     }
-    // The play space cannot rotate, and may be heavier than its player in this phase. What does not
-    // become the player's own momentum goes to the virtual player.
+    // The play space cannot rotate, and may be heavier than its player in the velocity solve. What
+    // does not become the player's own momentum goes to the virtual player.
     const Vec3 own = (body.inverse_mass * body.mass_kg) * impulse;
     const Vec3 own_angular = body.pose_ws.position.cross(own);
     add_to(ledger, MomentumLedger::players, own, own_angular);
@@ -39,8 +39,8 @@ void book_momentum(const ConstraintGraph& graph, MomentumLedger& ledger) {
         if (is_object(a) && is_object(b) && !block.is_impact) {
             continue;  // both receivers are objects: the impulses cancel
         }
-        // Both sides act at one point, as in the rows: a's point for contacts, else b's. Only fast
-        // impacts have two points.
+        // The impulse acts on both bodies at one point, as in the constraint rows: a's point for
+        // contacts, else b's. Only fast impacts have two points.
         const Vec3 point_ws = is_contact(block) ? transform_point(a.pose_ws, block.point_a_bs)
                                                 : transform_point(b.pose_ws, block.point_b_bs);
         book_impulse(a, point_ws, block.impulse_ws_ns, block.angular_impulse_ws_nms, ledger);

@@ -79,9 +79,9 @@ RowBlock hand_block(const Grab& grab, const Quat& play_space, std::uint64_t hand
     return block;
 }
 
-// A hand that grips a player's head, or the part that `hold` names. The solver moves the gripped
-// player's play space, so the anchor is the pose of head or part in it. Their own motion is
-// subtracted from the drive velocity, because it does not move the play space.
+// Completes the block of a hand that grips a player's head, or the part that `hold` names. The
+// solver moves the gripped player's play space, so the anchor is given in that play space. The
+// motion of the head or part within the play space is subtracted from the drive velocity.
 void hold_player(const Grab& grab, const HeadTracking& head, const BodyHold* hold,
                  const Quat& play_space, double dt_s, RowBlock& block) {
     const Pose& start_ps = hold != nullptr ? hold->start_ps : head.start_ps;
@@ -102,7 +102,7 @@ Pose target_before(const Grab& grab, double dt_s) {
 
 // Two-handed hold: the second hand's block controls the body's rotation. Its target and rate follow
 // from both hands. The block keeps the second hand's points to measure how far that hand slid along
-// the line.
+// the line between the hands.
 void set_direction(const Grab& first, const Grab& second, const SolverBody& player,
                    const SolverBody& body, double dt_s, RowBlock& block) {
     const Quat near = player.pose_ws.rotation.conjugate() * body.pose_ws.rotation;
@@ -173,8 +173,8 @@ void write_hands(const BuildConstraintsIo& io, const PhaseTuning& tuning) {
     }
 }
 
-// Index of the solver body of the world, added when the first joint needs it. Its id is the
-// largest, so it is last.
+// Index of the solver body that stands for the world, added when the first joint needs it. Its id
+// is the largest, so it is last.
 std::size_t world_body(FrameGraph& frame) {
     constexpr std::uint64_t k_world_id = std::numeric_limits<std::uint64_t>::max();
     std::vector<SolverBody>& bodies = frame.graph.bodies;
@@ -201,8 +201,8 @@ RowKind row_kind(JointKind kind) {
     return RowKind::distance;
 }
 
-// Time constant of detents: a detent drives towards the nearest multiple of its spacing, no faster
-// than reaching it in this time.
+// Time constant of detents. A detent drives its joint towards the nearest multiple of its spacing,
+// at most so fast that the joint gets there in this time.
 constexpr double k_detent_s = 0.05;
 
 void write_joint_rows(const Joint& joint, const JointState& state, double dt_s, JointRows& rows) {
@@ -261,9 +261,9 @@ bool write_joint(const BuildConstraintsIo& io, std::size_t index, RowBlock& bloc
     return true;
 }
 
-// Both overwrite the blocks of the last frame in place. Those are sorted by island, so as long as
-// the joints and grips are the same, they stay sorted. False if the set of joints, or of hand
-// blocks, has changed.
+// rewrite_joints and rewrite_hands overwrite the blocks of the last frame in place. Blocks are
+// sorted by island, and stay sorted as long as the joints and grips are the same. Returns false if
+// the set of joints, or of hand blocks, has changed.
 bool rewrite_joints(const BuildConstraintsIo& io) {
     std::size_t rewritten = 0;
     for (RowBlock& block : io.frame.graph.blocks) {
@@ -275,7 +275,7 @@ bool rewrite_joints(const BuildConstraintsIo& io) {
         }
         ++rewritten;
     }
-    // Each block has another source, so equal counts mean that all joints were rewritten.
+    // Each block has a different source, so equal counts mean that all joints were rewritten.
     return rewritten == io.joint.size();
 }
 bool rewrite_hands(FrameGraph& frame) {

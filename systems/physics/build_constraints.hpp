@@ -14,10 +14,10 @@
 // grips, joints and contacts, and islands.
 // Talk rows 4 (inside the step) and 5 (arbitrary chains).
 //
-// Rows of a grip: surface or player: three (the point). Held object: six (a weld), three if it is
-// jointed to something immovable. Two hands on one object: three for the first hand's point, and
-// three for the direction between the hands and the rotation about it; if the hands are too close
-// for that, six for the first hand.
+// Rows of a grip: a surface or player has three (the point). A held object has six (a weld), or
+// three if it is jointed to something immovable. Two hands on one object have three for the first
+// hand's point, and three for the direction between the hands and the rotation about it; if the
+// hands are too close for that, six for the first hand.
 // Fallbacks counted: none.
 namespace handhold {
 
@@ -35,7 +35,7 @@ struct BuildConstraintsIo {
     const Column<HeadTracking>& head;               // in: play space
     const Column<HandOwner>& owner;                 // in
     const Column<Grab>& grab;           // in: anchors in body frames, targets in play space
-    const Column<BodyHold>& body_hold;  // in: play space, of hands on a player's part
+    const Column<BodyHold>& body_hold;  // in: play space; hands that grip a part of another player
     FrameGraph& frame;                  // in: proxies, entities, contacts; out: graph, phase
 };
 void build_constraints(const BuildConstraintsIo& io, const Tuning& tuning);

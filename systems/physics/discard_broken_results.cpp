@@ -51,7 +51,7 @@ void discard_broken_results(const DiscardBrokenResultsIo& io, StageStats& stats)
             LastValidPose& valid = *found;
             const BodyPose* const body = io.body_pose.find(io.frame.entities[i]);
             valid = body != nullptr ? LastValidPose{body->pose_ws, true}
-                                    : LastValidPose{{}, false};  // a head is nowhere again
+                                    : LastValidPose{{}, false};  // head: no known valid pose
         }
     }
     for (JointState& state : io.joint_state.elements()) {

@@ -10,7 +10,7 @@
 
 namespace handhold {
 
-// Largest numbers that a frame may end with, in each coordinate.
+// Largest position coordinate and velocity coordinate that a frame may end with.
 inline constexpr double k_farthest_result_m = 1e12;
 inline constexpr double k_fastest_result = 1e9;  // m/s or rad/s
 

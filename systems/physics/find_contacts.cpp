@@ -57,8 +57,8 @@ bool touches_group(const FindContactsIo& io, std::uint64_t player_id, Entity bod
     return touched;
 }
 
-// Removes bodies that are released and clear of the head; the others' pairs are added to
-// frame.ignored.
+// Removes bodies from HeadIgnores that are released and clear of the head. Adds the pairs of the
+// others to frame.ignored.
 void update_ignores(const FindContactsIo& io) {
     for (std::size_t index = 0; index < io.head_ignores.size(); ++index) {
         const Entity player = io.head_ignores.owners()[index];

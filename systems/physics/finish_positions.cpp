@@ -12,8 +12,8 @@ namespace {
 
 // --- Players who are pushed out ------------------------------------------------------------------
 
-// Displacement of the head in this frame if no contact stops it, in world axes: the sum of grips,
-// play space and tracking.
+// Displacement of the head in this frame if no contact stops it, in world axes: the sum of the
+// motions by grips, by the play space's velocity and by tracking.
 Vec3 head_motion_m(const FinishPositionsIo& io, std::uint32_t player, const HeadTuning& tuning) {
     const Entity entity = io.frame.entities[player];
     const HeadTracking& head = io.head.at(entity);

@@ -13,15 +13,16 @@
 // Restores bodies that still penetrate to their last valid pose, then writes poses and errors.
 // Runs after solve_phases.
 //
-// A free body that penetrates by contact.restore_depth_m or more is restored, less than
-// k_max_restore_distance_m far, if that at least halves its error: a hand that jumps through
-// clutter carries no body into a wall. Free bodies and heads that it overlaps there are restored
-// with it.
-// Overlaps that its contacts do not show, because it moved farther than sweeps cover
-// (find_missed_overlaps), count too; such a pose does not become the last valid one. A body
-// restored next to a fixed or kinematic body moves with it and enters the velocity solve at its
-// velocity. The penetrating bodies of one island are restored together or not at all. A player
-// whose head was stuck in a fixed or kinematic body leaves it at k_head_eject_mps at most.
+// A free body that penetrates by contact.restore_depth_m or more is restored if its last valid pose
+// is less than k_max_restore_distance_m away and at least halves its error. So a hand that jumps
+// through clutter carries no body into a wall. Free bodies and heads that a restored body overlaps
+// are restored too.
+// Overlaps without contacts, of bodies that moved farther than sweeps cover (find_missed_overlaps),
+// count too, and a pose with such an overlap does not become the last valid pose. A restored body
+// that penetrated a fixed or kinematic body is carried along with it, and enters the velocity solve
+// at the velocity of that body. The penetrating bodies of one island are restored together or not
+// at all. A player whose head was stuck in a fixed or kinematic body leaves it at k_head_eject_mps
+// at most.
 // Fallbacks counted: restored_last_valid_pose (per island), contacts_unresolved (also of a head on
 // its way out), pairs_deferred, solver_budget (heaps so large that nothing is restored).
 namespace handhold {

@@ -11,10 +11,10 @@
 namespace handhold {
 
 struct PredictBodiesIo {
-    double dt_s;                                // in: s
-    Vec3 gravity_mps2;                          // in: world; free bodies gain it before they move
-    const Column<GravityScale>& gravity_scale;  // in: bodies without an element: 1
-    const Column<RigidBody>& body;              // in: kg m^2
+    double dt_s;        // in: s
+    Vec3 gravity_mps2;  // in: world; accelerates free bodies before they move
+    const Column<GravityScale>& gravity_scale;      // in: 1 for bodies without an element
+    const Column<RigidBody>& body;                  // in: kg m^2
     const Column<PlayerVelocity>& player_velocity;  // in: world, m/s
     Column<BodyPose>& body_pose;                    // in/out, free bodies: world
     Column<BodyStart>& body_start;        // out, free bodies: pose at the frame's start, world

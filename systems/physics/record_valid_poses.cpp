@@ -7,7 +7,8 @@
 namespace handhold {
 namespace {
 
-// For each body, the other body of its deepest overlap; its own index if no overlap is too deep.
+// Finds the body that each body overlaps most; the body itself if no overlap exceeds
+// k_valid_overlap_m.
 void find_overlaps(FrameGraph& frame) {
     const ConstraintGraph& graph = frame.graph;
     // Entries of inactive bodies keep old values, which are not read.
@@ -59,7 +60,7 @@ void record_valid_poses(const RecordValidPosesIo& io) {
             valid->pose_ws = collider_pose(body);
             continue;
         }
-        frame.active.note(i);  // the sweep of the next frame starts elsewhere
+        frame.active.note(i);  // must be placed in the next frame: its sweep starts at another pose
         // The body penetrates: keeps its last valid pose, carried along if the obstacle moves.
         const ColliderProxy& other = frame.proxies[frame.overlaps_with[i]];
         if (frame.graph.bodies[frame.overlaps_with[i]].role == BodyRole::fixed) {

@@ -14,14 +14,15 @@ namespace {
 // Smallest violation that starts another phase. At least twice the solver's tolerance, because
 // smaller ones are rounding errors or residuals of a solved phase.
 constexpr double k_violated_m = 2e-7;
-// Overlap within a heap from which the hands that press it give way.
+// Overlap within a heap above which the hands that press the heap give way.
 constexpr double k_heap_violated_m = 1e-3;
 // Limit on the constraint blocks of a heap, summed over the contact searches of a frame. Above it,
 // the heap's bodies keep their present contacts until the next frame. Other islands are not
 // affected.
 constexpr std::uint64_t k_max_heap_visits = 12'000;
-constexpr int k_max_heap_rounds =
-    2;  // rounds of a phase; contacts that appear later wait for the next frame
+// Maximum number of rounds of a phase for heaps. Contacts that appear later wait for the next
+// frame.
+constexpr int k_max_heap_rounds = 2;
 
 struct Solve {
     PositionSolver solver;
@@ -46,7 +47,7 @@ bool has_role(const Solve& s, const Island& island, BodyRole role) {
 std::optional<IslandErrors>& cached_errors(const Solve& s, const Island& island) {
     return s.io.frame.island_errors[static_cast<std::size_t>(&island - s.graph().islands.data())];
 }
-// Cached per island until its next solve.
+// The errors of an island, cached until its next solve.
 const IslandErrors& errors_of(const Solve& s, const Island& island) {
     std::optional<IslandErrors>& errors = cached_errors(s, island);
     if (!errors) {
@@ -129,7 +130,8 @@ bool refresh_contacts(const Solve& s, OldPoints old_points) {
     return found == FoundContacts::overlapping;
 }
 
-// Repeats a phase until no new contact overlaps; counts if the rounds are exhausted.
+// Repeats a phase until no new contact overlaps; counts contact_rounds_exhausted if the rounds run
+// out first.
 template <typename Wanted>
 void solve_rounds(const Solve& s, Phase phase, Wanted&& wanted) {
     for (int round = 0; round < s.tuning.contact.max_rounds; ++round) {
@@ -165,7 +167,7 @@ bool pushes_player(const Solve& s, const Island& island) {
     return is_pushed(s.io.frame, island) || may_push(s.graph(), island);
 }
 
-// True if a heap overlaps deeply and may only come apart by pushing the player. A heap that touches
+// True if a heap overlaps deeply and may need to push the player to come apart. A heap that touches
 // nothing immovable can always give way, if not in this frame then in the next.
 bool presses_player(const Solve& s, const Island& island) {
     return errors_of(s, island).heap_m > k_heap_violated_m && pushes_player(s, island);
@@ -209,8 +211,8 @@ bool wants_backward(const Solve& s, const Island& island) {
     return errors_of(s, island).worst_m() > s.violated_m() && pushes_player(s, island);
 }
 
-// Marks the islands to push, and restores players and held objects to their reach poses. False if
-// there are none.
+// Marks the islands to push, and restores players and held objects to their reach poses. Returns
+// false if there is no such island.
 bool prepare_backward(const Solve& s) {
     bool any = false;
     for (const Island& island : s.graph().islands) {
@@ -250,7 +252,8 @@ void backward(const Solve& s) {
     }
 }
 
-// Hands decide how held bodies move, not their impacts.
+// Restores the impacts of bodies that are neither held nor in a heap, for the velocity solve. How
+// held bodies move is decided by the hands, not by impacts.
 void restore_free_impacts(const Solve& s) {
     FrameGraph& frame = s.io.frame;
     std::erase_if(frame.impacts, [&](const ContactPoint& impact) {

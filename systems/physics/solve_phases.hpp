@@ -13,8 +13,10 @@
 //
 // - reach: grips and joints without contacts. A player who grips something fixed is moved; a player
 //   who holds a light object has infinite mass.
-// - forward: contacts too, players with infinite mass. Only islands with a free body.
-// - relax: only heaps (Island::is_heap) that forward left overlapping. Held bodies give way.
+// - forward: contacts too. Players have infinite mass, unless they grip no surface and hold an
+//   object heavier than phases.kappa_light_kg. Only islands with a free body.
+// - relax: only heaps (Island::is_heap) that forward left overlapping and that may push a player.
+//   Held bodies give way.
 // - backward: true masses; the loose bodies of a heap are held still. Runs where forward left a
 //   violation and the island touches something immovable or another player: the player is pushed.
 //   Players and held objects start from their reach poses, so the push equals the violation,
@@ -22,9 +24,9 @@
 // - contradiction: resolves contacts that still overlap, without grips.
 //
 // After each phase colliders are swept from their last valid pose to the solved pose. New contacts
-// are added and the phase repeats, at most contact.max_rounds times. An island that no contact
-// violates never reaches the forward phase: the origin of a player who waves a rock is bitwise
-// unchanged.
+// are added and the phase repeats, at most contact.max_rounds times. An island whose contacts and
+// joints are satisfied after reach skips the forward phase: the origin of a player who waves a rock
+// is bitwise unchanged.
 // The work of every island is bounded (WorkBudget), and so is the number of contacts searched.
 // Fallbacks counted: active_set_not_converged, hands_load_stepped, load_stepping_failed,
 // contact_rounds_exhausted, contacts_contradict, solver_budget.

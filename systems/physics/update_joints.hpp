@@ -4,7 +4,7 @@
 #include "components/joint.hpp"
 #include "engine/ecs/column.hpp"
 
-// Writes where every joint is, and closes and opens latches.
+// Writes the coordinate and speed of every joint, and closes and opens latches.
 // Talk row 5 (arbitrary chains). A latch whose strength was exceeded opens after that frame.
 // Fallbacks counted: none.
 namespace handhold {

@@ -290,7 +290,8 @@ std::string shared_name_prefix(const SkinnedMesh& figure) {
         const auto most =
             std::max_element(counts.begin(), counts.end(),
                              [](const auto& a, const auto& b) { return a.second < b.second; });
-        // A convention's own first word, such as Rigify's "DEF-", is as frequent.
+        // The first word of a naming convention, such as Rigify's "DEF-", may be found too. It
+        // names no bone either.
         if (most == counts.end() || most->second < k_fewest ||
             10 * most->second < 6 * figure.joints.size()) {
             break;

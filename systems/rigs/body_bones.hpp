@@ -53,8 +53,9 @@ inline const Vec3& place_of(const SkinnedMesh& figure, std::size_t joint) {
 }
 bool is_below(const SkinnedMesh& figure, std::size_t joint, std::size_t above);
 
-// What most joints' names begin with, up to a separator: "Shinobi_" of "Shinobi_Arm_L". It names
-// the figure, so it says nothing of a bone, even if it sounds like one. Empty if there is none.
+// Returns the prefix that most joints' names share, up to a separator: "Shinobi_" of
+// "Shinobi_Arm_L". It names the figure, so it must not be read as part of a bone's name. Empty if
+// there is none.
 std::string shared_name_prefix(const SkinnedMesh& figure);
 inline std::string_view bare_name(std::string_view name, std::string_view prefix) {
     return name.substr(name.starts_with(prefix) ? prefix.size() : 0);

@@ -337,9 +337,10 @@ class ShapeFinder {
         path.erase(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(shared));
         return path;
     }
-    // Goes up the path while the next joint, with all joints below it, carries enough skin: more
-    // than its siblings together, and more than half as much as the current joint alone. Without
-    // skin: the last but one joint, since the last one only marks the end.
+    // Chooses the head's joint. Goes up the path while the next joint, with all joints below it,
+    // carries enough skin: more than its siblings together, and more than half as much as the
+    // current joint alone. Without skin: the last but one joint, since the last one only marks the
+    // end.
     std::size_t head_on(const JointPath& path) const {
         if (!(tree_.skin_below(path.front()) > 0.0)) {
             return path.size() > 2 ? path[path.size() - 2] : path.back();

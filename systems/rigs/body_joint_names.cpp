@@ -119,7 +119,7 @@ constexpr std::array<const char*, 24> k_others = {
 // Words to ignore, because they do not tell the bone.
 constexpr std::array<const char*, 11> k_fillers = {"joint", "jnt", "bone", "bn", "link", "bend",
                                                    "def",   "org", "m",    "c",  "jt"};
-// A joint whose name contains one of these words is BodyNameGuess::is_part.
+// A joint whose name contains one of these words gets BodyNameGuess::is_part.
 constexpr std::array<const char*, 3> k_parts = {"part", "share", "corrective"};
 
 template <std::size_t N>
@@ -248,7 +248,7 @@ struct CutName {
     std::optional<HandSide> side;
     std::string latin;     // the words in Latin script, joined, without side, digits and k_fillers
     std::string japanese;  // the other words, joined, without side and digits
-    std::optional<int> number;  // the first one
+    std::optional<int> number;  // first number at the end of a word
     bool is_part = false;
     bool is_other = false;
 };

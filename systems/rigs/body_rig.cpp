@@ -36,16 +36,17 @@ Quat rolled(const Quat& rotation, double angle_rad) {
     return (rotation * rotation_about(Vec3::UnitZ(), angle_rad)).normalized();
 }
 
-// Rotation of a carrier on the forearm, which follows its share of the hand's twist. The twist
-// counts from that in the file.
+// Rotation of a carrier on the forearm, which follows its share of the hand's twist. The twist is
+// relative to that in the file.
 Quat twisted_forearm(const BodyRig::Carrier& carrier, const ArmPose::Arm& arm) {
     const double twist_rad =
         followed_twist(arm.forearm_ws.rotation, arm.hand_ws.rotation, carrier.twist_rad);
     return rolled(arm.forearm_ws.rotation, carrier.along * twist_rad);
 }
 
-// Rotation of a carrier on the upper arm, which follows its share of the twist between the
-// shoulder, where the arm has only swung with the chest as in the file, and the elbow.
+// Rotation of a carrier on the upper arm. It follows its share of the upper arm's twist: none at
+// the shoulder, all at the elbow. The twist is measured against the chest, relative to the pose in
+// the file.
 Quat twisted_upper_arm(const BodyRig::Carrier& carrier, const ArmPose::Arm& arm,
                        const Quat& chest_from_file) {
     const Quat& whole = arm.upper_ws.rotation;

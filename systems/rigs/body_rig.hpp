@@ -51,7 +51,7 @@ struct BodyRig {
         std::size_t carrier = 0;  // index into carriers
         Pose in_bone;             // pose in the carrier's rest frame, unscaled
     };
-    // Indices into `carriers` of the two that every rig has. k_chest is the trunk's upper end.
+    // Indices of the two carriers that every rig has. k_chest is the trunk's upper end.
     static constexpr std::size_t k_chest = 0;
     static constexpr std::size_t k_head = 1;
 

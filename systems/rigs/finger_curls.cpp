@@ -9,7 +9,7 @@
 namespace handhold {
 namespace {
 
-constexpr double k_shortest_bone_m = 1e-4;  // shorter ones are joints that lie in one place
+constexpr double k_shortest_bone_m = 1e-4;  // the joints of shorter bones coincide
 
 std::optional<Vec3> bone(const std::optional<Vec3>& from, const std::optional<Vec3>& to) {
     if (!from || !to) {
@@ -20,7 +20,8 @@ std::optional<Vec3> bone(const std::optional<Vec3>& from, const std::optional<Ve
                                                                 : std::nullopt;
 }
 
-// `joints`: of one finger, from the one before the first bend to the tip.
+// Sum of a finger's bends; k_unknown_curl if a joint is absent or not finite. `joints`: the
+// finger's joints from the one before the first bend to the tip.
 double bend_rad(std::span<const std::optional<Vec3>> joints) {
     double sum_rad = 0.0;
     for (std::size_t i = 0; i + 2 < joints.size(); ++i) {

@@ -7,7 +7,7 @@
 #include "components/tracking.hpp"
 #include "engine/math/math.hpp"
 
-// Curls of fingers from the joints of hand tracking.
+// Computes the curls of fingers from the joints of hand tracking.
 namespace handhold {
 
 // A tracked hand's joints by OpenXR's index (XrHandJointEXT, hh_hand_joint_name), in any space;
@@ -20,9 +20,9 @@ using TrackedJoints = std::array<std::optional<Vec3>, k_tracked_joint_count>;
 //
 //     curl = sum(bend_j) / sum(fist_j)
 //
-// bend_j: angle at joint j between the bones before and after it, radians; fist_j: the same of a
-// fist (fist_rad). The joints are the finger's proximal, intermediate and distal ones, of a thumb
-// the proximal and distal ones: opposition moves the first.
+// bend_j: angle at joint j between the bones before and after it, radians; fist_j: the same angle
+// in a fist (fist_rad). The joints are the finger's proximal, intermediate and distal ones. A thumb
+// has only its proximal and distal ones, because opposition moves its first joint.
 FingerCurls finger_curls(const TrackedJoints& joints);
 
 }  // namespace handhold

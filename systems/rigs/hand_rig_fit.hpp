@@ -40,7 +40,8 @@ inline constexpr double k_max_hand_m = 1.0;
 //   offsets from the finger's disc.
 // - A link's radius is the median distance of the skin from the bone. The last link ends one radius
 //   before the end of the skin. The palm's capsules are flush with the palm's skin.
-// - Limits and rest angles are those of the built-in hand; a limit gives way to the file's pose.
+// - Limits and rest angles are those of the built-in hand; a lower limit is extended if the file's
+//   pose is beyond it.
 //
 // Errors (the message names the joints): missing or duplicate joints; fewer than two fingers; bones
 // shorter than k_min_bone_m; a hand of the other side, recognised by fingers bent towards the back

@@ -159,7 +159,7 @@ double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) {
 // The axis about which a straight finger curls towards the palm: parallel to the palm and
 // perpendicular to the finger's first bone. For a thumb: the built-in thumb's axis. A turn about
 // the opposition axis and then the shortest rotation move the built-in thumb's first bone onto this
-// one.
+// thumb's.
 Vec3 usual_hinge_axis(FingerName name, const Vec3& first_bone, HandSide side) {
     if (name == FingerName::thumb) {
         const HandRig usual = builtin_hand_rig(side);

@@ -14,7 +14,7 @@ struct FingerBones {
     FingerName name = FingerName::index;
     // Belongs to the palm; a thumb's metacarpal may be its first hinge instead.
     std::optional<std::size_t> metacarpal;
-    std::vector<std::size_t> hinges;  // 2 or 3
+    std::vector<std::size_t> hinges;  // 2 or 3 joints
     std::size_t tip = 0;
 };
 struct HandBones {

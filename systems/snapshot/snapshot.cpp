@@ -14,8 +14,8 @@
 namespace handhold {
 namespace {
 
-// Like PNG's: starts with a byte that no text has, ends with a line feed that a text-mode transfer
-// would alter.
+// First bytes of a snapshot. Like PNG's, they start with a byte that no text has, and end with a
+// line feed that a text-mode transfer would alter.
 constexpr char k_snapshot_magic[] = "\x89HHSNAP\n";
 constexpr std::size_t k_magic_bytes = sizeof k_snapshot_magic - 1;
 constexpr std::uint32_t k_format_version = 8;
@@ -24,10 +24,11 @@ constexpr std::size_t k_version_at = k_magic_bytes;
 constexpr std::size_t k_schema_size_at = k_version_at + 4;
 constexpr std::size_t k_size_at = k_schema_size_at + 4;
 constexpr std::size_t k_assets_at = k_size_at + 8;
-// Followed by the schema, the payload, the colliders' shapes and the checksum.
+// The header is followed by the schema, the payload, the colliders' shapes and the checksum.
 constexpr std::size_t k_snapshot_header_bytes = k_assets_at + 8;
 constexpr std::size_t k_checksum_bytes = 8;
-// Of each collider's shape, in the order of the column: digest and kind. Then their number, u32.
+// Each collider's shape is saved as its digest (u64) and kind (u8), in the order of the column.
+// Then follows the number of colliders, u32.
 constexpr std::size_t k_shape_bytes = 9;
 constexpr std::size_t k_shape_count_bytes = 4;
 
@@ -116,7 +117,8 @@ const char* kind_text(std::byte kind) {
     return index < k_texts.size() ? k_texts[index] : "shape";
 }
 
-// Gives each collider the shape with the saved content. An id that has it is kept.
+// Gives each collider the shape with the saved content. An id whose shape already has that content
+// is kept.
 std::optional<FileError> find_shapes(std::span<const std::byte> bytes, std::size_t shapes_at,
                                      const SnapshotAssets& assets, World& world) {
     if (shape_count_in(bytes) != world.collider.size()) {

@@ -26,11 +26,11 @@ class SnapshotAssets {
     explicit SnapshotAssets(const ShapeLibrary& shapes, std::string_view scene = {});
 
     const ShapeLibrary& shapes() const { return *shapes_; }
-    // Of the scene's name and all shapes.
+    // Hash of the scene's name and all shapes.
     std::uint64_t hash() const { return hash_; }
-    // Of the scene's name alone.
+    // Hash of the scene's name alone.
     std::uint64_t scene_hash() const { return scene_hash_; }
-    // Of a shape's content; 0: there is no shape with this id.
+    // Hash of a shape's content; 0: there is no shape with this id.
     std::uint64_t digest(ShapeId shape) const {
         return shape.index < digests_.size() ? digests_[shape.index] : 0;
     }
@@ -42,7 +42,7 @@ class SnapshotAssets {
     std::uint64_t hash_ = 0;
     std::uint64_t scene_hash_ = 0;
     std::vector<std::uint64_t> digests_;                              // indexed by ShapeId::index
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> by_digest_;  // and index; sorted
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> by_digest_;  // digest and index; sorted
 };
 
 // Call between frames only. Shapes are saved by their content: the library of the restored world

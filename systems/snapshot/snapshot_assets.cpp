@@ -1,4 +1,4 @@
-// The content of every shape, and all of them in library order.
+// Hashes the content of every shape, and all shapes together in library order.
 #include <algorithm>
 #include <map>
 
@@ -30,7 +30,7 @@ std::uint64_t hash_of(const Mesh& mesh) {
 
 class ShapeHasher {
   public:
-    // Never 0.
+    // Hash of a shape's content; never 0.
     std::uint64_t digest_of(const Shape& shape) {
         HashStream stream;
         add_shape(shape, stream);
@@ -83,7 +83,7 @@ SnapshotAssets::SnapshotAssets(const ShapeLibrary& shapes, std::string_view scen
     ShapeHasher hasher;
     for (std::uint32_t i = 0; i < shapes.size(); ++i) {
         digests_.push_back(shapes.has({i}) ? hasher.digest_of(shapes.at({i})) : 0);
-        stream.add(digests_.back());  // 0 too: ids stay apart
+        stream.add(digests_.back());  // 0 too: the hash depends on the ids
         if (digests_.back() != 0) {
             by_digest_.emplace_back(digests_.back(), i);
         }

@@ -6,12 +6,12 @@
 namespace handhold {
 
 // Layout of this build's columns, one line per field: "grab.kind enum(3)",
-// "hand_history.entries[32].t_s f64". A snapshot contains its schema; it can be restored only if
-// that is equal.
+// "hand_history.entries[32].t_s f64". A snapshot contains the schema of the build that saved it;
+// only a build with an equal schema can restore it.
 const std::string& snapshot_schema();
 
-// The first difference of two schemas: 'expected "grab.kind enum(3)", found "grab.kind enum(4)"'.
-// Empty if they are equal. `found` may contain any bytes.
+// The first difference between two schemas: 'expected "grab.kind enum(3)", found "grab.kind
+// enum(4)"'. Empty if they are equal. `found` may contain any bytes.
 std::string schema_difference(std::string_view expected, std::string_view found);
 
 }  // namespace handhold

@@ -27,7 +27,8 @@ Vec3 square_to(const Vec3& pole, const Vec3& axis) {
                                : Vec3(unit.cross(Vec3::UnitX()).normalized());
 }
 
-// Sets the chest, and shoulders rigidly attached to it. `pole_of(side)` is in play space.
+// Sets the chest, the shoulders (rigidly attached to it) and the direction of each elbow.
+// `pole_of(side)`: direction that the elbow prefers, in play space.
 template <typename PoleOf>
 void hang_arms(const Pose& head_ps, const BodyMeasures& measures, const Vec3& ahead,
                const PoleOf& pole_of, ArmEstimate& out) {
@@ -72,8 +73,7 @@ void estimate_as_talked(const Pose& head_ps, const BodyMeasures& measures, ArmEs
     const auto pole_of = [&](std::size_t side) {
         const double outward = side == 0 ? -1.0 : 1.0;
         const Vec3 rest = chest_ps * Vec3(0.3 * outward, -0.8, 0.5);
-        // Blends the rest direction with the one opposite to the fingers, where the elbow
-        // is.
+        // The elbow is roughly opposite to the fingers.
         return Vec3(0.5 * rest - 0.5 * (out.arms[side].hand_ps.rotation * -Vec3::UnitZ()));
     };
     hang_arms(head_ps, measures, ahead, pole_of, out);

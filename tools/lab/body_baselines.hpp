@@ -7,12 +7,13 @@
 // from `out.arms[].hand_ps`, as estimate_arms does, and keep no state.
 namespace handhold::lab {
 
-// The chest has the head's yaw, the shoulders are fixed to it, elbows point down.
+// The chest has the head's yaw, the shoulders are fixed to the chest, and the elbows point down.
 void estimate_naive(const Pose& head_ps, const BodyMeasures& measures, ArmEstimate& out);
 
-// Rows 19 to 22 of the talk, with plausible constants. The chest faces a blend of the head's
-// direction and the unit vectors to the hands. A hand's weight fades when the hand is near or
-// behind. The elbow's pole is a blend of down-and-back and the direction of the wrist's back.
+// Talk rows 19 to 22, with plausible constants. The chest faces a blend of the head's direction and
+// the unit vectors to the hands. A hand's weight fades if the hand is near the head or behind it.
+// The elbow points to a blend of a rest direction (down, back and a little outward) and the
+// direction opposite to the fingers.
 void estimate_as_talked(const Pose& head_ps, const BodyMeasures& measures, ArmEstimate& out);
 
 }  // namespace handhold::lab

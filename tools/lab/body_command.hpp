@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-// `handhold-lab body`: the runtime's arm and chest estimate for recorded heads and hands.
+// `handhold-lab body`: estimates arms and chest from recorded heads and hands.
 namespace handhold::lab {
 
 struct BodyOptions {

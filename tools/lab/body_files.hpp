@@ -10,7 +10,7 @@
 #include "engine/core/result.hpp"
 #include "engine/math/math.hpp"
 
-// Input of `handhold-lab body`: heads and hands over time, and the persons' measures.
+// Input of `handhold-lab body`: poses of heads and hands over time, and body measures.
 namespace handhold::lab {
 
 struct BodySample {
@@ -23,8 +23,8 @@ struct BodySample {
 // Lines of 23 numbers: clip, t, then head, left and right hand as x, y, z, qx, qy, qz, qw.
 Result<std::vector<BodySample>> load_body_samples(const std::filesystem::path& path);
 
-// Measures by clip. The table may have text cells: only the columns clip, eye_height, upper_arm,
-// forearm and shoulder_width are read.
+// Body measures; the key is the clip. The table may have text cells: only the columns clip,
+// eye_height, upper_arm, forearm and shoulder_width are read.
 Result<std::map<std::int64_t, BodyMeasures>> load_body_measures(const std::filesystem::path& path);
 
 }  // namespace handhold::lab

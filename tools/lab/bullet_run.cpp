@@ -57,7 +57,7 @@ struct BulletRun::Impl {
     std::vector<BodyPtr> bodies;  // same order as FrameRecord::poses
     BodyPtr ground;               // fixed body, for joints to the world
     std::vector<std::unique_ptr<btTypedConstraint>> joints;
-    // By index in LabScene::holds; null: released.
+    // Indexed as LabScene::holds; null: released.
     std::vector<std::unique_ptr<btTypedConstraint>> grabs;
 
     Impl(const LabScene& of, Holder who, double hz) : scene(of), holder(who), dt_s(1.0 / hz) {

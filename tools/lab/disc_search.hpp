@@ -5,7 +5,7 @@
 
 #include "engine/geometry/disc_trace.hpp"
 
-// Other orders of the search of a disc's cut, as baselines for find_crossing.
+// Baselines for find_crossing: the same search for a triangle that a disc cuts, in other orders.
 namespace handhold::lab {
 
 enum class SearchOrder : std::uint8_t {

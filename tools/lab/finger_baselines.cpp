@@ -8,7 +8,8 @@
 namespace handhold::lab {
 namespace {
 
-constexpr double k_detail_apart_m = 0.02;  // largest distance of the search detail from the surface
+// Upper bound on the distance between the search detail and the contact detail.
+constexpr double k_detail_apart_m = 0.02;
 constexpr double k_rounding_m = 1e-9;
 
 double length_from(const HingeChain& chain, std::size_t joint) {
@@ -154,8 +155,8 @@ ClosedFinger close_by_talk(const HingeChain& chain, const GripMesh& mesh,
     const CrossingSearch found =
         find_crossing_in(order, mesh.search, disc, {&seed_under_palm, 1}, scratch.trace);
     closed.pops = found.pops;
-    // Walks the surface that fingers touch. On the search detail, the comparison would be of
-    // levels of detail instead of closing methods.
+    // Walks the contact detail, on which the runtime closes fingers too. On the search detail, the
+    // methods would also differ in their level of detail.
     const auto near = found.triangle != k_no_triangle
                           ? mesh.contact_bvh.closest_point(found.point, k_detail_apart_m)
                           : std::nullopt;

@@ -13,8 +13,8 @@
 namespace handhold::lab {
 
 enum class FingerMethod : std::uint8_t {
-    fit,      // method of the runtime
-    closing,  // closing of the runtime without its fit
+    fit,      // the runtime's method: sweep_fingers and fit_hands
+    closing,  // sweep_fingers without fit_hands
     talk,     // talk rows 12 to 14, taken literally
     spheres,  // spheres on the bones, moved in steps
 };
@@ -29,7 +29,7 @@ struct ClosedFinger {
 };
 
 // Uses one disc, in the finger's middle plane. Searches for the first triangle that crosses the
-// disc, walks along the crossing edges, and takes the highest contact for each joint in turn.
+// disc, walks along the crossing edges, and stops each joint in turn at its first contact.
 // Returns the rest pose if the search finds nothing or nothing can be touched.
 ClosedFinger close_by_talk(const HingeChain& chain, const GripMesh& mesh,
                            const GraphPoint& seed_under_palm, SearchOrder order,

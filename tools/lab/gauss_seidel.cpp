@@ -16,7 +16,7 @@ using BlockVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, k_
 
 int g_sweeps = k_sweeps;
 
-// A body's inverse mass and inertia in one block.
+// A body's inverse mass and inertia, as one block uses them; 0 if the body counts as immovable.
 struct Mobility {
     double inverse_mass = 0.0;
     Mat3 inverse_inertia_ws = Mat3::Zero();

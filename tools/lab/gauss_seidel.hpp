@@ -8,13 +8,14 @@ namespace handhold::lab {
 
 inline constexpr int k_sweeps = 50;
 
-// Non-linear Gauss-Seidel (Mueller et al. 2007, Macklin et al. 2016): 50 sweeps over the blocks at
-// their current poses, outward from the immovable bodies. Limits and contacts only push.
+// Non-linear Gauss-Seidel (Mueller et al. 2007, Macklin et al. 2016): up to 50 sweeps over the
+// blocks at the bodies' current poses, outward from the immovable bodies. Limits and contacts only
+// push.
 NewtonResult solve_plain(const IslandView& island, const NewtonSettings& settings,
                          SolveScratch& scratch);
 
-// Like solve_plain, but in the last sweep the body nearer to an immovable one counts as infinitely
-// heavy (shock propagation, Guendelman et al. 2003).
+// Like solve_plain, but in the last of the 50 sweeps the body of a block that is nearer to an
+// immovable one counts as infinitely heavy (shock propagation, Guendelman et al. 2003).
 NewtonResult solve_sweep(const IslandView& island, const NewtonSettings& settings,
                          SolveScratch& scratch);
 

@@ -19,7 +19,7 @@
 namespace handhold::lab {
 namespace {
 
-// All parts of a file as one mesh, in the scene's frame.
+// Returns all parts of a file as one mesh, in the frame of the file's scene.
 Result<Mesh> load_mesh(const std::filesystem::path& path) {
     const Result<GltfLevel> level = load_gltf_level(path);
     if (!level) {
@@ -96,7 +96,7 @@ std::string pose_all(const GripOptions& options, const GripMesh& mesh, const Han
     return text;
 }
 
-// The smallest value that at least this share of the values does not exceed; 0 if there are none.
+// The value at place floor(share (n - 1)) of the n sorted values, counted from 0; 0 if n is 0.
 template <typename Value>
 Value quantile(std::vector<Value> values, double share) {
     if (values.empty()) {

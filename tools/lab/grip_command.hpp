@@ -8,7 +8,7 @@ namespace handhold::lab {
 
 struct GripOptions {
     std::filesystem::path mesh;
-    std::string rig = "builtin";  // or the file of a skinned hand
+    std::string rig = "builtin";  // "builtin", or the file of a skinned hand
     std::string hand = "right";
     std::filesystem::path placements;
     std::filesystem::path out;
@@ -19,7 +19,8 @@ struct GripOptions {
     std::string fingers;
     double grip_edge_mm = 20.0;
     std::filesystem::path rig_json;  // empty: not written
-    // Frames of recorded motion, and as many of standing still, per hand; 0: none.
+    // Number of frames for which each hand moves as recorded; then it stands still for as many. 0:
+    // not measured.
     int warm_frames = 0;
     std::filesystem::path motions;    // output of `recorded-grips`
     std::filesystem::path moved_out;  // hands at the end of their motion; empty: not written

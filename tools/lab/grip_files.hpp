@@ -15,8 +15,8 @@
 // File formats of `handhold-lab grip`.
 namespace handhold::lab {
 
-// Reads one JSON value a line; blank lines are skipped. The first error of a value ends the reading
-// and names the line.
+// Calls `read` with the JSON value of each line; skips blank lines. Stops at the first error and
+// returns it with the number of its line.
 std::optional<FileError> read_json_lines(const std::filesystem::path& path,
                                          const std::function<void(const JsonValue&)>& read);
 
@@ -32,8 +32,8 @@ Result<std::vector<Placement>> load_placements(const std::filesystem::path& path
 // One line of the output, with line break.
 std::string posed_hand_line(std::int64_t id, const HandRig& rig, const PosedHand& posed);
 
-// Costs of hands that reuse results (warm), and counts of jumping joints, for every frame of every
-// hand.
+// JSON with the cost of every frame of every moved hand (WarmHand), and the counts of joints that
+// jumped.
 std::string warm_hands_json(const WarmHand& all);
 
 // The rig as JSON, for external measuring tools: every field of HandRig except its skin's joints.

@@ -151,8 +151,8 @@ class OneHand {
             close_baseline(f, tuning, variant);
         }
     }
-    // For methods other than the runtime's, shows the held palm and the closed fingers without a
-    // fit.
+    // Baselines and hands without sync have no fit: the palm stays where constrain() has put it,
+    // and the fingers are shown as close() has left them.
     void fit(double dt_s, const Tuning& tuning, const GripVariant& variant) {
         FingerPose& pose = fingers_.elements().front();
         if (is_fitted(variant) || !has_surface()) {
@@ -278,7 +278,7 @@ WarmHand move_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
         add_pops(hand.traces(), warm);
     }
     describe(hand, mesh, rig, warm.moved);
-    // First lets the shown palm converge.
+    // Lets the shown hand converge before measuring a hand that stands still.
     constexpr int k_convergence_frames = 45;
     for (int frame = 0; frame < k_convergence_frames; ++frame) {
         hand.run_frame_us(at, tuning, variant);

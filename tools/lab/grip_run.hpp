@@ -23,7 +23,7 @@ enum class PalmChoice : std::uint8_t {
 };
 
 struct GripVariant {
-    bool sync = true;  // the palm moves to its limits; else it stays at its tracked pose
+    bool sync = true;  // true: the palm moves to its limits; false: it stays at its tracked pose
     SearchOrder order = SearchOrder::best_first;  // FingerMethod::talk only
     PalmChoice palm = PalmChoice::smallest_sync;
     // The talk's fingers include its palm fit: three limits and no depenetration of knuckles and
@@ -48,13 +48,13 @@ struct PosedHand {
     std::uint32_t triangle = 0;  // index in the mesh as loaded
     Vec3 point = Vec3::Zero();
     Vec3 normal = Vec3::UnitY();
-    std::array<FingerAngles, k_finger_count> angles;  // indexed by index in HandRig::fingers
+    std::array<FingerAngles, k_finger_count> angles;  // indexed as HandRig::fingers
     std::array<FingerTrace, k_finger_count> traces;
     GripTimes us;
 };
 
-// Poses a hand that closes at `wrist` (in the mesh's frame) without cached results. Runs the
-// frame's stages in order and shows targets at once.
+// Poses a hand that closes at `wrist` (in the mesh's frame) without cached results. Runs the hand
+// stages of one frame in order. The shown hand is at its target at once, without smoothing.
 PosedHand pose_cold_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
                          const Tuning& tuning, const GripVariant& variant);
 
@@ -66,7 +66,7 @@ struct WarmHand {
     // Visited triangles per searched disc: one mean for each finger and frame.
     std::vector<std::uint32_t> pops;
     PosedHand moved;  // pose in the last moving frame; without times
-    // While moving: number of joints of all fingers times number of frames.
+    // Joint frames: joints of all fingers times frames, while the hand moves.
     std::uint32_t joint_frames = 0;
     // Joint frames in which the target angle changed by 10 degrees or more.
     std::uint32_t jumps = 0;

@@ -1,5 +1,5 @@
-// The candidate directions are points of a golden spiral on the sphere. The ray test is that of
-// Moeller and Trumbore 1997.
+// Candidate directions of view are points of a golden spiral on the sphere. The test of a ray
+// against a triangle is that of Moeller and Trumbore 1997.
 #include "tools/lab/hand_viewpoint.hpp"
 
 #include <algorithm>

@@ -21,7 +21,7 @@ struct HandCapsule {
 
 struct HandView {
     Vec3 center = Vec3::Zero();    // centre of the hand
-    double radius_m = 0.1;         // radius of a sphere around the centre that contains the hand
+    double radius_m = 0.1;         // radius of a sphere that contains the axes of the capsules
     Vec3 towards = Vec3::UnitZ();  // unit, from the hand to the eye
 };
 
@@ -38,7 +38,7 @@ std::vector<Triangle> triangles_near(std::span<const Mesh> meshes, const Vec3& p
 HandView choose_hand_view(std::span<const HandCapsule> capsules, const Quat& wrist,
                           std::span<const Triangle> around, double distance_m,
                           const HandView* other = nullptr);
-// Only the bounding sphere.
+// Returns only the bounding sphere; `towards` keeps its default.
 HandView hand_bounds(std::span<const HandCapsule> capsules);
 
 }  // namespace handhold::lab

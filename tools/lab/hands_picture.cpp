@@ -94,7 +94,7 @@ Studio build_stage(GltfLevel level, Renderer& renderer) {
 void add_capsules(const DrawnHand& hand, Renderer& renderer, RenderFrame& frame) {
     for (const HandCapsule& capsule : hand.capsules) {
         const Vec3 axis = capsule.b_m - capsule.a_m;
-        // A sphere if both ends coincide.
+        // If both ends coincide, the capsule is practically a sphere.
         const Vec3 b = axis.norm() > 1e-6 ? axis : Vec3(1e-6 * Vec3::UnitX());
         Mesh mesh = make_capsule(Vec3::Zero(), b, capsule.radius_m, 24);
         mesh.color = color_of(capsule);
@@ -113,7 +113,8 @@ class Artist {
         }
     }
 
-    // Returns the view, which differs from `other`.
+    // Draws the hand from its best viewpoint; if `other` is given, from clearly another side.
+    // Returns the view.
     HandView draw(const DrawnHand& hand, const HandView* other, Image& picture) {
         const HandView bounds = hand_bounds(hand.capsules);
         const double distance_m = 1.02 * bounds.radius_m / std::sin(0.5 * k_fov_rad);

@@ -33,7 +33,7 @@ struct LabBody {
     BodyVelocity velocity;
     double mass_kg = 0.0;
     Vec3 half_m = Vec3::Zero();  // half extents of a box
-    bool collides = false;       // has a collider
+    bool collides = false;       // true: has a collider
     // Fixed body: a one-sided mesh of the box's +x face instead of the box.
     bool is_mesh = false;
     bool is_ball = false;  // true: a ball of radius half_m.x() instead of the box
@@ -44,8 +44,8 @@ struct LabBody {
     Vec3 inertia_kgm2() const;
 };
 
-// A half space that nothing may enter: normal . x >= offset, in the frame of `body`. Used to
-// compute penetration; the walls themselves are bodies.
+// Bodies must stay where normal . x >= offset_m, in the frame of `body`. Used only to measure
+// penetration; the walls that stop bodies are bodies themselves.
 struct LabPlane {
     Vec3 normal = Vec3::UnitY();
     double offset_m = 0.0;
@@ -67,12 +67,12 @@ struct LabPlayer {
     Vec3 origin_ws = Vec3::Zero();
     Vec3 head_ps = Vec3(0.0, 0.6, 1.5);  // centre of the head's collider; constant
     Vec3 velocity_mps = Vec3::Zero();
-    // Whether the head is tested against the planes. It is not if the head can pass beside a
-    // wall, because planes are infinite.
+    // True: the head is tested against the planes. False if the head can pass beside a wall,
+    // because planes are infinite.
     bool head_meets_planes = false;
 };
 
-// A hand that holds a body from the start, like an authored grip.
+// A hand that holds a body from the start, whether or not a surface is near.
 struct LabHold {
     int player = 0;
     HandSide side = HandSide::right;
@@ -89,18 +89,20 @@ struct LabHold {
 struct FrameRecord {
     double t_s = 0.0;
     double dt_s = 0.0;
-    // First the bodies, by LabScene::bodies. Then the players' origins; without players, the hands,
-    // by LabScene::holds.
+    // First the bodies, in the order of LabScene::bodies. Then the players' origins or, with
+    // Holder::kinematic, the hands in the order of LabScene::holds.
     std::vector<Pose> poses;
     std::vector<BodyVelocity> velocities;
-    std::vector<Pose> targets;       // tracked hands in the world, by LabScene::holds
-    std::vector<std::uint8_t> held;  // whether the body is still held, by LabScene::holds
-    double step_us = 0.0;            // physics stages, thread CPU time
-    double frame_us = 0.0;           // time of the whole frame
+    // Both are indexed as LabScene::holds. Poses of the tracked hands in the world, and 1 for each
+    // hand that still holds its body.
+    std::vector<Pose> targets;
+    std::vector<std::uint8_t> held;
+    double step_us = 0.0;   // thread CPU time of the physics stages
+    double frame_us = 0.0;  // time of the whole frame
     int iterations = 0;
 };
 
-// Named results: how far a scene is from its closed form.
+// Named results of a scene, for example the error against its closed form.
 class Figures {
   public:
     void set(const std::string& name, double value) { values_[name] = value; }
@@ -126,7 +128,7 @@ struct LabScene {
     // From this time on the scene has no external forces, so its momentum must be conserved.
     double closed_from_s = k_never_s;
     bool closed_in_spin = false;  // angular momentum must be conserved too
-    // Called after every frame if there are players.
+    // Called after every frame, unless kinematic hands replace the scene's players.
     std::function<void(const FrameRecord&, Figures&)> watch;
     // The part of the scene that Bullet cannot express; empty: none.
     std::string beyond_bullet;

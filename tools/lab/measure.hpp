@@ -16,7 +16,7 @@ JointErrors joint_error(const LabJoint& joint, const std::vector<Pose>& poses);
 // Distance between the tracked hand and the hand's anchor.
 double grab_error_m(const LabHold& hold, const Pose& target_ws, const std::vector<Pose>& poses);
 
-// The deepest penetration of boxes and heads into a plane's half space.
+// The largest distance by which a box or head is beyond a plane; 0 if none is.
 double penetration_m(const LabScene& scene, Holder holder, const std::vector<Pose>& poses);
 
 // Linear and angular (about the world's origin) momentum of freely moving bodies.

@@ -11,13 +11,13 @@
 
 namespace handhold::lab {
 
-// One line of the output of `handhold-lab grip`, as far as pictures need it. Poses are in the
-// mesh's frame.
+// The part of an output line of `handhold-lab grip` that pictures need. Poses are in the mesh's
+// frame.
 struct DrawnHand {
     std::int64_t id = 0;
     Pose wrist;  // shown wrist
     std::vector<HandCapsule> capsules;
-    // Joint angles of the game's hand, by FingerName. Angles that the line does not give are 0.
+    // Joint angles for the game's hand, indexed by FingerName. Angles missing in the line are 0.
     std::array<FingerAngles, k_finger_count> angles;
 };
 

@@ -34,7 +34,7 @@ double hand_stages_us(const RunStats& stats) {
     return sum_us;
 }
 
-// Follows a player's hands through a session.
+// Records the grips of a player's hands, frame by frame.
 class GripWatch {
   public:
     GripWatch(const PlayerEntities& player, std::string recording)
@@ -89,7 +89,8 @@ class GripWatch {
     std::array<std::optional<Current>, k_hand_count> current_;
 };
 
-// Plays a recording from where most of its grabs begin near a surface.
+// Plays a recording from the start place where most of its grabs begin near a surface, and returns
+// the grips of its player.
 Result<std::vector<RecordedGrip>> watch(const std::string& scene_file, const std::string& input) {
     const Result<Recording> recording = load_recording(input);
     if (!recording) {

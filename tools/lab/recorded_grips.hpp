@@ -7,8 +7,8 @@
 #include "engine/core/result.hpp"
 #include "engine/math/math.hpp"
 
-// `handhold-lab recorded-grips`: how gripping wrists move against what they hold in recorded play,
-// and what hands cost in those frames.
+// `handhold-lab recorded-grips`: measures how gripping wrists move relative to the gripped body in
+// recorded sessions, and the cost of the hand stages in those frames.
 namespace handhold::lab {
 
 inline constexpr double k_recorded_hz = 90.0;
@@ -17,11 +17,11 @@ inline constexpr double k_recorded_hz = 90.0;
 struct RecordedGrip {
     std::string recording;
     std::string hand;  // "left" or "right"
-    // By frame: the tracked wrist in the gripped body's frame, relative to the first frame's wrist;
-    // a left hand's is mirrored. The first one is the identity.
+    // One pose per frame: the tracked wrist in the gripped body's frame, relative to the wrist of
+    // the first frame (so the first pose is the identity). Poses of left hands are mirrored.
     std::vector<Pose> wrists;
-    // By frame: thread CPU time from gather_surroundings to fit_hands, microseconds for each of the
-    // player's gripping hands.
+    // One time per frame: thread CPU time of the hand stages from gather_surroundings to fit_hands,
+    // divided by the number of the player's gripping hands.
     std::vector<double> us;
 };
 
@@ -38,8 +38,9 @@ int recorded_grips_command(const RecordedGripsOptions& options);
 // Reads the lines of `recorded-grips`. Errors name the line.
 Result<std::vector<RecordedGrip>> load_recorded_grips(const std::filesystem::path& path);
 
-// `count` stretches of `frames` successive wrists, spread evenly over all stretches of the grips;
-// each is relative to its own first wrist. Empty if no grip is as long as that. `frames` > 0.
+// Returns `count` motions of `frames` successive wrists, spread evenly over all such parts of the
+// grips. A motion is relative to the wrist in the frame before it. Empty if no grip has more
+// than `frames` frames. Precondition: `frames` > 0.
 std::vector<std::vector<Pose>> wrist_motions(const std::vector<RecordedGrip>& grips,
                                              std::size_t frames, std::size_t count);
 

@@ -35,8 +35,8 @@ std::shared_ptr<const Mesh> face_mesh(const Vec3& half_m) {
     return mesh;
 }
 
-// Starts an authored grip: the hand holds from the first frame on, independent of nearby surfaces.
-// Button and tracking are set as if the hand had closed before.
+// Makes a hand grip the body from the first frame on, whether or not a surface is near. Button and
+// tracking are set as if the hand had closed before.
 void write_grip(World& world, const PlayerEntities& player, const LabScene& scene,
                 const LabHold& hold, Entity body) {
     const Entity hand = player.hands[index_of(hold.side)];
@@ -185,12 +185,12 @@ void RuntimeRun::drive_all(World& world, double end_s) const {
         const Vec3& origin = scene_.players[static_cast<std::size_t>(hold.player)].origin_ws;
         drive(world, kinematic_hands_[i], Pose{origin, Quat::Identity()} * hold.hand_ps(end_s));
         if (end_s >= hold.release_s && !is_null(hand_joints_[i])) {
-            destroy(world, hand_joints_[i]);  // a stale handle is ignored
+            destroy(world, hand_joints_[i]);  // ignores a joint that no longer exists
         }
     }
 }
 
-// Makes one sample per frame, at the frame's end, where the hand is at its scripted pose.
+// Makes one tracking sample per player, at the frame's end, with the hands at their scripted poses.
 void RuntimeRun::sample_devices(double end_s) {
     samples_.assign(players_.size(), TrackingSample{});
     inputs_.assign(players_.size(), PlayerInput{});

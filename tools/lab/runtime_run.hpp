@@ -14,7 +14,7 @@ class RuntimeRun {
     RuntimeRun(const LabScene& scene, Holder holder, double hz, PositionSolver solver);
     // Runs one frame and records the state at its end.
     void step(FrameRecord& record);
-    // Runs the same frame on a discarded copy, which warms the caches and leaves the run unchanged.
+    // Runs the next frame on a copy of the world, which is discarded: this warms the caches.
     void warm_up();
 
     // State after the last frame.

@@ -27,7 +27,7 @@ struct ResidualCurve {
 std::string scene_json(const LabScene& scene, Holder holder, const RunLabels& labels,
                        const Measure& measure, const ResidualCurve& curve);
 
-// Lines for every body, player and held hand, frame by frame.
+// CSV with a line for every body, player and held hand in every frame.
 class FrameCsv {
   public:
     explicit FrameCsv(const LabScene& scene);

@@ -77,7 +77,7 @@ std::vector<Vec3> zigzag(int links, const Vec3& end) {
     return places;
 }
 
-// A player whose hand holds the end of the last link.
+// Adds a player whose hand holds the last link, at the point where `path` starts.
 void hold_end(LabScene& scene, const PathOfTime& path) {
     scene.players.emplace_back();
     LabHold hold;
@@ -132,7 +132,7 @@ LabScene make_ring(const SceneOptions& options) {
         places.emplace_back(radius * Vec3(std::cos(angle), std::sin(angle), 0.0));
     }
     add_links(scene, places, options.masses);
-    // This joint closes the ring, instead of joining it to the world.
+    // The first joint closes the ring; add_links has made it a joint to the world.
     scene.joints.front().a = links - 1;
     scene.joints.front().frame_a = {Vec3(0.5 * k_link_m, 0.0, 0.0), Quat::Identity()};
     scene.joints.front().frame_b = {Vec3(-0.5 * k_link_m, 0.0, 0.0), Quat::Identity()};

@@ -1,4 +1,4 @@
-// Scenes with rocks, heads and walls. Walls face +x at x = 0.
+// Scenes in which rocks and heads meet walls. A wall's surface is at x = 0 and faces +x.
 #include <algorithm>
 #include <cmath>
 
@@ -131,7 +131,7 @@ LabScene make_lean_in(const SceneOptions& /*options*/) {
     return scene;
 }
 
-// A gap of 20 cm closes to 14 cm around a rock of 16 cm in a hand. The hand moves back and forth
+// A hand holds a rock of 16 cm in a gap that closes from 20 to 14 cm. The hand moves back and forth
 // and then rests.
 LabScene make_jam(const SceneOptions& options) {
     LabScene scene;
@@ -226,7 +226,7 @@ LabScene make_slide(const SceneOptions& options) {
         figures.set("sliding_distance_m", slid);
         figures.set("sliding_expected_m", expected);
         figures.set("sliding_error_mm", 1e3 * std::abs(slid - expected));
-        // The error that a first-order step may have.
+        // The error that a first-order integrator may have: the path of one frame.
         figures.set("sliding_step_mm", 1e3 * k_speed_mps * frame.dt_s);
     };
     return scene;

@@ -155,7 +155,8 @@ LabScene make_throw(const SceneOptions& /*options*/) {
     hold.release_s = k_release_s;
     scene.add_hold(hold);
     take_off_limits(scene.tuning);
-    // The hand releases at most half a frame later; from then on the bar is free.
+    // The hand releases in the frame of the first sample at or after k_release_s. At 90 Hz, 0.03 s
+    // covers that frame; then the bar is free.
     scene.closed_from_s = k_release_s + 0.03;
     scene.closed_in_spin = true;
     scene.watch = [velocity, spin, left_s = 0.0](const FrameRecord& frame,

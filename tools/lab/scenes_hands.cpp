@@ -61,8 +61,8 @@ LabScene make_two_hands(const SceneOptions& /*options*/) {
     return scene;
 }
 
-// Two players at the ends of one bar pull it apart by 20 cm, ten times. Their origins must approach
-// each other by exactly as much.
+// Two players at the ends of one bar repeatedly pull it outward by 10 cm each. Their origins must
+// approach each other by exactly the sum of both pulls.
 LabScene make_two_players(const SceneOptions& /*options*/) {
     LabScene scene;
     const int bar = add_box(scene, "bar", 5.0, Vec3(0.6, 0.02, 0.02), Vec3::Zero());
@@ -124,7 +124,7 @@ Vec3 climbing_hand(double t_s) {
     return {triangle_wave(t_s, 0.4, k_hand_speed_mps), tremor_m, 0.0};
 }
 
-// Offset of the second hand, so that its distance from the first varies.
+// Offset of the left hand, so that its distance from the right hand varies.
 Vec3 stray(double t_s) { return {0.002 * std::sin(2.0 * k_pi * 3.0 * t_s), 0.0, 0.0}; }
 
 }  // namespace
@@ -158,7 +158,7 @@ LabScene make_climb(const SceneOptions& /*options*/) {
     add(1, HandSide::right, k_never_s);
     add(1, HandSide::left, k_leaves_s);
     scene.needs_player = true;
-    // Distance between the head and its place if the hands did not slip.
+    // Figures: how far each head is from where it would be if no hand slipped.
     scene.watch = [aside, left_by = Vec3(Vec3::Zero()), held = true](const FrameRecord& frame,
                                                                      Figures& figures) mutable {
         const Vec3 travel = climbing_hand(frame.t_s) - climbing_hand(0.0);

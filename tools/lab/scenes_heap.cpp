@@ -1,4 +1,4 @@
-// Scene of a held crate that is pushed into a heap of crates in front of a wall.
+// Scene in which a hand pushes a crate into a heap of crates in front of a wall.
 #include <algorithm>
 #include <cmath>
 

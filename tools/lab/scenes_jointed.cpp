@@ -12,8 +12,8 @@ namespace {
 
 constexpr double k_lever_m = 0.4;
 
-// Distance of the pull: from 0 up to `height` and back to 0, once per second. `height` is 5, 10 and
-// 20 cm in turn.
+// Distance of the pull: once per second it rises from 0 to a height and falls to 0. The height is
+// 5, 10 and 20 cm in turn.
 double pull_off(double t_s) {
     constexpr std::array k_heights = {0.05, 0.10, 0.20};
     if (t_s <= 0.0) {
@@ -25,7 +25,8 @@ double pull_off(double t_s) {
     return k_heights[turn] * smooth_step(rise, 0.0, 1.0);
 }
 
-// When the hand starts to pull too far. Never if there is no player, because nothing could yield.
+// Time at which the hand starts to pull the body beyond its range. Never without a player, because
+// nothing could yield.
 double half_time(const SceneOptions& options) {
     return options.holder == Holder::player ? 0.5 * options.duration_s : k_never_s;
 }
@@ -57,7 +58,8 @@ LabScene make_lever(const SceneOptions& options) {
     hinge.upper = 1.2;
     scene.add_joint_at(hinge, {Vec3::Zero(), rotation_between(Vec3::UnitX(), Vec3::UnitZ())});
     const double half_s = half_time(options);
-    // After the lever has come to rest; otherwise the lever would push the player as it stops.
+    // The pull starts 0.2 s after the hand has stopped the lever, because a lever that stops pushes
+    // the player.
     const double pull_s = half_s + 0.2;
     scene.add_hold(hold_body([half_s, pull_s](double t_s) {
         const double angle =

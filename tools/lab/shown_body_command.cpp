@@ -28,7 +28,7 @@ constexpr double k_trunk_radius_m = 0.11;
 constexpr double k_thigh_radius_m = 0.07;
 constexpr double k_shin_radius_m = 0.05;
 
-// Depth of points in the fixed and kinematic colliders of a scene.
+// Measures how deep spheres are in the fixed and kinematic colliders of a scene.
 class Walls {
   public:
     explicit Walls(const World& world) {
@@ -40,7 +40,8 @@ class Walls {
         }
     }
 
-    // Points around a head from which a player could look: those that the head sees.
+    // Returns the head's position and those points around it that no wall separates from it: points
+    // from which a player could look.
     std::vector<Vec3> viewpoints(const CollisionWorld& collision, const Vec3& head_ws) const {
         constexpr double k_aside_m = 0.35;
         std::vector<Vec3> points = {head_ws};
@@ -55,9 +56,9 @@ class Walls {
         return points;
     }
 
-    // How deep a sphere is in the nearest wall; 0: outside. The centre counts as behind a wall if
-    // it is hidden from all viewpoints (a rail does not hide it from all). The depth is then the
-    // centre's distance behind the nearest of the hiding surfaces, plus the radius.
+    // Returns how deep a sphere is in the nearest wall; 0: outside. If walls hide the centre from
+    // all viewpoints, it counts as behind a wall (a rail does not hide it from all). The depth is
+    // then the centre's distance behind the nearest of the hiding surfaces, plus the radius.
     double depth_m(const CollisionWorld& collision, std::span<const Vec3> viewpoints,
                    const Vec3& centre_ws, double radius_m) const {
         double behind_m = 1e9;
@@ -152,7 +153,7 @@ class ShownBody {
         const auto depth_mm = [&](const Vec3& from, const Vec3& to, double radius_m) {
             return 1e3 * deepest_m(walls_, collision, viewpoints, {from, to, scale * radius_m});
         };
-        // The trunk's upper end follows the head and the hands, which are tracked.
+        // Leaves out the trunk's upper end: it follows the head and the hands, which are tracked.
         trunk_mm_.add(
             depth_mm(spine.spine_ws[1].position, spine.pelvis_ws.position, k_trunk_radius_m));
         pelvis_mm_.add(

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-// `handhold-lab shown-body`: how the bodies that follow players look in a built-in session.
+// `handhold-lab shown-body`: measures the body that is shown for a player, in a built-in session.
 namespace handhold::lab {
 
 struct ShownBodyOptions {
@@ -16,7 +16,7 @@ struct ShownBodyOptions {
 };
 
 // Plays the scene's own session and measures the first player's trunk and legs in every frame.
-// Exit status: 0, 1 for a scene without a session, or 2 if the file cannot be written.
+// Exit status: 0, 1 for a scene without a session, or 2 if a file cannot be written.
 int shown_body_command(const ShownBodyOptions& options);
 
 }  // namespace handhold::lab

@@ -25,7 +25,7 @@ PositionSolver position_solver(const std::string& name) {
     return name == "sweep" ? &solve_sweep : &solve_positions;
 }
 
-// Why these options do not fit together; empty if they do.
+// Returns the reason why these options do not fit together; empty if they do.
 std::string find_objection(const SolveOptions& options, const LabScene& scene) {
     if (options.holder == "kinematic" && scene.needs_player) {
         return "scene " + scene.name +

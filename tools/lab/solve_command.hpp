@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-// `handhold-lab solve`: solves one scene with one solver; writes figures as JSON and poses as CSV.
+// `handhold-lab solve`: solves a scene with one solver and writes figures as JSON and poses as CSV.
 namespace handhold::lab {
 
 struct SolveOptions {

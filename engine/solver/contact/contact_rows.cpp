@@ -14,8 +14,8 @@ Vec3 velocity_at(const SolverBody& body, const Vec3& point_bs) {
 }
 
 // True if the bodies approach each other fast and the contact's two points are offset along the
-// surface. A sweep found such a contact at the place of the impact. Slower contacts act at one
-// common point, because they must not turn bodies that are squeezed.
+// surface: a sweep found the contact where the bodies met, and they have moved on since. Other
+// contacts act at one common point, so that they cannot turn bodies that are squeezed.
 bool is_impact(const ConstraintGraph& graph, const RowBlock& block) {
     constexpr double k_slid_m = 1e-3;
     constexpr double k_fast_mps = 1.0;

@@ -18,7 +18,7 @@ struct Overlap {
 };
 
 struct MissedOverlaps {
-    std::vector<Overlap> of_body;     // out
+    std::vector<Overlap> of_body;     // out: indexed by body
     std::vector<std::uint32_t> deep;  // out: bodies with an overlap, ascending
 
     // Resets the result to `count` bodies, none of which has an overlap.
@@ -28,8 +28,8 @@ struct MissedOverlaps {
 // A sweep reports only the first touch of a pair. A body that leans on another and rotates can
 // therefore end with its far side inside the same body. Tests every pair that has a contact and
 // moved by more than `sweep_m` relative to each other, at the end poses of `proxies`; other pairs
-// were not swept or did not touch. Pairs within heaps are not tested. `proxies`: by body. Call
-// after contacts have been refreshed at these poses.
+// were not swept or did not touch. Contacts of heaps (is_heap_contact) are not tested. `proxies` is
+// indexed by body. Call after contacts have been refreshed at these poses.
 void find_missed_overlaps(const CollisionWorld& collision, std::span<const ColliderProxy> proxies,
                           const ConstraintGraph& graph, double sweep_m, MissedOverlaps& missed);
 

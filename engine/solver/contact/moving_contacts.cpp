@@ -16,8 +16,8 @@ namespace {
 constexpr double k_moved_m = 1e-5;  // colliders that moved less keep their contacts
 // k_moved_m for bodies in a heap, whose pairs were all found within the margin before the solve.
 constexpr double k_heap_moved_m = 1e-3;
-constexpr double k_max_slide_m =
-    5e-3;  // A contact point whose bodies slid farther than this is dropped.
+// An old contact point is dropped if the bodies have slid farther than this at it.
+constexpr double k_max_slide_m = 5e-3;
 constexpr double k_same_point_m = 1e-3;
 constexpr double k_same_normal = 0.99;
 constexpr double k_touch_m = VelocitySettings{}.touch_m;
@@ -91,13 +91,14 @@ bool has_slid_apart(const ConstraintGraph& graph, const ContactPoint& contact) {
     return offset_of(graph, contact).tangent_m > k_max_slide_m;
 }
 
-// True if the solve met this contact exactly: it limited the motion.
+// True if the contact's separation is 0 after the solve (within k_touch_m): it limited the motion.
 bool limited_motion(const ConstraintGraph& graph, const ContactPoint& contact) {
     return std::abs(offset_of(graph, contact).normal_m) < k_touch_m;
 }
 
-// True if the bodies' velocities before the frame's impacts meet at the contact, and the solve has
-// slid its points apart: a sweep found it where the bodies meet on their way.
+// True if the bodies approach each other at the contact, with their velocities before the frame's
+// impacts, and the solve has slid the contact's two points apart: a sweep found the contact where
+// the bodies met on their way.
 bool is_impact(const ConstraintGraph& graph, const ContactPoint& contact) {
     constexpr double k_slid_m = 1e-3;
     constexpr double k_slow_mps = 0.05;
@@ -127,13 +128,13 @@ bool has_same_point(const ContactPoint& contact, std::span<const ContactPoint> p
 
 // Merges old and new contacts; both lists are sorted. New contacts replace the old ones of their
 // pair, or join them (OldPoints). Pairs that are no longer found keep their old contacts, because
-// those are what separates the pair. So do pairs whose new contacts are all apart, for the contacts
-// that limited the motion: a ball that is deflected by a rail slides along the contact's plane and
-// ends a little off the rail, and yet the impact at the old point must change its velocity.
+// those keep the pair apart. If none of a pair's new contacts touches, the old contacts that
+// limited the motion stay too: a ball that a rail deflects slides along the contact's plane and
+// ends slightly off the rail, but the impact at the old point must still change its velocity.
 void merge_contacts(const MovingContacts& moving, OldPoints old_points) {
     std::vector<ContactPoint>& merged = moving.scratch;
     const std::size_t new_count = merged.size();
-    std::size_t first = 0;  // range of the new contacts of the old contact's pair
+    std::size_t first = 0;  // range of new contacts of the same pair as `old`
     std::size_t end = 0;
     std::uint32_t feature = 0;  // highest feature id of the pair
     for (std::size_t i = 0; i < moving.contacts.size(); ++i) {

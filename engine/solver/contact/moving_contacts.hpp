@@ -11,12 +11,13 @@
 
 namespace handhold {
 
-// Penetration depth above which a new contact counts as overlapping; Bullet's noise is below.
+// Penetration depth above which a new contact counts as overlapping. Bullet's noise is smaller.
 inline constexpr double k_new_overlap_m = 2e-5;
 
 struct MovingContacts {
     CollisionWorld& collision;
-    // In/out: one per body of graph.bodies, except the world; follow the bodies.
+    // In/out: one per body of graph.bodies, except the world's body, which is the last; they follow
+    // the bodies.
     std::vector<ColliderProxy>& proxies;
     std::vector<ContactPoint>& contacts;  // in/out; sorted by pair and feature
     ConstraintGraph& graph;               // out: contact blocks, islands
@@ -26,11 +27,11 @@ struct MovingContacts {
     // again in any case.
     std::span<const std::uint32_t> also_moved = {};
     // Out, appended: impacts that stopped a motion and whose points were then replaced. Null: not
-    // wanted.
+    // reported.
     std::vector<ContactPoint>* impacts = nullptr;
 };
 
-// What happens to the old contact points of a pair for which new ones are found.
+// Treatment of a pair's old contact points when new ones are found.
 enum class OldPoints : std::uint8_t {
     replaced,
     // Old points from which the bodies have not slid apart are kept beside the new ones. A round
@@ -47,11 +48,11 @@ enum class FoundContacts : std::uint8_t { unchanged, clear, overlapping };
 FoundContacts refresh_contacts(const MovingContacts& moving, const ContactLimits& limits,
                                OldPoints old_points);
 
-// Adds `impacts` to the contacts, for the velocity solve: where a body hits a round edge off its
-// centre, the solve takes it along the plane of the impact, and a sweep to where it is then meets
-// the edge later, where the normal is nearly across its velocity. The impact's normal, at the time
-// of impact, is what reverses the velocity. Each is added at the bodies' present poses, as
-// touching.
+// Adds `impacts` to the contacts for the velocity solve, and rebuilds contact blocks and islands.
+// Needed if a body hits a round edge off centre: the position solve slides the body along the plane
+// of the impact, and the sweep to the solved pose then meets the edge later, where the normal is
+// nearly perpendicular to the velocity. Only the normal at the time of the impact reverses the
+// velocity. The added contacts have separation 0 at the bodies' current poses.
 void restore_impacts(const MovingContacts& moving, std::span<const ContactPoint> impacts);
 
 }  // namespace handhold

@@ -31,8 +31,8 @@ Quat rotation_from_drive_pair(const DrivePair& drives, const Quat& near) {
     add(drives.first.rotation, drives.first_anchor_bs.rotation);
     add(drives.second.rotation, drives.second_anchor_bs.rotation);
     // The two sums are the sine and cosine of half the twist of each drive, weighted by the cosine
-    // of half the drive's swing. Their angle is half of the mean twist: closer to the drive that
-    // swings less.
+    // of half the drive's swing. The angle of (cosine, sine) is half of the mean twist; the drive
+    // that swings less counts more.
     return (rotation_about(line, 2.0 * arc_tangent2(sine, cosine)) * lined).normalized();
 }
 

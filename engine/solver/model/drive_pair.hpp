@@ -1,6 +1,7 @@
-// Solver, model: two drives on one free body, without a least-squares compromise. The first drive
-// holds a point (drive_point, 3 rows). drive_direction (3 rows) holds the body's rotation at the
-// one computed here. Six equations for six degrees of freedom can always be satisfied.
+// Solver, model: the rotation of a free body that two drives hold. The rows of the first drive hold
+// a point of the body (drive_point, 3 rows). The rows of the second drive hold the body's rotation
+// at the value computed here (drive_direction, 3 rows). Six equations for six degrees of freedom
+// can always be satisfied, so the solver needs no least-squares compromise between the drives.
 
 #pragma once
 
@@ -25,9 +26,9 @@ struct DrivePair {
 //   drive's weight is the cosine of half its swing, the angle by which it would tilt that line. A
 //   drive that is swung by half a turn has no rotation about the line, and weight 0.
 //
-// `near` is any rotation within half a turn of both drives' rotations; it selects among results
-// that differ by whole turns. Returns `near` if the drives or the anchors are closer together than
-// a micrometre.
+// A drive's rotation about the line is known only up to whole turns; the one closest to `near` is
+// taken. `near` must be within half a turn of both drives' rotations. Returns `near` if the drives
+// or the anchors are closer together than a micrometre.
 Quat rotation_from_drive_pair(const DrivePair& drives, const Quat& near);
 
 }  // namespace handhold

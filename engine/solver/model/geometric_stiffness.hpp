@@ -1,8 +1,8 @@
 // Solver, model: geometric stiffness, the resistance of a force to the rotation of its own lever
-// arm. It is added to the body's inertia (N m, as kg m^2 per unit of squared step), which keeps
-// Newton's method from oscillating where mass ratios are large. Packed kernels call the four-lane
-// routine, RowSteps the scalar one, which uses one lane of it. Source: Tournier, Nesme, Gilles and
-// Faure, Stable Constrained Dynamics (2015).
+// arm. It is added to the body's inertia, which keeps Newton's method from oscillating if mass
+// ratios are large. (The time step of the position solve is 1, so that N m and kg m^2 are the same
+// unit.) Packed kernels call the four-lane routine, RowSteps the scalar one, which uses one lane of
+// it. Source: Tournier, Nesme, Gilles and Faure, Stable Constrained Dynamics (2015).
 
 #pragma once
 
@@ -22,11 +22,12 @@ HH_INLINE void add_outer(const Wide3& v, const Double4& factor, WideSymmetric& o
     out.yz += scaled.y * v.z;
 }
 
-// out += the positive semidefinite part of (l.r) I - sym(l r^T); l: `force` (N), r: `arm` (m), in
-// the same axes; four forces at a time. A reversed arm gives the positive part of the negative.
+// out += the positive semidefinite part of S = (l.r) I - sym(l r^T); l: `force` (N), r: `arm` (m),
+// in the same axes; four forces at a time. With a reversed arm, the positive semidefinite part of
+// -S is added.
 //
 // Closed form: the eigenvectors are l/|l| - r/|r|, l/|l| + r/|r| and l x r. If l and r are
-// parallel, as in a taut rope, every direction perpendicular to them is one.
+// parallel, as in a taut rope, every direction perpendicular to them is an eigenvector.
 HH_INLINE void add_positive_stiffness(const Wide3& force, const Wide3& arm, WideSymmetric& out) {
     constexpr double k_min_ratio = 1e-12;
     const Double4 zero = zero4();
@@ -59,7 +60,7 @@ HH_INLINE void add_positive_stiffness(const Wide3& force, const Wide3& arm, Wide
     out.zz += of_all;
 }
 
-// add_positive_stiffness for one force. `sign` +1, or -1 for the positive part of the negative.
+// add_positive_stiffness for one force. `sign`: +1, or -1 for the positive semidefinite part of -S.
 Mat3 positive_stiffness(const Vec3& force, const Vec3& arm, double sign);
 
 // (I + stiffness)^-1, given I^-1.

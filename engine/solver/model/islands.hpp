@@ -21,9 +21,9 @@ struct Island {
     bool is_heap = false;  // has more than k_max_direct_contacts contacts of loose bodies
 };
 
-// A loose body is a movable one that no joint and no drive holds. Islands with more contacts of
-// loose bodies than this are solved by sweeps (sweeps/row_sweeps.hpp): contacts between loose
-// bodies only to k_heap_slack_m, in bounded time. All else stays exact.
+// A loose body is a free or heavy body that no joint and no drive holds. An island with more
+// contacts of loose bodies than this is a heap. Heaps are solved by sweeps (sweeps/row_sweeps.hpp)
+// in bounded time: contacts between loose bodies only to k_heap_slack_m, joints and drives exactly.
 inline constexpr std::uint32_t k_max_direct_contacts = 48;
 // Overlap at which a contact of two bodies of a heap counts as satisfied.
 inline constexpr double k_heap_slack_m = 5e-5;
@@ -94,8 +94,8 @@ void sort_largest_first(const ConstraintGraph& graph, std::span<std::uint32_t> i
 struct IslandErrors {
     double drives_m = 0.0;
     double joints_m = 0.0;
-    double contacts_m = 0.0;           // except those of heap_m
-    double heap_m = 0.0;               // contacts of which only bodies of a heap move
+    double contacts_m = 0.0;           // contacts that heap_m does not include
+    double heap_m = 0.0;               // contacts whose movable bodies are all in a heap
     std::optional<JointError> joints;  // exact joint errors, if a solve has reported them
 
     double without_drives_m() const { return std::max(joints_m, contacts_m); }

@@ -1,3 +1,5 @@
+// Solver, model: removes numbers so small that processors treat them differently.
+
 #pragma once
 
 #include <cmath>
@@ -6,9 +8,9 @@
 
 namespace handhold {
 
-// Sets coordinates and velocities of an island's free bodies to 0 if they are below 1e-250 (SI
-// units). Some processors flush denormals during a solve, and others cannot (flush_denormals.hpp).
-// Without this, their results would differ in immeasurably small numbers.
+// Sets coordinates and velocities of an island's bodies to 0 if they are below 1e-250 (SI units).
+// Some processors flush denormals during a solve, and others cannot (flush_denormals.hpp). Without
+// this, their results would differ in immeasurably small numbers.
 inline void drop_negligible(const IslandView& island) {
     const auto drop = [](double& value) {
         constexpr double k_negligible = 1e-250;
@@ -17,7 +19,7 @@ inline void drop_negligible(const IslandView& island) {
     for (const std::uint32_t index : island.island_bodies) {
         SolverBody& body = island.bodies[index];
         if (body.role == BodyRole::fixed) {
-            continue;  // belongs to several islands: never written
+            continue;  // fixed bodies may be shared by islands: never written
         }
         for (Eigen::Index axis = 0; axis < 3; ++axis) {
             drop(body.pose_ws.position[axis]);

@@ -15,11 +15,13 @@
 
 namespace handhold {
 
-// The relative regularisation r_i of each row group; > 0. Defaults of the position solve.
+// The relative regularisation r_i of each row group; > 0. The defaults are those of the position
+// solve.
 struct Regularisation {
     double drive = 1e-8;
     double contact = 1e-7;
-    double joint = 1e-10;  // joints and locked limits; other limits: times k_limit_regularisation
+    // joints and locked limits; other limits: k_limit_regularisation times this
+    double joint = 1e-10;
 };
 
 // Limits are less stiff than joints, because limits of different joints may contradict each other.

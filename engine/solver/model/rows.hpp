@@ -40,7 +40,8 @@ struct SolverBody {
     double inverse_mass = 0.0;
     Vec3 inverse_inertia_bs = Vec3::Zero();
     std::uint32_t slot = 0;  // index within its island; written by build_islands
-    bool in_heap = false;    // only contacts hold it, and its island is a heap; by build_islands
+    // only contacts hold it, and its island is a heap; written by build_islands
+    bool in_heap = false;
     // False if the body's island has used up the contact searches of this frame. The body's
     // collider then stays at the pose of the last search.
     bool is_searched = true;
@@ -51,9 +52,9 @@ struct SolverBody {
 enum class RowKind : std::uint8_t {
     drive_point,  // 3 rows: a's point on b's point
     drive_weld,   // 6 rows: drive_point, and a's rotation on b's
-    // 3 rows: a's rotation on b's. For the second of two drives on one body: direction of the line
-    // between the drives and twist about it, both satisfied by rotation alone. No row uses its
-    // points, which may slide along the line. See drive_pair.hpp.
+    // 3 rows: a's rotation on b's. Used for the second of two drives on one body: the rotation sets
+    // the direction of the line between the drives and the twist about it (drive_pair.hpp). The
+    // block's points have no rows; they may slide along the line.
     drive_direction,
     contact,   // 1 row, >= 0: separation along b's normal
     ball,      // 3 rows: a's point on b's point
@@ -71,7 +72,7 @@ struct JointRows {
     bool limited = false;
     double lower = 0.0;
     double upper = 0.0;
-    // Hinge: of the angles whole turns apart, q is the one closest to this.
+    // Hinge: q is known only up to whole turns; the value closest to `previous` is taken.
     double previous = 0.0;
     // The fields below apply to the velocity solve only; impulses are in N s or N m s per frame.
     // Largest friction impulse about the axis (ball: about all axes) or along it.
@@ -97,7 +98,8 @@ struct RowBlock {
     // Orders blocks of one kind between the same bodies: id of the drive's source or of the joint,
     // feature id of the contact.
     std::uint64_t key = 0;
-    std::uint32_t source = 0;  // drives, joints: index in the column of the component
+    // drives, joints: index of the drive or joint in its component column
+    std::uint32_t source = 0;
     Vec3 point_a_bs = Vec3::Zero();
     Vec3 point_b_bs = Vec3::Zero();
     // Weld, joints: frame rotations; the constraint makes the two equal in the world.

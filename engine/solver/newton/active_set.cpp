@@ -136,10 +136,10 @@ bool RowSystem::block_pivot(std::span<const Row> rows) {
 
 // Active-set descent from a feasible point (no multiplier pulls). Each step decreases
 //   q(lambda) = 1/2 lambda^T A lambda + residual^T lambda,   A = J W J^T + R
-// so that no active set occurs twice; if the steps run out, the last feasible point is returned, in
-// which nothing pulls. Overlapping rows join all at once; if that made no progress, only the
-// deepest joins. Returns true if the minimum was found, up to noise: a deepest row that is dropped
-// again as soon as it joins.
+// so that no active set occurs twice. If the steps or the work run out, the last feasible point is
+// kept. Overlapping rows are activated all at once or, if that made no progress, only the deepest.
+// Returns true if the minimum was found, up to rounding noise: the deepest row became inactive
+// again as soon as it was activated, and no row overlaps by more than k_noise_m.
 bool RowSystem::descend_active_set(std::span<const Row> rows) {
     feasible_lambda_.assign(lambda_.begin(), lambda_.end());
     for (std::size_t i = 0; i < size(); ++i) {

@@ -86,7 +86,8 @@ class RowSystem {
     std::vector<double> fixed_lambda_;
     std::vector<std::uint8_t> chosen_;  // active and not fixed
     std::vector<std::uint32_t> violating_rows_;
-    std::vector<double> feasible_lambda_;  // point of the descent: no multiplier pulls
+    // current point of the descent, at which no multiplier pulls
+    std::vector<double> feasible_lambda_;
     bool active_set_unconverged_ = false;
     std::uint64_t work_ = 0;
     std::uint64_t max_work_ = std::numeric_limits<std::uint64_t>::max();

@@ -28,8 +28,8 @@ struct SolveScratch {
     std::vector<Vec3> rotations_rad;
     std::vector<double> values;
     std::vector<double> lambda;
-    // By row, m/s: bias added to the row's velocity. Restitution: coefficient times approach speed;
-    // motor: minus the target speed.
+    // Indexed by row, m/s: bias added to the row's velocity. Restitution: coefficient times the
+    // row's velocity before the solve (negative: approaching); motor: minus the target speed.
     std::vector<double> approach_mps;
     struct Friction {
         std::size_t row = 0;     // index of its first row in `rows`
@@ -43,13 +43,13 @@ struct SolveScratch {
     RowSystem system;
     RowSweeps sweeps;  // used instead of `system` if the island is a heap
     std::vector<BoundedRows> bounded;
-    // Velocities with restitution, kept while those without are solved.
+    // The solution with restitution, kept while the one without restitution is computed.
     std::vector<double> bouncing_lambda;
     std::vector<Vec3> bouncing_moves_m;
     std::vector<Vec3> bouncing_rotations_rad;
     TriadSystem triads;  // used instead of all the others if the island qualifies
     LoadSteppedDrives load_stepped;
-    // By slot: result of the solve with full load, before load stepping.
+    // Indexed by slot: result of the solve with full load, before load stepping.
     std::vector<Pose> full_load;
 };
 
@@ -63,11 +63,11 @@ void prepare_inertia(const IslandView& island, SolveScratch& scratch);
 // A solve whose step is implausibly long is repeated with more regularisation, at most this often.
 inline constexpr int k_max_regularisation_retries = 3;
 inline constexpr double k_retry_regularisation_increase = 100.0;
-// Longest plausible move of a body by contact rows, relative to the residual: a lever of ten
-// k_angle_lever_m.
+// Longest plausible move of a body by contact rows, relative to the residual. A body that rotates
+// about a point ten k_angle_lever_m away moves this far.
 inline constexpr double k_max_move_ratio = 10.0;
 
-// Writes the system's alpha: model/regularisation.hpp.
+// Writes the system's alpha by the formula of model/regularisation.hpp.
 template <typename System>
 void regularise(std::span<const Row> rows, const Regularisation& regularisation, double factor,
                 System& system) {
@@ -89,8 +89,8 @@ void regularise(std::span<const Row> rows, const Regularisation& regularisation,
 
 // Copies the residuals of `rows` to `values`.
 void gather_residuals(SolveScratch& scratch);
-// Copies the moves W J^T lambda of a solve, by slot. Returns the largest rotation
-// in radians.
+// Copies the moves W J^T lambda of a solve to `scratch`. `moves` is indexed by slot. Returns the
+// largest rotation in radians.
 double gather_moves(std::span<const RowMatrix::Twist> moves, SolveScratch& scratch);
 // Longest translation of the gathered moves, metres.
 double longest_move(const SolveScratch& scratch);

@@ -11,7 +11,7 @@
 
 namespace handhold {
 
-// Save, reserve and restore the poses of the island's bodies; by slot.
+// Save, reserve and restore the poses of the island's bodies; indexed by slot.
 void save_poses(const IslandView& island, std::vector<Pose>& poses);
 void reserve_poses(const IslandView& island, std::vector<Pose>& poses);
 void restore_poses(const IslandView& island, std::span<const Pose> poses);
@@ -27,8 +27,8 @@ class LoadSteppedDrives {
     // Restores the recorded poses.
     void restore_start(const IslandView& island) const { restore_poses(island, start_); }
 
-    // Offsets the drives' targets so that `share` in [0, 1] of the recorded error is not asked for.
-    // 0: targets are bitwise as recorded.
+    // Offsets the drives' targets so that the solve leaves `share` in [0, 1] of the recorded error.
+    // 0: the targets are bitwise as recorded.
     void withhold_load(const IslandView& island, double share) const;
 
   private:

@@ -1,4 +1,4 @@
-// Solver, newton: solves a large jump of drives in several load steps.
+// Solver, newton: solves a large jump of the drives' targets in several load steps.
 
 #pragma once
 
@@ -6,8 +6,8 @@
 
 namespace handhold {
 
-// Newton's method from the bodies' current poses; leaves them where it ended. Returns not converged
-// and 0 iterations if TriadSystem does not take the island.
+// Runs Newton's method from the bodies' current poses and leaves the bodies where it ended. Returns
+// not converged and 0 iterations if TriadSystem does not accept the island.
 using SolveLoadStep = NewtonResult (*)(const IslandView& island, const NewtonSettings& settings,
                                        SolveScratch& scratch);
 

@@ -21,8 +21,9 @@
 namespace handhold {
 namespace {
 
-// Longest plausible move of a body by joint rows, relative to the residual: an almost stretched
-// chain. Without it a drive that pulls across an endless rail would move a slider without bound.
+// Longest plausible move of a body by joint rows, relative to the residual; almost stretched chains
+// need such moves. Without the limit, a drive that pulls across an endless rail would move a slider
+// without bound.
 constexpr double k_max_joint_move_ratio = 10.0;
 constexpr double k_unlimited_move_m = 0.1;  // a shorter move is always plausible
 // A converged solve whose drive error is above this share of the tolerance takes one more step with
@@ -229,7 +230,8 @@ StepResult take_step(const Regularisation& regularisation, const StepControl& sc
     return result;
 }
 
-// A step with the previous factor. As good as a new one if the poses hardly moved since.
+// Takes a step with the previous factor, which is as good as a new one if the poses hardly moved
+// since.
 template <FactorisedStep Steps>
 void repeat_step(Steps& steps, StepResult& result) {
     steps.solve_with_last_factor();
@@ -249,8 +251,8 @@ bool is_good_step(double residual_m, double previous_m, bool is_factor_cheap,
            (!is_factor_cheap || ratio * residual_m < k_safety * settings.tolerance_m);
 }
 
-// Ends when the error has converged, when the last step was short or the work is spent, or after a
-// step that leaves more than `stall_ratio` of the smallest error so far.
+// Ends when the error has converged, when the last step was short, when the work or the iterations
+// are spent, or after a step that leaves more than `stall_ratio` of the smallest error so far.
 template <NewtonStep Steps>
 NewtonResult iterate(const IslandView& island, const NewtonSettings& settings, double stall_ratio,
                      Steps& steps) {
@@ -261,7 +263,7 @@ NewtonResult iterate(const IslandView& island, const NewtonSettings& settings, d
     double smallest = previous;
     StepResult step{previous, false, {}};
     SteadyDecrease steady(settings.schedule);
-    bool refines_drives = false;  // the next or last step only refines drives
+    bool refines_drives = false;  // the next (or last) step only reduces the drives' errors
     for (;;) {
         const StepErrors errors = steps.evaluate(step.is_whole);
         result.residual_m = errors.worst_m;

@@ -18,7 +18,7 @@ struct NewtonResult {
     double residual_m = 0.0;             // largest error at the end (Row::residual)
     bool converged = false;              // residual_m < tolerance_m
     std::optional<JointError> joints;    // largest joint errors at the end; packed islands only
-    // In some step the active set did not converge: inactive rows may overlap.
+    // In at least one step the active set did not converge: inactive rows may overlap.
     bool active_set_unconverged = false;
     std::uint64_t work = 0;    // spent, in the unit of WorkBudget; packed islands spend none
     bool out_of_work = false;  // ended because it had spent IslandView::max_work

@@ -7,7 +7,8 @@
 namespace handhold {
 namespace {
 
-// Contacts and limits are omitted from a step beyond both this and twice the worst error.
+// Contacts and limits farther away than both this and twice the worst error are omitted from a
+// step.
 constexpr double k_min_active_distance_m = 1e-3;
 
 bool is_unilateral_block(const RowBlock& block) { return is_contact(block) || block.joint.limited; }

@@ -11,8 +11,8 @@ namespace handhold {
 
 bool has_unilateral_block(const IslandView& island);
 
-// Collects the rows that a step may affect. A row that the step violates although it was omitted is
-// within reach in the next one.
+// Collects all equality rows, and the contact and limit rows close enough to become active. If a
+// step violates an omitted row, that row is close enough in the next step.
 void collect_rows(const IslandView& island, std::vector<Row>& rows);
 
 // Deepest overlap of the contact rows, metres.

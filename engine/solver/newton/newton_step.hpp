@@ -1,5 +1,5 @@
-// Solver, newton: what a Newton iteration asks of the linear algebra of one step. Three classes
-// provide it: RowSteps (row by row), TriadSteps (packed), SweepSteps (heaps).
+// Solver, newton: the interface between the Newton iteration and the linear algebra of one step.
+// Three classes implement it: RowSteps (row by row), TriadSteps (packed), SweepSteps (heaps).
 
 #pragma once
 
@@ -23,12 +23,12 @@ struct StepErrors {
 // Hints from the iteration to a step, which may use them to cost less or to converge better.
 struct StepHints {
     bool adds_stiffness = false;  // add geometric stiffness, from the multipliers of the last step
-    // Bodies that the last step moved by less may be skipped; none: all take part.
+    // Bodies that the last step moved by less than this may be skipped; nullopt: none may.
     std::optional<double> min_move_m;
 };
 
-// What the solves since the island was loaded have cost, and whether the last one's active set did
-// not converge.
+// The work of all solves since the island was loaded, and whether the active set of the last solve
+// did not converge.
 struct StepWork {
     std::uint64_t spent = 0;
     bool is_active_set_unconverged = false;
@@ -38,9 +38,9 @@ struct StepWork {
 //   evaluate(was_whole)    errors at the current poses; was_whole: the last step was not scaled
 //                          down
 //   solve(R, factor)       (J W J^T + factor * R) lambda = -C; finds the moves dx = W J^T lambda
-//   longest_move()         of the last solve, metres
-//   largest_rotation()     of the last solve, radians
-//   apply_moves(scale)     moves the bodies; returns the longest move, metres, rotations counting
+//   longest_move()         longest translation in the last solve, metres
+//   largest_rotation()     largest rotation in the last solve, radians
+//   apply_moves(scale)     moves the bodies; returns the longest move, metres; rotations count
 //                          times k_angle_lever_m
 template <typename T>
 concept NewtonStep = requires(T& step, bool was_whole, const Regularisation& r, double scale) {
@@ -51,7 +51,7 @@ concept NewtonStep = requires(T& step, bool was_whole, const Regularisation& r, 
     { step.apply_moves(scale) } -> std::same_as<double>;
 };
 
-// A step that has a factor, and may use it twice.
+// A step that can use its factor again.
 //   prepare(hints)             before every solve but the first
 //   solve_with_last_factor()   in place of `solve`, if StepErrors::keeps_factor
 //   k_has_cheap_factor         a new factor costs little more than a solve

@@ -12,7 +12,8 @@
 
 namespace handhold {
 
-// The step of a heap: joints and drives exactly, contacts by a bounded number of sweeps.
+// The Newton step of a heap: solves joints and drives exactly, contacts and limits by a bounded
+// number of sweeps.
 class SweepSteps {
   public:
     // Convergence limit of the last sweeps, over the stiff rows only (row_sweeps.hpp): the largest
@@ -24,11 +25,12 @@ class SweepSteps {
     static constexpr double k_max_loose_move_m = 0.05;
 
     static constexpr int k_max_iterations = 6;  // Newton steps of a solve
-    static constexpr int k_max_sweeps = 30;     // maximum per Newton step
-    // The solve ends after a step that leaves more of the smallest error.
+    // maximum per Newton step, over all rows and again over the stiff rows
+    static constexpr int k_max_sweeps = 30;
+    // The solve ends after a step that leaves more than this share of the smallest error so far.
     static constexpr double k_stall_ratio = 0.7;
 
-    // `tolerance_m`: NewtonSettings.
+    // `tolerance_m` is NewtonSettings::tolerance_m.
     SweepSteps(const IslandView& island, double tolerance_m, SolveScratch& scratch)
         : island_(island), tolerance_m_(tolerance_m), scratch_(scratch) {
         clear_stiffness(island_, scratch_);
@@ -61,7 +63,7 @@ class SweepSteps {
     double apply_moves(double scale) { return handhold::apply_moves(island_, scale, scratch_); }
 
   private:
-    // Overlaps within a heap count from k_heap_slack_m.
+    // Largest error of a row, metres; overlaps of heap contacts up to k_heap_slack_m do not count.
     double worst_m() const {
         double worst = 0.0;
         for (std::size_t i = 0; i < scratch_.rows.size(); i += scratch_.rows[i].width) {
@@ -73,7 +75,8 @@ class SweepSteps {
         }
         return worst;
     }
-    // Bodies that were spawned in one place come apart over several frames.
+    // Limits the moves of loose bodies. Bodies that were spawned in one place separate over several
+    // frames.
     void limit_loose_moves() {
         for (const std::uint32_t i : island_.island_bodies) {
             const SolverBody& body = island_.bodies[i];

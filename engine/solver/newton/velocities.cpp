@@ -110,9 +110,9 @@ void stick(SolveScratch& scratch, SolveScratch::Friction& friction) {
     }
 }
 
-// Coulomb's law for one friction after a solve. A multiplier above its limit slides: it is fixed at
-// the limit, opposing the slip. A sliding one that pushes along its slip sticks again. True if the
-// next solve changes.
+// Applies Coulomb's law to one friction after a solve. If its multiplier exceeds the limit, the
+// friction slides: the multiplier is fixed at the limit, opposing the slip. A sliding friction that
+// pushes along its slip sticks again. Returns true if another solve is needed.
 bool apply_friction_law(std::span<const double> lambda, bool may_stick, SolveScratch& scratch,
                         SolveScratch::Friction& friction) {
     const double limit = friction.coefficient > 0.0
@@ -198,7 +198,8 @@ void apply_impulses(const IslandView& island, std::span<const double> lambda,
 
 // --- Methods -------------------------------------------------------------------------------------
 
-// Both solve for the multipliers of scratch.rows, write scratch.lambda and gather the moves.
+// Both methods solve for the multipliers of scratch.rows, write scratch.lambda and gather the
+// moves.
 class DirectMethod {
   public:
     DirectMethod(const IslandView& island, const VelocitySettings& settings, SolveScratch& scratch)
@@ -289,7 +290,7 @@ class SweepMethod {
     static constexpr double k_tolerance_mps = 1e-8;
     static constexpr double k_heap_tolerance_mps = 1e-5;
     static constexpr int k_max_heap_sweeps = 60;
-    static constexpr int k_max_sweeps = 30;  // maximum once the direct solve has found no answer
+    static constexpr int k_max_sweeps = 30;  // maximum after a failed direct solve
 
     SweepMethod(const IslandView& island, const VelocitySettings& settings, SolveScratch& scratch)
         : island_(island), settings_(settings), scratch_(scratch) {

@@ -9,7 +9,7 @@ namespace handhold {
 
 // Fallbacks that an island's velocity solve took.
 struct VelocityResult {
-    // Stick and slip did not converge: the result is the last iterate, or that of sweeps.
+    // The stick-slip iteration did not converge, or sweeps replaced a failed direct solve.
     bool unconverged = false;
     bool out_of_work = false;  // ended because it had spent IslandView::max_work
 };

@@ -7,7 +7,7 @@
 namespace handhold {
 namespace {
 
-// Kinetic energy of the gathered moves if they were velocities, J.
+// Kinetic energy of the gathered moves, taken as velocities, J.
 double kinetic_energy(const IslandView& island, const SolveScratch& scratch) {
     double energy = 0.0;
     for (const std::uint32_t index : island.island_bodies) {
@@ -25,8 +25,8 @@ double kinetic_energy(const IslandView& island, const SolveScratch& scratch) {
     return energy;
 }
 
-// Linear part of the work function, J: the rows' velocities before, relative to what drives and
-// motors ask for, times the multipliers. Restitution is not part of it.
+// Linear part of the work function, J: the rows' velocities before the solve, relative to the
+// velocities that drives and motors require, times the multipliers. Restitution is not part of it.
 double linear_work(const SolveScratch& scratch) {
     double work = 0.0;
     for (std::size_t i = 0; i < scratch.rows.size(); ++i) {

@@ -1,4 +1,5 @@
-// Solver, packed: finds strands in an island's chains.
+// Solver, packed: cuts the long chains of an island into strands, which are eliminated four at a
+// time (strand_plan.hpp).
 // Source: nested dissection after George, Nested Dissection of a Regular Finite Element Mesh
 // (1973), applied to a path.
 #include "engine/solver/packed/strand_plan.hpp"

@@ -33,22 +33,22 @@ class StrandPlan {
     // Four strands of equal length, one per lane.
     struct StrandPack {
         std::uint32_t length = 0;  // links per strand
-        std::uint32_t row = 0;     // first of its length + 1 rows, in bodies()
-        std::uint32_t links = 0;   // first of its `length` steps, in links()
-        // By lane: the node of the rest at the strand's first body, as 2 * (index in rest()) +
-        // side; k_no_slot if there is none.
+        std::uint32_t row = 0;     // index in bodies() of the first of its length + 1 rows
+        std::uint32_t links = 0;   // index in links() of the first of its `length` steps
+        // Indexed by lane: the node of the rest at the strand's first body, as 2 * (index in
+        // rest()) + side; k_no_slot if there is none.
         Lanes before{};
         Lanes after{};  // same, at the last body
     };
     std::span<const StrandPack> strand_packs() const { return strand_packs_; }
     std::size_t row_count() const { return bodies_.size(); }
-    // By row: slots of its four bodies. k_no_slot if a strand starts at an immovable body.
+    // Indexed by row: slots of its four bodies. k_no_slot if a strand starts at an immovable body.
     std::span<const Lanes> bodies() const { return bodies_; }
     // For each step k of each strand pack, by lane: 2 * (the link's node) + its side at row k.
     std::span<const Lanes> links() const { return links_; }
 
     std::span<const std::uint32_t> rest() const { return rest_; }  // node numbers, ascending
-    // By node: its index in rest(); k_no_slot if it is in a strand.
+    // Indexed by node: the node's index in rest(); k_no_slot if it is in a strand.
     std::span<const std::uint32_t> places() const { return places_; }
     std::span<const RowNode> rest_nodes() const { return rest_nodes_; }
     std::span<const std::uint8_t> rest_can_rotate() const { return rest_can_rotate_; }
@@ -82,11 +82,12 @@ class StrandPlan {
     std::size_t slot_count_ = 0;
 
     // Scratch of build.
-    // by slot: its first two nodes, as 2 * node + side
+    // Indexed by slot: its first two nodes, as 2 * node + side.
     std::vector<std::array<std::uint32_t, 2>> ends_;
     std::vector<std::uint32_t> uses_;    // number of nodes of each slot
     std::vector<std::uint8_t> is_open_;  // one per node; 1: a link in no run yet
-    std::vector<std::uint32_t> run_;     // the current run: 2 * node + side nearer its start
+    // links of the current run, as 2 * node + the side nearer the run's start
+    std::vector<std::uint32_t> run_;
     std::vector<std::uint32_t> strand_of_slot_;
 };
 

@@ -283,7 +283,7 @@ HH_INLINE void take_moves(const WideWrench& wrench, Bodies4& bodies, WideLargest
     reach.turn = larger(reach.turn, dot(turn, turn));
 }
 
-// W J^T lambda.
+// Computes the bodies' moves W J^T lambda. Returns the largest.
 HH_INLINE LargestMove gather_moves(const TriadArrays& arrays) {
     const std::span<const TriadPlan::Group> groups = arrays.plan->groups();
     WideLargestMove reach;

@@ -96,10 +96,10 @@ struct TriadArrays {
     std::span<Wide3> multipliers;  // lambdas of strand packs: see TriadPlan::StrandPack::bound
     std::span<Strands4> strands;   // indexed by strand pack
     std::span<TriadVector> ends;   // contribution of each end to the triad's residual
-    // By triad: residual, as Row::residual (metres or m/s; angles times k_angle_lever_m).
+    // Indexed by triad: residual, as Row::residual (metres or m/s; angles times k_angle_lever_m).
     std::span<TriadVector> values;
-    std::span<TriadVector>
-        lambdas;  // impulse of each triad on a in the last solve; b gets the opposite
+    // impulse of each triad on a in the last solve; b gets the opposite
+    std::span<TriadVector> lambdas;
     std::span<const std::uint8_t> is_drive;  // one per triad; 1: a drive
     std::span<Rows3> blocks;    // matrix, then factor; indexed by the plan's block index
     std::span<Rows3> inverses;  // inverse of each step's diagonal block

@@ -6,8 +6,8 @@
 namespace handhold {
 namespace {
 
-// True if all rows of the block are equations in every state: none may release, slide, stop or
-// yield.
+// True if the block's rows form whole triads that are equations in every state: no contacts, limits
+// or friction.
 bool always_holds(const RowBlock& block) {
     switch (block.kind) {
         case RowKind::drive_point:

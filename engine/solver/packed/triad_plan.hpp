@@ -34,8 +34,8 @@ class TriadPlan {
         std::uint32_t own = 0;
         std::uint32_t later_begin = 0;  // index into later()
         std::uint32_t later_end = 0;
-        // Into updates(): one target block for each pair (x, y) of later nodes, x <= y, by x, then
-        // by y.
+        // Index into updates() of the first target block. There is one for each pair (x, y) of
+        // later nodes, x <= y, sorted by x, then by y.
         std::uint32_t updates = 0;
         bool is_independent = false;  // not coupled with the node of the previous step
     };
@@ -51,11 +51,11 @@ class TriadPlan {
     // One number per lane. Lane l of group g is the body at place 4 * g + l.
     using Lanes = StrandPlan::Lanes;
     static constexpr std::size_t k_lanes = std::tuple_size_v<Lanes>;
-    // By node of the rest: the given node.
+    // Indexed by node of the rest: the given node.
     std::span<const std::uint32_t> rest() const { return strands_.rest(); }
-    // By slot: the body's place, 4 * group + lane. Rows of strands are the first groups.
+    // Indexed by slot: the body's place, 4 * group + lane. Rows of strands are the first groups.
     std::span<const std::uint32_t> places() const { return places_; }
-    // By place: the slot; k_no_slot where a strand starts at an immovable body.
+    // Indexed by place: the slot; k_no_slot where a strand starts at an immovable body.
     std::span<const std::uint32_t> slots() const { return slots_; }
     std::size_t group_count() const { return strands_.row_count() + groups_.size(); }
     // Ends of the packed bodies, as 2 * given node + side. Each entry holds one end for each of
@@ -73,25 +73,25 @@ class TriadPlan {
         // First of its length + 2 elements in TriadArrays::multipliers: those of `before`, of each
         // step and of `after`.
         std::uint32_t bound = 0;
-        Lanes
-            before{};   // one per lane: end of a node of the rest at the first body, or dummy_end()
+        // one per lane: end of a node of the rest at the first body, or dummy_end()
+        Lanes before{};
         Lanes after{};  // same, at the last body
-        // By lane: blocks of `before`, of `after` and between both, or dummy_block(). The
-        // elimination of the strand changes them.
+        // Indexed by lane: the block of `before`, that of `after` and the one that couples both, or
+        // dummy_block(). The elimination of the strand changes these blocks.
         Lanes block_before{};
         Lanes block_after{};
         Lanes block_between{};
-        // true: the rows of block_between are those of `before`; false: of `after`
+        // true: the rows of block_between belong to `before`; false: to `after`
         std::array<bool, 4> before_first{};
     };
     std::span<const StrandPack> strand_packs() const { return strand_packs_; }
-    // By step k of a strand pack and lane: 2 * (given node of the link) + its side at row k.
+    // Indexed by step k and lane: 2 * (given node of the link) + the link's side at row k.
     std::span<const Lanes> links(const StrandPack& strand_pack) const {
         return strands_.links().subspan(strand_pack.step, strand_pack.length);
     }
     std::size_t strand_pack_steps() const { return strands_.links().size(); }
     // First end of a strand that starts at an immovable body, and the place of the body that is
-    // packed instead of it (see TriadSystem::Anchor).
+    // packed instead of that body (see TriadSystem::Anchor).
     struct AnchoredEnd {
         std::uint32_t end = 0;
         std::uint32_t place = 0;
@@ -108,11 +108,11 @@ class TriadPlan {
         std::uint32_t group_index = 0;  // index among all groups; rows of strands come first
         std::uint32_t packed = 0;       // index into packed_ends()
         std::uint32_t ends = 0;         // index into ends() of the first of `width` entries
-        // Into TriadPlan::pairs(): one pair for each two of a body's ends, in the order of
-        // Step::updates: (0, 0), (0, 1) .. (1, 1), (1, 2) ..
+        // Index into pairs() of the first pair. There is one for each two of a body's ends, in the
+        // order of Step::updates: (0, 0), (0, 1) .. (1, 1), (1, 2) ..
         std::uint32_t pairs = 0;
     };
-    // By lane: the block to which the product of two ends is added, or dummy_block().
+    // Indexed by lane: the block to which the product of two ends is added, or dummy_block().
     struct Pair {
         Lanes blocks{};
         bool is_alone = false;  // no other product is added to any of these blocks
@@ -165,7 +165,7 @@ class TriadPlan {
     std::size_t block_count_ = 0;
 
     // Scratch of build.
-    // First the ends of each slot, later the products that write each block.
+    // First the number of ends at each slot, later the number of products added to each block.
     std::vector<std::uint32_t> counts_;
     std::vector<std::uint8_t> is_written_;  // indexed by block
 };

@@ -102,14 +102,15 @@ HH_INLINE bool is_coupling_negligible(const StrandElimination& at) {
     return all_of(square <= (k_negligible * k_negligible) * dot(at.diagonal, at.diagonal));
 }
 
-// Eliminates the links of a strand pack, each as soon as both its bodies have contributed. The next
-// row's product then overlaps with the latency of the link's inverse. Returns the first step that
-// is not coupled with `before`.
+// Eliminates the links of a strand pack in order, each as soon as both its bodies have contributed
+// to its block. The contributions of the next bodies can then be computed while the link's inverse
+// is still in the pipeline. Returns a step from which on no link is coupled, except negligibly,
+// with the node before the strand (StrandPack::before).
 template <bool HasTurn>
 HH_INLINE std::size_t eliminate_links(const StrandPackRange& part, const StrandPackArrays& of,
                                       double joint_alpha, StrandElimination& at) {
-    constexpr std::size_t k_check_interval =
-        8;  // test for a negligible coupling every this many links
+    // Number of links between two tests of the coupling.
+    constexpr std::size_t k_check_interval = 8;
     const std::size_t end = part.has_after ? part.end_step : part.end_step - 1;
     std::size_t k = part.first_step;
     bool carries = part.has_before;

@@ -13,7 +13,7 @@ namespace handhold::triads {
 // The elements of TriadArrays that belong to one strand pack.
 struct StrandPackArrays {
     Bodies4* bodies;  // indexed by row
-    Ends4* ends;  // [2 * row]: the row's ends of the link before; [2 * row + 1]: of the link after
+    Ends4* ends;  // [2 * row]: the row's ends of the previous link; [2 * row + 1]: of the next link
     Links4* links;       // indexed by step
     Wide3* multipliers;  // one for `before`, one per step, one for `after`
 };

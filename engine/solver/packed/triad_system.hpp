@@ -100,7 +100,7 @@ class TriadSystem {
     // `min_move_m` (rotations count times k_angle_lever_m). A long rope moves where it is pulled
     // and is at rest elsewhere. Call only if the residuals are those of the current poses.
     void restrict_to_active(double min_move_m);
-    // Undoes the restriction, as after `load` and `resume`.
+    // Undoes the restriction; `load` and `resume` do so too.
     void activate_all_rows();
     // Rows of strand packs (four bodies each): active, and in total.
     std::size_t active_rows() const;
@@ -168,8 +168,8 @@ class TriadSystem {
     std::size_t triad_count_ = 0;
     std::vector<Triad> triads_;
     std::vector<Anchor> anchors_;
-    std::vector<TriadVector>
-        points_;  // one per end; x, y, z: anchor point times the sign; w: the sign
+    // one per end; x, y, z: anchor point times the sign; w: the sign
+    std::vector<TriadVector> points_;
     std::vector<TriadVector> impulses_;  // sum of the lambdas of each triad outside strands
 
     // Storage of `arrays`; documented at TriadArrays.
@@ -192,7 +192,7 @@ class TriadSystem {
     std::vector<RowNode> nodes_;
     std::vector<std::uint8_t> may_turn_;  // indexed by slot
     std::vector<std::uint8_t> uses_;      // number of triads at each slot's body
-    double drive_scale_ = 0.0;            // scale of the last unrestricted factor
+    double drive_scale_ = 0.0;  // value of drive_scale() at the last unrestricted factorisation
     double longest_move_ = 0.0;
     double largest_rotation_ = 0.0;
     bool is_evaluated_ = false;  // residuals are those of the current poses

@@ -179,8 +179,8 @@ void EliminationPlan::order_nodes() {
     lay_out();
 }
 
-// The node's neighbours become neighbours of each other (fill). The node's own list is kept: it
-// holds the blocks of its panel.
+// The node's neighbours become neighbours of each other (fill). The node's own list is kept,
+// because lay_out makes its panel's blocks from it.
 void EliminationPlan::eliminate(std::uint32_t node) {
     eliminated_[node] = 1;
     order_.push_back(node);

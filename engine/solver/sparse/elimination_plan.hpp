@@ -15,13 +15,13 @@ namespace handhold {
 
 // Maximum width of a node, in rows: four contacts with friction.
 inline constexpr std::uint32_t k_widest_node = 12;
-// Smallest pivot, relative to the diagonal. A row with a smaller pivot is linearly dependent on
-// others to a degree that alpha cannot separate.
+// Smallest pivot, relative to the diagonal. A row with a smaller pivot depends linearly on others,
+// so closely that the regularisation cannot separate them.
 inline constexpr double k_smallest_pivot = 1e-14;
 inline constexpr std::uint32_t k_hub_nodes = 4;  // bodies with more row nodes are hubs
 inline constexpr std::uint32_t k_no_slot = std::numeric_limits<std::uint32_t>::max();
 
-// Reserves in the vectors `here` the capacities of the vectors `other`; both are std::tie.
+// Reserves for each vector of the tuple `here` the capacity of its counterpart in `other`.
 template <typename Here, typename Other>
 void reserve_as(const Other& other, Here&& here) {
     [&]<std::size_t... I>(std::index_sequence<I...>) {
@@ -40,9 +40,9 @@ struct RowNode {
     bool operator==(const RowNode&) const = default;
 };
 
-// Nodes are numbered: row nodes in the order given, then hubs. A hub is a body with many row nodes.
-// J W J^T would couple each of these nodes with every other. To avoid that, the hub's motion,
-// negated, is an unknown of its own, six wide, and the matrix is
+// Nodes are numbered: row nodes in the order given, then hubs. A hub is a body with many row nodes
+// or rows. J W J^T would couple each of its nodes with every other. To avoid that, the hub's
+// motion, negated, is an unknown of its own, six wide, and the matrix is
 //   [ J_l W_l J_l^T + R   -J_h ]     l: the other bodies, h: hubs, M_h: mass matrices of the hubs
 //   [ -J_h^T              -M_h ]
 // This matrix is symmetric quasi-definite, so an LDL^T exists for every order (Vanderbei 1995).
@@ -51,7 +51,7 @@ struct RowNode {
 // nodes that it is coupled with. Together the panels are the matrix's upper triangle, by rows.
 class EliminationPlan {
   public:
-    // `can_rotate` by slot; 0 for translating bodies.
+    // `can_rotate` is indexed by slot; 0 for translating bodies.
     void build(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate);
     // Reserves the capacities of `other`, so that building the same structure does not allocate.
     void reserve(const EliminationPlan& other);
@@ -64,9 +64,10 @@ class EliminationPlan {
         std::uint32_t stride = 0;        // length of a row
         std::uint32_t begin = 0;         // first value, in BlockFactor::values()
         std::uint32_t scalar = 0;        // index of the node's first unknown
-        std::uint32_t blocks_begin = 0;  // index in blocks_ of the blocks with later nodes
+        std::uint32_t blocks_begin = 0;  // index in blocks_ of the first block with a later node
         std::uint32_t blocks_end = 0;
-        // Into updates(): one target for each pair (x, y) of its blocks, x <= y, by x, then by y.
+        // Index into updates() of the first target. There is one for each pair (x, y) of the
+        // panel's blocks, x <= y, sorted by x, then by y.
         std::uint32_t updates = 0;
     };
     struct Block {
@@ -81,8 +82,8 @@ class EliminationPlan {
         std::uint32_t target = 0;
         std::uint32_t stride = 0;
     };
-    // Location of a row node's -J in the matrix: in the hub's rows if `hub_first`, else in its
-    // columns.
+    // Location of a row node's -J in the matrix: in the hub's rows if `hub_first`, else in the
+    // hub's columns.
     struct HubCoupling {
         std::uint32_t end = 0;  // 2 * node + side
         std::uint32_t target = 0;
@@ -91,7 +92,7 @@ class EliminationPlan {
     };
     struct Hub {
         std::uint32_t slot = 0;
-        std::uint32_t target = 0;  // diagonal block of the target
+        std::uint32_t target = 0;  // first value of the hub's diagonal block
         std::uint32_t stride = 0;
     };
     // Location of a node's columns in an earlier panel. The column of the node's unknown m has the

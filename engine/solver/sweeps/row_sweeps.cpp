@@ -249,7 +249,7 @@ void RowSweeps::push(const PackedRow& row, double impulse) {
     }
 }
 
-// One Gauss-Seidel step. Returns by how much it changed a residual.
+// Makes one Gauss-Seidel step for a group. Returns the largest change of the group's residuals.
 double RowSweeps::visit(const Group& group) {
     std::array<double, 3> wanted{};
     double square = 0.0;
@@ -294,11 +294,11 @@ double RowSweeps::sweep(bool forwards, bool only_stiff) {
     return changed;
 }
 
-// Non-smooth nonlinear conjugate gradients: a sweep is taken for a gradient step, to which a share
-// of the last direction is added; the next sweep projects what that exceeds.
-//   g = lambda before the sweep - after,  beta = |g|^2 / |last g|^2,  p <- beta p - g,  lambda +=
-//   beta p
-// A growing gradient restarts from it.
+// Non-smooth nonlinear conjugate gradients: a sweep counts as a gradient step. A share of the last
+// direction is added to it; if that violates a bound, the next sweep projects it back.
+//   g = lambda before the sweep - after,  beta = |g|^2 / |last g|^2
+//   lambda += beta p,  p <- beta p - g
+// If the gradient grew, beta is 0, which restarts the search.
 void RowSweeps::accelerate(double& last_square) {
     double square = 0.0;
     for (std::size_t i = 0; i < lambda_.size(); ++i) {

@@ -1,15 +1,15 @@
 // Solver, sweeps: bounded iterative solve for islands with many contacts (heaps). Joints and drives
-// are eliminated exactly, contacts and friction are solved by projected Gauss-Seidel:
+// are eliminated exactly, contacts, limits and friction are solved by projected Gauss-Seidel:
 //   rows E (joints, drives), rows U (contacts, limits, friction), v = W J^T lambda
-//   P = I - W J_E^T (J_E W J_E^T + R_E)^-1 J_E        what E leaves of a body's motion
-//   sweep over i in U:  lambda_i <- bound(lambda_i - (C_i + J_i v + R_i lambda_i) / (J_i w_i +
-//   R_i))
-//                       v += w_i (change of lambda_i),     w_i = P W J_i^T
-// The last sweeps are over the stiff rows only, those that move a body which is not in a heap: they
-// end satisfied, and what the limits leave is an overlap within the heap.
-// Every iterate satisfies the rows E exactly, so what a hand holds moves as one body with its
-// player. Rows of bodies without joints and drives have w_i = W J_i^T, two bodies; the others have
-// one entry for each body that E couples.
+//   P = I - W J_E^T (J_E W J_E^T + R_E)^-1 J_E        removes the motions that E does not allow
+//   sweep over i in U:
+//     lambda_i <- bound(lambda_i - (C_i + J_i v + R_i lambda_i) / (J_i w_i + R_i))
+//     v += w_i (change of lambda_i),     w_i = P W J_i^T
+// The last sweeps visit only the stiff rows, which move a body that is not in a heap. The error
+// that then remains is overlap within the heap. The rows E are satisfied exactly after every sweep,
+// so a held body moves as one body with its player. If neither body of row i has rows in E, w_i = W
+// J_i^T has an entry for each of the two bodies. Otherwise w_i has one for each body that E
+// connects with them.
 // Sources: Jean, The Non-Smooth Contact Dynamics Method (1999): Gauss-Seidel per contact with
 // Coulomb's cone. docs/reference/solver.md has the derivation.
 
@@ -35,9 +35,12 @@ struct BoundedRows {
 };
 
 struct SweepLimits {
-    std::uint64_t max_work = 0;  // since `assemble`; the last sweep is completed
+    // no sweep starts once work() has reached this; a running sweep is completed
+    std::uint64_t max_work = 0;
+    // maximum number of sweeps over all rows, and again over the stiff rows
     int max_sweeps = 0;
-    // Sweeps end when none changes a residual by more than this: rows within a heap, and the rest.
+    // Sweeps end when a sweep changes every residual by less than this: the sweeps over all rows,
+    // and those over the stiff rows only.
     double heap_tolerance = 0.0;
     double tolerance = 0.0;
 };
@@ -46,8 +49,8 @@ class RowSweeps {
   public:
     using Twist = RowMatrix::Twist;
 
-    // Takes an island's rows. `inverse_inertia_ws` is by slot, one entry per body. `bounded` is
-    // sorted by row. Rows that are neither unilateral nor bounded are solved exactly.
+    // Takes an island's rows. `inverse_inertia_ws` is indexed by slot, one entry per body.
+    // `bounded` is sorted by row. Rows that are neither unilateral nor bounded are solved exactly.
     void assemble(std::span<const SolverBody> bodies, std::span<const Mat3> inverse_inertia_ws,
                   std::span<const Row> rows, std::span<const BoundedRows> bounded);
 
@@ -81,11 +84,11 @@ class RowSweeps {
         std::array<double, 6> jacobian_b{};
         std::array<double, 6> response_a{};  // W J^T
         std::array<double, 6> response_b{};
-        double inverse_diagonal =
-            0.0;  // inverse of the diagonal of J w + R; 0: nothing can move this row
+        // inverse of the diagonal of J w + R; 0: nothing can move this row
+        double inverse_diagonal = 0.0;
         std::uint32_t slot_a = 0;
         std::uint32_t slot_b = 0;
-        // Range in `responses_` that replaces response_a and response_b; empty: none.
+        // Range in `responses_` that replaces response_a and response_b; empty: not replaced.
         std::uint32_t responses_begin = 0;
         std::uint32_t responses_end = 0;
     };
@@ -135,11 +138,12 @@ class RowSweeps {
 
     RowMatrix exact_;
     std::vector<Row> exact_rows_;
-    std::vector<std::uint32_t> exact_indices_;  // indices into the rows
+    // index of each exact row among the rows of `assemble`
+    std::vector<std::uint32_t> exact_indices_;
     std::vector<std::uint8_t> chosen_;
     std::vector<double> exact_values_;
     std::vector<double> exact_lambda_;
-    // Clusters are the sets of bodies that exact rows connect, named by their lowest slot.
+    // Clusters are the sets of bodies that exact rows connect, numbered by their lowest slot.
     std::vector<std::uint32_t> cluster_of_slot_;
     std::vector<std::uint32_t> cluster_size_;   // indexed by cluster
     std::vector<std::uint32_t> cluster_begin_;  // index of each cluster in cluster_slots_

@@ -24,7 +24,8 @@ constexpr double k_widest_cast_m = 0.105;  // greatest radius of a cast, for pla
 constexpr double k_sole_m = 0.11;          // distance of the sole below the ankle
 constexpr double k_ahead_m = 0.15;         // margin for motion until the next search
 
-// True if this part is searched in this frame. The phase differs between players and parts.
+// True if this part is searched in this frame. The phase differs between players and parts, which
+// spreads the searches over frames.
 bool searches_now(double t_s, double dt_s, std::uint64_t player, std::size_t part) {
     constexpr std::uint64_t k_phases = 8;
     const double phase = static_cast<double>(player % k_phases) / static_cast<double>(k_phases) +
@@ -66,7 +67,7 @@ bool is_tracked_floor(const Vec3& normal_ps, double surface_m, const TrackedFloo
            std::abs(surface_m / normal_ps.y() + floor.chest_m) < k_near_m;
 }
 
-// Casts a sphere along a part unless the last answer still holds.
+// Casts a sphere along a part unless the last result is still valid.
 void search_part(const BodySurroundings& around, const Vec3& from_ws, const Vec3& to_ws,
                  double radius_m, BodySearch& search) {
     const std::array<std::uint64_t, 1> skip = {around.own_id};
@@ -107,7 +108,8 @@ void search_part(const BodySurroundings& around, const Vec3& from_ws, const Vec3
 
 BodyContact find_contact(const BodySurroundings& around, std::size_t part, SpineMemory& memory) {
     const PartLine line = line_of(around, part);
-    // A cast that begins behind a surface would find its back.
+    // A cast that begins behind the trunk's surface would hit the surface from behind. The part
+    // then uses the trunk's contact.
     const BodyContact& trunk = memory.contacts[0];
     if (part > 0 && trunk.touches &&
         trunk.normal_ps.dot(line.from_m) < trunk.surface_m - line.radius_m) {
@@ -132,7 +134,8 @@ BodyContact find_contact(const BodySurroundings& around, std::size_t part, Spine
     const Vec3 normal_ps = around.origin_ws.rotation.conjugate() * search.normal_ws;
     const double surface_m =
         normal_ps.dot(inverse_transform_point(around.origin_ws, search.point_ws) - around.chest_ps);
-    const double pelvis_m =  // length of the chain before it is folded
+    // Height of the pelvis above the floor before the chain is folded.
+    const double pelvis_m =
         (around.floor.chest_m + memory.offset_m[k_spine_links - 1].y()) / around.floor.scale;
     if (legs_fold(pelvis_m) && is_tracked_floor(normal_ps, surface_m, around.floor)) {
         return {};

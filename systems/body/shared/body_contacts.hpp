@@ -6,10 +6,11 @@
 #include "systems/body/shared/pose_spine.hpp"
 #include "systems/body/shared/spine_chain.hpp"
 
-// Surfaces that the shown trunk and legs keep in front of. They apply no force to them.
+// Finds surfaces at the shown trunk and legs, and keeps those in front of the surfaces. The body
+// applies no force to the surfaces.
 namespace handhold {
 
-// What the search for surfaces knows of a player.
+// Inputs of find_body_contacts for one player.
 struct BodySurroundings {
     SurfaceQuery surfaces;
     std::uint64_t own_id = 0;  // id of the player, whose head is ignored
@@ -17,8 +18,8 @@ struct BodySurroundings {
     Vec3 head_ps = Vec3::Zero();  // a point well inside the head's collider
     Vec3 chest_ps = Vec3::Zero();
     TrackedFloor floor;
-    // The body as it was shown in the last frame: parts are searched where they are seen, with
-    // clips.
+    // The body as it was shown in the last frame, with clips: surfaces are searched at the parts
+    // where they are seen.
     const SpinePose& shown;
 };
 
@@ -30,11 +31,11 @@ inline constexpr double k_part_moved_m = 0.005;
 // part's end that is nearer to the head. The last result is reused while no surface near the part
 // has moved and both ends have moved by less than k_part_moved_m. It is never reused if
 // SurfaceQuery::hash_near returns nullopt. In frames between searches the plane moves with the
-// reference velocity. `moved_m`: displacement of the chest relative to it.
+// reference velocity. `moved_m`: displacement of the chest in this frame relative to that motion.
 void find_body_contacts(const BodySurroundings& around, double t_s, double dt_s,
                         const Vec3& moved_m, SpineMemory& memory);
 
-// The contact of a link's part; null: none.
+// The contact of the body part to which a link belongs; null if it touches nothing.
 const BodyContact* contact_of(const SpineMemory& memory, std::size_t link);
 
 // Turns a link's direction, in its parent's frame, until the link's lower end is in front of the
@@ -43,8 +44,9 @@ const BodyContact* contact_of(const SpineMemory& memory, std::size_t link);
 Vec3 before_surface(const Vec3& towards, const Vec3& base_m, double length_m,
                     const SpineFrame& above, const BodyContact& contact);
 
-// Returns the velocity of a joint after a correction that a surface took part in. The joint neither
-// moves into the surface, nor away from it faster than before.
+// Returns the velocity of a joint that touches a surface, after correction_mps was added to it. Its
+// normal part is limited so that the joint neither moves into the surface nor leaves it faster than
+// before. Then all of it is reduced, because surfaces are rough.
 Vec3 touching_mps(const Vec3& normal, const Vec3& velocity_mps, const Vec3& correction_mps);
 
 }  // namespace handhold

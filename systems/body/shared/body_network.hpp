@@ -24,7 +24,7 @@ struct BodyNetwork {
     std::array<float, Hidden * Outputs> weights1;
     std::array<float, Outputs> bias1;
     // Mean squares of the inputs, in standard deviations, between which `familiarity` falls from 1
-    // to 0. About 1 for the data.
+    // to 0. The mean square is about 1 for the data of the fit.
     double familiar;
     double foreign;
 };

@@ -62,14 +62,14 @@ class SideInputs {
     explicit SideInputs(HandSide side) : side_(side) {}
 
     void add(double value) { values_[count_++] = static_cast<float>(value); }
-    // A value that changes its sign in the mirror.
+    // Adds a value whose sign changes if the player is mirrored.
     void add_lateral(double value) { add(side_ == HandSide::right ? value : -value); }
     void add(const Vec3& v) {
         add_lateral(v.x());
         add(v.y());
         add(v.z());
     }
-    // All products a_i b_j.
+    // Adds all products a_i b_j.
     void add_products(const Vec3& a, const Vec3& b) {
         const Vec3 a_right = mirrored_if_left(a, side_);
         const Vec3 b_right = mirrored_if_left(b, side_);

@@ -29,7 +29,8 @@ double clavicle_reach_m(double distance) {
     return k_curve.back().reach_m;
 }
 
-constexpr double k_near_bend_cosine = 0.95;  // share_of_line is used for larger cosines
+// For larger cosines a turn is computed along the chord (share_of_line), without trigonometry.
+constexpr double k_near_bend_cosine = 0.95;
 
 }  // namespace
 
@@ -59,7 +60,7 @@ Vec3 elbow_pole(const BodyView& view, HandSide side) {
            k_pole_thumb * thumb;
 }
 
-// The order is that of tools/lab/bodies/estimator.py.
+// The order of the network's inputs is that of tools/lab/bodies/estimator.py.
 Vec3 elbow_correction(const BodyView& view, const std::array<ArmLine, k_hand_count>& lines,
                       double turned, double arm_m, HandSide side) {
     const std::size_t own = index_of(side);
@@ -76,7 +77,7 @@ Vec3 elbow_correction(const BodyView& view, const std::array<ArmLine, k_hand_cou
     inputs.add(lines[1 - own].reach_ts * (1.0 / arm_m));
     const auto answer = evaluate(body_constants::k_elbow_network, inputs.values());
     // Near the shoulder wrists bend most, and the training data's wrists are synthetic: there the
-    // formula without a network is better for people who were not fitted.
+    // formula without a network is better for people who are not in the data of the fit.
     const double trust =
         answer.familiarity * smooth_step(line.distance_m / arm_m, body_constants::k_near_shoulder,
                                          body_constants::k_off_shoulder);

@@ -7,9 +7,9 @@
 #include "engine/math/math.hpp"
 #include "systems/body/shared/body_view.hpp"
 
-// Shoulder and elbow of each arm: the talk's form (rows 20 to 22), then a network's correction of
-// the elbow's direction. Torso axes (_ts): -Z where the chest faces, +Y the play space's up.
-// Constants: body_constants.hpp, fitted by tools/lab/fit_body.
+// Estimates shoulder and elbow of each arm by the talk's formulas (rows 20 to 22), and corrects the
+// elbow's direction by a network. Torso axes (_ts): -Z where the chest faces, +Y the play space's
+// up. Constants: body_constants.hpp, fitted by tools/lab/fit_body.
 namespace handhold {
 
 // Displacement of the shoulder by the clavicle's movement, metres. `hand`: position relative to the

@@ -18,10 +18,12 @@ struct ChestView {
     BodyView axes;
     std::array<Vec3, k_hand_count> hand;  // offset from the eyes in arm lengths
     std::array<double, k_hand_count> distance;
-    std::array<double, k_look_filters> turned;  // sines of the look direction, see chest_inputs
+    // Sines of the angles to the unfiltered look direction: from the facing, then from the filtered
+    // looks.
+    std::array<double, k_look_filters> turned;
 };
 
-// The order is that of tools/lab/bodies/estimator.py.
+// The order of the network's inputs is that of tools/lab/bodies/estimator.py.
 ChestInputs chest_inputs(const ChestView& view, HandSide side) {
     const std::size_t own = index_of(side);
     const std::size_t other = 1 - own;
@@ -197,7 +199,7 @@ Pose chest_pose(const Vec3& facing_ps, const Quat& lean_ps, const ChestOffset& o
         trunk.eyes_ps + scale * (level.toRotationMatrix() * from_neck - k_neck_m * trunk.up_ps),
         rolled};
     if (trunk.lying > 0.0) {
-        constexpr double k_shoulder_m = 0.05;  // half as thick as an arm
+        constexpr double k_shoulder_m = 0.05;  // half the thickness of an arm
         const double half_m = 0.5 * body.measures.shoulder_width_m;
         const double lowest_m = chest.position.y() - body.floor_m -
                                 half_m * std::abs((chest.rotation * Vec3::UnitX()).y());

@@ -8,13 +8,14 @@
 #include "systems/body/shared/body_view.hpp"
 #include "systems/body/shared/level_direction.hpp"
 
-// The chest from head and hands: the talk's form (rows 19 and 21), then a network's correction.
-// Constants: body_constants.hpp, fitted by tools/lab/fit_body.
+// Estimates the chest from head and hands by the talk's formulas (rows 19 and 21), and corrects it
+// by a network. Constants: body_constants.hpp, fitted by tools/lab/fit_body.
 namespace handhold {
 
-// The head as the trunk follows it: eyes and up axis. A head that looks up turns ever more about
-// the ears alone: of a pitch p the trunk follows p k / (p + k), with k = body_constants::k_nod_rad.
-// `lying` (lying_share) blends this away: the trunk of a player who lies follows the whole head.
+// Eyes and up axis of the head as far as the trunk follows the head. If the head looks up by a
+// pitch p, the trunk follows only p k / (p + k) of it, with k = body_constants::k_nod_rad; the rest
+// is a turn of the head about the ears. `lying` (lying_share) blends this away: the trunk of a
+// player who lies follows the head's whole pitch.
 struct TrunkView {
     Vec3 eyes_ps;
     Vec3 up_ps;
@@ -26,13 +27,14 @@ TrunkView trunk_view(const TrackedBody& body, const BodyAxes& axes);
 // share; all the way for a player who lies. `up_ps`: TrunkView::up_ps.
 Quat chest_lean(const Vec3& up_ps, double lying = 0.0);
 
-// Level direction in which the chest faces, in the talk's form. The chest turns from `look_ps`
+// Level direction in which the chest faces, by the talk's formula. The chest turns from `look_ps`
 // towards the mean position of the hands, turns perpendicular to the line between them, and follows
 // rolling hands. `lean_ps`: chest_lean. `limit`: the maximum angle from the look direction.
 Vec3 chest_facing(const Vec3& look_ps, const Quat& lean_ps, const TrackedBody& body,
                   const BodyAxes& axes, const TurnLimit& limit);
 
-// What the network adds to the talk's form. All zero for inputs that do not resemble its data.
+// What the network adds to the results of the talk's formulas. All zero for inputs that do not
+// resemble its data.
 struct ChestCorrection {
     double turn_rad = 0.0;  // positive: to the left
     ChestOffset offset;
@@ -46,10 +48,11 @@ ChestCorrection chest_correction(const Vec3& facing_ps, const Vec3& look_ps,
 inline constexpr double k_across_most_rad = 1.1;
 
 // Turn to the left (rad) that reduces how far a nearly straight arm reaches across the chest, if it
-// is farther than shoulders allow. The line between the hands does not determine the chest's facing
-// if both hands are on one side, as on a rail beside the player: chest_facing may then turn away
-// from them, and the far arm would pass through the neck. Zero for the usual poses; continuous; its
-// absolute value is below k_across_most_rad. `chest_ps`: chest_pose for `facing_ps` and `lean_ps`.
+// reaches farther than shoulders allow. The line between the hands does not determine the chest's
+// facing if both hands are on one side, as on a rail beside the player: chest_facing may then turn
+// away from them, and the far arm would pass through the neck. Zero for the usual poses;
+// continuous; its absolute value is below k_across_most_rad. `chest_ps`: chest_pose for `facing_ps`
+// and `lean_ps`.
 double turn_to_reach_across(const Vec3& facing_ps, const Quat& lean_ps, const Pose& chest_ps,
                             const TrackedBody& body);
 

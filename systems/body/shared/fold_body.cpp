@@ -12,8 +12,8 @@ constexpr double k_max_lean_rad = 2.0;
 
 // Height of the ankle above a flat sole.
 constexpr double k_ankle_m = 0.085;
-// Legs start to fold when the hip is this high above the ankle, and are fully folded at a height
-// lower by the width.
+// Legs start to fold when the hip is this high above the ankle, and are fully folded when it is
+// lower by k_fold_width_m.
 constexpr double k_fold_from_m = 0.76;
 constexpr double k_fold_width_m = 0.10;
 constexpr double k_squat_shin_rad = 0.87;  // a squatting shin leans forward by at most this

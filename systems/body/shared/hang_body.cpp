@@ -48,8 +48,8 @@ void follow_pull(const Vec3& hands, double tick_s, const SpineTuning& tuning, Bo
 }
 
 TrunkLean lean_of(const Vec3& pull_cs, const Vec3& upright_rad) {
-    // Shares of the turn to upright. The shoulders' line must stay, so the chest takes none of a
-    // turn about Z.
+    // Shares of upright_rad that the chest and the links take. The chest takes no turn about Z,
+    // because the line of the shoulders must not tilt.
     constexpr double k_chest = 0.5;
     constexpr double k_first = 0.4;
     constexpr double k_second = 1.0 - k_chest - k_first;
@@ -76,8 +76,8 @@ TrunkLean lean_of(const Vec3& pull_cs, const Vec3& upright_rad) {
 }
 
 Vec3 upright_turn(const Vec3& up_cs, double lying) {
-    // A chest that leans by this is below a neck that bends as far as necks do; the rest of a lean
-    // is the trunk's. Rounded over the width to either side.
+    // Largest bend of a neck. A lean of the chest beyond it is the trunk's. The corner is rounded
+    // over k_width_rad to either side.
     constexpr double k_neck_rad = 0.7;
     constexpr double k_width_rad = 0.2;
     const double aside = std::sqrt(up_cs.x() * up_cs.x() + up_cs.z() * up_cs.z());

@@ -11,9 +11,9 @@
 // upright as far as a neck bends.
 namespace handhold {
 
-// Advances BodyPull by one tick. `hands`: as BodyPull::hands, at the tick's time. Their sum times
-// SpineTuning::hang has a length p; the pull follows it, shortened to p / sqrt(1 + p^2), without a
-// jump of its velocity and without overshoot.
+// Advances BodyPull by one tick. `hands`: BodyPull::hands at the tick's time. The pull follows
+// `hands` times SpineTuning::hang, shortened from its length p to p / sqrt(1 + p^2), without a jump
+// of its velocity and without overshoot.
 void follow_pull(const Vec3& hands, double tick_s, const SpineTuning& tuning, BodyPull& pull);
 
 // Bend of the trunk: the shown chest turns about its X axis first, then each link of the spine
@@ -33,9 +33,9 @@ inline constexpr double k_no_lean_rad = 130.0 / 180.0 * k_pi;
 TrunkLean lean_of(const Vec3& pull_cs, const Vec3& upright_rad = Vec3::Zero());
 
 // Turn of the trunk below the chest back to upright: a rotation vector in the chest's axes, y = 0.
-// The chest is estimated to lean with the head. Of this lean only what is beyond a neck's bend may
-// tilt the trunk: whether a neck bends or a trunk cannot be told from a head, and a trunk below a
-// neck that bends stays. `up_cs`: the play space's up in the chest's axes, a unit vector. `lying`:
+// The chest is estimated to lean with the head. From the head alone it is unknown whether the neck
+// or the trunk bends. A lean that a neck can cause is taken as the neck's, and only the excess
+// tilts the trunk. `up_cs`: the play space's up in the chest's axes, a unit vector. `lying`:
 // ArmEstimate::lying; a trunk that lies is not turned.
 Vec3 upright_turn(const Vec3& up_cs, double lying);
 

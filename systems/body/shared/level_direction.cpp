@@ -8,7 +8,8 @@
 namespace handhold {
 namespace {
 
-constexpr double k_near_level_cosine = 0.95;  // share_of_line is used for larger cosines
+// For larger cosines a turn is computed along the chord (share_of_line), without trigonometry.
+constexpr double k_near_level_cosine = 0.95;
 
 Vec3 level_unit(const Vec3& v) {
     const double by = 1.0 / std::sqrt(v.x() * v.x() + v.z() * v.z());

@@ -2,7 +2,8 @@
 
 #include "engine/math/math.hpp"
 
-// Level directions: horizontal unit vectors, in play space. Small angles need no trigonometry.
+// Level directions: horizontal unit vectors, in play space. Functions on them avoid trigonometry
+// for small angles, for speed.
 namespace handhold {
 
 // A maximum angle of at most half a turn, given by its sine and cosine.

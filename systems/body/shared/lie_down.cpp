@@ -9,9 +9,11 @@ double lying_share(double eyes_m, const Vec3& up_ps, const Vec3& ahead_ps) {
     // k_hips_to_eyes_m cos r, if the head's up axis leans alike.
     constexpr double k_hips_m = 0.10;
     constexpr double k_hips_to_eyes_m = 0.70;
-    constexpr double k_bent_neck = 0.14;  // cosines by which a neck may be bent back upright
-    // Heights between which a player lies down, on the back or side and on the front: who bends
-    // forward to see the floor before the feet has the eyes higher than who lies on it.
+    constexpr double k_bent_neck = 0.14;  // a neck may raise the cosine of the tilt by this
+    // Heights of the eyes between which the share falls from 1 to 0: k_lies_m to k_sits_m for a
+    // player on the back or side, k_prone_m to k_crawls_m for a head that looks down. The latter
+    // are lower, because a player who only bends forward to see the floor has low eyes too, but
+    // higher ones than a player who lies.
     constexpr double k_lies_m = 0.45;
     constexpr double k_sits_m = 0.70;
     constexpr double k_prone_m = 0.18;

@@ -15,12 +15,13 @@
 // Finds the parts of shown bodies that a hand can grip.
 namespace handhold {
 
-// Moves `from_ps` towards `to_ps`. The point `anchor_bs` of the frame travels on a straight line: a
-// share of the way, [0, 1], and at most `max_m`. The rotation takes the same share of its way.
+// How far follow_part moves: a share of the displacement, [0, 1], but at most `max_m`.
 struct PartStep {
     double share = 1.0;
     double max_m = 0.0;
 };
+// Moves `from_ps` towards `to_ps`, the rotation by the same share as the position. The point
+// `anchor_bs` travels on a straight line.
 Pose follow_part(const Pose& from_ps, const Pose& to_ps, const Vec3& anchor_bs,
                  const PartStep& step);
 
@@ -37,7 +38,7 @@ struct PartHit {
 // who is not in `shown` has no body that can be gripped.
 struct ShownBodies {
     const Column<RenderPose>& shown;
-    const Column<BodyMeasures>& measures;  // every player of `shown`
+    const Column<BodyMeasures>& measures;  // has every player of `shown`
     const Column<PersistentId>& persistent_id;
     const Column<PlayerOrigin>& origin;
     const Column<HeadTracking>& head;

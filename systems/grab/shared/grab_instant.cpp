@@ -19,7 +19,7 @@ Pose hand_within_frame(const HandTracking& hand, const HandHistory& history, dou
     };
     Knot before{0.0, &hand.start_ps};
     Knot after{1.0, &hand.pose_ps};
-    const bool jumps = hand.resumed;  // true: the hand did not travel
+    const bool jumps = hand.resumed;  // true: the samples are not the hand's path
     for (std::uint32_t i = 0; i < history.count && !jumps; ++i) {
         const HandHistory::Entry& entry = history.entries[i];
         const double at = (entry.t_s - start_s) / (end_s - start_s);
@@ -32,7 +32,8 @@ Pose hand_within_frame(const HandTracking& hand, const HandHistory& history, dou
     return interpolate(*before.hand_ps, *after.hand_ps, (t - before.t) / (after.t - before.t));
 }
 
-// Pose that its hands ask of a free body. `first` drives it, alone or together with the other hand.
+// Pose of a held free body at which it meets the poses of its hands. `first` drives the body, alone
+// or together with the other hand.
 Pose target_body(const GrabInstant& now, const HandPair& first) {
     const Pose origin_ws = now.hand_driven_origin_ws(first.player);
     const Pose hand_ps = now.hand_ps(first.hand);
@@ -158,7 +159,7 @@ Pose hand_driven_body_ws(const GrabInstant& now, Entity body, const PhaseTuning&
         travel += weight * travel_along(*rail, from_hs, hand_hs(now, holder_now_ws));
         weights += weight;
     }
-    constexpr double k_min_weight = 1e-8;  // 0.1 mm off the axis: moves nothing
+    constexpr double k_min_weight = 1e-8;  // square of 0.1 mm: hands on the axis move nothing
     if (weights < k_min_weight) {
         return now.body_ws(body);
     }

@@ -18,8 +18,8 @@ namespace handhold {
 // Inputs of all functions below, and of anchor_grabs (AnchorGrabsIo). Only anchor_grabs writes, and
 // only `grab`.
 struct GrabFrame {
-    double start_s;                             // in: of the frame
-    double end_s;                               // in: of the frame
+    double start_s;                             // in: start of the frame, s
+    double end_s;                               // in: end of the frame, s
     const Column<HandOwner>& owner;             // in
     const Column<HandTracking>& hand;           // in
     const Column<HandHistory>& hand_history;    // in: samples within the frame
@@ -32,7 +32,7 @@ struct GrabFrame {
     const Column<RigidBody>& body;              // in
     const Column<Joint>& joint;                 // in
     const Column<JointState>& joint_state;      // in: at the frame's start
-    const Column<BodyHold>& body_hold;          // in: hands on a player's part
+    const Column<BodyHold>& body_hold;          // in: hands that grip a part of a player
     Column<Grab>& grab;                         // in/out: anchor, target, phase, two_handed
 };
 
@@ -41,7 +41,8 @@ struct GrabInstant {
     const GrabFrame& io;
     double t = 0.0;
 
-    // The predicted pose; for a player, the head's.
+    // The pose interpolated from the start of the frame to the prediction; for a player, the
+    // head's.
     Pose body_ws(Entity body) const;
     // The pose of what the hand grips: like body_ws, but for a player's part that the hand's
     // BodyHold names, the part's pose. `grab` is an element of `io.grab`.
@@ -53,7 +54,7 @@ struct GrabInstant {
     Vec3 held_origin_ws(Entity player, const Grab& grab, const HandTracking& hand) const;
     // The origin as moved by hands that have gripped fixed bodies since before the frame: by the
     // mean of their travels. The distance of hands from their anchors stays as at the start of the
-    // frame. Other players' origins are the predicted ones.
+    // frame. If the player has no such hand, the origin is predicted, as in origin_ws.
     Pose hand_driven_origin_ws(Entity player) const;
 };
 
@@ -81,8 +82,8 @@ Pose hand_driven_body_ws(const GrabInstant& now, Entity body, const PhaseTuning&
 
 // Pose of a held free body: it follows its hands, not its velocity. `first` drives the body, alone
 // or together with the other hand. The distance of hands from their anchors stays as at the start
-// of the frame; a grip that began in this frame has none. The predicted pose if one of these hands
-// is `resumed`.
+// of the frame; for a grip that began in this frame it is 0. The predicted pose if one of these
+// hands is `resumed`.
 Pose held_body_ws(const GrabInstant& now, const HandPair& first);
 
 // The player's origin as moved by a hand on a jointed body: the origin takes the part of the hand's

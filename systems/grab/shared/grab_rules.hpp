@@ -10,7 +10,7 @@ namespace handhold {
 struct GrabRules {
     const Column<GrabRule>& rule;           // rules of bodies
     const Column<GrabLayers>& layers;       // layers of players
-    const Column<CollisionFilter>& filter;  // layers of bodies; without an element: the default
+    const Column<CollisionFilter>& filter;  // layers of bodies; default if there is no element
 
     // The body's rule; null if it has none.
     const GrabRule* rule_of(Entity body) const;

@@ -52,13 +52,14 @@ Vec3 head_center_ws(const GrabSearch& io, Entity player, const HeadTuning& tunin
                            head_center_ps(io.head.at(player), tuning));
 }
 
-// The space that HandSight::frame names.
+// Pose of the space in which HandSight::outside_bs is given.
 Pose sight_frame_ws(const GrabSearch& io, Entity frame) {
     const BodyPose* const body = io.body_pose.find(frame);
     return body != nullptr ? body->pose_ws : Pose{};
 }
 
-// Sight lines of a hand. A hand whose past is unknown counts as outside of walls where it is.
+// Sight lines of a hand. A hand whose HandSight is unknown counts as outside of walls where it is
+// now.
 SightLines sight_lines(const GrabSearch& io, Entity hand, const Vec3& palm_ws,
                        const SightSkips& skips, const HeadTuning& tuning) {
     const HandSight& sight = io.sight.at(hand);
@@ -168,7 +169,7 @@ class SurfaceFinder {
     const PalmRay& ray_;
     bool continues_;  // true: searches past the first surface for one of higher priority
     Ids skipped_;     // already offered
-    Ids refusing_;    // subset that refuses the hand
+    Ids refusing_;    // own head, and those of skipped_ that refuse the hand
     std::optional<GrabTarget> best_;
     std::int32_t priority_ = 0;
     Entity refused_by_ = k_no_entity;
@@ -204,7 +205,7 @@ GrabSearchResult find_visible_surface(const GrabSearch& io, const HandOwner& own
 
 // An authored grip that a hand may snap to.
 struct Snap {
-    GrabTarget target;  // target whose point is the palm in the grip
+    GrabTarget target;  // target whose point is the palm's centre in the grip
     std::int32_t priority = 0;
     double sync_m = 0.0;
     std::uint64_t body_id = 0;
@@ -259,7 +260,7 @@ class SnapFinder {
           tuning_(tuning),
           stats_(stats) {}
 
-    // `only`: grips of this body alone; null: of all.
+    // `only`: searches only this body's grips; null: the grips of all bodies.
     std::optional<Snap> find(Entity only) {
         for (std::size_t index = 0; index < io_.authored_grips.size(); ++index) {
             const AuthoredGrips& grips = io_.authored_grips.elements()[index];

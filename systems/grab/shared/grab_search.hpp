@@ -15,34 +15,35 @@
 #include "systems/grab/shared/body_parts.hpp"
 #include "systems/grab/shared/grab_rules.hpp"
 
-// What a closing hand grips.
+// Finds what a closing hand grips, and which hands are in sight (HandSight).
 namespace handhold {
 
 // Inputs of the functions below and of update_grabs (UpdateGrabsIo). The functions below write only
 // `sight`.
 struct GrabSearch {
-    double start_s;                               // in: of the frame; for orders
-    double dt_s;                                  // in: of the frame
+    double start_s;                               // in: start of the frame, s
+    double dt_s;                                  // in: s
     SurfaceQuery surfaces;                        // in: at the start of the frame
     const Column<PersistentId>& persistent_id;    // in
     const Column<HandOwner>& owner;               // in
     const Column<HandTracking>& hand;             // in: edges
     const Column<PlayerOrigin>& origin;           // in: at the start of the frame
-    const Column<HeadTracking>& head;             // in: as the colliders have it
+    const Column<HeadTracking>& head;             // in: play space, as in place_colliders
     const Column<RigidBody>& body;                // in
     const Column<BodyPose>& body_pose;            // in: at the start of the frame
     const JointGroups& joint_groups;              // in
     const Column<AuthoredGrips>& authored_grips;  // in
     GrabRules rules;                              // in
-    const Column<RenderPose>& shown;  // in: from the last frame; players not in it: heads alone
-    const Column<BodyMeasures>& measures;        // in: every player of `shown`
+    // in: from the last frame; of players who are not in it, only the heads can be gripped
+    const Column<RenderPose>& shown;
+    const Column<BodyMeasures>& measures;        // in: has every player of `shown`
     const Column<HandPull>& pull;                // in: from the last frame
     const Column<ReferenceVelocity>& reference;  // in: from the last frame
     Column<HandSight>& sight;                    // in/out
     Column<Grab>& grab;                          // in/out
     Column<AuthoredHold>& authored_hold;         // in/out: hands in an authored grip
     Column<HeadIgnores>& head_ignores;           // in/out: held bodies are added
-    Column<BodyHold>& body_hold;                 // in/out: hands on a player's part
+    Column<BodyHold>& body_hold;                 // in/out: hands that grip a part of a player
     Column<GrabOrder>& order;                    // in/out: carried out and removed
 
     ShownBodies bodies() const {
@@ -59,8 +60,8 @@ struct GrabTarget {
     Entity body;
     Vec3 point_ws;
     Vec3 normal_ws;                     // unit, out of the solid
-    std::optional<AuthoredHold> hold;   // if it is an authored grip
-    std::optional<BodyPart> part = {};  // part of another player; none: their head
+    std::optional<AuthoredHold> hold;   // none: not an authored grip
+    std::optional<BodyPart> part = {};  // part of another player; none: a body, or a head
 };
 
 // Advances HandSight of all hands to the start of the frame.
@@ -69,7 +70,7 @@ void update_sights(const GrabSearch& io, const Tuning& tuning);
 // What a closing hand grips, or why it grips nothing.
 struct GrabSearchResult {
     std::optional<GrabTarget> target;
-    Fallback refusal = Fallback::grab_no_surface;  // if there is no target
+    Fallback refusal = Fallback::grab_no_surface;  // reason if there is no target
     Entity refused_by = k_no_entity;               // the body that refused the hand, if any
 };
 

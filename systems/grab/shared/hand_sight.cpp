@@ -64,8 +64,8 @@ bool SightLines::sees(const Vec3& from_ws, const Vec3& point_ws, std::uint64_t b
            (needs == Needs::any_point && hit->id == body_id);
 }
 
-// Tests four detours around the line, each a hand's width to one side. From there the hand may
-// touch the body that it grips, if another body blocks the line.
+// Tests four detours that run a hand's width beside the line and then sideways to the palm. If
+// another body blocks the line, the sideways part may hit the body that the hand would grip.
 bool SightLines::can_go_round(const Vec3& from_ws, const Vec3& palm_ws,
                               std::uint64_t body_id) const {
     constexpr double k_width_m = 0.1;

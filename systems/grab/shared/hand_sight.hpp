@@ -20,8 +20,8 @@ struct SightLines {
     Vec3 head_ws;
 
     enum class Sight : std::uint8_t { blocked, clear, clear_beyond };
-    // How well the palm is in sight. `clear_beyond`: also nothing within k_sight_beyond_m behind
-    // it.
+    // Tests the lines from outside_ws and from head_ws to the palm; one clear line suffices.
+    // `clear_beyond`: also nothing is within k_sight_beyond_m behind the palm on that line.
     Sight sight_of_palm(const Vec3& palm_ws) const;
 
     // True if the hand may grip `point_ws` of a body: the palm or the point is in sight

@@ -32,8 +32,9 @@ struct JointRail {
 // light free bodies do not count.
 std::optional<JointRail> find_rail(const JointRailIo& io, Entity body, const PhaseTuning& tuning);
 
-// Travel of the body along its rail when a hand takes one of its points as close to `to_hs` as the
-// rail allows: rad in [-pi, pi] or m. The rail's ends are not applied. 0 for a point on the axis.
+// Travel of the body along its rail when a hand moves the body's point at `from_hs` as close to
+// `to_hs` as the rail allows: rad in [-pi, pi] or m. The rail's ends are not applied. 0 for a point
+// on the axis.
 double travel_along(const JointRail& rail, const Vec3& from_hs, const Vec3& to_hs);
 
 // Weight of a hand's travel in the mean over several hands, equal to its weight in the solver: on a

@@ -12,7 +12,8 @@ void clear(HandHistory& history);
 // The hand's pose at constant velocity, from its last two samples (motion_limit.hpp).
 Pose extrapolated(const HandTracking& hand, const HandHistory& history, double t_s);
 
-// Samples microseconds apart would turn a tenth of a millimetre of noise into metres per second.
+// Shortest time that the samples of a release must span. Samples microseconds apart would turn a
+// tenth of a millimetre of noise into metres per second.
 inline constexpr double k_shortest_span_s = 0.005;
 inline constexpr int k_longest_window = 4;
 

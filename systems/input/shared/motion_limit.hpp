@@ -7,7 +7,7 @@
 // How far a tracked device can have moved between two readings.
 namespace handhold {
 
-// Jumps up to this are not treated as jumps: they are within the noise and the timing jitter of
+// Displacements up to this are not jumps: they are within the noise and the timing jitter of
 // tracking.
 inline constexpr double k_unnoticed_m = 0.02;
 
@@ -24,7 +24,7 @@ inline bool could_move(const Pose& from, const Pose& to, double dt_s, double max
     if ((to.position - from.position).norm() > limit_m) {
         return false;
     }
-    // An angle is at most pi times the sine of its half: no arc tangent for small turns.
+    // An angle is at most pi times the sine of its half, so small turns need no arc tangent.
     constexpr double k_over_pi = 3.2;
     const double sine = (from.rotation.conjugate() * to.rotation).vec().norm();
     return k_m_per_rad * k_over_pi * sine <= limit_m || travel_m(from, to) <= limit_m;

@@ -38,7 +38,7 @@ PlaySpaceTracker::PlaySpaceTracker(const HeadTracking& head,
       settings_(settings),
       hands_(hands) {}
 
-// Returns the pose bit for bit if there is no shift.
+// Returns the pose unchanged, bit for bit, if there is no shift.
 Pose PlaySpaceTracker::corrected(const Pose& pose) const {
     return {shift_.rotation * pose.position + shift_.position, shift_.rotation * pose.rotation};
 }
@@ -109,7 +109,8 @@ void PlaySpaceTracker::keep_hands(const TrackingSample& sample) {
     }
 }
 
-// The hands that have a reading before the sample, and the last one's age.
+// For each hand that is measured in the sample, the age of its last reading. Nullopt if it has
+// none, if that is older than lost_after_s, or if the hand is not measured.
 std::array<std::optional<double>, k_hand_count> PlaySpaceTracker::hand_ages_s(
     const TrackingSample& sample, double lost_after_s) const {
     std::array<std::optional<double>, k_hand_count> ages_s;
@@ -124,8 +125,9 @@ std::array<std::optional<double>, k_hand_count> PlaySpaceTracker::hand_ages_s(
     return ages_s;
 }
 
-// `head_ps` is the sample's, corrected as before. `undo` takes it to where the head would be
-// without the jump: it keeps its velocity. Its tilt is the head's own, for play spaces are level.
+// `head_ps`: the sample's head with the corrections so far. `undo`: the transform that takes it to
+// where the head would be at its last velocity. It turns only about +Y, because play spaces are
+// level, so the head keeps its own tilt. Returns false if there is no recentring.
 bool PlaySpaceTracker::find_recentring(const TrackingSample& sample, const Pose& head_ps,
                                        const TrackingTuning& tuning, Pose& undo) const {
     const double head_dt_s = sample.t_s - head_t_s_;

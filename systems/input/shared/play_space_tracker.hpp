@@ -27,7 +27,7 @@ inline bool is_seen(const ControllerSample& reading) {
 inline bool is_measured(const ControllerSample& reading) {
     return is_seen(reading) && !reading.is_inferred;
 }
-// 0, 1 or k_unknown_curl: readings beyond [0, 1] are clamped; below 0 and NaN: unknown.
+// Limits the curls to 1. A curl that is negative or NaN becomes k_unknown_curl.
 inline FingerCurls known_curls(FingerCurls curls) {
     for (double& curl : curls) {
         curl = curl >= 0.0 ? std::min(1.0, curl) : k_unknown_curl;
@@ -36,7 +36,7 @@ inline FingerCurls known_curls(FingerCurls curls) {
 }
 // How far a button is pressed, [0, 1]; 0 if `reading` is NaN.
 inline double pressed_share(double reading) { return reading > 0.0 ? std::min(1.0, reading) : 0.0; }
-// True for a sample that is not newer than the last one, or has no time or one beyond k_latest_s.
+// True for a sample that is not newer than the last one, or whose time is NaN or beyond k_latest_s.
 bool is_stale(double t_s, bool has_sample, double last_t_s);
 
 // Follows one player's readings from sample to sample and corrects those that jump with the play
@@ -45,13 +45,13 @@ class PlaySpaceTracker {
   public:
     struct Hand {
         Pose in_controller;
-        Pose reading_ps;  // last valid one, corrected
+        Pose reading_ps;  // last measured pose, corrected
         double reading_t_s = 0.0;
         bool has_reading = false;
     };
     enum class Jump : std::uint8_t { none, head, play_space, meant, guess };
     struct Settings {
-        bool corrects_jumps = true;    // false for players whose RecenterGuess says no
+        bool corrects_jumps = true;    // RecenterGuess::guesses of the player
         bool freezes_guesses = false;  // true: guesses of the runtime do not move the head
     };
 
@@ -63,20 +63,22 @@ class PlaySpaceTracker {
     // Advances to `sample`. After a jump, all later readings are corrected so that the head
     // continues its motion (play_space) or stays where it was (head):
     //  - play_space: head and hands moved by one transform (a turn about +Y and a translation), at
-    //    least one of them farther than a device can move. What remains of each hand's motion once
-    //    that transform is undone must be one that a hand can make;
+    //    least one of them farther than a device can move. Once that transform is undone, the rest
+    //    of each hand's motion must be possible for a hand;
     //  - head: the head moved farther than TrackingTuning::max_jump_m, and the hands did not match;
     //  - meant: one of these in a tracker that does not correct jumps.
-    // `guess`: the head's position is inferred, or the first that is measured after such ones. It
-    // may be anywhere, and nothing was recentred. Inferred hands do not vote on recentrings.
+    // `guess`: the head's position is inferred, or is the first measured position after inferred
+    // ones. It may be anywhere, and nothing was recentred. Inferred hands are not used to find
+    // recentrings.
     Jump follow(const TrackingSample& sample, const TrackingTuning& tuning);
 
     // The hand's pose in play space for `reading`, which belongs to the last sample followed.
     Pose hand_ps(const ControllerSample& reading, HandSide side) const;
     bool is_in_reach(const Vec3& hand_ps, double max_arm_m) const;
 
-    const Pose& head_ps() const { return head_ps_; }      // last valid one, corrected
-    const Pose& before_ps() const { return before_ps_; }  // the valid one before that
+    const Pose& head_ps() const { return head_ps_; }  // last valid pose, corrected
+    // The valid pose before head_ps(), or head_ps() itself if the head's velocity is unknown.
+    const Pose& before_ps() const { return before_ps_; }
     double before_t_s() const { return before_t_s_; }
     bool has_head() const { return has_head_; }
     bool is_head_inferred() const { return is_head_inferred_; }

@@ -7,7 +7,8 @@ namespace {
 
 // Contacts closer than this may support a body, and thus push a player.
 constexpr double k_supporting_m = 1e-5;
-// Largest ratio, in the solve, of a player's mass to the mass of the light bodies in hand.
+// Largest ratio of a player's mass in the velocity solve to the mass of the island's heaviest free
+// body.
 constexpr double k_max_player_ratio = 1000.0;
 
 template <typename Predicate>

@@ -24,21 +24,23 @@
 // grips this one. Why each phase has these shares:
 //
 // - reach: a player who climbs is moved by the grip. A light object must not move the view of the
-//   player who waves it, so without such a grip the player is infinitely heavy.
-//   M: momentum_share of the heaviest body that a hand holds by all its rows.
-// - forward: players stay where reach put them and heavy bodies count as walls. What contacts then
-//   take from the hands is exactly the violation, whatever the masses.
+//   player who waves it, so without such a grip the player's share is M: the momentum_share of the
+//   heaviest body that the player holds and that joints do not connect to something immovable; 0 if
+//   there is none.
+// - forward: players with share 0 stay where reach put them, and heavy bodies count as walls. What
+//   contacts then take from the hands is exactly the violation, whatever the masses.
 // - relax: only held bodies give way, because the hands press a heap that cannot.
 // - backward: the violation moves the player, so everyone has the true mass. H: loose bodies of a
 //   heap have share 0. Forward has cleared them, and their errors of up to k_heap_slack_m must not
 //   reach the player's pose.
 // - contradiction: contacts outrank hands, and no grip is left to move the player. C: 1 if the
-//   player's own collider touches and the island may push, else 0.
+//   player's own collider touches something and the island is pushed, else 0.
 // - velocities: momentum is exchanged with the masses that moved the positions. P: 1 if the push
 //   came from something that shares momentum (set_velocity_masses), else momentum_share of the
-//   island's heaviest free body, but at least least_player_share. V: 1 if the body was pushed, or
-//   if a hand or joint acts in its island; if a hand there yields nothing, only if one acts on the
-//   body itself. It would get momentum that no player pays for.
+//   island's heaviest free body, but at least least_player_share. V: 1 if the body was pushed or a
+//   hand or joint acts in its island, else 0. If the player of a hand in the island hardly yields
+//   (has_unyielding_hand), the hand or joint must act on the body itself. Otherwise the body would
+//   get momentum that no player pays for.
 namespace handhold {
 
 // The phases of the position solve, in the order of a frame. solve_phases.hpp says what each is
@@ -53,8 +55,8 @@ BodyRole role_of(const RigidBody& body, const PhaseTuning& tuning);
 // `body`. Both are indices into FrameGraph::phase.
 void note_grip(const Grab& grab, std::size_t player, std::size_t body, const PhaseTuning& tuning,
                FrameGraph& frame);
-// Marks the island as pushed: from now on its players have their true mass, in the velocity solve
-// too.
+// Marks all bodies of the island as pushed in this frame. The entries C, P and V of the table above
+// depend on it.
 void mark_pushed(const Island& island, FrameGraph& frame);
 
 // --- What the facts say about an island ----------------------------------------------------------
@@ -81,8 +83,9 @@ double mass_for_host_kg(const FrameGraph& frame, std::size_t player, double mass
 // talk.
 double momentum_share(double mass_kg, const PhaseTuning& tuning);
 // Smallest share of a player of `mass_kg` in an island whose heaviest free body has `heaviest_kg`;
-// in (0, 1]. Light bodies must not shake the player, who therefore counts as up to 1000 times as
-// heavy as they are. A larger ratio of masses would make the solver's regularisation visible.
+// in (0, 1]. Light bodies must not shake the player, who therefore counts as at most 1000 times as
+// heavy as the heaviest body. A larger ratio of masses would make the solver's regularisation
+// visible.
 double least_player_share(double heaviest_kg, double mass_kg);
 
 }  // namespace handhold

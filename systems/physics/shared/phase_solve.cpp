@@ -29,8 +29,8 @@ BlockFilter filter_of(Phase phase) {
     }
 }
 
-// The errors that are known from a solve: if it converged and included every block, no error
-// exceeds its residual.
+// Upper bounds of the island's errors, known if the solve converged and included every block: no
+// error then exceeds its residual.
 std::optional<IslandErrors> errors_after(const IslandView& island, const NewtonResult& result) {
     const auto counts = [&island](std::uint32_t i) { return takes_part(island, island.blocks[i]); };
     if (!result.converged || !std::ranges::all_of(island.island_blocks, counts)) {

@@ -6,11 +6,11 @@
 #include "engine/solver/newton/newton.hpp"
 #include "systems/physics/shared/mass_shares.hpp"
 
-// One phase of the position solve: its rows, regularisation and work budget.
+// Runs one phase of the position solve with its constraint rows, regularisation and work budget.
 namespace handhold {
 
 // Moves one island's bodies until its constraint rows are met. Same contract as solve_positions,
-// which is the runtime's.
+// which the runtime uses.
 using PositionSolver = NewtonResult (*)(const IslandView&, const NewtonSettings&, SolveScratch&);
 
 // Solves the islands in FrameGraph::island_order with the phase's masses (mass_shares.hpp), largest

@@ -1,4 +1,4 @@
-// Physics: bodies that the phases left penetrating.
+// Physics: restores bodies that the phases left penetrating.
 #include "systems/physics/shared/restore_bodies.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ constexpr std::size_t k_max_pushed_restore_blocks = 4000;
 constexpr std::size_t k_max_loose_restore_blocks = 300;
 constexpr double k_max_error_ratio = 0.5;  // a restore must reduce the error at least to this share
 
-// The worst error of a body's own rows without grips, or of its contacts only.
+// The largest error of a body's constraint blocks except grips, or of its contacts only.
 double own_error_m(const ConstraintGraph& graph, std::uint32_t body, bool only_contacts) {
     double worst = 0.0;
     for (const RowBlock& block : graph.blocks) {
@@ -54,7 +54,7 @@ double hidden_overlap_m(const FrameGraph& frame, std::uint32_t body) {
     return frame.hidden_overlaps.of_body[body].depth_m;
 }
 
-// The largest error of a body's rows without grips, and of its hidden overlaps.
+// The largest error of a body's constraint blocks except grips, and of its hidden overlaps.
 double error_m(const FrameGraph& frame, std::uint32_t body) {
     return std::max(own_error_m(frame.graph, body, false), hidden_overlap_m(frame, body));
 }
@@ -84,7 +84,8 @@ double worst_overlap_m(const FrameGraph& frame, const Island& island) {
     return worst;
 }
 
-// The body as the phases left it, with its last valid pose as `carrier` carries it along.
+// The body as the phases left it, with its last valid pose carried along by the motion of body
+// `carrier`.
 FrameGraph::PenetratingBody penetrating_body(const FrameGraph& frame, std::uint32_t index,
                                              std::uint32_t island, std::uint32_t carrier) {
     const SolverBody& body = frame.graph.bodies[index];
@@ -221,8 +222,8 @@ void keep_helpful_restores(FrameGraph& frame) {
 }
 
 // Adds free bodies and players that a listed body overlaps by k_joining_depth_m or more to the end
-// of the list: they may have moved to where it was. A body that several listed bodies overlap gets
-// the island of one whose restore is kept, if there is one.
+// of the list: they may have moved to where the listed body was. A body that several listed bodies
+// overlap gets the island of one whose restore is kept, if there is one.
 void add_overlapped_bodies(FrameGraph& frame) {
     std::vector<FrameGraph::PenetratingBody>& listed = frame.penetrating_bodies;
     const std::size_t count = listed.size();
@@ -258,8 +259,8 @@ void add_overlapped_bodies(FrameGraph& frame) {
     }
 }
 
-// Restores the bodies that listed bodies overlap, and adds them to the list. Undoes restores that
-// were not kept in islands to which no body was added. False if no body was added.
+// Restores the bodies that listed bodies overlap, and adds them to the list. In islands to which no
+// body was added, undoes the restores that were not kept. False if no body was added.
 bool restore_overlapped_bodies(FrameGraph& frame) {
     std::vector<FrameGraph::PenetratingBody>& listed = frame.penetrating_bodies;
     const std::size_t count = listed.size();
