@@ -10,13 +10,13 @@
 // Commit 823c297. Data: body_train, 29 people fitted, 10 to choose by. Scores of those who were
 //   not fitted, without low-pass filters: mean (lowest to highest with one person left out).
 // Chest:
-//   the talk's form, 0 numbers: chest yaw, deg 9.36 (8.39 to 9.79); shoulder, cm 5.26 (5.10 to
+//   the talk's formulas, 0 numbers: chest yaw, deg 9.36 (8.39 to 9.79); shoulder, cm 5.26 (5.10 to
 //     5.40)
 //   8 hidden, 343 numbers: chest yaw, deg 7.90 (6.92 to 8.46); shoulder, cm 4.59 (4.31 to 4.71)
 //   16 hidden, 623 numbers: chest yaw, deg 7.84 (6.81 to 8.43); shoulder, cm 4.53 (4.24 to 4.69)
 //   24 hidden, 903 numbers: chest yaw, deg 7.69 (6.82 to 8.26); shoulder, cm 4.47 (4.22 to 4.61)
 // Elbows, chest with 24 hidden:
-//   the talk's form, 0 numbers: elbow, cm 5.82 (5.42 to 6.31); swivel, deg 17.29 (16.74 to 18.09)
+//   the talk's formulas, 0 numbers: elbow, cm 5.82 (5.42 to 6.31); swivel, deg 17.29 (16.74 to 18.09)
 //   8 hidden, 385 numbers: elbow, cm 5.24 (4.79 to 5.81); swivel, deg 13.69 (13.01 to 15.43)
 //   16 hidden, 697 numbers: elbow, cm 5.21 (4.78 to 5.77); swivel, deg 13.54 (12.89 to 15.34)
 //   24 hidden, 1009 numbers: elbow, cm 5.19 (4.77 to 5.76); swivel, deg 13.56 (12.93 to 15.36)
@@ -37,9 +37,9 @@
 //   hands within 0.7 arm lengths: chest yaw, deg 10.22 (8.25 to 11.08); shoulder, cm 5.35 (4.93 to
 //     5.67); elbow, cm 8.23 (7.70 to 8.56); swivel, deg 16.72 (16.06 to 17.26)
 //   chests turned to an arm that reaches across: no frame
-// What chose the constants of neither the talk's form nor the networks:
+// How constants were chosen that belong neither to the talk's formulas nor to the networks:
 //   k_nod_rad, k_ears_*: shoulders of the people of train who look up, without making all frames
-//     together worse. The talk's form there, chests facing as they truly do: shoulder, cm 4.83
+//     together worse. The talk's formulas there, chests facing as they truly do: shoulder, cm 4.83
 //     (4.60 to 4.86); without trunk_view: shoulder, cm 7.12 (5.14 to 7.52).
 //   k_near_shoulder, k_off_shoulder, and the familiarity of the networks (the last two numbers of
 //     each): people of train who were left out, the least trust of nearly equal ones.
@@ -49,10 +49,10 @@
 // clang-format off
 namespace handhold::body_constants {
 
-// Time constants of ArmMemory::looks_ps. The talk's form turns from the first.
+// Time constants of ArmMemory::looks_ps. The talk's formulas use the first.
 inline constexpr std::array<double, k_look_filters> k_look_lags_s = {0.15, 0.35, 1.0};
 
-// The talk's form: chest_facing, chest_lean, chest_pose; trunk_view (nod, ears). Lengths: for an
+// The talk's formulas: chest_facing, chest_lean, chest_pose; trunk_view (nod, ears). Lengths: for an
 // eye height of k_scale_eye_m.
 inline constexpr double k_hand_share = 0.475;
 inline constexpr double k_line_share = 2.475;
@@ -69,7 +69,7 @@ inline constexpr double k_ears_behind_m = 0.095;
 inline constexpr double k_across_rad = 0.75;
 inline constexpr double k_across_bent = 0.9;
 
-// The talk's form: elbow_pole. The rest direction is that of a right arm, in torso axes.
+// The talk's formulas: elbow_pole. The rest direction is that of a right arm, in torso axes.
 inline constexpr std::array<double, 3> k_pole_rest = {0.175, -0.3775, 0.35};
 inline constexpr double k_pole_fingers = -0.7375;
 inline constexpr double k_pole_back = 0.1025;

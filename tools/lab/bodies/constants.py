@@ -65,15 +65,15 @@ def header(notes, chest, across, pole, fade, chest_network, elbow_network):
 // clang-format off
 namespace handhold::body_constants {{
 
-// Time constants of ArmMemory::looks_ps. The talk's form turns from the first.
+// Time constants of ArmMemory::looks_ps. The talk's formulas use the first.
 inline constexpr std::array<double, k_look_filters> k_look_lags_s = {{{lags}}};
 
-// The talk's form: chest_facing, chest_lean, chest_pose; trunk_view (nod, ears). Lengths: for an
+// The talk's formulas: chest_facing, chest_lean, chest_pose; trunk_view (nod, ears). Lengths: for an
 // eye height of k_scale_eye_m.
 {scalars(chest)}
 // turn_to_reach_across: the angle at which the turn begins, and the hand's distance, arm lengths.
 {scalars(across)}
-// The talk's form: elbow_pole. The rest direction is that of a right arm, in torso axes.
+// The talk's formulas: elbow_pole. The rest direction is that of a right arm, in torso axes.
 inline constexpr std::array<double, 3> k_pole_rest = {{{rest}}};
 {wrist}
 // Distances of a hand from its shoulder, arm lengths, between which the elbow's network fades in.

@@ -7,7 +7,7 @@ import numpy as np
 
 from .scoring import across, turned, unit, wrapped_deg
 
-LOOK_LAGS_S = (0.15, 0.35, 1.0)  # body_constants::k_look_lags_s; the talk's form uses the first
+LOOK_LAGS_S = (0.15, 0.35, 1.0)  # body_constants::k_look_lags_s; the talk's formulas uses the first
 CHEST_LIMIT_RAD = 1.3962634015954636  # ArmTuning, as are the next four, and the cone
 REACH, FOLLOW_M, CLAVICLE_LIFT, CLAVICLE_SHARE = 0.995, 0.06, 0.35, 0.8
 CLAVICLE_CURVE = ((0.0, 0.7, 0.85, 1.05, 1.2), (0.006, 0.010, 0.018, 0.032, 0.070))
@@ -120,7 +120,7 @@ class Motion(Tracked):
         self.source = np.array([clips.source[each] for each in recording.clip[rows]])
 
 
-# ---- the talk's form
+# ---- the talk's formulas
 
 CHEST_START = {"hand_share": 0.15, "line_share": 1.35, "roll_share": 0.1, "lean": 0.5, "neck_m": 0.16, "shoulders_up_m": -0.061,
                "shoulders_back_m": 0.07, "nod_rad": 0.4, "ears_below_m": 0.05, "ears_behind_m": 0.08}
@@ -150,7 +150,7 @@ def lean_of(head_up, share):
 
 
 def talked_facing(motion, constants):
-    """(yaw, lean) of the talk's form; the lean is that of the chest."""
+    """(yaw, lean) of the talk's formulas; the lean is that of the chest."""
     lean, look = lean_of(motion.head[..., 1], constants["lean"]), motion.looks[0]
     left, right = (to_facing(look, times_transposed(lean, motion.reach(side))) for side in (0, 1))
     line = right - left

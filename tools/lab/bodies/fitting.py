@@ -1,4 +1,4 @@
-"""Fits the constants of systems/body: first the talk's form, then the networks that correct it."""
+"""Fits the constants of systems/body: first the talk's formulas, then the networks that correct it."""
 import numpy as np
 
 from . import choosing, estimator
@@ -51,7 +51,7 @@ def looks_up(motion):
 
 
 def shoulders_at_truth(motion, constants):
-    """Error of both shoulders in the talk's form, cm, if the chest faced where it truly does."""
+    """Error of both shoulders in the talk's formulas, cm, if the chest faced where it truly does."""
     lean = estimator.talked_facing(motion, constants)[1]
     resting = estimator.resting_shoulders(motion, constants, motion.yaw, lean, np.zeros((len(motion.yaw), 4)))
     return 100.0 * np.linalg.norm(estimator.shoulders_of(motion, motion.yaw, resting) - motion.shoulder_m, axis=-1)
@@ -90,7 +90,7 @@ def person_weights(person):
 
 
 class Chest:
-    """The chest's estimate of all frames: talk's form, then the network."""
+    """The chest's estimate of all frames: talk's formulas, then the network."""
 
     def __init__(self, motion, constants):
         self.motion, self.constants = motion, constants
