@@ -16,7 +16,8 @@
 //   16 hidden, 623 numbers: chest yaw, deg 7.84 (6.81 to 8.43); shoulder, cm 4.53 (4.24 to 4.69)
 //   24 hidden, 903 numbers: chest yaw, deg 7.69 (6.82 to 8.26); shoulder, cm 4.47 (4.22 to 4.61)
 // Elbows, chest with 24 hidden:
-//   the talk's formulas, 0 numbers: elbow, cm 5.82 (5.42 to 6.31); swivel, deg 17.29 (16.74 to 18.09)
+//   the talk's formulas, 0 numbers: elbow, cm 5.82 (5.42 to 6.31); swivel, deg 17.29 (16.74 to
+//     18.09)
 //   8 hidden, 385 numbers: elbow, cm 5.24 (4.79 to 5.81); swivel, deg 13.69 (13.01 to 15.43)
 //   16 hidden, 697 numbers: elbow, cm 5.21 (4.78 to 5.77); swivel, deg 13.54 (12.89 to 15.34)
 //   24 hidden, 1009 numbers: elbow, cm 5.19 (4.77 to 5.76); swivel, deg 13.56 (12.93 to 15.36)
@@ -52,8 +53,8 @@ namespace handhold::body_constants {
 // Time constants of ArmMemory::looks_ps. The talk's formulas use the first.
 inline constexpr std::array<double, k_look_filters> k_look_lags_s = {0.15, 0.35, 1.0};
 
-// The talk's formulas: chest_facing, chest_lean, chest_pose; trunk_view (nod, ears). Lengths: for an
-// eye height of k_scale_eye_m.
+// The talk's formulas: chest_facing, chest_lean, chest_pose; trunk_view (nod, ears). Lengths: for
+// an eye height of k_scale_eye_m.
 inline constexpr double k_hand_share = 0.475;
 inline constexpr double k_line_share = 2.475;
 inline constexpr double k_roll_share = -0.1562;
