@@ -88,8 +88,8 @@ struct FrameGraph {
         // Number of contacts that this frame's contact searches have visited in the body's heaps.
         std::uint64_t visits = 0;
     };
-    // graph.bodies has one more element at the end, the world, if a joint connects a body to the
-    // world.
+    // If a joint connects a body to the world, `phase` and graph.bodies have one element more than
+    // `entities`: the last one stands for the world.
     std::vector<PhaseBody> phase;
     JointGroups joint_groups;          // written by group_joints
     std::vector<PushBack> push_backs;  // one per player; written by finish_positions

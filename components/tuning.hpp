@@ -256,15 +256,16 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     see("locomotion.release_speed_max_mps", t.locomotion.release_speed_max_mps, "m/s", 0.0, 1e6,
         "Maximum speed of a player after a release or push, relative to the reference velocity.");
     see("locomotion.object_speed_max_mps", t.locomotion.object_speed_max_mps, "m/s", 0.0, 1e6,
-        "Maximum speed of a thrown object, relative to the reference velocity; also of a held or "
-        "pushed object, unless it was already faster or something driven or heavy moves it "
-        "faster.");
+        "Maximum speed of a thrown, held or pushed object, relative to the reference velocity. A "
+        "held or pushed object may keep a higher speed that it already had, or reach that of a "
+        "kinematic or heavy body in its island.");
     see("locomotion.object_spin_max_radps", t.locomotion.object_spin_max_radps, "rad/s", 0.0, 1e3,
         "Maximum angular speed of a free body.");
     see("locomotion.drift_drag_per_s", t.locomotion.drift_drag_per_s, "1/s", 0.0, 100.0,
         "Drag rate of a drifting player's velocity relative to the reference velocity.");
     see("locomotion.brake_drag_per_s", t.locomotion.brake_drag_per_s, "1/s", 0.0, 100.0,
-        "Drag rate of a player's relative velocity with the brake fully pressed.");
+        "Drag rate with the brake fully pressed, of a player's velocity relative to the reference "
+        "velocity; added to locomotion.drift_drag_per_s.");
     see("locomotion.smooth_turn_radps", t.locomotion.smooth_turn_radps, "rad/s", 0.0, 20.0,
         "Turning speed with the stick fully deflected.");
     see("locomotion.snap_turn_rad", t.locomotion.snap_turn_rad, "rad", 0.0, 3.2,
@@ -280,8 +281,9 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "Mass from which a held object exchanges momentum with the player exactly; must exceed "
         "phases.kappa_light_kg.");
     see("phases.heavy_body_kg", t.phases.heavy_body_kg, "kg", 1e-6, 1e9,
-        "Mass from which a free body is gripped like a wall and counts as immovable in the forward "
-        "phase.");
+        "Mass from which a free body is gripped like a wall and is held still in the forward "
+        "phase, "
+        "the solve that moves lighter free bodies.");
     see("contact.margin_m", t.contact.margin_m, "m", 1e-3, 0.2,
         "Distance up to which contacts are created before colliders touch.");
     see("contact.sweep_m", t.contact.sweep_m, "m", 1e-4, 0.1,

@@ -17,8 +17,9 @@ constexpr int k_steps = 128;
 // A new separating direction is computed when the gap is below this share of the last computed gap.
 constexpr double k_reuse_ratio = 0.5;
 
-// Advances a's bounding sphere towards the triangle, in cheap steps that ignore rotation. Rejects
-// most triangles: nullopt if the sphere does not reach the triangle before `limit`.
+// Moves the moving shape's bounding sphere (radius `reach_m`) towards the triangle, in cheap steps
+// that ignore rotation. Returns the fraction of the motion that is certainly free. nullopt if the
+// sphere does not reach the triangle before the fraction `limit`, as with most triangles.
 std::optional<double> skip_free_travel(const RelativeMotion& motion, const Corners& corners_ns,
                                        double reach_m, double limit) {
     constexpr int k_cheap_steps = 8;

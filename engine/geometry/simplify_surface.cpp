@@ -89,7 +89,8 @@ class Locks {
     }
 
   private:
-    // Radius of locking around a deviation, in units of the limit.
+    // Where the coarse surface deviates from the fine one, the vertices of all fine triangles
+    // within this radius are locked. In multiples of `limit_m`.
     static constexpr double k_around = 2.0;
 
     void lock(std::uint32_t triangle) {

@@ -220,7 +220,8 @@ Scene make_ship_scene() {
 
 // --- crowd ---
 
-// The first player plays the station's session.
+// The first player replays the station's session: make_built_in_session returns the same recording
+// for "crowd" and "station".
 Scene make_crowd_scene() {
     Scene scene = make_station_scene();
     scene.name = "crowd";

@@ -84,7 +84,7 @@ struct Scene {
     // hulls and compounds).
     std::map<std::string, std::vector<SceneGrip>> grips;
     std::map<std::string, Pose> body_in_file;
-    std::optional<SceneSession> session;  // session that shows the scene
+    std::optional<SceneSession> session;  // recording that demonstrates the scene
     std::vector<std::string> notes;       // remarks about the loaded files; see GltfLevel::notes
     int climbers = 0;  // scripted climbers besides the first player; --players overrides it
 };

@@ -78,7 +78,7 @@ struct ScenePlayer {
     double mass_kg = 80.0;  // > 0
 };
 
-// The session that shows the scene.
+// The recording that demonstrates the scene, from a file or built in.
 struct SceneSession {
     std::filesystem::path file;  // .csv; empty: see built_in
     std::string built_in;        // name of one of the game's sessions; empty: see file

@@ -16,7 +16,7 @@ struct PropagateSpineIo {
     double dt_s;                                 // in: > 0
     double t_s;                                  // in: the world's clock at the frame's end
     SurfaceQuery surfaces;                       // in: what trunk and legs touch; empty: nothing
-    const Column<PersistentId>& persistent_id;   // in: a body ignores its own player's head
+    const Column<PersistentId>& persistent_id;   // in: queries skip the player's own head
     const Column<PlayerOrigin>& origin;          // in
     const Column<PlayerVelocity>& velocity;      // in
     const Column<ReferenceVelocity>& reference;  // in

@@ -9,7 +9,8 @@ namespace handhold {
 using UpdateGrabsIo = GrabSearch;  // systems/grab/shared/grab_search.hpp
 
 // A hand that closes grips, in this order:
-//  - an authored grip whose snap zone it is in (talk row 10): the grip of the highest priority,
+//  - an authored grip whose snap zone it is in (docs/talk_map.md, row 10): the grip of the highest
+//  priority,
 //    among equal ones the grip that moves the palm least. Grips that another hand occupies, or that
 //    an obstacle blocks, do not count;
 //  - the first surface on the palm ray (talk rows 2, 3), or one in reach of a higher

@@ -49,7 +49,7 @@ struct GatherSurroundingsIo {
     const Column<HandOwner>& owner;             // in
     const Column<HandTracking>& hand;           // in: pose_ps, end of the frame
     const Column<Grab>& grab;                   // in: kind, body, anchor_bs
-    const Column<BodyHold>& body_hold;          // in: hands on a player's part
+    const Column<BodyHold>& body_hold;          // in: hands that grip another player's body
     const Column<PlayerOrigin>& origin;         // in: pose_ws, end of the frame
     const Column<HeadTracking>& head;           // in: pose_ps, for hands on a player's head
     const Column<RenderPose>& shown;            // in: held players, as of the last frame

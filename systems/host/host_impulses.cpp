@@ -8,7 +8,8 @@ namespace handhold {
 namespace {
 
 constexpr double k_no_limit = std::numeric_limits<double>::infinity();
-// Lever arm at which a hand's rotation counts: about the longest held body.
+// Lever arm that converts a hand's angular speed to a linear speed: about the length of the longest
+// held body.
 constexpr double k_held_lever_m = 1.0;
 
 // Greatest speed at which the island's hands move what they hold.

@@ -47,7 +47,8 @@ struct SolveScratch {
     std::vector<double> bouncing_lambda;
     std::vector<Vec3> bouncing_moves_m;
     std::vector<Vec3> bouncing_rotations_rad;
-    TriadSystem triads;  // used instead of all the others if the island qualifies
+    // Used instead of the members above if TriadSystem::load accepts the island.
+    TriadSystem triads;
     LoadSteppedDrives load_stepped;
     // Indexed by slot: result of the solve with full load, before load stepping.
     std::vector<Pose> full_load;

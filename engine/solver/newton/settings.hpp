@@ -14,8 +14,8 @@ namespace handhold {
 struct StepControl {
     double max_drive_regularisation = 1e-2;  // >= min_drive_regularisation
     double min_drive_regularisation = 1e-9;
-    // Maximum for contacts that contradict each other; their initial regularisation, if that is
-    // larger.
+    // Maximum to which the contact regularisation rises while contacts contradict each other. If
+    // the initial contact regularisation is larger, it is the maximum.
     double max_contact_regularisation = 1e-3;
     // Factors on the drives' regularisation after a step that made progress
     // (regularisation_schedule.hpp), and after one that did not.

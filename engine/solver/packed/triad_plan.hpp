@@ -90,8 +90,8 @@ class TriadPlan {
         return strands_.links().subspan(strand_pack.step, strand_pack.length);
     }
     std::size_t strand_pack_steps() const { return strands_.links().size(); }
-    // First end of a strand that starts at an immovable body, and the place of the body that is
-    // packed instead of that body (see TriadSystem::Anchor).
+    // A strand whose first body is immovable. `end`: the strand's end at that body, as 2 * given
+    // node + side. `place`: where a substitute for the body is packed (see TriadSystem::Anchor).
     struct AnchoredEnd {
         std::uint32_t end = 0;
         std::uint32_t place = 0;
@@ -148,7 +148,7 @@ class TriadPlan {
     std::vector<RowNode> nodes_;  // nodes as given by the caller
     std::vector<std::uint8_t> can_rotate_;
     StrandPlan strands_;
-    EliminationPlan plan_;  // plan of the nodes of the rest
+    EliminationPlan plan_;  // elimination plan of the nodes that are in no strand
     std::vector<Step> steps_;
     std::vector<std::uint32_t> later_;  // nodes
     std::vector<std::uint32_t> updates_;
