@@ -236,8 +236,8 @@ bool write_joint(const BuildConstraintsIo& io, std::size_t index, RowBlock& bloc
         return body != Column<RigidBody>::k_npos ? std::size_t{io.frame.body_of_element[body]}
                                                  : graph.bodies.size();
     };
-    const auto is_movable = [&](std::size_t index) {
-        return graph.bodies[index].role != BodyRole::fixed;
+    const auto is_movable = [&](std::size_t body) {
+        return graph.bodies[body].role != BodyRole::fixed;
     };
     const Joint& joint = io.joint.elements()[index];
     const Entity entity = io.joint.owners()[index];
