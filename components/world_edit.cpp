@@ -39,7 +39,7 @@ void place_body(World& world, Entity body, const Pose& pose_ws) {
         *valid = {pose_ws, true};
     }
     if (MoveTarget* const target = world.move_target.find(body)) {
-        target->pose_ws = pose_ws;
+        *target = {.pose_ws = pose_ws};
     }
 }
 
@@ -61,7 +61,7 @@ void move_kinematic(World& world, Entity body, const Pose& pose_ws) {
     if (MoveTarget* const target = world.move_target.find(body)) {
         target->pose_ws = pose_ws;
     } else {
-        world.move_target.add(body, {pose_ws});
+        world.move_target.add(body, {.pose_ws = pose_ws});
     }
 }
 
@@ -113,6 +113,60 @@ void teleport_player(World& world, Entity player, const Pose& origin_ws) {
 
 Entity hand_of(const World& world, Entity player, HandSide side) {
     HH_CHECK(world.player.contains(player), "no player with this handle", player.slot);
+void change_body(World& world, Entity entity, const RigidBody& body) {
+    HH_CHECK(world.body.contains(entity), "no body with this handle", entity.slot);
+    check_rigid_body(body, __func__);
+    const BodyKind before = world.body.at(entity).kind;
+    world.body.at(entity) = body;
+    if (body.kind == before) {
+        return;
+    }
+    const Pose pose_ws = world.body_pose.at(entity).pose_ws;
+    world.body_start.at(entity).pose_ws = pose_ws;
+    world.last_valid.remove(entity);
+    if (body.kind == BodyKind::free) {
+        world.last_valid.add(entity, {pose_ws, true});
+    } else {
+        world.body_velocity.at(entity) = {};
+    }
+    if (before == BodyKind::kinematic) {
+        world.move_target.remove(entity);
+        world.mover.remove(entity);
+        world.path_mover.remove(entity);
+        world.leg_mover.remove(entity);
+    }
+}
+
+void change_shape(World& world, Entity body, ShapeId shape, const Pose& frame) {
+    HH_CHECK(world.body.contains(body), "no body with this handle", body.slot);
+    check_place(__func__, frame);
+    const Pose old_ws = world.body_pose.at(body).pose_ws;
+    const Pose new_ws = old_ws * frame;
+    check_place(__func__, new_ws);
+    world.collider.remove(body);
+    if (shape != k_no_shape) {
+        world.collider.add(body, {shape});
+    }
+    forget_fits(world);
+    if (frame.position == Vec3::Zero() && frame.rotation.vec() == Vec3::Zero()) {
+        return;
+    }
+    const Reframed reframe{inverse(frame)};
+    reframe_joints(world, body, reframe);
+    reframe_hands(world, body, reframe);
+    BodyVelocity& velocity = world.body_velocity.at(body);
+    velocity.linear_mps += velocity.angular_radps.cross(new_ws.position - old_ws.position);
+    world.body_pose.at(body).pose_ws = new_ws;
+    Pose& start_ws = world.body_start.at(body).pose_ws;
+    start_ws = start_ws * frame;
+    if (LastValidPose* const valid = world.last_valid.find(body)) {
+        valid->pose_ws = valid->pose_ws * frame;
+    }
+    if (MoveTarget* const target = world.move_target.find(body)) {
+        target->pose_ws = target->pose_ws * frame;
+    }
+}
+
     for (std::size_t row = 0; row < world.hand_owner.size(); ++row) {
         const HandOwner& owner = world.hand_owner.rows()[row];
         if (owner.player == player && owner.side == side) {

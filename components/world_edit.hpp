@@ -7,9 +7,9 @@
 // world_limits.
 namespace handhold {
 
-// A kinematic body reaches `pose_ws` at the end of the next frame, with the velocity that takes it
-// there, and then stays. Hands that grip it and bodies that it pushes move with it. Not for bodies
-// with a mover.
+// A kinematic body reaches `pose_ws` at the end of the next frame and then stays. Hands that grip
+// it and bodies that it pushes move with it. Its velocity is measured over its last moves: see
+// animate_movers. Not for bodies with a mover.
 void move_kinematic(World& world, Entity body, const Pose& pose_ws);
 
 // A body is at `pose_ws` at once: nothing between is touched. Its velocity stays. Hands that grip

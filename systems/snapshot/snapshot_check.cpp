@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "components/body_clip_state.hpp"
@@ -127,6 +128,16 @@ class BreachFinder {
             check(std::abs(w_.gravity_scale.rows()[row].scale) <= GravityScale::k_max,
                   "gravity_scale", w_.gravity_scale.owners()[row], ".scale",
                   "a number within 1000");
+        }
+        for (std::size_t row = 0; row < w_.move_target.size(); ++row) {
+            const MoveTarget& target = w_.move_target.rows()[row];
+            const Entity owner = w_.move_target.owners()[row];
+            check(target.count <= MoveTarget::k_capacity, "move_target", owner, ".count",
+                  "at most 8 moves");
+            const auto moves = std::span(target.moves).first(breach_ ? 0 : target.count);
+            check(std::ranges::all_of(moves,
+                                      [](const MoveTarget::Move& m) { return m.span_s > 0.0; }),
+                  "move_target", owner, ".moves", "times > 0");
         }
         for (std::size_t row = 0; row < w_.path_mover.size(); ++row) {
             const PosePath& path = w_.path_mover.rows()[row].path;

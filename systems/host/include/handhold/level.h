@@ -136,8 +136,12 @@ HH_API hh_result hh_body_apply_impulse(hh_world* world, hh_body body, hh_vec3 im
                                        hh_vec3 point);
 /* At once, without touching what is between. Keeps the velocity. Hands that grip it let go. */
 HH_API hh_result hh_body_teleport(hh_world* world, hh_body body, hh_pose pose);
-/* A kinematic body reaches the pose at the end of the next step, with the velocity that takes it
- * there, and then rests. Call it before every step in which it moves. */
+/* A kinematic body reaches the pose at the end of the next step and then rests. Call it before every
+ * step in which it moves, or less often: a host that ticks slower than it draws may tell each tick's
+ * pose once. The body's velocity, with which hands leave it and bodies are thrown, is the displacement
+ * since the pose before over the time since then; over tracking.release_window_s if the poses come at
+ * varying times. It is 0 once a pose is due that does not come or is the same. The first pose after a
+ * rest counts as half a second's motion, since nothing says when it began. */
 HH_API hh_result hh_body_move_kinematic(hh_world* world, hh_body body, hh_pose pose);
 HH_API hh_result hh_body_set_gravity_scale(hh_world* world, hh_body body, double scale);
 HH_API hh_result hh_body_set_layers(hh_world* world, hh_body body, uint32_t layers, uint32_t mask);
