@@ -16,6 +16,16 @@ void move_kinematic(World& world, Entity body, const Pose& pose_ws);
 // it let go.
 void teleport_body(World& world, Entity body, const Pose& pose_ws);
 
+// A body gets another kind, mass, inertia, friction and restitution. A body that becomes fixed or
+// kinematic stops; one that becomes free keeps its velocity. Movers and targets of a body that is
+// no longer kinematic are gone. Grips stay: see follow_changed_bodies in update_grabs.cpp.
+void change_body(World& world, Entity entity, const RigidBody& body);
+
+// A body gets another shape, or none (k_no_shape). `frame`: the new shape's frame in the old one,
+// so the body's pose becomes pose * frame. Grips, joints, authored grips and velocities stay where
+// they are in the world. Palms and fingers look for the surface again.
+void change_shape(World& world, Entity body, ShapeId shape, const Pose& frame);
+
 // A player's play space is at `origin_ws` at once, at rest against the scene. Free bodies in the
 // player's hands that no joint holds come along; hands let go of everything else. Hands of others
 // let go of this player's head and of bodies that come along.
