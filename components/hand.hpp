@@ -46,8 +46,8 @@ struct GripSurface {
     // Per finger, the sample pose used as part of the palm's collision shape because the finger has
     // no clearance here; 0: none.
     FingerSamplePoses finger_samples = {};
-    // Travel left until other candidates are evaluated again. 0: they are not, because this surface
-    // has the lowest closed-form cost and clearance.
+    // Travel left until other candidates are evaluated again. 0: no recheck is needed, because this
+    // surface has clearance and the lowest closed-form cost of all.
     double candidate_recheck_in_m = 0.0;
     // Progress of a candidate search that is spread over frames: the triangles of its candidates.
     // Those before evaluated_count were evaluated or skipped; those from there to candidate_count
@@ -62,7 +62,8 @@ struct GripSurface {
     // Sample poses of the fingers without clearance at the last candidate. That candidate is
     // evaluated again with these poses as part of the palm's shape. All 0: nothing is pending.
     FingerSamplePoses pending_finger_samples = {};
-    // Travel left until this surface's clearance is checked again. 0: palm or fingers have none.
+    // Travel left until this surface's clearance is checked again. 0: palm or fingers have no
+    // clearance here.
     double clearance_recheck_in_m = 0.0;
     // Travel left until the next full search. Until then only triangles near this one are searched,
     // and normal_bs is kept.
@@ -111,8 +112,8 @@ struct FingerPose {
     // Digits in their authored pose, and digits whose authored pose penetrates in this grip.
     std::array<bool, k_finger_count> is_authored = {};
     std::array<bool, k_finger_count> authored_pose_rejected = {};
-    // What the digits closed for: they close again on another body, at another place of its
-    // surface, in another grip, or far from this wrist. Null body: not closed.
+    // Cache key of the closing. The digits close again on another body, at another place of its
+    // surface, in another grip, or after enough wrist travel. Null body: not closed.
     Entity closed_body = k_no_entity;
     Pose closed_wrist_bs;  // wrist of the closed hand with the held palm
     Vec3 closed_point_bs = Vec3::Zero();
@@ -120,8 +121,8 @@ struct FingerPose {
     bool is_closed_in_grip = false;  // closed by an authored grip
     // True until fit_hands has fitted the closing.
     bool is_newly_closed = false;
-    // The body that `target` was fitted to, null if none, and digits known to be outside its solids
-    // there.
+    // The body that `target` was fitted to; null: none. Below, the digits that this fit left
+    // outside of solids.
     Entity fitted_body = k_no_entity;
     std::array<bool, k_finger_count> is_clear = {};
     // Cache key of the target: tracked wrist and HandSurroundings::signature of the last fit.

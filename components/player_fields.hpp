@@ -46,6 +46,7 @@ void visit_fields(const HeadTracking& c, V&& visit) {
     visit("state", c.state);
     visit("shift_m", c.shift_m);
     visit("shift_turn", c.shift_turn);
+    visit("is_inferred", c.is_inferred);
 }
 template <typename V>
 void visit_fields(const RecenterGuess& c, V&& visit) {
@@ -61,6 +62,9 @@ void visit_fields(const EarlySample& c, V&& visit) {
     visit("grab", c.grab);
     visit("squeeze", c.squeeze);
     visit("trigger", c.trigger);
+    visit("head_inferred", c.head_inferred);
+    visit("inferred", c.inferred);
+    visit("curls", c.curls);
 }
 template <typename V>
 void visit_fields(const EarlySamples& c, V&& visit) {

@@ -89,7 +89,7 @@ struct World {
     Column<AuthoredHold> authored_hold;    // only hands in an authored grip
     Column<BodyHold> body_hold;            // only hands on another player's arm, trunk or leg
     Column<HandPull> hand_pull;            // only hands that pull a body from a distance
-    Column<EarlySamples> early_samples;    // only players with samples of after the last frame
+    Column<EarlySamples> early_samples;    // only players with samples later than the last frame
     Column<RecenterGuess> recenter_guess;  // only players whose samples' jumps are meant
     Column<GrabLayers> grab_layers;        // only players whose hands do not grip everything
     Column<GrabOrder> grab_order;          // only hands with an order for the next frame

@@ -12,8 +12,8 @@ namespace handhold {
 // animate_movers. Not for bodies with a mover.
 void move_kinematic(World& world, Entity body, const Pose& pose_ws);
 
-// A body is at `pose_ws` at once: nothing between is touched. Its velocity stays. Hands that grip
-// it let go.
+// Places a body at `pose_ws` at once, without collisions on the path. The body keeps its velocity.
+// Hands that grip it let go.
 void teleport_body(World& world, Entity body, const Pose& pose_ws);
 
 // A body gets another kind, mass, inertia, friction and restitution. A body that becomes fixed or
@@ -26,9 +26,9 @@ void change_body(World& world, Entity entity, const RigidBody& body);
 // they are in the world. Palms and fingers look for the surface again.
 void change_shape(World& world, Entity body, ShapeId shape, const Pose& frame);
 
-// A player's play space is at `origin_ws` at once, at rest against the scene. Free bodies in the
-// player's hands that no joint holds come along; hands let go of everything else. Hands of others
-// let go of this player's head and of bodies that come along.
+// Places a player's play space at `origin_ws` at once, at rest relative to the scene. Free bodies
+// in the player's hands that no joint holds come along; the hands let go of everything else. Hands
+// of other players let go of this player's head and of bodies that come along.
 void teleport_player(World& world, Entity player, const Pose& origin_ws);
 
 // The player's hand on that side. Throws if there is no such player.

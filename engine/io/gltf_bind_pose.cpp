@@ -16,7 +16,6 @@ namespace {
 // skeleton's size.
 constexpr double k_same = 1e-3;
 constexpr double k_same_scale = 0.02;  // files store floats, and some exporters round matrices
-constexpr double k_cos_posed = 0.5;    // cosine of the largest turn of a posed topmost joint
 
 std::optional<Affine> inverse_of(const Affine& map) {
     const double determinant = map.linear.determinant();
@@ -85,7 +84,7 @@ class BindPose {
     const Affine& world_of(int node) const { return placed_[order_.at(node)].world; }
 
     bool read_skins(std::vector<BoundSkin>& skins) {
-        std::map<int, int> mesh_node;  // by skin
+        std::map<int, int> mesh_node;  // mesh node by skin
         for (const PlacedNode& placed : placed_) {
             const Node& node = element(model_.nodes, placed.node);
             if (node.mesh != k_none && node.skin != k_none &&
@@ -224,9 +223,9 @@ class BindPose {
     AccessorReader& reader_;
     Refusal& refusal_;
     std::vector<PlacedNode>& placed_;
-    std::map<int, std::size_t> order_;  // by node: its index in placed_
-    std::map<int, int> parent_;         // by node
-    std::map<int, Affine> bound_;       // by node that was moved: its place in the scene
+    std::map<int, std::size_t> order_;  // index in placed_, by node
+    std::map<int, int> parent_;         // parent by node
+    std::map<int, Affine> bound_;       // place in the scene of each moved node
     std::set<int> is_in_earlier_skin_;  // nodes
 };
 

@@ -58,7 +58,7 @@ Result<SkinnedMesh> parse_gltf_skin(std::string_view bytes, const std::filesyste
 // Loads a whole figure: every node of the default scene becomes a joint. Meshes without a skin
 // follow their node rigidly, and there may be several skins. Joints may also be scaled unevenly or
 // sheared: bind_ms is then found as for mirrored joints. More than k_max_skin_joints nodes are an
-// error. Otherwise as load_gltf_skin.
+// error. All other rules and errors are those of load_gltf_skin.
 Result<SkinnedMesh> load_gltf_figure(const std::filesystem::path& path);
 Result<SkinnedMesh> parse_gltf_figure(std::string_view bytes, const std::filesystem::path& path);
 

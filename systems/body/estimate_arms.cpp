@@ -120,7 +120,7 @@ Vec3 bend_above_floor(const ElbowCircle& circle, const Vec3& axis_ts, const Vec3
         return bend_ts;  // a vertical arm's elbow is as high in all directions
     }
     const Vec3 rising = up * (1.0 / length);
-    const double rise = std::min(1.0, least_m / (circle.radius_m * length));
+    const double rise = std::clamp(least_m / (circle.radius_m * length), -1.0, 1.0);
     const Vec3 aside = bend_ts - rising * rising.dot(bend_ts);
     const double aside_length = aside.norm();
     const Vec3 level =
@@ -252,7 +252,7 @@ void take_hands(const EstimateArmsIo& io) {
     ArmEstimate* estimate = nullptr;
     for (std::size_t row = 0; row < io.owner.size(); ++row) {
         const HandOwner& owner = io.owner.rows()[row];
-        if (owner.player != player) {  // a player's hands are usually in adjacent rows
+        if (owner.player != player) {  // a player's hands are usually adjacent
             player = owner.player;
             origin_ws = &io.origin.at(player).pose_ws;
             estimate = &io.estimate.at(player);

@@ -105,8 +105,8 @@ TickShares tick_shares(const SpineTuning& tuning) {
              range_of(SpineLinkKind::shin, tuning)}};
 }
 
-// Upper limit of a joint. At a surface legs may tuck farther than a swing takes them, as far as a
-// person's do. Afterwards the limit returns with the joint at a limited speed.
+// Upper limit of a joint. At a surface, legs may be pushed beyond their swing limit, up to a human
+// range. Afterwards the limit follows the joint back at a limited speed.
 double reached_limit(SpineLinkKind kind, double limit_rad, bool touches, double angle_rad) {
     constexpr double k_hip_rad = 1.9;
     constexpr double k_knee_rad = 2.4;
@@ -183,7 +183,7 @@ void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemor
             memory.velocity_mps[i] += correction_mps;
         }
         if (link.parent != k_chest_link && outside == returned) {
-            // The pelvis has two thighs; each contributes half.
+            // The pelvis has two thighs; each contributes half of the correction.
             const double share = link.kind == SpineLinkKind::thigh ? 0.5 : 1.0;
             memory.velocity_mps[link.parent] -= (share * tuning.hand_back) * correction_mps;
         }
@@ -201,8 +201,8 @@ struct Motion {
     double lying;
     Pose chest_ps;
     // Displacements in this frame relative to the reference, play-space axes.
-    Vec3 moved_m;        // of the neck
-    Vec3 chest_moved_m;  // of the chest
+    Vec3 moved_m;        // the neck
+    Vec3 chest_moved_m;  // the chest
 };
 
 void play(const Motion& motion, double scale, const SpineTuning& tuning, SpineMemory& memory) {
@@ -228,13 +228,14 @@ void play(const Motion& motion, double scale, const SpineTuning& tuning, SpineMe
     memory.rate_span_s = span_s;
 }
 
-// Looks for surfaces beside the body, if the stage has any.
+// Searches for surfaces beside the body, if io.surfaces is set.
 void touch_surfaces(const PropagateSpineIo& io, Entity player, const Motion& motion,
                     const TrackedFloor& floor, SpineMemory& memory) {
     if (!io.surfaces) {
         return;
     }
-    // The eyes are near the surface of the head's collider, which may touch other surfaces.
+    // A point inside the head, because the eyes are near the surface of the head's collider, which
+    // may touch other surfaces.
     const Vec3 in_head_m(0.0, 0.0, 0.08);
     const BodySurroundings around{io.surfaces,
                                   io.persistent_id.at(player).value,
@@ -274,7 +275,7 @@ void propagate_player(const PropagateSpineIo& io, std::size_t row, const SpineTu
     const double lying = io.estimate.at(player).lying;
     const TrackedFloor floor{chest_ps.position.y() - floor_m, scale, lying};
     const Held is_held = held(io, player);
-    // A held body's velocities are relative to its player's.
+    // While the body is held, its velocities are relative to the player's velocity.
     const Vec3 reference_ws =
         is_held.now ? io.velocity.at(player).linear_mps : io.reference.at(player).linear_mps;
     // A neck that bends moves the chest a little. That is no motion of the body, which would swing:

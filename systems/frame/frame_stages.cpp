@@ -38,6 +38,7 @@ void read_tracking(const FrameContext& f) {
                             .owner = w.hand_owner,
                             .controller_to_hand = w.controller_to_hand,
                             .recenter_guess = w.recenter_guess,
+                            .grab = w.grab,
                             .head = w.head_tracking,
                             .hand = w.hand_tracking,
                             .history = w.hand_history,

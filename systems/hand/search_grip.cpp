@@ -12,7 +12,7 @@
 namespace handhold {
 namespace {
 
-// A search ends after this many pops in a row without a cheaper triangle.
+// A search ends after this many consecutive pops without a cheaper triangle.
 constexpr std::uint32_t k_max_idle_pops = 24;
 // The same limit while following last frame's surface.
 constexpr std::uint32_t k_follow_max_idle_pops = 6;

@@ -277,7 +277,7 @@ hh_result hh_body_apply_impulse(hh_world* world, hh_body body, hh_vec3 impulse_n
     return call([&] {
         hh_world& host = world_of(world);
         const Entity entity = dynamic_body_of(host, body);
-        constexpr double k_max_impulse_ns = 1e21;  // the heaviest body to the highest speed
+        constexpr double k_max_impulse_ns = 1e21;  // brings the heaviest body to the highest speed
         const Vec3 impulse =
             checked(impulse_ns, k_max_impulse_ns, "an impulse beyond 1e21 N s, or NaN");
         const Vec3 at = checked(point, world_limits::k_max_coordinate_m, "a point beyond 1e9 m");

@@ -103,7 +103,7 @@ hh_pose hh_identity_pose(void) { return to_c(Pose{}); }
 void hh_sin_cos(double angle_rad, double* sine, double* cosine) {
     double s = 0.0;
     double c = 1.0;
-    sin_cos(angle_rad, s, c);
+    call([&] { sin_cos(angle_rad, s, c); });
     if (sine != nullptr) {
         *sine = s;
     }
@@ -112,7 +112,11 @@ void hh_sin_cos(double angle_rad, double* sine, double* cosine) {
     }
 }
 
-double hh_atan2(double y, double x) { return arc_tangent2(y, x); }
+double hh_atan2(double y, double x) {
+    double angle_rad = 0.0;
+    call([&] { angle_rad = arc_tangent2(y, x); });
+    return angle_rad;
+}
 
 hh_result hh_default_host_hooks_sized(hh_host_hooks* filled, size_t size) {
     hh_host_hooks set{};

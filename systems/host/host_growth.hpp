@@ -69,8 +69,8 @@ T& sized_element(T* first, std::size_t size, std::size_t i) {
 
 // Where a struct that grows holds an array of structs that grow: its own later fields come behind.
 struct NestedLayout {
-    std::size_t size;         // of the outer struct, bytes
-    std::size_t nested_size;  // of one element
+    std::size_t size;         // bytes of the outer struct
+    std::size_t nested_size;  // bytes of one element
     std::size_t nested_at;    // offset of the array, equal in all versions
     std::size_t nested_count;
 

@@ -6,6 +6,7 @@
 #include "components/world_edit.hpp"
 #include "systems/host/host_skeleton.hpp"
 #include "systems/host/host_world.hpp"
+#include "systems/rigs/finger_curls.hpp"
 
 namespace handhold {
 namespace {
@@ -37,6 +38,7 @@ hh_hand_state hand_state(const hh_world& host, Entity player, HandSide side) {
     state.anchor = hh_identity_pose();
     state.is_tracked = tracking.state == TrackingState::tracked;
     state.is_closed = tracking.pressed;
+    state.is_inferred = tracking.state == TrackingState::inferred;
     const bool is_body = host.world.body.contains(grab.body);
     if (grab.kind == GripKind::none || (!is_body && !host.world.player.contains(grab.body))) {
         return state;
@@ -149,6 +151,20 @@ hh_result hh_hand_release(hh_world* world, hh_player player, hh_side side) {
     return call([&] {
         hh_world& host = world_of(world);
         order(host, hand_of(host.world, player_of(host, player), side_of(side)), k_no_entity);
+    });
+}
+
+hh_result hh_finger_curls_of(const hh_hand_joint* joints, hh_finger_curls* curls) {
+    return call([&] {
+        require(joints != nullptr && curls != nullptr, HH_ERROR_NULL,
+                "the joints or the output are null");
+        TrackedJoints seen;
+        for (std::size_t i = 0; i < seen.size(); ++i) {
+            if (joints[i].is_valid != 0) {
+                seen[i] = from_c(joints[i].pose.position);
+            }
+        }
+        std::ranges::copy(finger_curls(seen), curls->fingers);
     });
 }
 

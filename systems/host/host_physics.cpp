@@ -116,7 +116,8 @@ hh_result hh_player_place(hh_world* world, hh_player player, hh_pose origin, hh_
         host.world.player_origin.at(entity).pose_ws = origin_ws;
         host.world.player_start.at(entity).pose_ws = origin_ws;
         host.world.player_velocity.at(entity).linear_mps = velocity;
-        host.world.last_valid.at(entity).known = false;  // nothing is swept over the way
+        // No sweep over the distance from its old place.
+        host.world.last_valid.at(entity).known = false;
     });
 }
 

@@ -133,6 +133,22 @@ hh_result hh_player_reference_velocity(const hh_world* world, hh_player player,
     });
 }
 
+hh_result hh_player_push_back(const hh_world* world, hh_player player, double* distance_m) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(distance_m != nullptr, HH_ERROR_NULL, "the output is null");
+        *distance_m = host.world.render_pose.at(player_of(host, player)).push_back_m;
+    });
+}
+
+hh_result hh_player_mass(const hh_world* world, hh_player player, double* mass_kg) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(mass_kg != nullptr, HH_ERROR_NULL, "the output is null");
+        *mass_kg = host.world.player.at(player_of(host, player)).mass_kg;
+    });
+}
+
 hh_result hh_player_head(const hh_world* world, hh_player player, hh_vec3* center, double* radius_m,
                          uint8_t* is_tracked) {
     return call([&] {
@@ -147,7 +163,7 @@ hh_result hh_player_head(const hh_world* world, hh_player player, hh_vec3* cente
             *radius_m = host.tuning.head.radius_m;
         }
         if (is_tracked != nullptr) {
-            *is_tracked = head.state == TrackingState::tracked;
+            *is_tracked = head.state == TrackingState::tracked && !head.is_inferred;
         }
     });
 }

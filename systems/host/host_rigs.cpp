@@ -11,8 +11,8 @@
 namespace handhold {
 namespace {
 
-// `name` stands for the file in messages: bytes in memory have none, and no file is read beside
-// them.
+// `name` replaces a file name in messages, because bytes in memory have none. No file beside them
+// is read.
 template <typename T>
 T value_or_throw(Result<T> result, const char* name) {
     if (!result) {

@@ -30,20 +30,28 @@ Pose tracked_or_invalid(const Pose& pose, bool is_tracked) {
 }
 
 // A host that computes a step's end in another way than the world's clock, such as by dividing a
-// frame's number, differs from it by rounding.
+// frame's number, differs from it by rounding: such a sample is one of the step's end.
+double without_rounding_s(double time_s, double end_s) {
+    constexpr double k_rounding_s = 1e-6;
+    return time_s > end_s && time_s <= end_s + k_rounding_s ? end_s : time_s;
+}
+
 TrackingSample read_sample(const hh_tracking_sample& sample, double end_s, bool is_exact) {
-    const double rounding_s = is_exact ? 0.0 : 1e-6;
-    const bool is_at_end = sample.time_s > end_s && sample.time_s <= end_s + rounding_s;
     TrackingSample read;
-    read.t_s = is_at_end ? end_s : sample.time_s;
-    read.head_ps = tracked_or_invalid(unchecked_pose(sample.head), sample.head_tracked != 0);
+    read.t_s = is_exact ? sample.time_s : without_rounding_s(sample.time_s, end_s);
+    read.head_ps = tracked_or_invalid(unchecked_pose(sample.head),
+                                      sample.head_tracked != 0 || sample.head_inferred != 0);
     for (std::size_t i = 0; i < k_hand_count; ++i) {
         read.controllers[i].controller_ps =
-            tracked_or_invalid(unchecked_pose(sample.hands[i]), sample.hand_tracked[i] != 0);
+            tracked_or_invalid(unchecked_pose(sample.hands[i]),
+                               sample.hand_tracked[i] != 0 || sample.hand_inferred[i] != 0);
         read.controllers[i].grab = sample.grab[i] != 0;
         read.controllers[i].squeeze = sample.squeeze[i];
         read.controllers[i].trigger = sample.trigger[i];
+        read.controllers[i].is_inferred = sample.hand_inferred[i] != 0;
+        std::copy_n(sample.curls[i].fingers, k_finger_count, read.controllers[i].curls.begin());
     }
+    read.is_head_inferred = sample.head_inferred != 0;
     return read;
 }
 
@@ -57,7 +65,10 @@ TrackingSample read_sample(const EarlySample& sample) {
         read.controllers[i].grab = sample.grab[i];
         read.controllers[i].squeeze = sample.squeeze[i];
         read.controllers[i].trigger = sample.trigger[i];
+        read.controllers[i].is_inferred = sample.inferred[i];
+        read.controllers[i].curls = sample.curls[i];
     }
+    read.is_head_inferred = sample.head_inferred;
     return read;
 }
 
@@ -66,6 +77,7 @@ EarlySample early_of(const TrackingSample& sample) {
     early.t_s = sample.t_s;
     early.head_tracked = is_valid(sample.head_ps);
     early.head_ps = early.head_tracked ? sample.head_ps : Pose{};
+    early.head_inferred = sample.is_head_inferred;
     for (std::size_t i = 0; i < k_hand_count; ++i) {
         const Pose& controller_ps = sample.controllers[i].controller_ps;
         early.tracked[i] = is_valid(controller_ps);
@@ -73,6 +85,8 @@ EarlySample early_of(const TrackingSample& sample) {
         early.grab[i] = sample.controllers[i].grab;
         early.squeeze[i] = pressed_share(sample.controllers[i].squeeze);
         early.trigger[i] = pressed_share(sample.controllers[i].trigger);
+        early.inferred[i] = sample.controllers[i].is_inferred;
+        early.curls[i] = known_curls(sample.controllers[i].curls);
     }
     return early;
 }
@@ -123,22 +137,24 @@ void name_other_clock(hh_world& host, double off_s) {
     log_note(text.data());
 }
 
-// Appends the samples given for a player, but for those too far ahead.
-void read_given(hh_world& host, const hh_player_input& input, double end_s) {
+// Appends the samples given for a player, but for those too far ahead. In a pause, in which the
+// world's clock stands still, samples count whatever their time.
+void read_given(hh_world& host, const hh_player_input& input, double end_s, StepKind kind) {
     constexpr double k_far_s = 0.5;
     const double start_s = host.world.clock.t_s;
+    const bool has_range = kind == StepKind::advances && input.repeats_samples == 0;
     std::size_t far = 0;
     double last_s = 0.0;
     const hh_tracking_sample defaults = hh_default_tracking_sample();
     for (std::size_t i = 0; i < input.sample_count; ++i) {
         const hh_tracking_sample sample = read_def_at(input.samples, i, defaults);
         last_s = sample.time_s;
-        if (sample.time_s > end_s + k_far_s && input.repeats_samples == 0) {
+        if (has_range && sample.time_s > end_s + k_far_s) {
             ++host.samples_too_far_ahead;
             ++far;
             continue;
         }
-        if (sample.time_s < start_s - k_far_s) {
+        if (kind == StepKind::advances && sample.time_s < start_s - k_far_s) {
             ++host.samples_too_old;
             ++far;
         }
@@ -199,10 +215,11 @@ void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std
                 const EarlySample& kept = early->samples[j];
                 if (given.sample_count == 0 || !(given.samples[0].time_s <= kept.t_s)) {
                     host.samples.push_back(read_sample(kept));
+                    host.samples.back().t_s = without_rounding_s(kept.t_s, end_s);
                 }
             }
         }
-        read_given(host, given, end_s);
+        read_given(host, given, end_s, kind);
         input.samples = {host.samples.data() + first, host.samples.size() - first};
     }
 }
@@ -274,7 +291,8 @@ hh_result step_with(hh_world* world, double dt_s, const hh_player_input* inputs,
     if (result != HH_OK) {
         return result;
     }
-    // All that a host can do wrong has been checked: what is thrown now is a defect.
+    // All host errors have been checked before: an exception from here on is a defect of the
+    // library.
     return call(
         [&] {
             hh_world& host = *world;
@@ -344,6 +362,9 @@ hh_result hh_default_tracking_sample_sized(hh_tracking_sample* filled, size_t si
     hh_tracking_sample sample{};
     sample.head = sample.hands[0] = sample.hands[1] = hh_identity_pose();
     sample.head_tracked = sample.hand_tracked[0] = sample.hand_tracked[1] = true;
+    for (hh_finger_curls& curls : sample.curls) {
+        std::ranges::fill(curls.fingers, k_unknown_curl);
+    }
     return write_default(filled, size, sample);
 }
 

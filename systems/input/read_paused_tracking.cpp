@@ -41,6 +41,7 @@ void read_paused_tracking(const ReadPausedTrackingIo& io) {
         hand.raw_pressed = reading.grab;
         hand.squeeze = pressed_share(reading.squeeze);
         hand.trigger = pressed_share(reading.trigger);
+        hand.curls = known_curls(reading.curls);
         hand.state = TrackingState::lost;
         HandHistory& history = io.history.at(entity);
         history.count = history.next = 0;

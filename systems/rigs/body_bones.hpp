@@ -34,8 +34,8 @@ struct BodyBones {
 };
 
 // Finds the bones: first by the map, then by the joints' names, then by shape
-// (fill_bones_by_shape). If the result is not plausible, repeats this without the names. Errors: as
-// fit_body_rig.
+// (fill_bones_by_shape). If the result is not plausible, repeats this without the names. Returns
+// the errors that fit_body_rig lists.
 Result<BodyBones> find_body_bones(const SkinnedMesh& figure, const BodyMap& map);
 
 // Finds the missing bones from the joints' hierarchy and positions: feet are lowest, hands farthest

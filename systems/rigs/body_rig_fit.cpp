@@ -225,7 +225,7 @@ class BodyFitter {
         }
     }
 
-    // Gives every joint a carrier.
+    // Assigns every joint the bone frame (BodyRig::carriers) that it follows.
     void carry_joints() {
         for (std::size_t i = 0; i < figure_.joints.size(); ++i) {
             const SkinJoint& joint = figure_.joints[i];

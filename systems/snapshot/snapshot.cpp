@@ -18,7 +18,7 @@ namespace {
 // would alter.
 constexpr char k_snapshot_magic[] = "\x89HHSNAP\n";
 constexpr std::size_t k_magic_bytes = sizeof k_snapshot_magic - 1;
-constexpr std::uint32_t k_format_version = 7;
+constexpr std::uint32_t k_format_version = 8;
 // Byte offsets of the header's fields.
 constexpr std::size_t k_version_at = k_magic_bytes;
 constexpr std::size_t k_schema_size_at = k_version_at + 4;
@@ -80,7 +80,7 @@ std::optional<FileError> check_envelope(std::span<const std::byte> bytes,
         return refusal(k_schema_size_at, "a schema within the snapshot, found one of " +
                                              std::to_string(schema_bytes) + " bytes");
     }
-    // char may alias any object.
+    // Reading the bytes as char is allowed for any object.
     const std::string_view schema(
         reinterpret_cast<const char*>(bytes.data()) + k_snapshot_header_bytes, schema_bytes);
     if (schema != snapshot_schema()) {

@@ -41,7 +41,7 @@ class SnapshotAssets {
     const ShapeLibrary* shapes_;
     std::uint64_t hash_ = 0;
     std::uint64_t scene_hash_ = 0;
-    std::vector<std::uint64_t> digests_;                              // by ShapeId::index
+    std::vector<std::uint64_t> digests_;                              // indexed by ShapeId::index
     std::vector<std::pair<std::uint64_t, std::uint32_t>> by_digest_;  // and index; sorted
 };
 
@@ -77,9 +77,9 @@ struct WorldDiffSettings {
     std::span<const std::string> names;
 };
 // Lists the fields in which two worlds differ, bit for bit, by persistent id, in the order of the
-// columns and of the rows of `a`: "head_tracking[player].pose_ps.position.x: a 0.1, b 0.2",
-// "grab[0x5d...1]: only in a". As in hash_state, slots and row order are ignored; but shape ids are
-// compared.
+// columns and of the elements of `a`: "head_tracking[player].pose_ps.position.x: a 0.1, b 0.2",
+// "grab[0x5d...1]: only in a". As in hash_state, slots and the order of elements are ignored; but
+// shape ids are compared.
 std::vector<std::string> diff_worlds(const World& a, const World& b,
                                      const WorldDiffSettings& settings = {});
 

@@ -50,7 +50,7 @@ class BreachFinder {
         }
     }
 
-    // Every owner of a row in `column` must have one in `required`.
+    // Every owner of an element in `column` must have one in `required`.
     template <typename A, typename B>
     void require(const char* name, const Column<A>& column, const char* required_name,
                  const Column<B>& required) {
@@ -255,8 +255,8 @@ class BreachFinder {
         }
     }
 
-    // Back-off distances and counters must be in the range that frames produce, so that no search
-    // is suspended for ever.
+    // Back-off distances and counters must be in the range that frames produce, so that no
+    // search is suspended forever.
     void check_retries() {
         constexpr double k_max_m = 1.0;
         for (std::size_t row = 0; row < w_.grip_surface.size(); ++row) {
@@ -299,6 +299,14 @@ class BreachFinder {
             const auto is_share = [](double share) { return share >= 0.0 && share <= 1.0; };
             check(is_share(hand.squeeze) && is_share(hand.trigger), "hand_tracking",
                   w_.hand_tracking.owners()[row], "", "squeeze and trigger in [0, 1]");
+            check(std::ranges::all_of(
+                      hand.curls,
+                      [&](double curl) { return is_share(curl) || curl == k_unknown_curl; }),
+                  "hand_tracking", w_.hand_tracking.owners()[row], ".curls", "-1 or in [0, 1]");
+        }
+        for (std::size_t row = 0; row < w_.head_tracking.size(); ++row) {
+            check(w_.head_tracking.rows()[row].state != TrackingState::inferred, "head_tracking",
+                  w_.head_tracking.owners()[row], ".state", "never, tracked or lost");
         }
         Column<std::array<std::uint8_t, k_hand_count>> has_hand;
         for (const Entity player : w_.player.owners()) {
@@ -314,6 +322,10 @@ class BreachFinder {
                 check(used == 0, "hand_owner", hand, ".side", "one hand per side");
                 used = 1;
             }
+        }
+        for (std::size_t i = 0; i < w_.early_samples.size(); ++i) {
+            check(w_.early_samples.rows()[i].count <= EarlySamples::k_capacity, "early_samples",
+                  w_.early_samples.owners()[i], ".count", "at most as many as the array has");
         }
         for (std::size_t row = 0; row < w_.hand_history.size(); ++row) {
             const HandHistory& history = w_.hand_history.rows()[row];

@@ -104,7 +104,8 @@ class OneHand {
                         tuning, stats_);
         }
     }
-    // Keeps the surface of a hand at rest, as search_grip does.
+    // Chooses the surface that the palm ray hits. Keeps the last surface if the hand is at rest,
+    // like search_grip.
     void choose_by_palm_ray(double dt_s, const Tuning& tuning) {
         const HandSurroundings& hand = surroundings_.front();
         GripSurface& surface = surface_.rows().front();
@@ -150,7 +151,8 @@ class OneHand {
             close_baseline(f, tuning, variant);
         }
     }
-    // Other methods than the runtime's show the palm as held and the fingers as closed.
+    // For methods other than the runtime's, shows the held palm and the closed fingers without a
+    // fit.
     void fit(double dt_s, const Tuning& tuning, const GripVariant& variant) {
         FingerPose& pose = fingers_.rows().front();
         if (is_fitted(variant) || !has_surface()) {

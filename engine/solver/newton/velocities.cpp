@@ -22,7 +22,7 @@ double row_velocity(const IslandView& island, const Row& row) {
            row.angular_b.dot(b.spin_radps);
 }
 
-// Only joints with one free coordinate have a motor.
+// True if the joint has a motor. Only joints with one free coordinate can have one.
 bool has_motor(const RowBlock& block) {
     return (block.kind == RowKind::hinge || block.kind == RowKind::slider) &&
            block.joint.motor_max_impulse > 0.0;
@@ -150,7 +150,8 @@ bool apply_friction_law(std::span<const double> lambda, bool may_stick, SolveScr
 // Stick-slip iteration; leaves the multipliers of the last pass in `lambda`. False if they still
 // changed after `passes`.
 bool solve_stick_slip(int passes, SolveScratch& scratch, std::span<const double>& lambda) {
-    // later passes allow no return to sticking, so the iteration cannot cycle
+    // In passes after this one, sliding contacts do not return to sticking, so that the iteration
+    // cannot cycle.
     constexpr int k_max_stick_passes = 6;
     for (SolveScratch::Friction& friction : scratch.frictions) {
         stick(scratch, friction);
@@ -187,7 +188,8 @@ void apply_impulses(const IslandView& island, std::span<const double> lambda,
             block.angular_impulse_ws_nms += lambda[i] * row.angular_a;
         }
         if (row.group == RowGroup::limit && !row.unilateral) {
-            // In the coordinate's unit: angular rows are scaled by their lever.
+            // Converts the lock's impulse to the coordinate's unit: angular rows are scaled by
+            // their lever.
             const bool is_angle = row.linear_a.isZero(0.0);
             block.joint.lock_impulse += std::abs(lambda[i]) * (is_angle ? k_angle_lever_m : 1.0);
         }
@@ -206,7 +208,7 @@ class DirectMethod {
         scratch_.system.assemble(island.bodies, scratch_.inverse_inertia_ws, scratch_.rows);
         regularise(scratch_.rows, settings.regularisation, 1.0, scratch_.system);
     }
-    // False if there is no plausible answer.
+    // Returns false if there is no plausible solution.
     bool solve() {
         std::span<const double> lambda;
         is_unconverged_ = !solve_stick_slip(settings_.friction_passes, scratch_, lambda);

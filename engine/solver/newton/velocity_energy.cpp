@@ -87,11 +87,11 @@ void limit_energy(const IslandView& island, const std::function<void()>& solve,
     const double linear = linear_work(scratch);
     const double quadratic = kinetic_energy(island, scratch);
     if (linear + quadratic > 0.0) {
-        // Not solved exactly: a shorter step from the velocities before.
+        // The solution is inexact: takes a shorter step from the velocities before the solve.
         scale_moves(quadratic > 0.0 ? std::clamp(-linear / quadratic, 0.0, 1.0) : 0.0, scratch);
         return;
     }
-    // scratch := the difference, then back.
+    // Replaces scratch by the difference of both solutions, and restores it afterwards.
     scale_moves(-1.0, scratch);
     add_bouncing_moves(1.0, scratch);
     const double h = kinetic_energy(island, scratch);

@@ -13,7 +13,7 @@ namespace {
 using ChestInputs = SideInputs<body_constants::k_chest_inputs>;
 using ChestAnswer = NetworkAnswer<body_constants::k_chest_outputs>;
 
-// What both sides' inputs share.
+// Inputs that are the same for both sides.
 struct ChestView {
     BodyView axes;
     std::array<Vec3, k_hand_count> hand;  // offset from the eyes in arm lengths
@@ -42,21 +42,23 @@ ChestInputs chest_inputs(const ChestView& view, HandSide side) {
     return inputs;
 }
 
-// Of turn_to_reach_across, for smoothness. Angles: of the line from shoulder to hand, from straight
-// ahead towards the other side, seen along the chest's up axis; distances in that view, in arm
-// lengths. With the excess over body_constants::k_across_rad, turn = excess^2 / (excess +
-// k_across_soft_rad); it fades in over k_across_fade from body_constants::k_across_bent.
+// Constants that make turn_to_reach_across smooth. All are measured in the view along the chest's
+// up axis: angles between straight ahead and the line from shoulder to hand, positive towards the
+// other side; distances in arm lengths. With the excess over body_constants::k_across_rad, turn =
+// excess^2 / (excess + k_across_soft_rad); it fades in over k_across_fade from
+// body_constants::k_across_bent.
 constexpr double k_across_soft_rad = 0.349;
 constexpr double k_across_fade = 0.15;
-// The turn fades out if the other hand is inside of its own shoulder by so many arm lengths: then
-// the hands are not on one side.
+// The turn fades to zero while the other hand moves from its own shoulder inwards by this many arm
+// lengths: the hands are then no longer both on one side of the body.
 constexpr double k_other_inside = 0.2;
-// Beyond these angles the hand may as well be behind the back: the turn fades to zero.
+// Angles between which the turn fades to zero, because the hand may be behind the back instead.
 constexpr double k_across_fades_rad = 1.92;
 constexpr double k_across_ends_rad = 2.618;
 
-// The turn (rad, >= 0) for an arm that reaches across. Hands from their own shoulders, in the axes
-// of the chest and arm lengths, mirrored so that `hand` is the right one.
+// Returns the turn (rad, >= 0) for a right arm that reaches across; mirror the arguments for a left
+// arm. `hand`, `other`: positions of the hands relative to their own shoulders, in the chest's axes
+// and arm lengths.
 double across_turn(const Vec3& hand, const Vec3& other) {
     const double distance = std::sqrt(hand.x() * hand.x() + hand.z() * hand.z());
     constexpr double k_bent = body_constants::k_across_bent;

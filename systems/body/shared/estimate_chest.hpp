@@ -37,7 +37,8 @@ struct ChestCorrection {
     double turn_rad = 0.0;  // positive: to the left
     ChestOffset offset;
 };
-// facing_ps: of the talk's form. looks_ps: as ArmMemory::looks_ps; look_ps: not filtered.
+// facing_ps: result of chest_facing. looks_ps: ArmMemory::looks_ps. look_ps: look direction, not
+// filtered.
 ChestCorrection chest_correction(const Vec3& facing_ps, const Vec3& look_ps,
                                  const std::array<Vec3, k_look_filters>& looks_ps,
                                  const TrackedBody& body, const BodyAxes& axes);

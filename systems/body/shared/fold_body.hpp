@@ -31,7 +31,7 @@ inline constexpr double k_toes_rest_rad = -0.6;  // relative to the shin; positi
 inline constexpr double k_pelvis_clearance_m = 0.12;
 inline constexpr double k_knee_clearance_m = 0.06;
 inline constexpr double k_ankle_clearance_m = 0.05;
-inline constexpr double k_lying_clearance_m = 0.05;  // of a body that lies: half a trunk or leg
+inline constexpr double k_lying_clearance_m = 0.05;  // half the thickness of a lying trunk or leg
 
 // Lowest height of the pelvis. The trunk starts to fold when the pelvis of the straight trunk is
 // less than k_seat_width_m above this height.

@@ -5,7 +5,7 @@
 namespace handhold {
 namespace {
 
-// Angle by which a trunk turns whose pull is strong, at `angle_rad` from the chest's +Y.
+// Angle by which a very strong pull at `angle_rad` from the chest's +Y turns the trunk.
 double whole_lean_rad(double angle_rad) {
     return angle_rad * (1.0 - smooth_step(angle_rad, k_whole_lean_rad, k_no_lean_rad));
 }

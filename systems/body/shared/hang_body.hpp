@@ -26,11 +26,10 @@ inline constexpr double k_whole_lean_rad = 80.0 / 180.0 * k_pi;
 inline constexpr double k_no_lean_rad = 130.0 / 180.0 * k_pi;
 
 // `pull_cs`: BodyPull::now in the chest's axes, of length p < 1 at the angle a from +Y. The trunk
-// turns by a p from the chest's -Y towards the opposite of the pull: not at all without a pull, and
-// nearly all the way for a strong one. From a = k_whole_lean_rad on the bend fades, and is zero
-// from k_no_lean_rad on: hands below the chest push rather than pull, and no trunk folds onto
-// itself.
-// `upright_rad`: upright_turn; fades as the pull grows.
+// turns by the angle a * p from the chest's -Y towards the opposite of the pull: not at all without
+// a pull, and nearly all the way for a strong one. From a = k_whole_lean_rad on the bend fades, and
+// is zero from k_no_lean_rad on: hands below the chest push rather than pull, and no trunk folds
+// onto itself. `upright_rad`: upright_turn; fades as the pull grows.
 TrunkLean lean_of(const Vec3& pull_cs, const Vec3& upright_rad = Vec3::Zero());
 
 // Turn of the trunk below the chest back to upright: a rotation vector in the chest's axes, y = 0.

@@ -100,7 +100,8 @@ class BodyFolder {
                 break;
             }
             lower_m += missing_m;
-            if (i + 3 >= k_corrections) {  // the knee cannot fold further: lifts the thigh instead
+            // In the last corrections the knee cannot fold further: lifts the thigh.
+            if (i + 3 >= k_corrections) {
                 knee_clearance_m = height_m(chain_.end_m[thigh]) + missing_m;
             }
         }
@@ -137,7 +138,7 @@ class BodyFolder {
 
 void pose_spine(const Pose& chest_ws, const SpineMemory& memory, const Pose& chest_ps,
                 const TrackedFloor& floor, SpinePose& out) {
-    // From play-space axes to world axes.
+    // Rotation from play-space axes to world axes.
     const Mat3 to_ws =
         chest_ws.rotation.toRotationMatrix() * chest_ps.rotation.toRotationMatrix().transpose();
     const double share = memory.since_tick_s / k_spine_tick_s;

@@ -9,7 +9,8 @@
 
 namespace handhold {
 
-// The term that a square or a row belongs to, and its parts: `a` alone, or half `a` and half `b`.
+// The term and the parts of the hand (digits, palm) to which the cost of a square or an inequality
+// is booked: all of it to `a`, or half each to `a` and `b`.
 struct FitPart {
     FitPart(FitTerm of, std::size_t only) : term(of), a(only), b(only) {}
     FitPart(FitTerm of, std::size_t one, std::size_t other) : term(of), a(one), b(other) {}

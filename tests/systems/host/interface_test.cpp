@@ -226,15 +226,15 @@ RC_GTEST_PROP(HostSnapshots, ReplayAfterRestoreIsBitForBitEqual, ()) {
     std::vector<std::byte> saved;
     RC_ASSERT(static_cast<bool>(scene.world.save(saved)));
     run(saved_at, 40);
-    hh_body_def added = crate(scene.world, {0.0, 9.0, 0.0});
-    added.shape = {};
-    added.inertia_kgm2 = {1.0, 1.0, 1.0};
     const std::uint64_t hash = scene.world.hash();
-    RC_ASSERT(static_cast<bool>(scene.world.add(added)));
-    RC_ASSERT(scene.world.restore(saved).result() == HH_ERROR_DATA);  // the crate's shape is new
-    std::size_t count = 0;
-    RC_ASSERT(hh_world_bodies(scene.world.get(), nullptr, 0, &count) == HH_OK && count == 2);
+    RC_ASSERT(static_cast<bool>(scene.world.add(crate(scene.world, {0.0, 9.0, 0.0}))));
     RC_ASSERT(hash != scene.world.hash());
+    // Shapes are named by content, so the crate's may stay. The crate goes.
+    RC_ASSERT(static_cast<bool>(scene.world.restore(saved)));
+    std::size_t count = 0;
+    RC_ASSERT(hh_world_bodies(scene.world.get(), nullptr, 0, &count) == HH_OK && count == 1);
+    run(saved_at, 40);
+    RC_ASSERT(hash == scene.world.hash());
 }
 
 RC_GTEST_PROP(HostSnapshots, RollbackGivesTheSameHash, ()) {

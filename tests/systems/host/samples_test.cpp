@@ -93,10 +93,14 @@ RC_GTEST_PROP(HostSamples, SamplesGivenAheadCountAtTheirTime, ()) {
             const bool is_silent = next == first && gives_empty_steps;
             RC_ASSERT(hh_world_step(scene.world.get(), dt_s, &input, is_silent ? 0 : 1) == HH_OK);
         };
-        // At most 64 samples wait: the host gives no more.
-        give(ahead, next_ahead,
-             [&](std::size_t i) { return all[i].time_s <= end_s + lead_s || i <= next_then; });
-        give(then, next_then, [&](std::size_t i) { return i == 0 || all[i - 1].time_s <= end_s; });
+        // Both know the step's samples and the one after; at most 64 wait.
+        const auto is_known = [&](std::size_t i) { return i == 0 || all[i - 1].time_s <= end_s; };
+        give(ahead, next_ahead, [&](std::size_t i) {
+            constexpr std::size_t k_most_waiting = 64;
+            const bool has_room = i < k_most_waiting || all[i - k_most_waiting].time_s <= end_s;
+            return is_known(i) || (has_room && all[i].time_s <= end_s + lead_s);
+        });
+        give(then, next_then, is_known);
         hh_player_pose a;
         hh_player_pose b;
         RC_ASSERT(hh_world_player_poses(ahead.world.get(), &ahead.player, 1, &a) == HH_OK);
@@ -137,6 +141,22 @@ TEST(HostSamples, MoreThan64SamplesOrHalfASecondAheadAreDroppedAndCounted) {
     const std::vector<hh::Sample> two = {sample_at(0.51), sample_at(0.5101)};
     ASSERT_TRUE(other.world.step(0.01, hh::input(other.player, {two.data(), two.size()})));
     EXPECT_EQ(count_of(other.world, "sample_too_far_ahead"), 1U);
+}
+
+// The devices' clock goes on while the world's stands still.
+TEST(HostSamples, PausesFollowSamplesWhateverTheirTime) {
+    HostScene scene;
+    const hh::Sample before = sample_at(0.01);
+    ASSERT_TRUE(scene.world.step(0.01, hh::input(scene.player, {&before, 1})));
+    for (int i = 2; i <= 200; ++i) {
+        const hh::Sample sample = sample_at(0.01 * i);
+        const hh_player_input input = hh::input(scene.player, {&sample, 1});
+        ASSERT_TRUE(scene.world.step_pose_only(0.01, {&input, 1}));
+        hh_player_pose pose;
+        ASSERT_EQ(hh_world_player_poses(scene.world.get(), &scene.player, 1, &pose), HH_OK);
+        ASSERT_NEAR(pose.head.position.x, sample.head.position.x, 1e-12) << i;
+    }
+    EXPECT_EQ(count_of(scene.world, "sample_too_far_ahead"), 0U);
 }
 
 // Samples of a clock that is off by any amount above half a second: the counter and, once, the log.

@@ -8,9 +8,8 @@
 
 #include "tests/systems/host/host_scene.hpp"
 
-// Frames of unoptimised and instrumented code are larger.
-#if defined(__linux__) && defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
+// Frames of unoptimised code are larger.
+#if defined(__linux__) && defined(__OPTIMIZE__)
 #include <pthread.h>
 
 namespace handhold::host_small_stack_test {

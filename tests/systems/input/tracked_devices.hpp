@@ -29,6 +29,7 @@ struct Devices {
     Column<HandOwner> owner;
     Column<ControllerToHand> joint;
     Column<RecenterGuess> recenter_guess;
+    Column<Grab> grab;  // of hands that grip; the others need none
     Column<HeadTracking> head;
     Column<HandTracking> hand;
     Column<HandHistory> history;
@@ -68,6 +69,7 @@ struct Devices {
                        .owner = owner,
                        .controller_to_hand = joint,
                        .recenter_guess = recenter_guess,
+                       .grab = grab,
                        .head = head,
                        .hand = hand,
                        .history = history,

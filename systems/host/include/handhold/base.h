@@ -91,6 +91,12 @@ typedef struct hh_pose {
     hh_quat rotation;
 } hh_pose;
 
+/* How far each finger is bent, by thumb, index, middle, ring, little: 0 straight, 1 as in a fist. Below 0
+ * or NaN: unknown; above 1: as 1. */
+typedef struct hh_finger_curls {
+    double fingers[5];
+} hh_finger_curls;
+
 /* The pose at the origin, not rotated. Any thread. */
 HH_API hh_pose hh_identity_pose(void);
 
@@ -124,7 +130,7 @@ typedef enum hh_log_level { HH_LOG_NOTE = 0, HH_LOG_ERROR = 1, HH_LOG_LEVEL_32_B
 
 typedef void (*hh_task)(void* task_context, size_t index);
 
-/* What the process lends the library. Null functions: the library's own.
+/* Functions of the host that the library uses. Null functions: the library's own.
  * Memory comes from the global operator new, which a program may replace as usual; the shared
  * library and the standard library inside it then use the replacement too, once per process. Apart
  * from that a world's blocks are taken and given back by the threads that call it, and by those of
@@ -155,9 +161,9 @@ static inline hh_host_hooks hh_default_host_hooks(void) {
 /* Sets the hooks of the process; null: back to the defaults. HH_ERROR_STATE while a world exists.
  * Not beside any other call of the library. */
 HH_API hh_result hh_set_host_hooks(const hh_host_hooks* hooks);
-/* Threads of the library's own pool, as hh_host_hooks.thread_count, also while worlds exist: for
- * instance all while a level loads. HH_ERROR_STATE if the host lends parallel_for. Not beside any
- * other call of the library. */
+/* Sets the number of threads of the library's own pool, [1, 256]. Allowed while worlds exist, for
+ * instance to use all cores while a level loads. HH_ERROR_STATE if the host lends parallel_for. Not
+ * beside any other call of the library. */
 HH_API hh_result hh_set_thread_count(uint32_t count);
 HH_API uint32_t hh_thread_count(void);
 

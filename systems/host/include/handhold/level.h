@@ -37,7 +37,7 @@ typedef struct hh_compound_part {
 HH_API hh_result hh_shape_add_compound(hh_world* world, const hh_compound_part* parts, size_t count,
                                        hh_shape* shape);
 
-/* Triangles, prepared for collision and hands. Shared by worlds; immutable. */
+/* Triangles, prepared for collision and hands. Used by any number of worlds; immutable. */
 typedef struct hh_mesh hh_mesh;
 typedef struct hh_mesh_def {
     uint32_t struct_size;
@@ -57,7 +57,7 @@ static inline hh_mesh_def hh_default_mesh_def(void) {
 /* Copies and prepares a mesh. Any thread, beside steps of any world: the place for the work of
  * streaming. Cost: about 40 microseconds a triangle with fits_hands, 1 without. */
 HH_API hh_result hh_mesh_create(const hh_mesh_def* def, hh_mesh** mesh);
-/* Gives the caller's reference back; shapes keep theirs. Null: nothing happens. Any thread. */
+/* Releases the caller's reference; shapes keep theirs. Null: nothing happens. Any thread. */
 HH_API void hh_mesh_destroy(hh_mesh* mesh);
 /* A shape of a prepared mesh, for static and kinematic bodies. The size of each factor is in
  * [1e-3, 1e3], others get HH_ERROR_VALUE; negative ones mirror the mesh, whose triangles keep their
@@ -92,7 +92,8 @@ typedef struct hh_body_def {
     hh_vec3 velocity_mps;         /* each within 1e6 */
     hh_vec3 angular_velocity_radps; /* each within 1e4 */
     double mass_kg;        /* dynamic: [1e-12, 1e15], default 1 */
-    hh_vec3 inertia_kgm2;  /* about the principal axes; 0: of the solid shape. Needed without one */
+    /* About the principal axes; 0: computed from the shape, if there is one. */
+    hh_vec3 inertia_kgm2;
     double restitution;    /* [0, 1] */
     double friction;       /* [0, 1e6], default 0.4 */
     double gravity_scale;  /* default 1; within 1000 */
@@ -135,7 +136,7 @@ HH_API hh_result hh_body_set_velocity(hh_world* world, hh_body body, hh_vec3 vel
 /* Changes the velocity by an impulse in N s at a point in the world. */
 HH_API hh_result hh_body_apply_impulse(hh_world* world, hh_body body, hh_vec3 impulse_ns,
                                        hh_vec3 point);
-/* At once, without touching what is between. Keeps the velocity. Hands that grip it let go. */
+/* At once, without collisions on the path. Keeps the velocity. Hands that grip it let go. */
 HH_API hh_result hh_body_teleport(hh_world* world, hh_body body, hh_pose pose);
 /* A kinematic body reaches the pose at the end of the next step and then rests. Call it before every
  * step in which it moves, or less often: a host that ticks slower than it draws may tell each tick's
@@ -212,7 +213,7 @@ typedef struct hh_joint_def {
     double latch_range;      /* closes within this distance; 0: no latch */
     double latch_strength;   /* opens above this force, N or N m; 0: never by force */
     hh_joint latch_handle;   /* a joint that opens it; null: none */
-    double latch_handle_at;  /* open while the handle's coordinate is at least this, either way */
+    double latch_handle_at;  /* open while |handle's coordinate| is at least this */
 } hh_joint_def;
 HH_API hh_result hh_default_joint_def_sized(hh_joint_def* filled, size_t size);
 static inline hh_joint_def hh_default_joint_def(void) {
@@ -223,19 +224,20 @@ static inline hh_joint_def hh_default_joint_def(void) {
 HH_API hh_result hh_joint_add(hh_world* world, const hh_joint_def* def, hh_joint* joint);
 HH_API hh_result hh_joint_remove(hh_world* world, hh_joint joint);
 HH_API uint8_t hh_joint_is_valid(const hh_world* world, hh_joint joint);
-/* The joints at a body; as hh_world_bodies. */
+/* Ids of the joints of a body; `count` gets their number. HH_ERROR_CAPACITY if it is more than
+ * `capacity`. A null buffer of capacity 0: the number only. */
 HH_API hh_result hh_body_joints(const hh_world* world, hh_body body, hh_joint* joints,
                                 size_t capacity, size_t* count);
-/* As of the last step; null outputs are skipped. A hinge counts full turns. */
+/* State after the last step; null outputs are skipped. A hinge counts full turns. */
 HH_API hh_result hh_joint_state(const hh_world* world, hh_joint joint, double* coordinate,
                                 double* speed, uint8_t* latched);
 
 /* ---- Queries -------------------------------------------------------------------------------- */
 
-/* Against the shapes of all bodies, whatever their layers, and the tracked heads of players, where
- * they are now. Bodies without a shape, and surfaces of hh_world_set_surface_query, are not found.
- * HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds; the first
- * query after a change of the world also compares every body with its place before. */
+/* Queries test the shapes of all bodies, whatever their layers, and the tracked heads of players,
+ * at their present poses. Bodies without a shape, and surfaces of hh_world_set_surface_query, are
+ * not found. HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds;
+ * the first query after a change of the world also compares every body with its place before. */
 typedef struct hh_hit {
     hh_body body;      /* null: a player's head, or nothing was found */
     hh_player player;  /* whose head; null: a body, or nothing was found */
@@ -255,9 +257,9 @@ HH_API hh_result hh_world_cast_sphere(hh_world* world, double radius_m, hh_vec3 
  * where the normal points outward. */
 HH_API hh_result hh_world_closest_point(hh_world* world, hh_vec3 point, double max_distance_m,
                                         hh_player skip, hh_hit* hit);
-/* Everything that a sphere touches: the nearest point of each body and head to its centre, as
- * hh_world_closest_point gives it, in a fixed order. `count` gets their number; HH_ERROR_CAPACITY
- * if it is more than `capacity`. Radius as hh_world_closest_point's distance. */
+/* Everything that a sphere touches: the nearest point of each body and head to its centre, in a
+ * fixed order. Inside a solid distance_m is 0 and the normal points outward. `count` gets their
+ * number; HH_ERROR_CAPACITY if it is more than `capacity`. Radius in [0, 1e4] m. */
 HH_API hh_result hh_world_overlap_sphere(hh_world* world, hh_vec3 center, double radius_m,
                                          hh_player skip, hh_hit* hits, size_t capacity,
                                          size_t* count);

@@ -31,7 +31,8 @@ typedef struct hh_player_def {
      * the default measures, [0.17, 3.08]. Hands, head and the lengths of the tuning do not scale. */
     double scale;
     uint8_t head_collides; /* the head is a sphere of head.radius_m; default true */
-    uint32_t layers, mask; /* of the head; as hh_body_def's */
+    /* Layers of the head; it touches a body if each one's layers meet the other's mask. */
+    uint32_t layers, mask;
     uint32_t grab_layers;  /* the hands grip bodies with one of these layers; default all */
     uint64_t user_data;
 } hh_player_def;
@@ -62,12 +63,16 @@ HH_API hh_result hh_player_set_recenter_guess(hh_world* world, hh_player player,
 HH_API hh_result hh_player_teleport(hh_world* world, hh_player player, hh_pose origin);
 HH_API hh_result hh_player_velocity(const hh_world* world, hh_player player, hh_vec3* velocity_mps);
 HH_API hh_result hh_player_set_velocity(hh_world* world, hh_player player, hh_vec3 velocity_mps);
-/* The velocity that counts as rest for the player: of what the player gripped last, where it was
- * gripped, else the scene's. Speed against it is what a player feels: for vignettes and wind. */
+/* The velocity that counts as rest for the player: that of the body last gripped, at the gripped
+ * point, else the scene's. A player feels the speed relative to it: for vignettes and wind. */
 HH_API hh_result hh_player_reference_velocity(const hh_world* world, hh_player player,
                                               hh_vec3* velocity_mps);
-/* The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked: false
- * before the head's first sample and while it is lost. */
+/* How far contacts moved the play space in the last step, against its hands and its velocity. */
+HH_API hh_result hh_player_push_back(const hh_world* world, hh_player player, double* distance_m);
+/* The body mass that the player was added with. */
+HH_API hh_result hh_player_mass(const hh_world* world, hh_player player, double* mass_kg);
+/* The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked:
+ * false before the head's first sample, and while it is lost or inferred. */
 HH_API hh_result hh_player_head(const hh_world* world, hh_player player, hh_vec3* center,
                                 double* radius_m, uint8_t* is_tracked);
 HH_API hh_result hh_player_measures(const hh_world* world, hh_player player, hh_measures* measures);
@@ -75,15 +80,16 @@ HH_API hh_result hh_player_set_measures(hh_world* world, hh_player player,
                                         const hh_measures* measures);
 HH_API hh_result hh_player_set_user_data(hh_world* world, hh_player player, uint64_t user_data);
 HH_API hh_result hh_player_user_data(const hh_world* world, hh_player player, uint64_t* user_data);
-/* The hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists with
- * OpenXR's axes (-Z to the fingers, +Y the back of the hand). Null: a controller's grip pose, by the
- * tuning's hand.controller_ numbers, which is the default. */
+/* The hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists
+ * with OpenXR's axes (-Z to the fingers, +Y the back of the hand). Null: a controller's grip pose,
+ * by the tuning's hand.controller_ numbers, which is the default. */
 HH_API hh_result hh_player_set_hand_in_controller(hh_world* world, hh_player player, hh_side side,
                                                   const hh_pose* hand_in_controller);
-/* The same numbers, for hosts that have wrists and need controllers. */
+/* Returns the pose set by hh_player_set_hand_in_controller, for hosts that have wrists and need
+ * controllers. */
 HH_API hh_result hh_player_hand_in_controller(const hh_world* world, hh_player player, hh_side side,
                                               hh_pose* hand_in_controller);
-/* The same numbers for a player who has none of their own, by the tuning alone. */
+/* Returns the tuning's pose of the wrist in a controller, for players without one of their own. */
 HH_API hh_result hh_world_hand_in_controller(const hh_world* world, hh_side side,
                                              hh_pose* hand_in_controller);
 
@@ -107,16 +113,22 @@ typedef struct hh_hand_state {
     /* The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres
      * from it, so that palm and fingers touch. */
     hh_pose shown;
-    /* The wrist in the frame of what it grips, fixed when it closed; of a player: of the part. */
+    /* The wrist in the frame of what it grips (of a gripped player: the gripped part), fixed when
+     * the hand closed. */
     hh_pose anchor;
-    double error_m;   /* distance of the tracked wrist and the anchor: 0 unless hindered */
-    /* By the hand on what it grips, in the last step: for haptics. 0 if the host's solver moved the
-     * player (hh_world_end_step): that solver knows it. While hands move only light bodies, hands
-     * and contacts report at most the momentum that the players and bodies involved have, with the
-     * hands' speed on top. */
+    /* Distance of the tracked wrist from the anchor: 0 unless something blocks it. */
+    double error_m;
+    /* Impulse of the hand on what it grips in the last step, for haptics. 0 if the host's solver
+     * moved the player (hh_world_end_step): read it there. While hands move only light bodies,
+     * hands and contacts report at most the momentum that the players and bodies involved have,
+     * with the hands' speed on top. */
     hh_vec3 force_impulse_ns;
-    uint8_t is_tracked;
-    uint8_t is_closed; /* the button is down */
+    uint8_t is_tracked;  /* false while the hand is lost or inferred */
+    uint8_t is_closed;   /* the button is down */
+    /* The runtime guesses where the hand is (hh_tracking_sample.hand_inferred). `tracked` is the guess
+     * for an empty hand, and for a body in it while no hand of the player moves the player; else the
+     * last pose that was measured. */
+    uint8_t is_inferred;
 } hh_hand_state;
 
 /* Grows: see base.h. Later fields come behind `hands`. */
@@ -165,7 +177,8 @@ HH_API hh_result hh_hand_release(hh_world* world, hh_player player, hh_side side
 /* ---- Events --------------------------------------------------------------------------------- */
 
 typedef enum hh_event_kind {
-    HH_EVENT_TOUCHED = 0,        /* the palm of an empty hand came within 2 cm of a body or player */
+    /* The palm of an empty hand came within 2 cm of a body or player. */
+    HH_EVENT_TOUCHED = 0,
     HH_EVENT_GRABBED = 1,        /* a hand grips */
     HH_EVENT_RELEASED = 2,       /* the player opened the hand, or `reason` says who did */
     HH_EVENT_REFUSED = 3,        /* a hand closed and grips nothing: `reason` */
@@ -185,13 +198,13 @@ typedef enum hh_reason {
     HH_REASON_NONE = 0,
     HH_REASON_OPENED = 1,          /* the player opened the hand */
     HH_REASON_NO_SURFACE = 2,      /* nothing in reach, or only behind a wall */
-    HH_REASON_NOT_ALLOWED = 3,     /* by a grab rule or layers */
+    HH_REASON_NOT_ALLOWED = 3,     /* a grab rule or layers refuse the hand */
     HH_REASON_NEEDS_TWO_HANDS = 4, /* the other hand is not there, or left */
     HH_REASON_STRETCHED = 5,       /* farther from its anchor than hand.max_stretch_m */
     HH_REASON_TRACKING_LOST = 6,   /* it opened unseen, or came back too far away */
     HH_REASON_BODY_GONE = 7,       /* the body was removed */
     HH_REASON_BY_HOST = 8,         /* hh_hand_release, hh_hand_grip or a teleport */
-    HH_REASON_OTHER_HAND = 9,      /* one of two hands on a body left */
+    HH_REASON_OTHER_HAND = 9,      /* the other of two hands on a body let go */
     HH_REASON_32_BITS = 0x7fffffff
 } hh_reason;
 
@@ -246,6 +259,11 @@ typedef struct hh_hand_joint {
     double radius_m;
     uint8_t is_valid; /* false: the hand's rig has no such joint */
 } hh_hand_joint;
+/* How far the fingers of a tracked hand are bent, for hh_tracking_sample.curls. `joints`:
+ * HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name, in any one space; only positions are read. Curl
+ * is the sum of a finger's bends over that of a fist; -1 if a joint of the finger is not valid. Any
+ * thread. */
+HH_API hh_result hh_finger_curls_of(const hh_hand_joint* joints, hh_finger_curls* curls);
 /* The shown hand's joints: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name. */
 HH_API hh_result hh_player_hand_joints(const hh_world* world, hh_player player, hh_side side,
                                        hh_space space, hh_hand_joint* joints);

@@ -51,6 +51,18 @@ typedef struct hh_tracking_sample {
     /* How far the index finger's trigger is pressed, [0, 1]: bends the index finger of an empty hand,
      * and the fingers of authored grips that follow the trigger. */
     double trigger[2];
+    /* True if the runtime only guesses the head's position: OpenXR's POSITION_VALID without
+     * POSITION_TRACKED, WebXR's emulatedPosition, a low confidence. Default false; true counts before
+     * head_tracked. The head follows the guess, but while a hand grips what the player can pull on, only
+     * its rotation does. */
+    uint8_t head_inferred;
+    /* The same of the hands, before hand_tracked. An inferred hand does not grip, and never moves a player who grips: it
+     * stays where it was last measured. Opening `grab` lets go, without a throw. The shown empty hand
+     * follows the guess. Once measured again, the hand may be elsewhere: it did not travel. */
+    uint8_t hand_inferred[2];
+    /* Bends the fingers of an empty hand, before squeeze and trigger; default unknown. By gloves, or
+     * from joints by hh_finger_curls_of. */
+    hh_finger_curls curls[2];
 } hh_tracking_sample;
 
 /* Everything tracked, hands open, at time 0. The poses are for you to fill: at the origin they count
@@ -105,7 +117,7 @@ HH_API hh_result hh_world_step(hh_world* world, double dt_s, const hh_player_inp
                                size_t input_count);
 /* While the game is paused: heads, hands and bodies of players follow their last sample, whatever
  * its time. The clock, bodies, joints, grips and play spaces stand still. The next hh_world_step
- * goes on: hands that are still closed grip where they are by then. */
+ * goes on: hands that are still closed grip where they are at that time. */
 HH_API hh_result hh_world_step_pose_only(hh_world* world, double dt_s,
                                          const hh_player_input* inputs, size_t input_count);
 /* The world's clock, seconds, and the number of steps. Null outputs are skipped. */
@@ -203,14 +215,20 @@ HH_API hh_result hh_world_get_tuning(const hh_world* world, const char* name, do
                                      size_t count);
 HH_API hh_result hh_world_set_tuning(hh_world* world, const char* name, const double* values,
                                      size_t count);
+/* All numbers of the tuning, to compare, keep and restore: in the order of hh_tuning_describe, a
+ * vector as three. `count` as for hh_world_fallbacks. Set takes exactly all of them; on an error
+ * none changes. */
+HH_API hh_result hh_world_tuning_numbers(const hh_world* world, double* values, size_t capacity,
+                                         size_t* count);
+HH_API hh_result hh_world_set_tuning_numbers(hh_world* world, const double* values, size_t count);
 /* All numbers from JSON, {"hand": {"reach_m": 0.12}}; those that it lacks get their defaults.
  * HH_ERROR_DATA, with the place, for unknown names and wrong numbers. */
 HH_API hh_result hh_world_load_tuning(hh_world* world, const char* json, size_t size);
 /* The additive body clips of all players, from JSON in the format of docs/reference/body_clips.md:
- * idling, pushing off, looking round, raising the arms. They rotate spine, legs and clavicles, never
- * hands. They replace the clips before. Null: none, which is the default. HH_ERROR_DATA, with the
- * place and no change, for anything else. Clips are not in a snapshot: load the same ones before
- * you restore. */
+ * idling, pushing off, looking round, raising the arms. They rotate spine, legs and clavicles,
+ * never hands. They replace the clips before. Null: none, which is the default. HH_ERROR_DATA, with
+ * the place and no change, for anything else. Clips are not in a snapshot: load the same ones
+ * before you restore. */
 HH_API hh_result hh_world_load_body_clips(hh_world* world, const char* json, size_t size);
 
 #ifdef __cplusplus

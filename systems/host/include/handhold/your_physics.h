@@ -71,7 +71,7 @@ HH_API hh_result hh_body_set_surface(hh_world* world, hh_body body, const hh_mes
 
 typedef struct hh_body_motion {
     hh_body body;
-    hh_pose pose; /* as hh_body_def.pose; without a shape: centre of mass and principal axes */
+    hh_pose pose; /* of the shape's own frame; without a shape: centre of mass and principal axes */
     hh_vec3 velocity_mps;
     hh_vec3 angular_velocity_radps;
 } hh_body_motion;
@@ -92,15 +92,15 @@ HH_API hh_result hh_player_place(hh_world* world, hh_player player, hh_pose orig
  * hold and let the hand pull the player. */
 HH_API hh_result hh_hand_hold(hh_world* world, hh_player player, hh_side side, hh_body body,
                               const hh_pose* anchor);
-/* What the hand would grip if it closed where it is, by the rules of hands that pull players: reach,
- * sight, grab rules, authored grips. A null body: nothing, or another player. distance_m: from the
- * palm. In every kind of world. HH_ERROR_STATE for a hand that was never tracked. */
+/* What the hand would grip if it closed where it is, by the rules of hands that pull players:
+ * reach, sight, grab rules, authored grips. A null body: nothing, or another player. distance_m:
+ * from the palm. In every kind of world. HH_ERROR_STATE for a hand that was never tracked. */
 HH_API hh_result hh_hand_find_grip(hh_world* world, hh_player player, hh_side side,
                                    hh_surface_hit* hit);
 /* One frame: reads tracking and shows hands and bodies where the host put them. It moves neither
  * players nor bodies, and buttons do nothing: place bodies by hh_world_place_bodies. A move ordered
- * by hh_body_move_kinematic waits for the next step of another kind. Cost: as hh_world_step without
- * physics. */
+ * by hh_body_move_kinematic waits for the next step of another kind. Cost: that of
+ * hh_world_step without physics. */
 HH_API hh_result hh_world_step_hands(hh_world* world, double dt_s, const hh_player_input* inputs,
                                      size_t input_count);
 
@@ -125,13 +125,14 @@ typedef struct hh_hand_constraint {
     hh_hand_rows rows;
     hh_pose anchor; /* the wrist in the body's frame */
     hh_pose target; /* the wrist at the end of the step: from the origin, with the world's axes */
-    /* Its velocity against the origin: while a hand lets go that of the throw, else the mean. */
+    /* The target's velocity relative to the origin: the throwing velocity while a hand lets go,
+     * else the mean over the step. */
     hh_vec3 velocity_mps;
     hh_vec3 angular_velocity_radps;
     hh_quat body_rotation;               /* in the world, at the end of the step; not for POINT */
-    hh_vec3 body_angular_velocity_radps; /* that leads there; not for POINT */
-    /* The anchor in the world at the end of the step, if the solver leaves the body's velocity as
-     * it is: exact for static and kinematic bodies, which need no other end of the joint. */
+    hh_vec3 body_angular_velocity_radps; /* reaches body_rotation; not for POINT */
+    /* The anchor in the world at the end of the step, if the body keeps its velocity. Exact for
+     * static and kinematic bodies: a joint may attach the player to this point of the world. */
     hh_pose anchor_end;
     double compliance_m_per_n; /* of the rows; 0: rigid, as in the runtime's own solver */
     double max_force_n; /* enough to stop what the hand drives from its highest speed in one step */
@@ -142,7 +143,7 @@ typedef struct hh_hand_constraint {
 typedef struct hh_player_motion {
     hh_player player;
     hh_vec3 origin;       /* at the start of the step */
-    hh_vec3 velocity_mps; /* there, with what thrusters and drag did */
+    hh_vec3 velocity_mps; /* at the start of the step, with thrusters and drag applied */
     /* For this step. The player's own while a hand grips something static, kinematic or at least
      * phases.heavy_body_kg. Else 1000 times the heaviest held body, so that light bodies do not
      * shake the player; for bodies from phases.kappa_light_kg to phases.kappa_heavy_kg it falls to
@@ -157,7 +158,7 @@ typedef struct hh_player_motion {
 typedef struct hh_solved_player {
     hh_player player;
     hh_vec3 origin;       /* at the end of the step */
-    hh_vec3 velocity_mps; /* there */
+    hh_vec3 velocity_mps; /* at the end of the step */
 } hh_solved_player;
 
 /* A velocity that the host gives its body. */
@@ -172,16 +173,17 @@ typedef struct hh_velocity_change {
  * teleporting, saving and other steps; hh_world_restore forgets the begun step. */
 HH_API hh_result hh_world_begin_step(hh_world* world, double dt_s, const hh_player_input* inputs,
                                      size_t input_count);
-/* Of the begun step, at most one a hand, ordered as hands were added. Valid until
- * hh_world_end_step. */
+/* Constraints of the begun step: at most one per hand, in the order in which hands were added.
+ * Valid until hh_world_end_step. */
 HH_API hh_result hh_world_hand_constraints(const hh_world* world,
                                            const hh_hand_constraint** constraints, size_t* count);
-/* One a player, in the order of hh_world_players. Valid until hh_world_end_step. */
+/* One entry per player, in the order of hh_world_players. Valid until hh_world_end_step. */
 HH_API hh_result hh_world_player_motions(const hh_world* world, const hh_player_motion** motions,
                                          size_t* count);
 /* Second half, after the host's solver. `players`: the solved play spaces; one left out moves as
  * predicted. Bodies that the host has not placed since hh_world_begin_step rest where they were.
- * Releases grips, limits velocities and shows hands and bodies. On an error the step stays begun. */
+ * Releases grips, limits velocities and shows hands and bodies. On an error the step stays
+ * begun. */
 HH_API hh_result hh_world_end_step(hh_world* world, const hh_solved_player* players, size_t count);
 /* Velocities that the host must give its bodies: after hh_world_begin_step those of bodies that the
  * distance grab pulls, after hh_world_end_step those of thrown and limited bodies. Players':
