@@ -23,8 +23,8 @@ struct TurnedSurface {
         double radius_m = 0.0;
         double y_m = 0.0;
     };
-    std::vector<Point> profile;  // at least three points
-    std::uint32_t sectors = 0;   // per turn, a multiple of four
+    std::vector<Point> profile;  // three or more
+    std::uint32_t sectors = 0;   // number per turn, a multiple of four
 };
 
 // Sectors per turn of a sphere or capsule whose triangles span at most step_rad.

@@ -41,7 +41,7 @@ class TriangleBvh {
         // A permutation of the triangles in which neighbours are close: halved, instead of
         // searching for the best splits.
         std::span<const std::uint32_t> order;
-        std::span<const Vec3> normals;  // of the triangles, unit; zero: degenerate
+        std::span<const Vec3> normals;  // unit normals of the triangles; zero: degenerate
     };
     TriangleBvh(std::span<const Vec3> positions,
                 std::span<const std::array<std::uint32_t, 3>> triangles, const Known& known);
