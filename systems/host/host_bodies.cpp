@@ -107,12 +107,12 @@ double distance_m(const Shape& shape, const Vec3& point) {
 void release_far_hands(hh_world& host, Entity body, ShapeId shape) {
     const HandTuning& tuning = host.tuning.hand;
     const double reach_m = std::max(tuning.ray_length_m - tuning.ray_back_m, tuning.reach_m);
-    for (std::size_t row = 0; row < host.world.grab.size(); ++row) {
-        const Grab& grab = host.world.grab.rows()[row];
+    for (std::size_t index = 0; index < host.world.grab.size(); ++index) {
+        const Grab& grab = host.world.grab.elements()[index];
         if (grab.kind == GripKind::none || grab.body != body) {
             continue;
         }
-        const Entity hand = host.world.grab.owners()[row];
+        const Entity hand = host.world.grab.owners()[index];
         const HandSide side = host.world.hand_owner.at(hand).side;
         const Vec3 palm_bs = palm_ray(grab.anchor_bs, side, tuning).palm_ws;
         if (shape == k_no_shape || distance_m(host.shapes.at(shape), palm_bs) > reach_m) {
@@ -204,8 +204,9 @@ hh_result hh_body_name(const hh_world* world, hh_body body, const char** name) {
 hh_result hh_world_bodies(const hh_world* world, hh_body* bodies, size_t capacity, size_t* count) {
     return call([&] {
         const hh_world& host = world_of(world);
-        write_list(host.world.body.size(), bodies, capacity, count,
-                   [&](std::size_t row) { return id_of<hh_body>(host.world.body.owners()[row]); });
+        write_list(host.world.body.size(), bodies, capacity, count, [&](std::size_t index) {
+            return id_of<hh_body>(host.world.body.owners()[index]);
+        });
     });
 }
 
