@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "engine/anim/crawler_leg.hpp"
@@ -73,9 +75,22 @@ struct Mover {
 };
 
 // A kinematic body that a host moves: it reaches the pose at the end of the next frame and then
-// stays there. Written by move_kinematic; read by animate_movers. A body with a mover has none.
+// stays there. A body with a mover has none. Written by move_kinematic and animate_movers.
 struct MoveTarget {
+    static constexpr std::size_t k_capacity = 8;
+    // A frame in which the body moved.
+    struct Move {
+        double span_s = 0.0;  // since the move before, > 0
+        Vec3 moved_m = Vec3::Zero();
+        Vec3 turned_rad = Vec3::Zero();  // rotation vector, world
+    };
+
     Pose pose_ws;
+    // The last moves, newest first: the body's velocity must not depend on how many frames lie
+    // between two poses that the host tells.
+    double moved_s = 0.0;     // end of the newest move's frame, s on the world's clock
+    std::uint32_t count = 0;  // k_capacity at most
+    std::array<Move, k_capacity> moves = {};
 };
 
 // Share of the world's gravity that a free body feels, [-1e3, 1e3]. A body without this component

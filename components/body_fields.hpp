@@ -55,8 +55,17 @@ void visit_fields(const JointLatch& c, V&& visit) {
     visit("handle_at", c.handle_at);
 }
 template <typename V>
+void visit_fields(const MoveTarget::Move& c, V&& visit) {
+    visit("span_s", c.span_s);
+    visit("moved_m", c.moved_m);
+    visit("turned_rad", c.turned_rad);
+}
+template <typename V>
 void visit_fields(const MoveTarget& c, V&& visit) {
     visit("pose_ws", c.pose_ws);
+    visit("moved_s", c.moved_s);
+    visit("count", c.count);
+    visit("moves", c.moves);
 }
 template <typename V>
 void visit_fields(const GravityScale& c, V&& visit) {

@@ -77,15 +77,14 @@ double wrong_number_of(const Pose& pose) {
                : beyond(pose.position, world_limits::k_max_coordinate_m);
 }
 
-void check_body(const World& world, const BodyDescription& description, const char* caller) {
-    const RigidBody& body = description.body;
+}  // namespace
+
+void check_rigid_body(const RigidBody& body, const char* caller) {
     const auto check = [caller](bool is_good, const char* what, double value) {
         if (!is_good) {
             fail_precondition(caller, what, std::to_string(value));
         }
     };
-    check(is_in_world(description.pose_ws), "the pose is not valid",
-          wrong_number_of(description.pose_ws));
     const bool is_free = body.kind == BodyKind::free;
     check(is_in(body.mass_kg, is_free ? world_limits::k_min_mass_kg : 0.0,
                 world_limits::k_max_mass_kg),
@@ -99,6 +98,19 @@ void check_body(const World& world, const BodyDescription& description, const ch
           body.restitution);
     check(is_in(body.friction, 0.0, world_limits::k_max_friction),
           "the friction must lie in [0, 1e6]", body.friction);
+}
+
+namespace {
+
+void check_body(const World& world, const BodyDescription& description, const char* caller) {
+    const auto check = [caller](bool is_good, const char* what, double value) {
+        if (!is_good) {
+            fail_precondition(caller, what, std::to_string(value));
+        }
+    };
+    check(is_in_world(description.pose_ws), "the pose is not valid",
+          wrong_number_of(description.pose_ws));
+    check_rigid_body(description.body, caller);
     const BodyVelocity& velocity = description.velocity;
     check(is_within(velocity.linear_mps, world_limits::k_max_speed_mps),
           "the velocity is beyond 1e6 m/s",

@@ -189,6 +189,9 @@ Entity add_body(World& world, const BodyDescription& description);
 // The overload without a library cannot check this; the first frame throws instead.
 Entity add_body(World& world, const BodyDescription& description, const ShapeLibrary& shapes);
 
+// Throws PreconditionError, with the caller's name, for numbers that add_body refuses.
+void check_rigid_body(const RigidBody& body, const char* caller);
+
 struct JointDescription {
     std::string_view name;  // unique in the world
     Joint joint;

@@ -39,7 +39,7 @@ void place_body(World& world, Entity body, const Pose& pose_ws) {
         *valid = {pose_ws, true};
     }
     if (MoveTarget* const target = world.move_target.find(body)) {
-        target->pose_ws = pose_ws;
+        *target = {.pose_ws = pose_ws};
     }
 }
 
@@ -48,7 +48,124 @@ bool is_carried(const World& world, const Grab& grab) {
            world.joints_by_body.of(grab.body).empty();
 }
 
+// Poses in a body's frame, in a new frame that lies at `frame` in the old one.
+struct Reframed {
+    Pose old_in_new;
+
+    void operator()(Pose& pose_bs) const { pose_bs = old_in_new * pose_bs; }
+    void operator()(Vec3& point_bs) const { point_bs = transform_point(old_in_new, point_bs); }
+};
+
+void reframe_joints(World& world, Entity body, const Reframed& reframe) {
+    sync_index(world);
+    for (const Entity entity : world.joints_by_body.of(body)) {
+        Joint& joint = world.joint.at(entity);
+        reframe(joint.a == body ? joint.frame_a_bs : joint.frame_b_bs);
+    }
+}
+
+void reframe_hands(World& world, Entity body, const Reframed& reframe) {
+    for (Grab& grab : world.grab.elements()) {
+        if (grab.kind != GripKind::none && grab.body == body) {
+            reframe(grab.anchor_bs);
+            reframe(grab.hit_bs);
+            grab.hit_normal_bs = reframe.old_in_new.rotation * grab.hit_normal_bs;
+        }
+    }
+    for (AuthoredHold& hold : world.authored_hold.elements()) {
+        if (hold.body == body) {
+            reframe(hold.hand.wrist_bs);
+        }
+    }
+    for (HandSight& sight : world.hand_sight.elements()) {
+        if (sight.frame == body) {
+            reframe(sight.outside_bs);
+        }
+    }
+    for (ReferenceVelocity& reference : world.reference_velocity.elements()) {
+        if (reference.body == body) {
+            reframe(reference.point_bs);
+        }
+    }
+    if (AuthoredGrips* const grips = world.authored_grips.find(body)) {
+        for (AuthoredGrip& grip : grips->grips) {
+            for (AuthoredHand& hand : grip.hands) {
+                reframe(hand.wrist_bs);
+            }
+        }
+    }
+}
+
+// Surfaces, fits and their cache keys name triangles.
+void forget_fits(World& world) {
+    for (std::size_t index = 0; index < world.grip_surface.size(); ++index) {
+        const Entity hand = world.grip_surface.owners()[index];
+        world.grip_surface.elements()[index] = {};
+        PalmOffset& offset = world.palm_offset.at(hand);
+        offset.solved_signature = 0;
+        offset.solved_triangle = GripSurface::k_none;
+        FingerPose& fingers = world.finger_pose.at(hand);
+        fingers.closed_body = fingers.fitted_body = k_no_entity;
+        fingers.fitted_signature = 0;
+        fingers.is_converged = false;
+    }
+}
+
 }  // namespace
+
+void change_body(World& world, Entity entity, const RigidBody& body) {
+    HH_CHECK(world.body.contains(entity), "no body with this handle", entity.slot);
+    check_rigid_body(body, __func__);
+    const BodyKind before = world.body.at(entity).kind;
+    world.body.at(entity) = body;
+    if (body.kind == before) {
+        return;
+    }
+    const Pose pose_ws = world.body_pose.at(entity).pose_ws;
+    world.body_start.at(entity).pose_ws = pose_ws;
+    world.last_valid.remove(entity);
+    if (body.kind == BodyKind::free) {
+        world.last_valid.add(entity, {pose_ws, true});
+    } else {
+        world.body_velocity.at(entity) = {};
+    }
+    if (before == BodyKind::kinematic) {
+        world.move_target.remove(entity);
+        world.mover.remove(entity);
+        world.path_mover.remove(entity);
+        world.leg_mover.remove(entity);
+    }
+}
+
+void change_shape(World& world, Entity body, ShapeId shape, const Pose& frame) {
+    HH_CHECK(world.body.contains(body), "no body with this handle", body.slot);
+    check_place(__func__, frame);
+    const Pose old_ws = world.body_pose.at(body).pose_ws;
+    const Pose new_ws = old_ws * frame;
+    check_place(__func__, new_ws);
+    world.collider.remove(body);
+    if (shape != k_no_shape) {
+        world.collider.add(body, {shape});
+    }
+    forget_fits(world);
+    if (frame.position == Vec3::Zero() && frame.rotation.vec() == Vec3::Zero()) {
+        return;
+    }
+    const Reframed reframe{inverse(frame)};
+    reframe_joints(world, body, reframe);
+    reframe_hands(world, body, reframe);
+    BodyVelocity& velocity = world.body_velocity.at(body);
+    velocity.linear_mps += velocity.angular_radps.cross(new_ws.position - old_ws.position);
+    world.body_pose.at(body).pose_ws = new_ws;
+    Pose& start_ws = world.body_start.at(body).pose_ws;
+    start_ws = start_ws * frame;
+    if (LastValidPose* const valid = world.last_valid.find(body)) {
+        valid->pose_ws = valid->pose_ws * frame;
+    }
+    if (MoveTarget* const target = world.move_target.find(body)) {
+        target->pose_ws = target->pose_ws * frame;
+    }
+}
 
 void move_kinematic(World& world, Entity body, const Pose& pose_ws) {
     HH_CHECK(world.body.contains(body), "no body with this handle", body.slot);
@@ -61,7 +178,7 @@ void move_kinematic(World& world, Entity body, const Pose& pose_ws) {
     if (MoveTarget* const target = world.move_target.find(body)) {
         target->pose_ws = pose_ws;
     } else {
-        world.move_target.add(body, {pose_ws});
+        world.move_target.add(body, {.pose_ws = pose_ws});
     }
 }
 

@@ -42,7 +42,7 @@ Bounds shape_box(const Shape& shape) {
         }
         case ShapeKind::mesh: {
             const Bounds box = bounds_of_points(std::span<const Vec3>(shape.mesh->positions));
-            return {box.low.cwiseProduct(shape.scale), box.high.cwiseProduct(shape.scale)};
+            return box.scaled(shape.scale);
         }
         default: {
             const Vec3 half(shape.radius_m, shape.radius_m + shape.half_height_m, shape.radius_m);

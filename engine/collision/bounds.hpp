@@ -20,6 +20,12 @@ struct Bounds {
     Bounds joined(const Bounds& other) const {
         return {low.cwiseMin(other.low), high.cwiseMax(other.high)};
     }
+    // Factors may be negative.
+    Bounds scaled(const Vec3& factors) const {
+        const Vec3 a = low.cwiseProduct(factors);
+        const Vec3 b = high.cwiseProduct(factors);
+        return {a.cwiseMin(b), a.cwiseMax(b)};
+    }
 };
 
 inline Bounds bounds_of(const Vec3& from, const Vec3& to) {

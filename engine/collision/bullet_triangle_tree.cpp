@@ -55,7 +55,10 @@ TriangleTree::NodeBox TriangleTree::node_box(const Bounds& box) const {
 }
 
 ScaledTriangles::ScaledTriangles(std::shared_ptr<const TriangleTree> tree, const Vec3& scale)
-    : tree_(std::move(tree)), scale_(scale), inverse_scale_(scale.cwiseInverse()) {}
+    : tree_(std::move(tree)),
+      scale_(scale),
+      inverse_scale_(scale.cwiseInverse()),
+      is_mirrored_(is_mirrored(scale)) {}
 
 bool ScaledTriangles::may_meet(const Bounds& box) const {
     bool found = false;

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <BulletCollision/BroadphaseCollision/btQuantizedBvh.h>
 #include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
@@ -97,7 +98,7 @@ class SegmentTest {
 // tree; only triangles that a query finds are scaled.
 class ScaledTriangles {
   public:
-    // Scale factors are > 0.
+    // Scale factors are not 0; negative ones mirror.
     ScaledTriangles(std::shared_ptr<const TriangleTree> tree, const Vec3& scale);
 
     // Calls visit(corners) for the triangles whose bounds overlap the box, and possibly for others.
@@ -127,22 +128,20 @@ class ScaledTriangles {
     std::optional<LocalSurfacePoint> closest_point(const Vec3& point, double max_distance_m) const;
 
   private:
-    Bounds scaled(const Bounds& box) const {
-        return {box.low.cwiseProduct(scale_), box.high.cwiseProduct(scale_)};
-    }
-    Bounds unscaled(const Bounds& box) const {
-        return {box.low.cwiseProduct(inverse_scale_), box.high.cwiseProduct(inverse_scale_)};
-    }
+    Bounds scaled(const Bounds& box) const { return box.scaled(scale_); }
+    Bounds unscaled(const Bounds& box) const { return box.scaled(inverse_scale_); }
     Corners corners(std::size_t triangle) const {
         const auto& [a, b, c] = tree_->mesh().triangles[triangle];
         const std::vector<Vec3>& positions = tree_->mesh().positions;
-        return {positions[a].cwiseProduct(scale_), positions[b].cwiseProduct(scale_),
-                positions[c].cwiseProduct(scale_)};
+        const auto& [second, third] = is_mirrored_ ? std::pair(c, b) : std::pair(b, c);
+        return {positions[a].cwiseProduct(scale_), positions[second].cwiseProduct(scale_),
+                positions[third].cwiseProduct(scale_)};
     }
 
     std::shared_ptr<const TriangleTree> tree_;
     Vec3 scale_;
     Vec3 inverse_scale_;
+    bool is_mirrored_;
 };
 
 }  // namespace handhold

@@ -41,15 +41,22 @@ double BvhBuilder::Box::half_area() const {
 }
 
 BvhBuilder::BvhBuilder(TriangleBvh& bvh, std::span<const Vec3> positions,
-                       std::span<const std::array<std::uint32_t, 3>> triangles)
-    : bvh_(bvh), positions_(positions), triangles_(triangles) {}
+                       std::span<const std::array<std::uint32_t, 3>> triangles,
+                       const TriangleBvh::Known& known)
+    : bvh_(bvh),
+      positions_(positions),
+      triangles_(triangles),
+      order_(known.order),
+      normals_(known.normals) {}
 
 // Collects the bounding boxes of all finite triangles, relative to the mesh's centre.
 void BvhBuilder::gather() {
     std::vector<std::uint32_t> finite;
+    finite.reserve(triangles_.size());
     Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
     Vec3 high = -low;
-    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+        const std::uint32_t t = order_.empty() ? i : order_[i];
         bool whole = true;
         for (const std::uint32_t index : triangles_[t]) {
             HH_CHECK(index < positions_.size(), "an index is out of range in triangle", t);
@@ -152,6 +159,10 @@ BvhBuilder::Split BvhBuilder::best_split(const Work& work, const Box& middles) c
 
 // Partitions the items and returns the index of the upper side's first item.
 std::uint32_t BvhBuilder::part(const Work& work, const Split& split, const Box& middles) {
+    if (!order_.empty()) {  // full leaves, but for the last one
+        const std::uint32_t half = (work.last - work.first) / 2 / k_leaf * k_leaf;
+        return work.first + std::max(half, k_leaf);
+    }
     const auto first = items_.begin() + work.first;
     const auto last = items_.begin() + work.last;
     if (split.found && work.depth < k_planned_depth) {
@@ -188,6 +199,7 @@ void BvhBuilder::make_leaf(const Work& work) {
 // Stores the leaves' triangles. Each leaf has four slots; unused slots repeat its last triangle.
 void BvhBuilder::fill_leaves() {
     std::vector<std::uint32_t> leaves;
+    leaves.reserve(pairs_.size() / 2 + 1);
     for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
         if (pairs_[i].count > 0) {
             leaves.push_back(i);
@@ -214,7 +226,10 @@ void BvhBuilder::fill_leaves() {
 // Copies a triangle's corners in leaf order, so that they are near in memory.
 std::array<std::uint32_t, 3> BvhBuilder::copy_corners(std::uint32_t triangle) {
     constexpr std::uint32_t k_not_copied = std::numeric_limits<std::uint32_t>::max();
-    copied_.resize(positions_.size(), k_not_copied);
+    if (copied_.empty()) {
+        copied_.resize(positions_.size(), k_not_copied);
+        bvh_.positions_.reserve(positions_.size());
+    }
     std::array<std::uint32_t, 3> slot = {};
     for (std::size_t i = 0; i < 3; ++i) {
         std::uint32_t& place = copied_[triangles_[triangle][i]];
@@ -227,10 +242,22 @@ std::array<std::uint32_t, 3> BvhBuilder::copy_corners(std::uint32_t triangle) {
     return slot;
 }
 
-void BvhBuilder::add_four(std::uint32_t first_slot) {
+Vec3 BvhBuilder::normal_of(std::uint32_t slot, const Corners& corners) const {
+    if (!normals_.empty()) {
+        return normals_[bvh_.numbers_[slot]];
+    }
     // Smallest area, in units of the longest edge squared. In thinner triangles the normal's
     // rounding error exceeds that of a float.
     constexpr double k_least_area = 1e-8;
+    const Vec3 area = area_vector(corners);
+    const double length = area.norm();
+    const double longest2 =
+        std::max({(corners[1] - corners[0]).squaredNorm(), (corners[2] - corners[1]).squaredNorm(),
+                  (corners[0] - corners[2]).squaredNorm()});
+    return length > k_least_area * longest2 ? Vec3(area / length) : Vec3(Vec3::Zero());
+}
+
+void BvhBuilder::add_four(std::uint32_t first_slot) {
     Triangles4 four;
     for (std::uint32_t i = 0; i < k_leaf; ++i) {
         const Corners corners = bvh_.corners_at(first_slot + i);
@@ -242,17 +269,13 @@ void BvhBuilder::add_four(std::uint32_t first_slot) {
         for (std::size_t c = 0; c < 3; ++c) {
             put(four.corner[c], corners[c] - bvh_.origin_);
         }
-        const Vec3 area = area_vector(corners);
-        const double length = area.norm();
-        const double longest2 = std::max({(corners[1] - corners[0]).squaredNorm(),
-                                          (corners[2] - corners[1]).squaredNorm(),
-                                          (corners[0] - corners[2]).squaredNorm()});
-        put(four.normal, length > k_least_area * longest2 ? Vec3(area / length) : Vec3::Zero());
+        put(four.normal, normal_of(first_slot + i, corners));
     }
     bvh_.fours_.push_back(four);
 }
 
 void BvhBuilder::divide() {
+    pairs_.reserve(items_.size());
     pairs_.emplace_back();
     std::vector<Work> open = {{0, 0, static_cast<std::uint32_t>(items_.size()), 0}};
     while (!open.empty()) {
@@ -271,7 +294,8 @@ void BvhBuilder::divide() {
             make_leaf(work);
             continue;
         }
-        const Split split = count > 2 * k_leaf ? best_split(work, middles) : Split{};
+        const bool is_searched = order_.empty() && count > 2 * k_leaf;
+        const Split split = is_searched ? best_split(work, middles) : Split{};
         const std::uint32_t middle = part(work, split, middles);
         const auto child = static_cast<std::uint32_t>(pairs_.size());
         pairs_[work.pair].first = child;
@@ -284,7 +308,9 @@ void BvhBuilder::divide() {
 // The up to four descendants that replace a binary node's children, in tree order. Opens the
 // largest boxes first.
 std::vector<std::uint32_t> BvhBuilder::four_below(std::uint32_t pair) const {
-    std::vector<std::uint32_t> below = {pair};
+    std::vector<std::uint32_t> below;
+    below.reserve(4);
+    below.push_back(pair);
     while (below.size() < 4) {
         auto widest = below.end();
         for (auto it = below.begin(); it != below.end(); ++it) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/geometry/closest_point.hpp"
 #include "engine/geometry/triangle_bvh.hpp"
 #include "engine/math/float4.hpp"
 
@@ -19,7 +20,8 @@ namespace handhold {
 class BvhBuilder {
   public:
     BvhBuilder(TriangleBvh& bvh, std::span<const Vec3> positions,
-               std::span<const std::array<std::uint32_t, 3>> triangles);
+               std::span<const std::array<std::uint32_t, 3>> triangles,
+               const TriangleBvh::Known& known = {});
     void build();
 
   private:
@@ -74,6 +76,7 @@ class BvhBuilder {
     void make_leaf(const Work& work);
     void fill_leaves();
     std::array<std::uint32_t, 3> copy_corners(std::uint32_t triangle);
+    Vec3 normal_of(std::uint32_t slot, const Corners& corners) const;
     void add_four(std::uint32_t first_slot);
     void make_nodes();
     std::vector<std::uint32_t> four_below(std::uint32_t pair) const;
@@ -81,6 +84,9 @@ class BvhBuilder {
     TriangleBvh& bvh_;
     std::span<const Vec3> positions_;
     std::span<const std::array<std::uint32_t, 3>> triangles_;
+    // Empty: splits are searched for, and normals computed.
+    std::span<const std::uint32_t> order_;
+    std::span<const Vec3> normals_;
     float padding_ = 0.0F;
     std::vector<Item> items_;
     std::vector<Pair> pairs_;            // root first

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "engine/geometry/graph_links.hpp"
+#include "engine/geometry/round_grip_mesh.hpp"
 #include "engine/geometry/shape_surface.hpp"
 
 namespace handhold {
@@ -54,6 +55,9 @@ GripMesh build_grip_mesh(const Mesh& mesh, const GripMeshSettings& settings) {
 }
 
 GripMesh build_grip_mesh(const Shape& shape, const GripMeshSettings& settings) {
+    if (shape.kind == ShapeKind::sphere || shape.kind == ShapeKind::capsule) {
+        return build_round_grip_mesh(shape, settings);
+    }
     GripMeshSettings own = settings;
     if (shape.kind != ShapeKind::mesh) {
         own.contact.deviation_m = 0.0;

@@ -40,6 +40,7 @@ struct GripMesh {
 
 GripMesh build_grip_mesh(const Mesh& mesh, const GripMeshSettings& settings = {});
 // Round shapes are tessellated within shape_tolerance_m; their contact detail is not simplified.
+// Spheres and capsules are built directly: round_grip_mesh.hpp.
 GripMesh build_grip_mesh(const Shape& shape, const GripMeshSettings& settings = {});
 
 std::size_t memory_bytes(const GripMesh& grip);

@@ -20,7 +20,9 @@ bool is_size(double size_m) { return size_m >= k_min_size_m && size_m <= k_max_s
 constexpr double k_min_scale = 1e-3;
 constexpr double k_max_scale = 1e3;
 
-bool is_scale(double factor) { return factor >= k_min_scale && factor <= k_max_scale; }
+bool is_scale(double factor) {
+    return std::abs(factor) >= k_min_scale && std::abs(factor) <= k_max_scale;
+}
 
 // Radius about the compound's origin that contains the part.
 double farthest_m(const PlacedShape& part) {
@@ -160,7 +162,7 @@ ShapeId ShapeLibrary::add_mesh(std::shared_ptr<const Mesh> mesh, const Vec3& sca
     HH_CHECK(mesh->triangles.size() <= k_max_triangles, "more than 2^21 triangles",
              mesh->triangles.size());
     for (const double factor : scale) {
-        HH_CHECK(is_scale(factor), "a scale outside of [1e-3, 1e3]", factor);
+        HH_CHECK(is_scale(factor), "a scale whose size is outside of [1e-3, 1e3]", factor);
     }
     for (std::size_t i = 0; i < mesh->positions.size(); ++i) {
         HH_CHECK(is_finite(mesh->positions[i]), "a position is not finite", i);

@@ -32,8 +32,12 @@ struct Shape {
     std::shared_ptr<const ConvexHull> hull;                 // hull
     std::shared_ptr<const std::vector<PlacedShape>> parts;  // compound: at least one
     std::shared_ptr<const Mesh> mesh;  // mesh: only static and kinematic bodies may have one
-    Vec3 scale = Vec3::Ones();         // mesh: scale along its own axes
+    Vec3 scale = Vec3::Ones();         // mesh: scale along its own axes; negative: mirrored
 };
+
+// True if a mesh's scale turns its triangles inside out: their corners are then taken in the
+// opposite order.
+inline bool is_mirrored(const Vec3& scale) { return scale.prod() < 0.0; }
 
 // A part of a compound.
 struct PlacedShape {
@@ -74,8 +78,9 @@ class ShapeLibrary {
     // 1 to k_max_parts convex shapes that move as one body; they may overlap. Either all masses are
     // 0 or all are > 0.
     ShapeId add_compound(std::span<const CompoundChild> children);
-    // A mesh of 1 to 2^21 triangles, with indices in range and finite positions. Scale factors are
-    // in [1e-3, 1e3]. All shapes of a mesh share the mesh and its BVH, even at different scales.
+    // A mesh of 1 to 2^21 triangles, with indices in range and finite positions. The size of each
+    // scale factor is in [1e-3, 1e3]; negative ones mirror the mesh. All shapes of a mesh share the
+    // mesh and its BVH, even at different scales.
     ShapeId add_mesh(std::shared_ptr<const Mesh> mesh, const Vec3& scale = Vec3::Ones());
     // Adds the same solid with its frame at the centre of mass, along principal axes. Returns `id`
     // if the shape is already centred. Not for meshes.

@@ -1,92 +1,31 @@
 #include "engine/geometry/shape_surface.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "engine/core/check.hpp"
 
 namespace handhold {
 namespace {
 
-// Number of sectors per turn: a multiple of four, so that there are corners on the axes.
-std::uint32_t sectors(double step_rad) {
-    const double rounded_up = std::ceil(2.0 * k_pi / step_rad / 4.0) * 4.0;
-    return static_cast<std::uint32_t>(
-        std::clamp(rounded_up, 8.0, static_cast<double>(k_max_sectors)));
-}
 // The sagitta of a chord over the angle s is r (1 - cos(s / 2)) < r s^2 / 8.
 std::uint32_t circle_sectors(double radius_m, double tolerance_m) {
-    return sectors(std::sqrt(8.0 * tolerance_m / radius_m));
-}
-// A face that spans the angle s in both directions deviates by less than twice r s^2 / 8.
-std::uint32_t sphere_sectors(double radius_m, double tolerance_m) {
-    return sectors(std::sqrt(4.0 * tolerance_m / radius_m));
+    return sectors_of(std::sqrt(8.0 * tolerance_m / radius_m));
 }
 
-struct ProfilePoint {
-    double radius_m = 0.0;
-    double y_m = 0.0;
-};
-
-// Revolves a profile about the y axis. The profile begins at a point on +y and ends at a point on
-// -y.
-Mesh turn_profile(const std::vector<ProfilePoint>& profile, std::uint32_t sector_count) {
-    Mesh mesh;
-    mesh.positions.emplace_back(0.0, profile.front().y_m, 0.0);
-    for (std::size_t ring = 1; ring + 1 < profile.size(); ++ring) {
-        for (std::uint32_t s = 0; s < sector_count; ++s) {
-            double sine = 0.0;
-            double cosine = 0.0;
-            sin_cos(2.0 * k_pi * s / sector_count, sine, cosine);
-            mesh.positions.emplace_back(profile[ring].radius_m * sine, profile[ring].y_m,
-                                        profile[ring].radius_m * cosine);
-        }
-    }
-    const auto bottom = static_cast<std::uint32_t>(mesh.positions.size());
-    mesh.positions.emplace_back(0.0, profile.back().y_m, 0.0);
-    const auto ring_count = static_cast<std::uint32_t>(profile.size() - 2);
-    const auto at = [&](std::uint32_t ring, std::uint32_t s) {
-        return 1 + ring * sector_count + s % sector_count;
-    };
-    for (std::uint32_t s = 0; s < sector_count; ++s) {
-        mesh.triangles.push_back({0, at(0, s), at(0, s + 1)});
-        for (std::uint32_t ring = 0; ring + 1 < ring_count; ++ring) {
-            mesh.triangles.push_back({at(ring, s), at(ring + 1, s), at(ring + 1, s + 1)});
-            mesh.triangles.push_back({at(ring, s), at(ring + 1, s + 1), at(ring, s + 1)});
-        }
-        mesh.triangles.push_back({at(ring_count - 1, s), bottom, at(ring_count - 1, s + 1)});
-    }
-    return mesh;
-}
-
-// Surface of a capsule: a sphere whose halves are 2 * half_height_m apart. A sphere if that is 0.
 Mesh capsule_surface(double radius_m, double half_height_m, double tolerance_m) {
-    const std::uint32_t around = sphere_sectors(radius_m, tolerance_m);
-    const std::uint32_t quarter = around / 4;
-    std::vector<ProfilePoint> profile;
-    for (std::uint32_t i = 0; i <= 2 * quarter; ++i) {
-        double sine = 0.0;
-        double cosine = 0.0;
-        sin_cos(0.5 * k_pi * i / quarter, sine, cosine);
-        if (i == quarter) {
-            profile.push_back({radius_m, half_height_m});
-            if (half_height_m > 0.0) {
-                profile.push_back({radius_m, -half_height_m});
-            }
-        } else {
-            const double side_m = i < quarter ? half_height_m : -half_height_m;
-            profile.push_back({radius_m * sine, side_m + radius_m * cosine});
-        }
-    }
-    return turn_profile(profile, around);
+    return turned_mesh(turned_capsule(radius_m, half_height_m,
+                                      sectors_of(sphere_step_rad(radius_m, tolerance_m))));
 }
 
 Mesh cylinder_surface(double radius_m, double half_height_m, double tolerance_m) {
-    return turn_profile({{0.0, half_height_m},
+    return turned_mesh({{{0.0, half_height_m},
                          {radius_m, half_height_m},
                          {radius_m, -half_height_m},
                          {0.0, -half_height_m}},
-                        circle_sectors(radius_m, tolerance_m));
+                        circle_sectors(radius_m, tolerance_m)});
 }
 
 Mesh box_surface(const Vec3& half_m) {
@@ -129,6 +68,69 @@ Mesh compound_surface(const std::vector<PlacedShape>& parts, double tolerance_m)
 
 }  // namespace
 
+// A multiple of four, so that there are corners on the axes.
+std::uint32_t sectors_of(double step_rad) {
+    const double rounded_up = std::ceil(2.0 * k_pi / step_rad / 4.0) * 4.0;
+    return static_cast<std::uint32_t>(
+        std::clamp(rounded_up, 8.0, static_cast<double>(k_max_sectors)));
+}
+
+// A face that spans the angle s in both directions deviates by less than twice r s^2 / 8.
+double sphere_step_rad(double radius_m, double tolerance_m) {
+    return std::sqrt(4.0 * tolerance_m / radius_m);
+}
+
+TurnedSurface turned_capsule(double radius_m, double half_height_m, std::uint32_t sectors) {
+    const std::uint32_t quarter = sectors / 4;
+    TurnedSurface surface{{}, sectors};
+    for (std::uint32_t i = 0; i <= 2 * quarter; ++i) {
+        double sine = 0.0;
+        double cosine = 0.0;
+        sin_cos(0.5 * k_pi * i / quarter, sine, cosine);
+        if (i == quarter) {
+            surface.profile.push_back({radius_m, half_height_m});
+            if (half_height_m > 0.0) {
+                surface.profile.push_back({radius_m, -half_height_m});
+            }
+        } else {
+            const double side_m = i < quarter ? half_height_m : -half_height_m;
+            surface.profile.push_back({radius_m * sine, side_m + radius_m * cosine});
+        }
+    }
+    return surface;
+}
+
+Mesh turned_mesh(const TurnedSurface& surface) {
+    const TurnedIndex at(surface);
+    std::vector<std::array<double, 2>> turns(at.sectors);  // sine, cosine
+    for (std::uint32_t s = 0; s < at.sectors; ++s) {
+        sin_cos(2.0 * k_pi * s / at.sectors, turns[s][0], turns[s][1]);
+    }
+    Mesh mesh;
+    mesh.positions.reserve(std::size_t{at.bottom_vertex()} + 1);
+    mesh.positions.emplace_back(0.0, surface.profile.front().y_m, 0.0);
+    for (std::uint32_t ring = 0; ring < at.rings; ++ring) {
+        const TurnedSurface::Point& point = surface.profile[ring + 1];
+        for (const auto& [sine, cosine] : turns) {
+            mesh.positions.emplace_back(point.radius_m * sine, point.y_m, point.radius_m * cosine);
+        }
+    }
+    mesh.positions.emplace_back(0.0, surface.profile.back().y_m, 0.0);
+    mesh.triangles.reserve(std::size_t{at.per_sector()} * at.sectors);
+    for (std::uint32_t s = 0; s < at.sectors; ++s) {
+        mesh.triangles.push_back({0, at.vertex(0, s), at.vertex(0, s + 1)});
+        for (std::uint32_t ring = 0; ring + 1 < at.rings; ++ring) {
+            mesh.triangles.push_back(
+                {at.vertex(ring, s), at.vertex(ring + 1, s), at.vertex(ring + 1, s + 1)});
+            mesh.triangles.push_back(
+                {at.vertex(ring, s), at.vertex(ring + 1, s + 1), at.vertex(ring, s + 1)});
+        }
+        mesh.triangles.push_back(
+            {at.vertex(at.rings - 1, s), at.bottom_vertex(), at.vertex(at.rings - 1, s + 1)});
+    }
+    return mesh;
+}
+
 Mesh shape_surface(const Shape& shape, double tolerance_m) {
     HH_CHECK(tolerance_m > 0.0, "a tolerance must be above 0", tolerance_m);
     switch (shape.kind) {
@@ -150,6 +152,11 @@ Mesh shape_surface(const Shape& shape, double tolerance_m) {
     Mesh mesh = *shape.mesh;
     for (Vec3& position : mesh.positions) {
         position = position.cwiseProduct(shape.scale);
+    }
+    if (is_mirrored(shape.scale)) {
+        for (auto& [a, b, c] : mesh.triangles) {
+            std::swap(b, c);
+        }
     }
     return mesh;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/core/check.hpp"
 #include "engine/geometry/bvh_builder.hpp"
 #include "engine/geometry/closest_point.hpp"
 #include "engine/geometry/distance_lower_bound.hpp"
@@ -186,6 +187,16 @@ double box_squared(const Vec3& point, const Corners& corners) {
 TriangleBvh::TriangleBvh(std::span<const Vec3> positions,
                          std::span<const std::array<std::uint32_t, 3>> triangles) {
     BvhBuilder(*this, positions, triangles).build();
+}
+
+TriangleBvh::TriangleBvh(std::span<const Vec3> positions,
+                         std::span<const std::array<std::uint32_t, 3>> triangles,
+                         const Known& known) {
+    HH_CHECK(known.order.size() == triangles.size(), "an order names each triangle once",
+             known.order.size());
+    HH_CHECK(known.normals.size() == triangles.size(), "each triangle has a normal",
+             known.normals.size());
+    BvhBuilder(*this, positions, triangles, known).build();
 }
 
 std::size_t TriangleBvh::memory_bytes() const {

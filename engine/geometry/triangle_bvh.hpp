@@ -36,6 +36,15 @@ class TriangleBvh {
     // input gives the same tree on every compiler.
     TriangleBvh(std::span<const Vec3> positions,
                 std::span<const std::array<std::uint32_t, 3>> triangles);
+    // Several times as fast, for callers that know more of their triangles.
+    struct Known {
+        // A permutation of the triangles in which neighbours are close: halved, instead of
+        // searching for the best splits.
+        std::span<const std::uint32_t> order;
+        std::span<const Vec3> normals;  // unit normals of the triangles; zero: degenerate
+    };
+    TriangleBvh(std::span<const Vec3> positions,
+                std::span<const std::array<std::uint32_t, 3>> triangles, const Known& known);
 
     // First triangle that the segment hits, from either side. No segment passes between two
     // triangles that share an edge. A triangle seen exactly edge-on is missed, but its neighbours

@@ -152,6 +152,7 @@ void locomote_players(const FrameContext& f) {
     const StageTimer timer(Stage::locomote_players, f.stats);
     World& w = f.w;
     handhold::locomote_players({.dt_s = f.dt_s(),
+                                .start_s = f.start_s(),
                                 .scene_velocity_mps = w.reference_velocity_mps,
                                 .commands = w.player_commands,
                                 .head = w.head_tracking,
@@ -160,6 +161,7 @@ void locomote_players(const FrameContext& f) {
                                 .grab = w.grab,
                                 .body_pose = w.body_pose,
                                 .body_velocity = w.body_velocity,
+                                .move_target = w.move_target,
                                 .origin = w.player_origin,
                                 .velocity = w.player_velocity,
                                 .reference = w.reference_velocity,
@@ -202,7 +204,8 @@ void animate_movers(const FrameContext& f) {
                               .target = w.move_target,
                               .body_pose = w.body_pose,
                               .body_start = w.body_start,
-                              .velocity = w.body_velocity});
+                              .velocity = w.body_velocity},
+                             f.tuning.tracking);
 }
 
 void predict_bodies(const FrameContext& f) {

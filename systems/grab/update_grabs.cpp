@@ -287,6 +287,34 @@ void release_grabs_out_of_reach(const UpdateGrabsIo& io, const HandTuning& tunin
     }
 }
 
+// A gripped body's kind or mass has changed so that it now moves the player, or now comes along.
+// The hand takes its anchor where it is, so that nothing jumps.
+void follow_changed_bodies(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats) {
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        Grab& grab = io.grab.elements()[index];
+        if (grab.phase != GrabPhase::holding || !io.body.contains(grab.body)) {
+            continue;
+        }
+        const GripKind kind = grip_kind(io, grab.body, tuning.phases);
+        if (kind == grab.kind) {
+            continue;
+        }
+        const Entity hand = io.grab.owners()[index];
+        const Entity player = io.owner.at(hand).player;
+        const Pose hand_ws = io.origin.at(player).pose_ws * io.hand.at(hand).start_ps;
+        grab.kind = kind;
+        grab.jointed =
+            kind == GripKind::held && io.joint_groups.is_anchored(io.body.find_index(grab.body));
+        grab.two_handed = false;
+        grab.anchor_bs = inverse(io.body_pose.at(grab.body).pose_ws) * hand_ws;
+        grab.slip_hs = {};
+        grab.error_m = 0.0;
+        if (kind == GripKind::held) {
+            ignore_for_head(io.head_ignores.at(player), grab.body, stats);
+        }
+    }
+}
+
 // An authored hold ends with its grip, or once a hand that may turn on its body has turned away
 // from the authored pose by more than leave_angle_rad.
 void update_authored_hold(const UpdateGrabsIo& io, Entity entity, const Grab& grab,
@@ -363,6 +391,7 @@ void carry_out_orders(const UpdateGrabsIo& io, const Tuning& tuning, StageStats&
 
 void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats) {
     release_destroyed_bodies(io, stats);
+    follow_changed_bodies(io, tuning, stats);
     follow_parts(io, tuning.hand);
     release_overstretched_grabs(io, tuning.hand.max_stretch_m, stats);
     release_grabs_out_of_reach(io, tuning.hand, stats);

@@ -44,7 +44,7 @@ void place(World& world, const ToldMotion& motion) {
         if (MoveTarget* const target = world.move_target.find(motion.body)) {
             target->pose_ws = motion.pose_ws;
         } else {
-            world.move_target.add(motion.body, {motion.pose_ws});
+            world.move_target.add(motion.body, {.pose_ws = motion.pose_ws});
         }
     }
 }

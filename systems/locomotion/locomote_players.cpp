@@ -86,6 +86,17 @@ Quat commanded_turn(const LocomotePlayersIo& io, const PlayerCommands& commands,
     return rotation_about(play_space * Vec3::UnitY(), angle);
 }
 
+// Rotation vector of a support in a frame. Bodies that the host moves: in the frame before, since
+// their velocity is measured over several frames and their turns must add up exactly.
+Vec3 turned_rad(const LocomotePlayersIo& io, Entity support) {
+    const MoveTarget* const target = io.move_target.find(support);
+    if (target == nullptr) {
+        return io.body_velocity.at(support).angular_radps * io.dt_s;
+    }
+    const bool has_moved = target->count > 0 && target->moved_s == io.start_s;
+    return has_moved ? target->moves[0].turned_rad : Vec3(Vec3::Zero());
+}
+
 // Rotation of the play space with its support in this frame.
 Quat support_turn(const LocomotePlayersIo& io, const Grips& grips, const Quat& play_space,
                   const LocomotionTuning& tuning) {
@@ -96,12 +107,12 @@ Quat support_turn(const LocomotePlayersIo& io, const Grips& grips, const Quat& p
         (tuning.support_follow == SupportFollow::off && !both_on_one)) {
         return Quat::Identity();
     }
-    const Vec3 spin = io.body_velocity.at(grips.grips[0].grab->body).angular_radps;
+    const Vec3 turned = turned_rad(io, grips.grips[0].grab->body);
     if (tuning.support_follow == SupportFollow::yaw && !both_on_one) {
         const Vec3 up = play_space * Vec3::UnitY();
-        return rotation_about(up, up.dot(spin) * io.dt_s);
+        return rotation_about(up, up.dot(turned));
     }
-    return rotation_from_vector(spin * io.dt_s);
+    return rotation_from_vector(turned);
 }
 
 void update_reference(const LocomotePlayersIo& io, const Grips& grips,

@@ -13,6 +13,7 @@ namespace handhold {
 
 struct LocomotePlayersIo {
     double dt_s;                                // in
+    double start_s;                             // in: start of the frame, s on the world's clock
     Vec3 scene_velocity_mps;                    // in: reference until a surface is gripped
     const Column<PlayerCommands>& commands;     // in
     const Column<HeadTracking>& head;           // in
@@ -21,6 +22,7 @@ struct LocomotePlayersIo {
     const Column<Grab>& grab;                   // in
     const Column<BodyPose>& body_pose;          // in: at the start of the frame
     const Column<BodyVelocity>& body_velocity;  // in
+    const Column<MoveTarget>& move_target;      // in: how bodies moved that the host moves
     Column<PlayerOrigin>& origin;          // in/out: turned about the gripping hand, else the head
     Column<PlayerVelocity>& velocity;      // in/out
     Column<ReferenceVelocity>& reference;  // in/out

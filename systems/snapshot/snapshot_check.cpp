@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "components/body_clip_state.hpp"
@@ -128,6 +129,16 @@ class BreachFinder {
             check(std::abs(w_.gravity_scale.elements()[index].scale) <= GravityScale::k_max,
                   "gravity_scale", w_.gravity_scale.owners()[index], ".scale",
                   "a number within 1000");
+        }
+        for (std::size_t index = 0; index < w_.move_target.size(); ++index) {
+            const MoveTarget& target = w_.move_target.elements()[index];
+            const Entity owner = w_.move_target.owners()[index];
+            check(target.count <= MoveTarget::k_capacity, "move_target", owner, ".count",
+                  "at most 8 moves");
+            const auto moves = std::span(target.moves).first(breach_ ? 0 : target.count);
+            check(std::ranges::all_of(moves,
+                                      [](const MoveTarget::Move& m) { return m.span_s > 0.0; }),
+                  "move_target", owner, ".moves", "times > 0");
         }
         for (std::size_t index = 0; index < w_.path_mover.size(); ++index) {
             const PosePath& path = w_.path_mover.elements()[index].path;

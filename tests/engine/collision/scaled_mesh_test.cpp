@@ -19,6 +19,11 @@ std::shared_ptr<const Mesh> stretched(const Mesh& mesh, const Vec3& scale) {
     for (Vec3& position : result->positions) {
         position = position.cwiseProduct(scale);
     }
+    if (scale.prod() < 0.0) {  // a mirror image keeps its outer side
+        for (auto& [a, b, c] : result->triangles) {
+            std::swap(b, c);
+        }
+    }
     return result;
 }
 
@@ -27,7 +32,9 @@ TEST(ScaledMesh, AnswersLikeAMeshWithScaledPositions) {
     const auto ball = test::make_wavy_ball(1.2, 24, 40);
     int hits = 0;
     int touches = 0;
-    for (const Vec3& scale : {Vec3(1.0, 1.0, 1.0), Vec3(2.0, 2.0, 2.0), Vec3(0.3, 1.0, 2.5)}) {
+    for (const Vec3& scale :
+         {Vec3(1.0, 1.0, 1.0), Vec3(2.0, 2.0, 2.0), Vec3(0.3, 1.0, 2.5), Vec3(-1.0, 1.0, 1.0),
+          Vec3(1.5, -0.7, -1.0), Vec3(-0.8, -0.8, -1.2)}) {
         ShapeLibrary shapes;
         const ShapeId plain = shapes.add_mesh(ball);
         const ShapeId scaled = shapes.add_mesh(ball, scale);

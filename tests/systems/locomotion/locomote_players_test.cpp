@@ -21,6 +21,7 @@ using test::k_wall;
 using test::Random;
 
 constexpr double k_dt_s = 1.0 / 90.0;
+constexpr double k_start_s = 0.4;
 
 struct Locomotion {
     Vec3 scene_velocity = Vec3::Zero();
@@ -31,6 +32,7 @@ struct Locomotion {
     Column<Grab> grab;
     Column<BodyPose> body_pose;
     Column<BodyVelocity> body_velocity;
+    Column<MoveTarget> move_target;
     Column<PlayerOrigin> origin;
     Column<PlayerVelocity> velocity;
     Column<ReferenceVelocity> reference;
@@ -70,6 +72,7 @@ struct Locomotion {
     }
     void run() {
         locomote_players({.dt_s = k_dt_s,
+                          .start_s = k_start_s,
                           .scene_velocity_mps = scene_velocity,
                           .commands = commands,
                           .head = head,
@@ -78,6 +81,7 @@ struct Locomotion {
                           .grab = grab,
                           .body_pose = body_pose,
                           .body_velocity = body_velocity,
+                          .move_target = move_target,
                           .origin = origin,
                           .velocity = velocity,
                           .reference = reference,
@@ -151,6 +155,26 @@ TEST(LocomotePlayers, NothingAskedNothingTurnedBitForBit) {
 }
 
 // --- Following a support -------------------------------------------------------------------------
+
+// Hosts may tell poses every few frames only: the body turned in the last frame, or it did not,
+// whatever velocity is measured over several frames.
+TEST(LocomotePlayers, SupportThatTheHostMovesTurnsThePlayerAsItTurned) {
+    const Vec3 turned(0.03, -0.05, 0.02);
+    for (const double moved_s : {k_start_s, k_start_s - k_dt_s}) {
+        Locomotion player;
+        player.tuning.support_follow = SupportFollow::full;
+        player.body_velocity.at(k_ship).angular_radps = Vec3(0.5, -0.8, 0.3);
+        MoveTarget target;
+        target.moved_s = moved_s;
+        target.count = 1;
+        target.moves[0] = {3.0 * k_dt_s, Vec3::Zero(), turned};
+        player.move_target.add(k_ship, target);
+        player.grip(k_left, GripKind::surface, k_ship);
+        player.run();
+        const Vec3 expected = moved_s == k_start_s ? turned : Vec3(Vec3::Zero());
+        EXPECT_LT((rotation_to_vector(player.play_space().rotation) - expected).norm(), 1e-14);
+    }
+}
 
 TEST(LocomotePlayers, PlaySpaceFollowsItsSupportAsFarAsTheDesignerSays) {
     const Vec3 spin(0.5, -0.8, 0.3);

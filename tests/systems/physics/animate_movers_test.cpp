@@ -133,7 +133,8 @@ struct Movers {
                         .target = targets,
                         .body_pose = body_pose,
                         .body_start = body_start,
-                        .velocity = velocity});
+                        .velocity = velocity},
+                       TrackingTuning{});
     }
 };
 

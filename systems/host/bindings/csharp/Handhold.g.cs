@@ -711,7 +711,7 @@ namespace Handhold {
         /// <summary>default 80</summary>
         public double mass_kg;
         public Measures measures;
-        /// <summary>of all measures, [0.001, 100]; default 1</summary>
+        /// <summary>Of all measures, default 1. Each measure must lie in [0.05, 5] m after it, else HH_ERROR_VALUE: with the default measures, [0.17, 3.08]. Hands, head and the lengths of the tuning do not scale.</summary>
         public double scale;
         /// <summary>the head is a sphere of head.radius_m; default true</summary>
         public Flag head_collides;
@@ -1375,6 +1375,18 @@ namespace Handhold {
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_body_mass(IntPtr world, Body body, double* mass_kg);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_body_set_mass(IntPtr world, Body body, double mass_kg, Vec3 inertia_kgm2);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_body_material(IntPtr world, Body body, double* friction, double* restitution);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_body_set_material(IntPtr world, Body body, double friction, double restitution);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_body_set_kind(IntPtr world, Body body, BodyKind kind, double mass_kg, Vec3 inertia_kgm2);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_body_shape(IntPtr world, Body body, Shape* shape);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_body_set_shape(IntPtr world, Body body, Shape shape);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_body_set_user_data(IntPtr world, Body body, ulong user_data);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_body_user_data(IntPtr world, Body body, ulong* user_data);
@@ -1821,7 +1833,7 @@ namespace Handhold {
             }
         }
 
-        /// <summary>In a world with fits_hands, a new shape gets a surface for hands on the calling thread; a shape equal to one that is there costs microseconds. Costs are of one core of a desktop. Round shapes cost more than a frame: add them while loading, or keep one of each size. Box: 0.02 ms.</summary>
+        /// <summary>In a world with fits_hands, a new shape gets a surface for hands on the calling thread; a shape equal to one that is there costs microseconds. Costs are of one core of a desktop. Box: 0.02 ms.</summary>
         public unsafe Shape ShapeAddBox(Vec3 half_extents_m) {
             Shape shape;
             Shape shape_at;
@@ -1830,7 +1842,7 @@ namespace Handhold {
             return shape;
         }
 
-        /// <summary>Cost with fits_hands: 50 ms at 0.1 m, growing with the radius to 400 ms at 1 m; none above 64 m.</summary>
+        /// <summary>Cost with fits_hands: 2 ms at 0.1 m, growing with the radius to 18 ms at 1 m; none above 64 m.</summary>
         public unsafe Shape ShapeAddSphere(double radius_m) {
             Shape shape;
             Shape shape_at;
@@ -1879,7 +1891,7 @@ namespace Handhold {
             return shape;
         }
 
-        /// <summary>A shape of a prepared mesh, for static and kinematic bodies. Cost: constant for scale 1; another scale, each factor in [1e-3, 1e3], prepares the hands' surface again.</summary>
+        /// <summary>A shape of a prepared mesh, for static and kinematic bodies. The size of each factor is in [1e-3, 1e3], others get HH_ERROR_VALUE; negative ones mirror the mesh, whose triangles keep their outer side. Cost: microseconds for scale 1; another scale prepares the hands' surface again, about 40 microseconds a triangle with fits_hands.</summary>
         public unsafe Shape ShapeAddMesh(Mesh mesh, Vec3 scale) {
             Shape shape;
             Shape shape_at;
@@ -2003,7 +2015,7 @@ namespace Handhold {
             Library.Check(Native.hh_body_teleport(Handle, body, pose));
         }
 
-        /// <summary>A kinematic body reaches the pose at the end of the next step, with the velocity that takes it there, and then rests. Call it before every step in which it moves.</summary>
+        /// <summary>A kinematic body reaches the pose at the end of the next step and then rests. Call it before every step in which it moves, or less often: a host that ticks slower than it draws may tell each tick's pose once. The body's velocity, with which hands leave it and bodies are thrown, is the displacement since the pose before over the time since then; over tracking.release_window_s if the poses come at varying times. It is 0 once a pose is due that does not come or is the same. The first pose after a rest counts as half a second's motion, since nothing says when it began.</summary>
         public unsafe void BodyMoveKinematic(Body body, Pose pose) {
             Library.Check(Native.hh_body_move_kinematic(Handle, body, pose));
         }
@@ -2035,6 +2047,43 @@ namespace Handhold {
             Library.Check(Native.hh_body_mass(Handle, body, &mass_kg_at));
             mass_kg = mass_kg_at;
             return mass_kg;
+        }
+
+        /// <summary>Mass in [1e-12, 1e15] kg and inertia as hh_body_def's, else HH_ERROR_VALUE; 0 inertia: of the solid shape. Dynamic bodies only: HH_ERROR_STATE. Hands keep their grips: beyond phases.heavy_body_kg the body moves its player from the next step on, below it comes along.</summary>
+        public unsafe void BodySetMass(Body body, double mass_kg, Vec3 inertia_kgm2) {
+            Library.Check(Native.hh_body_set_mass(Handle, body, mass_kg, inertia_kgm2));
+        }
+
+        /// <summary>Friction in [0, 1e6], restitution in [0, 1]. Null outputs are skipped.</summary>
+        public unsafe void BodyMaterial(Body body, out double friction, out double restitution) {
+            double friction_at;
+            double restitution_at;
+            Library.Check(Native.hh_body_material(Handle, body, &friction_at, &restitution_at));
+            friction = friction_at;
+            restitution = restitution_at;
+        }
+
+        public unsafe void BodySetMaterial(Body body, double friction, double restitution) {
+            Library.Check(Native.hh_body_set_material(Handle, body, friction, restitution));
+        }
+
+        /// <summary>A body becomes static, kinematic or dynamic where it is. Hands keep their grips without a jump: a body that becomes dynamic comes along, others move the player. A body that becomes static or kinematic stops; one that becomes dynamic keeps its velocity. Joints stay. Mass and inertia: of a body that becomes dynamic, as hh_body_set_mass; of others ignored. A mesh cannot become dynamic: HH_ERROR_VALUE. HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step.</summary>
+        public unsafe void BodySetKind(Body body, BodyKind kind, double mass_kg, Vec3 inertia_kgm2) {
+            Library.Check(Native.hh_body_set_kind(Handle, body, kind, mass_kg, inertia_kgm2));
+        }
+
+        /// <summary>Null for a body without a shape.</summary>
+        public unsafe Shape BodyShape(Body body) {
+            Shape shape;
+            Shape shape_at;
+            Library.Check(Native.hh_body_shape(Handle, body, &shape_at));
+            shape = shape_at;
+            return shape;
+        }
+
+        /// <summary>The body touches with another shape from now on, or with none (null id: not for dynamic bodies, HH_ERROR_VALUE, as a mesh). Its pose, joints and grips stay as they are in the frame in which the host made the shapes, whatever their centres of mass; a dynamic body's inertia becomes that of the solid shape with the same mass. Hands whose palm is farther from the new surface than a closing hand reaches (hand.ray_length_m) let go in the next step: HH_EVENT_RELEASED, HH_REASON_BY_HOST. HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds; with a mesh that a hand grips, linear in its triangles, 0.1 ms for 5,000.</summary>
+        public unsafe void BodySetShape(Body body, Shape shape) {
+            Library.Check(Native.hh_body_set_shape(Handle, body, shape));
         }
 
         public unsafe void BodySetUserData(Body body, ulong user_data) {

@@ -466,7 +466,7 @@ export interface hh_player_def {
     /** default 80 */
     mass_kg: number;
     measures: hh_measures;
-    /** of all measures, [0.001, 100]; default 1 */
+    /** Of all measures, default 1. Each measure must lie in [0.05, 5] m after it, else HH_ERROR_VALUE: with the default measures, [0.17, 3.08]. Hands, head and the lengths of the tuning do not scale. */
     scale: number;
     /** the head is a sphere of head.radius_m; default true */
     head_collides: boolean;
@@ -748,9 +748,9 @@ export declare class WorldCalls {
     loadTuning(json: Uint8Array | string | null): void;
     /** The additive body clips of all players, from JSON in the format of docs/reference/body_clips.md: idling, pushing off, looking round, raising the arms. They rotate spine, legs and clavicles, never hands. They replace the clips before. Null: none, which is the default. HH_ERROR_DATA, with the place and no change, for anything else. Clips are not in a snapshot: load the same ones before you restore. */
     loadBodyClips(json: Uint8Array | string | null): void;
-    /** In a world with fits_hands, a new shape gets a surface for hands on the calling thread; a shape equal to one that is there costs microseconds. Costs are of one core of a desktop. Round shapes cost more than a frame: add them while loading, or keep one of each size. Box: 0.02 ms. */
+    /** In a world with fits_hands, a new shape gets a surface for hands on the calling thread; a shape equal to one that is there costs microseconds. Costs are of one core of a desktop. Box: 0.02 ms. */
     shapeAddBox(half_extents_m: Given<hh_vec3>): hh_shape;
-    /** Cost with fits_hands: 50 ms at 0.1 m, growing with the radius to 400 ms at 1 m; none above 64 m. */
+    /** Cost with fits_hands: 2 ms at 0.1 m, growing with the radius to 18 ms at 1 m; none above 64 m. */
     shapeAddSphere(radius_m: number): hh_shape;
     /** Along Y; half_height_m without the caps. Cost: as a sphere. */
     shapeAddCapsule(radius_m: number, half_height_m: number): hh_shape;
@@ -760,7 +760,7 @@ export declare class WorldCalls {
     shapeAddHull(points: Given<hh_vec3>[]): hh_shape;
     /** 1 to 64 parts that move as one. It keeps copies: the parts may be removed. Cost with fits_hands: of all its parts as if they were new. */
     shapeAddCompound(parts: Given<hh_compound_part>[]): hh_shape;
-    /** A shape of a prepared mesh, for static and kinematic bodies. Cost: constant for scale 1; another scale, each factor in [1e-3, 1e3], prepares the hands' surface again. */
+    /** A shape of a prepared mesh, for static and kinematic bodies. The size of each factor is in [1e-3, 1e3], others get HH_ERROR_VALUE; negative ones mirror the mesh, whose triangles keep their outer side. Cost: microseconds for scale 1; another scale prepares the hands' surface again, about 40 microseconds a triangle with fits_hands. */
     shapeAddMesh(mesh: Mesh | null, scale: Given<hh_vec3>): hh_shape;
     /** HH_ERROR_STATE while a body or a player has the shape. */
     shapeRemove(shape: Given<hh_shape>): void;
@@ -788,7 +788,7 @@ export declare class WorldCalls {
     bodyApplyImpulse(body: Given<hh_body>, impulse_ns: Given<hh_vec3>, point: Given<hh_vec3>): void;
     /** At once, without collisions on the path. Keeps the velocity. Hands that grip it let go. */
     bodyTeleport(body: Given<hh_body>, pose: Given<hh_pose>): void;
-    /** A kinematic body reaches the pose at the end of the next step, with the velocity that takes it there, and then rests. Call it before every step in which it moves. */
+    /** A kinematic body reaches the pose at the end of the next step and then rests. Call it before every step in which it moves, or less often: a host that ticks slower than it draws may tell each tick's pose once. The body's velocity, with which hands leave it and bodies are thrown, is the displacement since the pose before over the time since then; over tracking.release_window_s if the poses come at varying times. It is 0 once a pose is due that does not come or is the same. The first pose after a rest counts as half a second's motion, since nothing says when it began. */
     bodyMoveKinematic(body: Given<hh_body>, pose: Given<hh_pose>): void;
     bodySetGravityScale(body: Given<hh_body>, scale: number): void;
     bodySetLayers(body: Given<hh_body>, layers: number, mask: number): void;
@@ -796,6 +796,17 @@ export declare class WorldCalls {
     bodyGetKind(body: Given<hh_body>): number;
     /** 0 of a body that is not dynamic: nothing that acts on it moves it. */
     bodyMass(body: Given<hh_body>): number;
+    /** Mass in [1e-12, 1e15] kg and inertia as hh_body_def's, else HH_ERROR_VALUE; 0 inertia: of the solid shape. Dynamic bodies only: HH_ERROR_STATE. Hands keep their grips: beyond phases.heavy_body_kg the body moves its player from the next step on, below it comes along. */
+    bodySetMass(body: Given<hh_body>, mass_kg: number, inertia_kgm2: Given<hh_vec3>): void;
+    /** Friction in [0, 1e6], restitution in [0, 1]. Null outputs are skipped. */
+    bodyMaterial(body: Given<hh_body>): { friction: number; restitution: number };
+    bodySetMaterial(body: Given<hh_body>, friction: number, restitution: number): void;
+    /** A body becomes static, kinematic or dynamic where it is. Hands keep their grips without a jump: a body that becomes dynamic comes along, others move the player. A body that becomes static or kinematic stops; one that becomes dynamic keeps its velocity. Joints stay. Mass and inertia: of a body that becomes dynamic, as hh_body_set_mass; of others ignored. A mesh cannot become dynamic: HH_ERROR_VALUE. HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. */
+    bodySetKind(body: Given<hh_body>, kind: number, mass_kg: number, inertia_kgm2: Given<hh_vec3>): void;
+    /** Null for a body without a shape. */
+    bodyShape(body: Given<hh_body>): hh_shape;
+    /** The body touches with another shape from now on, or with none (null id: not for dynamic bodies, HH_ERROR_VALUE, as a mesh). Its pose, joints and grips stay as they are in the frame in which the host made the shapes, whatever their centres of mass; a dynamic body's inertia becomes that of the solid shape with the same mass. Hands whose palm is farther from the new surface than a closing hand reaches (hand.ray_length_m) let go in the next step: HH_EVENT_RELEASED, HH_REASON_BY_HOST. HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds; with a mesh that a hand grips, linear in its triangles, 0.1 ms for 5,000. */
+    bodySetShape(body: Given<hh_body>, shape: Given<hh_shape>): void;
     bodySetUserData(body: Given<hh_body>, user_data: bigint): void;
     bodyUserData(body: Given<hh_body>): bigint;
     jointAdd(def: Given<hh_joint_def> | null): hh_joint;

@@ -281,6 +281,38 @@ class World {
     Maybe<double> mass_kg(Body body) const {
         return make<double>([&](double* m) { return hh_body_mass(world_, body, m); });
     }
+    // Friction and restitution of a body.
+    struct Material {
+        // Coulomb coefficient, [0, 1e6]: a contact uses the geometric mean of both bodies' values.
+        double friction;
+        // [0, 1]: a contact uses the larger of both bodies' values.
+        double restitution;
+    };
+    // The body's material.
+    Maybe<Material> material(Body body) const {
+        return make<Material>([&](Material* m) {
+            return hh_body_material(world_, body, &m->friction, &m->restitution);
+        });
+    }
+    // Changes the body's material. Grips stay.
+    Status set_material(Body body, const Material& material) {
+        return hh_body_set_material(world_, body, material.friction, material.restitution);
+    }
+    // Changes a dynamic body's mass. Inertia 0: of its solid shape. Grips stay.
+    Status set_mass(Body body, double mass_kg, Vec3 inertia_kgm2 = {}) {
+        return hh_body_set_mass(world_, body, mass_kg, inertia_kgm2);
+    }
+    // Makes a body static, kinematic or dynamic where it is. Grips stay. Mass and inertia: of a
+    // body that becomes dynamic.
+    Status set_kind(Body body, hh_body_kind kind, double mass_kg = 1.0, Vec3 inertia_kgm2 = {}) {
+        return hh_body_set_kind(world_, body, kind, mass_kg, inertia_kgm2);
+    }
+    // The body's shape; a null id: none.
+    Maybe<Shape> shape(Body body) const {
+        return make<Shape>([&](Shape* s) { return hh_body_shape(world_, body, s); });
+    }
+    // Changes the body's shape where it is. Hands that are too far from the new surface let go.
+    Status set_shape(Body body, Shape shape) { return hh_body_set_shape(world_, body, shape); }
     // Ids of all bodies.
     std::vector<Body> bodies() const { return all<Body>(&hh_world_bodies); }
     // Sets the velocity of a dynamic body's centre of mass, in the world.

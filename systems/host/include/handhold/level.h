@@ -12,10 +12,9 @@ extern "C" {
 /* ---- Shapes. Sizes in [1e-3, 1e4] m. A shape may be used by any number of bodies. ------------ */
 
 /* In a world with fits_hands, a new shape gets a surface for hands on the calling thread; a shape equal to
- * one that is there costs microseconds. Costs are of one core of a desktop. Round shapes cost more than a
- * frame: add them while loading, or keep one of each size. Box: 0.02 ms. */
+ * one that is there costs microseconds. Costs are of one core of a desktop. Box: 0.02 ms. */
 HH_API hh_result hh_shape_add_box(hh_world* world, hh_vec3 half_extents_m, hh_shape* shape);
-/* Cost with fits_hands: 50 ms at 0.1 m, growing with the radius to 400 ms at 1 m; none above 64 m. */
+/* Cost with fits_hands: 2 ms at 0.1 m, growing with the radius to 18 ms at 1 m; none above 64 m. */
 HH_API hh_result hh_shape_add_sphere(hh_world* world, double radius_m, hh_shape* shape);
 /* Along Y; half_height_m without the caps. Cost: as a sphere. */
 HH_API hh_result hh_shape_add_capsule(hh_world* world, double radius_m, double half_height_m,
@@ -60,8 +59,10 @@ static inline hh_mesh_def hh_default_mesh_def(void) {
 HH_API hh_result hh_mesh_create(const hh_mesh_def* def, hh_mesh** mesh);
 /* Releases the caller's reference; shapes keep theirs. Null: nothing happens. Any thread. */
 HH_API void hh_mesh_destroy(hh_mesh* mesh);
-/* A shape of a prepared mesh, for static and kinematic bodies. Cost: constant for scale 1; another
- * scale, each factor in [1e-3, 1e3], prepares the hands' surface again. */
+/* A shape of a prepared mesh, for static and kinematic bodies. The size of each factor is in
+ * [1e-3, 1e3], others get HH_ERROR_VALUE; negative ones mirror the mesh, whose triangles keep their
+ * outer side. Cost: microseconds for scale 1; another scale prepares the hands' surface again, about
+ * 40 microseconds a triangle with fits_hands. */
 HH_API hh_result hh_shape_add_mesh(hh_world* world, const hh_mesh* mesh, hh_vec3 scale,
                                    hh_shape* shape);
 
@@ -137,8 +138,12 @@ HH_API hh_result hh_body_apply_impulse(hh_world* world, hh_body body, hh_vec3 im
                                        hh_vec3 point);
 /* At once, without collisions on the path. Keeps the velocity. Hands that grip it let go. */
 HH_API hh_result hh_body_teleport(hh_world* world, hh_body body, hh_pose pose);
-/* A kinematic body reaches the pose at the end of the next step, with the velocity that takes it
- * there, and then rests. Call it before every step in which it moves. */
+/* A kinematic body reaches the pose at the end of the next step and then rests. Call it before every
+ * step in which it moves, or less often: a host that ticks slower than it draws may tell each tick's
+ * pose once. The body's velocity, with which hands leave it and bodies are thrown, is the displacement
+ * since the pose before over the time since then; over tracking.release_window_s if the poses come at
+ * varying times. It is 0 once a pose is due that does not come or is the same. The first pose after a
+ * rest counts as half a second's motion, since nothing says when it began. */
 HH_API hh_result hh_body_move_kinematic(hh_world* world, hh_body body, hh_pose pose);
 HH_API hh_result hh_body_set_gravity_scale(hh_world* world, hh_body body, double scale);
 HH_API hh_result hh_body_set_layers(hh_world* world, hh_body body, uint32_t layers, uint32_t mask);
@@ -147,6 +152,33 @@ HH_API hh_result hh_body_set_grab_rule(hh_world* world, hh_body body, uint8_t le
 HH_API hh_result hh_body_get_kind(const hh_world* world, hh_body body, hh_body_kind* kind);
 /* 0 of a body that is not dynamic: nothing that acts on it moves it. */
 HH_API hh_result hh_body_mass(const hh_world* world, hh_body body, double* mass_kg);
+/* Mass in [1e-12, 1e15] kg and inertia as hh_body_def's, else HH_ERROR_VALUE; 0 inertia: of the solid
+ * shape. Dynamic bodies only: HH_ERROR_STATE. Hands keep their grips: beyond phases.heavy_body_kg the
+ * body moves its player from the next step on, below it comes along. */
+HH_API hh_result hh_body_set_mass(hh_world* world, hh_body body, double mass_kg,
+                                  hh_vec3 inertia_kgm2);
+/* Friction in [0, 1e6], restitution in [0, 1]. Null outputs are skipped. */
+HH_API hh_result hh_body_material(const hh_world* world, hh_body body, double* friction,
+                                  double* restitution);
+HH_API hh_result hh_body_set_material(hh_world* world, hh_body body, double friction,
+                                      double restitution);
+/* A body becomes static, kinematic or dynamic where it is. Hands keep their grips without a jump: a
+ * body that becomes dynamic comes along, others move the player. A body that becomes static or
+ * kinematic stops; one that becomes dynamic keeps its velocity. Joints stay. Mass and inertia: of a
+ * body that becomes dynamic, as hh_body_set_mass; of others ignored. A mesh cannot become dynamic:
+ * HH_ERROR_VALUE. HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. */
+HH_API hh_result hh_body_set_kind(hh_world* world, hh_body body, hh_body_kind kind, double mass_kg,
+                                  hh_vec3 inertia_kgm2);
+/* Null for a body without a shape. */
+HH_API hh_result hh_body_shape(const hh_world* world, hh_body body, hh_shape* shape);
+/* The body touches with another shape from now on, or with none (null id: not for dynamic bodies,
+ * HH_ERROR_VALUE, as a mesh). Its pose, joints and grips stay as they are in the frame in which the
+ * host made the shapes, whatever their centres of mass; a dynamic body's inertia becomes that of the
+ * solid shape with the same mass. Hands whose palm is farther from the new surface than a closing hand
+ * reaches (hand.ray_length_m) let go in the next step: HH_EVENT_RELEASED, HH_REASON_BY_HOST.
+ * HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds; with a mesh
+ * that a hand grips, linear in its triangles, 0.1 ms for 5,000. */
+HH_API hh_result hh_body_set_shape(hh_world* world, hh_body body, hh_shape shape);
 HH_API hh_result hh_body_set_user_data(hh_world* world, hh_body body, uint64_t user_data);
 HH_API hh_result hh_body_user_data(const hh_world* world, hh_body body, uint64_t* user_data);
 

@@ -27,7 +27,9 @@ typedef struct hh_player_def {
     hh_vec3 velocity_mps;
     double mass_kg; /* default 80 */
     hh_measures measures;
-    double scale;          /* of all measures, [0.001, 100]; default 1 */
+    /* Of all measures, default 1. Each measure must lie in [0.05, 5] m after it, else HH_ERROR_VALUE: with
+     * the default measures, [0.17, 3.08]. Hands, head and the lengths of the tuning do not scale. */
+    double scale;
     uint8_t head_collides; /* the head is a sphere of head.radius_m; default true */
     /* Layers of the head; it touches a body if each one's layers meet the other's mask. */
     uint32_t layers, mask;

@@ -702,7 +702,8 @@ class PlayerDef(Struct):
     name: unique in the world; null: by its id
     origin: the space of the samples in the world
     mass_kg: default 80
-    scale: of all measures, [0.001, 100]; default 1
+    scale: Of all measures, default 1. Each measure must lie in [0.05, 5] m after it, else HH_ERROR_VALUE:
+    with the default measures, [0.17, 3.08]. Hands, head and the lengths of the tuning do not scale.
     head_collides: the head is a sphere of head.radius_m; default true
     layers: Layers of the head; it touches a body if each one's layers meet the other's mask.
     mask: Layers of the head; it touches a body if each one's layers meet the other's mask.
@@ -1065,6 +1066,12 @@ FUNCTIONS = {
     "hh_body_set_grab_rule": (c_int32, [c_void_p, Body, c_uint8, c_uint8, c_uint8, c_int32]),
     "hh_body_get_kind": (c_int32, [c_void_p, Body, POINTER(c_int32)]),
     "hh_body_mass": (c_int32, [c_void_p, Body, POINTER(c_double)]),
+    "hh_body_set_mass": (c_int32, [c_void_p, Body, c_double, Vec3]),
+    "hh_body_material": (c_int32, [c_void_p, Body, POINTER(c_double), POINTER(c_double)]),
+    "hh_body_set_material": (c_int32, [c_void_p, Body, c_double, c_double]),
+    "hh_body_set_kind": (c_int32, [c_void_p, Body, c_int32, c_double, Vec3]),
+    "hh_body_shape": (c_int32, [c_void_p, Body, POINTER(Shape)]),
+    "hh_body_set_shape": (c_int32, [c_void_p, Body, Shape]),
     "hh_body_set_user_data": (c_int32, [c_void_p, Body, c_uint64]),
     "hh_body_user_data": (c_int32, [c_void_p, Body, POINTER(c_uint64)]),
     "hh_default_joint_def_sized": (c_int32, [POINTER(JointDef), c_size_t]),
@@ -1401,14 +1408,13 @@ class WorldCalls:
 
     def shape_add_box(self, half_extents_m):
         """In a world with fits_hands, a new shape gets a surface for hands on the calling thread; a shape equal
-        to one that is there costs microseconds. Costs are of one core of a desktop. Round shapes cost more
-        than a frame: add them while loading, or keep one of each size. Box: 0.02 ms."""
+        to one that is there costs microseconds. Costs are of one core of a desktop. Box: 0.02 ms."""
         shape = Shape()
         check(lib().hh_shape_add_box(self._handle, value(Vec3, half_extents_m), byref(shape)))
         return shape
 
     def shape_add_sphere(self, radius_m):
-        """Cost with fits_hands: 50 ms at 0.1 m, growing with the radius to 400 ms at 1 m; none above 64 m."""
+        """Cost with fits_hands: 2 ms at 0.1 m, growing with the radius to 18 ms at 1 m; none above 64 m."""
         shape = Shape()
         check(lib().hh_shape_add_sphere(self._handle, radius_m, byref(shape)))
         return shape
@@ -1441,8 +1447,10 @@ class WorldCalls:
         return shape
 
     def shape_add_mesh(self, mesh, scale):
-        """A shape of a prepared mesh, for static and kinematic bodies. Cost: constant for scale 1; another
-        scale, each factor in [1e-3, 1e3], prepares the hands' surface again."""
+        """A shape of a prepared mesh, for static and kinematic bodies. The size of each factor is in [1e-3,
+        1e3], others get HH_ERROR_VALUE; negative ones mirror the mesh, whose triangles keep their outer side.
+        Cost: microseconds for scale 1; another scale prepares the hands' surface again, about 40 microseconds
+        a triangle with fits_hands."""
         shape = Shape()
         check(lib().hh_shape_add_mesh(self._handle, handle(mesh), value(Vec3, scale), byref(shape)))
         return shape
@@ -1522,8 +1530,12 @@ class WorldCalls:
         check(lib().hh_body_teleport(self._handle, value(Body, body), value(Pose, pose)))
 
     def body_move_kinematic(self, body, pose):
-        """A kinematic body reaches the pose at the end of the next step, with the velocity that takes it there,
-        and then rests. Call it before every step in which it moves."""
+        """A kinematic body reaches the pose at the end of the next step and then rests. Call it before every
+        step in which it moves, or less often: a host that ticks slower than it draws may tell each tick's
+        pose once. The body's velocity, with which hands leave it and bodies are thrown, is the displacement
+        since the pose before over the time since then; over tracking.release_window_s if the poses come at
+        varying times. It is 0 once a pose is due that does not come or is the same. The first pose after a
+        rest counts as half a second's motion, since nothing says when it began."""
         check(lib().hh_body_move_kinematic(self._handle, value(Body, body), value(Pose, pose)))
 
     def body_set_gravity_scale(self, body, scale):
@@ -1545,6 +1557,46 @@ class WorldCalls:
         mass_kg = c_double()
         check(lib().hh_body_mass(self._handle, value(Body, body), byref(mass_kg)))
         return mass_kg.value
+
+    def body_set_mass(self, body, mass_kg, inertia_kgm2):
+        """Mass in [1e-12, 1e15] kg and inertia as hh_body_def's, else HH_ERROR_VALUE; 0 inertia: of the solid
+        shape. Dynamic bodies only: HH_ERROR_STATE. Hands keep their grips: beyond phases.heavy_body_kg the
+        body moves its player from the next step on, below it comes along."""
+        check(lib().hh_body_set_mass(self._handle, value(Body, body), mass_kg, value(Vec3, inertia_kgm2)))
+
+    def body_material(self, body):
+        """Friction in [0, 1e6], restitution in [0, 1]. Null outputs are skipped."""
+        friction = c_double()
+        restitution = c_double()
+        check(lib().hh_body_material(self._handle, value(Body, body), byref(friction), byref(restitution)))
+        return friction.value, restitution.value
+
+    def body_set_material(self, body, friction, restitution):
+        check(lib().hh_body_set_material(self._handle, value(Body, body), friction, restitution))
+
+    def body_set_kind(self, body, kind, mass_kg, inertia_kgm2):
+        """A body becomes static, kinematic or dynamic where it is. Hands keep their grips without a jump: a body
+        that becomes dynamic comes along, others move the player. A body that becomes static or kinematic
+        stops; one that becomes dynamic keeps its velocity. Joints stay. Mass and inertia: of a body that
+        becomes dynamic, as hh_body_set_mass; of others ignored. A mesh cannot become dynamic: HH_ERROR_VALUE.
+        HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step."""
+        check(lib().hh_body_set_kind(self._handle, value(Body, body), kind, mass_kg, value(Vec3, inertia_kgm2)))
+
+    def body_shape(self, body):
+        """Null for a body without a shape."""
+        shape = Shape()
+        check(lib().hh_body_shape(self._handle, value(Body, body), byref(shape)))
+        return shape
+
+    def body_set_shape(self, body, shape):
+        """The body touches with another shape from now on, or with none (null id: not for dynamic bodies,
+        HH_ERROR_VALUE, as a mesh). Its pose, joints and grips stay as they are in the frame in which the host
+        made the shapes, whatever their centres of mass; a dynamic body's inertia becomes that of the solid
+        shape with the same mass. Hands whose palm is farther from the new surface than a closing hand reaches
+        (hand.ray_length_m) let go in the next step: HH_EVENT_RELEASED, HH_REASON_BY_HOST. HH_ERROR_STATE
+        between hh_world_begin_step and hh_world_end_step. Cost: microseconds; with a mesh that a hand grips,
+        linear in its triangles, 0.1 ms for 5,000."""
+        check(lib().hh_body_set_shape(self._handle, value(Body, body), value(Shape, shape)))
 
     def body_set_user_data(self, body, user_data):
         check(lib().hh_body_set_user_data(self._handle, value(Body, body), user_data))

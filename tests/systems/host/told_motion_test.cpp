@@ -1,0 +1,144 @@
+// Kinematic bodies whose poses the host tells less often than it steps: nobody leaves them, and
+// nothing is thrown by them, faster than they moved.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "systems/host/host_call.hpp"
+#include "tests/random.hpp"
+#include "tests/systems/host/host_scene.hpp"
+
+namespace handhold::told_motion_test {
+namespace {
+
+using namespace test;
+
+double speed_mps(const hh::Vec3& velocity) { return from_c(velocity).norm(); }
+
+// A lift that rises, or a wheel that turns about +z, told every `every` steps.
+struct Told {
+    HostScene scene;
+    hh::Body body{};
+    int every = 1;
+    int phase = 0;  // of the first step that is told, [0, every)
+    bool turns = false;
+    double rate = 1.0;  // m/s or rad/s
+    double starts_s = 0.3;
+    double stops_s = 1e9;
+    bool repeats = false;  // the last pose is told in every step
+
+    explicit Told(hh::Vec3 gravity_mps2 = {}) {
+        EXPECT_EQ(hh_world_set_gravity(scene.world.get(), gravity_mps2), HH_OK);
+    }
+    void add(hh::Vec3 half_extents_m, hh::Vec3 position) {
+        hh_body_def def = hh::body_def();
+        def.kind = HH_KINEMATIC;
+        def.shape = *scene.world.add_box(half_extents_m);
+        def.pose.position = position;
+        body = *scene.world.add(def);
+        start_ = told_ = def.pose;
+    }
+    hh::Pose pose_at(double t_s) const {
+        const double y = rate * std::clamp(t_s - starts_s, 0.0, stops_s - starts_s);
+        hh::Pose pose = start_;
+        if (turns) {
+            pose.rotation = {0.0, 0.0, std::sin(0.5 * y), std::cos(0.5 * y)};
+        } else {
+            pose.position.y += y;
+        }
+        return pose;
+    }
+    void step() {
+        if ((scene.frame + phase) % every == 0) {
+            told_ = pose_at(scene.world.time_s() + k_step_s);
+            is_told_ = true;
+        } else if (!repeats) {
+            is_told_ = false;
+        }
+        if (is_told_) {
+            scene.is_good = scene.is_good && scene.world.move_kinematic(body, told_);
+        }
+        scene.step();
+    }
+    void step_until(double t_s) {
+        while (scene.world.time_s() < t_s) {
+            step();
+        }
+    }
+    // Opens the right hand, and returns the speed of the player afterwards.
+    double let_go_mps() {
+        scene.closed[HH_RIGHT] = scene.closed[HH_LEFT] = false;
+        step();
+        return speed_mps(scene.world.pose(scene.player)->velocity_mps);
+    }
+
+  private:
+    hh::Pose start_{};
+    hh::Pose told_{};
+    bool is_told_ = false;
+};
+
+// A player who hangs on a lift or the rim of a wheel by one hand.
+struct Hanging : Told {
+    explicit Hanging(std::uint64_t seed) : random(seed) {
+        every = 1 + static_cast<int>(random.between(0.0, 12.0));
+        phase = static_cast<int>(random.between(0.0, every));
+        turns = random.between(0.0, 1.0) < 0.5;
+        repeats = random.between(0.0, 1.0) < 0.5;
+        rate = random.between(0.2, 2.0);
+        add({2.0, 2.0, 0.1}, {0.0, 1.5, -0.6});
+        const hh::Side side = random.between(0.0, 1.0) < 0.5 ? HH_LEFT : HH_RIGHT;
+        scene.hand_at[side] = {0.9, turns ? 1.5 : 1.4, -0.43};
+        scene.closed[side] = true;
+    }
+    double speed_of_grip_mps() const { return turns ? 0.9 * rate : rate; }
+
+    Random random;
+};
+
+RC_GTEST_PROP(ToldMotion, PlayersLeaveAtTheSpeedOfWhatTheyHungOn, (std::uint64_t seed)) {
+    Hanging hanging(seed);
+    // At the second told pose the rate is known.
+    hanging.step_until(hanging.starts_s + 0.3 + hanging.random.between(0.0, 0.3));
+    const double left_mps = hanging.let_go_mps();
+    RC_ASSERT(hanging.scene.is_good);
+    RC_ASSERT(std::abs(left_mps - hanging.speed_of_grip_mps()) <
+              0.03 * hanging.speed_of_grip_mps());
+}
+
+RC_GTEST_PROP(ToldMotion, NobodyLeavesFasterThanTheMotionHeCameFrom, (std::uint64_t seed)) {
+    Hanging hanging(seed);
+    hanging.stops_s = hanging.starts_s + hanging.random.between(0.05, 0.6);
+    hanging.step_until(hanging.starts_s + hanging.random.between(-0.1, 0.8));
+    const double end_s = hanging.scene.world.time_s();
+    const double left_mps = hanging.let_go_mps();
+    RC_ASSERT(hanging.scene.is_good);
+    RC_ASSERT(left_mps < 1.03 * hanging.speed_of_grip_mps());
+    // Two told poses after the end say that it stopped.
+    if (end_s > hanging.stops_s + (2 * hanging.every + 1) * k_step_s &&
+        hanging.stops_s > hanging.starts_s + (3 * hanging.every) * k_step_s) {
+        RC_ASSERT(left_mps < 1e-6);
+    }
+}
+
+RC_GTEST_PROP(ToldMotion, BallsAreThrownAsFastAsTheLiftMoves, (std::uint64_t seed)) {
+    Random random(seed);
+    Told lift;
+    lift.every = 1 + static_cast<int>(random.between(0.0, 12.0));
+    lift.phase = static_cast<int>(random.between(0.0, lift.every));
+    lift.rate = random.between(0.5, 2.0);
+    lift.add({1.0, 0.1, 1.0}, {0.0, -1.0, 3.0});
+    hh_body_def def = crate(lift.scene.world, {0.0, -0.55, 3.0});  // hit after 0.25 m
+    def.restitution = 0.0;
+    const hh::Body ball = *lift.scene.world.add(def);
+    lift.step_until(lift.starts_s + 1.2);
+    hh::Vec3 velocity{};
+    RC_ASSERT(hh_body_velocity(lift.scene.world.get(), ball, &velocity, nullptr) == HH_OK);
+    RC_ASSERT(lift.scene.is_good);
+    RC_ASSERT(std::abs(velocity.y - lift.rate) < 0.03 * lift.rate);
+}
+
+}  // namespace
+}  // namespace handhold::told_motion_test
