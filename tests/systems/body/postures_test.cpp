@@ -1,7 +1,6 @@
 // Bodies of players who lie down, and of players whose neck alone bends.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <vector>
 
 #include <gtest/gtest.h>

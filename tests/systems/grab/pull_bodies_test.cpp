@@ -1,8 +1,6 @@
 #include "systems/grab/pull_bodies.hpp"
 
-#include <algorithm>
-#include <limits>
-#include <vector>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
