@@ -12,11 +12,12 @@ import json
 import os
 import re
 import shutil
-import subprocess
 import sys
 import tarfile
 import time
 from pathlib import Path
+
+from run import run
 
 HERE = Path(__file__).resolve().parent
 SOURCE = HERE.parent.parent
@@ -41,14 +42,6 @@ FetchContent_MakeAvailable(handhold)
 add_executable(fetcher {samples}/hello_hand_c.c)
 target_link_libraries(fetcher PRIVATE handhold::handhold m)
 """
-
-
-def run(*command, **options) -> str:
-    done = subprocess.run([str(word) for word in command], text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **options)
-    if done.returncode != 0:
-        print(" ".join(map(str, command)), done.stdout, sep="\n", file=sys.stderr)
-        raise SystemExit(1)
-    return done.stdout
 
 
 def write_project(folder: Path, text: str) -> Path:

@@ -1,13 +1,9 @@
 """Plants one untrue contract of each kind in a small tree and expects check_contracts to name it; true contracts give no breach."""
-import importlib.util
-import tempfile
 import unittest
-from pathlib import Path
 
-SCRIPT = Path(__file__).resolve().parents[2] / "tools" / "check_contracts.py"
-spec = importlib.util.spec_from_file_location("check_contracts", SCRIPT)
-check_contracts = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(check_contracts)
+from planted import planted  # first: makes tools/ importable
+
+import check_contracts
 
 TUNING = """#pragma once
 struct HandTuning {
@@ -21,12 +17,7 @@ struct Tuning {
 
 
 def breaches(files: dict[str, str]) -> list[str]:
-    with tempfile.TemporaryDirectory() as folder:
-        root = Path(folder)
-        for name, text in {"components/tuning.hpp": TUNING, **files}.items():
-            path = root / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text, encoding="utf-8")
+    with planted({"components/tuning.hpp": TUNING, **files}) as root:
         return [str(breach) for breach in check_contracts.check_tree(root)]
 
 

@@ -1,13 +1,9 @@
 """Creates one breach of each rule in a small tree and expects check_docs to name it; valid trees give no breach."""
-import importlib.util
-import tempfile
 import unittest
-from pathlib import Path
 
-SCRIPT = Path(__file__).resolve().parents[2] / "tools" / "check_docs.py"
-spec = importlib.util.spec_from_file_location("check_docs", SCRIPT)
-check_docs = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(check_docs)
+from planted import planted  # first: makes tools/ importable
+
+import check_docs
 
 TEST_FILE = {"tests/systems/a_test.cpp": "TEST(SolvePhases, HeldRockMovesNobody) {}\n"}
 
@@ -25,12 +21,7 @@ def decisions(first: str, index: str = "| [1](0001-a.md) | One | accepted |\n") 
 
 
 def breaches(files: dict[str, str]) -> list[str]:
-    with tempfile.TemporaryDirectory() as folder:
-        root = Path(folder)
-        for name, text in files.items():
-            path = root / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text, encoding="utf-8")
+    with planted(files) as root:
         return check_docs.check_tree(root)
 
 

@@ -1,22 +1,13 @@
 """Creates one breach of each rule in a small tree and expects check_includes to name it; valid trees give no breach."""
-import importlib.util
-import tempfile
 import unittest
-from pathlib import Path
 
-SCRIPT = Path(__file__).resolve().parents[2] / "tools" / "check_includes.py"
-spec = importlib.util.spec_from_file_location("check_includes", SCRIPT)
-check_includes = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(check_includes)
+from planted import planted  # first: makes tools/ importable
+
+import check_includes
 
 
 def breaches(files: dict[str, str]) -> list[str]:
-    with tempfile.TemporaryDirectory() as folder:
-        root = Path(folder)
-        for name, text in files.items():
-            path = root / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text, encoding="utf-8")
+    with planted(files) as root:
         return [str(breach) for breach in check_includes.check_tree(root)]
 
 

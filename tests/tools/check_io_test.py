@@ -1,11 +1,10 @@
 """Plants one breach of each rule in a small tree and expects check_io to name it; what the rules allow gives no breach."""
-import sys
 import tempfile
 import unittest
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
-import check_io  # noqa: E402
+from planted import planted  # first: makes tools/ importable
+
+import check_io
 
 HEADER = """
 struct MoveHandsIo {
@@ -30,12 +29,7 @@ void find_grip(const FindGripIo& io);
 
 
 def breaches(files: dict[str, str]) -> list[str]:
-    with tempfile.TemporaryDirectory() as folder:
-        root = Path(folder)
-        for name, text in {"systems/hand/move_hands.hpp": HEADER, **files}.items():
-            path = root / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text, encoding="utf-8")
+    with planted({"systems/hand/move_hands.hpp": HEADER, **files}) as root:
         return check_io.check_tree(root)
 
 

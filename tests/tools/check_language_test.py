@@ -1,21 +1,14 @@
 """Writes words of the former dialect to a small tree and expects check_language to name each, and nothing in plain text or code."""
-import importlib.util
-import tempfile
 import unittest
-from pathlib import Path
 
-SCRIPT = Path(__file__).resolve().parents[2] / "tools" / "check_language.py"
-spec = importlib.util.spec_from_file_location("check_language", SCRIPT)
-check_language = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(check_language)
+from planted import planted  # first: makes tools/ importable
+
+import check_language
 
 
 def breaches(file: str, text: str) -> list[str]:
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / file
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
-        return check_language.check_tree(Path(folder))
+    with planted({file: text}) as root:
+        return check_language.check_tree(root)
 
 
 class CheckLanguage(unittest.TestCase):

@@ -1,13 +1,11 @@
 """Creates one breach of each rule in a small tree and expects check_samples to name it; valid trees give no breach."""
-import importlib.util
 import tempfile
 import unittest
 from pathlib import Path
 
-SCRIPT = Path(__file__).resolve().parents[2] / "tools" / "check_samples.py"
-spec = importlib.util.spec_from_file_location("check_samples", SCRIPT)
-check_samples = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(check_samples)
+from planted import plant  # first: makes tools/ importable
+
+import check_samples
 
 PROGRAM = """int main() {
     // [world]
@@ -35,10 +33,7 @@ class CheckSamples(unittest.TestCase):
         self.root = Path(folder.name)
 
     def breaches(self, files: dict[str, str], fix: bool = False) -> list[str]:
-        for name, text in files.items():
-            path = self.root / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text, encoding="utf-8")
+        plant(self.root, files)
         return check_samples.check_tree(self.root, fix)
 
     def breaches_of(self, text: str) -> list[str]:

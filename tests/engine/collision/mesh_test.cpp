@@ -237,11 +237,7 @@ TEST(MeshContacts, DegenerateTrianglesChangeNothing) {
 
 TEST(MeshContacts, BoxInACornerTouchesFloorAndWall) {
     auto mesh = test::make_floor(2.0, 11);
-    const auto base = static_cast<std::uint32_t>(mesh->positions.size());
-    mesh->positions.insert(mesh->positions.end(),
-                           {{0.3, 0.0, -1.0}, {0.3, 0.0, 1.0}, {0.3, 1.0, 1.0}, {0.3, 1.0, -1.0}});
-    mesh->triangles.push_back({base, base + 1, base + 2});
-    mesh->triangles.push_back({base, base + 2, base + 3});
+    test::add_wall(*mesh);
     ShapeLibrary shapes;
     const ShapeId corner = shapes.add_mesh(mesh);
     const ShapeId box = shapes.add_box(Vec3::Constant(0.1));

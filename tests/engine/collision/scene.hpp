@@ -65,6 +65,15 @@ inline std::shared_ptr<Mesh> make_floor(double size_m, std::uint32_t cells,
     return mesh;
 }
 
+// Adds a wall of 2 x 1 m to a floor, 0.3 m from its middle, that faces -X.
+inline void add_wall(Mesh& floor) {
+    const auto base = static_cast<std::uint32_t>(floor.positions.size());
+    floor.positions.insert(floor.positions.end(),
+                           {{0.3, 0.0, -1.0}, {0.3, 0.0, 1.0}, {0.3, 1.0, 1.0}, {0.3, 1.0, -1.0}});
+    floor.triangles.push_back({base, base + 1, base + 2});
+    floor.triangles.push_back({base, base + 2, base + 3});
+}
+
 // A closed box of 12 triangles with shared vertices.
 inline std::shared_ptr<Mesh> make_box_mesh(const Vec3& half_m) {
     auto mesh = std::make_shared<Mesh>();

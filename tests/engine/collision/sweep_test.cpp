@@ -95,11 +95,7 @@ TEST(Sweep, LeavingAndSlidingBodiesAreNotStopped) {
 
 TEST(Sweep, BodySlidingOverTheFloorIsStoppedByTheWallOfTheSameMesh) {
     auto mesh = test::make_floor(4.0, 31, test::Winding::mixed);
-    const auto base = static_cast<std::uint32_t>(mesh->positions.size());
-    mesh->positions.insert(mesh->positions.end(),
-                           {{0.3, 0.0, -1.0}, {0.3, 0.0, 1.0}, {0.3, 1.0, 1.0}, {0.3, 1.0, -1.0}});
-    mesh->triangles.push_back({base, base + 1, base + 2});
-    mesh->triangles.push_back({base, base + 2, base + 3});
+    test::add_wall(*mesh);
     ShapeLibrary shapes;
     const ShapeId room = shapes.add_mesh(mesh);
     for (const ShapeId body : {shapes.add_box(Vec3::Constant(0.1)), shapes.add_sphere(0.1)}) {

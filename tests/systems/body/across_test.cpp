@@ -3,10 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "systems/body/estimate_arms.hpp"
-#include "systems/body/pose_arms.hpp"
 #include "systems/body/shared/estimate_chest.hpp"
-#include "tests/systems/frame/column_scene.hpp"
+#include "tests/systems/body/body_columns.hpp"
 
 namespace handhold::across_test {
 namespace {
@@ -58,40 +56,13 @@ struct Posed {
     ArmPose pose;
 };
 Posed pose_of(const Tracked& body) {
-    Column<PlayerOrigin> origin;
-    Column<HeadTracking> head;
-    Column<BodyMeasures> measures;
-    Column<HandOwner> owner;
-    Column<PalmPose> palm;
-    Column<ArmMemory> memory;
-    Column<ArmEstimate> estimate;
-    Column<ArmPose> pose;
-    origin.add(test::k_player);
-    head.add(test::k_player).pose_ps = body.head_ps;
-    measures.add(test::k_player, body.measures);
-    memory.add(test::k_player);
-    estimate.add(test::k_player);
-    pose.add(test::k_player);
-    owner.add(test::k_left, {test::k_player, HandSide::left});
-    owner.add(test::k_right, {test::k_player, HandSide::right});
-    palm.add(test::k_left).pose_ws = body.left_ps;
-    palm.add(test::k_right).pose_ws = body.right_ps;
-    estimate_arms({.dt_s = 1.0 / 90.0,
-                   .origin = origin,
-                   .head = head,
-                   .measures = measures,
-                   .owner = owner,
-                   .palm = palm,
-                   .memory = memory,
-                   .estimate = estimate},
-                  {});
-    pose_arms({.origin = origin,
-               .measures = measures,
-               .owner = owner,
-               .palm = palm,
-               .estimate = estimate,
-               .arms = pose});
-    return {estimate.at(test::k_player), pose.at(test::k_player)};
+    test::BodyColumns columns;
+    columns.add_player();
+    columns.measures.at(test::k_player) = body.measures;
+    columns.place(body.head_ps, body.left_ps, body.right_ps);
+    columns.estimate_arms(1.0 / 90.0);
+    columns.pose_arms();
+    return {columns.estimate.at(test::k_player), columns.arm_pose.at(test::k_player)};
 }
 
 // Distance between two segments, by points along both: an upper bound within 2 mm.

@@ -7,17 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "engine/io/csv.hpp"
-#include "systems/body/estimate_arms.hpp"
-#include "systems/body/pose_arms.hpp"
 #include "tests/places.hpp"
-#include "tests/systems/frame/column_scene.hpp"
+#include "tests/systems/body/body_columns.hpp"
 
 namespace handhold::arm_rates_test {
 namespace {
-
-using test::k_left;
-using test::k_player;
-using test::k_right;
 
 constexpr double k_goal_m = 0.007;
 constexpr std::size_t k_every = 3;  // every third frame at 90 Hz coincides with one at 30 Hz
@@ -28,48 +22,13 @@ struct Sample {
 };
 using Elbows = std::array<Vec3, k_hand_count>;
 
-struct Arms {
-    Column<PlayerOrigin> origin;
-    Column<HeadTracking> head;
-    Column<BodyMeasures> measures;
-    Column<HandOwner> owner;
-    Column<PalmPose> palm;
-    Column<ArmMemory> memory;
-    Column<ArmEstimate> estimate;
-    Column<ArmPose> pose;
-
-    Arms() {
-        origin.add(k_player);
-        head.add(k_player);
-        measures.add(k_player);
-        memory.add(k_player);
-        estimate.add(k_player);
-        pose.add(k_player);
-        owner.add(k_left, {k_player, HandSide::left});
-        owner.add(k_right, {k_player, HandSide::right});
-        palm.add(k_left);
-        palm.add(k_right);
-    }
+struct Arms : test::BodyColumns {
+    Arms() { add_player(); }
     Elbows step(const Sample& sample, double dt_s) {
-        head.at(k_player).pose_ps = sample.head_ps;
-        palm.at(k_left).pose_ws = sample.hands_ps[0];
-        palm.at(k_right).pose_ws = sample.hands_ps[1];
-        estimate_arms({.dt_s = dt_s,
-                       .origin = origin,
-                       .head = head,
-                       .measures = measures,
-                       .owner = owner,
-                       .palm = palm,
-                       .memory = memory,
-                       .estimate = estimate},
-                      {});
-        pose_arms({.origin = origin,
-                   .measures = measures,
-                   .owner = owner,
-                   .palm = palm,
-                   .estimate = estimate,
-                   .arms = pose});
-        const ArmPose& out = pose.at(k_player);
+        place(sample.head_ps, sample.hands_ps[0], sample.hands_ps[1]);
+        estimate_arms(dt_s);
+        pose_arms();
+        const ArmPose& out = arm_pose.at(test::k_player);
         return {out.arms[0].forearm_ws.position, out.arms[1].forearm_ws.position};
     }
 };

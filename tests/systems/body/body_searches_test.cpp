@@ -124,7 +124,7 @@ TEST(BodySearches, FewerOfThemLetNoJointDeeperIntoAWall) {
         const Pose wall{Vec3(0.0, 1.0, 0.5) + face, rotation_from_vector(random.vector(0.4))};
         const auto deepest_m = [&](const HangingBody& body) {
             double depth_m = -1.0;
-            for (const Vec3& joint : joints_of(body.pose.at(k_player))) {
+            for (const Vec3& joint : joints_of(body.spine_pose.at(k_player))) {
                 depth_m = std::max(depth_m, 0.5 + inverse_transform_point(wall, joint).z());
             }
             return depth_m;

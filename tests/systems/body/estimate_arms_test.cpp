@@ -4,66 +4,30 @@
 
 #include <gtest/gtest.h>
 
-#include "systems/body/pose_arms.hpp"
 #include "systems/body/shared/elbow_direction.hpp"
 #include "systems/body/shared/level_direction.hpp"
-#include "tests/systems/frame/column_scene.hpp"
+#include "tests/systems/body/body_columns.hpp"
 
 namespace handhold::estimate_arms_test {
 namespace {
 
-using test::k_left;
 using test::k_player;
-using test::k_right;
 using test::mirrored;
 using test::Random;
 
-// Columns of one player; head and hands in play space.
-struct Arms {
-    Column<PlayerOrigin> origin;
-    Column<HeadTracking> head;
-    Column<BodyMeasures> measures;
-    Column<HandOwner> owner;
-    Column<PalmPose> palm;
-    Column<ArmMemory> memory;
-    Column<ArmEstimate> estimate;
-    Column<ArmPose> pose;
-    ArmTuning tuning;
-
+// One player; head and hands in play space.
+struct Arms : test::BodyColumns {
     explicit Arms(const Pose& origin_ws = {}) {
-        origin.add(k_player, {origin_ws});
-        head.add(k_player);
-        measures.add(k_player);
-        memory.add(k_player);
-        estimate.add(k_player);
-        pose.add(k_player);
-        owner.add(k_left, {k_player, HandSide::left});
-        owner.add(k_right, {k_player, HandSide::right});
-        palm.add(k_left);
-        palm.add(k_right);
+        add_player();
+        origin.at(k_player).pose_ws = origin_ws;
     }
     const ArmPose& step(const Pose& head_ps, const Pose& left_ps, const Pose& right_ps,
                         double dt_s = 1.0 / 90.0) {
         const Pose& at = origin.at(k_player).pose_ws;
-        head.at(k_player).pose_ps = head_ps;
-        palm.at(k_left).pose_ws = at * left_ps;
-        palm.at(k_right).pose_ws = at * right_ps;
-        estimate_arms({.dt_s = dt_s,
-                       .origin = origin,
-                       .head = head,
-                       .measures = measures,
-                       .owner = owner,
-                       .palm = palm,
-                       .memory = memory,
-                       .estimate = estimate},
-                      tuning);
-        pose_arms({.origin = origin,
-                   .measures = measures,
-                   .owner = owner,
-                   .palm = palm,
-                   .estimate = estimate,
-                   .arms = pose});
-        return pose.at(k_player);
+        place(head_ps, at * left_ps, at * right_ps);
+        estimate_arms(dt_s);
+        pose_arms();
+        return arm_pose.at(k_player);
     }
 };
 
@@ -243,7 +207,7 @@ TEST(EstimateArms, UnfamiliarHandsGiveTheTalksForm) {
     for (int i = 0; i < 200; ++i) {
         Arms learned;
         Arms talked;
-        talked.tuning.learned = 0.0;
+        talked.arm_tuning.learned = 0.0;
         const Pose left{k_head.position + 4.0 * random.direction(), random.rotation()};
         const Pose right{k_head.position + 4.0 * random.direction(), random.rotation()};
         learned.step(k_head, left, right);

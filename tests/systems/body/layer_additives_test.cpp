@@ -6,12 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "components/body_clip_state.hpp"
-#include "systems/body/estimate_arms.hpp"
-#include "systems/body/pose_arms.hpp"
-#include "systems/body/propagate_spine.hpp"
 #include "systems/rigs/body_clips_json.hpp"
-#include "tests/systems/frame/column_scene.hpp"
+#include "tests/systems/body/body_columns.hpp"
 
 namespace handhold::layer_additives_test {
 namespace {
@@ -22,100 +18,28 @@ using test::k_right;
 
 constexpr double k_dt_s = 1.0 / 90.0;
 
-// Columns of one player's body, with clips.
-struct Body {
-    Column<PlayerOrigin> origin;
-    Column<PlayerVelocity> velocity;
-    Column<ReferenceVelocity> reference;
-    Column<HeadTracking> head;
-    Column<BodyMeasures> measures;
-    Column<HandOwner> owner;
-    Column<Grab> grab;
-    Column<PalmPose> palm;
-    Column<ArmMemory> arm_memory;
-    Column<ArmEstimate> estimate;
-    Column<ArmPose> arms;
-    Column<SpineMemory> spine_memory;
-    Column<PersistentId> no_ids;
-    Column<Grab> no_grips;  // for the chain, which does not hang from hands here
-    Column<BodyHold> no_holds;
-    Column<SpinePose> spine;
-    Column<BodyClipState> state;
-    BodyClips clips;
-    AdditiveTuning tuning;
-    double t_s = 0.0;
+// One player's body, with clips. The trunk does not hang from the hands that grip.
+struct Body : test::BodyColumns {
+    Column<Grab> grips;
 
     Body() {
-        origin.add(k_player);
-        velocity.add(k_player);
-        reference.add(k_player);
-        head.add(k_player);
-        head.at(k_player).pose_ps.position = Vec3(0.0, 1.62, 0.0);
-        measures.add(k_player);
-        arm_memory.add(k_player);
-        estimate.add(k_player);
-        arms.add(k_player);
-        spine_memory.add(k_player);
-        spine.add(k_player);
-        state.add(k_player);
-        owner.add(k_left, {k_player, HandSide::left});
-        owner.add(k_right, {k_player, HandSide::right});
-        palm.add(k_left).pose_ws.position = Vec3(-0.25, 1.2, -0.3);
-        palm.add(k_right).pose_ws.position = Vec3(0.25, 1.2, -0.3);
-        grab.add(k_left);
-        grab.add(k_right);
+        add_player();
+        place(test::pose_at(Vec3(0.0, 1.62, 0.0)), test::pose_at(Vec3(-0.25, 1.2, -0.3)),
+              test::pose_at(Vec3(0.25, 1.2, -0.3)));
+        grips.add(k_left);
+        grips.add(k_right);
     }
     void step(double dt_s = k_dt_s) {
-        t_s += dt_s;
-        estimate_arms({.dt_s = dt_s,
-                       .origin = origin,
-                       .head = head,
-                       .measures = measures,
-                       .owner = owner,
-                       .palm = palm,
-                       .memory = arm_memory,
-                       .estimate = estimate},
-                      {});
-        layer_clavicles({.clips = clips, .measures = measures, .estimate = estimate}, tuning, {});
-        pose_arms({.origin = origin,
-                   .measures = measures,
-                   .owner = owner,
-                   .palm = palm,
-                   .estimate = estimate,
-                   .arms = arms});
-        propagate_spine({.dt_s = dt_s,
-                         .t_s = t_s,
-                         .surfaces = {},
-                         .persistent_id = no_ids,
-                         .origin = origin,
-                         .velocity = velocity,
-                         .reference = reference,
-                         .head = head,
-                         .measures = measures,
-                         .estimate = estimate,
-                         .owner = owner,
-                         .grab = no_grips,
-                         .body_hold = no_holds,
-                         .memory = spine_memory,
-                         .pose = spine},
-                        {});
-        layer_additives({.dt_s = dt_s,
-                         .clips = clips,
-                         .head = head,
-                         .origin = origin,
-                         .velocity = velocity,
-                         .reference = reference,
-                         .owner = owner,
-                         .grab = grab,
-                         .estimate = estimate,
-                         .memory = spine_memory,
-                         .state = state,
-                         .pose = spine},
-                        tuning);
+        estimate_arms(dt_s);
+        layer_clavicles({.clips = clips, .measures = measures, .estimate = estimate},
+                        additive_tuning, {});
+        pose_arms();
+        propagate_spine(dt_s);
+        layer_additives(dt_s, grips);
     }
-    void hold(bool holds) { grab.at(k_left).kind = holds ? GripKind::surface : GripKind::none; }
-    const SpinePose& pose() const { return spine.at(k_player); }
-    const ArmPose& arm_pose() const { return arms.at(k_player); }
+    void hold(bool holds) { grips.at(k_left).kind = holds ? GripKind::surface : GripKind::none; }
+    const SpinePose& pose() const { return spine_pose.at(k_player); }
+    const ArmPose& arms() const { return arm_pose.at(k_player); }
 };
 
 ClipTurns with_turn(std::size_t bone, const Vec3& turn) {
@@ -139,8 +63,8 @@ void expect_same_body(const Body& a, const Body& b) {
     for (std::size_t side = 0; side < k_hand_count; ++side) {
         expect_same_bits(a.pose().legs[side].shin_ws, b.pose().legs[side].shin_ws);
         expect_same_bits(a.pose().legs[side].foot_ws, b.pose().legs[side].foot_ws);
-        expect_same_bits(a.arm_pose().arms[side].upper_ws, b.arm_pose().arms[side].upper_ws);
-        expect_same_bits(a.arm_pose().arms[side].forearm_ws, b.arm_pose().arms[side].forearm_ws);
+        expect_same_bits(a.arms().arms[side].upper_ws, b.arms().arms[side].upper_ws);
+        expect_same_bits(a.arms().arms[side].forearm_ws, b.arms().arms[side].forearm_ws);
     }
 }
 
@@ -164,7 +88,7 @@ TEST(LayerAdditives, ZeroWeightsChangeNothing) {
     Body none;
     Body off;
     fill(off);
-    off.tuning = {0.0, 0.0, 1.5, 0.0, 0.0};
+    off.additive_tuning = {0.0, 0.0, 1.5, 0.0, 0.0};
     for (int i = 0; i < 300; ++i) {
         for (Body* body : {&none, &off}) {
             body->velocity.at(k_player).linear_mps = Vec3(std::sin(0.05 * i), 0.0, 1.0);
@@ -194,7 +118,7 @@ TEST(LayerAdditives, HandJointEqualsThePalmExactlyAndBonesKeepTheirLengths) {
         plain.step();
         body.step();
         for (std::size_t side = 0; side < k_hand_count; ++side) {
-            const ArmPose::Arm& arm = body.arm_pose().arms[side];
+            const ArmPose::Arm& arm = body.arms().arms[side];
             expect_same_bits(arm.hand_ws, body.palm.elements()[side].pose_ws);
             ASSERT_TRUE(is_valid(arm.upper_ws) && is_valid(arm.forearm_ws));
             const double upper_m = (arm.forearm_ws.position - arm.upper_ws.position).norm();
@@ -239,7 +163,7 @@ TEST(LayerAdditives, PushOffPlaysOnceWhenTheLastHandLetsGoWeightedBySpeed) {
         body.step();
         body.hold(false);
         body.step();
-        const BodyClipState& state = body.state.at(k_player);
+        const BodyClipState& state = body.clip_state.at(k_player);
         EXPECT_EQ(state.push_off_s, 0.0);
         EXPECT_EQ(state.push_off_weight, speed_mps > 1.5 ? 1.0 : 0.0);
         for (int i = 0; i < 200; ++i) {
@@ -254,14 +178,14 @@ TEST(LayerAdditives, ReleasingOneOfTwoHandsIsNoPushOff) {
     fill(body);
     body.velocity.at(k_player).linear_mps = Vec3(0.0, 0.0, 3.0);
     body.hold(true);
-    body.grab.at(k_right).kind = GripKind::surface;
+    body.grips.at(k_right).kind = GripKind::surface;
     body.step();
     body.hold(false);
     body.step();
-    EXPECT_EQ(body.state.at(k_player).push_off_weight, 0.0);
-    body.grab.at(k_right).kind = GripKind::none;
+    EXPECT_EQ(body.clip_state.at(k_player).push_off_weight, 0.0);
+    body.grips.at(k_right).kind = GripKind::none;
     body.step();
-    EXPECT_EQ(body.state.at(k_player).push_off_weight, 1.0);
+    EXPECT_EQ(body.clip_state.at(k_player).push_off_weight, 1.0);
 }
 
 // Hand over hand, fast and slow: no push-off interrupts another one.
@@ -296,11 +220,11 @@ TEST(LayerAdditives, ThrowingAFreeBodyIsNoPushOff) {
     Body body;
     fill(body);
     body.velocity.at(k_player).linear_mps = Vec3(0.0, 0.0, 3.0);
-    body.grab.at(k_left).kind = GripKind::held;
+    body.grips.at(k_left).kind = GripKind::held;
     body.step();
     body.hold(false);
     body.step();
-    EXPECT_EQ(body.state.at(k_player).push_off_weight, 0.0);
+    EXPECT_EQ(body.clip_state.at(k_player).push_off_weight, 0.0);
 }
 
 TEST(LayerAdditives, LookClipFollowsTheHeadRelativeToTheChest) {
@@ -311,20 +235,8 @@ TEST(LayerAdditives, LookClipFollowsTheHeadRelativeToTheChest) {
         body.head.at(k_player).pose_ps.rotation = rotation_about(Vec3::UnitY(), yaw_rad);
         body.arm_memory.at(k_player).known = true;
         body.estimate.at(k_player).facing_ps = -Vec3::UnitZ();
-        body.spine.at(k_player) = {};
-        layer_additives({.dt_s = k_dt_s,
-                         .clips = body.clips,
-                         .head = body.head,
-                         .origin = body.origin,
-                         .velocity = body.velocity,
-                         .reference = body.reference,
-                         .owner = body.owner,
-                         .grab = body.grab,
-                         .estimate = body.estimate,
-                         .memory = body.spine_memory,
-                         .state = body.state,
-                         .pose = body.spine},
-                        body.tuning);
+        body.spine_pose.at(k_player) = {};
+        body.layer_additives(k_dt_s, body.grips);
         return rotation_to_vector(body.pose().spine_ws[0].rotation).z();
     };
     EXPECT_NEAR(leant(0.5), 0.05, 1e-12);  // left
@@ -354,8 +266,8 @@ TEST(LayerAdditives, ClavicleClipFollowsAngleAndDistanceAndIsMirrored) {
         }
         std::array<Vec3, k_hand_count> moved;
         for (std::size_t side = 0; side < k_hand_count; ++side) {
-            moved[side] = body.arm_pose().arms[side].upper_ws.position -
-                          plain.arm_pose().arms[side].upper_ws.position;
+            moved[side] = body.arms().arms[side].upper_ws.position -
+                          plain.arms().arms[side].upper_ws.position;
         }
         EXPECT_LT((test::mirrored(moved[0]) - moved[1]).norm(), 1e-9);
         return moved[1].y();

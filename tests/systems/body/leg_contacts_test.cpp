@@ -82,7 +82,7 @@ TEST(LegContacts, LegsBendBeforeAnApproachingFloor) {
         put_floor(body, floor_m);
         double deepest_m = 0.0;
         double most_mps = 0.0;
-        Vec3 foot = body.pose.at(k_player).legs[0].foot_ws.position;
+        Vec3 foot = body.spine_pose.at(k_player).legs[0].foot_ws.position;
         for (int i = 0; i < static_cast<int>(hz * 4.0); ++i) {
             const Vec3 velocity(0.0, i < hz ? -0.4 : 0.0, 0.0);
             const SpinePose& pose = body.step(velocity, 1.0 / hz);
@@ -91,13 +91,14 @@ TEST(LegContacts, LegsBendBeforeAnApproachingFloor) {
             most_mps = std::max(most_mps, (pose.legs[0].foot_ws.position - foot).norm() * hz);
             foot = pose.legs[0].foot_ws.position;
         }
-        EXPECT_LT(lowest_m(free.pose.at(k_player)), floor_m - 0.08) << hz;
+        EXPECT_LT(lowest_m(free.spine_pose.at(k_player)), floor_m - 0.08) << hz;
         EXPECT_LT(deepest_m, 0.005) << hz;
         EXPECT_LT(most_mps, 3.0) << hz;
         // At rest on it.
-        const Vec3 before = body.pose.at(k_player).legs[0].foot_ws.position;
+        const Vec3 before = body.spine_pose.at(k_player).legs[0].foot_ws.position;
         body.step(Vec3::Zero(), 1.0 / hz);
-        EXPECT_LT((body.pose.at(k_player).legs[0].foot_ws.position - before).norm() * hz, 0.05);
+        EXPECT_LT((body.spine_pose.at(k_player).legs[0].foot_ws.position - before).norm() * hz,
+                  0.05);
     }
 }
 
@@ -130,9 +131,9 @@ TEST(LegContacts, LegsOnAFloorHardlyDependOnTheFrameRate) {
 TEST(LegContacts, LegsRiseOutOfAFloorWithoutAJump) {
     Body body;
     body.step(Vec3::Zero(), 1.0 / 90.0);
-    const double knee_m = body.pose.at(k_player).legs[0].shin_ws.position.y();
+    const double knee_m = body.spine_pose.at(k_player).legs[0].shin_ws.position.y();
     put_floor(body, knee_m - 0.05);
-    Vec3 foot = body.pose.at(k_player).legs[0].foot_ws.position;
+    Vec3 foot = body.spine_pose.at(k_player).legs[0].foot_ws.position;
     for (int i = 0; i < 180; ++i) {
         const SpinePose& pose = body.step(Vec3::Zero(), 1.0 / 90.0);
         EXPECT_LT((pose.legs[0].foot_ws.position - foot).norm(), 0.08) << i;

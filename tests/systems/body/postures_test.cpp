@@ -1,25 +1,19 @@
 // Bodies of players who lie down, and of players whose neck alone bends.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "systems/body/estimate_arms.hpp"
-#include "systems/body/pose_arms.hpp"
-#include "systems/body/propagate_spine.hpp"
 #include "systems/body/shared/lie_down.hpp"
 #include "tests/random.hpp"
-#include "tests/systems/frame/column_scene.hpp"
+#include "tests/systems/body/body_columns.hpp"
 
 namespace handhold::postures_test {
 namespace {
 
-using test::k_left;
 using test::k_player;
-using test::k_right;
 using test::Random;
 
 // Head and hands at one time, for a player of average size.
@@ -29,44 +23,18 @@ struct Posture {
 };
 
 // A player of `size` times the average in a room turned by `heading`.
-struct Player {
-    Column<PersistentId> persistent_id;
-    Column<Grab> grab;
-    Column<BodyHold> body_hold;
-    Column<PlayerOrigin> origin;
-    Column<PlayerVelocity> velocity;
-    Column<ReferenceVelocity> reference;
-    Column<BodyMeasures> measures;
-    Column<HeadTracking> head;
-    Column<HandOwner> owner;
-    Column<PalmPose> palm;
-    Column<ArmMemory> arm_memory;
-    Column<ArmEstimate> estimate;
-    Column<ArmPose> arm_pose;
-    Column<SpineMemory> memory;
-    Column<SpinePose> pose;
+struct Player : test::BodyColumns {
     double size;
     Pose room;
-    double t_s = 0.0;
 
     Player(double size_, double heading_rad)
         : size(size_), room{Vec3::Zero(), rotation_about(Vec3::UnitY(), heading_rad)} {
-        origin.add(k_player);
-        velocity.add(k_player);
-        reference.add(k_player);
-        const BodyMeasures average;
-        measures.add(k_player, {size * average.eye_height_m, size * average.shoulder_width_m,
-                                size * average.upper_arm_m, size * average.forearm_m});
-        head.add(k_player);
-        owner.add(k_left, {k_player, HandSide::left});
-        owner.add(k_right, {k_player, HandSide::right});
-        palm.add(k_left);
-        palm.add(k_right);
-        arm_memory.add(k_player);
-        estimate.add(k_player);
-        arm_pose.add(k_player);
-        memory.add(k_player);
-        pose.add(k_player);
+        add_player();
+        BodyMeasures& own = measures.at(k_player);
+        own.eye_height_m *= size;
+        own.shoulder_width_m *= size;
+        own.upper_arm_m *= size;
+        own.forearm_m *= size;
     }
     Pose placed(const Pose& of_average) const {
         return room * Pose{size * of_average.position, of_average.rotation};
@@ -75,60 +43,26 @@ struct Player {
     Vec3 seen(const Vec3& place) const { return (room.rotation.conjugate() * place) / size; }
 
     void step(const Posture& posture, double dt_s) {
-        t_s += dt_s;
-        head.at(k_player).pose_ps = placed(posture.head);
-        palm.at(k_left).pose_ws = placed(posture.hands[0]);
-        palm.at(k_right).pose_ws = placed(posture.hands[1]);
-        estimate_arms({.dt_s = dt_s,
-                       .origin = origin,
-                       .head = head,
-                       .measures = measures,
-                       .owner = owner,
-                       .palm = palm,
-                       .memory = arm_memory,
-                       .estimate = estimate},
-                      {});
-        pose_arms({.origin = origin,
-                   .measures = measures,
-                   .owner = owner,
-                   .palm = palm,
-                   .estimate = estimate,
-                   .arms = arm_pose});
-        propagate_spine({.dt_s = dt_s,
-                         .t_s = t_s,
-                         .surfaces = {},
-                         .persistent_id = persistent_id,
-                         .origin = origin,
-                         .velocity = velocity,
-                         .reference = reference,
-                         .head = head,
-                         .measures = measures,
-                         .estimate = estimate,
-                         .owner = owner,
-                         .grab = grab,
-                         .body_hold = body_hold,
-                         .memory = memory,
-                         .pose = pose},
-                        {});
+        place(placed(posture.head), placed(posture.hands[0]), placed(posture.hands[1]));
+        estimate_arms(dt_s);
+        pose_arms();
+        propagate_spine(dt_s);
     }
-    Vec3 hips() const { return seen(pose.at(k_player).pelvis_ws.position); }
+    Vec3 hips() const { return seen(spine_pose.at(k_player).pelvis_ws.position); }
     Vec3 foot(HandSide side) const {
-        return seen(pose.at(k_player).legs[index_of(side)].foot_ws.position);
+        return seen(spine_pose.at(k_player).legs[index_of(side)].foot_ws.position);
     }
     // All joints but the hands, which are where the devices say.
     std::vector<Vec3> joints() const {
-        const SpinePose& spine = pose.at(k_player);
-        const ArmPose& arms = arm_pose.at(k_player);
-        std::vector<Vec3> list = {seen(spine.pelvis_ws.position), seen(spine.chest_ws.position)};
-        for (const Pose& link : spine.spine_ws) {
-            list.push_back(seen(link.position));
+        const SpinePose& spine = spine_pose.at(k_player);
+        std::vector<Vec3> list = test::joints_of(spine);
+        list.push_back(spine.chest_ws.position);
+        for (const ArmPose::Arm& arm : arm_pose.at(k_player).arms) {
+            list.push_back(arm.upper_ws.position);
+            list.push_back(arm.forearm_ws.position);
         }
-        for (std::size_t side = 0; side < k_hand_count; ++side) {
-            const SpinePose::Leg& leg = spine.legs[side];
-            for (const Pose* joint : {&leg.thigh_ws, &leg.shin_ws, &leg.foot_ws,
-                                      &arms.arms[side].upper_ws, &arms.arms[side].forearm_ws}) {
-                list.push_back(seen(joint->position));
-            }
+        for (Vec3& joint : list) {
+            joint = seen(joint);
         }
         return list;
     }

@@ -6,65 +6,27 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/systems/frame/column_scene.hpp"
+#include "tests/systems/body/body_columns.hpp"
 
 namespace handhold::propagate_spine_test {
 namespace {
 
 using test::k_player;
 
-struct Body {
-    Column<PlayerOrigin> origin;
-    Column<PlayerVelocity> velocity;
-    Column<ReferenceVelocity> reference;
-    Column<BodyMeasures> measures;
-    Column<ArmEstimate> estimate;
-    Column<HeadTracking> head;
-    Column<SpineMemory> memory;
-    Column<PersistentId> no_ids;
-    Column<HandOwner> no_hands;
-    Column<Grab> no_grips;
-    Column<BodyHold> no_holds;
-    Column<SpinePose> pose;
-    SpineTuning tuning;
-    double t_s = 0.0;
-
+struct Body : test::BodyColumns {
     Body() {
-        origin.add(k_player);
-        velocity.add(k_player);
-        reference.add(k_player);
-        head.add(k_player);
-        measures.add(k_player);
-        estimate.add(k_player);
-        memory.add(k_player);
-        pose.add(k_player);
+        add_player();
         estimate.at(k_player).chest_ps.position = Vec3(0.0, 1.4, 0.0);
     }
     // Moves the player at this velocity for dt_s.
     const SpinePose& step(const Vec3& velocity_mps, double dt_s) {
         origin.at(k_player).pose_ws.position += dt_s * velocity_mps;
         velocity.at(k_player).linear_mps = velocity_mps;
-        t_s += dt_s;
-        propagate_spine({.dt_s = dt_s,
-                         .t_s = t_s,
-                         .surfaces = {},
-                         .persistent_id = no_ids,
-                         .origin = origin,
-                         .velocity = velocity,
-                         .reference = reference,
-                         .head = head,
-                         .measures = measures,
-                         .estimate = estimate,
-                         .owner = no_hands,
-                         .grab = no_grips,
-                         .body_hold = no_holds,
-                         .memory = memory,
-                         .pose = pose},
-                        tuning);
-        return pose.at(k_player);
+        propagate_spine(dt_s);
+        return spine_pose.at(k_player);
     }
     Vec3 foot_from_chest(std::size_t side = 1) const {
-        const SpinePose& p = pose.at(k_player);
+        const SpinePose& p = spine_pose.at(k_player);
         return p.legs[side].foot_ws.position - p.chest_ws.position;
     }
 };
@@ -160,14 +122,14 @@ TEST(PropagateSpine, MotionHardlyDependsOnThePhaseOfTheTicks) {
 
 TEST(PropagateSpine, LinksApproachTheirLimitsGradually) {
     Body body;
-    const SpineTuning& tuning = body.tuning;
+    const SpineTuning& tuning = body.spine_tuning;
     const double share = 1.0 / (1.0 + 120.0 * tuning.limit_lag_s);
     std::array<double, k_body_links> before{};
     double most = 0.0;
     for (int i = 0; i < 600; ++i) {
         // One tick per frame.
         body.step(Vec3(0.0, 1.5 * std::cos(0.03 * i), 3.0 * std::sin(0.1 * i)), 1.0 / 120.0);
-        const std::array<double, k_body_links>& now = body.memory.at(k_player).angle_rad;
+        const std::array<double, k_body_links>& now = body.spine_memory.at(k_player).angle_rad;
         for (std::size_t link = 0; i > 1 && link < k_spine_links; ++link) {
             EXPECT_LE(now[link],
                       std::max(before[link],
@@ -196,7 +158,8 @@ TEST(PropagateSpine, BonesKeepTheirLengthsAndKneesBendOnlyBackwards) {
             // ticks adds up to a degree.
             const Vec3 in_thigh = leg.thigh_ws.rotation.conjugate() * shin.normalized();
             EXPECT_GT(in_thigh.z(), -0.02);
-            EXPECT_LT(std::atan2(in_thigh.z(), -in_thigh.y()), body.tuning.knee_limit_rad + 0.03);
+            EXPECT_LT(std::atan2(in_thigh.z(), -in_thigh.y()),
+                      body.spine_tuning.knee_limit_rad + 0.03);
         }
     }
 }
@@ -216,7 +179,7 @@ TEST(PropagateSpine, ReferenceVelocityOfAFastShipHasNoEffect) {
 TEST(PropagateSpine, PelvisFollowsATurnOfTheChestWithALag) {
     Body body;
     const auto heading = [&body] {
-        const Vec3 ahead = body.pose.at(k_player).pelvis_ws.rotation * -Vec3::UnitZ();
+        const Vec3 ahead = body.spine_pose.at(k_player).pelvis_ws.rotation * -Vec3::UnitZ();
         return std::atan2(-ahead.x(), -ahead.z());
     };
     body.step(Vec3::Zero(), 1.0 / 90.0);
@@ -226,7 +189,7 @@ TEST(PropagateSpine, PelvisFollowsATurnOfTheChestWithALag) {
         body.step(Vec3::Zero(), 1.0 / 90.0);
     }
     // A steady turn of 1.6 rad/s: each of three links lags by twist_lag_s in steady state.
-    EXPECT_GT(heading(), 0.8 - 1.6 * 3.0 * body.tuning.twist_lag_s - 0.02);
+    EXPECT_GT(heading(), 0.8 - 1.6 * 3.0 * body.spine_tuning.twist_lag_s - 0.02);
     EXPECT_LT(heading(), 0.8 - 0.25);
     for (int i = 0; i < 270; ++i) {
         body.step(Vec3::Zero(), 1.0 / 90.0);

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "systems/body/layer_additives.hpp"
 #include "tests/random.hpp"
 #include "tests/systems/body/hanging_body.hpp"
 
@@ -48,10 +47,10 @@ TEST(TrunkContacts, HangingTrunkAndLegsStayInFrontOfAWallBehind) {
             deepest = std::max(deepest, depth);
             settled = i > 3.0 * hz ? std::max(settled, depth) : settled;
         }
-        EXPECT_GT(deepest_m(free.pose.at(k_player), k_face_m), 0.15);
+        EXPECT_GT(deepest_m(free.spine_pose.at(k_player), k_face_m), 0.15);
         EXPECT_LT(settled, -0.015) << hz;  // the axis of a limb, which has a thickness
         EXPECT_LT(deepest, 0.06) << hz;    // a swinging foot arrives between two searches
-        EXPECT_LT(body.pose.at(k_player).pelvis_ws.position.z(), k_face_m - 0.08);
+        EXPECT_LT(body.spine_pose.at(k_player).pelvis_ws.position.z(), k_face_m - 0.08);
     }
 }
 
@@ -80,33 +79,18 @@ TEST(TrunkContacts, TurnedWorldsGiveTurnedBodies) {
 
 // A player's body with a clip that kicks backwards.
 struct ClippedBody : HangingBody {
-    Column<BodyClipState> state;
-    BodyClips clips;
-
     ClippedBody() {
-        state.add(k_player);
         ClipTurns kick = no_turns();
         kick[k_clip_legs] = Vec3(-0.6, 0.0, 0.0);
         kick[k_clip_legs + k_leg_bones] = Vec3(-0.6, 0.0, 0.0);
         clips.clips[static_cast<std::size_t>(BodyClipName::idle)].keys = {
             {0.0, no_turns()}, {1.0, kick}, {2.0, no_turns()}};
+        additive_tuning = {1.0, 0.0, 1.5, 0.0, 0.0};
     }
     SpinePose clipped(double dt_s) {
         step(dt_s);
-        layer_additives({.dt_s = dt_s,
-                         .clips = clips,
-                         .head = head,
-                         .origin = origin,
-                         .velocity = velocity,
-                         .reference = reference,
-                         .owner = owner,
-                         .grab = grab,
-                         .estimate = estimate,
-                         .memory = memory,
-                         .state = state,
-                         .pose = pose},
-                        {1.0, 0.0, 1.5, 0.0, 0.0});
-        return pose.at(k_player);
+        layer_additives(dt_s, grab);
+        return spine_pose.at(k_player);
     }
 };
 

@@ -268,5 +268,35 @@ TEST(StepFrame, EmptyWorldOnlyAdvancesItsClock) {
     EXPECT_EQ(test::count_of_all(stats), 0U);
 }
 
+// A frame that cannot run changes nothing, whatever part of the world is wrong.
+TEST(StepFrame, ChecksEverythingBeforeItChangesAnything) {
+    ShapeLibrary shapes;
+    World world;
+    BodyDescription body;
+    body.name = "drifting";
+    body.body = {BodyKind::free, 1.0, Vec3::Ones(), 0.0, 0.4};
+    body.velocity.linear_mps = Vec3(1.0, 0.0, 0.0);
+    body.shape = shapes.add_sphere(0.1);
+    const Entity drifting = add_body(world, body);
+    FrameCaches caches(shapes);
+    StageStats stats;
+    step_frame(world, caches, {}, {}, stats);
+    const std::uint64_t before = hash_state(world);
+    world.collider.at(drifting).shape = {7};  // no such shape
+    EXPECT_THROW(step_frame(world, caches, {}, {}, stats), PreconditionError);
+    auto triangle = std::make_shared<Mesh>();
+    triangle->positions = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+    triangle->triangles = {{0, 1, 2}};
+    world.collider.at(drifting).shape = shapes.add_mesh(triangle);  // a mesh cannot be free
+    EXPECT_THROW(step_frame(world, caches, {}, {}, stats), PreconditionError);
+    world.collider.at(drifting).shape = body.shape;
+    world.gravity_mps2.y() = std::nan("");
+    EXPECT_THROW(step_frame(world, caches, {}, {}, stats), PreconditionError);
+    world.gravity_mps2.setZero();
+    EXPECT_EQ(hash_state(world), before);
+    step_frame(world, caches, {}, {}, stats);
+    EXPECT_NEAR(world.body_pose.at(drifting).pose_ws.position.x(), 2.0 / 90.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace handhold::frame_hash_test

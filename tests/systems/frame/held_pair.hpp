@@ -5,18 +5,17 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <vector>
 
 #include "systems/grab/shared/body_parts.hpp"
 #include "tests/random.hpp"
-#include "tests/systems/frame/scenario.hpp"
+#include "tests/systems/frame/two_players.hpp"
 
 // Two players, of whom one grips a part of the other's body.
 namespace handhold::scenario_body_grip_test {
 
 using test::Random;
 
-constexpr double k_step_s = 1.0 / 90.0;
+constexpr double k_step_s = test::TwoPlayers::k_step_s;
 constexpr double k_reach_from_s = 1.0;  // the bodies hang still by then
 constexpr double k_grab_s = 2.0;
 constexpr std::size_t k_holder = 0;
@@ -33,31 +32,13 @@ inline Pose hand_with_palm(const Vec3& palm, const Vec3& palm_way, const HandTun
 }
 
 // The holder's right hand moves to a part of the other's body and closes on it.
-struct Pair {
-    ShapeLibrary shapes;
-    World world;
-    Tuning tuning;
-    StageStats stats;
-    std::array<DeviceScript, 2> scripts;
-    std::array<PlayerEntities, 2> players;
-    std::array<PlayerCommands, 2> commands;
-    std::unique_ptr<FrameCaches> caches;
+struct Pair : test::TwoPlayers {
     double release_s = 1e9;
     Pose touch;  // the holder's right hand, in his play space, when it closes
     std::function<Vec3(double)> way = [](double) { return Vec3(Vec3::Zero()); };
 
     explicit Pair(double holder_kg = 80.0, double held_kg = 80.0) {
-        tuning.locomotion.drift_drag_per_s = 0.0;
-        for (std::size_t i = 0; i < players.size(); ++i) {
-            PlayerDescription description;
-            description.name = i == k_holder ? "holder" : "held";
-            description.body.mass_kg = i == k_holder ? holder_kg : held_kg;
-            description.head_shape = shapes.add_sphere(tuning.head.radius_m);
-            players[i] = add_player(world, description);
-            for (const Entity hand : players[i].hands) {
-                world.controller_to_hand.add(hand, {});
-            }
-        }
+        add_players({"holder", "held"}, {holder_kg, held_kg});
         scripts[k_held].head = [](double) { return Pose{k_held_head, Quat::Identity()}; };
         scripts[k_holder].head = [](double) {
             return Pose{Vec3(0.0, 1.6, 3.0), Quat::Identity()};  // far off until it is placed
@@ -69,8 +50,6 @@ struct Pair {
     }
     Pair(const Pair&) = delete;
     Pair& operator=(const Pair&) = delete;
-
-    void drop_caches() { caches = std::make_unique<FrameCaches>(shapes); }
 
     const RenderPose& shown(std::size_t i) const { return world.render_pose.at(players[i].player); }
     PartCapsule capsule(BodyPart part) const {
@@ -112,39 +91,18 @@ struct Pair {
     }
 
     std::uint64_t step() {
-        const double end_s = world.clock.t_s + k_step_s;
-        std::array<std::array<TrackingSample, 2>, 2> samples;
-        std::vector<PlayerInput> inputs;
-        for (std::size_t p = 0; p < players.size(); ++p) {
-            samples[p] = {sample_of(scripts[p], world.clock.t_s), sample_of(scripts[p], end_s)};
-            inputs.push_back({players[p].player, samples[p], commands[p]});
-        }
-        step_frame(world, *caches, tuning, {k_step_s, inputs}, stats);
+        TwoPlayers::step();
         return hash_state(world);
-    }
-    void run(
-        double seconds, const std::function<void()>& after_frame = [] {}) {
-        for (int i = 0; i < static_cast<int>(std::lround(seconds / k_step_s)); ++i) {
-            step();
-            after_frame();
-        }
     }
     void run_until(
         double end_s, const std::function<void()>& after_frame = [] {}) {
         run(end_s - t_s(), after_frame);
     }
 
-    double t_s() const { return world.clock.t_s; }
     const Grab& grab() const { return world.grab.at(players[k_holder].hands[k_right]); }
     const BodyHold* hold() const { return world.body_hold.find(players[k_holder].hands[k_right]); }
     bool holds_body() const { return grab().kind == GripKind::player && hold() != nullptr; }
-    Vec3 origin(std::size_t i) const {
-        return world.player_origin.at(players[i].player).pose_ws.position;
-    }
-    Vec3& velocity(std::size_t i) { return world.player_velocity.at(players[i].player).linear_mps; }
-    double mass_kg(std::size_t i) const { return world.player.at(players[i].player).mass_kg; }
     double share(std::size_t i) const { return mass_kg(1 - i) / (mass_kg(0) + mass_kg(1)); }
-    Vec3 momentum() { return mass_kg(0) * velocity(0) + mass_kg(1) * velocity(1); }
     Vec3 center() const {
         return (mass_kg(0) * origin(0) + mass_kg(1) * origin(1)) / (mass_kg(0) + mass_kg(1));
     }

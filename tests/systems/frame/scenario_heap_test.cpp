@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/random.hpp"
-#include "tests/systems/frame/scenario.hpp"
+#include "tests/systems/frame/shoved_heap.hpp"
 
 namespace handhold::scenario_heap_test {
 namespace {
@@ -40,30 +40,11 @@ double kinetic_energy(const Scenario& s) {
     return energy;
 }
 
-// side^3 crates 5 mm apart before a wall, and a crate in the right hand that is pushed into them.
-void add_shove(int side, Scenario& s) {
-    s.fits_hands = false;
-    s.add_crate("held", 2.0, Vec3(0.3, 1.2 - k_half_m - 0.02, -0.1), Vec3::Constant(k_half_m));
-    const double spacing_m = 2.0 * k_half_m + 0.005;
-    const Vec3 first(0.3 - 0.5 * (side - 1) * spacing_m, 1.2 - 0.5 * (side - 1) * spacing_m, -0.45);
-    for (int i = 0; i < side * side * side; ++i) {
-        const Vec3 place(i % side, i / side % side, -(i / (side * side)));
-        s.add_crate("crate" + std::to_string(i), 5.0, first + spacing_m * place,
-                    Vec3::Constant(k_half_m));
-    }
-    s.add_wall("wall", Vec3(3.0, 3.0, 0.1),
-               Vec3(0.3, 1.2, -0.45 - side * spacing_m + k_half_m - 0.2));
-    s.script.grabs[1] = [](double) { return true; };
-    s.script.hands[1] = [](double t_s) {
-        return Pose{Vec3(0.3, 1.2, -0.02 - 0.6 * ease(t_s, 0.2, 0.6)), Quat::Identity()};
-    };
-    s.add_player_here();
-}
-
 TEST(Heap, CratesShovedAgainstAWallOverlapByAtMostAMillimetreAndPushThePlayerBack) {
     for (const int side : {2, 3, 4}) {
         Scenario s;
-        add_shove(side, s);
+        s.fits_hands = false;
+        test::add_shoved_heap(side, s);
         std::uint64_t most_iterations = 0;
         s.run(1.0, [&] {
             ASSERT_LE(s.stats.residual_m, 1e-3) << side << " " << s.t_s();

@@ -3,45 +3,25 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <memory>
-#include <vector>
 
 #include <gtest/gtest.h>
 
-#include "tests/systems/frame/scenario.hpp"
+#include "tests/systems/frame/column_scene.hpp"
+#include "tests/systems/frame/two_players.hpp"
 
 namespace handhold::scenario_player_grip_test {
 namespace {
 
-constexpr double k_step_s = 1.0 / 90.0;
 constexpr double k_grab_s = 0.1;
 constexpr std::size_t k_holder = 0;
 constexpr std::size_t k_held = 1;
 const Vec3 k_resting_palm = Vec3(0.0, 1.75, -0.5);  // just above the other's head
 
 // The holder's right palm rests on the other's head.
-struct Pair {
-    ShapeLibrary shapes;
-    World world;
-    Tuning tuning;
-    StageStats stats;
-    std::array<DeviceScript, 2> scripts;
-    std::array<PlayerEntities, 2> players;
-    std::unique_ptr<FrameCaches> caches;
-
+struct Pair : test::TwoPlayers {
     explicit Pair(double holder_kg = 80.0, double held_kg = 80.0) {
-        tuning.locomotion.drift_drag_per_s = 0.0;
+        add_players({"holder", "held"}, {holder_kg, held_kg});
         const double radius_m = tuning.head.radius_m;
-        for (std::size_t i = 0; i < players.size(); ++i) {
-            PlayerDescription description;
-            description.name = i == k_holder ? "holder" : "held";
-            description.body.mass_kg = i == k_holder ? holder_kg : held_kg;
-            description.head_shape = shapes.add_sphere(radius_m);
-            players[i] = add_player(world, description);
-            for (const Entity hand : players[i].hands) {
-                world.controller_to_hand.add(hand, {});
-            }
-        }
         const Vec3 crown = k_resting_palm - Vec3(0.0, 0.005, 0.0);
         const Vec3 center = crown - Vec3(0.0, radius_m, 0.0);
         scripts[k_held].head = [=, offset = tuning.head.center_m](double) {
@@ -62,39 +42,27 @@ struct Pair {
             return t > k_grab_s && t < release_s;
         };
     }
-    void build() { caches = std::make_unique<FrameCaches>(shapes); }
-
-    void run(
-        double seconds, const std::function<void()>& after_frame = [] {}) {
-        for (int i = 0; i < static_cast<int>(std::lround(seconds / k_step_s)); ++i) {
-            const double end_s = world.clock.t_s + k_step_s;
-            std::array<std::array<TrackingSample, 2>, 2> samples;
-            std::vector<PlayerInput> inputs;
-            for (std::size_t p = 0; p < players.size(); ++p) {
-                samples[p] = {sample_of(scripts[p], world.clock.t_s), sample_of(scripts[p], end_s)};
-                inputs.push_back({players[p].player, samples[p], {}});
-            }
-            step_frame(world, *caches, tuning, {k_step_s, inputs}, stats);
-            after_frame();
-        }
+    // A wall whose top is under a left palm. Returns the hand's position there.
+    Vec3 add_wall_under_left_palm() {
+        const Vec3 palm(-0.3, 1.2, 0.0);
+        add_body(world, {"wall",
+                         {},
+                         {palm - Vec3(0.0, 0.055, 0.0), Quat::Identity()},
+                         {},
+                         shapes.add_box(Vec3(0.2, 0.05, 0.2))});
+        return palm - test::mirrored(tuning.hand.palm_center_m);
     }
+
     const Grab& grab(HandSide side = HandSide::right) const {
         return world.grab.at(players[k_holder].hands[index_of(side)]);
     }
-    double t_s() const { return world.clock.t_s; }
-    Vec3 origin(std::size_t i) const {
-        return world.player_origin.at(players[i].player).pose_ws.position;
-    }
-    Vec3& velocity(std::size_t i) { return world.player_velocity.at(players[i].player).linear_mps; }
-    double mass_kg(std::size_t i) const { return world.player.at(players[i].player).mass_kg; }
-    Vec3 momentum() { return mass_kg(0) * velocity(0) + mass_kg(1) * velocity(1); }
 };
 
 Vec3 wave(double t) { return 0.2 * ease(t, 0.2, 0.7) * Vec3(0.0, std::sin(4.0 * t), -1.0); }
 
 TEST(PlayerGrip, GrippingAHeadMovesNeitherPlayer) {
     Pair pair;
-    pair.build();
+    pair.drop_caches();
     pair.run(0.5, [&] {
         for (const std::size_t i : {k_holder, k_held}) {
             ASSERT_LE(pair.origin(i).norm(), 1e-5);  // 0.01 mm
@@ -110,7 +78,7 @@ TEST(PlayerGrip, GrippingAHeadMovesNeitherPlayer) {
 // of their velocities.
 TEST(PlayerGrip, SharesMomentumByTheMasses) {
     Pair pair(90.0, 60.0);
-    pair.build();
+    pair.drop_caches();
     pair.velocity(k_held) = Vec3(0.0, 0.05, 0.0);
     const Vec3 before = pair.momentum();
     pair.run(0.6, [&] {
@@ -126,7 +94,7 @@ TEST(PlayerGrip, SharesMomentumByTheMasses) {
 TEST(PlayerGrip, HandMovesBothAboutTheirCentreOfMass) {
     Pair pair(90.0, 60.0);
     pair.move_hand(wave);
-    pair.build();
+    pair.drop_caches();
     double farthest_m = 0.0;
     pair.run(2.0, [&] {
         const Vec3 center = (90.0 * pair.origin(k_holder) + 60.0 * pair.origin(k_held)) / 150.0;
@@ -144,19 +112,12 @@ TEST(PlayerGrip, HandMovesBothAboutTheirCentreOfMass) {
 TEST(PlayerGrip, PlayerOnAWallCarriesTheOther) {
     Pair pair;
     pair.move_hand(wave);
-    const Vec3 left_palm(-0.3, 1.2, 0.0);
-    add_body(pair.world, {"wall",
-                          {},
-                          {left_palm - Vec3(0.0, 0.055, 0.0), Quat::Identity()},
-                          {},
-                          pair.shapes.add_box(Vec3(0.2, 0.05, 0.2))});
-    Vec3 palm_to_hand = pair.tuning.hand.palm_center_m;
-    palm_to_hand.x() *= -1.0;
+    const Vec3 hand = pair.add_wall_under_left_palm();
     pair.scripts[k_holder].hands[index_of(HandSide::left)] = [=](double) {
-        return Pose{left_palm - palm_to_hand, Quat::Identity()};
+        return Pose{hand, Quat::Identity()};
     };
     pair.scripts[k_holder].grabs[index_of(HandSide::left)] = [](double t) { return t > 0.05; };
-    pair.build();
+    pair.drop_caches();
     pair.run(2.0, [&] {
         ASSERT_LE(pair.origin(k_holder).norm(), 1e-6);
         ASSERT_LE(pair.grab().error_m, 1e-6);
@@ -172,21 +133,14 @@ TEST(PlayerGrip, ClosingOnAClimbersHeadMovesNeither) {
     Pair pair;
     const auto way = [](double t) { return Vec3(0.0, 0.05 * (1.0 - std::cos(10.0 * t)), 0.0); };
     pair.move_hand(way);
-    const Vec3 palm(-0.3, 1.2, 0.0);
-    add_body(pair.world, {"wall",
-                          {},
-                          {palm - Vec3(0.0, 0.055, 0.0), Quat::Identity()},
-                          {},
-                          pair.shapes.add_box(Vec3(0.2, 0.05, 0.2))});
-    Vec3 palm_to_hand = pair.tuning.hand.palm_center_m;
-    palm_to_hand.x() *= -1.0;
+    const Vec3 hand = pair.add_wall_under_left_palm();
     DeviceScript& climber = pair.scripts[k_held];
     climber.hands[index_of(HandSide::left)] = [=](double t) {
-        return Pose{palm - palm_to_hand - way(t), Quat::Identity()};
+        return Pose{hand - way(t), Quat::Identity()};
     };
     climber.grabs[index_of(HandSide::left)] = [](double) { return true; };
     pair.hold_until(1e9);
-    pair.build();
+    pair.drop_caches();
     Vec3 path_error = Vec3::Zero();
     pair.run(0.5, [&] {
         const Vec3 now = pair.origin(k_held) - way(pair.t_s());
@@ -209,7 +163,7 @@ TEST(PlayerGrip, HandStaysOnAHeadThatLeans) {
         return Pose{upright(t).position + lean(t),
                     rotation_about(Vec3::UnitZ(), -0.5 * ease(t, 0.3, 0.8))};
     };
-    pair.build();
+    pair.drop_caches();
     Vec3 on_head = Vec3::Zero();
     pair.run(1.2, [&] {
         const Pose& head_ws = pair.world.render_pose.at(pair.players[k_held].player).head_ws;
@@ -233,7 +187,7 @@ TEST(PlayerGrip, PushingOffPartsThemAtTheHandsSpeed) {
     Pair pair(90.0, 60.0);
     pair.move_hand([](double t) { return Vec3(0.0, 0.0, -1.0 * std::max(0.0, t - 0.3)); });
     pair.hold_until(k_release_s);
-    pair.build();
+    pair.drop_caches();
     pair.run(0.8, [&] { ASSERT_LE(pair.momentum().norm(), 1e-7); });
     EXPECT_EQ(pair.grab().kind, GripKind::none);
     EXPECT_LE((pair.velocity(k_held) - pair.velocity(k_holder) - Vec3(0.0, 0.0, -1.0)).norm(),
@@ -242,13 +196,13 @@ TEST(PlayerGrip, PushingOffPartsThemAtTheHandsSpeed) {
 
 TEST(PlayerGrip, EndsIfTheOtherPlayerIsDestroyed) {
     Pair pair;
-    pair.build();
+    pair.drop_caches();
     pair.run(0.3);
     ASSERT_EQ(pair.grab().kind, GripKind::player);
     destroy(pair.world, pair.players[k_held].player);
     std::array<TrackingSample, 1> samples = {sample_of(pair.scripts[k_holder], pair.t_s())};
     const std::array inputs = {PlayerInput{pair.players[k_holder].player, samples, {}}};
-    step_frame(pair.world, *pair.caches, pair.tuning, {k_step_s, inputs}, pair.stats);
+    step_frame(pair.world, *pair.caches, pair.tuning, {Pair::k_step_s, inputs}, pair.stats);
     EXPECT_EQ(pair.grab().kind, GripKind::none);
     EXPECT_EQ(pair.stats.fallbacks[static_cast<std::size_t>(Fallback::grip_body_gone)], 1U);
 }

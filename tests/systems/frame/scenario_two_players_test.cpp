@@ -4,58 +4,42 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "tests/systems/frame/column_scene.hpp"
-#include "tests/systems/frame/scenario.hpp"
+#include "tests/systems/frame/two_players.hpp"
 
 namespace handhold::scenario_two_players_test {
 namespace {
 
-constexpr double k_step_s = 1.0 / 90.0;
+constexpr double k_step_s = test::TwoPlayers::k_step_s;
 constexpr int k_samples = 20;      // samples per frame: buttons may close and open within one
 constexpr double k_jump_m = 1e-5;  // of a head, in the frame of a button edge: 0.01 mm
 constexpr double k_bar_kg = 5.0;
 
 // A bar under the right palms of two players, 40 cm to either side of its middle.
-struct SharedBar {
-    ShapeLibrary shapes;
-    World world;
-    Tuning tuning;
-    StageStats stats;
-    std::array<DeviceScript, 2> scripts;
-    std::array<PlayerEntities, 2> players;
+struct SharedBar : test::TwoPlayers {
     Entity bar;
-    std::unique_ptr<FrameCaches> caches;
     double jump_m = 0.0;  // of either head in the last frame
     // Samples per frame; 1: only at its end.
     int samples_a_frame = 20;
 
     explicit SharedBar(std::array<double, 2> masses_kg = {80.0, 80.0}) {
-        tuning.locomotion.drift_drag_per_s = 0.0;
         const ShapeId shape = shapes.add_box(Vec3(0.6, 0.02, 0.02));
         const RigidBody body{BodyKind::free, k_bar_kg, solid_inertia(shapes.at(shape), k_bar_kg),
                              0.0};
         bar = add_body(world, {"bar", body, {Vec3(0.0, 1.175, 0.0), Quat::Identity()}, {}, shape});
+        add_players({"first", "second"}, masses_kg);
         for (std::size_t i = 0; i < players.size(); ++i) {
-            PlayerDescription description;
-            description.name = i == 0 ? "first" : "second";
-            description.body.mass_kg = masses_kg[i];
-            description.head_shape = shapes.add_sphere(tuning.head.radius_m);
-            players[i] = add_player(world, description);
-            for (const Entity hand : players[i].hands) {
-                world.controller_to_hand.add(hand, {});
-            }
             move_hand(i, [](double) { return Pose{}; });
             hold(i, 0.1, 1e9);
             scripts[i].head = [i](double) {
                 return Pose{Vec3(i == 0 ? -0.6 : 0.6, 1.8, 0.5), Quat::Identity()};
             };
         }
-        caches = std::make_unique<FrameCaches>(shapes);
+        drop_caches();
     }
     // Moves the hand relative to its rest pose.
     void move_hand(std::size_t i, const std::function<Pose(double)>& motion) {
@@ -94,11 +78,6 @@ struct SharedBar {
         return world.grab.at(players[i].hands[index_of(HandSide::right)]);
     }
     bool holds(std::size_t i) const { return grab(i).kind == GripKind::held; }
-    double t_s() const { return world.clock.t_s; }
-    Vec3 origin(std::size_t i) const {
-        return world.player_origin.at(players[i].player).pose_ws.position;
-    }
-    Vec3& velocity(std::size_t i) { return world.player_velocity.at(players[i].player).linear_mps; }
 };
 
 // The common motion of the hands and the bar: varying at up to 0.5 m/s and 5 m/s^2, and uniform.

@@ -1,13 +1,10 @@
 #include "systems/grab/pull_bodies.hpp"
 
-#include <algorithm>
-#include <limits>
-#include <vector>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "engine/collision/collision_world.hpp"
-#include "tests/systems/frame/column_scene.hpp"
+#include "tests/systems/grab/hands_and_bodies.hpp"
 
 namespace handhold::pull_bodies_test {
 namespace {
@@ -26,57 +23,25 @@ constexpr double k_player_kg = 80.0;
 constexpr double k_stone_kg = 2.0;
 constexpr double k_stone_m = 0.1;  // radius
 
-// A player at the origin, whose palms look down (-Y); bodies are added by hand. Everything is put
-// into the world through frame_ws.
-struct Pulls {
-    Pose frame_ws;
-    ShapeLibrary shapes;
-    std::vector<ColliderProxy> proxies;
-    Column<PersistentId> persistent_id;
-    Column<HandOwner> owner;
-    Column<HandTracking> hand;
-    Column<Grab> grab;
-    Column<HandSight> sight;
+// Stones that the hands of a player pull.
+struct Pulls : test::HandsAndBodies {
     Column<PlayerBody> player;
-    Column<PlayerOrigin> origin;
-    Column<RigidBody> body;
-    Column<BodyPose> body_pose;
-    JointGroups joint_groups;
-    Column<HandPull> pull;
-    Column<GrabRule> grab_rule;
-    Column<GrabLayers> grab_layers;
-    Column<CollisionFilter> filter;
     Column<BodyVelocity> body_velocity;
     Column<PlayerVelocity> player_velocity;
-    Tuning tuning;
-    StageStats stats;
 
-    explicit Pulls(const Pose& frame = {}) : frame_ws(frame) {
+    explicit Pulls(const Pose& frame = {}) : HandsAndBodies(frame, {k_left, k_right}) {
         tuning.pull.reach_m = 3.0;
-        persistent_id.add(k_player, {100});
-        origin.add(k_player, {frame_ws});
         player.add(k_player, {k_player_kg});
         player_velocity.add(k_player);
-        for (const Entity hand_entity : {k_left, k_right}) {
-            const HandSide side = hand_entity == k_left ? HandSide::left : HandSide::right;
-            owner.add(hand_entity, {k_player, side});
-            hand.add(hand_entity);
-            grab.add(hand_entity);
-            sight.add(hand_entity);
-        }
     }
     void add_stone(Entity stone, const Vec3& center, double mass_kg = k_stone_kg,
                    BodyKind kind = BodyKind::free) {
         add_body(stone, shapes.add_sphere(k_stone_m), center, mass_kg, kind);
     }
     void add_body(Entity added, ShapeId shape, const Vec3& center, double mass_kg, BodyKind kind) {
-        persistent_id.add(added, {200 + std::uint64_t{added.slot}});
-        body.add(added, {kind, mass_kg, Vec3::Constant(0.01), 0.0});
-        const Pose pose = frame_ws * test::pose_at(center);
-        body_pose.add(added, {pose});
+        HandsAndBodies::add_body(added, {kind, mass_kg, Vec3::Constant(0.01), 0.0}, shape,
+                                 test::pose_at(center));
         body_velocity.add(added);
-        proxies.push_back(
-            {persistent_id.at(added).value, shape, pose, pose, kind == BodyKind::free});
     }
     void move_body(Entity moved, const Vec3& center) {
         BodyPose& pose = body_pose.at(moved);
@@ -89,18 +54,16 @@ struct Pulls {
     }
     // The hand closes, and stays closed, where its palm is at `palm`.
     void close(Entity closed, const Vec3& palm) {
-        Vec3 center = tuning.hand.palm_center_m;
-        center.x() *= owner.at(closed).side == HandSide::right ? 1.0 : -1.0;
         HandTracking& tracking = hand.at(closed);
         tracking.state = TrackingState::tracked;
         tracking.pressed = true;
         tracking.edge = GrabEdge::onset;
-        tracking.pose_ps = tracking.start_ps = tracking.edge_ps = test::pose_at(palm - center);
+        tracking.pose_ps = tracking.start_ps = tracking.edge_ps =
+            test::pose_at(palm - palm_center_hs(closed));
     }
     void run() {
         CollisionWorld collision(shapes);
-        std::ranges::sort(proxies, {}, &ColliderProxy::id);
-        collision.set_proxies(proxies);
+        place_proxies(collision);
         stats = {};
         pull_bodies({.dt_s = k_dt_s,
                      .surfaces = collision,

@@ -9,6 +9,7 @@
 namespace handhold::test {
 
 inline constexpr double k_step_s = 1.0 / 90.0;
+inline constexpr hh::Vec3 k_wall_m = {0.0, 1.5, -0.6};  // of the scene's wall
 
 // A dynamic cube of 0.2 m and 2 kg.
 inline hh_body_def crate(hh::World& world, hh::Vec3 position) {
@@ -36,13 +37,9 @@ struct HostScene {
         is_good = static_cast<bool>(world.use_wrists(player));
     }
     // Its face is at z = -0.5.
-    hh::Body add_wall() {
-        hh_body_def wall = hh::body_def();
-        wall.name = "wall";
-        wall.shape = *world.add_box({2.0, 2.0, 0.1});
-        wall.pose.position = {0.0, 1.5, -0.6};
-        return *world.add(wall);
-    }
+    hh::Body add_wall() { return add_wall("wall", HH_STATIC); }
+    // The same wall, which the host moves.
+    hh::Body add_lift() { return add_wall(nullptr, HH_KINEMATIC); }
     hh::Sample sample() const {
         hh::Sample made = hh::sample();
         made.time_s = world.time_s() + k_step_s;
@@ -67,6 +64,14 @@ struct HostScene {
     bool is_good = true;
 
   private:
+    hh::Body add_wall(const char* name, hh_body_kind kind) {
+        hh_body_def wall = hh::body_def();
+        wall.name = name;
+        wall.kind = kind;
+        wall.shape = *world.add_box({2.0, 2.0, 0.1});
+        wall.pose.position = k_wall_m;
+        return *world.add(wall);
+    }
     static const char* text_of(hh_reason reason) {
         switch (reason) {
             case HH_REASON_NOT_ALLOWED:

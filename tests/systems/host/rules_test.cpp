@@ -69,15 +69,11 @@ RC_GTEST_PROP(HostLayers, BodiesTouchOnlyIfBothMasksSaySo, ()) {
 
 TEST(HostKinematic, BodyReachesItsTargetAndCarriesTheHand) {
     HostScene scene;
-    hh_body_def lift = hh::body_def();
-    lift.kind = HH_KINEMATIC;
-    lift.shape = *scene.world.add_box({2.0, 2.0, 0.1});
-    lift.pose.position = {0.0, 1.5, -0.6};
-    const hh::Body body = *scene.world.add(lift);
+    const hh::Body body = scene.add_lift();
     scene.closed[HH_RIGHT] = true;
     scene.step();
     ASSERT_EQ(scene.hand(HH_RIGHT).grip, HH_GRIP_SURFACE);
-    hh::Pose pose = lift.pose;
+    hh::Pose pose = hh::pose_at(k_wall_m);
     for (int i = 1; i <= 50; ++i) {
         pose.position.x = 0.01 * i;
         pose.position.y = 1.5 + 0.1 * std::sin(0.1 * i);

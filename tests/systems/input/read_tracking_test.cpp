@@ -14,16 +14,7 @@
 namespace handhold::read_tracking_test {
 namespace {
 
-using test::count_of;
-using test::count_of_all;
-using test::Devices;
-using test::distance;
-using test::entity;
-using test::k_frame_s;
-using test::k_player;
-using test::k_rest;
-using test::Random;
-using test::sample_at;
+using namespace test;
 
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double k_infinity = std::numeric_limits<double>::infinity();

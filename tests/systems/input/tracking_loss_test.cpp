@@ -1,4 +1,4 @@
-
+// Hands that jump or lose tracking, and samples of wrong times and numbers.
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -12,16 +12,7 @@
 namespace handhold::tracking_loss_test {
 namespace {
 
-using test::count_of;
-using test::count_of_all;
-using test::Devices;
-using test::distance;
-using test::entity;
-using test::k_frame_s;
-using test::k_player;
-using test::k_rest;
-using test::Random;
-using test::sample_at;
+using namespace test;
 
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 

@@ -4,8 +4,7 @@
 #include <initializer_list>
 #include <vector>
 
-#include "systems/physics/build_constraints.hpp"
-#include "tests/systems/frame/column_scene.hpp"
+#include "tests/systems/physics/physics_columns.hpp"
 
 // The columns of one player with two hands, and bodies, for the tests of build_constraints.
 namespace handhold::test {
@@ -15,23 +14,7 @@ inline constexpr Entity k_rock = entity(4);
 // Ids descend with the slots, so that ordering by slot would be noticed.
 inline std::uint64_t id_of(Entity entity) { return 100 - std::uint64_t{entity.slot}; }
 
-struct Building {
-    Column<PersistentId> persistent_id;
-    Column<RigidBody> body;
-    Column<BodyPose> body_pose;
-    Column<BodyVelocity> body_velocity;
-    Column<Joint> joint;
-    Column<JointState> joint_state;
-    Column<PlayerBody> player;
-    Column<PlayerOrigin> origin;
-    Column<PlayerVelocity> player_velocity;
-    Column<HeadTracking> head;
-    Column<HandOwner> owner;
-    Column<Grab> grab;
-    Column<BodyHold> body_hold;
-    FrameGraph frame;
-    Tuning tuning;
-
+struct Building : PhysicsColumns {
     explicit Building(std::initializer_list<Entity> hands = {k_left, k_right}) {
         persistent_id.add(k_player, {id_of(k_player)});
         player.add(k_player, {70.0});
@@ -77,24 +60,7 @@ struct Building {
         grip.target_spin_ps_radps = random.vector(2.0);
         return grip;
     }
-    void run() {
-        build_constraints({.dt_s = 1.0 / 90.0,
-                           .persistent_id = persistent_id,
-                           .body = body,
-                           .body_pose = body_pose,
-                           .body_velocity = body_velocity,
-                           .joint = joint,
-                           .joint_state = joint_state,
-                           .player = player,
-                           .origin = origin,
-                           .player_velocity = player_velocity,
-                           .head = head,
-                           .owner = owner,
-                           .grab = grab,
-                           .body_hold = body_hold,
-                           .frame = frame},
-                          tuning);
-    }
+    void run() { build_constraints(); }
     std::uint32_t index_of_body(Entity entity) const {
         return static_cast<std::uint32_t>(find_body(frame.graph, id_of(entity)));
     }

@@ -7,7 +7,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "components/play_space.hpp"
-#include "tests/systems/frame/column_scene.hpp"
+#include "tests/systems/physics/physics_columns.hpp"
 
 namespace handhold::place_colliders_test {
 namespace {
@@ -24,23 +24,11 @@ constexpr Entity k_rock = entity(3);
 // Ids descend with the slots, so that ordering by slot would be noticed.
 PersistentId id_of(Entity entity) { return {100 - std::uint64_t{entity.slot}}; }
 
-struct Placing {
+struct Placing : test::PhysicsColumns {
     ShapeLibrary shapes;
     ShapeId box = shapes.add_box(Vec3(1.0, 1.0, 1.0));
     ShapeId ball = shapes.add_sphere(0.11);
-    Column<PersistentId> persistent_id;
-    Column<Collider> collider;
-    Column<RigidBody> body;
-    Column<BodyPose> body_pose;
-    Column<BodyStart> body_start;
-    Column<PlayerOrigin> origin;
-    Column<PlayerStart> player_start;
-    Column<HeadTracking> head;
-    Column<LastValidPose> last_valid;
-    Column<BodyVelocity> body_velocity;
-    Column<CollisionFilter> filter;
     CollisionWorld collision{shapes};
-    FrameGraph frame;
 
     void add_body(Entity entity, BodyKind kind, Random& random) {
         persistent_id.add(entity, id_of(entity));
@@ -59,21 +47,9 @@ struct Placing {
         head.at(k_player).pose_ps = random.pose(1.0);
         last_valid.add(k_player, {random.pose(10.0), true});
     }
-    void run(const HeadTuning& tuning = {}) {
-        place_colliders({.persistent_id = persistent_id,
-                         .collider = collider,
-                         .filter = filter,
-                         .body = body,
-                         .body_pose = body_pose,
-                         .body_start = body_start,
-                         .body_velocity = body_velocity,
-                         .origin = origin,
-                         .player_start = player_start,
-                         .head = head,
-                         .last_valid = last_valid,
-                         .collision = collision,
-                         .frame = frame},
-                        tuning);
+    void run(const HeadTuning& head_tuning = {}) {
+        tuning.head = head_tuning;
+        place_colliders(collision);
     }
     const ColliderProxy& proxy(Entity entity) const {
         return *std::ranges::find(frame.proxies, id_of(entity).value, &ColliderProxy::id);

@@ -5,9 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/solver/contact/moving_contacts.hpp"
-#include "systems/physics/build_constraints.hpp"
-#include "systems/physics/place_colliders.hpp"
-#include "tests/systems/frame/column_scene.hpp"
+#include "tests/systems/physics/physics_columns.hpp"
 
 namespace handhold::restore_bodies_test {
 namespace {
@@ -25,31 +23,11 @@ constexpr Entity k_mover = entity(13);
 constexpr double k_half_m = 0.1;
 
 // Cubes before a wall whose face is at x = 0.
-struct Restoring {
+struct Restoring : test::PhysicsColumns {
     ShapeLibrary shapes;
     ShapeId cube = shapes.add_box(Vec3::Constant(k_half_m));
     ShapeId slab = shapes.add_box(Vec3(1.0, 4.0, 4.0));
-    Column<PersistentId> persistent_id;
-    Column<Collider> collider;
-    Column<RigidBody> body;
-    Column<BodyPose> body_pose;
-    Column<BodyStart> body_start;
-    Column<BodyVelocity> body_velocity;
-    Column<LastValidPose> last_valid;
-    Column<CollisionFilter> filter;
-    Column<Joint> joint;
-    Column<JointState> joint_state;
-    Column<PlayerBody> player;
-    Column<PlayerOrigin> origin;
-    Column<PlayerStart> player_start;
-    Column<PlayerVelocity> player_velocity;
-    Column<HeadTracking> head;
-    Column<HandOwner> owner;
-    Column<Grab> grab;
-    Column<BodyHold> body_hold;
     CollisionWorld collision{shapes};
-    FrameGraph frame;
-    Tuning tuning;
     StageStats stats;
 
     Restoring() { add(k_wall, BodyKind::fixed, slab, Vec3(-1.0, 0.0, 0.0)); }
@@ -63,36 +41,8 @@ struct Restoring {
         last_valid.add(entity, {pose_at(valid), true});
     }
     void place() {
-        place_colliders({.persistent_id = persistent_id,
-                         .collider = collider,
-                         .filter = filter,
-                         .body = body,
-                         .body_pose = body_pose,
-                         .body_start = body_start,
-                         .body_velocity = body_velocity,
-                         .origin = origin,
-                         .player_start = player_start,
-                         .head = head,
-                         .last_valid = last_valid,
-                         .collision = collision,
-                         .frame = frame},
-                        tuning.head);
-        build_constraints({.dt_s = 1.0 / 90.0,
-                           .persistent_id = persistent_id,
-                           .body = body,
-                           .body_pose = body_pose,
-                           .body_velocity = body_velocity,
-                           .joint = joint,
-                           .joint_state = joint_state,
-                           .player = player,
-                           .origin = origin,
-                           .player_velocity = player_velocity,
-                           .head = head,
-                           .owner = owner,
-                           .grab = grab,
-                           .body_hold = body_hold,
-                           .frame = frame},
-                          tuning);
+        place_colliders(collision);
+        build_constraints();
     }
     std::size_t index_of(Entity entity) const {
         return find_body(frame.graph, persistent_id.at(entity).value);

@@ -16,6 +16,7 @@
 #include "systems/rigs/body_rig_fit.hpp"
 #include "tests/places.hpp"
 #include "tests/systems/rigs/humanoid.hpp"
+#include "tests/systems/rigs/rest_trunk.hpp"
 
 namespace handhold::arm_bend_test {
 namespace {
@@ -36,12 +37,10 @@ struct ArmMove {
 };
 
 RenderPose moved_arm(const BodyRig& rig, const ArmMove& move) {
-    RenderPose render;
+    RenderPose render = test::rest_trunk(rig);
     for (const BodyRig::Carrier& carrier : rig.carriers) {
         ArmPose::Arm& arm = render.arms.arms[index_of(carrier.side)];
-        if (carrier.bone == BodyBone::clavicle) {
-            arm.clavicle_ws = carrier.rest_ms;
-        } else if (carrier.bone == BodyBone::upper_arm) {
+        if (carrier.bone == BodyBone::upper_arm) {
             arm.upper_ws = carrier.rest_ms;
         } else if (carrier.bone == BodyBone::forearm) {
             arm.forearm_ws = carrier.rest_ms;
@@ -49,19 +48,6 @@ RenderPose moved_arm(const BodyRig& rig, const ArmMove& move) {
             arm.hand_ws = carrier.rest_ms;
         }
     }
-    const BodyRig::Carrier& trunk = rig.carriers[BodyRig::k_chest];
-    const auto at = [&](double along) {
-        return Pose{trunk.rest_ms.position -
-                        (1.0 - along) * trunk.length_m * (trunk.rest_ms.rotation * Vec3::UnitY()),
-                    trunk.rest_ms.rotation};
-    };
-    render.spine.chest_ws = trunk.rest_ms;
-    render.spine.pelvis_ws = at(0.0);
-    for (std::size_t i = 0; i < k_spine_links; ++i) {
-        render.spine.spine_ws[i] =
-            at(1.0 - static_cast<double>(i) / static_cast<double>(k_spine_links));
-    }
-    render.head_ws = rig.carriers[BodyRig::k_head].rest_ms;
     ArmPose::Arm& arm = render.arms.arms[index_of(HandSide::right)];
     const auto turn = [](const Quat& in_bone, const Quat& bone) {
         return (bone * in_bone * bone.conjugate()).normalized();

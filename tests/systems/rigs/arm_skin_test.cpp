@@ -15,6 +15,7 @@
 #include "systems/rigs/body_rig_fit.hpp"
 #include "tests/places.hpp"
 #include "tests/systems/rigs/humanoid.hpp"
+#include "tests/systems/rigs/rest_trunk.hpp"
 
 namespace handhold::arm_skin_test {
 namespace {
@@ -44,25 +45,7 @@ struct ArmInFile {
 // the hand about the forearm. All angles count from the file.
 RenderPose rolled_arm(const BodyRig& rig, double upper_rad, double wrist_rad) {
     const ArmInFile file(rig);
-    RenderPose render;
-    for (const BodyRig::Carrier& carrier : rig.carriers) {
-        if (carrier.bone == BodyBone::clavicle) {
-            render.arms.arms[index_of(carrier.side)].clavicle_ws = carrier.rest_ms;
-        }
-    }
-    const Pose chest = rig.carriers[BodyRig::k_chest].rest_ms;
-    const double trunk_m = rig.carriers[BodyRig::k_chest].length_m;
-    const auto at = [&](double along) {
-        return Pose{chest.position - (1.0 - along) * trunk_m * (chest.rotation * Vec3::UnitY()),
-                    chest.rotation};
-    };
-    render.spine.chest_ws = chest;
-    render.spine.pelvis_ws = at(0.0);
-    for (std::size_t i = 0; i < k_spine_links; ++i) {
-        render.spine.spine_ws[i] =
-            at(1.0 - static_cast<double>(i) / static_cast<double>(k_spine_links));
-    }
-    render.head_ws = rig.carriers[BodyRig::k_head].rest_ms;
+    RenderPose render = test::rest_trunk(rig);
     ArmPose::Arm& arm = render.arms.arms[index_of(HandSide::right)];
     const auto rolled = [](const Quat& rotation, double angle_rad) {
         return (rotation * rotation_about(Vec3::UnitZ(), angle_rad)).normalized();

@@ -14,15 +14,8 @@
 namespace handhold::solver_active_set_test {
 namespace {
 
+using namespace test::dense_rows;
 using test::Random;
-using test::dense_rows::as_vector;
-using test::dense_rows::assembled;
-using test::dense_rows::MatrixXd;
-using test::dense_rows::Problem;
-using test::dense_rows::random_index;
-using test::dense_rows::random_problem;
-using test::dense_rows::regularised;
-using test::dense_rows::VectorXd;
 
 // Oracle: tries all subsets of active unilateral rows for the one whose solution satisfies the
 // Karush-Kuhn-Tucker conditions: each active row pushes, no other row overlaps. For a positive

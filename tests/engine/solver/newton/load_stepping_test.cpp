@@ -8,7 +8,7 @@
 
 #include "engine/solver/newton/load_stepped_drives.hpp"
 #include "engine/solver/newton/newton.hpp"
-#include "tests/engine/solver/scene.hpp"
+#include "tests/engine/solver/newton/uneven_chain.hpp"
 
 namespace handhold::solver_load_stepping_test {
 namespace {
@@ -53,29 +53,12 @@ RC_GTEST_PROP(LoadSteppedDrives, WithheldShareOfTheErrorIsNotAskedFor, (std::uin
     RC_ASSERT(is_same(scene.block(0), taken));
 }
 
-// A chain on a fixed body, every other link a thousand times as heavy as its neighbours, and a
-// drive whose target for the last link is to the side, at `reach` times the chain's length.
+// The drive's target is to the side, at `reach` times the chain's length.
 SolverScene chain_to(double reach) {
     constexpr std::uint32_t k_links = 16;
-    constexpr double k_half_m = 0.05;
-    const Vec3 end(k_half_m, 0.0, 0.0);
-    SolverScene scene;
-    scene.graph.bodies = {test::fixed_body(1)};
-    for (std::uint32_t i = 0; i < k_links; ++i) {
-        const double mass_kg = i % 2 == 0 ? 1.0 : 1000.0;
-        const double across = mass_kg * k_half_m * k_half_m / 3.0;
-        scene.graph.bodies.push_back(test::free_body(i + 2, mass_kg,
-                                                     Vec3(0.3 * across, across, across),
-                                                     {(2.0 * i + 1.0) * end, Quat::Identity()}));
-        scene.graph.blocks.push_back(
-            test::row_block(RowKind::ball, i, i + 1, i == 0 ? Vec3(Vec3::Zero()) : end, -end));
-    }
-    scene.graph.bodies.push_back(test::translating_body(k_links + 2, 80.0));
-    scene.body(k_links + 1).inverse_mass = 0.0;
-    const Vec3 target = reach * 2.0 * k_half_m * k_links * Vec3(1.0, 2.0, 0.0).normalized();
-    scene.graph.blocks.push_back(
-        test::row_block(RowKind::drive_point, k_links + 1, k_links, target, end));
-    return scene;
+    const Vec3 target =
+        reach * 2.0 * test::k_half_link_m * k_links * Vec3(1.0, 2.0, 0.0).normalized();
+    return test::uneven_chain(k_links, RowKind::ball, target);
 }
 
 double worst_error_m(const SolverScene& scene) {

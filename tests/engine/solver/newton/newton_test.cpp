@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "tests/engine/solver/scene.hpp"
+#include "tests/engine/solver/newton/uneven_chain.hpp"
 
 namespace handhold::solver_newton_test {
 namespace {
@@ -189,26 +189,9 @@ TEST(SolvePositions, RodBetweenTwoDrivesConvergesFromAnyRotation) {
 // degrees. Without geometric stiffness it oscillates for all 30 iterations and leaves 47 mm.
 SolverScene uneven_chain_with_a_far_drive() {
     constexpr std::uint32_t k_links = 8;
-    constexpr double k_half_m = 0.05;
-    const Vec3 end(k_half_m, 0.0, 0.0);
-    SolverScene scene;
-    scene.graph.bodies = {test::fixed_body(1)};
-    for (std::uint32_t i = 0; i < k_links; ++i) {
-        const double mass_kg = i % 2 == 0 ? 1.0 : 1000.0;
-        const double across = mass_kg * k_half_m * k_half_m / 3.0;
-        scene.graph.bodies.push_back(test::free_body(i + 2, mass_kg,
-                                                     Vec3(0.3 * across, across, across),
-                                                     {(2.0 * i + 1.0) * end, Quat::Identity()}));
-        scene.graph.blocks.push_back(test::row_block(RowKind::drive_point, i, i + 1,
-                                                     i == 0 ? Vec3(Vec3::Zero()) : end, -end));
-    }
-    scene.graph.bodies.push_back(test::translating_body(k_links + 2, 80.0));
-    scene.body(k_links + 1).inverse_mass = 0.0;
-    const double length_m = 2.0 * k_half_m * k_links;
+    const double length_m = 2.0 * test::k_half_link_m * k_links;
     const Vec3 target = 0.9 * length_m * Vec3(1.0, 2.0, 0.0).normalized();
-    scene.graph.blocks.push_back(
-        test::row_block(RowKind::drive_point, k_links + 1, k_links, target, end));
-    return scene;
+    return test::uneven_chain(k_links, RowKind::drive_point, target);
 }
 
 TEST(SolvePositions, ChainWithMassRatio1000FollowsAJumpOfItsEnd) {

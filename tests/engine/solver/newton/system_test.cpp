@@ -13,16 +13,8 @@
 namespace handhold::solver_system_test {
 namespace {
 
+using namespace test::dense_rows;
 using test::Random;
-using test::dense_rows::as_vector;
-using test::dense_rows::assembled;
-using test::dense_rows::MatrixXd;
-using test::dense_rows::Problem;
-using test::dense_rows::random_bodies;
-using test::dense_rows::random_index;
-using test::dense_rows::random_problem;
-using test::dense_rows::regularised;
-using test::dense_rows::VectorXd;
 
 RC_GTEST_PROP(RowSystem, BilateralRowsAgreeWithEigen, (std::uint64_t seed)) {
     constexpr double k_alpha = 1e-4;
