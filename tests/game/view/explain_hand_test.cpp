@@ -2,6 +2,7 @@
 #include "game/view/explain_hand.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -35,6 +36,22 @@ struct AtRail : DesktopSession {
             step(input);
         }
     }
+    // The left hand closes on the rail.
+    void grip(double seconds) {
+        DesktopInput closed;
+        closed.grip[0] = true;
+        run(closed, seconds);
+    }
+    std::vector<Line> lines_of(const GizmoSet& on) const {
+        std::vector<Line> lines;
+        add_gizmos(scene().world(), scene().caches(), scene().tuning(), on, lines);
+        return lines;
+    }
+    std::vector<Line> lines_of(Gizmo gizmo) const {
+        GizmoSet on = k_no_gizmos;
+        on[static_cast<std::size_t>(gizmo)] = true;
+        return lines_of(on);
+    }
     HandStory story(HandSide side) const {
         return explain_hand(scene(), scene().caches().collision, entities().hands[index_of(side)]);
     }
@@ -61,9 +78,7 @@ TEST(ExplainHand, OpenHandInTheAirNamesTheNearestSurfaceAndItsDistance) {
 
 TEST(ExplainHand, GrippingHandNamesTheBodyAndItsError) {
     AtRail desk;
-    DesktopInput grip;
-    grip.grip[0] = true;
-    desk.run(grip, 0.7);
+    desk.grip(0.7);
     const Grab& grab = desk.scene().world().grab.at(desk.entities().hands[0]);
     ASSERT_EQ(grab.kind, GripKind::surface);
     const HandStory story = desk.story(HandSide::left);
@@ -101,19 +116,11 @@ TEST(ExplainHand, HandInTheLineOfSightIsPointedAt) {
 
 TEST(Gizmos, EachGizmoDrawsLinesAndNoneDrawsNothing) {
     AtRail desk;
-    DesktopInput grip;
-    grip.grip[0] = true;
-    desk.run(grip, 0.7);
-    std::vector<Line> lines;
-    add_gizmos(desk.scene().world(), desk.scene().caches(), desk.scene().tuning(), k_no_gizmos,
-               lines);
-    EXPECT_TRUE(lines.empty());
+    desk.grip(0.7);
+    EXPECT_TRUE(desk.lines_of(k_no_gizmos).empty());
     for (const Gizmo gizmo : {Gizmo::tracked_hands, Gizmo::palm_rays, Gizmo::grips, Gizmo::islands,
                               Gizmo::search, Gizmo::palm_limits, Gizmo::fingers, Gizmo::fit}) {
-        GizmoSet on = k_no_gizmos;
-        on[static_cast<std::size_t>(gizmo)] = true;
-        lines.clear();
-        add_gizmos(desk.scene().world(), desk.scene().caches(), desk.scene().tuning(), on, lines);
+        const std::vector<Line> lines = desk.lines_of(gizmo);
         EXPECT_FALSE(lines.empty()) << info_of(gizmo).name;
         for (const Line& line : lines) {
             EXPECT_TRUE(line.a_ws.allFinite() && line.b_ws.allFinite());
@@ -124,13 +131,8 @@ TEST(Gizmos, EachGizmoDrawsLinesAndNoneDrawsNothing) {
 // The grip's normal starts on the bar's surface, at the point of the hand's constraint.
 TEST(Gizmos, GripIsDrawnOnTheHeldSurface) {
     AtRail desk;
-    DesktopInput grip;
-    grip.grip[0] = true;
-    desk.run(grip, 0.7);
-    GizmoSet on = k_no_gizmos;
-    on[static_cast<std::size_t>(Gizmo::grips)] = true;
-    std::vector<Line> lines;
-    add_gizmos(desk.scene().world(), desk.scene().caches(), desk.scene().tuning(), on, lines);
+    desk.grip(0.7);
+    const std::vector<Line> lines = desk.lines_of(Gizmo::grips);
     ASSERT_FALSE(lines.empty());
     const Line& normal = lines.back();
     const auto nearest = desk.scene().caches().collision.closest_point(normal.a_ws, 0.1);
@@ -142,13 +144,8 @@ TEST(Gizmos, GripIsDrawnOnTheHeldSurface) {
 // Fingers around the bar: drawn contacts lie on the bar.
 TEST(Gizmos, FingerContactsLieOnTheSurface) {
     AtRail desk;
-    DesktopInput grip;
-    grip.grip[0] = true;
-    desk.run(grip, 1.0);
-    GizmoSet on = k_no_gizmos;
-    on[static_cast<std::size_t>(Gizmo::fingers)] = true;
-    std::vector<Line> lines;
-    add_gizmos(desk.scene().world(), desk.scene().caches(), desk.scene().tuning(), on, lines);
+    desk.grip(1.0);
+    const std::vector<Line> lines = desk.lines_of(Gizmo::fingers);
     int touches = 0;
     for (const Line& line : lines) {
         const auto nearest = desk.scene().caches().collision.closest_point(line.b_ws, 1e-3);
@@ -161,9 +158,7 @@ TEST(Gizmos, FingerContactsLieOnTheSurface) {
 // Only a gripping hand has terms; looking at them changes nothing.
 TEST(Gizmos, FitColoursAreThoseOfTheCostliestTerms) {
     AtRail desk;
-    DesktopInput grip;
-    grip.grip[0] = true;
-    desk.run(grip, 0.7);
+    desk.grip(0.7);
     const World& world = desk.scene().world();
     const std::uint64_t hash = hash_state(world);
     const auto terms_of = [&](HandSide side) {
@@ -173,10 +168,7 @@ TEST(Gizmos, FitColoursAreThoseOfTheCostliestTerms) {
     EXPECT_FALSE(terms_of(HandSide::right));
     const auto terms = terms_of(HandSide::left);
     ASSERT_TRUE(terms);
-    GizmoSet on = k_no_gizmos;
-    on[static_cast<std::size_t>(Gizmo::fit)] = true;
-    std::vector<Line> lines;
-    add_gizmos(world, desk.scene().caches(), desk.scene().tuning(), on, lines);
+    const std::vector<Line> lines = desk.lines_of(Gizmo::fit);
     std::vector<Color> wanted = {color_of(FitTerm::sync)};  // of the palm's line
     for (const FitTerms::Costs& costs : terms->cost_m2) {
         const auto term = shaping_term(costs);
