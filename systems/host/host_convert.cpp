@@ -31,7 +31,7 @@ constexpr EngineAxes k_unity{{{{0, 1.0}, {1, 1.0}, {2, -1.0}}}, -1.0, 1.0, 1.0, 
 constexpr EngineAxes k_unreal{{{{1, 1.0}, {2, 1.0}, {0, -1.0}}}, -1.0, 0.01, 100.0, false};
 constexpr EngineAxes k_godot{{{{0, 1.0}, {1, 1.0}, {2, 1.0}}}, 1.0, 1.0, 1.0, true};
 
-const EngineAxes& axes_of(hh_engine engine) {
+const EngineAxes& engine_axes(hh_engine engine) {
     return engine == HH_ENGINE_UNITY ? k_unity : engine == HH_ENGINE_UNREAL ? k_unreal : k_godot;
 }
 
@@ -62,34 +62,34 @@ hh_vec3 rotated_back(const EngineAxes& engine, const hh_vec3& v, double factor) 
 }  // namespace
 }  // namespace handhold
 
-using handhold::axes_of;
+using handhold::engine_axes;
 using handhold::rotated;
 using handhold::rotated_back;
 
-double hh_convert_metres_per_unit(hh_engine engine) { return axes_of(engine).metres_per_unit; }
+double hh_convert_metres_per_unit(hh_engine engine) { return engine_axes(engine).metres_per_unit; }
 
 hh_vec3 hh_convert_vector_from(hh_engine engine, hh_vec3 vector) {
-    return rotated(axes_of(engine), vector, axes_of(engine).metres_per_unit);
+    return rotated(engine_axes(engine), vector, engine_axes(engine).metres_per_unit);
 }
 
 hh_vec3 hh_convert_vector_to(hh_engine engine, hh_vec3 vector) {
-    return rotated_back(axes_of(engine), vector, axes_of(engine).units_per_metre);
+    return rotated_back(engine_axes(engine), vector, engine_axes(engine).units_per_metre);
 }
 
 hh_vec3 hh_convert_direction_from(hh_engine engine, hh_vec3 direction) {
-    return rotated(axes_of(engine), direction, 1.0);
+    return rotated(engine_axes(engine), direction, 1.0);
 }
 
 hh_vec3 hh_convert_direction_to(hh_engine engine, hh_vec3 direction) {
-    return rotated_back(axes_of(engine), direction, 1.0);
+    return rotated_back(engine_axes(engine), direction, 1.0);
 }
 
 hh_vec3 hh_convert_angular_from(hh_engine engine, hh_vec3 angular_radps) {
-    return rotated(axes_of(engine), angular_radps, axes_of(engine).determinant);
+    return rotated(engine_axes(engine), angular_radps, engine_axes(engine).determinant);
 }
 
 hh_vec3 hh_convert_angular_to(hh_engine engine, hh_vec3 angular_radps) {
-    return rotated_back(axes_of(engine), angular_radps, axes_of(engine).determinant);
+    return rotated_back(engine_axes(engine), angular_radps, engine_axes(engine).determinant);
 }
 
 hh_quat hh_convert_rotation_from(hh_engine engine, hh_quat rotation) {
@@ -113,7 +113,7 @@ hh_pose hh_convert_pose_to(hh_engine engine, hh_pose pose) {
 }
 
 hh_vec3 hh_convert_scale_from(hh_engine engine, hh_vec3 scale) {
-    handhold::EngineAxes unsigned_axes = axes_of(engine);
+    handhold::EngineAxes unsigned_axes = engine_axes(engine);
     for (handhold::Axis& axis : unsigned_axes.axes) {
         axis.sign = 1.0;
     }
@@ -121,7 +121,7 @@ hh_vec3 hh_convert_scale_from(hh_engine engine, hh_vec3 scale) {
 }
 
 hh_vec3 hh_convert_scale_to(hh_engine engine, hh_vec3 scale) {
-    handhold::EngineAxes unsigned_axes = axes_of(engine);
+    handhold::EngineAxes unsigned_axes = engine_axes(engine);
     for (handhold::Axis& axis : unsigned_axes.axes) {
         axis.sign = 1.0;
     }
@@ -144,7 +144,7 @@ hh_result hh_convert_mesh_from(hh_engine engine, float* coordinates, size_t coor
             xyz[1] = static_cast<float>(made.y);
             xyz[2] = static_cast<float>(made.z);
         }
-        for (std::size_t i = 0; axes_of(engine).is_clockwise && i < index_count; i += 3) {
+        for (std::size_t i = 0; engine_axes(engine).is_clockwise && i < index_count; i += 3) {
             std::swap(indices[i + 1], indices[i + 2]);
         }
     });
