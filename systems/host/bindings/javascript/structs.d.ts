@@ -707,7 +707,7 @@ export declare class LibraryCalls {
     /** The number with this index; HH_ERROR_VALUE beyond the last. Any thread. */
     tuningDescribe(index: number): hh_tuning_info;
     /** How far the fingers of a tracked hand are bent, for hh_tracking_sample.curls. `joints`: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name, in any one space; only positions are read. Curl is the sum of a finger's bends over that of a fist; -1 if a joint of the finger is not valid. Any thread. */
-    fingerCurlsOf(joints: Given<hh_hand_joint> | null): hh_finger_curls[];
+    fingerCurlsOf(joints: Given<hh_hand_joint>[]): hh_finger_curls;
     /** "leftUpperArm"; null beyond the last. Any thread. */
     bodyJointName(joint: number): string | null;
     /** The parent's index; -1 for the hips and beyond the last. */
@@ -834,7 +834,8 @@ export declare class WorldCalls {
     /** The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked: false before the head's first sample, and while it is lost or inferred. */
     playerHead(player: Given<hh_player>): { center: hh_vec3; radius_m: number; is_tracked: boolean };
     playerMeasures(player: Given<hh_player>): hh_measures;
-    playerSetMeasures(player: Given<hh_player>, measures: Given<hh_measures> | null): void;
+    /** Replaces the measures. `measures`, not null. */
+    playerSetMeasures(player: Given<hh_player>, measures: Given<hh_measures>): void;
     playerSetUserData(player: Given<hh_player>, user_data: bigint): void;
     playerUserData(player: Given<hh_player>): bigint;
     /** The hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists with OpenXR's axes (-Z to the fingers, +Y the back of the hand). Null: a controller's grip pose, by the tuning's hand.controller_ numbers, which is the default. */
@@ -855,9 +856,9 @@ export declare class WorldCalls {
     handRelease(player: Given<hh_player>, side: number): void;
     /** The events of the last step, in a fixed order. Valid until the next step, restore, destroy or call of this function. `event_size`: bytes of hh_event as the host knows it; the list's elements lie so far apart. */
     events(): hh_event[];
-    /** The shown hand's joints: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name. */
+    /** The shown hand's joints. `joints`: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name. */
     playerHandJoints(player: Given<hh_player>, side: number, space: number): hh_hand_joint[];
-    /** HH_BODY_JOINT_COUNT elements. */
+    /** `joints`: HH_BODY_JOINT_COUNT elements. */
     playerBodyJoints(player: Given<hh_player>, space: number): hh_pose[];
     /** The player's hand gets the proportions of the skeleton in a glTF file (.glb, or .gltf with its data inside) whose joints have WebXR's or OpenXR's names. Null bytes: the built-in hand. HH_ERROR_DATA says what the file lacks. */
     playerSetHandRig(player: Given<hh_player>, side: number, gltf: Uint8Array | string | null): void;

@@ -3,7 +3,10 @@ import enum
 from ctypes import (CFUNCTYPE, POINTER, byref, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint8, c_uint32, c_uint64, c_void_p,
                     sizeof)
 
-from ._library import Struct, array, changed, check, copied, empty, handle, lib, listed, optional, raw, shown, text, value
+from ._library import Struct, array, changed, check, copied, empty, fixed, handle, held, lib, listed, optional, raw, shown, text, value
+
+# Structs whose functions the library may call.
+_kept = {}
 
 HANDHOLD_VERSION_MAJOR = 0
 HANDHOLD_VERSION_MINOR = 2
@@ -1169,7 +1172,9 @@ def atan2(y, x):
 def set_host_hooks(hooks=None):
     """Sets the hooks of the process; null: back to the defaults. HH_ERROR_STATE while a world exists. Not beside
     any other call of the library."""
+    hooks = held(HostHooks, hooks)
     check(lib().hh_set_host_hooks(optional(HostHooks, hooks)))
+    _kept["hh_host_hooks"] = hooks
 
 
 def set_thread_count(count):
@@ -1269,12 +1274,13 @@ def tuning_describe(index):
     return info
 
 
-def finger_curls_of(joints=None):
+def finger_curls_of(joints):
     """How far the fingers of a tracked hand are bent, for hh_tracking_sample.curls. `joints`:
     HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name, in any one space; only positions are read. Curl is
     the sum of a finger's bends over that of a fist; -1 if a joint of the finger is not valid. Any thread."""
-    curls, curls_at = empty(FingerCurls, 26)
-    check(lib().hh_finger_curls_of(optional(HandJoint, joints), curls_at))
+    joints = fixed(HandJoint, joints, 26, "joints")
+    curls = FingerCurls()
+    check(lib().hh_finger_curls_of(joints, byref(curls)))
     return curls
 
 
@@ -1292,6 +1298,7 @@ class WorldCalls:
     """Every function of a world, as a method. Calls that fail raise HandholdError and change nothing."""
 
     _handle = None
+    _kept = {}  # replaced by a dictionary of each world: structs whose functions the library may call
 
     def step(self, dt_s, inputs):
         """Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players without
@@ -1680,8 +1687,9 @@ class WorldCalls:
         check(lib().hh_player_measures(self._handle, value(Player, player), byref(measures)))
         return measures
 
-    def player_set_measures(self, player, measures=None):
-        check(lib().hh_player_set_measures(self._handle, value(Player, player), optional(Measures, measures)))
+    def player_set_measures(self, player, measures):
+        """Replaces the measures. `measures`, not null."""
+        check(lib().hh_player_set_measures(self._handle, value(Player, player), byref(value(Measures, measures))))
 
     def player_set_user_data(self, player, user_data):
         check(lib().hh_player_set_user_data(self._handle, value(Player, player), user_data))
@@ -1755,13 +1763,13 @@ class WorldCalls:
         return copied(Event, events, count)
 
     def player_hand_joints(self, player, side, space):
-        """The shown hand's joints: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name."""
+        """The shown hand's joints. `joints`: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name."""
         joints, joints_at = empty(HandJoint, 26)
         check(lib().hh_player_hand_joints(self._handle, value(Player, player), side, space, joints_at))
         return joints
 
     def player_body_joints(self, player, space):
-        """HH_BODY_JOINT_COUNT elements."""
+        """`joints`: HH_BODY_JOINT_COUNT elements."""
         joints, joints_at = empty(Pose, 20)
         check(lib().hh_player_body_joints(self._handle, value(Player, player), space, joints_at))
         return joints
@@ -1795,7 +1803,9 @@ class WorldCalls:
 
     def set_surface_query(self, query=None):
         """From now on hands and legs ask the host, not the world's shapes. Null: back to the shapes."""
+        query = held(SurfaceQuery, query)
         check(lib().hh_world_set_surface_query(self._handle, optional(SurfaceQuery, query)))
+        self._kept["hh_surface_query"] = query
 
     def body_set_surface(self, body, mesh):
         """The triangles that palm and fingers close on, in the body's frame; null: none. Not needed for
