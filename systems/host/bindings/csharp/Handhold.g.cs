@@ -1627,7 +1627,7 @@ namespace Handhold {
             return answer;
         }
 
-        /// <summary>A mesh in place: converts x, y, z of its vertices, and reverses its triangles if the engine's front faces are clockwise (Unity, Godot), so that they are counter-clockwise from outside. HH_ERROR_VALUE, and no change, for counts that are no multiples of 3.</summary>
+        /// <summary>A mesh in place: converts x, y, z of its vertices, and reverses its triangles if the engine's front faces are clockwise (Unity, Godot), so that they are counter-clockwise from outside. A mirrored object, of which the product of the scales is negative: multiply its vertices by the scale and reverse the indices before, since hh_shape_add_mesh takes positive scales only. HH_ERROR_VALUE, and no change, for counts that are no multiples of 3.</summary>
         public static unsafe void ConvertMeshFrom(Engine engine, float[] coordinates, uint[] indices) {
             fixed (float* coordinates_at = coordinates) {
                 fixed (uint* indices_at = indices) {
@@ -1683,7 +1683,7 @@ namespace Handhold {
 
     public partial class World {
 
-        /// <summary>Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players without one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are clamped. Cost: about 0.15 ms a gripping player, plus contacts.</summary>
+        /// <summary>Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players without one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs all the time, and up to 2 ms in the frame in which a hand closes: docs/guide/cost.md.</summary>
         public unsafe void Step(double dt_s, PlayerInput[] inputs) {
             fixed (PlayerInput* inputs_at = inputs) {
                 Library.Check(Native.hh_world_step(Handle, dt_s, inputs_at, Library.Count(inputs)));
@@ -1859,7 +1859,7 @@ namespace Handhold {
             }
         }
 
-        /// <summary>In a world with fits_hands, a new shape gets a surface for hands on the calling thread; a shape equal to one that is there costs microseconds. Costs are of one core of a desktop. Round shapes cost more than a frame: add them while loading, or keep one of each size. Box: 0.02 ms.</summary>
+        /// <summary>In a world with fits_hands, a new shape gets a surface for hands on the calling thread; a shape equal to one that is there costs microseconds. Costs are of one core at 2.1 GHz. Round shapes cost more than a frame: add them while loading, or keep one of each size. Box: 0.02 ms.</summary>
         public unsafe Shape ShapeAddBox(Vec3 half_extents_m) {
             Shape shape;
             Shape shape_at;
