@@ -61,25 +61,14 @@ namespace Handhold {
             }
             throw new NotSupportedException(name + ": HandholdBody needs a centred box, sphere or capsule along Y, a convex mesh, or a mesh that is not dynamic");
         }
-        // The scale goes into the vertices: it may be negative, which mirrors the mesh and turns its triangles inside out.
         private Shape MakeMesh(Mesh source, bool isConvex, Vector3 scale) {
             if (!source.isReadable) {
                 throw new NotSupportedException(name + ": switch on Read/Write in the mesh's import settings");
             }
-            Vector3[] vertices = source.vertices;
-            float[] coordinates = new float[3 * vertices.Length];
-            for (int i = 0; i < vertices.Length; ++i) {
-                coordinates[3 * i] = vertices[i].x * scale.x;
-                coordinates[3 * i + 1] = vertices[i].y * scale.y;
-                coordinates[3 * i + 2] = vertices[i].z * scale.z;
-            }
-            uint[] indices = Array.ConvertAll(source.triangles, index => (uint)index);
-            if (scale.x * scale.y * scale.z < 0.0f) {
-                Array.Reverse(indices);
-            }
-            Library.ConvertMeshFrom(Engine.Unity, coordinates, indices);
+            uint[] indices;
+            float[] coordinates = Converted(source, scale, out indices);
             if (isConvex) {
-                Vec3[] points = new Vec3[vertices.Length];
+                Vec3[] points = new Vec3[coordinates.Length / 3];
                 for (int i = 0; i < points.Length; ++i) {
                     points[i] = new Vec3(coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]);
                 }
@@ -88,6 +77,22 @@ namespace Handhold {
             using (HhMesh made = new HhMesh(coordinates, indices)) {
                 return world.World.ShapeAddMesh(made, new Vec3(1.0, 1.0, 1.0));
             }
+        }
+        // The scale goes into the vertices: it may be negative, which mirrors the mesh and turns its triangles inside out.
+        internal static float[] Converted(Mesh source, Vector3 scale, out uint[] indices) {
+            Vector3[] vertices = source.vertices;
+            float[] coordinates = new float[3 * vertices.Length];
+            for (int i = 0; i < vertices.Length; ++i) {
+                coordinates[3 * i] = vertices[i].x * scale.x;
+                coordinates[3 * i + 1] = vertices[i].y * scale.y;
+                coordinates[3 * i + 2] = vertices[i].z * scale.z;
+            }
+            indices = Array.ConvertAll(source.triangles, index => (uint)index);
+            if (scale.x * scale.y * scale.z < 0.0f) {
+                Array.Reverse(indices);
+            }
+            Library.ConvertMeshFrom(Engine.Unity, coordinates, indices);
+            return coordinates;
         }
 
         internal void BeforeStep() {
