@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
 """Makes a package of a binding in a folder.
 
-usage: packaging/assemble.py unity|python FOLDER [--library FILE]
-    --library: the shared library to put inside, such as build/library/libhandhold.so; the user's installed one is found without it (Python)
+usage: packaging/assemble.py unity|python FOLDER [--library FILE]...
+    --library: the shared library to put inside, such as build/library/libhandhold.so, for Unity one for each platform; the user's installed one is
+               found without it (Python)
 """
+import argparse
+import hashlib
 import shutil
 import sys
 from pathlib import Path
@@ -11,32 +14,65 @@ from pathlib import Path
 SOURCE = Path(__file__).resolve().parent.parent
 BINDINGS = SOURCE / "systems/host/bindings"
 
+# Unity's importer settings by folder below Plugins: platform, CPU; the editor's system.
+PLUGINS = {"linux": ("Standalone: Linux64", "x86_64", "Linux"), "windows": ("Standalone: Win64", "x86_64", "Windows"),
+           "macos": ("Standalone: OSXUniversal", "AnyCPU", "OSX"), "android": ("Android: Android", "ARM64", "")}
+
 
 def copy(source: Path, target: Path) -> None:
     target.parent.mkdir(parents=True, exist_ok=True)
     shutil.copyfile(source, target)
 
 
+def platform_of(library: Path) -> str:
+    """The folder for a library: those of Linux and Android have one name."""
+    if library.suffix in (".dll", ".dylib"):
+        return {".dll": "windows", ".dylib": "macos"}[library.suffix]
+    arm64 = 183  # e_machine of ELF
+    return "android" if int.from_bytes(library.read_bytes()[18:20], "little") == arm64 else "linux"
+
+
+def plugin_importer(platform: str) -> str:
+    def entry(first: str, settings: dict) -> str:
+        lines = "".join(f"\n        {name}: {value}" for name, value in settings.items())
+        return f"\n  - first:\n      {first}\n    second:\n      enabled: 1\n      settings:{lines}"
+    first, cpu, system = PLUGINS[platform]
+    editor = entry("Editor: Editor", {"CPU": cpu, "DefaultValueInitialized": "true", "OS": system}) if system else ""
+    return f"PluginImporter:\n  serializedVersion: 2\n  platformData:\n  - first:\n      Any: \n    second:\n      enabled: 0\n      settings: {{}}" \
+           f"{editor}{entry(first, {'CPU': cpu})}\n"
+
+
+def write_metas(folder: Path) -> None:
+    """Unity ignores files of packages that have no .meta file; scenes find scripts by its GUID."""
+    for path in sorted(folder.rglob("*")):
+        name = path.relative_to(folder)
+        if path.suffix == ".meta" or any(part.endswith("~") for part in name.parts):
+            continue
+        guid = hashlib.md5(f"io.handhold.unity/{name.as_posix()}".encode()).hexdigest()
+        importer = "folderAsset: yes\n" if path.is_dir() else plugin_importer(name.parts[2]) if name.parts[:2] == ("Runtime", "Plugins") else ""
+        path.with_name(path.name + ".meta").write_text(f"fileFormatVersion: 2\nguid: {guid}\n{importer}", encoding="utf-8")
+
+
 def main() -> int:
-    words = sys.argv[1:]
-    library = Path(words.pop(words.index("--library") + 1)) if "--library" in words else None
-    words = [word for word in words if word != "--library"]
-    if len(words) != 2 or words[0] not in ("unity", "python"):
-        print(__doc__, file=sys.stderr)
-        return 2
-    kind, folder = words[0], Path(words[1])
-    shutil.copytree(SOURCE / "packaging" / kind, folder, dirs_exist_ok=True)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("kind", choices=("unity", "python"))
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--library", type=Path, action="append", default=[])
+    given = parser.parse_args()
+    folder = given.folder
+    shutil.copytree(SOURCE / "packaging" / given.kind, folder, dirs_exist_ok=True)
     copy(SOURCE / "LICENSE", folder / "LICENSE.md")
-    if kind == "unity":
+    if given.kind == "unity":
         for source in (BINDINGS / "csharp").glob("*.cs"):
             copy(source, folder / "Runtime" / source.name)
-        plugins = folder / "Runtime/Plugins"
     else:
         shutil.copytree(BINDINGS / "python/handhold", folder / "handhold", dirs_exist_ok=True, ignore=shutil.ignore_patterns("__pycache__"))
         copy(BINDINGS / "handhold.json", folder / "handhold/handhold.json")
-        plugins = folder / "handhold"
-    if library is not None:
+    for library in given.library:
+        plugins = folder / "Runtime/Plugins" / platform_of(library) if given.kind == "unity" else folder / "handhold"
         copy(library.resolve(), plugins / library.name)
+    if given.kind == "unity":
+        write_metas(folder)
     return 0
 
 

@@ -15,8 +15,8 @@ internal static unsafe class Scenes {
         TrackingSample sample = TrackingSample.Default();
         sample.time_s = time;
         sample.head.position.y = 1.6;
-        sample.hands[0] = new Pose(new Vec3(-0.2 - 0.4 * swing, 1.4, -0.43), rotation);
-        sample.hands[1] = new Pose(new Vec3(0.2, 1.4 - 0.3 * Clamped(time - 1.0), -0.43), rotation);
+        sample.hands[0] = new HhPose(new Vec3(-0.2 - 0.4 * swing, 1.4, -0.43), rotation);
+        sample.hands[1] = new HhPose(new Vec3(0.2, 1.4 - 0.3 * Clamped(time - 1.0), -0.43), rotation);
         sample.grab[0] = time >= 0.5;
         sample.grab[1] = time >= 0.5;
         return sample;
@@ -83,13 +83,13 @@ internal static unsafe class Scenes {
         Require(world.Hash() == before, "a snapshot goes back");
         Body wall = world.BodyFind("wall");
         Require(world.BodyName(wall) == "wall" && world.BodyIsValid(wall) && world.Bodies().Length == 33, "names and lists");
-        Pose[] poses = world.BodyPoses(new[] { wall, world.BodyFind("link11") });
+        HhPose[] poses = world.BodyPoses(new[] { wall, world.BodyFind("link11") });
         Require(poses[0].position.x == 0.95, "poses of many bodies");
         Hit hit = world.CastRay(new Vec3(0.95, 1.5, 5.0), new Vec3(0.95, 1.5, -5.0), player);
         Require(hit.body == wall && Math.Abs(hit.point.z + 0.5) < 1e-9, "a ray finds the wall");
-        HandJoint[] joints = world.PlayerHandJoints(player, Side.Right, Space.World);
+        HandJoint[] joints = world.PlayerHandJoints(player, Side.Right, HhSpace.World);
         Require(joints.Length == Constants.HandJointCount && joints[(int)HandJointName.IndexTip].is_valid, "joints of a hand");
-        Require(world.PlayerBodyJoints(player, Space.World).Length == 20 && Library.BodyJointName(0) == "hips", "joints of the body");
+        Require(world.PlayerBodyJoints(player, HhSpace.World).Length == 20 && Library.BodyJointName(0) == "hips", "joints of the body");
         world.SetTuning("hand.reach_m", world.GetTuning("hand.reach_m", 1));
         Require(world.GetStats().bodies == 33, "statistics");
         try {
@@ -148,8 +148,8 @@ internal static unsafe class Scenes {
                 TrackingSample sample = TrackingSample.Default();
                 sample.time_s = frame / 90.0;
                 sample.head.position.y = 1.6;
-                sample.hands[0] = new Pose(new Vec3(-0.2, 1.4, -0.43), rotation);
-                sample.hands[1] = new Pose(new Vec3(0.2, 1.4, -0.43 + 0.2 * Clamped(2.0 * (sample.time_s - 1.0))), rotation);
+                sample.hands[0] = new HhPose(new Vec3(-0.2, 1.4, -0.43), rotation);
+                sample.hands[1] = new HhPose(new Vec3(0.2, 1.4, -0.43 + 0.2 * Clamped(2.0 * (sample.time_s - 1.0))), rotation);
                 sample.grab[1] = sample.time_s >= 0.5;
                 world.BeginStep(step, player, new[] { sample });
                 PlayerMotion motion = world.PlayerMotions()[0];
@@ -164,7 +164,7 @@ internal static unsafe class Scenes {
                 SolvedPlayer solved = new SolvedPlayer { player = player, origin = end };
                 solved.velocity_mps = new Vec3((end.x - start.x) / step, (end.y - start.y) / step, (end.z - start.z) / step);
                 world.EndStep(new[] { solved });
-                foreach (Event one in world.Events()) {
+                foreach (HhEvent one in world.Events()) {
                     grabs += one.kind == EventKind.Grabbed ? 1 : 0;
                 }
                 GC.Collect(0);
@@ -175,12 +175,9 @@ internal static unsafe class Scenes {
     }
 
     private static int logged;
-    private static readonly HostHooksLog log = (context, level, message) => ++logged;
 
     private static int Main() {
-        HostHooks hooks = HostHooks.Default();
-        hooks.log = Marshal.GetFunctionPointerForDelegate(log);
-        Library.SetHostHooks(hooks);
+        Library.SetLog((level, text) => ++logged);
         uint major, minor, patch;
         Library.Version(out major, out minor, out patch);
         Require(major == Constants.HandholdVersionMajor && minor == Constants.HandholdVersionMinor, "the library has the headers' version");

@@ -1,4 +1,5 @@
 """What the Python binding offers beside the two scenes: errors, lists, texts, meshes, snapshots, and conversions from numpy."""
+import gc
 import unittest
 
 import numpy as np
@@ -89,6 +90,82 @@ class Binding(unittest.TestCase):
             world.shape_add_sphere(float("nan"))
         hh.set_host_hooks(None)
         self.assertEqual(len(heard), 1)
+
+    def step(self, player, frame=1):
+        sample = hh.TrackingSample(time_s=frame / 90.0, head=((0.0, 1.6, 0.0),), hands=[((-0.2, 1.4, -0.4),), ((0.2, 1.4, -0.4),)])
+        self.world.step_player(1.0 / 90.0, player, [sample])
+
+    def test_curls_need_all_joints_of_a_hand(self):
+        player = self.world.player_add(name="you")
+        self.step(player)
+        joints = self.world.player_hand_joints(player, hh.HH_RIGHT, hh.HH_SPACE_WORLD)
+        for given in (joints, list(joints)):
+            curls = hh.finger_curls_of(given)
+            self.assertTrue(all(0.0 <= one < 0.6 for one in curls.fingers), list(curls.fingers))
+        for wrong in (None, joints[:1], joints[:25]):
+            with self.assertRaises(TypeError):
+                hh.finger_curls_of(wrong)
+
+    def test_queries_outlive_the_struct_that_gave_them(self):
+        asked = []
+        query = hh.SurfaceQuery(closest_point=lambda *words: asked.append(1) or 0)
+        self.world.set_surface_query(query)
+        query.closest_point = None
+        del query
+        gc.collect()
+        junk = [hh.SurfaceQuery(closest_point=lambda *words: self.fail("another function")) for _ in range(50)]
+        self.world.body_add(name="wall")
+        self.step(self.world.player_add(name="you"))
+        self.assertGreater(len(asked), 0)
+        self.assertEqual(len(junk), 50)
+
+    def test_hooks_outlive_the_struct_that_gave_them(self):
+        self.world.close()
+        heard = []
+        hh.set_host_hooks(hh.HostHooks(log=lambda context, level, message: heard.append(message)))
+        gc.collect()
+        junk = [hh.HostHooks(log=lambda *words: self.fail("another function")) for _ in range(50)]
+        with hh.World() as world:
+            with self.assertRaises(hh.HandholdError):
+                world.shape_add_sphere(-1.0)
+            with self.assertRaises(hh.HandholdError):
+                hh.set_host_hooks(None)  # not while a world exists: the hooks stay
+            gc.collect()
+            with self.assertRaises(hh.HandholdError):
+                world.shape_add_sphere(-1.0)
+        hh.set_host_hooks(None)
+        self.assertGreaterEqual(len(heard), 2)
+        self.assertEqual(len(junk), 50)
+
+    def test_queries_cannot_end_their_world_and_their_errors_reach_the_step(self):
+        player = self.world.player_add(name="you")
+        self.world.body_add(name="wall")
+        surfaces = hh.Surfaces()
+        for work, error in ((lambda: self.world.close(), hh.HandholdError), (lambda: self.world.set_surfaces(None), hh.HandholdError),
+                            (lambda: ["not a hit"], TypeError), (lambda: {}["no level"], KeyError)):
+            surfaces.closest_point = lambda point, max_m, skip, work=work: work()
+            self.world.set_surfaces(surfaces)
+            with self.assertRaises(error):
+                self.step(player)
+        self.world.set_surfaces(None)
+        self.step(player, 2)
+
+    def test_definitions_that_are_left_out_are_the_defaults(self):
+        self.assertTrue(self.world.player_is_valid(self.world.player_add()))
+        self.assertTrue(self.world.body_is_valid(self.world.body_add()))
+        with self.assertRaises(TypeError):
+            self.world.player_set_measures(self.world.player_add())
+
+    def test_rows_are_structs_of_one_type_of_number_only(self):
+        body = self.world.body_add()
+        self.world.body_poses(np.array([[body.index, body.generation]], dtype=np.uint32))
+        with self.assertRaises(TypeError):
+            self.world.place_bodies(np.zeros((1, 14)))  # as large as a hh_body_motion, which begins with an id
+        with self.assertRaises(TypeError):
+            self.world.body_poses(np.array([[1.0, 2.0]], dtype=np.float32))
+        for positions in (np.zeros(7, np.float32), np.zeros((3, 4), np.float32)):
+            with self.assertRaises(TypeError):
+                hh.Mesh(positions=positions, indices=[0, 1, 1])
 
 
 if __name__ == "__main__":

@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
 """Tests a binding of the C interface against the shared library of a build.
 
-usage: tests/bindings/run.py generated|layouts|python|csharp BUILD WORK     WORK: a folder of its own, emptied first
-    generated   the generated files are what the headers say
+usage: tests/bindings/run.py generated|layouts|python|csharp|javascript BUILD WORK     WORK: a folder of its own, emptied first
+    generated   the generated files are what the headers say, and unclear headers are errors
     layouts     C compilers agree with handhold.json on every size, offset and value: this machine's, and clang's for wasm32 if there is one
     python      the Python binding gets the state hashes of C programs that make the same calls
     csharp      the C# binding does, under Mono; the Unity package compiles against stand-ins of Unity's types
+    javascript  the JavaScript binding keeps its views, callbacks and arrays, against a library of JavaScript functions
 Exit status 0: it does, 77: Mono, numpy or another program is missing
 """
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -55,6 +57,17 @@ def compare(expected: list[str], said: str) -> None:
 
 def check_generated() -> None:
     run(sys.executable, "-B", BINDINGS / "generate.py", "--check")
+    print(run(sys.executable, "-B", HERE / "generator_test.py").strip())
+
+
+def check_javascript(work: Path) -> None:
+    if shutil.which("node") is None:
+        skip("Node")
+    for source in (*(SOURCE / "game/web/package/src").glob("*.js"), *(BINDINGS / "javascript").glob("*.js")):
+        shutil.copy(source, work)
+    shutil.copy(SOURCE / "game/web/package/package.json", work)
+    shutil.copy(HERE / "javascript_test.mjs", work)
+    print(run("node", "--test", work / "javascript_test.mjs"))
 
 
 def check_layouts(work: Path) -> None:
@@ -91,17 +104,27 @@ def check_csharp(library: Path, work: Path) -> None:
             skip(f"Mono's {program}")
     environment = dict(os.environ, LD_LIBRARY_PATH=str(library.parent))
     sources = sorted((BINDINGS / "csharp").glob("*.cs"))
-    run("mcs", "-unsafe", "-warnaserror", f"-out:{work}/scenes.exe", *sources, HERE / "Scenes.cs")
-    compare(expected_lines(library, work), run("mono", work / "scenes.exe", env=environment))
+    for name in ("Scenes", "Lifetimes"):
+        run("mcs", "-unsafe", "-warnaserror", f"-out:{work}/{name}.exe", *sources, HERE / f"{name}.cs")
+    compare(expected_lines(library, work), run("mono", work / "Scenes.exe", env=environment))
+    print(run("mono", work / "Lifetimes.exe", env=environment).strip())
+    print(run("mono", work / "Lifetimes.exe", "without", env=dict(os.environ, LD_LIBRARY_PATH="")).strip())
     package = work / "unity"
     run(sys.executable, "-B", SOURCE / "packaging/assemble.py", "unity", package, "--library", library)
+    # Scripts use Unity's and System's namespaces too: no public name may be ambiguous.
+    names = {name for source in package.glob("Runtime/**/*.cs")
+             for name in re.findall(r"^    public (?:\w+ )*(?:class|struct|enum|interface|delegate [\w*]+) (\w+)", source.read_text(encoding="utf-8"), re.MULTILINE)}
+    (package / "Names.cs").write_text("using System; using System.Collections.Generic; using System.Threading.Tasks; using UnityEngine; using Handhold;\n"
+                                      f"static class Names {{ static readonly Type[] all = {{ {', '.join(f'typeof({name})' for name in sorted(names))} }};\n"
+                                      "    static int Count() => all.Length; }\n", encoding="utf-8")
+    print(f"{len(names)} names beside Unity's")
     unity = [*sorted(package.rglob("*.cs")), HERE / "UnityStandIns.cs", HERE / "UnityScene.cs"]
     run("mcs", "-unsafe", "-warnaserror", "-define:UNITY_5_3_OR_NEWER", f"-out:{work}/unity.exe", *unity)
     print(run("mono", work / "unity.exe", env=environment).strip())
 
 
 def main() -> int:
-    if len(sys.argv) != 4 or sys.argv[1] not in ("generated", "layouts", "python", "csharp"):
+    if len(sys.argv) != 4 or sys.argv[1] not in ("generated", "layouts", "python", "csharp", "javascript"):
         print(__doc__, file=sys.stderr)
         return 2
     name, build, work = sys.argv[1], Path(sys.argv[2]).resolve(), Path(sys.argv[3]).resolve()
@@ -109,7 +132,7 @@ def main() -> int:
     work.mkdir(parents=True)
     library = build / "libhandhold.so"
     {"generated": check_generated, "layouts": lambda: check_layouts(work), "python": lambda: check_python(library, work),
-     "csharp": lambda: check_csharp(library, work)}[name]()
+     "csharp": lambda: check_csharp(library, work), "javascript": lambda: check_javascript(work)}[name]()
     return 0
 
 

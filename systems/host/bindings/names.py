@@ -40,14 +40,19 @@ def self_of(function: dict) -> str:
 
 def given(function: dict) -> list[dict]:
     """Parameters that the caller of a wrapper gives."""
-    params = [p for p in function["params"] if p.get("role") in ("value", "handle", "text", "bytes", "array", "in_place", "optional")]
+    params = [p for p in function["params"] if p.get("role") in ("value", "handle", "text", "bytes", "array", "in_place", "optional", "required")]
     own = [p for p in function["params"] if p.get("role") == "out_array" and is_own_count(function, p)]
     return params + [{"name": p["count"], "type": "size_t", "pointer": 0, "const": False, "role": "own_count"} for p in own]
 
 
+def has_callbacks(struct: dict, callbacks: set[str]) -> bool:
+    """True for structs of functions that the library calls: what they point to must live as long."""
+    return any(part["type"] in callbacks for part in struct["fields"])
+
+
 def is_own_count(function: dict, param: dict) -> bool:
     """True for an array that the function fills, whose length nothing but the caller knows."""
-    return "count" in param and not any(p.get("role") == "array" and p["count"] == param["count"] for p in function["params"])
+    return "count" in param and not any(p.get("role") == "array" and p.get("count") == param["count"] for p in function["params"])
 
 
 def outputs(function: dict) -> list[dict]:

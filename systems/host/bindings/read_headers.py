@@ -1,7 +1,11 @@
 """Reads the C interface (systems/host/include/handhold/*.h) into a description that generators and handhold.json share.
 
 The headers are a subset of C99: enums, structs, opaque structs, function pointers, functions, numeric constants and comments. Everything else,
-and every parameter whose purpose is not clear from its type, is an error that names the line: extend this file, or write the header as the others.
+and every parameter whose purpose is not clear from its type and the function's comment, is an error: extend this file, or write the header as the
+others. The comment says what a type cannot:
+    `NAME`: HH_X_COUNT elements     the parameter points to so many
+    null                            the function's pointer to a const struct may be null (definitions: by their type)
+    `NAME`, not null                it may not
 
 A comment before a declaration documents it; a comment behind a field or an enumerator documents that.
 """
@@ -297,9 +301,21 @@ class Purposes:
 
     def parameters(self, function: dict) -> None:
         params = function["params"]
+        self.lengths(function)
         at = 0
         while at < len(params):
             at += self.purpose(function, params, at)
+
+    def lengths(self, function: dict) -> None:
+        """Sets the "length" of parameters that the comment gives a constant number of elements."""
+        params = {one["name"]: one for one in function["params"] if one["pointer"] == 1}
+        named = re.findall(r"`(\w+)`: (HH_\w+_COUNT) elements", function["doc"])
+        if len(named) != len(re.findall(r"_COUNT elements", function["doc"])):
+            raise HeaderError(f"{function['name']}: which parameter has so many elements? Write `NAME`: HH_X_COUNT elements")
+        for name, count in named:
+            if name not in params or count not in self.numbers:
+                raise HeaderError(f"{function['name']}: `{name}`: {count} elements: no such pointer or constant")
+            params[name]["length"] = self.numbers[count]
 
     def purpose(self, function: dict, params: list, at: int) -> int:
         """Sets the role of params[at] and of those that belong to it; returns how many."""
@@ -335,7 +351,7 @@ class Purposes:
                 one["role"], one["count"] = ("bytes" if one["type"] in ("void", "char") else "array"), following[0]["name"]
                 following[0]["role"] = "count"
                 return 2
-            one["role"] = "text" if one["type"] == "char" else "optional"
+            one["role"] = "text" if one["type"] == "char" else "array" if "length" in one else self.struct_given(function, one)
             return 1
         if is_size(0, 0) and following[0]["name"] == "capacity" and is_size(1, 1):
             one["role"] = "out_bytes" if one["type"] == "void" else "out_list"
@@ -347,16 +363,22 @@ class Purposes:
         if is_size(0, 0) and following[0]["name"].endswith("_count"):
             one["role"], one["count"], following[0]["role"] = "in_place", following[0]["name"], "count"
             return 2
-        counted = next((p for p in params[:at] if p.get("role") == "array"), None)
+        counted = next((p for p in params[:at] if p.get("role") == "array" and "count" in p), None)
         if counted is not None and one["name"].endswith("s"):
             one["role"], one["count"] = "out_array", counted["count"]
             return 1
-        length = re.search(r"\b(HH_\w+_COUNT) elements", function["doc"])
-        if length is not None:
-            one["role"], one["length"] = "out_array", self.numbers[length[1]]
-            return 1
-        one["role"] = "in_out" if self.grows(one["type"]) else "out"
+        one["role"] = "out_array" if "length" in one else "in_out" if self.grows(one["type"]) else "out"
         return 1
+
+    def struct_given(self, function: dict, one: dict) -> str:
+        """What a pointer to one const struct is: "optional" (null has a meaning, or it is a definition, which has defaults) or "required"."""
+        if one["type"] not in self.structs:
+            raise HeaderError(f"{function['name']}: {one['name']}: a pointer to const {one['type']} without a count")
+        if f"`{one['name']}`, not null" in function["doc"]:
+            return "required"
+        if one["type"].endswith("_def") or re.search(r"\bnull: ", function["doc"], re.IGNORECASE):
+            return "optional"
+        raise HeaderError(f"{function['name']}: {one['name']}: one struct, or how many? May it be null? The comment has to say it")
 
     def sized_struct(self, function: dict, name: str) -> str:
         stem = name.removesuffix("size").removesuffix("_")

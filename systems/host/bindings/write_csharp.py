@@ -1,9 +1,18 @@
 """Writes csharp/Handhold.g.cs: enums, structs, delegates, P/Invoke declarations and wrappers of the C interface. C# 7, as Unity and Mono know it."""
-from names import camel, enum_prefix, given, is_own_count, is_raw_only, method, outputs, pascal, self_of
+from names import camel, enum_prefix, has_callbacks, is_own_count, is_raw_only, method, pascal, self_of
 
 SCALARS = {"double": "double", "float": "float", "int32_t": "int", "uint32_t": "uint", "uint64_t": "ulong", "uint8_t": "byte",
            "size_t": "UIntPtr", "char": "byte", "void": "void"}
 KEYWORDS = {"event", "in", "out", "params", "object", "string", "base", "fixed", "lock", "ref", "is", "as", "operator"}
+
+
+# Names of UnityEngine's and System's types: ours begin with Hh, so that a script can use all three namespaces.
+CLASHES = {"Pose", "Mesh", "Space", "Event", "Joint", "Task"}
+
+
+def type_name(c_name: str) -> str:
+    name = pascal(c_name)
+    return "Hh" + name if name in CLASHES else name
 
 
 def safe(name: str) -> str:
@@ -30,7 +39,7 @@ class CSharp:
         self.lines = []
 
     def scalar(self, name: str) -> str:
-        return SCALARS.get(name) or pascal(name)
+        return SCALARS.get(name) or type_name(name)
 
     def c_type(self, one: dict) -> str:
         base, stars = one["type"], one["pointer"]
@@ -59,7 +68,7 @@ class CSharp:
 
     def enum(self, one: dict) -> None:
         prefix = enum_prefix(one)
-        self.lines += ["", *summary(one["doc"], "    "), f"    public enum {pascal(one['name'])} {{"]
+        self.lines += ["", *summary(one["doc"], "    "), f"    public enum {type_name(one['name'])} {{"]
         for value in one["values"]:
             name = "".join(word.capitalize() for word in value["name"].removeprefix(prefix).split("_"))
             self.lines += [*summary(value["doc"], "        "), f"        {name} = {value['value']},"]
@@ -67,11 +76,14 @@ class CSharp:
 
     def callback(self, one: dict) -> None:
         self.lines += ["", *summary(one["doc"], "    "), "    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]",
-                       f"    public unsafe delegate {self.c_type(one['returns'])} {pascal(one['name'])}({self.parameters(one['params'])});"]
+                       f"    public unsafe delegate {self.c_type(one['returns'])} {type_name(one['name'])}({self.parameters(one['params'])});"]
 
     def struct(self, one: dict) -> None:
-        name = pascal(one["name"])
+        name = type_name(one["name"])
         self.lines += ["", *summary(one["doc"], "    "), "    [StructLayout(LayoutKind.Sequential)]", f"    public unsafe partial struct {name} {{"]
+        if has_callbacks(one, self.callbacks):
+            self.lines[-2:-2] = ["    /// <remarks>For Native: keep the delegates of all functions alive while the library may call them, and make them static methods with",
+                                 "    /// MonoPInvokeCallback for IL2CPP. World.SetSurfaces and Library.SetLog do both.</remarks>"]
         for part in one["fields"]:
             self.lines += [*summary(part.get("doc", ""), "        "), f"        public {self.field_type(part)} {safe(part['name'])};"]
         default = next((f["name"] for f in self.description.functions if f.get("default_of") == one["name"]), "")
@@ -117,12 +129,15 @@ class CSharp:
                 params.append(f"{self.shown_type(one)} {name}")
                 call.append({"uint8_t": f"(byte)({name} ? 1 : 0)", "size_t": f"(UIntPtr)(ulong){name}"}.get(one["type"], name))
             elif role == "handle":
-                params.append(f"{pascal(one['type'])} {name}")
+                params.append(f"{type_name(one['type'])} {name}")
                 call.append(f"{name} == null ? IntPtr.Zero : {name}.Handle")
             elif role == "text":
                 params.append(f"string {name}")
                 fixes.append(f"byte* {at} = Library.Text({name})")
                 call.append(at)
+            elif role == "required":
+                params.append(f"{kind} {name}")
+                call.append(f"&{name}")
             elif role == "optional":
                 texts = [part["name"] for part in self.structs[one["type"]]["fields"] if part["type"] == "char"]
                 params.append(f"{kind}? {name}" + "".join(f", string {text} = null" for text in texts))
@@ -132,6 +147,8 @@ class CSharp:
                     after.append(f"if ({text} != null) {at}.{text} = {text}_at;")
                 call.append(f"{name}.HasValue ? &{at} : null")
             elif role in ("array", "bytes", "in_place"):
+                if "length" in one:
+                    before.append(f'Library.RequireLength({name}, {one["length"]}, "{one["name"]}");')
                 params.append(f"{'byte' if role == 'bytes' else kind}[] {name}")
                 fixes.append(f"{'byte' if role == 'bytes' else kind}* {at} = {name}")
                 call.append(at)
@@ -155,7 +172,7 @@ class CSharp:
                 lists.append(f"{name} = Library.Text({at});")
             elif role == "out_array":
                 length = one.get("length") or (safe(one["count"]) if is_own_count(function, one) else
-                                               next(safe(p["name"]) + ".Length" for p in function["params"] if p.get("role") == "array"))
+                                               next(f"(int)Library.Count({safe(p['name'])})" for p in function["params"] if p.get("role") == "array"))
                 results.append((f"{kind}[]", name))
                 before.append(f"{kind}[] {one['name']}_made = new {kind}[{length}];")
                 fixes.append(f"{kind}* {at} = {one['name']}_made")
@@ -178,7 +195,7 @@ class CSharp:
                 call.append(f"&{at}")
                 lists.append(f"VIEW {kind} {name} {at}")
             elif role == "struct_size":
-                call.append(f"(UIntPtr)sizeof({pascal(one['of'])})")
+                call.append(f"(UIntPtr)sizeof({type_name(one['of'])})")
             else:
                 raise ValueError(f"{function['name']}: {name} has no role")
         self.emit(function, params, before, fixes, call, results, after, lists)
@@ -211,6 +228,9 @@ class CSharp:
             text = f"Native.{function['name']}({', '.join(words)})"
             return f"Library.Check({text});" if is_checked else f"{text};"
 
+        # The collector may finalize an object during the last call that uses its handle.
+        used = [safe(p["name"]) for p in function["params"] if p["role"] == "handle"] + ([] if is_static else ["this"])
+        alive = [f"GC.KeepAlive({one});" for one in used]
         is_list = "LIST" in call
         if is_list:
             element, out = next(one.split()[1:] for one in lists if one.startswith("LIST"))
@@ -221,7 +241,9 @@ class CSharp:
             body.append(invoke())
         else:
             value = invoke()[:-1]
-            body.append({"char": f"return Library.Text({value});", "uint8_t": f"return {value} != 0;"}.get(returns["type"], f"return {value};"))
+            body.append({"char": f"{kind} answer = Library.Text({value});", "uint8_t": f"{kind} answer = {value} != 0;"}.get(returns["type"], f"{kind} answer = {value};"))
+            body += [*alive, "return answer;"]
+            alive = []
         for one in lists:
             words = one.split()
             if words[0] == "VIEW":
@@ -230,7 +252,7 @@ class CSharp:
                          f"{words[2]} = made;"]
             elif words[0] not in ("LIST", "COUNT"):
                 body.append(one)
-        body += ["}"] * len(fixes)
+        body += alive + ["}"] * len(fixes)
         if single:
             body.append(f"return {results[0][1]};")
         depth = 0
@@ -239,6 +261,11 @@ class CSharp:
             self.lines.append(indent + "    " * depth + line)
             depth += line.endswith("{")
         self.lines.append("        }")
+
+    def is_by_hand(self, function: dict) -> bool:
+        """Functions that Handhold.cs offers, or what stands for them."""
+        return is_raw_only(function) or any(
+            p["type"] in self.structs and has_callbacks(self.structs[p["type"]], self.callbacks) for p in function["params"])
 
     def write(self) -> str:
         d = self.description
@@ -260,17 +287,17 @@ class CSharp:
             self.inline_array(kind, length)
         self.lines += ["", "    /// <summary>The functions as they are: nothing is checked, and nothing is allocated.</summary>",
                        "    public static unsafe class Native {",
-                       "#if UNITY_IOS && !UNITY_EDITOR || UNITY_WEBGL && !UNITY_EDITOR", '        public const string LibraryName = "__Internal";', "#else",
+                       "#if (UNITY_IOS || UNITY_TVOS || UNITY_VISIONOS || UNITY_WEBGL) && !UNITY_EDITOR", '        public const string LibraryName = "__Internal";', "#else",
                        '        public const string LibraryName = "handhold";', "#endif"]
         for one in d.functions:
             returns = "byte*" if one["returns"]["type"] == "char" else self.c_type(one["returns"])
             self.lines += ["        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]",
                            f"        public static extern {returns} {one['name']}({self.parameters(one['params'])});"]
         self.lines += ["    }", "", "    public static partial class Library {"]
-        for one in (f for f in d.functions if not self_of(f) and not is_raw_only(f)):
+        for one in (f for f in d.functions if not self_of(f) and not self.is_by_hand(f)):
             self.wrapper(one)
         self.lines += ["    }", "", "    public partial class World {"]
-        for one in (f for f in d.functions if self_of(f) == "hh_world" and not is_raw_only(f)):
+        for one in (f for f in d.functions if self_of(f) == "hh_world" and not self.is_by_hand(f)):
             self.wrapper(one)
         self.lines += ["    }", "}"]
         return "\n".join(self.lines) + "\n"

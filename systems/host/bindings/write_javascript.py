@@ -71,9 +71,11 @@ class JavaScript:
                 params.append(["own_count" if own else role, owner["name"]])
             elif role == "out_array":
                 length = one.get("length", one.get("count"))
-                source = next((p["name"] for p in function["params"] if p.get("role") == "array" and p["count"] == length), length)
+                source = next((p["name"] for p in function["params"] if p.get("role") == "array" and p.get("count") == length), length)
                 params.append([role, self.element(one["type"]), one["name"], source])
-            elif role in ("array", "in_place", "out_list", "out_view", "out", "in_out", "optional"):
+            elif role == "array" and "length" in one:
+                params.append([role, self.element(one["type"]), one["name"], one["length"]])
+            elif role in ("array", "in_place", "out_list", "out_view", "out", "in_out", "optional", "required"):
                 params.append([role, self.element(one["type"]), one["name"]])
             elif role == "value":
                 params.append([role, self.kind(one), one["name"]])
@@ -143,12 +145,12 @@ class JavaScript:
     def signature(self, function: dict) -> str:
         words = []
         for one in given(function):
-            kind = self.plain(self.element(one["type"])) if one["role"] in ("value", "array", "in_place", "optional") else ""
+            kind = self.plain(self.element(one["type"])) if one["role"] in ("value", "array", "in_place", "optional", "required") else ""
             is_struct = one["type"] in self.structs
             shown = f"Given<{kind}>" if is_struct else kind
             words.append(f"{one['name']}: " + {
                 "value": shown, "handle": "Mesh | null", "text": "string | null", "bytes": "Uint8Array | string | null", "own_count": "number",
-                "array": f"{shown}[]" if is_struct else "ArrayLike<number>", "in_place": "ArrayLike<number>", "optional": f"{shown} | null"}[one["role"]])
+                "array": f"{shown}[]" if is_struct else "ArrayLike<number>", "in_place": "ArrayLike<number>", "optional": f"{shown} | null", "required": shown}[one["role"]])
         results = []
         for one in outputs(function):
             kind = self.plain(self.element(one["type"])) if one["role"] not in ("out_bytes", "out_text") else ""

@@ -2,7 +2,7 @@
 import keyword
 import textwrap
 
-from names import given, is_own_count, is_raw_only, method, outputs, pascal, self_of, words
+from names import given, has_callbacks, is_own_count, is_raw_only, method, outputs, pascal, self_of, words
 
 SCALARS = {"double": "c_double", "float": "c_float", "int32_t": "c_int32", "uint32_t": "c_uint32", "uint64_t": "c_uint64", "uint8_t": "c_uint8",
            "size_t": "c_size_t", "char": "c_char_p", "void": "c_void_p"}
@@ -24,7 +24,7 @@ def docstring(text: str, indent: str) -> list[str]:
 class Python:
     def __init__(self, description):
         self.description = description
-        self.structs = {one["name"] for one in description.structs}
+        self.structs = {one["name"]: one for one in description.structs}
         self.enums = {one["name"] for one in description.enums}
         self.callbacks = {one["name"] for one in description.callbacks}
         self.lines = []
@@ -78,7 +78,7 @@ class Python:
         self.lines += [f"{indent}    {line}" for line in self.body(function, bool(fields))]
 
     def body(self, function: dict, has_fields: bool) -> list[str]:
-        lines, words_of_call, results = [], [], []
+        lines, words_of_call, results, kept = [], [], [], []
         is_list = False
         for one in function["params"]:
             name, role, kind = safe(one["name"]), one.get("role"), self.scalar(one["type"])
@@ -90,8 +90,17 @@ class Python:
                 words_of_call.append(f"handle({name})")
             elif role == "text":
                 words_of_call.append(f"text({name})")
+            elif role == "optional" and has_callbacks(self.structs[one["type"]], self.callbacks):
+                lines.append(f"{name} = held({kind}, {name})")
+                words_of_call.append(f"optional({kind}, {name})")
+                kept.append(f"{'self.' if self_of(function) else ''}_kept[\"{one['type']}\"] = {name}")
             elif role == "optional":
                 words_of_call.append(f"optional({kind}, {name}{', fields' if has_fields else ''})")
+            elif role == "required":
+                words_of_call.append(f"byref(value({kind}, {name}))")
+            elif role == "array" and "length" in one:
+                lines.append(f"{name} = fixed({kind}, {name}, {one['length']}, \"{name}\")")
+                words_of_call.append(name)
             elif role in ("array", "bytes"):
                 count = safe(one["count"])
                 make = "raw(" if role == "bytes" else f"array({kind}, "
@@ -141,7 +150,7 @@ class Python:
             return lines + [f"return listed({kind}, lambda buffer, capacity, count: {call})"]
         returns = function["returns"]
         if returns["type"] == "hh_result" and returns["pointer"] == 0:
-            return lines + [f"check({call})"] + ([f"return {', '.join(results)}"] if results else [])
+            return lines + [f"check({call})"] + kept + ([f"return {', '.join(results)}"] if results else [])
         if results:
             return lines + [call, f"return {', '.join(results)}"]
         shown = {"char": f"shown({call})", "uint8_t": f"bool({call})"}.get(returns["type"], call)
@@ -153,7 +162,8 @@ class Python:
                       "import enum",
                       "from ctypes import (CFUNCTYPE, POINTER, byref, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint8, c_uint32, c_uint64, c_void_p,",
                       "                    sizeof)", "",
-                      "from ._library import Struct, array, changed, check, copied, empty, handle, lib, listed, optional, raw, shown, text, value", ""]
+                      "from ._library import Struct, array, changed, check, copied, empty, fixed, handle, held, lib, listed, optional, raw, shown, text, value", "",
+                      "# Structs whose functions the library may call.", "_kept = {}", ""]
         self.lines += [f"{one['name']} = {one['value']!r}" for one in d.constants]
         for one in d.enums:
             self.lines += ["", "", f"class {pascal(one['name'])}(enum.IntEnum):", *docstring(one["doc"] or one["name"], "    ")]
@@ -177,7 +187,8 @@ class Python:
         for one in (f for f in d.functions if not self_of(f) and not is_raw_only(f)):
             self.wrapper(one)
         self.lines += ["", "", "class WorldCalls:", '    """Every function of a world, as a method. Calls that fail raise HandholdError and change nothing."""',
-                       "", "    _handle = None"]
+                       "", "    _handle = None",
+                       "    _kept = {}  # replaced by a dictionary of each world: structs whose functions the library may call"]
         for one in (f for f in d.functions if self_of(f) == "hh_world" and not is_raw_only(f)):
             self.wrapper(one)
         return "\n".join(self.lines) + "\n"

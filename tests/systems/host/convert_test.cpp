@@ -64,7 +64,9 @@ TEST(EngineAxes, GodotsAreOurs) {
 }
 
 TEST(EngineAxes, FrontFacesPointOutwards) {
-    // Triangles that each engine shows to somebody who stands at our +Z side of them.
+    // Triangles that each engine shows to somebody who stands at our +Z side of them. Unity:
+    // the manual's page of Mesh; Unreal: UKismetProceduralMeshLibrary::GenerateBoxMesh; Godot:
+    // the class reference of ArrayMesh.
     std::vector<float> unity{0, 0, 0, 0, 1, 0, 1, 0, 0};       // clockwise for a view along +Z
     std::vector<float> unreal{0, 0, 0, 0, 100, 0, 0, 0, 100};  // counter-clockwise along +X
     std::vector<float> godot{0, 0, 0, 0, 1, 0, 1, 0, 0};       // clockwise for a view along -Z

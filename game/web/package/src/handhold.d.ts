@@ -29,6 +29,7 @@ export interface PlayerInput {
     player: hh_player;
     /** Sorted by time: those since the last step. */
     samples?: Given<hh_tracking_sample>[];
+    repeats_samples?: boolean;
     commands?: Given<hh_commands>;
 }
 
@@ -38,6 +39,7 @@ export interface PlayerInput {
 declare const WorldBase: new () => Omit<WorldCalls, 'bodyJoints' | 'getTuning' | 'setTuning' | 'step' | 'stepPoseOnly'>;
 export declare class World extends WorldBase {
     private constructor();
+    /** Not inside a callback: HH_ERROR_STATE. */
     destroy(): void;
 
     addBox(half_extents_m: hh_vec3): hh_shape;

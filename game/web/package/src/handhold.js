@@ -2,6 +2,7 @@
 // its structs; vectors are {x, y, z}, rotations {x, y, z, w}, so three.js objects can be passed.
 import { addCalls } from './invoke.js';
 import { Memory } from './memory.js';
+import { HH_ERROR_STATE } from './structs.js';
 
 export * from './structs.js';
 
@@ -111,6 +112,7 @@ export class Handhold extends LibraryCalls {
         return this.#create('hh_mesh', definition);
     }
     destroyMesh(mesh) {
+        this.refuseInCallback('a mesh');
         this.exports.hh_mesh_destroy(mesh);
     }
     #create(kind, definition) {
@@ -128,6 +130,11 @@ export class Handhold extends LibraryCalls {
             return work(this.memory);
         } finally {
             this.memory.release(mark);
+        }
+    }
+    refuseInCallback(what) {
+        if (this.memory.functions.running > 0) {
+            throw new HandholdError(HH_ERROR_STATE, `HH_ERROR_STATE: ${what} cannot be destroyed inside a callback`);
         }
     }
     check(result) {
@@ -149,7 +156,9 @@ export class World extends WorldCalls {
         this.library = library;
         this.handle = handle;
     }
+    /** Not inside a callback: HH_ERROR_STATE. */
     destroy() {
+        this.library.refuseInCallback('a world');
         this.library.exports.hh_world_destroy(this.handle);
         this.handle = 0;
         this.setFunctions('', []);

@@ -44,22 +44,27 @@ function invoke(object, name, { returns, params }, given) {
                 bytes: () => bytesOrNull(m, next(), (size) => { counted = size; }),
                 array: () => {
                     const values = next() ?? [];
+                    if (source !== undefined && values.length !== source) {
+                        throw new TypeError(`${label}: ${source} elements are needed, ${values.length} are given`);
+                    }
                     counted = values.length;
                     return values.length === 0 ? 0 : m.takeList(kind, values);
                 },
                 in_place: () => {
-                    const size = counted = given[0].length;
-                    const at = m.takeList(kind, next());
+                    const values = next() ?? [];
+                    const size = counted = values.length;
+                    const at = m.takeList(kind, values);
                     results.push([label, () => m.readList(kind, at, size)]);
                     return at;
                 },
                 optional: () => {
                     // A definition that is left out has the library's defaults.
-                    const isDefault = given.length === 0 && structs[kind][0][0] === 'struct_size';
+                    const isDefault = given.length === 0 && kind.endsWith('_def');
                     const value = isDefault ? {} : next() ?? null;
                     functions = structs[kind].some(([, type]) => type === 'callback') ? kind : functions;
                     return value === null ? 0 : m.takeOne(kind, value);
                 },
+                required: () => m.takeOne(kind, next()),
                 count: () => counted,
                 own_count: () => counted,
                 out: () => output(m, results, kind, label),

@@ -10,6 +10,7 @@ const scalars = {
     bool: { size: 1, get: (v, at) => v.getUint8(at) !== 0, set: (v, at, x) => v.setUint8(at, x ? 1 : 0) },
     pointer: { size: 4, get: (v, at) => v.getUint32(at, true), set: (v, at, x) => v.setUint32(at, x, true) },
 };
+const typedArrays = { f64: Float64Array, f32: Float32Array, i32: Int32Array, u32: Uint32Array };
 const encoder = new TextEncoder();
 const decoder = new TextDecoder();
 const layouts = new Map();
@@ -145,6 +146,11 @@ export class Memory {
         return Array.from({ length: count }, (_, i) => this.read(kind, at + i * size));
     }
 
+    // The view is taken after the word is known: making it may grow the memory, which detaches views.
+    #setWord(at, word) {
+        this.view.setUint32(at, word, true);
+    }
+
     /** Writes the fields that the object has. Throws a TypeError for one that the struct lacks. */
     write(kind, at, value) {
         if (scalars[kind] !== undefined) {
@@ -152,8 +158,7 @@ export class Memory {
             return;
         }
         if (kind === 'text') {
-            const text = value === null ? 0 : this.takeText(value);
-            this.view.setUint32(at, text, true);
+            this.#setWord(at, value === null ? 0 : this.takeText(value));
             return;
         }
         const { fields } = layoutOf(kind);
@@ -171,11 +176,14 @@ export class Memory {
                 continue;
             }
             if (type === 'list') {
-                this.view.setUint32(at + offset, this.takeList(more.of, given ?? []), true);
-                const counter = fields.find((field) => field.name === more.count);
-                this.view.setUint32(at + counter.offset, (given?.length ?? 0) / more.each, true);
+                const size = given?.length ?? 0;
+                if (size % more.each !== 0) {
+                    throw new TypeError(`${name}: ${size} numbers are not a multiple of ${more.each}`);
+                }
+                this.#setWord(at + offset, this.takeList(more.of, given ?? []));
+                this.#setWord(at + fields.find((field) => field.name === more.count).offset, size / more.each);
             } else if (type === 'callback') {
-                this.view.setUint32(at + offset, given === null ? 0 : this.functions.install(given, more), true);
+                this.#setWord(at + offset, given === null ? 0 : this.functions.install(given, more));
             } else if (count === undefined) {
                 this.write(type, at + offset, given);
             } else {
@@ -193,6 +201,11 @@ export class Memory {
     takeList(kind, values) {
         const { size } = layoutOf(kind);
         const at = this.take(size * values.length);
+        const Numbers = typedArrays[kind];
+        if (Numbers !== undefined) {
+            new Numbers(this.#exports.memory.buffer, at, values.length).set(values);
+            return at;
+        }
         Array.from(values).forEach((value, i) => {
             this.fill(kind, at + i * size);
             this.write(kind, at + i * size, value);
@@ -238,6 +251,8 @@ class Functions {
     #free = [];
     #installed = [];
     #error;
+    /** How many functions are running: objects of the library must stay until they have ended. */
+    running = 0;
 
     constructor(memory, table) {
         this.#memory = memory;
@@ -248,11 +263,14 @@ class Functions {
             throw new TypeError('a function is needed');
         }
         const call = (...words) => {
+            ++this.running;
             try {
                 return this.#call(work, returns, params, words);
             } catch (error) {
                 this.#error ??= { error };
                 return 0;
+            } finally {
+                --this.running;
             }
         };
         const at = this.#free.pop() ?? this.#table.grow(1);

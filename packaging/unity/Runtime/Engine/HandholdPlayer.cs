@@ -1,8 +1,8 @@
 using UnityEngine;
 
 namespace Handhold {
-    /// <summary>A player. `rig` is the tracked space (XR Origin): it is placed where the player's origin is. `head` and the controllers are children
-    /// of it, at the devices' grip poses. Set `grab` from your input each frame.</summary>
+    /// <summary>A player. `rig` is the tracked space (XR Origin), with a scale of 1: it is placed where the player's origin is. `head` and `controllers` are
+    /// anywhere below it, at the camera's and the grip poses. Set `grab` and the others from your input before the world steps.</summary>
     public sealed class HandholdPlayer : MonoBehaviour {
         public HandholdWorld world;
         public Transform rig;
@@ -11,13 +11,20 @@ namespace Handhold {
         /// <summary>The wrists to draw, by side; may be null.</summary>
         public Transform[] shownHands = new Transform[2];
         public bool[] grab = new bool[2];
+        /// <summary>How far the grip button and the trigger are pressed, 0 to 1.</summary>
+        public float[] squeeze = new float[2];
+        public float[] trigger = new float[2];
+        /// <summary>From InputTrackingState: false if the position is not there.</summary>
+        public bool[] tracked = { true, true };
+        /// <summary>True if the runtime only guesses the position: the hand then grips nothing and moves nobody.</summary>
+        public bool[] inferred = new bool[2];
         public Commands commands;
 
         public Player Id { get; private set; }
 
         private void OnEnable() {
             PlayerDef def = PlayerDef.Default();
-            def.origin = Convert.FromUnity(rig.position, rig.rotation);
+            def.origin = UnityConvert.FromUnity(rig.position, rig.rotation);
             Id = world.World.PlayerAdd(def, null);
             world.Add(this);
         }
@@ -28,23 +35,31 @@ namespace Handhold {
             }
         }
 
+        // Devices need not be direct children of the rig: XR Origin has a Camera Offset between.
+        private HhPose InRig(Transform device) {
+            Quaternion toRig = Quaternion.Inverse(rig.rotation);
+            return UnityConvert.FromUnity(toRig * (device.position - rig.position), toRig * device.rotation);
+        }
         internal TrackingSample Sample(double time_s) {
             TrackingSample sample = TrackingSample.Default();
             sample.time_s = time_s;
-            sample.head = Convert.FromUnity(head.localPosition, head.localRotation);
+            sample.head = InRig(head);
             for (int side = 0; side < 2; ++side) {
-                sample.hands[side] = Convert.FromUnity(controllers[side].localPosition, controllers[side].localRotation);
+                sample.hands[side] = InRig(controllers[side]);
+                sample.hand_tracked[side] = tracked[side];
+                sample.hand_inferred[side] = inferred[side];
                 sample.grab[side] = grab[side];
+                sample.squeeze[side] = squeeze[side];
+                sample.trigger[side] = trigger[side];
             }
             return sample;
         }
-        internal void AfterStep() {
-            PlayerPose pose = world.World.PlayerPose(Id);
-            rig.SetPositionAndRotation(Convert.ToUnity(pose.origin.position), Convert.ToUnity(pose.origin.rotation));
+        internal void AfterStep(PlayerPose pose) {
+            rig.SetPositionAndRotation(UnityConvert.ToUnity(pose.origin.position), UnityConvert.ToUnity(pose.origin.rotation));
             for (int side = 0; side < 2; ++side) {
                 if (shownHands[side] != null) {
-                    Pose shown = pose.hands[side].shown;
-                    shownHands[side].SetPositionAndRotation(Convert.ToUnity(shown.position), Convert.ToUnity(shown.rotation));
+                    HhPose shown = pose.hands[side].shown;
+                    shownHands[side].SetPositionAndRotation(UnityConvert.ToUnity(shown.position), UnityConvert.ToUnity(shown.rotation));
                 }
             }
         }

@@ -1,34 +1,74 @@
+using System;
 using System.Collections.Generic;
 using UnityEngine;
 
 namespace Handhold {
-    /// <summary>Owns a world and steps it in FixedUpdate: kinematic bodies first, then players, then all poses back into the scene.</summary>
-    [DefaultExecutionOrder(-100)]
+    /// <summary>Owns a world and steps it: kinematic bodies first, then players, then all poses back into the scene. It runs after scripts of the
+    /// default order, so it sees what they moved in the same frame.</summary>
+    [DefaultExecutionOrder(100)]
     public sealed unsafe class HandholdWorld : MonoBehaviour {
+        /// <summary>Read when the world is made: by the first component that is enabled.</summary>
         public Vector3 gravity = Vector3.zero;
+        /// <summary>Off: one step a frame, which is what a headset needs. On: in FixedUpdate, for hosts whose own physics runs there. Set Unity's Fixed
+        /// Timestep to the display's interval then, else the rig moves at another rate than the picture.</summary>
+        public bool stepsInFixedUpdate;
 
-        public World World { get; private set; }
-        /// <summary>Events of the last step.</summary>
-        public Event[] Events { get; private set; } = new Event[0];
+        /// <summary>Every event of every step.</summary>
+        public event Action<HhEvent> Happened;
 
+        public World World => world ?? (world = Make());
+
+        private static int worlds;
+        private World world;
+        private PlayerInput[] inputs = new PlayerInput[0];
+        private Player[] ids = new Player[0];
         private readonly List<HandholdBody> bodies = new List<HandholdBody>();
         private readonly List<HandholdPlayer> players = new List<HandholdPlayer>();
 
-        private void Awake() {
+        private World Make() {
+            if (worlds == 0) {
+                Library.SetLog(Log);
+            }
             WorldDef def = WorldDef.Default();
-            def.gravity_mps2 = Convert.FromUnity(gravity);
-            World = new World(def);
+            def.gravity_mps2 = UnityConvert.FromUnity(gravity);
+            World made = new World(def);
+            ++worlds;
+            return made;
         }
-        private void OnDestroy() { World.Dispose(); }
+        private static void Log(LogLevel level, string text) {
+            if (level == LogLevel.Error) {
+                Debug.LogError("Handhold: " + text);
+            } else {
+                Debug.Log("Handhold: " + text);
+            }
+        }
+        private void OnDestroy() {
+            if (world == null) {
+                return;
+            }
+            world.Dispose();
+            if (--worlds == 0) {
+                Library.SetLog(null);
+            }
+        }
 
         internal void Add(HandholdBody body) { bodies.Add(body); }
         internal void Remove(HandholdBody body) { bodies.Remove(body); }
         internal void Add(HandholdPlayer player) { players.Add(player); }
         internal void Remove(HandholdPlayer player) { players.Remove(player); }
 
-        private void FixedUpdate() { Step(Time.fixedDeltaTime); }
+        private void Update() {
+            if (!stepsInFixedUpdate) {
+                Step(Time.deltaTime);
+            }
+        }
+        private void FixedUpdate() {
+            if (stepsInFixedUpdate) {
+                Step(Time.fixedDeltaTime);
+            }
+        }
 
-        /// <summary>One step. Called by FixedUpdate.</summary>
+        /// <summary>One step. At a time scale of 0, only the shown players follow their devices.</summary>
         public void Step(double dt_s) {
             foreach (HandholdBody body in bodies) {
                 body.BeforeStep();
@@ -36,19 +76,32 @@ namespace Handhold {
             double time;
             ulong frame;
             World.Time(out time, out frame);
+            if (inputs.Length != players.Count) {
+                inputs = new PlayerInput[players.Count];
+                ids = new Player[players.Count];
+            }
             TrackingSample* samples = stackalloc TrackingSample[players.Count];
-            PlayerInput[] inputs = new PlayerInput[players.Count];
             for (int i = 0; i < inputs.Length; ++i) {
                 samples[i] = players[i].Sample(time + dt_s);
-                inputs[i] = World.InputOf(players[i].Id, samples + i, 1, players[i].commands);
+                ids[i] = players[i].Id;
+                inputs[i] = World.InputOf(ids[i], samples + i, 1, players[i].commands);
             }
-            World.Step(dt_s, inputs);
-            Events = World.Events();
+            if (dt_s > 0.0) {
+                world.Step(dt_s, inputs);
+            } else {
+                world.StepPoseOnly(Time.unscaledDeltaTime, inputs);
+            }
             foreach (HandholdBody body in bodies) {
                 body.AfterStep();
             }
-            foreach (HandholdPlayer player in players) {
-                player.AfterStep();
+            PlayerPose[] poses = world.PlayerPoses(ids);
+            for (int i = 0; i < poses.Length; ++i) {
+                players[i].AfterStep(poses[i]);
+            }
+            if (dt_s > 0.0 && Happened != null) {
+                foreach (HhEvent one in world.Events()) {
+                    Happened(one);
+                }
             }
         }
     }

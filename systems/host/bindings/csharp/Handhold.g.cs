@@ -149,7 +149,7 @@ namespace Handhold {
         OtherHand = 9,
     }
 
-    public enum Space {
+    public enum HhSpace {
         World = 0,
         /// <summary>in the parent joint's frame; roots: in the world</summary>
         Parent = 1,
@@ -218,7 +218,7 @@ namespace Handhold {
     }
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
-    public unsafe delegate void Task(IntPtr task_context, UIntPtr index);
+    public unsafe delegate void HhTask(IntPtr task_context, UIntPtr index);
 
     /// <summary>Called by any thread that calls the library. `message` is one line, valid during the call.</summary>
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
@@ -278,7 +278,7 @@ namespace Handhold {
 
     /// <summary>A rigid transform: rotates, then translates. Inputs need a unit rotation within 0.001.</summary>
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe partial struct Pose {
+    public unsafe partial struct HhPose {
         /// <summary>metres</summary>
         public Vec3 position;
         public Quat rotation;
@@ -326,19 +326,19 @@ namespace Handhold {
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe partial struct Joint {
+    public unsafe partial struct HhJoint {
         public uint index;
         public uint generation;
 
-        public Joint(uint index, uint generation) {
+        public HhJoint(uint index, uint generation) {
             this.index = index;
             this.generation = generation;
         }
         /// <summary>True for the null id.</summary>
         public bool IsNull => index == 0 && generation == 0;
-        public static bool operator ==(Joint a, Joint b) => a.index == b.index && a.generation == b.generation;
-        public static bool operator !=(Joint a, Joint b) => !(a == b);
-        public override bool Equals(object other) => other is Joint && this == (Joint)other;
+        public static bool operator ==(HhJoint a, HhJoint b) => a.index == b.index && a.generation == b.generation;
+        public static bool operator !=(HhJoint a, HhJoint b) => !(a == b);
+        public override bool Equals(object other) => other is HhJoint && this == (HhJoint)other;
         public override int GetHashCode() => (int)(index * 2654435761u ^ generation);
     }
 
@@ -360,6 +360,8 @@ namespace Handhold {
     }
 
     /// <summary>Functions of the host that the library uses. Null functions: the library's own. Memory comes from the global operator new, which a program may replace as usual; the shared library and the standard library inside it then use the replacement too, once per process. Apart from that a world's blocks are taken and given back by the threads that call it, and by those of parallel_for: a replacement with an arena a thread gives each world its own. A host that uses Bullet needs its double-precision build, and sets btAlignedAllocSetCustom before the first world.</summary>
+    /// <remarks>For Native: keep the delegates of all functions alive while the library may call them, and make them static methods with
+    /// MonoPInvokeCallback for IL2CPP. World.SetSurfaces and Library.SetLog do both.</remarks>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct HostHooks {
         public uint struct_size;
@@ -409,9 +411,9 @@ namespace Handhold {
         /// <summary>On the world's clock: hh_world_time plus the step for a sample at the step's end. Later than the sample before, else it is ignored and counted as sample_out_of_order. More than 0.5 s after the step's end: dropped and counted as sample_too_far_ahead; more than 0.5 s before its start: counted as sample_too_old. If all of a step's samples are so far off, the log is told once that they are on another clock.</summary>
         public double time_s;
         /// <summary>between the eyes, in play space: the frame that the tracking is given in</summary>
-        public Pose head;
+        public HhPose head;
         /// <summary>controllers, by hh_side; see hh_player_set_hand_in_controller</summary>
-        public PoseArray2 hands;
+        public HhPoseArray2 hands;
         /// <summary>false: `head` is ignored</summary>
         public Flag head_tracked;
         /// <summary>false: the pose is ignored, `grab` counts</summary>
@@ -550,7 +552,7 @@ namespace Handhold {
     public unsafe partial struct CompoundPart {
         public Shape shape;
         /// <summary>in the compound's frame</summary>
-        public Pose pose;
+        public HhPose pose;
         /// <summary>of all parts, or 0 for all: by volume</summary>
         public double mass_kg;
     }
@@ -586,7 +588,7 @@ namespace Handhold {
         public BodyKind kind;
         /// <summary>null: touches nothing</summary>
         public Shape shape;
-        public Pose pose;
+        public HhPose pose;
         /// <summary>each within 1e6</summary>
         public Vec3 velocity_mps;
         /// <summary>each within 1e4</summary>
@@ -632,7 +634,7 @@ namespace Handhold {
         public Body body_a;
         public Body body_b;
         /// <summary>in the world, with the bodies where they are now: x is the joint's axis</summary>
-        public Pose frame;
+        public HhPose frame;
         /// <summary>HH_DISTANCE: the point on body_b, in the world; the point on body_a is frame's.</summary>
         public Vec3 point_b;
         /// <summary>the two bodies touch each other; default false</summary>
@@ -654,7 +656,7 @@ namespace Handhold {
         /// <summary>opens above this force, N or N m; 0: never by force</summary>
         public double latch_strength;
         /// <summary>a joint that opens it; null: none</summary>
-        public Joint latch_handle;
+        public HhJoint latch_handle;
         /// <summary>open while |handle's coordinate| is at least this</summary>
         public double latch_handle_at;
 
@@ -706,7 +708,7 @@ namespace Handhold {
         /// <summary>unique in the world; null: by its id</summary>
         public byte* name;
         /// <summary>the space of the samples in the world</summary>
-        public Pose origin;
+        public HhPose origin;
         public Vec3 velocity_mps;
         /// <summary>default 80</summary>
         public double mass_kg;
@@ -740,11 +742,11 @@ namespace Handhold {
         /// <summary>gripped player; null: none</summary>
         public Player other;
         /// <summary>the wrist in the world, as the devices say</summary>
-        public Pose tracked;
+        public HhPose tracked;
         /// <summary>The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres from it, so that palm and fingers touch.</summary>
-        public Pose shown;
+        public HhPose shown;
         /// <summary>The wrist in the frame of what it grips (of a gripped player: the gripped part), fixed when the hand closed.</summary>
-        public Pose anchor;
+        public HhPose anchor;
         /// <summary>Distance of the tracked wrist from the anchor: 0 unless something blocks it.</summary>
         public double error_m;
         /// <summary>Impulse of the hand on what it grips in the last step, for haptics. 0 if the host's solver moved the player (hh_world_end_step): read it there. While hands move only light bodies, hands and contacts report at most the momentum that the players and bodies involved have, with the hands' speed on top.</summary>
@@ -761,9 +763,9 @@ namespace Handhold {
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct PlayerPose {
         /// <summary>The space of the samples in the world: put the camera rig here. Controllers at origin * sample are where the hands are, also after a recentring, which changes it so that nothing in the world moves.</summary>
-        public Pose origin;
+        public HhPose origin;
         /// <summary>between the eyes, in the world</summary>
-        public Pose head;
+        public HhPose head;
         /// <summary>of the play space</summary>
         public Vec3 velocity_mps;
         /// <summary>by hh_side</summary>
@@ -772,7 +774,7 @@ namespace Handhold {
 
     /// <summary>Grows: see base.h. Later versions also have more kinds and reasons: ignore those you do not know.</summary>
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe partial struct Event {
+    public unsafe partial struct HhEvent {
         public EventKind kind;
         public Reason reason;
         /// <summary>null: a joint's event that concerns no hand</summary>
@@ -786,7 +788,7 @@ namespace Handhold {
         /// <summary>contacts: what the hand holds; null: the head</summary>
         public Body held;
         /// <summary>of latches and limits</summary>
-        public Joint joint;
+        public HhJoint joint;
         /// <summary>in the world</summary>
         public Vec3 position;
         /// <summary>of a contact that began: &gt;= 0, for haptics and sound</summary>
@@ -795,7 +797,7 @@ namespace Handhold {
 
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct HandJoint {
-        public Pose pose;
+        public HhPose pose;
         public double radius_m;
         /// <summary>false: the hand's rig has no such joint</summary>
         public Flag is_valid;
@@ -820,7 +822,7 @@ namespace Handhold {
         /// <summary>false: this hand cannot take the grip</summary>
         public Flag is_used;
         /// <summary>in the body's frame</summary>
-        public Pose wrist;
+        public HhPose wrist;
         /// <summary>thumb, index, middle, ring, little</summary>
         public FingerArray5 fingers;
     }
@@ -858,6 +860,8 @@ namespace Handhold {
     }
 
     /// <summary>Queries against the host's surfaces. Each returns true if it found something, and then fills `hit`. `skip`: bodies that count as not there. Called only inside hh_world_step, _step_hands, _begin_step, _end_step, _step_pose_only and hh_hand_find_grip of this world, by the thread that made that call. A query may read the world; calls that change it return HH_ERROR_STATE. Per player and frame: about 3 queries, up to 50 when a hand closes behind walls or among bodies.</summary>
+    /// <remarks>For Native: keep the delegates of all functions alive while the library may call them, and make them static methods with
+    /// MonoPInvokeCallback for IL2CPP. World.SetSurfaces and Library.SetLog do both.</remarks>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct SurfaceQuery {
         public uint struct_size;
@@ -884,7 +888,7 @@ namespace Handhold {
     public unsafe partial struct BodyMotion {
         public Body body;
         /// <summary>of the shape's own frame; without a shape: centre of mass and principal axes</summary>
-        public Pose pose;
+        public HhPose pose;
         public Vec3 velocity_mps;
         public Vec3 angular_velocity_radps;
     }
@@ -896,9 +900,9 @@ namespace Handhold {
         public Body body;
         public HandRows rows;
         /// <summary>the wrist in the body's frame</summary>
-        public Pose anchor;
+        public HhPose anchor;
         /// <summary>the wrist at the end of the step: from the origin, with the world's axes</summary>
-        public Pose target;
+        public HhPose target;
         /// <summary>The target's velocity relative to the origin: the throwing velocity while a hand lets go, else the mean over the step.</summary>
         public Vec3 velocity_mps;
         public Vec3 angular_velocity_radps;
@@ -907,7 +911,7 @@ namespace Handhold {
         /// <summary>reaches body_rotation; not for POINT</summary>
         public Vec3 body_angular_velocity_radps;
         /// <summary>The anchor in the world at the end of the step, if the body keeps its velocity. Exact for static and kinematic bodies: a joint may attach the player to this point of the world.</summary>
-        public Pose anchor_end;
+        public HhPose anchor_end;
         /// <summary>of the rows; 0: rigid, as in the runtime's own solver</summary>
         public double compliance_m_per_n;
         /// <summary>enough to stop what the hand drives from its highest speed in one step</summary>
@@ -927,7 +931,7 @@ namespace Handhold {
         /// <summary>For this step. The player's own while a hand grips something static, kinematic or at least phases.heavy_body_kg. Else 1000 times the heaviest held body, so that light bodies do not shake the player; for bodies from phases.kappa_light_kg to phases.kappa_heavy_kg it falls to the player's own. If a held body meets something that does not give way, such as a crate at a wall, solve the step again with hh_player_def.mass_kg: the player then moves back by what the body could not move. Without that, hand and wall press against each other without a bound.</summary>
         public double mass_kg;
         /// <summary>of the head's centre: from the origin, with the world's axes</summary>
-        public Pose head;
+        public HhPose head;
         /// <summary>the host may let this sphere collide, on the player's body</summary>
         public double head_radius_m;
     }
@@ -1072,10 +1076,10 @@ namespace Handhold {
 
     /// <summary>2 elements inside of a struct. Write an element by its index; to change a part of it, read, change, write.</summary>
     [StructLayout(LayoutKind.Sequential)]
-    public struct PoseArray2 {
-        private Pose e0, e1;
+    public struct HhPoseArray2 {
+        private HhPose e0, e1;
         public const int Length = 2;
-        public Pose this[int index] {
+        public HhPose this[int index] {
             get {
                 switch (index) {
                     case 0: return e0;
@@ -1199,7 +1203,7 @@ namespace Handhold {
 
     /// <summary>The functions as they are: nothing is checked, and nothing is allocated.</summary>
     public static unsafe class Native {
-#if UNITY_IOS && !UNITY_EDITOR || UNITY_WEBGL && !UNITY_EDITOR
+#if (UNITY_IOS || UNITY_TVOS || UNITY_VISIONOS || UNITY_WEBGL) && !UNITY_EDITOR
         public const string LibraryName = "__Internal";
 #else
         public const string LibraryName = "handhold";
@@ -1211,7 +1215,7 @@ namespace Handhold {
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern void hh_version(uint* major, uint* minor, uint* patch);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Pose hh_identity_pose();
+        public static extern HhPose hh_identity_pose();
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern void hh_sin_cos(double angle_rad, double* sine, double* cosine);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
@@ -1243,9 +1247,9 @@ namespace Handhold {
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Quat hh_convert_rotation_to(Engine engine, Quat rotation);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Pose hh_convert_pose_from(Engine engine, Pose pose);
+        public static extern HhPose hh_convert_pose_from(Engine engine, HhPose pose);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Pose hh_convert_pose_to(Engine engine, Pose pose);
+        public static extern HhPose hh_convert_pose_to(Engine engine, HhPose pose);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Vec3 hh_convert_scale_from(Engine engine, Vec3 scale);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
@@ -1351,9 +1355,9 @@ namespace Handhold {
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_world_bodies(IntPtr world, Body* bodies, UIntPtr capacity, UIntPtr* count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Result hh_body_pose(IntPtr world, Body body, Pose* pose);
+        public static extern Result hh_body_pose(IntPtr world, Body body, HhPose* pose);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Result hh_world_body_poses(IntPtr world, Body* bodies, UIntPtr count, Pose* poses);
+        public static extern Result hh_world_body_poses(IntPtr world, Body* bodies, UIntPtr count, HhPose* poses);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_body_velocity(IntPtr world, Body body, Vec3* velocity_mps, Vec3* angular_velocity_radps);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
@@ -1361,9 +1365,9 @@ namespace Handhold {
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_body_apply_impulse(IntPtr world, Body body, Vec3 impulse_ns, Vec3 point);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Result hh_body_teleport(IntPtr world, Body body, Pose pose);
+        public static extern Result hh_body_teleport(IntPtr world, Body body, HhPose pose);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Result hh_body_move_kinematic(IntPtr world, Body body, Pose pose);
+        public static extern Result hh_body_move_kinematic(IntPtr world, Body body, HhPose pose);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_body_set_gravity_scale(IntPtr world, Body body, double scale);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
@@ -1393,15 +1397,15 @@ namespace Handhold {
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_default_joint_def_sized(JointDef* filled, UIntPtr size);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Result hh_joint_add(IntPtr world, JointDef* def, Joint* joint);
+        public static extern Result hh_joint_add(IntPtr world, JointDef* def, HhJoint* joint);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Result hh_joint_remove(IntPtr world, Joint joint);
+        public static extern Result hh_joint_remove(IntPtr world, HhJoint joint);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern byte hh_joint_is_valid(IntPtr world, Joint joint);
+        public static extern byte hh_joint_is_valid(IntPtr world, HhJoint joint);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Result hh_body_joints(IntPtr world, Body body, Joint* joints, UIntPtr capacity, UIntPtr* count);
+        public static extern Result hh_body_joints(IntPtr world, Body body, HhJoint* joints, UIntPtr capacity, UIntPtr* count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Result hh_joint_state(IntPtr world, Joint joint, double* coordinate, double* speed, byte* latched);
+        public static extern Result hh_joint_state(IntPtr world, HhJoint joint, double* coordinate, double* speed, byte* latched);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_world_cast_ray(IntPtr world, Vec3 from, Vec3 to, Player skip, Hit* hit);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
@@ -1421,11 +1425,11 @@ namespace Handhold {
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_world_players(IntPtr world, Player* players, UIntPtr capacity, UIntPtr* count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Result hh_player_recenter(IntPtr world, Player player, Pose new_in_old);
+        public static extern Result hh_player_recenter(IntPtr world, Player player, HhPose new_in_old);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_player_set_recenter_guess(IntPtr world, Player player, byte guesses);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Result hh_player_teleport(IntPtr world, Player player, Pose origin);
+        public static extern Result hh_player_teleport(IntPtr world, Player player, HhPose origin);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_player_velocity(IntPtr world, Player player, Vec3* velocity_mps);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
@@ -1447,11 +1451,11 @@ namespace Handhold {
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_player_user_data(IntPtr world, Player player, ulong* user_data);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Result hh_player_set_hand_in_controller(IntPtr world, Player player, Side side, Pose* hand_in_controller);
+        public static extern Result hh_player_set_hand_in_controller(IntPtr world, Player player, Side side, HhPose* hand_in_controller);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Result hh_player_hand_in_controller(IntPtr world, Player player, Side side, Pose* hand_in_controller);
+        public static extern Result hh_player_hand_in_controller(IntPtr world, Player player, Side side, HhPose* hand_in_controller);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Result hh_world_hand_in_controller(IntPtr world, Side side, Pose* hand_in_controller);
+        public static extern Result hh_world_hand_in_controller(IntPtr world, Side side, HhPose* hand_in_controller);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_player_hand_sized(IntPtr world, Player player, Side side, HandState* hand, UIntPtr hand_size);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
@@ -1463,23 +1467,23 @@ namespace Handhold {
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_hand_release(IntPtr world, Player player, Side side);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Result hh_world_events_sized(IntPtr world, Event** events, UIntPtr* count, UIntPtr event_size);
+        public static extern Result hh_world_events_sized(IntPtr world, HhEvent** events, UIntPtr* count, UIntPtr event_size);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_finger_curls_of(HandJoint* joints, FingerCurls* curls);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Result hh_player_hand_joints(IntPtr world, Player player, Side side, Space space, HandJoint* joints);
+        public static extern Result hh_player_hand_joints(IntPtr world, Player player, Side side, HhSpace space, HandJoint* joints);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern byte* hh_body_joint_name(UIntPtr joint);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern int hh_body_joint_parent(UIntPtr joint);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Result hh_player_body_joints(IntPtr world, Player player, Space space, Pose* joints);
+        public static extern Result hh_player_body_joints(IntPtr world, Player player, HhSpace space, HhPose* joints);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_player_set_hand_rig(IntPtr world, Player player, Side side, void* gltf, UIntPtr size);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_player_set_body_rig(IntPtr world, Player player, void* gltf, UIntPtr size);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Result hh_player_skeleton(IntPtr world, Player player, Space space, Pose* joints, UIntPtr capacity, UIntPtr* count);
+        public static extern Result hh_player_skeleton(IntPtr world, Player player, HhSpace space, HhPose* joints, UIntPtr capacity, UIntPtr* count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_player_skeleton_joint(IntPtr world, Player player, UIntPtr joint, byte** name, int* parent);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
@@ -1495,9 +1499,9 @@ namespace Handhold {
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_world_place_bodies(IntPtr world, BodyMotion* motions, UIntPtr count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Result hh_player_place(IntPtr world, Player player, Pose origin, Vec3 velocity_mps);
+        public static extern Result hh_player_place(IntPtr world, Player player, HhPose origin, Vec3 velocity_mps);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Result hh_hand_hold(IntPtr world, Player player, Side side, Body body, Pose* anchor);
+        public static extern Result hh_hand_hold(IntPtr world, Player player, Side side, Body body, HhPose* anchor);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_hand_find_grip(IntPtr world, Player player, Side side, SurfaceHit* hit);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
@@ -1520,7 +1524,8 @@ namespace Handhold {
 
         /// <summary>The result's name, "HH_ERROR_HANDLE". Never null. Any thread.</summary>
         public static unsafe string ResultText(Result result) {
-            return Library.Text(Native.hh_result_text(result));
+            string answer = Library.Text(Native.hh_result_text(result));
+            return answer;
         }
 
         /// <summary>The version of the library that is running: compare with HANDHOLD_VERSION_MAJOR and so on. Null pointers are skipped. Any thread.</summary>
@@ -1535,8 +1540,9 @@ namespace Handhold {
         }
 
         /// <summary>The pose at the origin, not rotated. Any thread.</summary>
-        public static unsafe Pose IdentityPose() {
-            return Native.hh_identity_pose();
+        public static unsafe HhPose IdentityPose() {
+            HhPose answer = Native.hh_identity_pose();
+            return answer;
         }
 
         /// <summary>Equal on every machine and compiler, unlike sin, cos and atan2 of C: for inputs that must replay bit for bit. Errors are below 1e-14 up to 1e6 rad; beyond that, and for NaN, sine is 0 and cosine 1. Null outputs are skipped. hh_atan2 gives 0 for (0, 0) and NaN. Any thread.</summary>
@@ -1549,13 +1555,8 @@ namespace Handhold {
         }
 
         public static unsafe double Atan2(double y, double x) {
-            return Native.hh_atan2(y, x);
-        }
-
-        /// <summary>Sets the hooks of the process; null: back to the defaults. HH_ERROR_STATE while a world exists. Not beside any other call of the library.</summary>
-        public static unsafe void SetHostHooks(HostHooks? hooks) {
-            HostHooks hooks_at = hooks.GetValueOrDefault();
-            Library.Check(Native.hh_set_host_hooks(hooks.HasValue ? &hooks_at : null));
+            double answer = Native.hh_atan2(y, x);
+            return answer;
         }
 
         /// <summary>Sets the number of threads of the library's own pool, [1, 256]. Allowed while worlds exist, for instance to use all cores while a level loads. HH_ERROR_STATE if the host lends parallel_for. Not beside any other call of the library.</summary>
@@ -1564,67 +1565,81 @@ namespace Handhold {
         }
 
         public static unsafe uint ThreadCount() {
-            return Native.hh_thread_count();
+            uint answer = Native.hh_thread_count();
+            return answer;
         }
 
         /// <summary>Metres in one of the engine's units of length: 0.01 for Unreal, else 1. For radii and distances.</summary>
         public static unsafe double ConvertMetresPerUnit(Engine engine) {
-            return Native.hh_convert_metres_per_unit(engine);
+            double answer = Native.hh_convert_metres_per_unit(engine);
+            return answer;
         }
 
         /// <summary>Whatever scales with length: positions, velocities, accelerations, impulses, forces.</summary>
         public static unsafe Vec3 ConvertVectorFrom(Engine engine, Vec3 vector) {
-            return Native.hh_convert_vector_from(engine, vector);
+            Vec3 answer = Native.hh_convert_vector_from(engine, vector);
+            return answer;
         }
 
         public static unsafe Vec3 ConvertVectorTo(Engine engine, Vec3 vector) {
-            return Native.hh_convert_vector_to(engine, vector);
+            Vec3 answer = Native.hh_convert_vector_to(engine, vector);
+            return answer;
         }
 
         /// <summary>Directions without a length: normals, axes.</summary>
         public static unsafe Vec3 ConvertDirectionFrom(Engine engine, Vec3 direction) {
-            return Native.hh_convert_direction_from(engine, direction);
+            Vec3 answer = Native.hh_convert_direction_from(engine, direction);
+            return answer;
         }
 
         public static unsafe Vec3 ConvertDirectionTo(Engine engine, Vec3 direction) {
-            return Native.hh_convert_direction_to(engine, direction);
+            Vec3 answer = Native.hh_convert_direction_to(engine, direction);
+            return answer;
         }
 
         /// <summary>Angular velocities in rad/s, and other vectors along an axis of rotation. Left-handed engines count angles the other way, so the sign changes too.</summary>
         public static unsafe Vec3 ConvertAngularFrom(Engine engine, Vec3 angular_radps) {
-            return Native.hh_convert_angular_from(engine, angular_radps);
+            Vec3 answer = Native.hh_convert_angular_from(engine, angular_radps);
+            return answer;
         }
 
         public static unsafe Vec3 ConvertAngularTo(Engine engine, Vec3 angular_radps) {
-            return Native.hh_convert_angular_to(engine, angular_radps);
+            Vec3 answer = Native.hh_convert_angular_to(engine, angular_radps);
+            return answer;
         }
 
         public static unsafe Quat ConvertRotationFrom(Engine engine, Quat rotation) {
-            return Native.hh_convert_rotation_from(engine, rotation);
+            Quat answer = Native.hh_convert_rotation_from(engine, rotation);
+            return answer;
         }
 
         public static unsafe Quat ConvertRotationTo(Engine engine, Quat rotation) {
-            return Native.hh_convert_rotation_to(engine, rotation);
+            Quat answer = Native.hh_convert_rotation_to(engine, rotation);
+            return answer;
         }
 
-        public static unsafe Pose ConvertPoseFrom(Engine engine, Pose pose) {
-            return Native.hh_convert_pose_from(engine, pose);
+        public static unsafe HhPose ConvertPoseFrom(Engine engine, HhPose pose) {
+            HhPose answer = Native.hh_convert_pose_from(engine, pose);
+            return answer;
         }
 
-        public static unsafe Pose ConvertPoseTo(Engine engine, Pose pose) {
-            return Native.hh_convert_pose_to(engine, pose);
+        public static unsafe HhPose ConvertPoseTo(Engine engine, HhPose pose) {
+            HhPose answer = Native.hh_convert_pose_to(engine, pose);
+            return answer;
         }
 
         /// <summary>Scale factors of an object along its own axes, and half extents in metres: axes change places, signs do not.</summary>
         public static unsafe Vec3 ConvertScaleFrom(Engine engine, Vec3 scale) {
-            return Native.hh_convert_scale_from(engine, scale);
+            Vec3 answer = Native.hh_convert_scale_from(engine, scale);
+            return answer;
         }
 
         public static unsafe Vec3 ConvertScaleTo(Engine engine, Vec3 scale) {
-            return Native.hh_convert_scale_to(engine, scale);
+            Vec3 answer = Native.hh_convert_scale_to(engine, scale);
+            return answer;
         }
 
-        /// <summary>A mesh in place: converts x, y, z of its vertices, and reverses its triangles if the engine's front faces are clockwise (Unity, Godot), so that they are counter-clockwise from outside. HH_ERROR_VALUE, and no change, for counts that are no multiples of 3.</summary>
+        /// <summary>A mesh in place: converts x, y, z of its vertices, and reverses its triangles if the engine's front faces are clockwise (Unity, Godot), so that they are counter-clockwise from outside. A mirrored object, of which the product of the scales is negative: multiply its vertices by the scale and reverse the indices before, since hh_shape_add_mesh takes positive scales only. HH_ERROR_VALUE, and no change, for counts that are no multiples of 3.</summary>
         public static unsafe void ConvertMeshFrom(Engine engine, float[] coordinates, uint[] indices) {
             fixed (float* coordinates_at = coordinates) {
                 fixed (uint* indices_at = indices) {
@@ -1635,11 +1650,13 @@ namespace Handhold {
 
         /// <summary>Stages and fallbacks by index; null beyond the last. A fallback is counted whenever the runtime does the next best instead of what was asked. Any thread.</summary>
         public static unsafe string StageName(long stage) {
-            return Library.Text(Native.hh_stage_name((UIntPtr)(ulong)stage));
+            string answer = Library.Text(Native.hh_stage_name((UIntPtr)(ulong)stage));
+            return answer;
         }
 
         public static unsafe string FallbackName(long fallback) {
-            return Library.Text(Native.hh_fallback_name((UIntPtr)(ulong)fallback));
+            string answer = Library.Text(Native.hh_fallback_name((UIntPtr)(ulong)fallback));
+            return answer;
         }
 
         /// <summary>The number with this index; HH_ERROR_VALUE beyond the last. Any thread.</summary>
@@ -1652,34 +1669,37 @@ namespace Handhold {
         }
 
         /// <summary>How far the fingers of a tracked hand are bent, for hh_tracking_sample.curls. `joints`: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name, in any one space; only positions are read. Curl is the sum of a finger's bends over that of a fist; -1 if a joint of the finger is not valid. Any thread.</summary>
-        public static unsafe FingerCurls[] FingerCurlsOf(HandJoint? joints) {
-            FingerCurls[] curls;
-            HandJoint joints_at = joints.GetValueOrDefault();
-            FingerCurls[] curls_made = new FingerCurls[26];
-            fixed (FingerCurls* curls_at = curls_made) {
-                Library.Check(Native.hh_finger_curls_of(joints.HasValue ? &joints_at : null, curls_at));
-                curls = curls_made;
+        public static unsafe FingerCurls FingerCurlsOf(HandJoint[] joints) {
+            FingerCurls curls;
+            Library.RequireLength(joints, 26, "joints");
+            FingerCurls curls_at;
+            fixed (HandJoint* joints_at = joints) {
+                Library.Check(Native.hh_finger_curls_of(joints_at, &curls_at));
+                curls = curls_at;
             }
             return curls;
         }
 
         /// <summary>"leftUpperArm"; null beyond the last. Any thread.</summary>
         public static unsafe string BodyJointName(long joint) {
-            return Library.Text(Native.hh_body_joint_name((UIntPtr)(ulong)joint));
+            string answer = Library.Text(Native.hh_body_joint_name((UIntPtr)(ulong)joint));
+            return answer;
         }
 
         /// <summary>The parent's index; -1 for the hips and beyond the last.</summary>
         public static unsafe int BodyJointParent(long joint) {
-            return Native.hh_body_joint_parent((UIntPtr)(ulong)joint);
+            int answer = Native.hh_body_joint_parent((UIntPtr)(ulong)joint);
+            return answer;
         }
     }
 
     public partial class World {
 
-        /// <summary>Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players without one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are clamped. Cost: about 0.15 ms a gripping player, plus contacts.</summary>
+        /// <summary>Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players without one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs all the time, and up to 2 ms in the frame in which a hand closes: docs/guide/cost.md.</summary>
         public unsafe void Step(double dt_s, PlayerInput[] inputs) {
             fixed (PlayerInput* inputs_at = inputs) {
                 Library.Check(Native.hh_world_step(Handle, dt_s, inputs_at, Library.Count(inputs)));
+                GC.KeepAlive(this);
             }
         }
 
@@ -1687,6 +1707,7 @@ namespace Handhold {
         public unsafe void StepPoseOnly(double dt_s, PlayerInput[] inputs) {
             fixed (PlayerInput* inputs_at = inputs) {
                 Library.Check(Native.hh_world_step_pose_only(Handle, dt_s, inputs_at, Library.Count(inputs)));
+                GC.KeepAlive(this);
             }
         }
 
@@ -1697,16 +1718,19 @@ namespace Handhold {
             Library.Check(Native.hh_world_time(Handle, &time_s_at, &frame_at));
             time_s = time_s_at;
             frame = frame_at;
+            GC.KeepAlive(this);
         }
 
         /// <summary>Acceleration of dynamic bodies; players float. Each axis within 1e4 m/s^2.</summary>
         public unsafe void SetGravity(Vec3 gravity_mps2) {
             Library.Check(Native.hh_world_set_gravity(Handle, gravity_mps2));
+            GC.KeepAlive(this);
         }
 
         /// <summary>Velocity of the scene: drifting players come to rest against it. Each axis within 1e6 m/s.</summary>
         public unsafe void SetReferenceVelocity(Vec3 velocity_mps) {
             Library.Check(Native.hh_world_set_reference_velocity(Handle, velocity_mps));
+            GC.KeepAlive(this);
         }
 
         public unsafe Vec3 Gravity() {
@@ -1714,6 +1738,7 @@ namespace Handhold {
             Vec3 gravity_mps2_at;
             Library.Check(Native.hh_world_gravity(Handle, &gravity_mps2_at));
             gravity_mps2 = gravity_mps2_at;
+            GC.KeepAlive(this);
             return gravity_mps2;
         }
 
@@ -1722,6 +1747,7 @@ namespace Handhold {
             Vec3 velocity_mps_at;
             Library.Check(Native.hh_world_reference_velocity(Handle, &velocity_mps_at));
             velocity_mps = velocity_mps_at;
+            GC.KeepAlive(this);
             return velocity_mps;
         }
 
@@ -1731,6 +1757,7 @@ namespace Handhold {
             ulong hash_at;
             Library.Check(Native.hh_world_hash(Handle, &hash_at));
             hash = hash_at;
+            GC.KeepAlive(this);
             return hash;
         }
 
@@ -1742,6 +1769,7 @@ namespace Handhold {
             byte[] made = new byte[(long)size_at];
             fixed (byte* made_at = made) { Library.Check(Native.hh_world_save(Handle, made_at, size_at, &size_at)); }
             buffer = made;
+            GC.KeepAlive(this);
             return buffer;
         }
 
@@ -1749,6 +1777,7 @@ namespace Handhold {
         public unsafe void Restore(byte[] bytes) {
             fixed (byte* bytes_at = bytes) {
                 Library.Check(Native.hh_world_restore(Handle, bytes_at, Library.Count(bytes)));
+                GC.KeepAlive(this);
             }
         }
 
@@ -1757,6 +1786,7 @@ namespace Handhold {
             WorldStats stats_at = WorldStats.Default();
             Library.Check(Native.hh_world_get_stats(Handle, &stats_at));
             stats = stats_at;
+            GC.KeepAlive(this);
             return stats;
         }
 
@@ -1768,6 +1798,7 @@ namespace Handhold {
             double[] made = new double[(long)count_at];
             fixed (double* made_at = made) { Library.Check(Native.hh_world_stage_times(Handle, made_at, count_at, &count_at)); }
             us = made;
+            GC.KeepAlive(this);
             return us;
         }
 
@@ -1778,6 +1809,7 @@ namespace Handhold {
             ulong[] made = new ulong[(long)count_at];
             fixed (ulong* made_at = made) { Library.Check(Native.hh_world_fallbacks(Handle, made_at, count_at, &count_at)); }
             times = made;
+            GC.KeepAlive(this);
             return times;
         }
 
@@ -1789,6 +1821,7 @@ namespace Handhold {
                 fixed (double* values_at = values_made) {
                     Library.Check(Native.hh_world_get_tuning(Handle, name_at, values_at, (UIntPtr)(uint)count));
                     values = values_made;
+                    GC.KeepAlive(this);
                 }
             }
             return values;
@@ -1798,6 +1831,7 @@ namespace Handhold {
             fixed (byte* name_at = Library.Text(name)) {
                 fixed (double* values_at = values) {
                     Library.Check(Native.hh_world_set_tuning(Handle, name_at, values_at, Library.Count(values)));
+                    GC.KeepAlive(this);
                 }
             }
         }
@@ -1810,12 +1844,14 @@ namespace Handhold {
             double[] made = new double[(long)count_at];
             fixed (double* made_at = made) { Library.Check(Native.hh_world_tuning_numbers(Handle, made_at, count_at, &count_at)); }
             values = made;
+            GC.KeepAlive(this);
             return values;
         }
 
         public unsafe void SetTuningNumbers(double[] values) {
             fixed (double* values_at = values) {
                 Library.Check(Native.hh_world_set_tuning_numbers(Handle, values_at, Library.Count(values)));
+                GC.KeepAlive(this);
             }
         }
 
@@ -1823,6 +1859,7 @@ namespace Handhold {
         public unsafe void LoadTuning(byte[] json) {
             fixed (byte* json_at = json) {
                 Library.Check(Native.hh_world_load_tuning(Handle, json_at, Library.Count(json)));
+                GC.KeepAlive(this);
             }
         }
 
@@ -1830,15 +1867,17 @@ namespace Handhold {
         public unsafe void LoadBodyClips(byte[] json) {
             fixed (byte* json_at = json) {
                 Library.Check(Native.hh_world_load_body_clips(Handle, json_at, Library.Count(json)));
+                GC.KeepAlive(this);
             }
         }
 
-        /// <summary>In a world with fits_hands, a new shape gets a surface for hands on the calling thread; a shape equal to one that is there costs microseconds. Costs are of one core of a desktop. Box: 0.02 ms.</summary>
+        /// <summary>In a world with fits_hands, a new shape gets a surface for hands on the calling thread; a shape equal to one that is there costs microseconds. Costs are of one core at 2.1 GHz. Large round shapes cost more than a frame: add them while loading. Box: 0.02 ms.</summary>
         public unsafe Shape ShapeAddBox(Vec3 half_extents_m) {
             Shape shape;
             Shape shape_at;
             Library.Check(Native.hh_shape_add_box(Handle, half_extents_m, &shape_at));
             shape = shape_at;
+            GC.KeepAlive(this);
             return shape;
         }
 
@@ -1848,6 +1887,7 @@ namespace Handhold {
             Shape shape_at;
             Library.Check(Native.hh_shape_add_sphere(Handle, radius_m, &shape_at));
             shape = shape_at;
+            GC.KeepAlive(this);
             return shape;
         }
 
@@ -1857,6 +1897,7 @@ namespace Handhold {
             Shape shape_at;
             Library.Check(Native.hh_shape_add_capsule(Handle, radius_m, half_height_m, &shape_at));
             shape = shape_at;
+            GC.KeepAlive(this);
             return shape;
         }
 
@@ -1866,6 +1907,7 @@ namespace Handhold {
             Shape shape_at;
             Library.Check(Native.hh_shape_add_cylinder(Handle, radius_m, half_height_m, &shape_at));
             shape = shape_at;
+            GC.KeepAlive(this);
             return shape;
         }
 
@@ -1876,6 +1918,7 @@ namespace Handhold {
             fixed (Vec3* points_at = points) {
                 Library.Check(Native.hh_shape_add_hull(Handle, points_at, Library.Count(points), &shape_at));
                 shape = shape_at;
+                GC.KeepAlive(this);
             }
             return shape;
         }
@@ -1887,26 +1930,32 @@ namespace Handhold {
             fixed (CompoundPart* parts_at = parts) {
                 Library.Check(Native.hh_shape_add_compound(Handle, parts_at, Library.Count(parts), &shape_at));
                 shape = shape_at;
+                GC.KeepAlive(this);
             }
             return shape;
         }
 
         /// <summary>A shape of a prepared mesh, for static and kinematic bodies. The size of each factor is in [1e-3, 1e3], others get HH_ERROR_VALUE; negative ones mirror the mesh, whose triangles keep their outer side. Cost: microseconds for scale 1; another scale prepares the hands' surface again, about 40 microseconds a triangle with fits_hands.</summary>
-        public unsafe Shape ShapeAddMesh(Mesh mesh, Vec3 scale) {
+        public unsafe Shape ShapeAddMesh(HhMesh mesh, Vec3 scale) {
             Shape shape;
             Shape shape_at;
             Library.Check(Native.hh_shape_add_mesh(Handle, mesh == null ? IntPtr.Zero : mesh.Handle, scale, &shape_at));
             shape = shape_at;
+            GC.KeepAlive(mesh);
+            GC.KeepAlive(this);
             return shape;
         }
 
         /// <summary>HH_ERROR_STATE while a body or a player has the shape.</summary>
         public unsafe void ShapeRemove(Shape shape) {
             Library.Check(Native.hh_shape_remove(Handle, shape));
+            GC.KeepAlive(this);
         }
 
         public unsafe bool ShapeIsValid(Shape shape) {
-            return Native.hh_shape_is_valid(Handle, shape) != 0;
+            bool answer = Native.hh_shape_is_valid(Handle, shape) != 0;
+            GC.KeepAlive(this);
+            return answer;
         }
 
         /// <summary>Number of shapes.</summary>
@@ -1915,6 +1964,7 @@ namespace Handhold {
             UIntPtr count_at;
             Library.Check(Native.hh_world_shape_count(Handle, &count_at));
             count = (long)count_at;
+            GC.KeepAlive(this);
             return count;
         }
 
@@ -1927,6 +1977,7 @@ namespace Handhold {
                 if (name != null) def_at.name = name_at;
                 Library.Check(Native.hh_body_add(Handle, def.HasValue ? &def_at : null, &body_at));
                 body = body_at;
+                GC.KeepAlive(this);
             }
             return body;
         }
@@ -1934,10 +1985,13 @@ namespace Handhold {
         /// <summary>Removes a body with its joints. Hands that grip it are empty at once; the event follows in the next step.</summary>
         public unsafe void BodyRemove(Body body) {
             Library.Check(Native.hh_body_remove(Handle, body));
+            GC.KeepAlive(this);
         }
 
         public unsafe bool BodyIsValid(Body body) {
-            return Native.hh_body_is_valid(Handle, body) != 0;
+            bool answer = Native.hh_body_is_valid(Handle, body) != 0;
+            GC.KeepAlive(this);
+            return answer;
         }
 
         public unsafe Body BodyFind(string name) {
@@ -1946,6 +2000,7 @@ namespace Handhold {
             fixed (byte* name_at = Library.Text(name)) {
                 Library.Check(Native.hh_body_find(Handle, name_at, &body_at));
                 body = body_at;
+                GC.KeepAlive(this);
             }
             return body;
         }
@@ -1956,6 +2011,7 @@ namespace Handhold {
             byte* name_at;
             Library.Check(Native.hh_body_name(Handle, body, &name_at));
             name = Library.Text(name_at);
+            GC.KeepAlive(this);
             return name;
         }
 
@@ -1967,25 +2023,28 @@ namespace Handhold {
             Body[] made = new Body[(long)count_at];
             fixed (Body* made_at = made) { Library.Check(Native.hh_world_bodies(Handle, made_at, count_at, &count_at)); }
             bodies = made;
+            GC.KeepAlive(this);
             return bodies;
         }
 
-        public unsafe Pose BodyPose(Body body) {
-            Pose pose;
-            Pose pose_at;
+        public unsafe HhPose BodyPose(Body body) {
+            HhPose pose;
+            HhPose pose_at;
             Library.Check(Native.hh_body_pose(Handle, body, &pose_at));
             pose = pose_at;
+            GC.KeepAlive(this);
             return pose;
         }
 
         /// <summary>Poses of many bodies in one call; HH_ERROR_HANDLE, and nothing written, if one is stale.</summary>
-        public unsafe Pose[] BodyPoses(Body[] bodies) {
-            Pose[] poses;
-            Pose[] poses_made = new Pose[bodies.Length];
+        public unsafe HhPose[] BodyPoses(Body[] bodies) {
+            HhPose[] poses;
+            HhPose[] poses_made = new HhPose[(int)Library.Count(bodies)];
             fixed (Body* bodies_at = bodies) {
-                fixed (Pose* poses_at = poses_made) {
+                fixed (HhPose* poses_at = poses_made) {
                     Library.Check(Native.hh_world_body_poses(Handle, bodies_at, Library.Count(bodies), poses_at));
                     poses = poses_made;
+                    GC.KeepAlive(this);
                 }
             }
             return poses;
@@ -1998,38 +2057,46 @@ namespace Handhold {
             Library.Check(Native.hh_body_velocity(Handle, body, &velocity_mps_at, &angular_velocity_radps_at));
             velocity_mps = velocity_mps_at;
             angular_velocity_radps = angular_velocity_radps_at;
+            GC.KeepAlive(this);
         }
 
         /// <summary>Dynamic bodies only, as are impulses: HH_ERROR_STATE.</summary>
         public unsafe void BodySetVelocity(Body body, Vec3 velocity_mps, Vec3 angular_velocity_radps) {
             Library.Check(Native.hh_body_set_velocity(Handle, body, velocity_mps, angular_velocity_radps));
+            GC.KeepAlive(this);
         }
 
         /// <summary>Changes the velocity by an impulse in N s at a point in the world.</summary>
         public unsafe void BodyApplyImpulse(Body body, Vec3 impulse_ns, Vec3 point) {
             Library.Check(Native.hh_body_apply_impulse(Handle, body, impulse_ns, point));
+            GC.KeepAlive(this);
         }
 
         /// <summary>At once, without collisions on the path. Keeps the velocity. Hands that grip it let go.</summary>
-        public unsafe void BodyTeleport(Body body, Pose pose) {
+        public unsafe void BodyTeleport(Body body, HhPose pose) {
             Library.Check(Native.hh_body_teleport(Handle, body, pose));
+            GC.KeepAlive(this);
         }
 
         /// <summary>A kinematic body reaches the pose at the end of the next step and then rests. Call it before every step in which it moves, or less often: a host that ticks slower than it draws may tell each tick's pose once. The body's velocity, with which hands leave it and bodies are thrown, is the displacement since the pose before over the time since then; over tracking.release_window_s if the poses come at varying times. It is 0 once a pose is due that does not come or is the same. The first pose after a rest counts as half a second's motion, since nothing says when it began.</summary>
-        public unsafe void BodyMoveKinematic(Body body, Pose pose) {
+        public unsafe void BodyMoveKinematic(Body body, HhPose pose) {
             Library.Check(Native.hh_body_move_kinematic(Handle, body, pose));
+            GC.KeepAlive(this);
         }
 
         public unsafe void BodySetGravityScale(Body body, double scale) {
             Library.Check(Native.hh_body_set_gravity_scale(Handle, body, scale));
+            GC.KeepAlive(this);
         }
 
         public unsafe void BodySetLayers(Body body, uint layers, uint mask) {
             Library.Check(Native.hh_body_set_layers(Handle, body, layers, mask));
+            GC.KeepAlive(this);
         }
 
         public unsafe void BodySetGrabRule(Body body, bool left, bool right, bool two_hands, int priority) {
             Library.Check(Native.hh_body_set_grab_rule(Handle, body, (byte)(left ? 1 : 0), (byte)(right ? 1 : 0), (byte)(two_hands ? 1 : 0), priority));
+            GC.KeepAlive(this);
         }
 
         public unsafe BodyKind BodyGetKind(Body body) {
@@ -2037,6 +2104,7 @@ namespace Handhold {
             BodyKind kind_at;
             Library.Check(Native.hh_body_get_kind(Handle, body, &kind_at));
             kind = kind_at;
+            GC.KeepAlive(this);
             return kind;
         }
 
@@ -2046,12 +2114,14 @@ namespace Handhold {
             double mass_kg_at;
             Library.Check(Native.hh_body_mass(Handle, body, &mass_kg_at));
             mass_kg = mass_kg_at;
+            GC.KeepAlive(this);
             return mass_kg;
         }
 
         /// <summary>Mass in [1e-12, 1e15] kg and inertia as hh_body_def's, else HH_ERROR_VALUE; 0 inertia: of the solid shape. Dynamic bodies only: HH_ERROR_STATE. Hands keep their grips: beyond phases.heavy_body_kg the body moves its player from the next step on, below it comes along.</summary>
         public unsafe void BodySetMass(Body body, double mass_kg, Vec3 inertia_kgm2) {
             Library.Check(Native.hh_body_set_mass(Handle, body, mass_kg, inertia_kgm2));
+            GC.KeepAlive(this);
         }
 
         /// <summary>Friction in [0, 1e6], restitution in [0, 1]. Null outputs are skipped.</summary>
@@ -2061,15 +2131,18 @@ namespace Handhold {
             Library.Check(Native.hh_body_material(Handle, body, &friction_at, &restitution_at));
             friction = friction_at;
             restitution = restitution_at;
+            GC.KeepAlive(this);
         }
 
         public unsafe void BodySetMaterial(Body body, double friction, double restitution) {
             Library.Check(Native.hh_body_set_material(Handle, body, friction, restitution));
+            GC.KeepAlive(this);
         }
 
         /// <summary>A body becomes static, kinematic or dynamic where it is. Hands keep their grips without a jump: a body that becomes dynamic comes along, others move the player. A body that becomes static or kinematic stops; one that becomes dynamic keeps its velocity. Joints stay. Mass and inertia: of a body that becomes dynamic, as hh_body_set_mass; of others ignored. A mesh cannot become dynamic: HH_ERROR_VALUE. HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step.</summary>
         public unsafe void BodySetKind(Body body, BodyKind kind, double mass_kg, Vec3 inertia_kgm2) {
             Library.Check(Native.hh_body_set_kind(Handle, body, kind, mass_kg, inertia_kgm2));
+            GC.KeepAlive(this);
         }
 
         /// <summary>Null for a body without a shape.</summary>
@@ -2078,16 +2151,19 @@ namespace Handhold {
             Shape shape_at;
             Library.Check(Native.hh_body_shape(Handle, body, &shape_at));
             shape = shape_at;
+            GC.KeepAlive(this);
             return shape;
         }
 
         /// <summary>The body touches with another shape from now on, or with none (null id: not for dynamic bodies, HH_ERROR_VALUE, as a mesh). Its pose, joints and grips stay as they are in the frame in which the host made the shapes, whatever their centres of mass; a dynamic body's inertia becomes that of the solid shape with the same mass. Hands whose palm is farther from the new surface than a closing hand reaches (hand.ray_length_m) let go in the next step: HH_EVENT_RELEASED, HH_REASON_BY_HOST. HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds; with a mesh that a hand grips, linear in its triangles, 0.1 ms for 5,000.</summary>
         public unsafe void BodySetShape(Body body, Shape shape) {
             Library.Check(Native.hh_body_set_shape(Handle, body, shape));
+            GC.KeepAlive(this);
         }
 
         public unsafe void BodySetUserData(Body body, ulong user_data) {
             Library.Check(Native.hh_body_set_user_data(Handle, body, user_data));
+            GC.KeepAlive(this);
         }
 
         public unsafe ulong BodyUserData(Body body) {
@@ -2095,42 +2171,48 @@ namespace Handhold {
             ulong user_data_at;
             Library.Check(Native.hh_body_user_data(Handle, body, &user_data_at));
             user_data = user_data_at;
+            GC.KeepAlive(this);
             return user_data;
         }
 
-        public unsafe Joint JointAdd(JointDef? def, string name = null) {
-            Joint joint;
+        public unsafe HhJoint JointAdd(JointDef? def, string name = null) {
+            HhJoint joint;
             JointDef def_at = def.GetValueOrDefault();
-            Joint joint_at;
+            HhJoint joint_at;
             fixed (byte* name_at = Library.Text(name)) {
                 if (name != null) def_at.name = name_at;
                 Library.Check(Native.hh_joint_add(Handle, def.HasValue ? &def_at : null, &joint_at));
                 joint = joint_at;
+                GC.KeepAlive(this);
             }
             return joint;
         }
 
-        public unsafe void JointRemove(Joint joint) {
+        public unsafe void JointRemove(HhJoint joint) {
             Library.Check(Native.hh_joint_remove(Handle, joint));
+            GC.KeepAlive(this);
         }
 
-        public unsafe bool JointIsValid(Joint joint) {
-            return Native.hh_joint_is_valid(Handle, joint) != 0;
+        public unsafe bool JointIsValid(HhJoint joint) {
+            bool answer = Native.hh_joint_is_valid(Handle, joint) != 0;
+            GC.KeepAlive(this);
+            return answer;
         }
 
         /// <summary>Ids of the joints of a body; `count` gets their number. HH_ERROR_CAPACITY if it is more than `capacity`. A null buffer of capacity 0: the number only.</summary>
-        public unsafe Joint[] BodyJoints(Body body) {
-            Joint[] joints;
+        public unsafe HhJoint[] BodyJoints(Body body) {
+            HhJoint[] joints;
             UIntPtr count_at;
             Library.Check(Native.hh_body_joints(Handle, body, null, UIntPtr.Zero, &count_at));
-            Joint[] made = new Joint[(long)count_at];
-            fixed (Joint* made_at = made) { Library.Check(Native.hh_body_joints(Handle, body, made_at, count_at, &count_at)); }
+            HhJoint[] made = new HhJoint[(long)count_at];
+            fixed (HhJoint* made_at = made) { Library.Check(Native.hh_body_joints(Handle, body, made_at, count_at, &count_at)); }
             joints = made;
+            GC.KeepAlive(this);
             return joints;
         }
 
         /// <summary>State after the last step; null outputs are skipped. A hinge counts full turns.</summary>
-        public unsafe void JointState(Joint joint, out double coordinate, out double speed, out bool latched) {
+        public unsafe void JointState(HhJoint joint, out double coordinate, out double speed, out bool latched) {
             double coordinate_at;
             double speed_at;
             byte latched_at;
@@ -2138,6 +2220,7 @@ namespace Handhold {
             coordinate = coordinate_at;
             speed = speed_at;
             latched = latched_at != 0;
+            GC.KeepAlive(this);
         }
 
         /// <summary>First surface that the segment hits, from outside or inside; distance_m: from `from`. `skip`: a player whose head counts as not there; null: none. Coordinates within 1e9 m.</summary>
@@ -2146,6 +2229,7 @@ namespace Handhold {
             Hit hit_at;
             Library.Check(Native.hh_world_cast_ray(Handle, from, to, skip, &hit_at));
             hit = hit_at;
+            GC.KeepAlive(this);
             return hit;
         }
 
@@ -2155,6 +2239,7 @@ namespace Handhold {
             Hit hit_at;
             Library.Check(Native.hh_world_cast_sphere(Handle, radius_m, from, to, skip, &hit_at));
             hit = hit_at;
+            GC.KeepAlive(this);
             return hit;
         }
 
@@ -2164,6 +2249,7 @@ namespace Handhold {
             Hit hit_at;
             Library.Check(Native.hh_world_closest_point(Handle, point, max_distance_m, skip, &hit_at));
             hit = hit_at;
+            GC.KeepAlive(this);
             return hit;
         }
 
@@ -2175,6 +2261,7 @@ namespace Handhold {
             Hit[] made = new Hit[(long)count_at];
             fixed (Hit* made_at = made) { Library.Check(Native.hh_world_overlap_sphere(Handle, center, radius_m, skip, made_at, count_at, &count_at)); }
             hits = made;
+            GC.KeepAlive(this);
             return hits;
         }
 
@@ -2186,16 +2273,20 @@ namespace Handhold {
                 if (name != null) def_at.name = name_at;
                 Library.Check(Native.hh_player_add(Handle, def.HasValue ? &def_at : null, &player_at));
                 player = player_at;
+                GC.KeepAlive(this);
             }
             return player;
         }
 
         public unsafe void PlayerRemove(Player player) {
             Library.Check(Native.hh_player_remove(Handle, player));
+            GC.KeepAlive(this);
         }
 
         public unsafe bool PlayerIsValid(Player player) {
-            return Native.hh_player_is_valid(Handle, player) != 0;
+            bool answer = Native.hh_player_is_valid(Handle, player) != 0;
+            GC.KeepAlive(this);
+            return answer;
         }
 
         public unsafe Player[] Players() {
@@ -2205,22 +2296,26 @@ namespace Handhold {
             Player[] made = new Player[(long)count_at];
             fixed (Player* made_at = made) { Library.Check(Native.hh_world_players(Handle, made_at, count_at, &count_at)); }
             players = made;
+            GC.KeepAlive(this);
             return players;
         }
 
         /// <summary>The headset's runtime, or the host, has recentred: from the next sample on, poses are given in a space that lies at `new_in_old` in the space before (OpenXR: poseInPreviousSpace). Level: it turns about +Y only, within 0.001. View, hands and grips stay where they are in the world; hh_player_pose.origin changes at once, HH_EVENT_RECENTRED follows in the next step. From now on the host announces all recentrings, as after hh_player_set_recenter_guess(world, player, 0).</summary>
-        public unsafe void PlayerRecenter(Player player, Pose new_in_old) {
+        public unsafe void PlayerRecenter(Player player, HhPose new_in_old) {
             Library.Check(Native.hh_player_recenter(Handle, player, new_in_old));
+            GC.KeepAlive(this);
         }
 
         /// <summary>`guesses` 1, the default: if head and hands jump by one turn about +Y and one translation, or the head by more than tracking.max_jump_m, the runtime has recentred, and nothing in the world moves. 0: the host announces recentrings, and every other jump is meant, such as a turn that the host puts into its samples: view and hands follow it, and gripping hands take new anchors. Part of the state.</summary>
         public unsafe void PlayerSetRecenterGuess(Player player, bool guesses) {
             Library.Check(Native.hh_player_set_recenter_guess(Handle, player, (byte)(guesses ? 1 : 0)));
+            GC.KeepAlive(this);
         }
 
         /// <summary>The play space is there at once, at rest. Dynamic bodies in the hands that no joint holds come along; hands let go of everything else.</summary>
-        public unsafe void PlayerTeleport(Player player, Pose origin) {
+        public unsafe void PlayerTeleport(Player player, HhPose origin) {
             Library.Check(Native.hh_player_teleport(Handle, player, origin));
+            GC.KeepAlive(this);
         }
 
         public unsafe Vec3 PlayerVelocity(Player player) {
@@ -2228,11 +2323,13 @@ namespace Handhold {
             Vec3 velocity_mps_at;
             Library.Check(Native.hh_player_velocity(Handle, player, &velocity_mps_at));
             velocity_mps = velocity_mps_at;
+            GC.KeepAlive(this);
             return velocity_mps;
         }
 
         public unsafe void PlayerSetVelocity(Player player, Vec3 velocity_mps) {
             Library.Check(Native.hh_player_set_velocity(Handle, player, velocity_mps));
+            GC.KeepAlive(this);
         }
 
         /// <summary>The velocity that counts as rest for the player: that of the body last gripped, at the gripped point, else the scene's. A player feels the speed relative to it: for vignettes and wind.</summary>
@@ -2241,6 +2338,7 @@ namespace Handhold {
             Vec3 velocity_mps_at;
             Library.Check(Native.hh_player_reference_velocity(Handle, player, &velocity_mps_at));
             velocity_mps = velocity_mps_at;
+            GC.KeepAlive(this);
             return velocity_mps;
         }
 
@@ -2250,6 +2348,7 @@ namespace Handhold {
             double distance_m_at;
             Library.Check(Native.hh_player_push_back(Handle, player, &distance_m_at));
             distance_m = distance_m_at;
+            GC.KeepAlive(this);
             return distance_m;
         }
 
@@ -2259,6 +2358,7 @@ namespace Handhold {
             double mass_kg_at;
             Library.Check(Native.hh_player_mass(Handle, player, &mass_kg_at));
             mass_kg = mass_kg_at;
+            GC.KeepAlive(this);
             return mass_kg;
         }
 
@@ -2271,6 +2371,7 @@ namespace Handhold {
             center = center_at;
             radius_m = radius_m_at;
             is_tracked = is_tracked_at != 0;
+            GC.KeepAlive(this);
         }
 
         public unsafe Measures PlayerMeasures(Player player) {
@@ -2278,16 +2379,19 @@ namespace Handhold {
             Measures measures_at;
             Library.Check(Native.hh_player_measures(Handle, player, &measures_at));
             measures = measures_at;
+            GC.KeepAlive(this);
             return measures;
         }
 
-        public unsafe void PlayerSetMeasures(Player player, Measures? measures) {
-            Measures measures_at = measures.GetValueOrDefault();
-            Library.Check(Native.hh_player_set_measures(Handle, player, measures.HasValue ? &measures_at : null));
+        /// <summary>Replaces the measures. `measures`, not null.</summary>
+        public unsafe void PlayerSetMeasures(Player player, Measures measures) {
+            Library.Check(Native.hh_player_set_measures(Handle, player, &measures));
+            GC.KeepAlive(this);
         }
 
         public unsafe void PlayerSetUserData(Player player, ulong user_data) {
             Library.Check(Native.hh_player_set_user_data(Handle, player, user_data));
+            GC.KeepAlive(this);
         }
 
         public unsafe ulong PlayerUserData(Player player) {
@@ -2295,30 +2399,34 @@ namespace Handhold {
             ulong user_data_at;
             Library.Check(Native.hh_player_user_data(Handle, player, &user_data_at));
             user_data = user_data_at;
+            GC.KeepAlive(this);
             return user_data;
         }
 
         /// <summary>The hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists with OpenXR's axes (-Z to the fingers, +Y the back of the hand). Null: a controller's grip pose, by the tuning's hand.controller_ numbers, which is the default.</summary>
-        public unsafe void PlayerSetHandInController(Player player, Side side, Pose? hand_in_controller) {
-            Pose hand_in_controller_at = hand_in_controller.GetValueOrDefault();
+        public unsafe void PlayerSetHandInController(Player player, Side side, HhPose? hand_in_controller) {
+            HhPose hand_in_controller_at = hand_in_controller.GetValueOrDefault();
             Library.Check(Native.hh_player_set_hand_in_controller(Handle, player, side, hand_in_controller.HasValue ? &hand_in_controller_at : null));
+            GC.KeepAlive(this);
         }
 
         /// <summary>Returns the pose set by hh_player_set_hand_in_controller, for hosts that have wrists and need controllers.</summary>
-        public unsafe Pose PlayerHandInController(Player player, Side side) {
-            Pose hand_in_controller;
-            Pose hand_in_controller_at;
+        public unsafe HhPose PlayerHandInController(Player player, Side side) {
+            HhPose hand_in_controller;
+            HhPose hand_in_controller_at;
             Library.Check(Native.hh_player_hand_in_controller(Handle, player, side, &hand_in_controller_at));
             hand_in_controller = hand_in_controller_at;
+            GC.KeepAlive(this);
             return hand_in_controller;
         }
 
         /// <summary>Returns the tuning's pose of the wrist in a controller, for players without one of their own.</summary>
-        public unsafe Pose HandInController(Side side) {
-            Pose hand_in_controller;
-            Pose hand_in_controller_at;
+        public unsafe HhPose HandInController(Side side) {
+            HhPose hand_in_controller;
+            HhPose hand_in_controller_at;
             Library.Check(Native.hh_world_hand_in_controller(Handle, side, &hand_in_controller_at));
             hand_in_controller = hand_in_controller_at;
+            GC.KeepAlive(this);
             return hand_in_controller;
         }
 
@@ -2328,6 +2436,7 @@ namespace Handhold {
             HandState hand_at;
             Library.Check(Native.hh_player_hand_sized(Handle, player, side, &hand_at, (UIntPtr)sizeof(HandState)));
             hand = hand_at;
+            GC.KeepAlive(this);
             return hand;
         }
 
@@ -2337,17 +2446,19 @@ namespace Handhold {
             byte moves_player_at;
             Library.Check(Native.hh_hand_moves_player(Handle, player, side, &moves_player_at));
             moves_player = moves_player_at != 0;
+            GC.KeepAlive(this);
             return moves_player;
         }
 
         /// <summary>Poses of many players in one call; HH_ERROR_HANDLE, and nothing written, if one is stale. `pose_size`, `hand_size`: bytes of hh_player_pose and hh_hand_state as the host knows them.</summary>
         public unsafe PlayerPose[] PlayerPoses(Player[] players) {
             PlayerPose[] poses;
-            PlayerPose[] poses_made = new PlayerPose[players.Length];
+            PlayerPose[] poses_made = new PlayerPose[(int)Library.Count(players)];
             fixed (Player* players_at = players) {
                 fixed (PlayerPose* poses_at = poses_made) {
                     Library.Check(Native.hh_world_player_poses_sized(Handle, players_at, Library.Count(players), poses_at, (UIntPtr)sizeof(PlayerPose), (UIntPtr)sizeof(HandState)));
                     poses = poses_made;
+                    GC.KeepAlive(this);
                 }
             }
             return poses;
@@ -2356,43 +2467,48 @@ namespace Handhold {
         /// <summary>In the next step the hand grips `body` where both are, at any distance, whatever the grab rules say; only a body for two hands needs an order for both. No grip begins while the player opens the hand. It holds until hh_hand_release or until the player opens the hand. If the player closes the hand before that, it grips what is in reach instead; with nothing in reach, the grip stays. HH_ERROR_STATE for a hand that was never tracked.</summary>
         public unsafe void HandGrip(Player player, Side side, Body body) {
             Library.Check(Native.hh_hand_grip(Handle, player, side, body));
+            GC.KeepAlive(this);
         }
 
         /// <summary>In the next step the hand lets go, without a throw. It grips again when the player opens and closes it. HH_OK also for an empty hand.</summary>
         public unsafe void HandRelease(Player player, Side side) {
             Library.Check(Native.hh_hand_release(Handle, player, side));
+            GC.KeepAlive(this);
         }
 
         /// <summary>The events of the last step, in a fixed order. Valid until the next step, restore, destroy or call of this function. `event_size`: bytes of hh_event as the host knows it; the list's elements lie so far apart.</summary>
-        public unsafe Event[] Events() {
-            Event[] events;
-            Event* events_at;
+        public unsafe HhEvent[] Events() {
+            HhEvent[] events;
+            HhEvent* events_at;
             UIntPtr count_at;
-            Library.Check(Native.hh_world_events_sized(Handle, &events_at, &count_at, (UIntPtr)sizeof(Event)));
-            Event[] made = new Event[(long)count_at];
+            Library.Check(Native.hh_world_events_sized(Handle, &events_at, &count_at, (UIntPtr)sizeof(HhEvent)));
+            HhEvent[] made = new HhEvent[(long)count_at];
             for (long i = 0; i < made.LongLength; ++i) made[i] = events_at[i];
             events = made;
+            GC.KeepAlive(this);
             return events;
         }
 
-        /// <summary>The shown hand's joints: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name.</summary>
-        public unsafe HandJoint[] PlayerHandJoints(Player player, Side side, Space space) {
+        /// <summary>The shown hand's joints. `joints`: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name.</summary>
+        public unsafe HandJoint[] PlayerHandJoints(Player player, Side side, HhSpace space) {
             HandJoint[] joints;
             HandJoint[] joints_made = new HandJoint[26];
             fixed (HandJoint* joints_at = joints_made) {
                 Library.Check(Native.hh_player_hand_joints(Handle, player, side, space, joints_at));
                 joints = joints_made;
+                GC.KeepAlive(this);
             }
             return joints;
         }
 
-        /// <summary>HH_BODY_JOINT_COUNT elements.</summary>
-        public unsafe Pose[] PlayerBodyJoints(Player player, Space space) {
-            Pose[] joints;
-            Pose[] joints_made = new Pose[20];
-            fixed (Pose* joints_at = joints_made) {
+        /// <summary>`joints`: HH_BODY_JOINT_COUNT elements.</summary>
+        public unsafe HhPose[] PlayerBodyJoints(Player player, HhSpace space) {
+            HhPose[] joints;
+            HhPose[] joints_made = new HhPose[20];
+            fixed (HhPose* joints_at = joints_made) {
                 Library.Check(Native.hh_player_body_joints(Handle, player, space, joints_at));
                 joints = joints_made;
+                GC.KeepAlive(this);
             }
             return joints;
         }
@@ -2401,6 +2517,7 @@ namespace Handhold {
         public unsafe void PlayerSetHandRig(Player player, Side side, byte[] gltf) {
             fixed (byte* gltf_at = gltf) {
                 Library.Check(Native.hh_player_set_hand_rig(Handle, player, side, gltf_at, Library.Count(gltf)));
+                GC.KeepAlive(this);
             }
         }
 
@@ -2408,17 +2525,19 @@ namespace Handhold {
         public unsafe void PlayerSetBodyRig(Player player, byte[] gltf) {
             fixed (byte* gltf_at = gltf) {
                 Library.Check(Native.hh_player_set_body_rig(Handle, player, gltf_at, Library.Count(gltf)));
+                GC.KeepAlive(this);
             }
         }
 
         /// <summary>Joints of the player's body rig, in the file's order. HH_ERROR_STATE without a rig.</summary>
-        public unsafe Pose[] PlayerSkeleton(Player player, Space space) {
-            Pose[] joints;
+        public unsafe HhPose[] PlayerSkeleton(Player player, HhSpace space) {
+            HhPose[] joints;
             UIntPtr count_at;
             Library.Check(Native.hh_player_skeleton(Handle, player, space, null, UIntPtr.Zero, &count_at));
-            Pose[] made = new Pose[(long)count_at];
-            fixed (Pose* made_at = made) { Library.Check(Native.hh_player_skeleton(Handle, player, space, made_at, count_at, &count_at)); }
+            HhPose[] made = new HhPose[(long)count_at];
+            fixed (HhPose* made_at = made) { Library.Check(Native.hh_player_skeleton(Handle, player, space, made_at, count_at, &count_at)); }
             joints = made;
+            GC.KeepAlive(this);
             return joints;
         }
 
@@ -2429,41 +2548,42 @@ namespace Handhold {
             Library.Check(Native.hh_player_skeleton_joint(Handle, player, (UIntPtr)(ulong)joint, &name_at, &parent_at));
             name = Library.Text(name_at);
             parent = parent_at;
+            GC.KeepAlive(this);
         }
 
         /// <summary>Adds an authored grip to a body, at most 4: hands that close near it take it.</summary>
         public unsafe void BodyAddGrip(Body body, GripDef? def) {
             GripDef def_at = def.GetValueOrDefault();
             Library.Check(Native.hh_body_add_grip(Handle, body, def.HasValue ? &def_at : null));
-        }
-
-        /// <summary>From now on hands and legs ask the host, not the world's shapes. Null: back to the shapes.</summary>
-        public unsafe void SetSurfaceQuery(SurfaceQuery? query) {
-            SurfaceQuery query_at = query.GetValueOrDefault();
-            Library.Check(Native.hh_world_set_surface_query(Handle, query.HasValue ? &query_at : null));
+            GC.KeepAlive(this);
         }
 
         /// <summary>The triangles that palm and fingers close on, in the body's frame; null: none. Not needed for gripping. The body must have no shape. HH_ERROR_STATE if it has, or if the mesh or the world was made without fits_hands.</summary>
-        public unsafe void BodySetSurface(Body body, Mesh mesh) {
+        public unsafe void BodySetSurface(Body body, HhMesh mesh) {
             Library.Check(Native.hh_body_set_surface(Handle, body, mesh == null ? IntPtr.Zero : mesh.Handle));
+            GC.KeepAlive(mesh);
+            GC.KeepAlive(this);
         }
 
         /// <summary>Where bodies are now, after the host's own step. Unlike a teleport it ends no grip. A kinematic body rests there until hh_body_move_kinematic says where it will be at the end of the next step. Places all or, on an error, none.</summary>
         public unsafe void PlaceBodies(BodyMotion[] motions) {
             fixed (BodyMotion* motions_at = motions) {
                 Library.Check(Native.hh_world_place_bodies(Handle, motions_at, Library.Count(motions)));
+                GC.KeepAlive(this);
             }
         }
 
         /// <summary>Where a player's hh_player_pose.origin is now, by the host's locomotion. Unlike a teleport it ends no grip, and the body goes on moving.</summary>
-        public unsafe void PlayerPlace(Player player, Pose origin, Vec3 velocity_mps) {
+        public unsafe void PlayerPlace(Player player, HhPose origin, Vec3 velocity_mps) {
             Library.Check(Native.hh_player_place(Handle, player, origin, velocity_mps));
+            GC.KeepAlive(this);
         }
 
         /// <summary>The hand holds `body` from now on; a null id: nothing. `anchor`: the wrist in the body's frame; null: where both are now. For hosts that use hh_world_step_hands only: the other steps keep the hold and let the hand pull the player.</summary>
-        public unsafe void HandHold(Player player, Side side, Body body, Pose? anchor) {
-            Pose anchor_at = anchor.GetValueOrDefault();
+        public unsafe void HandHold(Player player, Side side, Body body, HhPose? anchor) {
+            HhPose anchor_at = anchor.GetValueOrDefault();
             Library.Check(Native.hh_hand_hold(Handle, player, side, body, anchor.HasValue ? &anchor_at : null));
+            GC.KeepAlive(this);
         }
 
         /// <summary>What the hand would grip if it closed where it is, by the rules of hands that pull players: reach, sight, grab rules, authored grips. A null body: nothing, or another player. distance_m: from the palm. In every kind of world. HH_ERROR_STATE for a hand that was never tracked.</summary>
@@ -2472,6 +2592,7 @@ namespace Handhold {
             SurfaceHit hit_at;
             Library.Check(Native.hh_hand_find_grip(Handle, player, side, &hit_at));
             hit = hit_at;
+            GC.KeepAlive(this);
             return hit;
         }
 
@@ -2479,6 +2600,7 @@ namespace Handhold {
         public unsafe void StepHands(double dt_s, PlayerInput[] inputs) {
             fixed (PlayerInput* inputs_at = inputs) {
                 Library.Check(Native.hh_world_step_hands(Handle, dt_s, inputs_at, Library.Count(inputs)));
+                GC.KeepAlive(this);
             }
         }
 
@@ -2486,6 +2608,7 @@ namespace Handhold {
         public unsafe void BeginStep(double dt_s, PlayerInput[] inputs) {
             fixed (PlayerInput* inputs_at = inputs) {
                 Library.Check(Native.hh_world_begin_step(Handle, dt_s, inputs_at, Library.Count(inputs)));
+                GC.KeepAlive(this);
             }
         }
 
@@ -2498,6 +2621,7 @@ namespace Handhold {
             HandConstraint[] made = new HandConstraint[(long)count_at];
             for (long i = 0; i < made.LongLength; ++i) made[i] = constraints_at[i];
             constraints = made;
+            GC.KeepAlive(this);
             return constraints;
         }
 
@@ -2510,6 +2634,7 @@ namespace Handhold {
             PlayerMotion[] made = new PlayerMotion[(long)count_at];
             for (long i = 0; i < made.LongLength; ++i) made[i] = motions_at[i];
             motions = made;
+            GC.KeepAlive(this);
             return motions;
         }
 
@@ -2517,6 +2642,7 @@ namespace Handhold {
         public unsafe void EndStep(SolvedPlayer[] players) {
             fixed (SolvedPlayer* players_at = players) {
                 Library.Check(Native.hh_world_end_step(Handle, players_at, Library.Count(players)));
+                GC.KeepAlive(this);
             }
         }
 
@@ -2529,6 +2655,7 @@ namespace Handhold {
             VelocityChange[] made = new VelocityChange[(long)count_at];
             for (long i = 0; i < made.LongLength; ++i) made[i] = changes_at[i];
             changes = made;
+            GC.KeepAlive(this);
             return changes;
         }
 
@@ -2540,6 +2667,7 @@ namespace Handhold {
             Body[] made = new Body[(long)count_at];
             fixed (Body* made_at = made) { Library.Check(Native.hh_world_held_bodies(Handle, made_at, count_at, &count_at)); }
             bodies = made;
+            GC.KeepAlive(this);
             return bodies;
         }
     }

@@ -699,7 +699,7 @@ export declare class LibraryCalls {
     /** Scale factors of an object along its own axes, and half extents in metres: axes change places, signs do not. */
     convertScaleFrom(engine: number, scale: Given<hh_vec3>): hh_vec3;
     convertScaleTo(engine: number, scale: Given<hh_vec3>): hh_vec3;
-    /** A mesh in place: converts x, y, z of its vertices, and reverses its triangles if the engine's front faces are clockwise (Unity, Godot), so that they are counter-clockwise from outside. HH_ERROR_VALUE, and no change, for counts that are no multiples of 3. */
+    /** A mesh in place: converts x, y, z of its vertices, and reverses its triangles if the engine's front faces are clockwise (Unity, Godot), so that they are counter-clockwise from outside. A mirrored object, of which the product of the scales is negative: multiply its vertices by the scale and reverse the indices before, since hh_shape_add_mesh takes positive scales only. HH_ERROR_VALUE, and no change, for counts that are no multiples of 3. */
     convertMeshFrom(engine: number, coordinates: ArrayLike<number>, indices: ArrayLike<number>): { coordinates: number[]; indices: number[] };
     /** Stages and fallbacks by index; null beyond the last. A fallback is counted whenever the runtime does the next best instead of what was asked. Any thread. */
     stageName(stage: number): string | null;
@@ -707,7 +707,7 @@ export declare class LibraryCalls {
     /** The number with this index; HH_ERROR_VALUE beyond the last. Any thread. */
     tuningDescribe(index: number): hh_tuning_info;
     /** How far the fingers of a tracked hand are bent, for hh_tracking_sample.curls. `joints`: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name, in any one space; only positions are read. Curl is the sum of a finger's bends over that of a fist; -1 if a joint of the finger is not valid. Any thread. */
-    fingerCurlsOf(joints: Given<hh_hand_joint> | null): hh_finger_curls[];
+    fingerCurlsOf(joints: Given<hh_hand_joint>[]): hh_finger_curls;
     /** "leftUpperArm"; null beyond the last. Any thread. */
     bodyJointName(joint: number): string | null;
     /** The parent's index; -1 for the hips and beyond the last. */
@@ -716,7 +716,7 @@ export declare class LibraryCalls {
 
 /** Every function of a world, as a method. They throw a HandholdError if the library refuses the call. */
 export declare class WorldCalls {
-    /** Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players without one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are clamped. Cost: about 0.15 ms a gripping player, plus contacts. */
+    /** Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players without one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs all the time, and up to 2 ms in the frame in which a hand closes: docs/guide/cost.md. */
     step(dt_s: number, inputs: Given<hh_player_input>[]): void;
     /** While the game is paused: heads, hands and bodies of players follow their last sample, whatever its time. The clock, bodies, joints, grips and play spaces stand still. The next hh_world_step goes on: hands that are still closed grip where they are at that time. */
     stepPoseOnly(dt_s: number, inputs: Given<hh_player_input>[]): void;
@@ -748,7 +748,7 @@ export declare class WorldCalls {
     loadTuning(json: Uint8Array | string | null): void;
     /** The additive body clips of all players, from JSON in the format of docs/reference/body_clips.md: idling, pushing off, looking round, raising the arms. They rotate spine, legs and clavicles, never hands. They replace the clips before. Null: none, which is the default. HH_ERROR_DATA, with the place and no change, for anything else. Clips are not in a snapshot: load the same ones before you restore. */
     loadBodyClips(json: Uint8Array | string | null): void;
-    /** In a world with fits_hands, a new shape gets a surface for hands on the calling thread; a shape equal to one that is there costs microseconds. Costs are of one core of a desktop. Box: 0.02 ms. */
+    /** In a world with fits_hands, a new shape gets a surface for hands on the calling thread; a shape equal to one that is there costs microseconds. Costs are of one core at 2.1 GHz. Large round shapes cost more than a frame: add them while loading. Box: 0.02 ms. */
     shapeAddBox(half_extents_m: Given<hh_vec3>): hh_shape;
     /** Cost with fits_hands: 2 ms at 0.1 m, growing with the radius to 18 ms at 1 m; none above 64 m. */
     shapeAddSphere(radius_m: number): hh_shape;
@@ -845,7 +845,8 @@ export declare class WorldCalls {
     /** The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked: false before the head's first sample, and while it is lost or inferred. */
     playerHead(player: Given<hh_player>): { center: hh_vec3; radius_m: number; is_tracked: boolean };
     playerMeasures(player: Given<hh_player>): hh_measures;
-    playerSetMeasures(player: Given<hh_player>, measures: Given<hh_measures> | null): void;
+    /** Replaces the measures. `measures`, not null. */
+    playerSetMeasures(player: Given<hh_player>, measures: Given<hh_measures>): void;
     playerSetUserData(player: Given<hh_player>, user_data: bigint): void;
     playerUserData(player: Given<hh_player>): bigint;
     /** The hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists with OpenXR's axes (-Z to the fingers, +Y the back of the hand). Null: a controller's grip pose, by the tuning's hand.controller_ numbers, which is the default. */
@@ -866,9 +867,9 @@ export declare class WorldCalls {
     handRelease(player: Given<hh_player>, side: number): void;
     /** The events of the last step, in a fixed order. Valid until the next step, restore, destroy or call of this function. `event_size`: bytes of hh_event as the host knows it; the list's elements lie so far apart. */
     events(): hh_event[];
-    /** The shown hand's joints: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name. */
+    /** The shown hand's joints. `joints`: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name. */
     playerHandJoints(player: Given<hh_player>, side: number, space: number): hh_hand_joint[];
-    /** HH_BODY_JOINT_COUNT elements. */
+    /** `joints`: HH_BODY_JOINT_COUNT elements. */
     playerBodyJoints(player: Given<hh_player>, space: number): hh_pose[];
     /** The player's hand gets the proportions of the skeleton in a glTF file (.glb, or .gltf with its data inside) whose joints have WebXR's or OpenXR's names. Null bytes: the built-in hand. HH_ERROR_DATA says what the file lacks. */
     playerSetHandRig(player: Given<hh_player>, side: number, gltf: Uint8Array | string | null): void;

@@ -12,7 +12,8 @@ extern "C" {
 /* ---- Shapes. Sizes in [1e-3, 1e4] m. A shape may be used by any number of bodies. ------------ */
 
 /* In a world with fits_hands, a new shape gets a surface for hands on the calling thread; a shape equal to
- * one that is there costs microseconds. Costs are of one core of a desktop. Box: 0.02 ms. */
+ * one that is there costs microseconds. Costs are of one core at 2.1 GHz. Large round shapes cost more
+ * than a frame: add them while loading. Box: 0.02 ms. */
 HH_API hh_result hh_shape_add_box(hh_world* world, hh_vec3 half_extents_m, hh_shape* shape);
 /* Cost with fits_hands: 2 ms at 0.1 m, growing with the radius to 18 ms at 1 m; none above 64 m. */
 HH_API hh_result hh_shape_add_sphere(hh_world* world, double radius_m, hh_shape* shape);
@@ -55,7 +56,7 @@ static inline hh_mesh_def hh_default_mesh_def(void) {
     return filled;
 }
 /* Copies and prepares a mesh. Any thread, beside steps of any world: the place for the work of
- * streaming. Cost: about 40 microseconds a triangle with fits_hands, 1 without. */
+ * streaming. Cost: up to 40 microseconds a triangle with fits_hands, 1 without. */
 HH_API hh_result hh_mesh_create(const hh_mesh_def* def, hh_mesh** mesh);
 /* Releases the caller's reference; shapes keep theirs. Null: nothing happens. Any thread. */
 HH_API void hh_mesh_destroy(hh_mesh* mesh);

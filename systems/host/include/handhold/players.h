@@ -76,6 +76,7 @@ HH_API hh_result hh_player_mass(const hh_world* world, hh_player player, double*
 HH_API hh_result hh_player_head(const hh_world* world, hh_player player, hh_vec3* center,
                                 double* radius_m, uint8_t* is_tracked);
 HH_API hh_result hh_player_measures(const hh_world* world, hh_player player, hh_measures* measures);
+/* Replaces the measures. `measures`, not null. */
 HH_API hh_result hh_player_set_measures(hh_world* world, hh_player player,
                                         const hh_measures* measures);
 HH_API hh_result hh_player_set_user_data(hh_world* world, hh_player player, uint64_t user_data);
@@ -264,7 +265,7 @@ typedef struct hh_hand_joint {
  * is the sum of a finger's bends over that of a fist; -1 if a joint of the finger is not valid. Any
  * thread. */
 HH_API hh_result hh_finger_curls_of(const hh_hand_joint* joints, hh_finger_curls* curls);
-/* The shown hand's joints: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name. */
+/* The shown hand's joints. `joints`: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name. */
 HH_API hh_result hh_player_hand_joints(const hh_world* world, hh_player player, hh_side side,
                                        hh_space space, hh_hand_joint* joints);
 
@@ -283,7 +284,7 @@ typedef enum hh_body_joint {
 HH_API const char* hh_body_joint_name(size_t joint);
 /* The parent's index; -1 for the hips and beyond the last. */
 HH_API int32_t hh_body_joint_parent(size_t joint);
-/* HH_BODY_JOINT_COUNT elements. */
+/* `joints`: HH_BODY_JOINT_COUNT elements. */
 HH_API hh_result hh_player_body_joints(const hh_world* world, hh_player player, hh_space space,
                                        hh_pose* joints);
 

@@ -5,12 +5,11 @@ hh_body_x, hh_player_x and the others as body_x, player_x. Lists come back as nu
 A call that the library refuses raises HandholdError, and nothing has changed.
 """
 import ctypes
-import traceback
 
 from . import _generated
 from ._generated import *  # noqa: F401,F403
 from ._generated import HH_LEFT, HH_RIGHT, MeshDef, PlayerInput, Pose, SurfaceQuery, WorldCalls, WorldDef
-from ._library import HandholdError, check, lib, load, optional  # noqa: F401
+from ._library import HandholdError, check, lib, load, optional, refuse_in_callback  # noqa: F401
 
 
 class Mesh:
@@ -21,17 +20,19 @@ class Mesh:
         check(lib().hh_mesh_create(optional(MeshDef, definition, fields), ctypes.byref(self._handle)))
 
     def close(self) -> None:
-        lib().hh_mesh_destroy(self._handle)
-        self._handle = ctypes.c_void_p()
+        refuse_in_callback("a mesh cannot be closed")
+        self.__del__()
 
     def __del__(self):
         if getattr(self, "_handle", None):
-            self.close()
+            lib().hh_mesh_destroy(self._handle)
+            self._handle = ctypes.c_void_p()
 
 
 class Surfaces:
     """The surfaces of a host with physics of its own: hh_surface_query. Each function returns a SurfaceHit, or None if it finds nothing. `skip`:
-    bodies that count as not there."""
+    bodies that count as not there. What a function raises counts as nothing found, and is raised when the step has ended. A subclass may add
+    cast_sphere(radius_m, start, end, skip), which keeps trunk and legs out of surfaces."""
 
     def cast_ray(self, start, end, skip):
         return None
@@ -48,12 +49,13 @@ class World(WorldCalls):
 
     def __init__(self, definition=None, **fields):
         self._handle = ctypes.c_void_p()
-        self._query = None
+        self._kept = {}
         check(lib().hh_world_create(optional(WorldDef, definition, fields), ctypes.byref(self._handle)))
 
     def close(self) -> None:
-        lib().hh_world_destroy(self._handle)
-        self._handle = ctypes.c_void_p()
+        """Destroys the world. Not inside a callback: HH_ERROR_STATE."""
+        refuse_in_callback("a world cannot be closed")
+        self.__del__()
 
     def __enter__(self):
         return self
@@ -63,7 +65,9 @@ class World(WorldCalls):
 
     def __del__(self):
         if getattr(self, "_handle", None):
-            self.close()
+            lib().hh_world_destroy(self._handle)
+            self._handle = ctypes.c_void_p()
+            self._kept.clear()
 
     def step_player(self, dt_s, player, samples, **commands) -> None:
         """hh_world_step for a world with one player. `samples`: TrackingSamples or dictionaries of their fields."""
@@ -88,17 +92,12 @@ class World(WorldCalls):
             if hasattr(surfaces, "cast_sphere"):
                 query.cast_sphere = _answer(lambda radius_m, start, end, skip, count: surfaces.cast_sphere(radius_m, start, end, skip[:count]))
         self.set_surface_query(query)
-        self._query = query  # its functions live as long as the world may call them
 
 
 def _answer(find):
     def call(context, *words):
         *given, hit = words
-        try:
-            found = find(*given)
-        except Exception:  # must not cross the library
-            traceback.print_exc()
-            return 0
+        found = find(*given)
         if found is None:
             return 0
         hit[0] = found

@@ -3,7 +3,10 @@ import enum
 from ctypes import (CFUNCTYPE, POINTER, byref, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint8, c_uint32, c_uint64, c_void_p,
                     sizeof)
 
-from ._library import Struct, array, changed, check, copied, empty, handle, lib, listed, optional, raw, shown, text, value
+from ._library import Struct, array, changed, check, copied, empty, fixed, handle, held, lib, listed, optional, raw, shown, text, value
+
+# Structs whose functions the library may call.
+_kept = {}
 
 HANDHOLD_VERSION_MAJOR = 0
 HANDHOLD_VERSION_MINOR = 2
@@ -1176,7 +1179,9 @@ def atan2(y, x):
 def set_host_hooks(hooks=None):
     """Sets the hooks of the process; null: back to the defaults. HH_ERROR_STATE while a world exists. Not beside
     any other call of the library."""
+    hooks = held(HostHooks, hooks)
     check(lib().hh_set_host_hooks(optional(HostHooks, hooks)))
+    _kept["hh_host_hooks"] = hooks
 
 
 def set_thread_count(count):
@@ -1251,8 +1256,10 @@ def convert_scale_to(engine, scale):
 
 def convert_mesh_from(engine, coordinates, indices):
     """A mesh in place: converts x, y, z of its vertices, and reverses its triangles if the engine's front faces
-    are clockwise (Unity, Godot), so that they are counter-clockwise from outside. HH_ERROR_VALUE, and no
-    change, for counts that are no multiples of 3."""
+    are clockwise (Unity, Godot), so that they are counter-clockwise from outside. A mirrored object, of which
+    the product of the scales is negative: multiply its vertices by the scale and reverse the indices before,
+    since hh_shape_add_mesh takes positive scales only. HH_ERROR_VALUE, and no change, for counts that are no
+    multiples of 3."""
     coordinates, coordinates_at = changed(c_float, coordinates)
     indices, indices_at = changed(c_uint32, indices)
     check(lib().hh_convert_mesh_from(engine, coordinates_at, coordinates.size, indices_at, indices.size))
@@ -1276,12 +1283,13 @@ def tuning_describe(index):
     return info
 
 
-def finger_curls_of(joints=None):
+def finger_curls_of(joints):
     """How far the fingers of a tracked hand are bent, for hh_tracking_sample.curls. `joints`:
     HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name, in any one space; only positions are read. Curl is
     the sum of a finger's bends over that of a fist; -1 if a joint of the finger is not valid. Any thread."""
-    curls, curls_at = empty(FingerCurls, 26)
-    check(lib().hh_finger_curls_of(optional(HandJoint, joints), curls_at))
+    joints = fixed(HandJoint, joints, 26, "joints")
+    curls = FingerCurls()
+    check(lib().hh_finger_curls_of(joints, byref(curls)))
     return curls
 
 
@@ -1299,11 +1307,13 @@ class WorldCalls:
     """Every function of a world, as a method. Calls that fail raise HandholdError and change nothing."""
 
     _handle = None
+    _kept = {}  # replaced by a dictionary of each world: structs whose functions the library may call
 
     def step(self, dt_s, inputs):
         """Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players without
         one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are
-        clamped. Cost: about 0.15 ms a gripping player, plus contacts."""
+        clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs all the time, and up to 2 ms in the
+        frame in which a hand closes: docs/guide/cost.md."""
         inputs, input_count_ = array(PlayerInput, inputs)
         check(lib().hh_world_step(self._handle, dt_s, inputs, input_count_))
 
@@ -1408,7 +1418,8 @@ class WorldCalls:
 
     def shape_add_box(self, half_extents_m):
         """In a world with fits_hands, a new shape gets a surface for hands on the calling thread; a shape equal
-        to one that is there costs microseconds. Costs are of one core of a desktop. Box: 0.02 ms."""
+        to one that is there costs microseconds. Costs are of one core at 2.1 GHz. Large round shapes cost
+        more than a frame: add them while loading. Box: 0.02 ms."""
         shape = Shape()
         check(lib().hh_shape_add_box(self._handle, value(Vec3, half_extents_m), byref(shape)))
         return shape
@@ -1732,8 +1743,9 @@ class WorldCalls:
         check(lib().hh_player_measures(self._handle, value(Player, player), byref(measures)))
         return measures
 
-    def player_set_measures(self, player, measures=None):
-        check(lib().hh_player_set_measures(self._handle, value(Player, player), optional(Measures, measures)))
+    def player_set_measures(self, player, measures):
+        """Replaces the measures. `measures`, not null."""
+        check(lib().hh_player_set_measures(self._handle, value(Player, player), byref(value(Measures, measures))))
 
     def player_set_user_data(self, player, user_data):
         check(lib().hh_player_set_user_data(self._handle, value(Player, player), user_data))
@@ -1807,13 +1819,13 @@ class WorldCalls:
         return copied(Event, events, count)
 
     def player_hand_joints(self, player, side, space):
-        """The shown hand's joints: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name."""
+        """The shown hand's joints. `joints`: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name."""
         joints, joints_at = empty(HandJoint, 26)
         check(lib().hh_player_hand_joints(self._handle, value(Player, player), side, space, joints_at))
         return joints
 
     def player_body_joints(self, player, space):
-        """HH_BODY_JOINT_COUNT elements."""
+        """`joints`: HH_BODY_JOINT_COUNT elements."""
         joints, joints_at = empty(Pose, 20)
         check(lib().hh_player_body_joints(self._handle, value(Player, player), space, joints_at))
         return joints
@@ -1847,7 +1859,9 @@ class WorldCalls:
 
     def set_surface_query(self, query=None):
         """From now on hands and legs ask the host, not the world's shapes. Null: back to the shapes."""
+        query = held(SurfaceQuery, query)
         check(lib().hh_world_set_surface_query(self._handle, optional(SurfaceQuery, query)))
+        self._kept["hh_surface_query"] = query
 
     def body_set_surface(self, body, mesh):
         """The triangles that palm and fingers close on, in the body's frame; null: none. Not needed for

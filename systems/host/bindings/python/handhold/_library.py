@@ -3,11 +3,13 @@ import ctypes
 import ctypes.util
 import os
 import sys
+import threading
 from pathlib import Path
 
 import numpy as np
 
 _loaded = None
+HH_ERROR_STATE = 6
 
 
 class HandholdError(Exception):
@@ -28,13 +30,14 @@ def load(path=None) -> None:
     found = path or os.environ.get("HANDHOLD_LIBRARY") or (str(beside) if beside.exists() else None) \
         or ctypes.util.find_library("handhold") or f"{name}.{version}"
     library = ctypes.CDLL(str(found))
+    running = [ctypes.c_uint32() for _ in range(3)]
+    library.hh_version(*map(ctypes.byref, running))
+    if [n.value for n in running[:2]] != [_generated.HANDHOLD_VERSION_MAJOR, _generated.HANDHOLD_VERSION_MINOR]:
+        # Before 1.0.0 every minor version may change the interface.
+        raise ImportError(f"{found} has version {'.'.join(str(n.value) for n in running)}; this package needs {version}")
     for function, (returns, params) in _generated.FUNCTIONS.items():
         entry = getattr(library, function)
         entry.restype, entry.argtypes = returns, params
-    running = [ctypes.c_uint32() for _ in range(3)]
-    library.hh_version(*map(ctypes.byref, running))
-    if tuple(n.value for n in running[:2]) < (_generated.HANDHOLD_VERSION_MAJOR, _generated.HANDHOLD_VERSION_MINOR):
-        raise ImportError(f"{found} has version {'.'.join(str(n.value) for n in running)}; this package needs {version} or later")
     _loaded = library
 
 
@@ -44,7 +47,39 @@ def lib():
     return _loaded
 
 
+class Callbacks(threading.local):
+    """What this thread's callbacks did: how many are running, and the first exception since the last call of the library ended."""
+
+    running = 0
+    error = None
+
+
+_callbacks = Callbacks()
+
+
+def guarded(work):
+    """`work` as a function that the library may call: what it raises is raised when the call of the library has ended."""
+    def call(*words):
+        _callbacks.running += 1
+        try:
+            return work(*words)
+        except BaseException as error:  # must not cross the library
+            _callbacks.error = _callbacks.error or error
+            return 0
+        finally:
+            _callbacks.running -= 1
+    return call
+
+
+def refuse_in_callback(what: str) -> None:
+    if _callbacks.running:
+        raise HandholdError(HH_ERROR_STATE, f"HH_ERROR_STATE: {what} inside a callback")
+
+
 def check(result: int) -> None:
+    error, _callbacks.error = _callbacks.error, None
+    if error is not None:
+        raise error
     if result != 0:
         raise HandholdError(result, f"{lib().hh_result_text(result).decode()}: {lib().hh_last_error().decode()}")
 
@@ -78,6 +113,8 @@ class Struct(ctypes.Structure):
         if name in self._arrays_:
             counter, each = self._arrays_[name]
             elements, count = array(kind._type_, given)
+            if count % each != 0 or getattr(given, "ndim", 1) > 1 and given.shape[-1] != each:
+                raise TypeError(f"{name}: rows of {each} numbers are needed")
             self._keep(name, elements)
             super().__setattr__(name, ctypes.cast(elements, kind))
             super().__setattr__(counter, count // each)
@@ -89,7 +126,7 @@ class Struct(ctypes.Structure):
         elif isinstance(kind, type) and issubclass(kind, ctypes.Array):
             given = kind(*[value(kind._type_, one) for one in given])
         elif isinstance(kind, type) and issubclass(kind, ctypes._CFuncPtr):
-            given = given if isinstance(given, kind) else kind() if given is None else kind(given)
+            given = given if isinstance(given, kind) else kind() if given is None else kind(guarded(given))
             self._keep(name, given)
         super().__setattr__(name, given)
 
@@ -125,11 +162,36 @@ def value(kind, given):
 
 
 def optional(kind, given, fields=None):
-    if fields:
-        if given is not None:
-            raise TypeError("give a definition or its fields, not both")
+    """The address of a struct; null for None. A definition without one has the library's defaults and `fields`."""
+    if fields and given is not None:
+        raise TypeError("give a definition or its fields, not both")
+    if fields is not None and given is None:
         given = kind(**fields)
     return None if given is None else ctypes.byref(value(kind, given))
+
+
+def held(kind, given):
+    """A copy of a struct with callbacks that keeps them alive, whatever becomes of `given`."""
+    if given is None:
+        return None
+    given = value(kind, given)
+    made = kind.from_buffer_copy(given)
+    made.__dict__["_kept"] = dict(given.__dict__.get("_kept", {}))
+    return made
+
+
+def numbers_of(kind):
+    """The type of all numbers of a struct, if it is one type."""
+    kinds = {numbers_of(one[0]) for one in kind.fields.values()} if kind.fields is not None else {kind.base if kind.subdtype else kind}
+    return kinds.pop() if len(kinds) == 1 else None
+
+
+def fixed(kind, given, length, name):
+    """A C array of `kind` with exactly `length` elements."""
+    made, count = array(kind, given)
+    if count != length:
+        raise TypeError(f"{name}: {length} elements of {kind.__name__} are needed, {count} are given")
+    return made
 
 
 def array(kind, given):
@@ -139,10 +201,10 @@ def array(kind, given):
     if isinstance(given, np.ndarray):
         wanted = np.dtype(kind)
         if given.dtype != wanted and wanted.fields is not None:
-            rows = np.ascontiguousarray(given, dtype=np.float64)
-            if rows.ndim != 2 or rows.shape[1] * 8 != wanted.itemsize:
-                raise TypeError(f"rows of {wanted.itemsize // 8} numbers are needed, not shape {given.shape}")
-            made, count = rows, rows.shape[0]
+            number = numbers_of(wanted)
+            if number is None or given.ndim != 2 or given.shape[1] * number.itemsize != wanted.itemsize or not np.can_cast(given, number, "same_kind"):
+                raise TypeError(f"an array of {kind.__name__} is needed, or rows of its numbers; not {given.dtype} of shape {given.shape}")
+            made, count = np.ascontiguousarray(given, dtype=number), given.shape[0]
         else:
             made = np.ascontiguousarray(given, dtype=wanted)
             count = made.size

@@ -2,7 +2,7 @@ using UnityEngine;
 
 namespace Handhold {
     /// <summary>Unity's vectors, rotations and poses (left-handed, metres) from and to Handhold's (right-handed).</summary>
-    public static class Convert {
+    public static class UnityConvert {
         private const Engine Unity = Engine.Unity;
 
         public static Vec3 FromUnity(Vector3 v) => Library.ConvertVectorFrom(Unity, new Vec3(v.x, v.y, v.z));
@@ -15,8 +15,13 @@ namespace Handhold {
             Quat made = Library.ConvertRotationTo(Unity, q);
             return new Quaternion((float)made.x, (float)made.y, (float)made.z, (float)made.w);
         }
-        public static Pose FromUnity(Vector3 position, Quaternion rotation) => new Pose(FromUnity(position), FromUnity(rotation));
+        public static HhPose FromUnity(Vector3 position, Quaternion rotation) => new HhPose(FromUnity(position), FromUnity(rotation));
+        /// <summary>Angular velocities, rad/s.</summary>
         public static Vec3 AngularFromUnity(Vector3 v) => Library.ConvertAngularFrom(Unity, new Vec3(v.x, v.y, v.z));
+        public static Vector3 AngularToUnity(Vec3 v) {
+            Vec3 made = Library.ConvertAngularTo(Unity, v);
+            return new Vector3((float)made.x, (float)made.y, (float)made.z);
+        }
 
         // Floats leave a rotation of length 1 only to seven digits.
         private static Quat Unit(Quat q) {
