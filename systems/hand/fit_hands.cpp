@@ -11,7 +11,7 @@
 namespace handhold {
 namespace {
 
-constexpr std::int32_t k_closing_rounds = 6;
+constexpr std::int32_t k_closing_rounds = 10;
 constexpr std::int32_t k_closing_again_rounds = 2;  // of a hand that shows a fit meanwhile
 // A warm fit continues in the next frame.
 constexpr std::int32_t k_rounds = 1;

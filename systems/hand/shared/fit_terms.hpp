@@ -13,17 +13,18 @@ namespace handhold {
 enum class FitTerm : std::uint8_t {
     sync,         // the palm is away from where it is tracked
     touch,        // a digit's nearest point is off the surface
-    tip,          // a thumb's tip is off the surface
-    first,        // a digit has left the angles of the closing
+    tip,          // a digit's tip is off the surface
+    opposition,   // a thumb has left the opposition of the closing
     rest,         // a digit has left its rest pose
     alike,        // neighbouring fingers bend differently
     fan,          // neighbouring fingers point differently
     roll,         // a finger bends in the middle more or less than at the knuckle
-    couple,       // the last hinge bends more or less than 2/3 of its parent
+    couple,       // the last hinge bends more or less than its parent asks for
     penetration,  // a capsule is in a surface, or closer than the contacts' margin
     overlap,      // thumb and finger are in each other
     joints,       // an angle is outside its joint's limits
     bend,         // a finger is folded into itself
+    claw,         // a knuckle is stretched and the middle joint bent
     apart,        // neighbouring fingers bend or point too differently
     palm_limits,  // the palm is outside its limits on height and tilt
     count

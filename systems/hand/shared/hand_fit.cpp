@@ -11,37 +11,37 @@
 namespace handhold {
 namespace {
 
-// Weights relative to the wrist's translation; see hand_fit.hpp. Chosen on the choosing seeds of
-// tools/lab/grip_report.
-constexpr double k_arm_m = 0.08;
-constexpr double k_lever_m = 0.05;  // l
+// The weights and lengths of hand_fit.hpp.
+constexpr double k_arm_m = 0.05;
+constexpr double k_lever_m = 0.05;   // l
+constexpr double k_let_go_m = 0.03;  // g
 constexpr double k_touch = 2.0;
-constexpr double k_let_go_m = 0.008;  // g of a digit for which the closing found no contact
-constexpr double k_let_go_touching_m = 0.02;
-constexpr double k_tip = 0.02;
-constexpr double k_first = 0.002;
-constexpr double k_first_opposition = 0.02;
-constexpr double k_rest = 2e-5;  // keeps every angle determined
-constexpr double k_rest_of_free_thumb = 0.002;
-constexpr double k_alike = 0.001;
-constexpr double k_alike_free = 0.2;  // added for a pair of fingers of which one is free
-constexpr double k_fan = 0.03;
-constexpr double k_fan_free = 0.3;
-constexpr double k_free_gap_m = 0.008;  // gap at which a finger counts as half free
-constexpr double k_roll = 0.003;
-constexpr double k_couple = 0.003;
+constexpr double k_tip = 1.0;
+constexpr double k_thumb_tip = 0.5;
+constexpr double k_fan = 0.3;
+constexpr double k_alike = 0.3;
+constexpr double k_free_gap_m = 1e-3;  // gap at which fingers bend alike by half the weight
+constexpr double k_couple = 0.1;
 constexpr double k_coupling = 2.0 / 3.0;
+constexpr double k_couple_thumb = 0.15;
+constexpr double k_roll = 0.01;
+constexpr double k_opposition = 0.002;
+constexpr double k_rest = 2e-5;
+constexpr double k_rest_of_free_thumb = 0.002;
 // Stiffness of the inequalities.
 constexpr double k_contact = 2000.0;
 constexpr double k_joint_limit = 500.0;
 constexpr double k_palm_limit = 20.0;
 constexpr double k_bend_limit = 0.3;
 constexpr double k_fan_limit = 2.0;
+constexpr double k_claw_limit = 4.0;
 constexpr double k_digit_contact = 500.0;  // of the thumb and a finger
 constexpr double k_digit_reach_m = 0.03;   // digits farther apart need no row
 constexpr double k_max_fan_rad = 0.5;
 constexpr double k_max_apart_rad = 1.6;
 constexpr double k_max_bend_rad = 2.75;
+constexpr double k_claw_share = 0.6;
+constexpr double k_claw_rad = 20.0 * k_degree;
 constexpr double k_clear_m = 3e-4;  // gap that contacts aim for
 // Largest step of one round: gaps are linearised.
 constexpr double k_max_move_m = 0.02;
@@ -51,9 +51,9 @@ constexpr double k_lever2 = k_lever_m * k_lever_m;
 
 bool is_thumb(const FingerRig& finger) { return finger.name == FingerName::thumb; }
 
-// Rows at most: four per angle (limits and steps), each finger's bend, four per pair of neighbours,
-// gaps, the palm's limits.
-static_assert(4 * (k_max_unknowns - 6) + k_finger_count + 4 * (k_finger_count - 1) +
+// Rows at most: four per angle (limits and steps), two per finger (bend, claw), four per pair of
+// neighbours, gaps, the palm's limits.
+static_assert(4 * (k_max_unknowns - 6) + 2 * k_finger_count + 4 * (k_finger_count - 1) +
                   HandSpheres::k_max_count + k_max_digit_gaps + 3 <=
               k_max_penalty_rows);
 
@@ -146,10 +146,6 @@ class Fitter {
         for (std::size_t i = 0; i < finger.link_count; ++i) {
             const int place = layout_.hinge(f, i);
             const double angle_rad = angles.curl_rad[i];
-            if (goal_.touches[f]) {
-                problem_.add_square({FitTerm::first, f}, k_first * k_lever2,
-                                    angle_rad - goal_.closed[f].curl_rad[i], unit(place));
-            }
             problem_.add_square({FitTerm::rest, f},
                                 (is_free_thumb ? k_rest_of_free_thumb : k_rest) * k_lever2,
                                 angle_rad - finger.rest_rad[i], unit(place));
@@ -158,20 +154,38 @@ class Fitter {
             problem_.add_row({FitTerm::joints, f}, unit(place, -1.0),
                              finger.upper_rad[i] - angle_rad, k_joint_limit * k_lever2);
         }
-        if (is_thumb(finger)) {
-            return;
+        if (finger.link_count == 3) {
+            add_coupling(f);
         }
+        if (!is_thumb(finger)) {
+            add_shape(f);
+        }
+    }
+
+    // The last hinge bends with its parent.
+    void add_coupling(std::size_t f) {
+        const FingerAngles& angles = pose_.fingers[f];
+        const bool is_of_thumb = is_thumb(rig_.fingers[f]);
+        const double share = is_of_thumb ? 1.0 : k_coupling;
+        problem_.add_square({FitTerm::couple, f},
+                            (is_of_thumb ? k_couple_thumb : k_couple) * k_lever2,
+                            angles.curl_rad[2] - share * angles.curl_rad[1],
+                            unit(layout_.hinge(f, 2)) + unit(layout_.hinge(f, 1), -share));
+    }
+
+    // How a finger bends at knuckle and middle.
+    void add_shape(std::size_t f) {
+        const FingerAngles& angles = pose_.fingers[f];
         const Unknowns open = layout_.bend(f, -1.0);
         problem_.add_row({FitTerm::bend, f}, open, k_max_bend_rad + along(open),
                          k_bend_limit * k_lever2);
         problem_.add_square({FitTerm::roll, f}, k_roll * k_lever2,
                             angles.curl_rad[1] - angles.curl_rad[0],
                             unit(layout_.hinge(f, 1)) + unit(layout_.hinge(f, 0), -1.0));
-        if (finger.link_count == 3) {
-            problem_.add_square({FitTerm::couple, f}, k_couple * k_lever2,
-                                angles.curl_rad[2] - k_coupling * angles.curl_rad[1],
-                                unit(layout_.hinge(f, 2)) + unit(layout_.hinge(f, 1), -k_coupling));
-        }
+        problem_.add_row({FitTerm::claw, f},
+                         unit(layout_.hinge(f, 0)) + unit(layout_.hinge(f, 1), -k_claw_share),
+                         angles.curl_rad[0] - k_claw_share * angles.curl_rad[1] + k_claw_rad,
+                         k_claw_limit * k_lever2);
     }
 
     void add_opposition(std::size_t f) {
@@ -181,7 +195,7 @@ class Fitter {
             return;
         }
         const double angle_rad = pose_.fingers[f].opposition_rad;
-        problem_.add_square({FitTerm::first, f}, k_first_opposition * k_lever2,
+        problem_.add_square({FitTerm::opposition, f}, k_opposition * k_lever2,
                             angle_rad - goal_.closed[f].opposition_rad, unit(place));
         problem_.add_row({FitTerm::joints, f}, unit(place), angle_rad - finger.lower_opposition_rad,
                          k_joint_limit * k_lever2);
@@ -189,30 +203,34 @@ class Fitter {
                          finger.upper_opposition_rad - angle_rad, k_joint_limit * k_lever2);
     }
 
-    // Draws a digit's nearest sphere to the surface, and a thumb's tip. Knuckles do not count.
+    // Pulls a digit's nearest sphere and its tip to the surface. Knuckles do not count.
     void add_attraction(std::size_t f) {
         for (const HandSphere& sphere : spheres_.all()) {
-            if (sphere.is_thumb_tip && sphere.finger == static_cast<std::int32_t>(f) &&
-                sphere.has_gap) {
-                problem_.add_square({FitTerm::tip, f}, k_tip, sphere.gap_m, slope_of(sphere));
+            if (!sphere.is_tip || sphere.finger != static_cast<std::int32_t>(f) ||
+                !sphere.has_gap) {
+                continue;
+            }
+            if (is_thumb(rig_.fingers[f])) {
+                problem_.add_square({FitTerm::tip, f}, k_thumb_tip, sphere.gap_m, slope_of(sphere));
+            } else {
+                add_pull({FitTerm::tip, f}, k_tip, sphere);
             }
         }
         const HandSphere* const nearest = spheres_.nearest(f);
         if (nearest != nullptr && (goal_.touches[f] || nearest->gap_m < k_sphere_reach_m)) {
-            add_pull(f, *nearest);
+            add_pull({FitTerm::touch, f}, k_touch, *nearest);
         }
     }
 
-    // Adds k_touch / 2 * gap^2 / (1 + gap^2 / g^2), as the square that has the same slope here
+    // Adds pull / 2 * gap^2 / (1 + gap^2 / g^2), as the square that has the same slope here
     // (iteratively reweighted least squares). A gap of 0 is pulled too, so that the wrist does not
     // leave it.
-    void add_pull(std::size_t f, const HandSphere& sphere) {
-        const double ratio = sphere.gap_m / (goal_.touches[f] ? k_let_go_touching_m : k_let_go_m);
+    void add_pull(const FitPart& part, double pull, const HandSphere& sphere) {
+        const double ratio = sphere.gap_m / k_let_go_m;
         const double share = 1.0 / (1.0 + ratio * ratio);
-        const double weight = k_touch * share * share;
-        problem_.add_square({FitTerm::touch, f}, weight, sphere.gap_m, slope_of(sphere));
-        problem_.add_constant({FitTerm::touch, f},
-                              0.5 * (k_touch * share - weight) * sphere.gap_m * sphere.gap_m);
+        const double weight = pull * share * share;
+        problem_.add_square(part, weight, sphere.gap_m, slope_of(sphere));
+        problem_.add_constant(part, 0.5 * (pull * share - weight) * sphere.gap_m * sphere.gap_m);
     }
 
     // Neighbours are fingers next to each other in the rig, thumbs left out.
@@ -229,12 +247,8 @@ class Fitter {
         }
     }
 
-    // Weight of the neighbours' pose, d^2 / (g^2 + d^2) with the finger's gap d and
-    // g = k_free_gap_m: 0 in contact, towards 1 far off. 0 for a finger whose angles are kept.
+    // s of hand_fit.hpp for one finger: 0 in contact, towards 1 far off.
     double free_share(std::size_t f) const {
-        if (goal_.is_fixed[f]) {
-            return 0.0;
-        }
         const HandSphere* const nearest = spheres_.nearest(f);
         if (nearest == nullptr) {
             return 1.0;
@@ -243,18 +257,14 @@ class Fitter {
         return ratio * ratio / (1.0 + ratio * ratio);
     }
 
+    // A finger whose angles are kept, like a pointing one, draws no neighbour to it.
     void add_neighbour(std::size_t a, std::size_t b) {
-        const double free = std::max(free_share(a), free_share(b));
-        const std::size_t links = std::min(rig_.fingers[a].link_count, rig_.fingers[b].link_count);
-        for (std::size_t i = 0; i < links; ++i) {
-            problem_.add_square({FitTerm::alike, a, b}, (k_alike + k_alike_free * free) * k_lever2,
-                                pose_.fingers[b].curl_rad[i] - pose_.fingers[a].curl_rad[i],
-                                unit(layout_.hinge(b, i)) + unit(layout_.hinge(a, i), -1.0));
-        }
         const Unknowns fan = layout_.direction(b, 1.0) + layout_.direction(a, -1.0);
         const double fan_rad = along(fan);
-        problem_.add_square({FitTerm::fan, a, b}, (k_fan + k_fan_free * free) * k_lever2, fan_rad,
-                            fan);
+        if (!goal_.is_fixed[a] && !goal_.is_fixed[b]) {
+            add_alike(a, b);
+            problem_.add_square({FitTerm::fan, a, b}, k_fan * k_lever2, fan_rad, fan);
+        }
         problem_.add_row({FitTerm::apart, a, b}, fan, k_max_fan_rad + fan_rad,
                          k_fan_limit * k_lever2);
         problem_.add_row({FitTerm::apart, a, b}, -fan, k_max_fan_rad - fan_rad,
@@ -265,6 +275,16 @@ class Fitter {
                          k_bend_limit * k_lever2);
         problem_.add_row({FitTerm::apart, a, b}, -apart, k_max_apart_rad - apart_rad,
                          k_bend_limit * k_lever2);
+    }
+
+    void add_alike(std::size_t a, std::size_t b) {
+        const double free = std::max(free_share(a), free_share(b));
+        const std::size_t links = std::min(rig_.fingers[a].link_count, rig_.fingers[b].link_count);
+        for (std::size_t i = 0; i < links; ++i) {
+            problem_.add_square({FitTerm::alike, a, b}, k_alike * free * k_lever2,
+                                pose_.fingers[b].curl_rad[i] - pose_.fingers[a].curl_rad[i],
+                                unit(layout_.hinge(b, i)) + unit(layout_.hinge(a, i), -1.0));
+        }
     }
 
     // Sum of the pose's curls, weighted by `slope`.

@@ -11,31 +11,39 @@
 
 // One fit of wrist, fingers and thumb to the surfaces around a hand: the stage behind fit_hands.
 //
-//   minimise   |p - p0|^2 + (arm |r|)^2             palm's centre p and rotation vector r from the
-//                                                   tracked wrist (p0, 0)
-//            + touch  sum gap^2 / (1 + gap^2 / g^2)  each digit's smallest gap; a digit that is far
-//                                                   off is let go
-//            + tip    gap^2                         of the thumb's tip
-//            + first  sum (l (q - q_closed))^2      angles q of a digit that touched something when
-//                                                   the hand closed
-//            + alike  sum (l (q_f - q_f+1))^2       neighbouring fingers bend alike
-//            + fan    sum (l (d_f - d_f+1))^2       and point alike; d: direction from the knuckle
-//                                                   to the tip, linear in the angles. Both weigh
-//                                                   more, the farther one of the two is from any
-//                                                   surface: a finger that reaches nothing goes
-//                                                   with its neighbours
-//            + roll   sum (l (q_2 - q_1))^2         fingers bend in the middle as at the knuckle
-//            + couple sum (l (q_3 - 2/3 q_2))^2     the last hinge bends 2/3 as far as its parent
-//            + rest   sum (l (q - q_rest))^2        keeps every angle determined
-//   subject to every capsule's gap >= 0, gaps between thumb and fingers >= 0, joint limits, the
-//   palm's limits on height and tilt, total bends up to 158 degrees, neighbours' total bends within
-//   92 degrees of each other and their directions within 29 degrees
+//   minimise
+//     |p - p0|^2 + (arm |r|)^2               p: palm's centre, p0: tracked one, r: rotation vector
+//                                            from the tracked wrist; arm = 5 cm
+//   + 2   sum_d pull(gap_d)                  nearest point of each digit d
+//   + 1   sum_f pull(tip_f)                  each finger's tip; fingers f are without the thumb
+//   + 0.5 tip_t^2                            the thumb's tip
+//   + 0.3 sum_f (l (d_f - d_f+1))^2          fan: neighbours point alike; d: direction from knuckle
+//                                            to tip, linear in the angles
+//   + 0.3 sum_f s |l (q_f - q_f+1)|^2        alike: neighbours bend alike if one of them touches
+//                                            nothing: s = gap^2 / (gap^2 + 1 mm^2), larger gap
+//   + 0.1 sum_f (l (q3 - 2/3 q2))^2          couple: the last hinge follows the middle one
+//   + 0.15 (l (q3 - q2))^2                   the same for the thumb's last two hinges
+//   + 0.01 sum_f (l (q2 - q1))^2             roll: the middle bends as far as the knuckle
+//   + 0.002 (l (o - o_closed))^2             opposition: the thumb stays where it closed
+//   + 2e-5 sum (l (q - q_rest))^2            rest: keeps every angle determined; 0.002 for a thumb
+//                                            that touched nothing when the hand closed
+//   subject to
+//     every capsule's gap >= 0, gaps between thumb and fingers >= 0
+//     joint limits
+//     q1 >= 0.6 q2 - 20 degrees              claw: no stretched knuckle with a bent middle
+//     q1 + q2 + q3 <= 158 degrees            bend: no finger folded into itself
+//     neighbours' total bends within 92 degrees, and their directions within 29 degrees
+//     the palm's limits on height and tilt (PalmTuning)
 //
-// l = 5 cm, g = 2 cm if the closing found a contact, else 8 mm. The inequalities are penalties,
-// stiffer in this order: bends, palm, joints, gaps; what cannot be met is shared. Each round
-// queries the gaps (hand_spheres.hpp), linearises and solves (engine/math/penalty_quadratic.hpp).
+// Fingers whose angles are kept have no fan and alike with their neighbours.
+// pull(x) = x^2 / (1 + x^2 / g^2) lets go of what is far off: g = 3 cm; l = 5 cm. Hinges q1, q2, q3
+// are numbered from the knuckle. Gaps within 2 cm count, those of tips within 6 cm. Costs are half
+// of these sums. The inequalities are penalties, stiffer in this order: bends, directions, claw,
+// palm, joints, gaps; the fit shares what cannot be met. Each round queries the gaps
+// (hand_spheres.hpp), linearises and solves (engine/math/penalty_quadratic.hpp).
 // Sources: Santello, Flanders, Soechting, Postural hand synergies for tool use, 1998 (fingers bend
-// alike); Rijpkema, Girard, Computer animation of knowledge-based human grasping, 1991 (2/3).
+// alike); Rijpkema, Girard, Computer animation of knowledge-based human grasping, 1991 (2/3). The
+// weights follow 694 labels of posed hands (docs/decisions).
 namespace handhold {
 
 struct HandFitGoal {

@@ -17,7 +17,7 @@ constexpr double k_extra_gap_m = 0.005;        // links farther away need no ext
 constexpr double k_max_depth_inside_m = 0.03;  // deepest centre inside a solid that is found
 
 double query_radius_m(const HandSphere& sphere) {
-    const double reach_m = sphere.is_thumb_tip ? k_thumb_tip_reach_m : k_sphere_reach_m;
+    const double reach_m = sphere.is_tip ? k_tip_reach_m : k_sphere_reach_m;
     return std::max(sphere.radius_m + reach_m, k_max_depth_inside_m);
 }
 
@@ -79,11 +79,10 @@ HandSpheres::HandSpheres(const HandSurroundings& hand, const GripSurface& surfac
             // A later link's first sphere is the previous link's last.
             for (int i = link == 0 ? 0 : 1; i <= pieces; ++i) {
                 sphere.center_ls = Vec3(0.0, 0.0, -finger.length_m[link] * i / pieces);
-                sphere.is_thumb_tip = finger.name == FingerName::thumb &&
-                                      link + 1 == finger.link_count && i == pieces;
+                sphere.is_tip = link + 1 == finger.link_count && i == pieces;
                 add(sphere);
             }
-            sphere.is_thumb_tip = false;
+            sphere.is_tip = false;
             sphere.is_extra = true;
             add(sphere);
         }
@@ -127,7 +126,7 @@ void HandSpheres::query(const HandPose& pose, const HandLinkFrames& frames) {
         }
         const Vec3 center = center_of(sphere, pose, frames);
         const Vec3 moved = center - sphere.searched_center;
-        if (is_queried_ && sphere.has_gap && !sphere.is_thumb_tip &&
+        if (is_queried_ && sphere.has_gap && !sphere.is_tip &&
             sphere.searched_gap_m - moved.norm() > keep_m[group_of(sphere)]) {
             sphere.center = center;
             sphere.gap_m = sphere.searched_gap_m + sphere.away.dot(moved);

@@ -31,7 +31,7 @@ struct HandSphere {
     // An extra sphere where the capsule's axis is nearest to the surface. Without it, an edge could
     // penetrate between two spheres.
     bool is_extra = false;
-    bool is_thumb_tip = false;
+    bool is_tip = false;  // the end of a digit's last link
 
     // Written by HandSpheres::query.
     Vec3 center = Vec3::Zero();
@@ -48,9 +48,9 @@ struct HandSphere {
 
 bool is_knuckle(const HandSphere& sphere);
 
-// Gaps up to this are reported. A thumb's tip can be far from a surface that its base touches.
+// Gaps up to this are reported. A digit's tip can be far from a surface that its base touches.
 inline constexpr double k_sphere_reach_m = 0.02;
-inline constexpr double k_thumb_tip_reach_m = 0.06;
+inline constexpr double k_tip_reach_m = 0.06;
 
 class HandSpheres {
   public:

@@ -109,7 +109,7 @@ TEST_F(FitTermsOfHand, ShownHandHasTheTermsOfItsFit) {
         ASSERT_TRUE(terms);
         const Vec3 moved_m =
             hand.palm_center_bs() - transform_point(hand.wrist_bs(), rig.palm_center_hs);
-        const double turned_m = 0.08 * offset.shown_turn_rad.norm();  // hand_fit.hpp: arm
+        const double turned_m = 0.05 * offset.shown_turn_rad.norm();  // hand_fit.hpp: arm
         EXPECT_NEAR(cost_of(*terms, k_palm, FitTerm::sync),
                     0.5 * (moved_m.squaredNorm() + turned_m * turned_m), 1e-9)
             << i;
@@ -162,13 +162,80 @@ TEST_F(FitTermsOfHand, EvenlyBentFingersCostNothingForTheirShape) {
         const FitTerms terms = terms_of(hand, goal);
         for (std::size_t f = 1; f < rig.fingers.size(); ++f) {
             for (const FitTerm term : {FitTerm::roll, FitTerm::couple, FitTerm::alike,
-                                       FitTerm::apart, FitTerm::bend, FitTerm::tip}) {
+                                       FitTerm::apart, FitTerm::bend, FitTerm::claw}) {
                 EXPECT_NEAR(cost_of(terms, f, term), 0.0, 1e-20) << name_of(term);
             }
         }
         goal.first.fingers[2].curl_rad[2] += 0.3;
         EXPECT_GT(cost_of(terms_of(hand, goal), 2, FitTerm::couple), 1e-9);
     }
+}
+
+// Straight fingers at a height over the floor. Closed form of hand_fit.hpp: pull(x) / 2 with
+// x = height - radius of the last link, g = 3 cm, up to 6 cm.
+TEST_F(FitTermsOfHand, TipsArePulledToTheSurface) {
+    Random random(2606);
+    const auto pull_m2 = [](double gap_m) {
+        return gap_m * gap_m / (1.0 + gap_m * gap_m / (0.03 * 0.03));
+    };
+    int pulled = 0;
+    int out_of_reach = 0;
+    for (int i = 0; i < 60; ++i) {
+        FittedHand hand(floor, wrist_with_palm_at(rig, {0.0, 0.02, 0.0}, Vec3::UnitY()));
+        hand.search();
+        HandFitGoal goal;
+        goal.first.wrist_bs = hand.wrist_bs();
+        goal.first.wrist_bs.position.y() += random.between(0.0, 0.08);
+        for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+            goal.first.fingers[f] = coupled_angles(rig.fingers[f], random.between(0.0, 0.4));
+        }
+        const FitTerms terms = terms_of(hand, goal);
+        for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+            const FingerRig& finger = rig.fingers[f];
+            const Vec3 tip =
+                transform_point(goal.first.wrist_bs,
+                                finger_points(finger, goal.first.fingers[f])[finger.link_count]);
+            const double gap_m = tip.y() - finger.radius_m[finger.link_count - 1];
+            if (gap_m < 0.0 || std::abs(gap_m - k_tip_reach_m) < 1e-6) {
+                continue;
+            }
+            const bool is_reached = gap_m < k_tip_reach_m;
+            pulled += is_reached ? 1 : 0;
+            out_of_reach += is_reached ? 0 : 1;
+            const double cost_m2 = f == 0 ? 0.5 * gap_m * gap_m : pull_m2(gap_m);
+            EXPECT_NEAR(cost_of(terms, f, FitTerm::tip), is_reached ? 0.5 * cost_m2 : 0.0, 1e-9)
+                << i << ", digit " << f;
+        }
+    }
+    EXPECT_GT(pulled, 50);
+    EXPECT_GT(out_of_reach, 10);
+}
+
+// Closed forms of hand_fit.hpp: claw, and the coupling of the thumb's last two hinges.
+TEST_F(FitTermsOfHand, ClawsAndHookedThumbsCostWhatTheObjectiveSays) {
+    Random random(2607);
+    constexpr double k_lever2 = 0.05 * 0.05;
+    int claws = 0;
+    for (int i = 0; i < 60; ++i) {
+        FittedHand hand{random_mesh(random), random_wrist(random)};
+        hand.search();
+        const HandFitGoal goal = random_goal(hand.hands.front().wrist_bs, random);
+        const FitTerms terms = terms_of(hand, goal);
+        const auto& thumb = goal.first.fingers[0].curl_rad;
+        const double hook_rad = thumb[2] - thumb[1];
+        EXPECT_NEAR(cost_of(terms, 0, FitTerm::couple), 0.5 * 0.15 * k_lever2 * hook_rad * hook_rad,
+                    1e-12);
+        EXPECT_EQ(cost_of(terms, 0, FitTerm::claw), 0.0);
+        for (std::size_t f = 1; f < rig.fingers.size(); ++f) {
+            const auto& curl_rad = goal.first.fingers[f].curl_rad;
+            const double claw_rad =
+                std::max(0.0, 0.6 * curl_rad[1] - 20.0 * k_degree - curl_rad[0]);
+            claws += claw_rad > 0.0 ? 1 : 0;
+            EXPECT_NEAR(cost_of(terms, f, FitTerm::claw),
+                        0.5 * 4.0 * k_lever2 * claw_rad * claw_rad, 1e-12);
+        }
+    }
+    EXPECT_GT(claws, 10);
 }
 
 // Straight fingers pressed into the floor: their depth is their radius and what they are lowered.

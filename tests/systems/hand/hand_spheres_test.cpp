@@ -70,9 +70,7 @@ TEST_F(HandSpheresOnFloor, GapIsHeightLessRadius) {
                     EXPECT_LT((sphere.away - Vec3::UnitY()).norm(), 1e-6);
                     ++seen;
                 } else if (!sphere.is_extra && is_shallow) {
-                    EXPECT_GT(
-                        gap_m,
-                        (sphere.is_thumb_tip ? k_thumb_tip_reach_m : k_sphere_reach_m) - 1e-9);
+                    EXPECT_GT(gap_m, (sphere.is_tip ? k_tip_reach_m : k_sphere_reach_m) - 1e-9);
                 }
             }
             EXPECT_GT(seen, 4);

@@ -1,4 +1,4 @@
-"""A model of how players judge a posed hand: ordinal logistic regression on eleven features of the pose and its gaps.
+"""A model of how people rate a posed hand: ordinal logistic regression on eleven features of the pose and its gaps.
 
 For features x of a hand, z = clip((x - mean) / sd, -3, 3) and e = z . weight; P(ugly) = 1 - s(e - t0) and P(convincing) = s(e - t1), where s
 is the logistic function and t0 < t1 are thresholds (McCullagh, Regression models for ordinal data, 1980). Angles are in degrees, gaps in

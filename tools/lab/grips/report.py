@@ -29,7 +29,7 @@ def style_goals(whole):
 
 
 def critic_goals(whole):
-    """Shares that the critic expects of judges."""
+    """Shares that the critic expects people to name."""
     goals = []
     for kind, convincing, ugly in (("near", 85, 1), ("harsh", 65, 4)):
         shares = figure(whole, "critic", kind)

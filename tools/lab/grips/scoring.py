@@ -10,7 +10,7 @@ from .grasps import FINGERS
 
 DEEP_MM, TOUCH_MM = 3.0, 2.0
 PARTS = FINGERS + ("palm",)
-JUDGE = critic.read_critic()
+CRITIC = critic.read_critic()
 
 
 def spread(values):
@@ -84,7 +84,7 @@ class Measured:
 
     gaps_mm: (grasps, PARTS). each: one dictionary per grasp. used: gripped and finite. near: by the placements' kinds, {id: kind}; None:
     not known. reached: (grasps, 5), fingers that the reference brings to contact; None: not evaluated. style: one row per grasp
-    (style.rows_of). judged: (grasps, critic.LABELS), expected shares; tip_mm: (grasps, FINGERS), gaps of the digits' ends."""
+    (style.rows_of). expected: (grasps, critic.LABELS), shares of the labels; tip_mm: (grasps, FINGERS), gaps of the digits' ends."""
 
     def __init__(self, surface, grasps, capsules, kinds=None, reached=None):
         self.grasps = grasps
@@ -92,9 +92,9 @@ class Measured:
         self.each = [score_grasp(grasp, row) for grasp, row in zip(grasps, self.gaps_mm)]
         self.style = style.rows_of(surface, grasps, capsules, self.gaps_mm)
         _, self.tip_mm = critic.tips(surface, grasps, capsules)
-        self.judged = JUDGE.shares(critic.features(surface, grasps, capsules, self.gaps_mm))
-        for one, row, judged in zip(self.each, self.style, self.judged):
-            one["expected"] = dict(zip(critic.LABELS, judged.tolist()))
+        self.expected = CRITIC.shares(critic.features(surface, grasps, capsules, self.gaps_mm))
+        for one, row, shares in zip(self.each, self.style, self.expected):
+            one["expected"] = dict(zip(critic.LABELS, shares.tolist()))
             one["classes"] = [name for name in style.CLASSES if row[name]]
         self.used = np.array([one["gripped"] and one["finite"] for one in self.each])
         self.near = None if kinds is None else np.array([kinds.get(grasp.id) == "near" for grasp in grasps])
@@ -104,10 +104,10 @@ class Measured:
                 one["reference_reaches"] = [name for name, hit in zip(FINGERS, row) if hit]
 
 
-def judged_figures(measured, near=None):
+def critic_figures(measured, near=None):
     """Expected shares of convincing and ugly hands, with 95 % bounds over files. near: only placements of this kind; None: all."""
     rows = [(one, one.used if near is None else one.used & (one.near == near)) for one in measured if near is None or one.near is not None]
-    rows = [one.judged[used] for one, used in rows if used.any()]
+    rows = [one.expected[used] for one, used in rows if used.any()]
     if not rows:
         return {}
     return {name: style.bounded(style.mean_of, [row[:, critic.LABELS.index(name)] for row in rows]) for name in ("convincing", "ugly")}
@@ -139,7 +139,7 @@ def figures(measured):
         "us": {stage: spread([grasp.us.get(stage, math.nan) for grasp in gripped]) for stage in ("search", "palm", "fingers", "total")},
     }
     result["style"] = style.figures(measured)
-    result["critic"] = {"all": judged_figures(measured), "near": judged_figures(measured, True), "harsh": judged_figures(measured, False)}
+    result["critic"] = {"all": critic_figures(measured), "near": critic_figures(measured, True), "harsh": critic_figures(measured, False)}
     result["worst_tip_mm"] = spread(worst_tips_mm(measured))
     known = [one for one in measured if one.near is not None]
     if known:

@@ -1,4 +1,4 @@
-"""Shuffled sheets of hands of several variants, to be labelled by a judge who does not know which is which."""
+"""Shuffled sheets of hands of several variants, to be labelled by a person who does not know which is which."""
 import csv
 import io
 import json
