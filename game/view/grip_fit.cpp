@@ -32,8 +32,8 @@ FittedGrip fit_grip(const GripMesh& mesh, const HandRig& rig, const Pose& wrist_
     GripSearchScratch search;
     ChainFitScratch fit;
     StageStats stats;
-    search_grip({k_at_once_s, hands, surface, search}, tuning, stats);
-    constrain_palms({hands, surface, offset}, tuning);
+    search_grip({hands, surface, search}, tuning, stats);
+    constrain_palms({hands, surface, offset});
     sweep_fingers({hands, surface, offset, fingers, {}, fit}, tuning, stats);
     for (int frame = 0; frame < k_max_frames && !fingers.at(hand).is_converged; ++frame) {
         fit_hands({k_at_once_s, hands, tracking, surface, offset, fingers, palm}, tuning, stats);

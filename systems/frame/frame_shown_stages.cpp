@@ -87,8 +87,8 @@ void gather_surroundings(const FrameContext& f) {
 void search_grip(const FrameContext& f) {
     const StageTimer timer(Stage::search_grip, f.stats);
     for_hand_slices(f, [&f](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
-        handhold::search_grip({f.dt_s(), hands_of(f, first, last), f.w.grip_surface, slice.search},
-                              f.tuning, slice.stats);
+        handhold::search_grip({hands_of(f, first, last), f.w.grip_surface, slice.search}, f.tuning,
+                              slice.stats);
     });
 }
 
@@ -96,8 +96,7 @@ void constrain_palms(const FrameContext& f) {
     const StageTimer timer(Stage::constrain_palms, f.stats);
     World& w = f.w;
     for_hand_slices(f, [&](HandScratch::Slice& /*slice*/, std::size_t first, std::size_t last) {
-        handhold::constrain_palms({hands_of(f, first, last), w.grip_surface, w.palm_offset},
-                                  f.tuning);
+        handhold::constrain_palms({hands_of(f, first, last), w.grip_surface, w.palm_offset});
     });
 }
 

@@ -18,7 +18,6 @@ enum class GripSearch : std::uint8_t {
 };
 
 struct SearchGripIo {
-    double dt_s = 0.0;  // in: length of the frame; infinity: all candidates are evaluated at once
     std::span<const HandSurroundings> hands;  // in: body frame (_bs)
     // In/out: last frame's result, then this frame's; body frame (_bs).
     Column<GripSurface>& surface;
@@ -29,18 +28,14 @@ struct SearchGripIo {
 // tracked pose ("sync") to fit. Talk rows 2, 11, 17.
 //
 // 1. Search (shared/surface_search.hpp): a best-first search over neighbouring triangles within
-//    PalmTuning::reach_m. Its seeds are the palm ray's hit, the nearest triangle and last frame's
-//    triangle. A triangle's closed-form cost is the palm's translation into the height limits plus
-//    PalmTuning::tilt_cost_m_per_rad times its rotation into the tilt limit.
+//    PalmTuning::reach_m. Its seeds are the palm ray's hit, the nearest triangle and the triangle
+//    of the last search. A triangle's closed-form cost is the palm's translation into the height
+//    limits plus PalmTuning::tilt_cost_m_per_rad times its rotation into the tilt limit.
 // 2. Evaluation (shared/surface_candidates.hpp): the palm is fitted to candidates in the order of
-//    their closed-form costs, until no other candidate can be better. The full cost is the movement
-//    of the fitted, depenetrated palm plus weighted penetration of palm and fingers. If fingers
-//    have no clearance, the candidate is evaluated again with them as part of the palm's collision
-//    shape.
+//    their closed-form costs, until no other candidate can be better.
 //
-// The work is spread over frames: PalmTuning::evaluations_per_frame evaluations in every second
-// frame. A chosen surface is followed for a few millimetres of travel before the next full search.
-// If a hand's wrist and surroundings are unchanged, its result is kept.
+// A hand searches when its grip begins, when its surroundings change, and after 3 cm of travel
+// (hand_travel_m: 0.3 rad of turn). In other frames its surface is kept.
 //
 // A palm in an authored grip gets the nearest triangle, without a search. Talk row 10.
 //

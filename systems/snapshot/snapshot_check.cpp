@@ -244,32 +244,6 @@ class BreachFinder {
         }
     }
 
-    // Back-off distances and counters must be in the range that frames produce, so that no search
-    // is suspended for ever.
-    void check_retries() {
-        constexpr double k_max_m = 1.0;
-        for (std::size_t row = 0; row < w_.grip_surface.size(); ++row) {
-            const GripSurface& surface = w_.grip_surface.rows()[row];
-            check(
-                surface.candidate_recheck_in_m >= 0.0 && surface.candidate_recheck_in_m <= k_max_m,
-                "grip_surface", w_.grip_surface.owners()[row], ".candidate_recheck_in_m",
-                "a distance in [0, 1] m");
-            check(
-                surface.clearance_recheck_in_m >= 0.0 && surface.clearance_recheck_in_m <= k_max_m,
-                "grip_surface", w_.grip_surface.owners()[row], ".clearance_recheck_in_m",
-                "a distance in [0, 1] m");
-            check(surface.full_search_in_m <= k_max_m, "grip_surface",
-                  w_.grip_surface.owners()[row], ".full_search_in_m", "a distance of at most 1 m");
-            check(surface.evaluated_count <= GripSurface::k_max_candidates, "grip_surface",
-                  w_.grip_surface.owners()[row], ".evaluated_count", "at most 14");
-            check(surface.candidate_count <= GripSurface::k_max_candidates &&
-                      (surface.candidate_count == 0 ||
-                       surface.candidate_count >= surface.evaluated_count),
-                  "grip_surface", w_.grip_surface.owners()[row], ".candidate_count",
-                  "0, or at least evaluated_count and at most 14");
-        }
-    }
-
     void check_hands() {
         require_both("hand_owner", w_.hand_owner, "hand_tracking", w_.hand_tracking);
         require_both("hand_owner", w_.hand_owner, "hand_history", w_.hand_history);
@@ -281,7 +255,6 @@ class BreachFinder {
         require("hand_rig", w_.hand_rig, "hand_owner", w_.hand_owner);
         require("grab_layers", w_.grab_layers, "player", w_.player);
         require("early_sample", w_.early_sample, "player", w_.player);
-        check_retries();
         for (std::size_t row = 0; row < w_.hand_tracking.size(); ++row) {
             const HandTracking& hand = w_.hand_tracking.rows()[row];
             const auto is_share = [](double share) { return share >= 0.0 && share <= 1.0; };

@@ -56,8 +56,8 @@ class OneHand {
     OneHand& operator=(const OneHand&) = delete;
 
     void run(const Tuning& tuning, const GripVariant& variant, GripTimes& us) {
-        timed(us.search_us, [&] { search(k_at_once_s, tuning, variant); });
-        timed(us.palm_us, [&] { constrain(tuning, variant); });
+        timed(us.search_us, [&] { search(tuning, variant); });
+        timed(us.palm_us, [&] { constrain(variant); });
         timed(us.fingers_us, [&] { close(tuning, variant); });
         timed(us.fit_us, [&] { fit(k_at_once_s, tuning, variant); });
     }
@@ -68,8 +68,8 @@ class OneHand {
         traces_.front() = {};
         double us = 0.0;
         timed(us, [&] {
-            search(k_frame_s, tuning, variant);
-            constrain(tuning, variant);
+            search(tuning, variant);
+            constrain(variant);
             close(tuning, variant);
             fit(k_frame_s, tuning, variant);
         });
@@ -91,16 +91,16 @@ class OneHand {
         sum_us += 1e-3 * static_cast<double>(stage_now_ns() - begin_ns);
     }
 
-    void search(double dt_s, const Tuning& tuning, const GripVariant& variant) {
-        search_grip({dt_s, surroundings_, surface_, search_scratch_}, tuning, stats_, variant.palm);
+    void search(const Tuning& tuning, const GripVariant& variant) {
+        search_grip({surroundings_, surface_, search_scratch_}, tuning, stats_, variant.palm);
     }
     static bool is_fitted(const GripVariant& variant) {
         return variant.fingers == FingerMethod::fit && variant.sync;
     }
     bool has_surface() const { return surface_.rows().front().triangle != GripSurface::k_none; }
 
-    void constrain(const Tuning& tuning, const GripVariant& variant) {
-        constrain_palms({surroundings_, surface_, offset_}, tuning);
+    void constrain(const GripVariant& variant) {
+        constrain_palms({surroundings_, surface_, offset_});
         PalmOffset& offset = offset_.rows().front();
         if (!variant.sync) {
             offset.held_m = Vec3::Zero();

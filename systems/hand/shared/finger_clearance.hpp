@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -14,6 +15,9 @@
 // numbered from 1; 0 means none. Testing sample poses bounds a finger's smallest possible
 // penetration without fitting the finger.
 namespace handhold {
+
+// One sample pose per finger, by index into HandRig::fingers; 0: none.
+using FingerSamplePoses = std::array<std::uint8_t, k_finger_count>;
 
 // A finger has clearance if its best sample pose penetrates no deeper than this. Lifting the palm
 // resolves such small penetrations.

@@ -13,7 +13,7 @@
 
 namespace handhold::test {
 
-// Frame length that lifts all rate limits and budgets.
+// Frame length that lifts all rate limits.
 constexpr double k_unbudgeted_s = std::numeric_limits<double>::infinity();
 
 // A floor in the plane y = 0 facing up, one metre wide, with cells of 25 mm.
@@ -62,12 +62,10 @@ struct FittedHand {
     FittedHand(const FittedHand&) = delete;
     FittedHand& operator=(const FittedHand&) = delete;
 
-    void search(double dt_s = k_unbudgeted_s) {
-        search_grip({dt_s, hands, surface, search_scratch}, tuning, stats);
-    }
+    void search() { search_grip({hands, surface, search_scratch}, tuning, stats); }
     // Shows the palm where it is held, until fit() shows the fitted one.
     void constrain() {
-        constrain_palms({hands, surface, offset}, tuning);
+        constrain_palms({hands, surface, offset});
         palm.at(k_right).pose_ws =
             hands.front().body_ws * held_wrist_bs(hands.front(), offset.at(k_right));
     }
@@ -78,7 +76,7 @@ struct FittedHand {
         fit_hands({dt_s, hands, tracking, surface, offset, fingers, palm}, tuning, stats);
     }
     void frame(double dt_s) {
-        search(dt_s);
+        search();
         constrain();
         sweep();
         fit(dt_s);

@@ -28,12 +28,16 @@ inline double palm_penetration_m(FittedHand& hand) {
     return deepest_m;
 }
 
-// True if a surface crosses the axis of a finger that is part of the palm's collision shape.
+// True if a surface crosses the axis of a finger without clearance, in the sample pose in which it
+// penetrates least.
 inline bool is_finger_crossed(FittedHand& hand) {
     const GripSurface& surface = hand.surface.at(k_right);
+    ChainPatch patch;
+    const FingerClearance clearance =
+        find_finger_clearance(hand.hands.front(), surface.fitted_wrist_bs, patch);
     for (std::size_t f = 0; f < hand.rig.fingers.size(); ++f) {
         const FingerRig& finger = hand.rig.fingers[f];
-        const auto bent = sample_pose_angles(finger, surface.finger_samples[f]);
+        const auto bent = sample_pose_angles(finger, clearance.finger_samples[f]);
         if (!bent) {
             continue;
         }
