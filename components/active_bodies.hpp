@@ -10,10 +10,10 @@ namespace handhold {
 // data that the stages keep about all other bodies stays unchanged, so bodies at rest cost nothing.
 //
 // place_colliders notes the bodies whose components changed. The solver stages note the bodies that
-// they touched. build_constraints makes the noted bodies the active bodies of its frame. If
-// place_colliders does not track changes, all bodies are active.
+// they touched. build_constraints makes the noted bodies the active bodies of its frame, or all
+// bodies if place_colliders has not run since its last call.
 struct ActiveBodies {
-    std::vector<std::uint32_t> list;   // of this frame; without order
+    std::vector<std::uint32_t> list;   // active bodies of this frame, in no particular order
     std::vector<std::uint32_t> noted;  // changed since the last build_constraints; without order
     bool is_tracked = false;           // place_colliders ran since the last build_constraints
     bool all_changed = true;
@@ -46,8 +46,8 @@ struct ActiveBodies {
             list.push_back(body);
         }
     }
-    // Starts a frame of `count` bodies. The noted bodies are active, or all if changes are not
-    // tracked.
+    // Starts a frame of `count` bodies. The noted bodies are active, or all if !is_tracked or
+    // all_changed.
     void start_frame(std::size_t count) {
         if (is_listed_.size() <= count) {
             reset(count);

@@ -6,8 +6,9 @@
 #include "engine/math/math.hpp"
 
 // Arms and chest. No device tracks them: they are estimated from the head and the shown hands. They
-// are for display only and never move the player. Torso axes (_ts): -Z is the horizontal direction
-// in which the chest faces; +Y is the play space's up, even if the chest leans.
+// never move their own player; hands that grip another player follow that player's arms as the last
+// frame showed them (BodyHold). Torso axes (_ts): -Z is the horizontal direction in which the chest
+// faces; +Y is the play space's up, even if the chest leans.
 namespace handhold {
 
 // A player's size. Written by calibrate_players, or by the host that adds the player.
@@ -18,12 +19,12 @@ struct BodyMeasures {
     double eye_height_m = 1.62;  // standing; all lengths are in [k_min_m, k_max_m]
     double shoulder_width_m = 0.38;
     double upper_arm_m = 0.30;
-    double forearm_m = 0.28;  // from elbow to wrist
+    double forearm_m = 0.28;  // distance from elbow to wrist
 };
 
 // Displacement of the chest from where the head alone would place it.
 struct ChestOffset {
-    Vec3 middle_m = Vec3::Zero();  // in the leaning chest's axes, for an eye height of 1.6 m
+    Vec3 middle_m = Vec3::Zero();  // axes of the leaning chest; for k_scale_eye_m
     double roll = 0.0;             // tangent; positive: the right shoulder is up
 };
 
@@ -43,8 +44,8 @@ struct ArmMemory {
     std::array<Vec3, k_look_filters> looks_ps = {-Vec3::UnitZ(), -Vec3::UnitZ(), -Vec3::UnitZ()};
     Vec3 facing_ps = -Vec3::UnitZ();     // horizontal unit vector: where the chest faces
     ChestOffset chest;                   // low-pass filtered
-    Pose head_ps;                        // at the end of the last frame
-    std::array<Arm, k_hand_count> arms;  // by HandSide
+    Pose head_ps;                        // head at the end of the last frame
+    std::array<Arm, k_hand_count> arms;  // indexed by HandSide
 };
 
 // Position of a clavicle's inner end (at the base of the neck) on the line from the chest's centre
@@ -61,7 +62,7 @@ struct ArmEstimate {
     };
     Pose chest_ps;  // midway between the shoulders' rest positions; -Z ahead, +Y up
     Vec3 facing_ps = -Vec3::UnitZ();     // horizontal unit vector: where the chest faces
-    std::array<Arm, k_hand_count> arms;  // by HandSide
+    std::array<Arm, k_hand_count> arms;  // indexed by HandSide
 };
 
 // World poses of the arms' joints. Each bone lies along its frame's -Z; +Y points to the elbow's
@@ -74,7 +75,7 @@ struct ArmPose {
         Pose hand_ws;      // equals PalmPose exactly
     };
     Pose chest_ws;
-    std::array<Arm, k_hand_count> arms;  // by HandSide
+    std::array<Arm, k_hand_count> arms;  // indexed by HandSide
 };
 
 }  // namespace handhold

@@ -13,12 +13,12 @@
 // as a gun by its handle. Talk row 10.
 namespace handhold {
 
-inline constexpr std::size_t k_max_authored_grips = 4;  // per body
+inline constexpr std::size_t k_max_authored_grips = 4;  // maximum per body
 
 // Pose of one hand in a grip.
 struct AuthoredHand {
     bool is_there = false;  // false: the grip has no pose for this hand
-    Pose wrist_bs;          // in the body's frame
+    Pose wrist_bs;          // wrist in the body's frame
     // Indexed by FingerName. False: the finger has no authored pose and closes on the surface.
     std::array<bool, k_finger_count> is_posed = {};
     std::array<FingerAngles, k_finger_count> fingers;
@@ -29,7 +29,7 @@ struct AuthoredHand {
 };
 
 struct AuthoredGrip {
-    std::array<AuthoredHand, k_hand_count> hands;  // by HandSide
+    std::array<AuthoredHand, k_hand_count> hands;  // indexed by HandSide
     // A hand that closes inside several snap zones takes the grip with the highest priority.
     std::int32_t priority = 0;
     // Snap zone: maximum distance and rotation of the closing hand's palm from its authored pose.

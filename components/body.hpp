@@ -27,6 +27,12 @@ struct RigidBody {
     double friction = 0.4;  // Coulomb coefficient; a contact uses the geometric mean of both values
 };
 
+// True if the body moves with the hand that grips it. Any other body moves the player instead.
+// `heavy_body_kg`: PhaseTuning.
+inline bool is_light(const RigidBody& body, double heavy_body_kg) {
+    return body.kind == BodyKind::free && body.mass_kg < heavy_body_kg;
+}
+
 // Current pose. Written first by animate_movers and predict_bodies, later by finish_positions.
 struct BodyPose {
     Pose pose_ws;
@@ -36,7 +42,7 @@ struct BodyStart {
     Pose pose_ws;
 };
 // Velocity of the centre of mass, in the world. Written by animate_movers (kinematic bodies) and
-// update_velocities, limit_velocities (free bodies).
+// solve_velocities, limit_velocities (free bodies).
 struct BodyVelocity {
     Vec3 linear_mps = Vec3::Zero();
     Vec3 angular_radps = Vec3::Zero();
@@ -49,7 +55,7 @@ struct Collider {
 };
 
 // Start pose of the next frame's sweep: the last pose in which the body penetrated nothing. For
-// players, the pose of the head's collider. Written by update_velocities.
+// players, the pose of the head's collider. Written by record_valid_poses.
 struct LastValidPose {
     Pose pose_ws;
     bool known = true;  // false for a player whose head has not been tracked yet
@@ -60,7 +66,7 @@ struct LastValidPose {
 // computed in closed form, so that no error accumulates. Read by animate_movers.
 struct Mover {
     Pose start_ws;
-    Vec3 velocity_ws_mps = Vec3::Zero();  // at time 0
+    Vec3 velocity_ws_mps = Vec3::Zero();  // velocity at time 0
     Vec3 angular_velocity_ws_radps = Vec3::Zero();
     bool turns_with_body = false;  // true: the velocity is constant in the body's frame
 };

@@ -35,8 +35,8 @@ inline constexpr bool swings(BodyPart part) { return part >= BodyPart::upper_spi
 // held player turns.
 struct BodyHold {
     BodyPart part = BodyPart::left_upper_arm;
-    Pose start_ps;  // at the start of the frame
-    Pose pose_ps;   // at the end of the frame
+    Pose start_ps;  // pose at the start of the frame
+    Pose pose_ps;   // pose at the end of the frame
 };
 
 }  // namespace handhold

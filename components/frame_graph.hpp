@@ -17,9 +17,6 @@
 
 namespace handhold {
 
-// Moves one island's bodies until its constraint rows are met. Same contract as solve_positions.
-using PositionSolver = NewtonResult (*)(const IslandView&, const NewtonSettings&, SolveScratch&);
-
 // Groups of free bodies that joints connect. Both arrays are indexed by element of the RigidBody
 // column, and are empty if there are no joints.
 struct JointGroups {
@@ -65,15 +62,15 @@ struct FrameGraph {
         ColumnWatch<PlayerOrigin> origin;
     };
     Watches watches;
-    std::vector<std::uint32_t> index_of_slot;  // by Entity::slot: index into `entities`
+    std::vector<std::uint32_t> index_of_slot;  // index into `entities`, indexed by Entity::slot
     std::vector<ColliderProxy> proxy_updates;  // scratch: proxies to send to the collision world
-    double heavy_body_kg = 0.0;                // of the last build_constraints
+    double heavy_body_kg = 0.0;                // limit of the last build_constraints
     std::uint64_t proxy_set = 0;               // CollisionWorld::proxy_set() after place_colliders
     struct PhaseBody {
         Pose reached_ws;  // pose after the reach phase
-        // Players: 1/kappa, the factor on the player's inverse mass in the forward phase; from 0 to
-        // 1. It is 0 if the player holds only light objects, so that the objects do not move the
-        //    player.
+        // The facts from which systems/physics/shared/mass_shares.hpp decides who yields to whom.
+        // Players: kappa's share of the heaviest body that a hand holds by all its rows, from 0
+        // (light bodies do not move the player) to 1.
         double forward_share = 0.0;
         bool held = false;  // held by a hand, or connected by joints to a held body
         // Players: a hand grips a fixed, kinematic or heavy body or another player, or another
@@ -88,15 +85,11 @@ struct FrameGraph {
     // world.
     std::vector<PhaseBody> phase;
     JointGroups joint_groups;          // written by group_joints
-    std::vector<PushBack> push_backs;  // of every player; written by finish_positions
+    std::vector<PushBack> push_backs;  // one per player; written by finish_positions
 
     std::vector<ContactPoint> contacts;  // written by find_contacts, solve_phases
     std::vector<IgnoredPair> ignored;    // written by find_contacts
-    ConstraintGraph graph;  // written by build_constraints, solve_phases, update_velocities
-
-    // solve_phases calls this for every island and phase. Measuring tools replace it to compare
-    // methods.
-    PositionSolver position_solver = &solve_positions;
+    ConstraintGraph graph;  // written by build_constraints, solve_phases, solve_velocities
 
     // Scratch.
     std::vector<ContactPoint> fresh_contacts;
@@ -119,21 +112,21 @@ struct FrameGraph {
         // that it penetrates, or the listed body because of which it was added. Itself if none.
         std::uint32_t carrier = 0;
         Pose valid_ws;  // last valid pose of the body, carried along by the carrier
-        Pose pose_ws;   // this and the velocities: as the phases left them
+        Pose pose_ws;   // pose and velocities as the phases left them
         Vec3 velocity_mps = Vec3::Zero();
         Vec3 spin_radps = Vec3::Zero();
         bool is_restored = false;  // true once the restore is kept
     };
     // Sorted by island. Within an island, those kept at the first evaluation come first.
     std::vector<PenetratingBody> penetrating_bodies;
-    MissedOverlaps hidden_overlaps;  // written by finish_positions; read by update_velocities
+    MissedOverlaps hidden_overlaps;  // written by finish_positions; read by record_valid_poses
     // Largest errors, by island. After a solve that met all its constraint rows: an upper bound.
     // Otherwise none until something asks for the errors.
     std::vector<std::optional<IslandErrors>> island_errors;
-    std::vector<VelocityResult> velocity_results;  // by island
+    std::vector<VelocityResult> velocity_results;  // indexed by island
     std::vector<SolveScratch> island_scratch;
-    std::vector<double> overlap_m;             // by body: depth
-    std::vector<std::uint32_t> overlaps_with;  // by body: the body that it overlaps; itself if none
+    std::vector<double> overlap_m;             // overlap depth, indexed by body
+    std::vector<std::uint32_t> overlaps_with;  // overlapped body, indexed by body; itself if none
 };
 
 // Makes the bodies of all islands active, because the solver may move them.

@@ -38,7 +38,7 @@ enum class GripKind : std::uint8_t {
 
 enum class GrabPhase : std::uint8_t {
     none,
-    fresh,  // the grab began in this frame; anchor_grabs has not set the anchor yet
+    fresh,  // grab began in this frame; anchor_grabs has not set the anchor yet
     holding,
     // The hand lets go in this frame. The constraint continues with the release velocity until the
     // end of the frame.
@@ -80,7 +80,7 @@ inline bool has_slipped(const Grab& grab) {
 // Where the palm was last known to be outside of walls. A hand grips only what is visible from
 // there or from the head. Written by update_grabs.
 struct HandSight {
-    Vec3 outside_bs = Vec3::Zero();  // in `frame`
+    Vec3 outside_bs = Vec3::Zero();  // point in `frame`
     Entity frame = k_no_entity;      // body that the player last gripped; null: the world
     bool is_known = false;           // false: the palm counts as outside
     bool is_clear = true;            // no wall from outside_bs, or from the head, to the palm

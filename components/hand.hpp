@@ -70,10 +70,10 @@ struct FingerPose {
     // What the digits closed for: they close again on another body, at another place of its
     // surface, in another grip, or far from this wrist. Null body: not closed.
     Entity closed_body = k_no_entity;
-    Pose closed_wrist_bs;  // with the held palm
+    Pose closed_wrist_bs;  // wrist of the closed hand with the held palm
     Vec3 closed_point_bs = Vec3::Zero();
     Vec3 closed_normal_bs = Vec3::UnitY();
-    bool is_closed_in_grip = false;  // an authored one
+    bool is_closed_in_grip = false;  // closed by an authored grip
     // True until fit_hands has fitted the closing.
     bool is_newly_closed = false;
     // The body that `target` was fitted to, null if none, and digits known to be outside its solids

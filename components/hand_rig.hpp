@@ -56,14 +56,14 @@ struct RigJoint {
     std::string name;          // WebXR name: "wrist", "index-finger-phalanx-proximal", ...
     std::int32_t finger = -1;  // index into HandRig::fingers, or k_palm
     std::uint32_t link = 0;    // link of that finger
-    Pose joint_in_link;        // in the link's hinge frame, or in hand space for the palm
+    Pose joint_in_link;        // pose in the link's hinge frame, or in hand space for the palm
 };
 
 struct HandRig {
     HandSide side = HandSide::right;
     std::vector<FingerRig> fingers;                  // 2 to 5 fingers, each name at most once
-    std::vector<PalmCapsule> palm;                   // at most k_max_palm_capsules
-    Vec3 palm_center_hs = Vec3(0.0, -0.014, -0.08);  // a point on the palm's skin
+    std::vector<PalmCapsule> palm;                   // k_max_palm_capsules at most
+    Vec3 palm_center_hs = Vec3(0.0, -0.014, -0.08);  // point on the palm's skin
     Vec3 palm_normal_hs = -Vec3::UnitY();            // unit, out of the palm
     std::vector<RigJoint> joints;                    // empty: no skin
 };

@@ -11,8 +11,8 @@ namespace handhold {
 
 // Data passed between the hand stages within one frame, and their scratch memory. Not state.
 struct HandScratch {
-    std::vector<HandSurroundings> surroundings;                   // by row of HandOwner
-    std::vector<std::array<FingerTrace, k_finger_count>> traces;  // by row of HandOwner
+    std::vector<HandSurroundings> surroundings;                   // indexed by row of HandOwner
+    std::vector<std::array<FingerTrace, k_finger_count>> traces;  // indexed by row of HandOwner
     // Scratch memory of one slice of the hands. The hand stages process slices in parallel.
     struct Slice {
         StageStats stats;  // only fallbacks

@@ -30,7 +30,7 @@ struct HandSurroundings {
     // Wrist of a gripping hand: its anchor, with the tracked rotation if the hand may turn on its
     // grip. For an empty hand: the tracked wrist, in world space.
     Pose wrist_bs;
-    std::vector<PlacedMesh> meshes;  // the gripped body's mesh, then other meshes near the hand
+    std::vector<PlacedMesh> meshes;  // mesh of the gripped body, then other meshes near the hand
     // Hash of the body, the meshes and their poses rounded to 0.1 mm. While the hash is unchanged,
     // nothing around the hand has moved. 0: no body.
     std::uint64_t signature = 0;
@@ -49,7 +49,7 @@ struct GripSearchScratch {
     };
     struct Candidate {
         std::uint32_t triangle = k_no_triangle;  // index into the search mesh
-        Vec3 point = Vec3::Zero();               // on that triangle, under the palm
+        Vec3 point = Vec3::Zero();               // point on that triangle, under the palm
         double cost_m = 0.0;                     // closed-form cost (PalmCost)
     };
     std::vector<Node> open;

@@ -33,7 +33,7 @@ struct JointLatch {
 struct Joint {
     JointKind kind = JointKind::ball;
     Entity a;  // null: the world
-    Entity b;  // a body
+    Entity b;  // never null
     // The joint's frame in each body's frame, or in the world if `a` is null. Its x axis is the
     // joint's axis.
     Pose frame_a_bs;

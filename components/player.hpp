@@ -26,7 +26,7 @@ struct PlayerStart {
     Pose pose_ws;
 };
 // Velocity of the play space, without the tracked motion of the head in it. Written by
-// locomote_players, update_velocities and limit_velocities.
+// locomote_players, solve_velocities and limit_velocities.
 struct PlayerVelocity {
     Vec3 linear_mps = Vec3::Zero();
 };
@@ -51,7 +51,7 @@ struct ReferenceVelocity {
 struct HeadIgnores {
     static constexpr std::size_t k_capacity = 8;
     std::array<Entity, k_capacity> bodies;  // null: unused
-    std::uint32_t next = 0;                 // the place that is overwritten next
+    std::uint32_t next = 0;                 // index of the place that is overwritten next
 };
 
 }  // namespace handhold

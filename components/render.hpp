@@ -19,11 +19,11 @@ struct RenderPose {
         Vec3 ray_from_ws = Vec3::Zero();  // start and end of the palm ray
         Vec3 ray_to_ws = Vec3::Zero();
         GripKind grip = GripKind::none;
-        std::array<FingerAngles, k_finger_count> fingers;  // by index in HandRig::fingers
+        std::array<FingerAngles, k_finger_count> fingers;  // indexed by index in HandRig::fingers
     };
     Pose head_ws;
     Vec3 head_center_ws = Vec3::Zero();    // centre of the head's collider
-    std::array<Hand, k_hand_count> hands;  // by HandSide
+    std::array<Hand, k_hand_count> hands;  // indexed by HandSide
     double push_back_m = 0.0;              // how far contacts moved the player in this frame
     ArmPose arms;                          // each arm's hand_ws equals Hand::shown_ws exactly
     SpinePose spine;

@@ -42,11 +42,11 @@ struct BodyContact {
 // find_body_contacts, which repeats it when the part or a surface near it has moved.
 struct BodySearch {
     bool known = false;           // false: the next search casts
-    Vec3 from_ws = Vec3::Zero();  // the line of the cast
+    Vec3 from_ws = Vec3::Zero();  // cast from here to to_ws
     Vec3 to_ws = Vec3::Zero();
     std::uint64_t near = 0;  // hash of the cast's radius and of SurfaceQuery::hash_near
     bool hits = false;
-    Vec3 point_ws = Vec3::Zero();    // on the surface
+    Vec3 point_ws = Vec3::Zero();    // point on the surface
     Vec3 normal_ws = Vec3::UnitY();  // unit, towards the cast
 };
 
@@ -54,7 +54,7 @@ struct BodySearch {
 struct BodyPull {
     Vec3 now = Vec3::Zero();         // followed with a lag, at the last tick; length in [0, 1)
     Vec3 before = Vec3::Zero();      // one tick earlier
-    Vec3 rate_per_s = Vec3::Zero();  // of `now`
+    Vec3 rate_per_s = Vec3::Zero();  // rate of change of `now`
     // The sum of the lines from the chest to the hands in the last frame, in arm lengths.
     Vec3 hands = Vec3::Zero();
     Vec3 hands_before = Vec3::Zero();  // one frame earlier
@@ -68,20 +68,20 @@ struct SpineMemory {
     bool known = false;                     // false: the next frame starts from rest
     double since_tick_s = 0.0;              // time since the last tick; [0, k_spine_tick_s)
     Vec3 moved_m = Vec3::Zero();            // chest displacement since the last tick
-    Pose chest_ps;                          // at the end of the last frame
+    Pose chest_ps;                          // chest at the end of the last frame
     Vec3 rate_mps = Vec3::Zero();           // chest velocity in the last frame
     double rate_span_s = 1.0;               // duration of the last frame; > 0
     Quat tick_chest_ps = Quat::Identity();  // chest rotation at the last tick
     Vec3 reference_ws_mps = Vec3::Zero();  // reference velocity (see ReferenceVelocity), last frame
-    BodyLinkVectors offset_m = zero_vectors();  // at the last tick
+    BodyLinkVectors offset_m = zero_vectors();  // value at the last tick
     BodyLinkVectors before_m = zero_vectors();  // one tick earlier; frames interpolate between both
     BodyLinkVectors velocity_mps = zero_vectors();
     // Twist of each spine link relative to the link above.
     std::array<double, k_spine_links> twist_rad{};
     // Angle of each link from its rest direction; shins: from the thigh's line.
     std::array<double, k_body_links> angle_rad{};
-    std::array<BodyContact, k_body_parts> contacts;  // by body_part_of
-    std::array<BodySearch, k_body_parts> searches;   // the same
+    std::array<BodyContact, k_body_parts> contacts;  // indexed by body_part_of
+    std::array<BodySearch, k_body_parts> searches;   // indexed by body_part_of
     BodyPull pull;
 };
 
@@ -95,7 +95,7 @@ struct SpinePose {
     Pose chest_ws;                             // leans with the head and the pull
     std::array<Pose, k_spine_links> spine_ws;  // origin: upper end of each link
     Pose pelvis_ws;                            // origin: lower end of the last link
-    std::array<Leg, k_hand_count> legs;        // by HandSide
+    std::array<Leg, k_hand_count> legs;        // indexed by HandSide
 };
 
 }  // namespace handhold

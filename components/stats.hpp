@@ -25,7 +25,9 @@ enum class Stage : std::uint8_t {
     find_contacts,
     build_constraints,
     solve_phases,
-    update_velocities,
+    solve_velocities,  // and limit_velocities
+    book_momentum,
+    record_valid_poses,
     update_joints,
     gather_surroundings,
     search_grip,
@@ -63,8 +65,8 @@ enum class Fallback : std::uint8_t {
     grab_refused_by_rule,  // a body within reach or pull refuses the hand: GrabRule or GrabLayers
     grab_needs_two_hands,  // the body is gripped by both hands or by none, and one closed
     grip_needs_two_hands,  // one of both hands left such a body: the other lets go
-    grip_ended_by_host,    // a GrabOrder
-    grip_out_of_reach,     // after a tracking error the palm is too far from its surface: let go
+    grip_ended_by_host,    // released by a GrabOrder
+    grip_out_of_reach,     // palm too far from its surface after a tracking error: let go
     grip_speed_limited,    // a gripping hand was faster than max_hand_speed_mps: its anchor slips
     grab_out_of_sight,     // a wall stands between hand and surface: nothing gripped
     // Physics.
@@ -149,7 +151,7 @@ struct StageStats {
     double joint_error_rad = 0.0;  // largest direction or angle limit error of a joint
     double hand_error_m = 0.0;     // largest distance between a hand and its anchor
     MomentumLedger ledger;
-    std::vector<HandNote> hand_notes;  // in the order in which they happened
+    std::vector<HandNote> hand_notes;  // chronological
 
     // Empties everything; keeps the memory of the notes.
     void clear() {

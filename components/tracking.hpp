@@ -20,7 +20,7 @@ inline constexpr std::size_t index_of(HandSide side) { return static_cast<std::s
 // unit length, or a position of exactly (0, 0, 0).
 struct ControllerSample {
     Pose controller_ps;
-    bool grab = false;     // the button that closes the hand is pressed
+    bool grab = false;     // true: the button that closes the hand is pressed
     double squeeze = 0.0;  // how far it is pressed, [0, 1]; bends the fingers of an empty hand
     // How far the index finger's trigger is pressed, [0, 1]. Bends the index finger of an empty
     // hand, and the fingers of authored grips that follow the trigger.
@@ -30,7 +30,7 @@ struct ControllerSample {
 struct TrackingSample {
     double t_s = 0.0;                                        // time on the frame clock
     Pose head_ps;                                            // frame between the eyes
-    std::array<ControllerSample, k_hand_count> controllers;  // by HandSide
+    std::array<ControllerSample, k_hand_count> controllers;  // indexed by HandSide
 };
 
 // Commands from sticks and buttons for one frame. All zero: none.
@@ -60,17 +60,17 @@ enum class TrackingState : std::uint8_t {
 
 // The head of a player. Written by read_tracking; read by all later stages.
 struct HeadTracking {
-    Pose pose_ps;    // at the end of the frame
-    Pose start_ps;   // at the start of the frame
+    Pose pose_ps;    // pose at the end of the frame
+    Pose start_ps;   // pose at the start of the frame
     Pose sample_ps;  // last valid sample at or before the end of the frame
     double sample_t_s = 0.0;
-    Pose before_ps;  // the valid sample before that one
+    Pose before_ps;  // valid sample before that one
     double before_t_s = 0.0;
     TrackingState state = TrackingState::never;
     // Corrects samples: pose_ps = (shift_m, shift_turn) * sample. When the samples jump
     // (recentring, a tracking error), it changes so that the head stays where it was in the world.
     Vec3 shift_m = Vec3::Zero();
-    Quat shift_turn = Quat::Identity();  // about +Y
+    Quat shift_turn = Quat::Identity();  // turn about +Y
 };
 
 enum class GrabEdge : std::uint8_t { none, onset, release };
@@ -79,8 +79,8 @@ enum class GrabEdge : std::uint8_t { none, onset, release };
 // (ControllerToHand). Axes as in OpenXR: -Z to the fingers, +Y out of the back of the hand. Written
 // by read_tracking.
 struct HandTracking {
-    Pose pose_ps;    // at the end of the frame
-    Pose start_ps;   // at its start
+    Pose pose_ps;    // pose at the end of the frame
+    Pose start_ps;   // pose at the start of the frame
     Pose sample_ps;  // last sample that was used
     double sample_t_s = 0.0;
     TrackingState state = TrackingState::never;
@@ -97,11 +97,11 @@ struct HandTracking {
     // the next edge.
     GrabEdge edge = GrabEdge::none;
     double edge_t_s = 0.0;     // time of the edge's sample, within the frame
-    Pose edge_ps;              // the hand at that time
-    bool pressed = false;      // after the edge
-    bool raw_pressed = false;  // in the last sample
-    double squeeze = 0.0;      // in the last sample, [0, 1]
-    double trigger = 0.0;      // in the last sample, [0, 1]
+    Pose edge_ps;              // hand at that time
+    bool pressed = false;      // state after the edge
+    bool raw_pressed = false;  // value in the last sample
+    double squeeze = 0.0;      // value in the last sample, [0, 1]
+    double trigger = 0.0;      // value in the last sample, [0, 1]
     // At a release: velocity of the hand in play space over TrackingTuning::release_window_s.
     Vec3 release_velocity_ps_mps = Vec3::Zero();
     Vec3 release_spin_ps_radps = Vec3::Zero();
@@ -113,12 +113,12 @@ struct HandTracking {
 struct EarlySample {
     double t_s = 0.0;
     Pose head_ps;
-    std::array<Pose, k_hand_count> controllers_ps;  // by HandSide
+    std::array<Pose, k_hand_count> controllers_ps;  // indexed by HandSide
     bool head_tracked = false;                      // false: the pose says nothing
-    std::array<bool, k_hand_count> tracked = {};    // by HandSide
-    std::array<bool, k_hand_count> grab = {};       // by HandSide
-    std::array<double, k_hand_count> squeeze = {};  // by HandSide
-    std::array<double, k_hand_count> trigger = {};  // by HandSide
+    std::array<bool, k_hand_count> tracked = {};    // indexed by HandSide
+    std::array<bool, k_hand_count> grab = {};       // indexed by HandSide
+    std::array<double, k_hand_count> squeeze = {};  // indexed by HandSide
+    std::array<double, k_hand_count> trigger = {};  // indexed by HandSide
 };
 
 // The hand's last samples in a ring, for velocities that do not depend on the frame rate. Written
@@ -131,7 +131,7 @@ struct HandHistory {
     };
     std::array<Entry, k_capacity> entries;
     std::uint32_t next = 0;   // index of the next sample
-    std::uint32_t count = 0;  // at most k_capacity
+    std::uint32_t count = 0;  // k_capacity at most
 };
 
 }  // namespace handhold

@@ -20,7 +20,7 @@ struct TrackingTuning {
 struct HandTuning {
     Vec3 controller_offset_m = Vec3(0.0, 0.0, 0.09);  // right hand
     double controller_pitch_rad = -0.35;
-    Vec3 palm_center_m = Vec3(0.0, -0.014, -0.08);  // in hand space
+    Vec3 palm_center_m = Vec3(0.0, -0.014, -0.08);  // point in hand space
     double ray_back_m = 0.03;
     double ray_length_m = 0.15;
     double reach_m = 0.10;
@@ -78,7 +78,7 @@ struct ThumbTuning {
 
 struct HeadTuning {
     double radius_m = 0.11;
-    Vec3 center_m = Vec3(0.0, 0.0, 0.05);  // in the tracked head's frame
+    Vec3 center_m = Vec3(0.0, 0.0, 0.05);  // point in the tracked head's frame
     double restitution = 0.2;
     double friction = 0.0;
 };
@@ -111,27 +111,10 @@ struct ContactTuning {
     double restore_depth_m = 1e-4;
 };
 
-// Defaults: engine/solver/newton/settings.hpp, which also documents the fields.
 struct SolverTuning {
-    std::int32_t max_iterations = NewtonSettings{}.max_iterations;
-    double tolerance_m = NewtonSettings{}.tolerance_m;
-    double step_tolerance_m = NewtonSettings{}.step_tolerance_m;
-    // Initial regularisation, relative to the system's diagonal.
-    double drive_regularisation = Regularisation{}.drive;
+    NewtonSettings positions;  // settings of solve_positions
+    // In place of positions.regularisation.drive in the forward phase: contacts outweigh hands.
     double forward_drive_regularisation = 1e-3;
-    double contact_regularisation = Regularisation{}.contact;
-    double joint_regularisation = Regularisation{}.joint;
-    double max_drive_regularisation = StepControl{}.max_drive_regularisation;
-    double min_drive_regularisation = StepControl{}.min_drive_regularisation;
-    double max_contact_regularisation = StepControl{}.max_contact_regularisation;
-    double regularisation_decrease = StepControl{}.regularisation_decrease;
-    double regularisation_increase = StepControl{}.regularisation_increase;
-    std::int32_t linear_decrease_steps = StepControl{}.linear_decrease_steps;
-    double linear_decrease_ratio = StepControl{}.linear_decrease_ratio;
-    double max_step_rotation_rad = StepControl{}.max_step_rotation_rad;
-    double min_step_scale = StepControl{}.min_step_scale;
-    double geometric_stiffness_from_m = NewtonSettings{}.geometric_stiffness_from_m;
-    double load_stepping_from_m = NewtonSettings{}.load_stepping_from_m;
     std::int32_t friction_passes = VelocitySettings{}.friction_passes;
 };
 
@@ -231,8 +214,8 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "Distance of a finger's two outer cutting planes from its middle plane, in mean link "
         "radii.");
     see("finger.search_depth_m", t.finger.search_depth_m, "m", 0.0, 0.1,
-        "Penetration depth above which a finger tests every triangle in reach, and a slow hand "
-        "refits it.");
+        "Penetration depth above which a closing finger tests every triangle in reach, and above "
+        "which a finger does not take its authored pose.");
     see("finger.open_depth_m", t.finger.open_depth_m, "m", 0.0, 0.1,
         "Penetration depth above which a depenetrated finger is also opened step by step.");
     see("finger.open_step_rad", t.finger.open_step_rad, "rad", 1e-3, 1.0,
@@ -299,49 +282,55 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "Maximum number of times a phase is solved again with contacts found at its result.");
     see("contact.restore_depth_m", t.contact.restore_depth_m, "m", 1e-6, 10.0,
         "Overlap depth above which an unresolved free body is restored to its last valid pose.");
-    see("solver.max_iterations", t.solver.max_iterations, "", 1.0, 1000.0,
+    see("solver.max_iterations", t.solver.positions.max_iterations, "", 1.0, 1000.0,
         "Maximum Newton iterations per phase; load stepping may use five times as many.");
-    see("solver.tolerance_m", t.solver.tolerance_m, "m", 1e-12, 1e-3,
+    see("solver.tolerance_m", t.solver.positions.tolerance_m, "m", 1e-12, 1e-3,
         "Constraint error below which a phase is solved; angles count at a lever of 0.1 m.");
-    see("solver.step_tolerance_m", t.solver.step_tolerance_m, "m", 1e-14, 1e-3,
+    see("solver.step_tolerance_m", t.solver.positions.step_tolerance_m, "m", 1e-14, 1e-3,
         "Newton step length below which a phase ends.");
-    see("solver.drive_regularisation", t.solver.drive_regularisation, "", 1e-9, 1e-2,
+    see("solver.drive_regularisation", t.solver.positions.regularisation.drive, "", 1e-9, 1e-2,
         "Initial relative regularisation of hand rows outside the forward phase; larger: hands "
         "yield more.");
     see("solver.forward_drive_regularisation", t.solver.forward_drive_regularisation, "", 1e-9,
         1e-2,
         "Initial relative regularisation of hand rows in the forward phase, where contacts "
         "outweigh hands.");
-    see("solver.contact_regularisation", t.solver.contact_regularisation, "", 1e-12, 1e-3,
+    see("solver.contact_regularisation", t.solver.positions.regularisation.contact, "", 1e-12, 1e-3,
         "Relative regularisation of contact rows; larger: conflicting contacts yield more.");
-    see("solver.joint_regularisation", t.solver.joint_regularisation, "", 1e-14, 1e-3,
+    see("solver.joint_regularisation", t.solver.positions.regularisation.joint, "", 1e-14, 1e-3,
         "Relative regularisation of joint rows; joint limits use 100 times as much.");
-    see("solver.max_drive_regularisation", t.solver.max_drive_regularisation, "", 1e-9, 1.0,
+    see("solver.max_drive_regularisation", t.solver.positions.schedule.max_drive_regularisation, "",
+        1e-9, 1.0,
         "Upper bound of the hand regularisation, reached while the error does not fall; at least "
         "solver.min_drive_regularisation.");
-    see("solver.min_drive_regularisation", t.solver.min_drive_regularisation, "", 1e-12, 1e-2,
-        "Lower bound of the hand regularisation, reached while the error falls.");
-    see("solver.max_contact_regularisation", t.solver.max_contact_regularisation, "", 1e-12, 1e-2,
+    see("solver.min_drive_regularisation", t.solver.positions.schedule.min_drive_regularisation, "",
+        1e-12, 1e-2, "Lower bound of the hand regularisation, reached while the error falls.");
+    see("solver.max_contact_regularisation", t.solver.positions.schedule.max_contact_regularisation,
+        "", 1e-12, 1e-2,
         "Upper bound of the contact regularisation while contacts conflict; at least "
         "solver.contact_regularisation.");
-    see("solver.regularisation_decrease", t.solver.regularisation_decrease, "", 1e-6, 1.0,
+    see("solver.regularisation_decrease", t.solver.positions.schedule.regularisation_decrease, "",
+        1e-6, 1.0,
         "Factor applied to the hand regularisation after a step that reduces the error.");
-    see("solver.regularisation_increase", t.solver.regularisation_increase, "", 1.0, 1e6,
+    see("solver.regularisation_increase", t.solver.positions.schedule.regularisation_increase, "",
+        1.0, 1e6,
         "Factor applied to the hand regularisation after a step that does not reduce the error.");
-    see("solver.linear_decrease_steps", t.solver.linear_decrease_steps, "", 1.0, 1000.0,
+    see("solver.linear_decrease_steps", t.solver.positions.schedule.linear_decrease_steps, "", 1.0,
+        1000.0,
         "Number of consecutive full Newton steps with only a slow fall of the error after which "
         "the "
         "hand regularisation is reduced, as after one fast step.");
-    see("solver.linear_decrease_ratio", t.solver.linear_decrease_ratio, "", 0.0, 1.0,
-        "Largest share of the error that a step of slow decrease may leave.");
-    see("solver.max_step_rotation_rad", t.solver.max_step_rotation_rad, "rad", 1e-3, 3.0,
-        "Maximum rotation of a body in one Newton step; larger steps are scaled down.");
-    see("solver.min_step_scale", t.solver.min_step_scale, "", 0.0, 1.0,
+    see("solver.linear_decrease_ratio", t.solver.positions.schedule.linear_decrease_ratio, "", 0.0,
+        1.0, "Largest share of the error that a step of slow decrease may leave.");
+    see("solver.max_step_rotation_rad", t.solver.positions.schedule.max_step_rotation_rad, "rad",
+        1e-3, 3.0, "Maximum rotation of a body in one Newton step; larger steps are scaled down.");
+    see("solver.min_step_scale", t.solver.positions.schedule.min_step_scale, "", 0.0, 1.0,
         "Step scale below which a Newton step is solved again with more regularisation.");
-    see("solver.geometric_stiffness_from_m", t.solver.geometric_stiffness_from_m, "m", 1e-9, 10.0,
+    see("solver.geometric_stiffness_from_m", t.solver.positions.geometric_stiffness_from_m, "m",
+        1e-9, 10.0,
         "Constraint error above which Newton steps include geometric stiffness (forces turning "
         "with their levers).");
-    see("solver.load_stepping_from_m", t.solver.load_stepping_from_m, "m", 0.0, 1e6,
+    see("solver.load_stepping_from_m", t.solver.positions.load_stepping_from_m, "m", 0.0, 1e6,
         "A solve that runs out of iterations after reducing the hands' error by more than this is "
         "repeated by load stepping: the hands' targets move in steps.");
     see("solver.friction_passes", t.solver.friction_passes, "", 1.0, 100.0,

@@ -36,7 +36,7 @@ struct World {
     FrameClock clock;
     // Velocity of the scene in the world; see ReferenceVelocity.
     Vec3 reference_velocity_mps = Vec3::Zero();
-    Vec3 gravity_mps2 = Vec3::Zero();    // of free bodies, in the world; players float
+    Vec3 gravity_mps2 = Vec3::Zero();    // gravity on free bodies, world space; players float
     Column<PersistentId> persistent_id;  // every entity
 
     Column<RigidBody> body;
@@ -66,7 +66,7 @@ struct World {
     Column<HeadTracking> head_tracking;
     Column<HeadIgnores> head_ignores;
     Column<RenderPose> render_pose;
-    Column<BodyMeasures> body_measures;  // this column and the next seven: every player
+    Column<BodyMeasures> body_measures;  // first of eight columns that every player has
     Column<Calibration> calibration;
     Column<ArmMemory> arm_memory;
     Column<ArmEstimate> arm_estimate;
@@ -97,7 +97,7 @@ struct World {
     // Caches of persistent_id and joint, maintained by the functions below. Not state.
     EntityById entity_by_id;
     JointsByBody joints_by_body;
-    std::unordered_map<std::uint64_t, std::string> name_of_id;  // by persistent id
+    std::unordered_map<std::uint64_t, std::string> name_of_id;  // indexed by persistent id
 };
 
 // Calls visit(name, column) for every column. Hashing, snapshots and destroy use this list.
@@ -162,7 +162,7 @@ namespace world_limits {
 constexpr double k_max_coordinate_m = 1e9;  // limit of each axis
 constexpr double k_max_speed_mps = 1e6;
 constexpr double k_max_spin_radps = 1e4;
-constexpr double k_max_gravity_mps2 = 1e4;  // of each axis
+constexpr double k_max_gravity_mps2 = 1e4;  // limit of each axis
 constexpr double k_min_mass_kg = 1e-12;
 constexpr double k_max_mass_kg = 1e15;
 constexpr double k_min_inertia_kgm2 = 1e-24;
@@ -210,7 +210,7 @@ struct PlayerDescription {
 };
 struct PlayerEntities {
     Entity player;
-    Entity hands[k_hand_count];  // by HandSide
+    Entity hands[k_hand_count];  // indexed by HandSide
 };
 // Adds a player and their two hands. Throws like add_body, and for body measures outside their
 // range.

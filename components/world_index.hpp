@@ -48,7 +48,8 @@ class JointsByBody {
     void clear();
 
   private:
-    std::vector<std::vector<Entity>> by_slot_;  // by Entity::slot of the body: its joints
+    std::vector<std::vector<Entity>>
+        by_slot_;  // joints of a body, indexed by the body's Entity::slot
     std::size_t size_ = 0;
 };
 

@@ -2,7 +2,9 @@
 """Checks that the documents name existing files and tests. Prints `file:line: what is missing` for each breach.
 
 - Relative links, pictures and #anchors of every *.md file resolve.
-- docs/talk_map.md and docs/reference/stages.md: every `folder/file` in backticks exists, every `Suite.Test` is a test.
+- docs/talk_map.md, docs/reference/stages.md and docs/guide/: every `folder/file` in backticks exists, every `Suite.Test` is a test.
+- docs/guide/: `name` in [file](path) names something in that file. A tuning number in backticks, such as `hand.reach_m`, and a counter after the
+  word "counter" or "counters" are strings of components/.
 - docs/decisions/: every page starts with `# number. title` and a status, is short, and is in the index with both. A status names later
   pages that exist.
 
@@ -14,6 +16,7 @@ from pathlib import Path
 from typing import Iterator
 
 CODE_FOLDERS = ("engine", "components", "systems", "game", "tests", "tools", "docs")
+GUIDE = "docs/guide/"
 MAPS = ("docs/talk_map.md", "docs/reference/stages.md")
 NOT_OURS = {"build", "out", ".git"}
 DECISIONS = "docs/decisions"
@@ -28,6 +31,10 @@ REPOSITORY_PATH = re.compile(rf"(?:{'|'.join(CODE_FOLDERS)})/[\w./-]+")
 DECISION_FILE = re.compile(r"(\d{4})-[a-z0-9-]+\.md")
 DECISION_TITLE = re.compile(r"# (\d+)\. (.+)")
 DECISION_STATUS = re.compile(r"Status: (accepted|(?:superseded|amended) by (\d+(?:, \d+)*))")
+NAMED_IN_FILE = re.compile(r"((?:`\w+`(?:, | and ))*`\w+`) in \[[^\]]*\]\(([^)\s#]+)\)")
+TUNING_NAME = re.compile(r"([a-z]+)\.[a-z_0-9]+")
+COUNTERS = re.compile(r"\b[Cc]ounters? ((?:`\w+`(?: \([^)]*\))?(?:, | and )?)+)")
+STRING = re.compile(r'"([\w.]+)"')
 TEST_NAME = re.compile(r"[A-Z]\w*\.[A-Z]\w*")
 TEST_DEFINITION = re.compile(r"\b(?:TEST|TEST_F|TEST_P|RC_GTEST_PROP|RC_GTEST_FIXTURE_PROP)\(\s*(\w+),\s*(\w+)")
 
@@ -63,6 +70,24 @@ def name_breaches(root: Path, tests: set[str], line: str) -> Iterator[str]:
             yield f"{name} does not exist"
         elif TEST_NAME.fullmatch(name) and name not in tests:
             yield f"no test is called {name}"
+
+
+def guide_breaches(document: Path, strings: set[str], line: str) -> Iterator[str]:
+    for names, path in NAMED_IN_FILE.findall(line):
+        file = document.parent / path
+        text = file.read_text(encoding="utf-8") if file.is_file() else ""
+        for name in INLINE_CODE.findall(names):
+            if not re.search(rf"\b{name}\b", text):
+                yield f"{path} has no {name}"
+    groups = {name.partition(".")[0] for name in strings if "." in name}
+    for name in INLINE_CODE.findall(line):
+        tuning = TUNING_NAME.fullmatch(name)
+        if tuning and tuning[1] in groups and name not in strings and not re.fullmatch(r"\w+\.(cpp|hpp|h|csv|json)", name):
+            yield f"no tuning number is called {name}"
+    for listed in COUNTERS.finditer(line):
+        for name in INLINE_CODE.findall(listed[1]):
+            if not name.startswith("_") and name not in strings:
+                yield f"no counter is called {name}"
 
 
 def decision_page_breaches(page: Path, numbers: set[int], index_rows: set[str]) -> Iterator[tuple[int, str]]:
@@ -115,9 +140,21 @@ def tests_of(root: Path) -> set[str]:
     return tests
 
 
+def strings_of(root: Path) -> set[str]:
+    """String literals of components/: names of tuning numbers, stages and fallbacks; and names of StageStats' members."""
+    strings = set()
+    for file in [*(root / "components").rglob("*.hpp"), *(root / "components").rglob("*.cpp")]:
+        text = file.read_text(encoding="utf-8")
+        strings.update(STRING.findall(text))
+        if file.name == "stats.hpp":
+            strings.update(re.findall(r"\b(\w+) = 0", text))
+    return strings
+
+
 def check_tree(root: Path) -> list[str]:
     breaches = []
     tests = tests_of(root)
+    strings = strings_of(root)
     for document in sorted(root.rglob("*.md")):
         file = document.relative_to(root)
         if file.parts[0] in NOT_OURS:
@@ -125,8 +162,10 @@ def check_tree(root: Path) -> list[str]:
         lines = without_fences(document.read_text(encoding="utf-8")).split("\n")
         for number, line in enumerate(lines, start=1):
             found = list(link_breaches(document, line))
-            if file.as_posix() in MAPS:
+            if file.as_posix() in MAPS or file.as_posix().startswith(GUIDE):
                 found.extend(name_breaches(root, tests, line))
+            if file.as_posix().startswith(GUIDE):
+                found.extend(guide_breaches(document, strings, line))
             breaches.extend(f"{file.as_posix()}:{number}: {what}" for what in found)
     return breaches + decision_breaches(root)
 

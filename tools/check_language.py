@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Refuses words of the project's former dialect in comments, string literals and documents (docs/reference/glossary.md has the terms to use).
-Prints `file:line: word: use ...` for each.
+Prints `file:line: word: use ...` for each. Refuses trailing comments of C++ code, except in tests, that begin with a preposition or a pronoun:
+such a fragment makes its reader guess what it speaks of.
 
 usage: tools/check_language.py [ROOT]      exit status 0: none, 1: some
 """
@@ -46,6 +47,12 @@ RULES = [(re.compile(rf"\b(?:{pattern})\b", re.IGNORECASE), instead) for pattern
 # Openings of sentences that are hard to read.
 OPENINGS = re.compile(r"(?:^\W*|[.:;] )((?:What is|Of those|Where that) [a-z])")
 
+# A trailing comment is a noun or a sentence. The words "in" and "in/out" are the marks of a system's inputs and outputs.
+FRAGMENT = re.compile(
+    r"^.*[^\s/].*?\s//\s(?P<first>of|by|in|as|it|its|at|on|for|from|to|with|without|after|before|until|into|per|within|this|these|those|that"
+    r"|which|their|they|between|against|under|over|along|across|through|beside|behind|above|below|about|around|near)\b(?P<rest>.*)$")
+DIRECTION = re.compile(r"(?:/out)?(?:$|[,:;]| \()")
+
 CPP_TEXT = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
 CPP_CODE_LITERAL = re.compile(r"^\"[\w.:/#%@-]*\"$")  # a key, a path, a format: no prose
 PY_TEXT = re.compile(r'"""(?:.*?)"""|#[^\n]*|"(?:\\.|[^"\\\n])*"', re.DOTALL)
@@ -64,7 +71,16 @@ def prose_of(path: Path, text: str) -> Iterator[tuple[int, str]]:
         yield from enumerate(found[0].split("\n"), start=first)
 
 
+def fragments_of(file: str, text: str) -> Iterator[str]:
+    for number, line in enumerate(text.split("\n"), start=1):
+        found = FRAGMENT.match(line)
+        if found and not (found["first"] == "in" and DIRECTION.match(found["rest"])):
+            yield f'{file}:{number}: "{found["first"]}{found["rest"]}": begin a trailing comment with a noun, or write a sentence'
+
+
 def breaches_of(file: str, path: Path, text: str) -> Iterator[str]:
+    if path.suffix in {".cpp", ".hpp", ".h"} and not file.startswith("tests/"):
+        yield from fragments_of(file, text)
     for number, line in prose_of(path, text):
         bare = re.sub(r"`[^`]*`", "``", line)
         for rule, instead in RULES:

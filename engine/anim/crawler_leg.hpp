@@ -11,7 +11,7 @@ namespace handhold {
 struct TwoBones {
     Vec3 root = Vec3::Zero();
     Vec3 middle = Vec3::Zero();
-    Vec3 end = Vec3::Zero();  // the target, or the nearest reachable point to it
+    Vec3 end = Vec3::Zero();  // target, or the nearest reachable point to it
 };
 // Places two bones of given lengths from `root` towards `target`, with the middle joint towards
 // `pole` (not parallel to root - target). If the target is out of reach, the end is on the line to

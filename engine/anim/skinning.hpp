@@ -21,9 +21,10 @@ std::uint16_t heaviest_joint(const SkinWeights& weights);
 
 struct SkinVerticesInput {
     std::span<const Vec3> positions;
-    std::span<const Vec3> normals;         // per vertex, unit
-    std::span<const SkinWeights> weights;  // per vertex; joint indices < carry.size()
-    std::span<const Affine> carry;  // per joint: transform from its bind pose to its current pose
+    std::span<const Vec3> normals;         // one per vertex, unit length
+    std::span<const SkinWeights> weights;  // one per vertex; joint indices < carry.size()
+    std::span<const Affine>
+        carry;  // one per joint: transform from its bind pose to its current pose
 };
 
 // Moves each vertex by the weighted mean of its joints' transforms. Resizes the outputs to the

@@ -7,7 +7,7 @@
 namespace handhold {
 
 // Margin added to swept bounds so that rounding errors never hide a contact. Rounding errors of
-// doubles are much smaller, even 100 km from the origin.
+// doubles are much smaller, for instance even 100 km from the origin.
 constexpr double k_rounding_m = 1e-6;
 
 struct Bounds {
@@ -47,7 +47,7 @@ Bounds transformed(const Bounds& bounds, const Pose& pose);
 // Size of a shape, as needed to compute bounds. Stored per shape, because computing it for a mesh
 // visits every vertex.
 struct ShapeExtent {
-    Bounds box;             // in the shape's frame
+    Bounds box;             // box in the shape's frame
     double radius_m = 0.0;  // bounding sphere about the shape's origin
 };
 ShapeExtent shape_extent(const Shape& shape);

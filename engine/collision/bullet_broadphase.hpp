@@ -28,7 +28,7 @@ struct BroadphaseBody {
     // its state at that pass.
     bool is_changed = false;
     bool was_placed = false;  // the body was in the tree
-    Bounds old_bounds_ws;     // its bounds, if it was
+    Bounds old_bounds_ws;     // previous bounds, if there were any
 };
 
 // Scratch memory of one thread's queries. Its content is not used between calls.

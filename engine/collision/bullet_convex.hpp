@@ -22,13 +22,13 @@ namespace handhold {
 // The curved side of a cylinder.
 struct Barrel {
     double radius_m = 0.0;
-    double half_height_m = 0.0;  // along local y
+    double half_height_m = 0.0;  // half length along local y
 };
 
 // A placed convex shape: a core (point, segment, triangle, polyhedron or cylinder) inflated by
 // radius_m.
 struct Convex {
-    const btConvexShape* shape = nullptr;  // its Bullet margin equals radius_m
+    const btConvexShape* shape = nullptr;  // shape whose Bullet margin equals radius_m
     // Null for spheres and capsules; of a cylinder only its two ends.
     const btConvexPolyhedron* faces = nullptr;
     // `faces` with the side planes moved outwards by a nanometre, for clipping.
@@ -38,7 +38,7 @@ struct Convex {
     const Corners* corners_ns = nullptr;  // triangle: its corners; null otherwise
     const Barrel* barrel = nullptr;       // cylinder: its curved side; null otherwise
 
-    Vec3 centre_ns() const { return from_bullet(pose_ns.getOrigin()); }  // a point of the core
+    Vec3 centre_ns() const { return from_bullet(pose_ns.getOrigin()); }  // point of the core
     // Support point of the core: its farthest point along `direction`.
     Vec3 support(const Vec3& direction) const;
     Vec3 face_normal(int face) const;

@@ -33,9 +33,9 @@ class RelativeMotion {
 };
 
 struct Impact {
-    double fraction = 0.0;           // of the motion, in [0, 1]
+    double fraction = 0.0;           // fraction of the motion, [0, 1]
     Vec3 normal = Vec3::UnitY();     // unit, from b towards a
-    Vec3 point_b_ns = Vec3::Zero();  // on b's surface
+    Vec3 point_b_ns = Vec3::Zero();  // point on b's surface
     std::uint32_t part = 0;          // index of a's part; written by the caller
 };
 
@@ -47,7 +47,7 @@ double gap_along_centres(const Convex& a, const Convex& b);
 // touch a resting shape.
 struct Approach {
     double fraction = 0.0;
-    Impact impact;       // at the last separation query; after `touches`: the contact
+    Impact impact;       // result of the last separation query; once `touches`: the contact
     double gap_m = 0.0;  // separation at that query
     int steps = 0;
 };

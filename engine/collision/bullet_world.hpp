@@ -68,9 +68,9 @@ struct CollisionWorld::Impl {
     void remember(const BodyPairs& body, std::span<const ContactPoint> contacts);
 
     const ShapeLibrary& shapes;
-    std::vector<CollisionShape> cache;  // by shape index
-    std::vector<ShapeExtent> extents;   // by shape index
-    std::uint64_t shapes_revision = 0;  // of the library, when `cache` was brought up to date
+    std::vector<CollisionShape> cache;  // indexed by shape index
+    std::vector<ShapeExtent> extents;   // indexed by shape index
+    std::uint64_t shapes_revision = 0;  // library's revision when `cache` was last updated
     // Shapes of one mesh share its tree. The mesh itself is kept alive by its shapes.
     std::map<const Mesh*, std::weak_ptr<const TriangleTree>> trees;
     Broadphase broadphase;
@@ -86,16 +86,16 @@ struct CollisionWorld::Impl {
         std::size_t other;
         bool deep;
     };
-    std::vector<FreePair> free_pairs;  // of one body
+    std::vector<FreePair> free_pairs;  // pairs of one body
     std::vector<std::size_t>
         near_changed;                      // bodies near each changed body, one range after another
     std::vector<std::size_t> near_ends;    // end of each range; in the order of changed()
-    std::vector<std::uint64_t> dirty_ids;  // of colliders whose ignored pairs changed
+    std::vector<std::uint64_t> dirty_ids;  // colliders whose ignored pairs changed
     double last_margin_m = 0.0;
     std::vector<BodyPairs>
         body_pairs;  // ascending by id; only bodies that were searched or have pairs
     std::vector<std::size_t> pairs;          // indices of the other bodies into broadphase.bodies()
-    std::vector<BodyPairs> last_body_pairs;  // of the last pass
+    std::vector<BodyPairs> last_body_pairs;  // pairs of the last pass
     std::vector<std::size_t> last_pairs;
     CollisionWork work;
     std::uint64_t proxy_set = 0;

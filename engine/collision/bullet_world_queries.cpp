@@ -15,8 +15,8 @@ namespace {
 // Scratch memory per thread, not per call: queries allocate nothing after a thread's first ones.
 struct QueryScratch {
     BroadphaseScratch near;
-    std::vector<std::uint64_t> ids;      // for find_near
-    ConvexPart sphere{Shape{}, Pose{}};  // for cast_sphere
+    std::vector<std::uint64_t> ids;      // scratch of find_near
+    ConvexPart sphere{Shape{}, Pose{}};  // scratch of cast_sphere
     TriangleShape triangle;
 };
 

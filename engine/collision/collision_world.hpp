@@ -50,10 +50,10 @@ struct ContactPoint {
     std::uint64_t id_a = 0;  // always a free collider
     // Two free colliders: id_a < id_b.
     std::uint64_t id_b = 0;
-    Vec3 point_a_bs = Vec3::Zero();    // on a's surface, in a's frame
-    Vec3 point_b_bs = Vec3::Zero();    // on b's surface, in b's frame
+    Vec3 point_a_bs = Vec3::Zero();    // point on a's surface, in a's frame
+    Vec3 point_b_bs = Vec3::Zero();    // point on b's surface, in b's frame
     Vec3 normal_b_bs = Vec3::UnitY();  // unit, from b towards a, in b's frame
-    double separation_m = 0.0;         // with both colliders at to_ws
+    double separation_m = 0.0;         // separation with both colliders at to_ws
     // Rank within the pair, in order of position: equal input gives equal ranks.
     std::uint32_t feature = 0;
 };
@@ -69,7 +69,7 @@ struct ContactLimits {
 struct CollisionWork {
     std::uint64_t narrowphase_calls = 0;  // pairs whose contacts were computed, not recalled
     std::uint64_t bounds_updates = 0;     // colliders whose place in the tree was updated
-    std::uint64_t tree_queries = 0;       // of find_contacts
+    std::uint64_t tree_queries = 0;       // count in find_contacts
     // Pairs that find_contacts left out because one of the two bodies overlaps too many others
     // deeply. They are found once those bodies have separated.
     std::uint64_t deferred_pairs = 0;
@@ -84,7 +84,7 @@ std::shared_ptr<const TriangleTree> build_triangle_tree(const Mesh& mesh);
 // called while any call is running.
 class CollisionWorld {
   public:
-    static constexpr bool k_any_thread = true;  // for SurfaceQuery
+    static constexpr bool k_any_thread = true;  // tells SurfaceQuery that any thread may query
 
     // Builds the BVH of every mesh. `shapes` must outlive the world.
     explicit CollisionWorld(const ShapeLibrary& shapes);

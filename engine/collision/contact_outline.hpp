@@ -12,8 +12,8 @@ inline constexpr double k_same_place_m = 1e-6;  // points nearer than this are m
 
 // A contact point of one pair in near space: b's axes with the origin at a's position.
 struct NearContact {
-    Vec3 point_a_ns = Vec3::Zero();  // on a's surface
-    Vec3 point_b_ns = Vec3::Zero();  // on b's surface
+    Vec3 point_a_ns = Vec3::Zero();  // point on a's surface
+    Vec3 point_b_ns = Vec3::Zero();  // point on b's surface
     Vec3 normal_ns = Vec3::UnitY();  // unit, from b towards a
     double separation_m = 0.0;       // normal_ns . (point_a_ns - point_b_ns); negative: penetration
     std::uint32_t part = 0;          // index of a's part, for a compound

@@ -16,7 +16,7 @@ bool in_normal_cone(const NearTriangles& triangles, const Vec3& point, const Vec
 
 struct MeshContactIo {
     const Convex& a;
-    double core_reach_m = 0.0;  // from a's centre to its core's farthest point
+    double core_reach_m = 0.0;  // distance from a's centre to its core's farthest point
     // a's centre at its last valid pose, relative to the mesh. Its side of the surface is outside.
     Vec3 centre_from_ns;
     // All triangles within margin_m of a and of the segment from centre_from_ns to a's centre.

@@ -37,7 +37,7 @@ void NearTriangles::build() {
         const std::size_t end = boxes_.size();
         levels_.push_back(end);
         for (std::size_t i = below; i < end; ++i) {
-            const Bounds box = boxes_[i];  // a copy: push_back may reallocate
+            const Bounds box = boxes_[i];  // copied, since push_back may reallocate
             if ((i - below) % k_run == 0) {
                 boxes_.push_back(box);
             } else {

@@ -30,8 +30,8 @@ struct PairScratch {
 struct PairIo {
     std::span<const ConvexPart> a;
     std::span<const ConvexPart> b;  // empty if b is a mesh
-    Pose from_bs;                   // a's last valid pose in the frame of b's last valid pose
-    Pose to_bs;                     // a's current pose in the frame of b's current pose
+    Pose from_bs;                   // last valid pose of a in the frame of b's last valid pose
+    Pose to_bs;                     // current pose of a in the frame of b's current pose
     // Only if b is a mesh: one entry per part of a, with all triangles within the margin of that
     // part's motion. Positions are relative to to_bs.position.
     std::span<const NearTriangles> triangles;

@@ -275,7 +275,7 @@ LocalSurfacePoint closest_on_hull(const ConvexHull& hull, const Vec3& point) {
     Vec3 best = hull.corners.front();
     for (const HullFace& face : hull.faces) {
         if (face.normal.dot(point) < face.offset_m) {
-            continue;  // a back face: the nearest point is on a front face
+            continue;  // back face: the nearest point is on a front face
         }
         for (std::size_t i = 1; i + 1 < face.loop.size(); ++i) {
             const Vec3 candidate =

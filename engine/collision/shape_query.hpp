@@ -9,16 +9,16 @@
 namespace handhold {
 
 struct LocalRayHit {
-    double fraction = 0.0;        // of the segment from `from` to `to`, in [0, 1]
+    double fraction = 0.0;        // fraction of the segment from `from` to `to`, [0, 1]
     Vec3 normal = Vec3::UnitY();  // unit surface normal, of either side
 };
 // First surface point on the segment; if `from` is inside, the exit point. A compound is the union
 // of its parts: surfaces inside another part are skipped. Not for meshes. Bullet's casts are not
-// used: they miss surfaces hit from inside, and btSubsimplexConvexCast is up to 1.3 mm off on round
-// shapes.
+// used: they miss surfaces hit from inside, and btSubsimplexConvexCast was measured to be up to 1.3
+// mm off on round shapes.
 std::optional<LocalRayHit> cast_ray_on_shape(const Shape& shape, const Vec3& from, const Vec3& to);
 struct LocalSurfacePoint {
-    Vec3 point = Vec3::Zero();  // on the surface, also for a query point inside
+    Vec3 point = Vec3::Zero();  // point on the surface, even if the query point is inside
     // Unit: towards the query point; outward if the query point is inside or on the surface.
     Vec3 normal = Vec3::UnitY();
     double distance_m = 0.0;  // 0 inside

@@ -15,7 +15,7 @@ struct RayHit {
     Vec3 point_ws = Vec3::Zero();
     // Unit vector, on the side that the ray came from, whatever the triangle's winding.
     Vec3 normal_ws = Vec3::UnitY();
-    double distance_m = 0.0;  // from the ray's start
+    double distance_m = 0.0;  // distance from the ray's start
 };
 
 struct SurfacePoint {

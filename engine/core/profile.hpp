@@ -16,7 +16,8 @@ namespace handhold {
 std::int64_t now_ns();
 
 // Clock of stage times. Default: the wall clock. A tool that measures on a busy machine may select
-// the calling thread's CPU time (a system call, about 0.3 us). Set it only between frames.
+// the calling thread's CPU time (a system call, which costs about 0.3 us). Set it only between
+// frames.
 enum class StageClock : std::uint8_t { wall, thread_cpu };
 void set_stage_clock(StageClock clock);
 std::int64_t stage_now_ns();
@@ -32,7 +33,7 @@ bool is_tracing();
 
 class Zone {
   public:
-    explicit Zone(const char* name);  // a string literal: stored by pointer
+    explicit Zone(const char* name);  // string literal: stored by pointer
     ~Zone();
     Zone(const Zone&) = delete;
     Zone& operator=(const Zone&) = delete;

@@ -131,7 +131,7 @@ class Column {
     std::vector<T> rows_;
     std::vector<Entity> owners_;
     std::vector<std::uint32_t> row_of_slot_;
-    std::vector<std::uint8_t> is_run_;  // per block
+    std::vector<std::uint8_t> is_run_;  // one per block
 };
 
 }  // namespace handhold

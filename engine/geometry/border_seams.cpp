@@ -23,7 +23,7 @@ constexpr double k_needle = 8.0;
 
 struct Borders {
     std::vector<HalfEdge> edges;    // edges with one triangle
-    std::vector<double> reaches_m;  // per vertex: merge distance; -1 for vertices off the borders
+    std::vector<double> reaches_m;  // merge distance of each vertex; -1: vertex off the borders
 };
 
 double size_of(const std::vector<Vec3>& positions) {

@@ -13,7 +13,8 @@ namespace {
 constexpr std::uint32_t k_leaf = 4;
 // Deeper sets are split in halves, which limits the query stack.
 constexpr std::uint32_t k_planned_depth = 30;
-constexpr double k_padding = 0x1p-22;  // of boxes, per size of the mesh: four float roundings
+constexpr double k_padding =
+    0x1p-22;  // padding of a box relative to the mesh's size: four float roundings
 
 // Cost of testing triangles: their number of groups of four, because four are tested at once.
 std::uint32_t fours_of(std::uint32_t triangles) { return (triangles + k_leaf - 1) / k_leaf; }

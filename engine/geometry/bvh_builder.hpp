@@ -83,7 +83,7 @@ class BvhBuilder {
     float padding_ = 0.0F;
     std::vector<Item> items_;
     std::vector<Pair> pairs_;            // root first
-    std::vector<std::uint32_t> copied_;  // per position: its index in the tree's positions
+    std::vector<std::uint32_t> copied_;  // index in the tree's positions, one per position
 };
 
 }  // namespace handhold

@@ -129,8 +129,7 @@ class ChainFitter {
     bool search_cut(std::size_t plane, ChainSeed& start, GraphPoint& contact_start) {
         const GripMesh& mesh = *meshes_.front().mesh;
         const Disc disc = disc_of(chain_, meshes_.front().pose, settings_, plane);
-        const CrossingSearch found =
-            find_crossing(mesh.search, disc, start, settings_.order, scratch_.trace);
+        const CrossingSearch found = find_crossing(mesh.search, disc, start, scratch_.trace);
         ++fit_.discs;
         fit_.pops += found.pops;
         if (found.triangle == k_no_triangle) {
@@ -154,8 +153,8 @@ class ChainFitter {
             }
             contact_start = {near->triangle, near->point};
         }
-        const CrossingSearch onto = find_crossing(mesh.contact, disc, {&contact_start, 1},
-                                                  SearchOrder::best_first, scratch_.trace);
+        const CrossingSearch onto =
+            find_crossing(mesh.contact, disc, {&contact_start, 1}, scratch_.trace);
         fit_.walked += onto.pops;
         if (onto.triangle == k_no_triangle) {
             return;

@@ -31,11 +31,11 @@ struct ChainFitSettings {
     double plane_offset = 0.0;  // outer planes' offset from the middle one, in mean link radii
     // If the fit penetrates deeper: all cuts are used, then sample poses.
     double search_depth_m = 0.0;
-    double open_depth_m = 0.0;    // up to this depth a sample pose is clear; a deeper fit is opened
+    double open_depth_m =
+        0.0;  // deepest penetration of a clear sample pose; a deeper fit is opened
     double open_step_rad = 0.0;   // opening step of each hinge
     std::int32_t open_steps = 0;  // maximum number of opening steps
-    SearchOrder order = SearchOrder::best_first;
-    bool depenetrates = true;  // false: leaves a penetrating fit as it is
+    bool depenetrates = true;     // false: leaves a penetrating fit as it is
 };
 
 enum class ChainFallback : std::uint8_t {

@@ -10,7 +10,7 @@
 // handled differently, as noted in the implementation.
 namespace handhold {
 
-using Corners = std::array<Vec3, 3>;  // of a triangle
+using Corners = std::array<Vec3, 3>;  // corners of a triangle
 
 // Twice the area times the unit normal. Zero if the area is within rounding of zero (degenerate
 // triangle).

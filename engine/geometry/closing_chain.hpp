@@ -15,7 +15,7 @@ namespace handhold {
 // Positions and velocities of the hinges and of the last link's end, in disc space.
 struct ChainMotion {
     std::array<Vec2, k_max_disc_links + 1> point;
-    std::array<Vec2, k_max_disc_links + 1> velocity_m;  // per full closing
+    std::array<Vec2, k_max_disc_links + 1> velocity_m;  // displacement per full closing
 };
 
 // A closing chain whose hinges before `first_free_hinge` are frozen at their angles.
@@ -95,7 +95,7 @@ class ClosingChain {
     std::size_t first_free_hinge_ = 0;
     double frozen_angle_rad_ = 0.0;  // absolute angle of the last frozen link
     std::array<Vec2, k_max_disc_links + 1> frozen_points_;
-    std::array<double, k_max_disc_links> turn_rad_ = {};  // per link, turn over a full closing
+    std::array<double, k_max_disc_links> turn_rad_ = {};  // turn of each link over a full closing
     std::array<double, k_max_disc_links + 1> acceleration_m_ = {};
 };
 

@@ -13,7 +13,7 @@
 namespace handhold {
 namespace {
 
-constexpr double k_disc_touch_m = 2e-5;  // a pair with at most this separation touches
+constexpr double k_disc_touch_m = 2e-5;  // largest separation at which a pair touches
 // Separation that an advance aims for. It is below k_disc_touch_m, so that an approaching pair
 // touches at the end of the advance.
 constexpr double k_aim_m = 1e-5;
@@ -196,7 +196,7 @@ class ChainCloser {
     // Adds the pairs that come near for the first time in this interval. Most pairs do not; they
     // cost one test per four segments.
     void add_near(const LinkSweeps& sweeps, double at, bool is_later) {
-        constexpr double k_float_rounding_m = 1e-5;  // for coordinates below 50 m
+        constexpr double k_float_rounding_m = 1e-5;  // holds for coordinates below 50 m
         for (std::size_t link = links_.first_free_hinge(); link < chain_.link_count; ++link) {
             if (max_radius_m_[link] < 0.0) {
                 continue;

@@ -43,7 +43,7 @@ struct DiscChain {
 struct DiscClosure {
     static constexpr std::int32_t k_none = -1;
     std::array<double, k_max_disc_links> angle_rad = {};
-    std::int32_t contact_link = k_none;  // the last link that touches
+    std::int32_t contact_link = k_none;  // last link that touches
     std::uint32_t touching = 0;          // bit i: link i touches
     std::uint32_t segment = 0;           // segment of the last contact; valid if a link touches
     std::uint32_t distances = 0;         // number of GJK distance queries
@@ -72,16 +72,20 @@ struct DiscScratch {
         std::array<Float4, 2> low = {};
         std::array<Float4, 2> high = {};
     };
-    std::vector<Pair> pairs;            // pairs whose swept bounds came near each other
-    std::vector<std::uint32_t> paired;  // per segment; bit i: the pair with link i is in `pairs`
-    std::vector<Bounds4> bounds;        // one per four segments; the last segment is repeated
+    std::vector<Pair> pairs;  // pairs whose swept bounds came near each other
+    std::vector<std::uint32_t>
+        paired;                   // one per segment; bit i: the pair with link i is in `pairs`
+    std::vector<Bounds4> bounds;  // one per four segments; the last segment is repeated
 };
+
+// Largest error of a contact; the tests hold it.
+inline constexpr double k_disc_accuracy_m = 5e-5;
 
 // Closes the chain from `sweep.from` to at most `sweep.to`. A link that touches stops its own hinge
 // and all hinges before it. The links beyond it go on closing until they touch or the sweep ends. A
 // link that overlaps a segment at the start and moves out of it is ignored until it is clear.
-// Misses no contact and finds each within 0.05 mm. Does not allocate once the scratch memory has
-// grown.
+// Misses no contact and finds each within k_disc_accuracy_m. Does not allocate once the scratch
+// memory has grown.
 DiscClosure close_chain(const DiscChain& chain, std::span<const DiscSegment> segments,
                         const DiscSweep& sweep, DiscScratch& scratch);
 

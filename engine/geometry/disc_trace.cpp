@@ -5,83 +5,16 @@
 #include <optional>
 
 #include "engine/geometry/closest_point.hpp"
+#include "engine/geometry/disc_cut.hpp"
 #include "engine/geometry/triangle_set.hpp"
 
 namespace handhold {
 namespace {
 
-// The search does not cross edges that are more than this distance outside the disc's radius.
-constexpr double k_prune_m = 0.03;
-constexpr double k_straight_m = 2.5e-4;  // simplification tolerance
-
-double height(const Disc& disc, const Vec3& point) { return disc.normal.dot(point - disc.center); }
-
-double distance_to_origin(const Vec2& a, const Vec2& b) {
-    const Vec2 along = b - a;
-    const double length2 = along.squaredNorm();
-    const double t = length2 > 0.0 ? std::clamp(-a.dot(along) / length2, 0.0, 1.0) : 0.0;
-    return (a + t * along).norm();
-}
-
-// Points at which a disc's plane cuts a triangle's edges.
-struct Cut {
-    std::array<std::uint32_t, 2> edge = {};  // from corner i to i + 1
-    std::array<Vec3, 2> point;
-};
-
-Vec3 crossing(const Vec3& a, double height_a, const Vec3& b, double height_b) {
-    return a + height_a / (height_a - height_b) * (b - a);
-}
-
-std::array<double, 3> corner_heights(const SurfaceGraph& graph, const Disc& disc,
-                                     std::uint32_t triangle) {
-    const auto& corners = graph.triangles[triangle];
-    return {height(disc, graph.positions[corners[0]]), height(disc, graph.positions[corners[1]]),
-            height(disc, graph.positions[corners[2]])};
-}
-
-std::optional<Cut> cut_triangle(const SurfaceGraph& graph, const Disc& disc,
-                                std::uint32_t triangle) {
-    const std::array<double, 3> heights = corner_heights(graph, disc, triangle);
-    const auto& corners = graph.triangles[triangle];
-    Cut cut;
-    std::size_t found = 0;
-    for (std::uint32_t i = 0; i < 3; ++i) {
-        const std::uint32_t j = (i + 1) % 3;
-        if ((heights[i] >= 0.0) != (heights[j] >= 0.0)) {
-            // Always computed from the lower to the higher vertex, so that neighbours get bitwise
-            // the same point on their common edge.
-            const bool forward = corners[i] < corners[j];
-            const std::uint32_t a = forward ? i : j;
-            const std::uint32_t b = forward ? j : i;
-            cut.edge[found] = i;
-            cut.point[found++] = crossing(graph.positions[corners[a]], heights[a],
-                                          graph.positions[corners[b]], heights[b]);
-        }
-    }
-    return found == 2 ? std::optional<Cut>(cut) : std::nullopt;
-}
-
-bool reaches_disc(const Disc& disc, const Cut& cut) {
-    return distance_to_origin(to_disc(disc, cut.point[0]), to_disc(disc, cut.point[1])) <=
-           disc.radius_m;
-}
-
-// True if the edge comes within k_prune_m of the disc's radius.
-bool is_edge_in_reach(const SurfaceGraph& graph, const Disc& disc, std::uint32_t triangle,
-                      std::uint32_t edge) {
-    const auto& corners = graph.triangles[triangle];
-    const double far_m = disc.radius_m + k_prune_m;
-    const Vec3 nearest = closest_on_segment(disc.center, graph.positions[corners[edge]],
-                                            graph.positions[corners[(edge + 1) % 3]]);
-    return (nearest - disc.center).squaredNorm() <= far_m * far_m;
-}
-
 class CrossingSearcher {
   public:
-    CrossingSearcher(const SurfaceGraph& graph, const Disc& disc, SearchOrder order,
-                     TraceScratch& scratch)
-        : graph_(graph), disc_(disc), order_(order), open_(scratch.open), seen_(scratch.seen) {
+    CrossingSearcher(const SurfaceGraph& graph, const Disc& disc, TraceScratch& scratch)
+        : graph_(graph), disc_(disc), open_(scratch.open), seen_(scratch.seen) {
         open_.clear();
         open_.reserve(3 * k_max_pops + k_max_starts);
     }
@@ -96,7 +29,7 @@ class CrossingSearcher {
             const TraceScratch::Node node = open_.back();
             open_.pop_back();
             ++found.pops;
-            const std::optional<Cut> cut = cut_triangle(graph_, disc_, node.triangle);
+            const std::optional<TriangleCut> cut = cut_triangle(graph_, disc_, node.triangle);
             if (cut && reaches_disc(disc_, *cut)) {
                 found.triangle = node.triangle;
                 found.point = closest_on_segment(node.point, cut->point[0], cut->point[1]);
@@ -119,7 +52,7 @@ class CrossingSearcher {
         const std::array<double, 3> heights = corner_heights(graph_, disc_, triangle);
         const auto [low, high] = std::minmax({heights[0], heights[1], heights[2]});
         const double to_go_m = low >= 0.0 ? low : (high < 0.0 ? -high : 0.0);
-        const double cost_m = order_ == SearchOrder::best_first ? path_m + 2.0 * to_go_m : 0.0;
+        const double cost_m = path_m + 2.0 * to_go_m;
         open_.push_back({cost_m, path_m, triangle, pushed_++, point});
         std::push_heap(open_.begin(), open_.end(), later);
     }
@@ -138,47 +71,11 @@ class CrossingSearcher {
 
     const SurfaceGraph& graph_;
     const Disc& disc_;
-    SearchOrder order_;
     std::vector<TraceScratch::Node>& open_;
     TriangleSet<1024> seen_;
     static_assert(1024 >= 2 * (3 * k_max_pops + k_max_starts));
     std::uint32_t pushed_ = 0;
 };
-
-// Breadth-first search over everything in the disc's reach. Does not stop at the first hit, but
-// returns it.
-CrossingSearch flood(const SurfaceGraph& graph, const Disc& disc,
-                     std::span<const GraphPoint> starts, TraceScratch& scratch) {
-    CrossingSearch found;
-    scratch.seen.assign(graph.triangles.size(), 0);
-    scratch.open.clear();
-    const auto push = [&](std::uint32_t triangle, const Vec3& point) {
-        if (triangle != k_no_triangle && scratch.seen[triangle] == 0) {
-            scratch.seen[triangle] = 1;
-            scratch.open.push_back({0.0, 0.0, triangle, 0, point});
-        }
-    };
-    for (const GraphPoint& start : starts) {
-        push(start.triangle, start.point);
-    }
-    for (; found.pops < scratch.open.size(); ++found.pops) {
-        const TraceScratch::Node node = scratch.open[found.pops];
-        const std::optional<Cut> cut = cut_triangle(graph, disc, node.triangle);
-        if (found.triangle == k_no_triangle && cut && reaches_disc(disc, *cut)) {
-            found.triangle = node.triangle;
-            found.point = closest_on_segment(node.point, cut->point[0], cut->point[1]);
-        }
-        const auto& corners = graph.triangles[node.triangle];
-        for (std::uint32_t i = 0; i < 3; ++i) {
-            const std::uint32_t next = graph.neighbours[node.triangle][i];
-            if (is_edge_in_reach(graph, disc, node.triangle, i)) {
-                push(next, closest_on_segment(node.point, graph.positions[corners[i]],
-                                              graph.positions[corners[(i + 1) % 3]]));
-            }
-        }
-    }
-    return found;
-}
 
 // Follows a cut from triangle `start` over its cut edge `side`. Appends a point for each further
 // edge that the cut crosses. run() returns true if the cut is a closed loop.
@@ -187,7 +84,7 @@ class CutWalk {
     CutWalk(const SurfaceGraph& graph, const Disc& disc, TraceScratch& scratch)
         : graph_(graph), disc_(disc), scratch_(scratch) {}
 
-    bool run(std::uint32_t start, const Cut& start_cut, std::size_t side) {
+    bool run(std::uint32_t start, const TriangleCut& start_cut, std::size_t side) {
         std::uint32_t from = start;
         std::uint32_t at = graph_.neighbours[start][start_cut.edge[side]];
         Vec2 point = to_disc(disc_, start_cut.point[side]);
@@ -195,7 +92,7 @@ class CutWalk {
             if (at == start) {
                 return true;
             }
-            const std::optional<Cut> cut = cut_triangle(graph_, disc_, at);
+            const std::optional<TriangleCut> cut = cut_triangle(graph_, disc_, at);
             if (!cut) {
                 break;  // the other two corners lie on one side: the cut ends here
             }
@@ -258,15 +155,13 @@ void add_line(const Disc& disc, const TraceScratch& scratch, std::vector<DiscSeg
 }  // namespace
 
 CrossingSearch find_crossing(const SurfaceGraph& graph, const Disc& disc,
-                             std::span<const GraphPoint> starts, SearchOrder order,
-                             TraceScratch& scratch) {
-    return order == SearchOrder::flood ? flood(graph, disc, starts, scratch)
-                                       : CrossingSearcher(graph, disc, order, scratch).run(starts);
+                             std::span<const GraphPoint> starts, TraceScratch& scratch) {
+    return CrossingSearcher(graph, disc, scratch).run(starts);
 }
 
 std::uint32_t walk_crossing(const SurfaceGraph& graph, const Disc& disc, std::uint32_t triangle,
                             TraceScratch& scratch, std::vector<DiscSegment>& segments) {
-    const std::optional<Cut> cut = cut_triangle(graph, disc, triangle);
+    const std::optional<TriangleCut> cut = cut_triangle(graph, disc, triangle);
     if (!cut) {
         return 0;
     }

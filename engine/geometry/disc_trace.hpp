@@ -29,18 +29,12 @@ inline Vec2 to_disc(const Disc& disc, const Vec3& point) {
 
 struct GraphPoint {
     std::uint32_t triangle = k_no_triangle;  // k_no_triangle: no point
-    Vec3 point = Vec3::Zero();               // on the triangle
-};
-
-enum class SearchOrder : std::uint8_t {
-    best_first,     // A*, ordered by path length plus estimate
-    breadth_first,  // stops at the first hit; for comparison
-    flood,          // visits everything in reach; for comparison
+    Vec3 point = Vec3::Zero();               // point on the triangle
 };
 
 struct CrossingSearch {
-    std::uint32_t triangle = k_no_triangle;  // the first found whose cut reaches into the disc
-    Vec3 point = Vec3::Zero();               // on the triangle's cut, where the search entered
+    std::uint32_t triangle = k_no_triangle;  // first triangle found whose cut reaches into the disc
+    Vec3 point = Vec3::Zero();               // point on the triangle's cut where the search entered
     std::uint32_t pops = 0;                  // triangles visited
 };
 
@@ -54,8 +48,7 @@ struct TraceScratch {
         Vec3 point = Vec3::Zero();
     };
     std::vector<Node> open;
-    // Visited triangles: a hash set; for a flood, one entry per triangle.
-    std::vector<std::uint32_t> seen;
+    std::vector<std::uint32_t> seen;  // hash set of visited triangles
     std::vector<Vec2> line;
     std::vector<std::uint32_t> line_triangle;
 };
@@ -63,22 +56,21 @@ struct TraceScratch {
 inline constexpr std::uint32_t k_max_pops = 128;
 inline constexpr std::uint32_t k_max_starts = 16;
 inline constexpr std::uint32_t k_max_steps = 512;
+inline constexpr double k_straight_m = 2.5e-4;  // simplification tolerance of a cut
 
-// Searches over neighbours, from all `starts` at once, for a triangle whose cut reaches into the
-// disc. Path lengths are measured over the closest points of the edges crossed since the node's
-// start. The estimate of the rest is twice the distance from the triangle to the plane. Gives up
-// after k_max_pops visits in total, or if every open node lies more than 30 mm outside the disc's
-// radius. A flood finds the same triangle as breadth_first but visits all others too, and its
-// visited set is as large as the surface. Preconditions: at most k_max_starts starts; each start's
-// triangle belongs to the graph or is k_no_triangle.
+// A* over neighbours, from all `starts` at once, for a triangle whose cut reaches into the disc.
+// Path lengths are measured over the closest points of the edges crossed since the node's start.
+// The estimate of the rest is twice the distance from the triangle to the plane. Gives up after
+// k_max_pops visits in total, or if every open node lies more than k_prune_m (disc_cut.hpp) outside
+// the disc's radius. Preconditions: at most k_max_starts starts; each start's triangle belongs to
+// the graph or is k_no_triangle.
 CrossingSearch find_crossing(const SurfaceGraph& graph, const Disc& disc,
-                             std::span<const GraphPoint> starts, SearchOrder order,
-                             TraceScratch& scratch);
+                             std::span<const GraphPoint> starts, TraceScratch& scratch);
 
 // Starts at a triangle that the disc cuts and walks along the cut in both directions, until the cut
 // leaves the disc, ends or closes. Appends its pieces within the disc to `segments`, simplified
-// within 0.25 mm. Returns the number of triangles walked. A corner on the plane counts as on the
-// normal's side, so that every cut triangle has two cut edges.
+// within k_straight_m. Returns the number of triangles walked. A corner on the plane counts as on
+// the normal's side, so that every cut triangle has two cut edges.
 std::uint32_t walk_crossing(const SurfaceGraph& graph, const Disc& disc, std::uint32_t triangle,
                             TraceScratch& scratch, std::vector<DiscSegment>& segments);
 

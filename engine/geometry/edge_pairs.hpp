@@ -14,7 +14,7 @@ namespace handhold {
 struct HalfEdge {
     std::uint32_t low = 0;    // vertex
     std::uint32_t high = 0;   // vertex, > low
-    std::uint32_t third = 0;  // the triangle's vertex that is not on the edge
+    std::uint32_t third = 0;  // vertex of the triangle that is not on the edge
     std::uint32_t id = 0;
     bool forward = false;  // runs from low to high
 };

@@ -31,9 +31,9 @@ struct GripMeshSettings {
 // built, so any number of threads may query it.
 struct GripMesh {
     SurfaceGraph contact;
-    TriangleBvh contact_bvh;  // over contact's triangles
+    TriangleBvh contact_bvh;  // tree of contact's triangles
     SurfaceGraph search;
-    TriangleBvh search_bvh;            // over search's triangles
+    TriangleBvh search_bvh;            // tree of search's triangles
     std::uint32_t turned = 0;          // triangles flipped to match their sheet or to face outwards
     std::uint32_t full_triangles = 0;  // number of triangles at full detail
 };

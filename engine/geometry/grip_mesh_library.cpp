@@ -23,11 +23,10 @@ std::size_t work_of(const Shape& shape) {
 // Round shapes above this size would be tessellated too coarsely to grip, or into too many
 // triangles.
 bool is_too_large(const Shape& shape) {
-    constexpr double k_largest_m = 64.0;
     const bool may_be_round = shape.kind == ShapeKind::sphere || shape.kind == ShapeKind::capsule ||
                               shape.kind == ShapeKind::cylinder ||
                               shape.kind == ShapeKind::compound;
-    return may_be_round && bounding_radius(shape) > k_largest_m;
+    return may_be_round && bounding_radius(shape) > k_largest_round_m;
 }
 
 std::vector<ShapeId> all_of(const ShapeLibrary& shapes) {

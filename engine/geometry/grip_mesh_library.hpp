@@ -12,10 +12,12 @@
 
 namespace handhold {
 
+inline constexpr double k_largest_round_m = 64.0;
+
 // Grip meshes of a scene's shapes, built before the first frame. Equal shapes share one grip mesh:
 // the same mesh at the same scale, the same hull or compound parts, or equal primitives. Round
-// shapes with a bounding radius above 64 m have none. Immutable between calls of add, so any number
-// of threads may read it.
+// shapes with a bounding radius above k_largest_round_m have none. Immutable between calls of add,
+// so any number of threads may read it.
 class GripMeshLibrary {
   public:
     GripMeshLibrary() = default;
@@ -54,7 +56,7 @@ class GripMeshLibrary {
     static SurfaceKey surface_key(const Shape& shape);
 
     std::map<SurfaceKey, std::uint32_t> mesh_of_surface_;  // index into meshes_
-    std::vector<std::uint32_t> mesh_of_shape_;             // by ShapeId::index; k_no_triangle: none
+    std::vector<std::uint32_t> mesh_of_shape_;  // indexed by ShapeId::index; k_no_triangle: no mesh
     struct Entry {
         std::shared_ptr<const GripMesh> mesh;  // null: unused
         std::uint32_t users = 0;               // shapes

@@ -87,7 +87,7 @@ MassProperties of_hull(const ConvexHull& hull) {
 MassProperties of_compound(const std::vector<PlacedShape>& parts) {
     MassProperties total;
     double mass = 0.0;
-    Mat3 inertia = Mat3::Zero();  // about the shape's origin
+    Mat3 inertia = Mat3::Zero();  // inertia about the shape's origin
     for (const PlacedShape& part : parts) {
         const MassProperties own = mass_properties(part.shape);
         const double weight = part.mass_kg > 0.0 ? part.mass_kg : own.volume_m3;

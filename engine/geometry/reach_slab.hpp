@@ -20,11 +20,11 @@ struct ReachBox {
 
 // Region that a chain's links can reach: a disc with a thickness, restricted to one box per link.
 struct ChainReach {
-    Pose base;  // at the first hinge; at angle 0, links point along -Z; positive angles turn them
-                // towards -Y
-    double radius_m = 0;                                // from the first hinge, in the plane
-    double half_width_m = 0;                            // across the plane
-    std::array<ReachBox, k_max_disc_links> boxes = {};  // in the plane
+    Pose base;            // first hinge; links at angle 0 point along -Z; positive angles turn them
+                          // towards -Y
+    double radius_m = 0;  // distance from the first hinge, in the plane
+    double half_width_m = 0;                            // half extent across the plane
+    std::array<ReachBox, k_max_disc_links> boxes = {};  // boxes in the plane
     std::uint32_t box_count = 0;                        // 0: the whole disc
 };
 

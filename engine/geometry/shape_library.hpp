@@ -38,14 +38,14 @@ struct Shape {
 // A part of a compound.
 struct PlacedShape {
     Shape shape;  // convex
-    Pose pose;    // in the compound's frame
+    Pose pose;    // pose in the compound's frame
     double mass_kg = 0.0;
 };
 
 // Input of add_compound.
 struct CompoundChild {
     ShapeId shape;  // neither mesh nor compound
-    Pose pose;      // in the compound's frame
+    Pose pose;      // pose in the compound's frame
     // Mass of this part. Only ratios count. If all parts have 0, masses are proportional to
     // volumes.
     double mass_kg = 0.0;

@@ -10,10 +10,6 @@ namespace {
 // Maximum depth of subdivision. Bisecting a triangle of 1 km this often leaves less than 1 mm.
 constexpr int k_max_cuts = 40;
 
-// Size of the smallest piece, as a fraction of the limit. Distances within this fraction of the
-// limit count as beyond the limit.
-constexpr double k_min_piece_share = 0.02;
-
 class Cover {
   public:
     Cover(const TriangleSurface& target, double limit_m)
@@ -88,7 +84,7 @@ class Cover {
     // Splits off the part of the corner that is alone on its side of the cut. The other part is two
     // triangles.
     bool covers_clipped(const Corners& piece, const std::array<double, 3>& beyond, int cuts) {
-        std::size_t lone = 0;  // that corner
+        std::size_t lone = 0;  // index of that corner
         for (std::size_t i = 1; i < 3; ++i) {
             const bool side = beyond[i] > 0.0;
             if (side != (beyond[(i + 1) % 3] > 0.0) && side != (beyond[(i + 2) % 3] > 0.0)) {

@@ -16,10 +16,14 @@ struct TriangleSurface {
     const TriangleBvh& bvh;  // built from `positions` and `triangles`
 };
 
+// Size of the smallest piece, as a fraction of the limit. Distances within this fraction of the
+// limit count as beyond the limit.
+inline constexpr double k_min_piece_share = 0.02;
+
 // A triangle with a point that is not proven to be within the limit of the other surface.
 struct Uncovered {
     std::uint32_t triangle = 0;
-    Vec3 point = Vec3::Zero();  // farther than the limit, or within 2 % of it
+    Vec3 point = Vec3::Zero();  // farther than the limit, or within k_min_piece_share of it
 };
 
 // The triangles of `a` that are not proven to lie entirely within limit_m of `b`. Empty if the

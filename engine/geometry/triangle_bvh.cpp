@@ -36,7 +36,7 @@ ShearedRay shear(const Vec3& from, const Vec3& displacement) {
 // share an edge compute the same edge function with opposite signs, so the segment hits one of
 // them.
 double meet_fraction(const ShearedRay& ray, const Corners& corners) {
-    std::array<std::array<double, 3>, 3> p;  // the corners in the ray's frame
+    std::array<std::array<double, 3>, 3> p;  // corners in the ray's frame
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3 offset = corners[i] - ray.from;
         const double z = offset[ray.axis[2]];

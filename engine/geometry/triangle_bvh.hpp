@@ -22,9 +22,9 @@
 namespace handhold {
 
 struct TriangleHit {
-    std::uint32_t triangle = 0;  // its index when the tree was built
-    Vec3 point = Vec3::Zero();   // on the triangle
-    double distance_m = 0.0;     // from the ray's start or the query point
+    std::uint32_t triangle = 0;  // index when the tree was built
+    Vec3 point = Vec3::Zero();   // point on the triangle
+    double distance_m = 0.0;     // distance from the ray's start or the query point
 };
 
 // Copies all data that it needs. Queries do not allocate and may run on any number of threads at
@@ -80,7 +80,7 @@ class TriangleBvh {
 
     std::size_t triangle_count() const {
         return triangle_count_;
-    }  // without triangles that are not finite
+    }  // skips triangles that are not finite
     std::size_t memory_bytes() const;
 
   private:
@@ -112,7 +112,7 @@ class TriangleBvh {
     bool meets_sphere(std::uint32_t slot, const Vec3& center, double squared_radius) const;
 
     Vec3 origin_ = Vec3::Zero();
-    Vec3 low_ = Vec3::Zero();  // of the whole tree's box, relative to origin_
+    Vec3 low_ = Vec3::Zero();  // lower corner of the whole tree's box, relative to origin_
     Vec3 high_ = Vec3::Zero();
     std::vector<Node> nodes_;  // root first
     std::vector<Vec3> positions_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "engine/core/text_file.hpp"
 
@@ -31,25 +32,66 @@ std::size_t count_cells(std::string_view line) {
     return static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1;
 }
 
+bool is_blank(std::string_view line) {
+    return line.find_first_not_of(" \t\r\f\v") == std::string_view::npos;
+}
+
+// Removes `prefix`, of lower-case letters, from the front of `text`, whatever case it has there.
+bool skip_letters(std::string_view& text, std::string_view prefix) {
+    const auto same = [](char letter, char lower) {
+        return (letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter) ==
+               lower;
+    };
+    if (text.size() < prefix.size() ||
+        !std::equal(prefix.begin(), prefix.end(), text.begin(),
+                    [&](char lower, char letter) { return same(letter, lower); })) {
+        return false;
+    }
+    text.remove_prefix(prefix.size());
+    return true;
+}
+
+// How printf, iostreams and other languages write a NaN: "nan", "-nan", "+NaN", "nan(ind)",
+// "-nan(0x8000000000000)", and "1.#QNAN" or "-1.#IND000" by C libraries of Windows before 2015.
+bool is_nan_text(std::string_view cell) {
+    if (!cell.empty() && (cell.front() == '-' || cell.front() == '+')) {
+        cell.remove_prefix(1);
+    }
+    if (skip_letters(cell, "1.#")) {
+        return (skip_letters(cell, "qnan") || skip_letters(cell, "snan") ||
+                skip_letters(cell, "ind")) &&
+               cell.find_first_not_of('0') == std::string_view::npos;
+    }
+    if (!skip_letters(cell, "nan")) {
+        return false;
+    }
+    constexpr std::string_view k_payload =
+        "0123456789_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+    return cell.empty() ||
+           (cell.size() >= 2 && cell.front() == '(' &&
+            cell.find_first_not_of(k_payload, 1) == cell.size() - 1 && cell.back() == ')');
+}
+
 bool parse_cell(std::string_view cell, NanCells nan, double& value) {
     const char* end = cell.data() + cell.size();
     const std::from_chars_result result = std::from_chars(cell.data(), end, value);
-    if (result.ec != std::errc() || result.ptr != end) {
-        return false;
+    if (result.ec == std::errc() && result.ptr == end && std::isfinite(value)) {
+        return true;
     }
-    // from_chars also accepts "inf", "-nan" and "nan(2)".
-    return std::isfinite(value) || (nan == NanCells::allowed && (cell == "nan" || cell == "NaN"));
+    value = std::numeric_limits<double>::quiet_NaN();
+    return nan == NanCells::allowed && is_nan_text(cell);
 }
 
-std::optional<FileError> parse_header(std::string_view line, const std::string& file,
-                                      std::vector<std::string>& columns) {
+std::optional<FileError> parse_header(std::string_view line, std::size_t line_number,
+                                      const std::string& file, std::vector<std::string>& columns) {
+    const std::string place = "line " + std::to_string(line_number);
     columns.reserve(count_cells(line));
     for (std::size_t begin = 0; begin <= line.size();) {
         const std::size_t end = std::min(line.find(',', begin), line.size());
         const std::string_view name = line.substr(begin, end - begin);
         if (name.empty() || name.find_first_of("\"\r\t ") != std::string_view::npos) {
             return FileError{
-                file, "line 1",
+                file, place,
                 "expected a column name without quotes and spaces, found " + quote(name)};
         }
         columns.emplace_back(name);
@@ -59,7 +101,7 @@ std::optional<FileError> parse_header(std::string_view line, const std::string& 
     std::sort(sorted.begin(), sorted.end());
     const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
     if (twice != sorted.end()) {
-        return FileError{file, "line 1",
+        return FileError{file, place,
                          "expected every column once, found " + quote(*twice) + " twice"};
     }
     return std::nullopt;
@@ -108,19 +150,34 @@ Result<NumericTable> parse_csv(std::string_view text, const std::string& file, N
     if (text.substr(0, k_byte_order_mark.size()) == k_byte_order_mark) {
         text.remove_prefix(k_byte_order_mark.size());
     }
-    if (text.empty()) {
-        return FileError{file, "line 1", "expected a row of column names, found an empty file"};
-    }
     NumericTable table;
-    if (std::optional<FileError> error = parse_header(take_line(text), file, table.columns)) {
-        return *std::move(error);
+    std::size_t line_number = 0;
+    while (table.columns.empty()) {
+        if (text.empty()) {
+            return FileError{file, "line 1", "expected a row of column names, found an empty file"};
+        }
+        const std::string_view line = take_line(text);
+        ++line_number;
+        if (is_blank(line)) {
+            continue;
+        }
+        if (std::optional<FileError> error = parse_header(line, line_number, file, table.columns)) {
+            return *std::move(error);
+        }
     }
+    table.header_line = line_number;
     // A cell takes at least two bytes: one character, and a comma or line end.
     const std::size_t lines =
         static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
     table.cells.reserve(std::min(lines * table.columns.size(), text.size() / 2 + 1));
-    for (std::size_t line_number = 2; !text.empty(); ++line_number) {
+    table.lines.reserve(std::min(lines, text.size() / 2 + 1));
+    while (!text.empty()) {
         const std::string_view line = take_line(text);
+        ++line_number;
+        if (is_blank(line)) {
+            continue;
+        }
+        table.lines.push_back(line_number);
         if (std::optional<FileError> error = parse_row(line, line_number, nan, file, table)) {
             return *std::move(error);
         }

@@ -15,8 +15,10 @@ namespace handhold {
 struct NumericTable {
     std::vector<std::string> columns;  // names are unique and not empty
     std::vector<double> cells;         // row-major; columns.size() per row
+    std::vector<std::size_t> lines;    // each row's line in the file, from 1
+    std::size_t header_line = 1;       // the line of the names
 
-    std::size_t row_count() const { return columns.empty() ? 0 : cells.size() / columns.size(); }
+    std::size_t row_count() const { return lines.size(); }
     double at(std::size_t row, std::size_t column) const {
         return cells[row * columns.size() + column];
     }
@@ -27,10 +29,10 @@ enum class NanCells { refused, allowed };
 
 // Reads a strict CSV table. The first line holds unique, non-empty names. Every other line has as
 // many cells, each a finite decimal number in C notation without spaces, quotes or a leading plus.
-// With NanCells::allowed a cell may also be "nan". Cells are separated by commas. Lines end in LF
-// or CRLF; the last line may have no end. A byte order mark is skipped. The result does not depend
-// on the locale. Takes one pass and one allocation for the cells. Row r of the table is line r + 2
-// of the file.
+// With NanCells::allowed a cell may also be NaN in any spelling of printf ("nan", "-nan",
+// "-nan(ind)", "1.#QNAN"). Lines without text are skipped. Cells are separated by commas. Lines end
+// in LF or CRLF; the last line may have no end. A byte order mark is skipped. The result does not
+// depend on the locale. Takes one pass and one allocation for the cells.
 Result<NumericTable> parse_csv(std::string_view text, const std::string& file,
                                NanCells nan = NanCells::refused);
 Result<NumericTable> load_csv(const std::filesystem::path& path, NanCells nan = NanCells::refused);

@@ -48,7 +48,8 @@ struct GltfLevel {
     std::vector<std::string> notes = {};
 };
 
-// Largest absolute coordinate of a loaded mesh. At this distance a double resolves 2 nm.
+// Largest absolute coordinate of a loaded mesh. At this distance the rounding error of a double is
+// about 2 nm.
 constexpr double k_max_level_coordinate_m = 1e7;
 // Largest number of vertices, and of triangles, of a level. Every use of a mesh counts, because a
 // small file can reference one mesh from many nodes.

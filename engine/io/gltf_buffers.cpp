@@ -49,8 +49,9 @@ std::optional<std::string> decode_base64(std::string_view text) {
     return bytes;
 }
 
-// Decodes percent escapes (RFC 3986). nullopt if an escape is malformed.
-std::optional<std::string> decode_percent(std::string_view uri) {
+// Decodes percent escapes (RFC 3986). A percent sign that begins none stands for itself: many
+// exporters write file names as they are.
+std::string decode_percent(std::string_view uri) {
     const auto digit_of = [](char c) {
         return c >= '0' && c <= '9'   ? c - '0'
                : c >= 'a' && c <= 'f' ? c - 'a' + 10
@@ -59,14 +60,12 @@ std::optional<std::string> decode_percent(std::string_view uri) {
     };
     std::string text;
     for (std::size_t i = 0; i < uri.size(); ++i) {
-        if (uri[i] != '%') {
+        const bool is_escape = uri[i] == '%' && i + 2 < uri.size();
+        const int high = is_escape ? digit_of(uri[i + 1]) : -1;
+        const int low = is_escape ? digit_of(uri[i + 2]) : -1;
+        if (high < 0 || low < 0) {
             text += uri[i];
             continue;
-        }
-        const int high = i + 2 < uri.size() ? digit_of(uri[i + 1]) : -1;
-        const int low = i + 2 < uri.size() ? digit_of(uri[i + 2]) : -1;
-        if (high < 0 || low < 0) {
-            return std::nullopt;
         }
         text += static_cast<char>(high * 16 + low);
         i += 2;
@@ -74,20 +73,31 @@ std::optional<std::string> decode_percent(std::string_view uri) {
     return text;
 }
 
-// The path that a relative URI names below `folder`. nullopt for any other URI: an absolute path, a
-// scheme, or a path that leaves the folder.
+// The path of a name below `folder`. nullopt for an absolute path, a scheme, or a path that leaves
+// the folder.
 std::optional<std::filesystem::path> path_below(const std::filesystem::path& folder,
-                                                std::string_view uri) {
-    const std::optional<std::string> text = decode_percent(uri);
-    if (!text || text->empty() || text->find('\0') != std::string::npos ||
-        text->find("://") != std::string::npos) {
+                                                const std::string& name) {
+    if (name.empty() || name.find('\0') != std::string::npos ||
+        name.find("://") != std::string::npos) {
         return std::nullopt;
     }
-    const std::filesystem::path relative = std::filesystem::path(*text).lexically_normal();
+    const std::filesystem::path relative = std::filesystem::path(name).lexically_normal();
     if (relative.has_root_path() || relative.begin()->string() == "..") {
         return std::nullopt;
     }
     return folder / relative;
+}
+
+// The file that a relative URI names below `folder`; nullopt as path_below. Exporters that do not
+// escape names write "a%20b.bin" for a file with that very name: the unescaped name comes first.
+std::optional<std::filesystem::path> file_below(const std::filesystem::path& folder,
+                                                const std::string& uri) {
+    const std::optional<std::filesystem::path> decoded = path_below(folder, decode_percent(uri));
+    const std::optional<std::filesystem::path> literal = path_below(folder, uri);
+    std::error_code ignored;
+    const bool is_literal = !(decoded && std::filesystem::exists(*decoded, ignored)) && literal &&
+                            std::filesystem::exists(*literal, ignored);
+    return is_literal ? literal : decoded;
 }
 
 Result<std::string> read_data_uri(std::string_view uri, std::uint64_t max_bytes) {
@@ -97,7 +107,7 @@ Result<std::string> read_data_uri(std::string_view uri, std::uint64_t max_bytes)
     if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(k_encoding)) {
         return refuse("expected a data URI in base64");
     }
-    const std::string_view text = uri.substr(comma + 1);
+    const std::string text = decode_percent(uri.substr(comma + 1));  // "%3D" at the end, mostly
     if (text.size() / 4 * 3 > max_bytes) {
         return refuse("expected fewer bytes in all buffers");
     }
@@ -127,11 +137,13 @@ bool Buffers::load(const Model& model, const std::filesystem::path& path, Refusa
         }
         const bool is_data = std::string_view(buffer.uri).starts_with(k_data_scheme);
         const std::optional<std::filesystem::path> file =
-            is_data ? std::nullopt : path_below(folder, buffer.uri);
+            is_data || path.empty() ? std::nullopt : file_below(folder, buffer.uri);
         if (!is_data && !file) {
             return refusal.refuse(
-                place + "/uri", "expected a data URI or a file in the folder of this one, found " +
-                                    printable(buffer.uri));
+                place + "/uri",
+                std::string(path.empty() ? "expected a data URI or a .glb, as the file is in memory"
+                                         : "expected a data URI or a file in this folder") +
+                    ", found " + printable(buffer.uri));
         }
         Result<std::string> bytes =
             is_data ? read_data_uri(buffer.uri, budget) : read_file(*file, budget);

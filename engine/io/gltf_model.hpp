@@ -15,7 +15,7 @@
 // follow the Khronos specification, section 5. Private to engine/io/gltf*.
 namespace handhold::gltf {
 
-constexpr int k_none = -1;  // an absent index
+constexpr int k_none = -1;  // index of nothing
 
 enum class ComponentType {
     int8 = 5120,
@@ -95,9 +95,9 @@ struct Mesh {
 // All factors are clamped to [0, 1].
 struct Material {
     std::array<float, 3> color = {1.0F, 1.0F, 1.0F};
-    float opacity = 1.0F;   // below 1 only if alphaMode is BLEND
+    float opacity = 1.0F;   // less than 1 only if alphaMode is BLEND
     float gloss = 0.0F;     // 1 - roughness
-    float emissive = 0.0F;  // in multiples of `color`, >= 0; from the brightest channel
+    float emissive = 0.0F;  // multiple of `color`, >= 0; from the brightest channel
 };
 
 struct Node {
@@ -106,7 +106,7 @@ struct Node {
     int mesh = k_none;
     int skin = k_none;
     std::vector<int> children;
-    Affine local;  // into the parent's frame
+    Affine local;  // transform into the parent's frame
     // The members of its extras that are a number or an array of numbers.
     std::map<std::string, std::vector<double>> numbers;
     // EXT_mesh_gpu_instancing: accessors by name ("TRANSLATION", "ROTATION", "SCALE").
@@ -128,8 +128,8 @@ struct Model {
     std::vector<Skin> skins;
     std::vector<std::vector<int>> scenes;  // root nodes
     int scene = k_none;
-    std::string_view binary;         // the binary chunk; points into the parsed bytes
-    std::vector<std::string> notes;  // about parts that were ignored or clamped
+    std::string_view binary;         // binary chunk; points into the parsed bytes
+    std::vector<std::string> notes;  // remarks about parts that were ignored or clamped
 };
 
 // Parses the bytes of a .gltf or .glb, which must outlive the model. Errors: a field of the wrong

@@ -20,7 +20,7 @@ namespace handhold {
 struct SkinJoint {
     std::string name;          // name of the joint's node; may be empty
     std::int32_t parent = -1;  // index of the nearest joint above it; -1: none
-    Pose bind_ms;              // in the file's pose, without scale
+    Pose bind_ms;              // file's pose without its scale
     // Extras of the joint's node that are numbers or arrays of numbers.
     std::map<std::string, std::vector<double>> numbers = {};
 };
@@ -30,10 +30,10 @@ struct SkinJoint {
 struct SkinnedMesh {
     std::string file;  // used in messages
     std::vector<Vec3> positions;
-    std::vector<Vec3> normals;                            // by vertex, unit
-    std::vector<SkinWeights> weights;                     // by vertex
+    std::vector<Vec3> normals;                            // one per vertex, unit length
+    std::vector<SkinWeights> weights;                     // one per vertex
     std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise seen from outside
-    std::vector<ColorRun> color_runs;                     // at least one
+    std::vector<ColorRun> color_runs;                     // never empty
     std::vector<SkinJoint> joints;
     std::vector<std::string> notes = {};  // what was ignored or changed; see GltfLevel::notes
 };

@@ -45,8 +45,8 @@ class SkinBindings {
     const SkinJoints& joints_;
     AccessorReader& reader_;
     Refusal& refusal_;
-    std::map<int, SkinBinding> skins_;  // by skin; only skins that a mesh uses
-    SkinBinding rigid_;                 // of the last mesh without a skin
+    std::map<int, SkinBinding> skins_;  // indexed by skin; only skins that a mesh uses
+    SkinBinding rigid_;                 // binding of the last mesh without a skin
 };
 
 }  // namespace handhold::gltf

@@ -136,7 +136,7 @@ bool SkinJointReader::append_joint(const PlacedNode& placed) {
 }
 
 void SkinJointReader::find_parents() {
-    std::map<int, std::int32_t> joint_above;    // by node: the nearest joint above it
+    std::map<int, std::int32_t> joint_above;    // nearest joint above a node, indexed by node
     for (const PlacedNode& placed : placed_) {  // parents first
         const auto self = joints_.of_node.find(placed.node);
         const auto above = joint_above.find(placed.node);

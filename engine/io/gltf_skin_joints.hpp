@@ -18,7 +18,7 @@ enum class JointSource { skin, scene };
 
 struct SkinJoints {
     std::vector<SkinJoint> list;
-    std::map<int, std::uint16_t> of_node;  // by node: its index in `list`
+    std::map<int, std::uint16_t> of_node;  // index in `list`, indexed by node
     // By node; all nodes of the scene. Points into the span that read_skin_joints was given.
     std::map<int, const PlacedNode*> placed_by_node;
 };

@@ -13,7 +13,7 @@ namespace handhold {
 // The triangles of a skin that have one material.
 struct GltfSkinSurface {
     std::vector<GltfVertex> vertices;
-    std::vector<SkinWeights> weights;  // by vertex
+    std::vector<SkinWeights> weights;  // one per vertex
     std::vector<std::uint32_t> indices;
     std::size_t material = 0;
 };

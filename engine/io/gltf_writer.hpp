@@ -13,7 +13,7 @@ namespace handhold {
 struct GltfMaterial {
     std::string name;
     std::array<float, 3> color = {0.5F, 0.5F, 0.5F};  // linear RGB in [0, 1]
-    float emissive = 0.0F;                            // in multiples of the colour; >= 0
+    float emissive = 0.0F;                            // multiple of the colour, >= 0
     float opacity = 1.0F;                             // [0, 1]
     float gloss = 0.25F;                              // [0, 1]: 1 - roughness
 };

@@ -94,7 +94,6 @@ std::optional<FileError> check_roots(const std::vector<FileNode>& nodes,
 }  // namespace
 
 std::optional<Pose> rigid_part(const Affine& frame) {
-    constexpr double k_max_shear = 0.02;
     Mat3 axes = frame.linear;
     const double scale = cube_root(std::abs(axes.determinant()));
     if (!(scale > 1e-9) || !std::isfinite(scale) || !is_finite(frame.translation)) {

@@ -11,17 +11,20 @@ namespace handhold {
 
 // A node as the scene file has it. The indices of its children are not checked.
 struct FileNode {
-    Affine local;  // into the parent's frame
+    Affine local;  // transform into the parent's frame
     std::vector<int> children;
 };
 
+inline constexpr double k_max_shear = 0.02;
+
 // The rotation and translation of a frame. nullopt if the frame is scaled unevenly, sheared or
-// mirrored. Tolerance: 2 % for the axes' lengths and right angles, because files store floats.
+// mirrored. k_max_shear is the tolerance for the axes' lengths and right angles, because files
+// store floats.
 std::optional<Pose> rigid_part(const Affine& frame);
 
 struct PlacedNode {
     int node = 0;
-    Affine world;  // into the scene's frame
+    Affine world;  // transform into the scene's frame
 };
 
 // The nodes at and below `roots`, parents before children and siblings in the file's order. If

@@ -114,7 +114,7 @@ double natural_logarithm(double x) {
         return x <= 0.0 ? -std::numeric_limits<double>::infinity() : x;
     }
     int exponent = 0;
-    double mantissa = std::frexp(x, &exponent);  // in [0.5, 1)
+    double mantissa = std::frexp(x, &exponent);  // range [0.5, 1)
     constexpr double k_half_root = 0.70710678118654757;
     if (mantissa < k_half_root) {
         mantissa *= 2.0;
@@ -138,7 +138,7 @@ double cube_root(double x) {
         return x < 0.0 ? std::numeric_limits<double>::quiet_NaN() : x;
     }
     int exponent = 0;
-    double mantissa = std::frexp(x, &exponent);  // in [0.5, 1)
+    double mantissa = std::frexp(x, &exponent);  // range [0.5, 1)
     while (exponent % 3 != 0) {
         mantissa *= 0.5;
         ++exponent;

@@ -37,9 +37,9 @@ struct ClimberTask {
 };
 
 enum class ClimberHandMode : std::uint8_t {
-    rest,      // at its rest pose in front of the chest, or moving there
+    rest,      // hand at its rest pose in front of the chest, or moving there
     reaching,  // moving to its hold
-    closing,   // at its hold, button just pressed; the runtime has not gripped yet
+    closing,   // hand at its hold, button just pressed; the runtime has not gripped yet
     holding,   // holds a support: a body that the climber pulls on
     carrying,  // holds a free body, at the rest pose or moving there
 };
@@ -53,7 +53,7 @@ struct ClimberHold {
 
 struct ClimberHand {
     ClimberHandMode mode = ClimberHandMode::rest;
-    Pose wrist_ps;  // without tremor
+    Pose wrist_ps;  // wrist without tremor
     Vec3 velocity_ps_mps = Vec3::Zero();
     ClimberHold hold;  // valid if reaching, closing or holding
     // Start and times of the current movement, or of the last one.

@@ -194,7 +194,7 @@ void query_rails(const Search& search, Random& random, std::optional<HoldCandida
     }
     for (const RailPlace& place : std::span(places).first(count)) {
         const double luck = random.unit();
-        constexpr double k_bar_m = 0.04;  // about a rail's radius
+        constexpr double k_bar_m = 0.04;  // radius of a rail, roughly
         const Vec3 way = (place.axis_ws - search.eyes_ws).normalized();
         const auto hit = look(search.sight, search.ask.task.player.player, search.eyes_ws,
                               place.axis_ws + 0.01 * way);

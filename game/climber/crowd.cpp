@@ -13,7 +13,7 @@ constexpr double k_apart_m = 0.8;    // preferred distance between two heads
 constexpr double k_closest_m = 0.3;  // minimum distance between two heads
 // Length of a ray; a ray that hits nothing leads outside.
 constexpr double k_view_m = 8.0;
-constexpr std::size_t k_max_attempts = 60;  // per player, before the distance is reduced
+constexpr std::size_t k_max_attempts = 60;  // attempts per player until the distance is reduced
 
 class Spreader {
   public:

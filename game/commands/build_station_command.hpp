@@ -5,7 +5,7 @@
 namespace handhold {
 
 struct BuildStationOptions {
-    std::string description;  // a file; empty: the game's station
+    std::string description;  // path of a file; empty: the game's station
     std::string out;          // folder
 };
 

@@ -20,12 +20,13 @@ namespace handhold {
 // - "controller": an empty node at the pose of that hand's controller
 // Authors move and turn joints, or the hand and the object as a whole.
 struct GripScene {
-    SceneGrip grip;  // of this side's hand, only the wrist and the set of posed fingers are used
+    SceneGrip
+        grip;  // grip of this side's hand; only the wrist and the set of posed fingers are used
     HandSide side = HandSide::right;
     std::array<FingerAngles, k_finger_count> fingers;  // shown pose, by index in HandRig::fingers
     Pose controller_in_hand;
     std::vector<GltfMaterial> materials;
-    std::vector<GltfSurface> object;  // in the frame of the grip
+    std::vector<GltfSurface> object;  // surfaces in the frame of the grip
 };
 // Returns the bytes of a .glb file. Its hand is the mesh of the game's robot, built for `rig`.
 std::string write_grip_glb(const GripScene& scene, const HandRig& rig);

@@ -37,7 +37,7 @@ std::int32_t parent_of(const HandRig& rig, std::size_t index) {
         return static_cast<std::int32_t>(wrist);
     }
     const std::size_t own = joint_of(rig, joint.finger, joint.link);
-    if (own != index) {  // a tip
+    if (own != index) {  // tip
         return static_cast<std::int32_t>(own);
     }
     if (joint.link > 0) {

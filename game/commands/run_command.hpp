@@ -25,7 +25,7 @@ struct RunOptions {
     int shot_width_px = 960;
     int shot_height_px = 540;
     PictureQuality shot_quality = PictureQuality::fine;
-    bool distance_grab = false;  // as in PlayOptions
+    bool distance_grab = false;  // see PlayOptions
     std::string snapshot;        // file; empty: none
     double snapshot_at_s = 0.0;  // taken after the first frame that ends at or after this time
     std::string resume;  // snapshot to start from, of this scene and these players; empty: none
@@ -34,7 +34,7 @@ struct RunOptions {
     // Number of players. 0: the scene's own players if there are enough; else one per
     // recording, but at least 1 + Scene::climbers.
     int players = 0;
-    std::uint64_t seed = 1;  // for start places and climbers
+    std::uint64_t seed = 1;  // seed of start places and climbers
     bool climbers = false;   // all players climb; no recording is played
     int threads = 1;
     PlayerModelFiles models;

@@ -23,7 +23,7 @@ struct RunFilm {
     std::unique_ptr<SessionFilm> camera;
     ReportMedia media;
     std::size_t written = 0;         // pictures in `folder`
-    std::optional<FileError> error;  // of the first picture that could not be written
+    std::optional<FileError> error;  // error of the first picture that could not be written
 };
 
 // Prints why there are no pictures if they cannot be drawn.

@@ -53,7 +53,7 @@ Result<RunSession> load_session(const RunOptions& options, const Scene& scene) {
 
 std::optional<FileError> check_length(const RunOptions& options, const std::string& name,
                                       double length_s) {
-    constexpr double k_longest_s = 1e6;  // the limit of --seconds
+    constexpr double k_longest_s = 1e6;  // limit of --seconds
     if (length_s <= k_longest_s) {
         return std::nullopt;
     }

@@ -25,7 +25,7 @@ struct ShotFilm::Impl {
     PlayerView view;
     OutsideCamera outside;
     Overlay overlay;
-    std::unique_ptr<VideoWriter> video;  // of the running shot
+    std::unique_ptr<VideoWriter> video;  // film of the running shot
     std::size_t now = 0;                 // index of the running shot, or of the next
     double next_frame_s = 0.0;
     std::size_t saved = 0;

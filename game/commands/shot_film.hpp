@@ -18,7 +18,7 @@ struct ShotFilmSettings {
     int height_px = 540;
     double video_fps = 30.0;
     PictureQuality quality = PictureQuality::fine;
-    std::filesystem::path out;  // an existing folder
+    std::filesystem::path out;  // existing folder
     PlayerModels models;
 };
 

@@ -15,26 +15,26 @@ namespace handhold {
 
 // Where a shot's camera is.
 enum class ShotView : std::uint8_t {
-    eyes,    // at the first player's eyes
-    behind,  // behind and above the first player, as far as walls allow
-    before,  // in front of the first player, looking back
-    hand,    // at `from_m` from the palm of a hand of the first player, looking at it
-    chest,   // at `from_m` from the first player's chest
-    pelvis,  // at `from_m` from the first player's pelvis
-    player,  // at `from_m` from another player's head
-    body,    // at `from_m` from a body of the scene
-    place    // at `from_m` in the world, looking at `target_m`
+    eyes,    // camera at the first player's eyes
+    behind,  // camera behind and above the first player, as far as walls allow
+    before,  // camera in front of the first player, looking back
+    hand,    // camera at `from_m` from the palm of a hand of the first player, looking at it
+    chest,   // camera at `from_m` from the first player's chest
+    pelvis,  // camera at `from_m` from the first player's pelvis
+    player,  // camera at `from_m` from another player's head
+    body,    // camera at `from_m` from a body of the scene
+    place    // camera at `from_m` in the world, looking at `target_m`
 };
 
 struct Shot {
     std::size_t number = 0;  // index in the list, from 0
     std::string name;        // file name, without folder and extension
-    std::string scene;       // the scene whose session is drawn
+    std::string scene;       // scene whose session is drawn
     std::string caption;     // one line over a clip; may be empty
     double at_s = 0.0;       // session time
     double until_s = 0.0;    // later than at_s: a clip that ends here; else: a picture
     ShotView view = ShotView::eyes;
-    HandSide side = HandSide::right;  // the hand of ShotView::hand
+    HandSide side = HandSide::right;  // hand of ShotView::hand
     // ShotView::body: the body's name; ShotView::player: the player's name
     std::string body;
     // Right, up and back in the first player's play space; ShotView::place: in the world's axes.

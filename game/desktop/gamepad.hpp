@@ -12,9 +12,9 @@ namespace handhold {
 struct GamepadState {
     std::array<double, 2> left_stick{};   // each [-1, 1]
     std::array<double, 2> right_stick{};  // each [-1, 1]
-    std::array<double, 2> triggers{};     // by HandSide, each [0, 1]
-    std::array<bool, 2> shoulders{};      // by HandSide
-    std::array<bool, 4> pad{};            // up, down, left, right
+    std::array<double, 2> triggers{};     // indexed by HandSide, each [0, 1]
+    std::array<bool, 2> shoulders{};      // indexed by HandSide
+    std::array<bool, 4> pad{};            // order: up, down, left, right
     bool brake = false;                   // the lowest of the four face buttons
     bool hurry = false;                   // the left stick pressed
 };

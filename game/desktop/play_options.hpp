@@ -14,10 +14,10 @@ struct PlayOptions {
     std::string record;   // where the session is saved; empty: nowhere
     std::string picture;  // a PNG of the last picture; empty: none
     PlayerModelFiles models;
-    std::string report;        // statistics and costs (.json) at the end; empty: none
-    std::string status;        // a line of JSON every tenth of a second (.jsonl); empty: none
-    bool xr = false;           // in a headset, with a mirror of the left eye if there is a display
-    bool xr_headless = false;  // in a headset without pictures, for tests
+    std::string report;  // statistics and costs (.json) at the end; empty: none
+    std::string status;  // a line of JSON every tenth of a second (.jsonl); empty: none
+    bool xr = false;     // true: in a headset, with a mirror of the left eye if there is a display
+    bool xr_headless = false;  // true: in a headset without pictures, for tests
     double eye_scale = 1.0;    // (0, 2]; factor on the XR runtime's recommended picture size
     bool mirror = true;
     bool jets = false;           // the movement keys also use jets

@@ -46,7 +46,7 @@ struct ControllerSide {
 };
 struct ControllerProfile {
     std::string name;
-    std::array<ControllerSide, k_hand_count> sides;  // by HandSide
+    std::array<ControllerSide, k_hand_count> sides;  // indexed by HandSide
 };
 
 // Reads a profile of our own format, or the profile.json of a WebXR input profile. WebXR models are

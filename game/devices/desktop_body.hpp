@@ -15,11 +15,12 @@ namespace handhold {
 struct DesktopInput {
     double turn_left_rad = 0.0;
     double look_up_rad = 0.0;
-    std::array<bool, k_hand_count> grip{};    // by HandSide; held down now
-    std::array<bool, k_hand_count> opened{};  // by HandSide; released at some time in the frame
-    Vec3 move = Vec3::Zero();                 // right, up and back in the view, each [-1, 1]
-    double farther_m = 0.0;                   // pushes the held body away; negative: nearer
-    bool hurry = false;                       // doubles the pulling speed
+    std::array<bool, k_hand_count> grip{};  // indexed by HandSide; held down now
+    std::array<bool, k_hand_count>
+        opened{};              // indexed by HandSide; released at some time in the frame
+    Vec3 move = Vec3::Zero();  // right, up and back in the view, each [-1, 1]
+    double farther_m = 0.0;    // pushes the held body away; negative: nearer
+    bool hurry = false;        // doubles the pulling speed
     bool brake = false;
     double smooth_turn = 0.0;  // turn of the play space, [-1, 1], positive to the left
     int snap_turns = 0;        // number of turns to the left; negative: to the right
@@ -58,7 +59,7 @@ class DesktopBody {
     double yaw_rad_ = 0.0;
     double pitch_rad_ = 0.0;
     Pose head_ps_;
-    std::optional<PalmTarget> aim_ps_;  // on the surface in view; nullopt: none in view
+    std::optional<PalmTarget> aim_ps_;  // palm on the surface in view; nullopt: none in view
     std::array<Hand, k_hand_count> hands_;
     std::array<Use, k_hand_count> uses_{};
     bool has_hands_ = false;  // whether the hands have poses; false before the first frame

@@ -14,19 +14,20 @@ namespace handhold {
 struct HandReading {
     std::optional<Pose> grip_ps;
     std::optional<Pose> aim_ps;
-    std::optional<Pose> palm_ps;    // grip pose rotated: -Z along the hand to the fingers
-    std::optional<Pose> wrist_ps;   // of tracked fingers: -Z to them, +Y the back of the hand
-    double curl = 0.0;              // of tracked fingers: 0 flat, 1 a fist
-    double squeeze = 0.0;           // [0, 1]
-    double trigger = 0.0;           // [0, 1]
+    std::optional<Pose> palm_ps;  // grip pose rotated: -Z along the hand to the fingers
+    std::optional<Pose>
+        wrist_ps;          // wrist of tracked fingers; -Z: to the fingers, +Y: the back of the hand
+    double curl = 0.0;     // curl of tracked fingers; 0: flat, 1: a fist
+    double squeeze = 0.0;  // [0, 1]
+    double trigger = 0.0;  // [0, 1]
     std::array<double, 2> stick{};  // right and forward, each [-1, 1]
     bool brake = false;
     bool calibrate = false;
 };
 
 struct HeadsetReading {
-    std::optional<Pose> head_ps;                  // between the eyes
-    std::array<HandReading, k_hand_count> hands;  // by HandSide
+    std::optional<Pose> head_ps;                  // point between the eyes
+    std::array<HandReading, k_hand_count> hands;  // indexed by HandSide
 };
 
 // A short vibration of a controller.

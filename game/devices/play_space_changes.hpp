@@ -20,9 +20,9 @@ class PlaySpaceChanges {
   private:
     struct Change {
         std::int64_t time_ns = 0;
-        Pose space;  // from then on, in the first one
+        Pose space;  // play space from then on, in the frame of the first
     };
-    std::vector<Change> changes_;  // in the order of their times
+    std::vector<Change> changes_;  // changes in the order of their times
 };
 
 }  // namespace handhold

@@ -272,10 +272,10 @@ class HeadsetLoop {
     HeadsetClock clock_;
     HeadsetMemory memory_;
     HeadsetFigures figures_;
-    std::optional<Overlay> overlay_;  // for both eyes and the panel; none: headless
+    std::optional<Overlay> overlay_;  // overlay for both eyes and the panel; none: headless
     HeadsetPanel panel_;
     UiPicture sheet_ui_;  // while it is shown
-    Pose head_ps_;        // in the last reading
+    Pose head_ps_;        // head in the last reading
     Image eye_image_;     // reused
     Image mirror_image_;  // the left eye's
     std::uint64_t frames_ = 0;

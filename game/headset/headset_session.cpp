@@ -12,8 +12,8 @@ namespace {
 constexpr double k_player_kg = 80.0;
 constexpr HapticPulse k_touch_pulse{0.25, 0.015};
 constexpr HapticPulse k_grip_pulse{0.8, 0.04};
-constexpr double k_touch_radius_m = 0.02;  // of a sphere in the palm
-constexpr double k_touch_reach_m = 0.03;   // from the palm's skin
+constexpr double k_touch_radius_m = 0.02;  // radius of a sphere in the palm
+constexpr double k_touch_reach_m = 0.03;   // reach beyond the palm's skin
 
 }  // namespace
 

@@ -32,7 +32,7 @@ class HeadsetSession {
 
     const Scene& scene() const { return scene_; }
     const FrameCaches& caches() const { return caches_; }
-    const StageStats& stats() const { return stats_; }  // of the last frame
+    const StageStats& stats() const { return stats_; }  // statistics of the last frame
     const PlayerEntities& player() const { return player_; }
     double t_s() const { return scene_.world.clock.t_s; }
 

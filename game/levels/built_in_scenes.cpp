@@ -124,7 +124,7 @@ constexpr double k_rock_radius_m = 0.08;
 constexpr double k_rock_mass_kg = 5.0;
 constexpr double k_first_grip_s = 0.35;       // when the session's first grip begins
 constexpr double k_pick_s = 8.6;              // when the session picks up the rock
-const Vec3 k_rock_place(-1.10, 0.12, -0.95);  // the rock at k_pick_s, in the ship's frame
+const Vec3 k_rock_place(-1.10, 0.12, -0.95);  // rock at k_pick_s, in the ship's frame
 const Vec3 k_ship_rail(-1.593, 0.530, 0.0);   // ship/wall_upper; the rail is along z
 // Approximate x of the wall's face; the session pushes the rock well into the wall.
 constexpr double k_ship_wall_x = -1.65;

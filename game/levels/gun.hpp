@@ -9,7 +9,7 @@ namespace handhold {
 // Frame: -Z is the muzzle's direction, +Y is up, x = 0 is the plane of symmetry, and the origin is
 // where the handle meets the body.
 struct GunModel {
-    SceneShape shape;  // a compound of convex parts; handle and fore-end match the visual
+    SceneShape shape;  // compound of convex parts; handle and fore-end match the visual
     double mass_kg = 1.0;
     Structure visual;
     std::vector<SceneGrip> grips;  // "handle" and "fore_end", for either hand

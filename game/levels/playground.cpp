@@ -10,7 +10,7 @@
 namespace handhold {
 namespace {
 
-const Vec3 k_rail(0.0, 0.98, 0.16);  // on the rail's axis, which is along x
+const Vec3 k_rail(0.0, 0.98, 0.16);  // point on the rail's axis, which is along x
 constexpr double k_eyes_y_m = 1.48;
 constexpr double k_eyes_z_m = 0.62;
 constexpr double k_crawl_mps = 0.55;

@@ -33,9 +33,9 @@ inline constexpr std::size_t k_wall_count = 4;
 struct RailLine {
     std::string name;
     WallSide wall = WallSide::floor;
-    bool outside = false;   // on the strip along the top; `wall` is unused
-    double across_m = 0.0;  // along the wall's X, from its middle
-    double from_m = 0.0;    // along the section's Z
+    bool outside = false;   // true: on the strip along the top; `wall` is unused
+    double across_m = 0.0;  // distance along the wall's X from its middle
+    double from_m = 0.0;    // distance along the section's Z
     double to_m = 1.0;
 };
 
@@ -43,7 +43,7 @@ struct RailLine {
 struct HoseLine {
     Material material = Material::cable;
     double radius_m = 0.02;
-    std::vector<Vec3> points;  // at least two, in the section's frame
+    std::vector<Vec3> points;  // two or more, in the section's frame
 };
 
 struct StationSection {
@@ -62,7 +62,7 @@ struct StationSection {
     std::array<std::vector<RackKind>, k_wall_count> walls;
     std::vector<RailLine> rails;
     std::vector<HoseLine> hoses;
-    std::vector<Lamp> lamps;  // in the section's frame, in addition to the section's own lamps
+    std::vector<Lamp> lamps;  // lamps in the section's frame, in addition to the section's own
 };
 
 enum class ToolType : std::uint8_t {
@@ -99,7 +99,7 @@ struct StationSpawn {
 struct StationDescription {
     std::string name;
     std::string description;
-    std::string session;  // a built-in session that shows the station; may be empty
+    std::string session;  // name of a built-in session that shows the station; may be empty
     std::vector<StationSection> sections;
     std::vector<StationTool> tools;
     std::vector<StationSpawn> spawns;

@@ -70,7 +70,7 @@ void add_garden(StationKit& kit, const Pose& frame, double z0, std::size_t seed)
             for (std::size_t column = 0; column < 5; ++column) {
                 const std::size_t salt = 15 * tray + 5 * row + column;
                 if (chance(seed, 31, salt) < 0.18) {
-                    continue;  // a harvested plant
+                    continue;  // plant was harvested
                 }
                 const Vec3 foot(-0.33 + 0.165 * static_cast<double>(column), -0.202,
                                 z + (static_cast<double>(row) - 1.0) * 0.125);

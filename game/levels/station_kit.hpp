@@ -37,7 +37,7 @@ inline constexpr double k_rail_clearance_m = 0.045;  // gap between bar and wall
 
 struct RimShape {
     double x = 0.0, z = 0.0;            // centre
-    double half_x = 0.1, half_z = 0.1;  // from the centre to the outer edge
+    double half_x = 0.1, half_z = 0.1;  // distances from the centre to the outer edge
     double width = 0.02;                // width of the rim
     double y0 = -0.03, y1 = 0.0;        // height of its foot and of its face
 };

@@ -22,7 +22,7 @@ struct Look {
     // Multiple of the colour that is added to the reflected light. 1: as bright as a lit white
     // wall; lamps have 2 to 4.
     float emissive = 0.0F;
-    float opacity = 1.0F;  // below 1: blended, drawn after opaque surfaces, casts no shadow
+    float opacity = 1.0F;  // less than 1: blended, drawn after opaque surfaces, casts no shadow
     float gloss = 0.25F;   // 0 chalk .. 1 polished
 };
 
@@ -63,7 +63,7 @@ struct Ghost {
 struct Lamp {
     Vec3 position_ws = Vec3::Zero();
     Color color = {1.0F, 1.0F, 1.0F};  // multiplied by the intensity at 1 m
-    double reach_m = 4.0;              // above 0
+    double reach_m = 4.0;              // > 0
 };
 
 // The only light with shadows. In a room, a caster_reach_m of about 1 m makes it a ceiling lamp
@@ -72,7 +72,8 @@ struct KeyLight {
     Vec3 towards_ws = Vec3(0.35, 0.9, 0.25);  // not zero
     Color color = {0.50F, 0.47F, 0.43F};
     double caster_reach_m = 1.0;
-    double shadow_radius_m = 3.5;  // of the region in front of the camera where shadows are drawn
+    double shadow_radius_m =
+        3.5;  // radius of the region in front of the camera where shadows are drawn
 };
 
 // Sides of an eye's picture at distance 1 along -Z. Right and up are positive. left < right, down <

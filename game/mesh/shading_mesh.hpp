@@ -10,8 +10,8 @@ namespace handhold {
 // A mesh prepared for the graphics card: float positions relative to a centre, one normal per
 // vertex.
 struct ShadingMesh {
-    Vec3 center = Vec3::Zero();   // of the bounding box, in the mesh's frame
-    double radius_m = 0.0;        // of the bounding sphere around the centre
+    Vec3 center = Vec3::Zero();   // centre of the bounding box, in the mesh's frame
+    double radius_m = 0.0;        // radius of the bounding sphere around the centre
     std::vector<float> vertices;  // position, normal: six floats per vertex
     std::vector<std::uint32_t> indices;
 };

@@ -24,7 +24,7 @@ Mesh loft_sections(std::span<const LoftSection> sections);
 class FigureKit {
   public:
     void add(FigureMaterial material, const Mesh& solid, const Pose& at = {});
-    void mirror();  // through x = 0
+    void mirror();  // mirrors all surfaces through x = 0
     // All parts, transformed by `at`.
     FigureKit placed(const Pose& at) const;
 

@@ -25,7 +25,7 @@ class FigureSkin {
 
   private:
     std::string name_;
-    std::array<GltfSkinSurface, k_figure_material_count> surfaces_;  // by FigureMaterial
+    std::array<GltfSkinSurface, k_figure_material_count> surfaces_;  // indexed by FigureMaterial
 };
 
 }  // namespace handhold

@@ -13,7 +13,7 @@ using Matrix4 = std::array<float, 16>;  // column-major
 
 struct FrameView {
     Vec3 eye_ws = Vec3::Zero();
-    Quat from_view = Quat::Identity();  // the camera's rotation
+    Quat from_view = Quat::Identity();  // rotation of the camera
     double half_width = 1.0;            // half the picture's width at distance 1
     double half_height = 1.0;
     // offset of the picture's centre at distance 1; not 0 for a headset's eye

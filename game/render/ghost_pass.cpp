@@ -41,7 +41,7 @@ bool GhostPass::create(GlApi api, std::string& why_not) {
 
 int GhostPass::draw(const RenderFrame& frame, const FrameView& view,
                     std::span<const GpuMesh> meshes, const PicturePasses& passes) {
-    std::array<bool, 2> any{};  // by Ghost::own_hides
+    std::array<bool, 2> any{};  // indexed by Ghost::own_hides
     for (const Ghost& ghost : frame.ghosts) {
         HH_CHECK(static_cast<std::size_t>(ghost.mesh) < meshes.size(), "no such mesh",
                  static_cast<std::size_t>(ghost.mesh));

@@ -35,7 +35,7 @@ class GhostPass {
 
     GlProgram depth_program_, own_program_, ghost_program_;
     GlTexture depth_;       // created with the first ghost
-    GlFramebuffer target_;  // the scene's colours with depth_
+    GlFramebuffer target_;  // scene's colours with depth_
 };
 
 }  // namespace handhold

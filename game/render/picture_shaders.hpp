@@ -83,9 +83,9 @@ inline constexpr const char* k_occlusion_fragment = R"(
 in vec2 uv;
 uniform sampler2D depth_map;
 uniform vec2 depth_terms;   // P22, P32 of the projection
-uniform vec2 half_extent;   // of the picture at distance 1
-uniform vec2 middle;        // of the picture at distance 1
-uniform vec2 texel;         // of depth_map
+uniform vec2 half_extent;   // half size of the picture at distance 1
+uniform vec2 middle;        // middle of the picture at distance 1
+uniform vec2 texel;         // size of a texel of depth_map
 uniform float radius_m;
 out vec4 color;
 

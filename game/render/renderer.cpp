@@ -19,7 +19,7 @@ namespace handhold {
 namespace {
 
 constexpr int k_shadow_size_px = 1024;
-constexpr std::size_t k_max_lamps = 12;  // as in the mesh shader
+constexpr std::size_t k_max_lamps = 12;  // same number as in the mesh shader
 constexpr int k_shadow_unit = 3;         // texture unit; the picture passes use 0 to 2
 
 // An instance with triangles, and its position relative to the camera.

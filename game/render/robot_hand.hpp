@@ -12,7 +12,7 @@ struct HandPart {
     std::int32_t finger = RigJoint::k_palm;  // index in HandRig::fingers, or k_palm
     std::uint32_t link = 0;
     FigureMaterial material = FigureMaterial::shell;
-    Mesh mesh;  // in the link's frame; parts of the palm: in hand space
+    Mesh mesh;  // mesh in the link's frame; parts of the palm: in hand space
     // Part of the cuff behind the wrist: turns about it with the forearm, if there is one.
     bool is_cuff = false;
 };
@@ -25,7 +25,7 @@ std::vector<HandPart> make_robot_hand(const HandRig& rig);
 // Parts of one palm or link, for pictures of hands that are posed part by part. The palm is in hand
 // space (right hands only); a link extends along -Z from its hinge.
 FigureKit build_robot_palm(const HandRig& right_rig);
-FigureKit build_robot_cuff();  // in hand space, for both hands
+FigureKit build_robot_cuff();  // cuff in hand space, for both hands
 FigureKit build_robot_link(double length_m, double radius_m, bool is_first, bool is_last);
 
 }  // namespace handhold

@@ -40,7 +40,7 @@ class VideoWriter {
     std::string path_;
     std::string temporary_;
     VideoSettings settings_;
-    int socket_ = -1;   // the encoder's standard input
+    int socket_ = -1;   // standard input of the encoder
     int process_ = -1;  // -1: none running
     bool failed_ = false;
 };

@@ -15,11 +15,11 @@ namespace handhold {
 
 struct ReportPicture {
     std::string caption;
-    std::vector<std::uint8_t> png;  // a whole PNG file: encode_png
+    std::vector<std::uint8_t> png;  // whole PNG file: encode_png
 };
 
 struct ReportMedia {
-    std::vector<ReportPicture> pictures;  // in the order of the page; embedded
+    std::vector<ReportPicture> pictures;  // embedded pictures in the order of the page
     std::string video;                    // path relative to the page, "run.mp4"; empty: none
 };
 

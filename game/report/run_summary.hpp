@@ -28,7 +28,7 @@ TimeFigures summarize_times(std::vector<double> times_us);
 struct HandErrorFigures {
     double one_hand_free_m = 0.0;  // not both hands grip; no contacts and no push-back in the frame
     double two_hands_m = 0.0;      // both hands grip, or did in the previous frame
-    double any_m = 0.0;            // at least one hand grips
+    double any_m = 0.0;            // distance while at least one hand grips
 };
 
 struct PlayerFigures {

@@ -28,7 +28,7 @@ struct PlotSeries {
 enum class PlotScale {
     linear,       // both axes include 0
     logarithmic,  // y in whole decades, at most six, values below at the lower edge; x includes 0
-    equal,        // the same scale on both axes, for paths; marks the paths' ends
+    equal,        // same scale on both axes, for paths; marks the paths' ends
 };
 
 struct LinePlot {

@@ -13,8 +13,8 @@
 namespace handhold {
 
 struct HandLog {
-    Vec3 target_ws = Vec3::Zero();  // of the tracked hand
-    Vec3 shown_ws = Vec3::Zero();   // of the shown hand; on its anchor while gripping
+    Vec3 target_ws = Vec3::Zero();  // palm of the tracked hand
+    Vec3 shown_ws = Vec3::Zero();   // palm of the shown hand; on its anchor while gripping
     int grip = 0;                   // GripKind
     std::int32_t body = -1;         // index into RunLog::body_names; -1: none
     double error_m = 0.0;
@@ -23,9 +23,9 @@ struct HandLog {
 struct PlayerLog {
     std::uint32_t player = 0;  // index into RunLog::player_names
     Vec3 origin_ws = Vec3::Zero();
-    Vec3 velocity_mps = Vec3::Zero();  // of the origin
+    Vec3 velocity_mps = Vec3::Zero();  // velocity of the origin
     Vec3 head_ws = Vec3::Zero();
-    std::array<HandLog, k_hand_count> hands;  // by HandSide
+    std::array<HandLog, k_hand_count> hands;  // indexed by HandSide
     double push_back_m = 0.0;
 };
 
@@ -38,7 +38,7 @@ struct BodyLog {
 };
 
 struct FrameLog {
-    std::uint64_t frame = 0;  // from 1
+    std::uint64_t frame = 0;  // first frame: 1
     double t_s = 0.0;         // end of the frame
     StageStats stats;
     std::vector<PlayerLog> players;

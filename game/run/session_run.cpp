@@ -138,7 +138,8 @@ RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEn
     }
     const double begin_s = scene.world.clock.t_s;
     const double seconds = session_length_s(recording, settings) - begin_s;
-    constexpr double k_rounding = 1e-3;  // of a frame; the clock is a sum with rounding errors
+    constexpr double k_rounding =
+        1e-3;  // share of a frame; the clock is a sum with rounding errors
     const auto frames =
         static_cast<std::uint64_t>(std::max(1.0, std::floor(seconds * settings.hz + k_rounding)));
     if (scene.world.clock.frame > 0) {

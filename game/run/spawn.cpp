@@ -230,7 +230,7 @@ Played play_from(Scene& trial, const World& world, FrameCaches& caches, const Re
 
 FoundSpawn find_spawn(const Scene& scene, FrameCaches& caches, const Recording& recording,
                       double hz) {
-    Scene trial;  // its shapes get the same ids as those of the caches
+    Scene trial;  // scene whose shapes get the same ids as those of the caches
     *trial.shapes = *scene.shapes;
     trial.name = scene.name;
     trial.world = scene.world;

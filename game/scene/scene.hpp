@@ -59,22 +59,23 @@ struct Scene {
     // stable.
     std::unique_ptr<GripMeshLibrary> grip_meshes = std::make_unique<GripMeshLibrary>();
     Tuning tuning;
-    ShapeId head_shape;  // a sphere with the tuning's head radius
+    ShapeId head_shape;  // sphere with the tuning's head radius
     std::vector<SceneVisual> visuals;
     std::vector<Lamp> lamps;
-    Entity lamps_body = k_no_entity;  // the body whose frame the lamps are in; null: the world
-    KeyLight key;                     // the sun, or the main light of a room
+    Entity lamps_body = k_no_entity;  // body whose frame the lamps are in; null: the world
+    KeyLight key;                     // sun, or the main light of a room
     Vec3 up_ws = Vec3::UnitY();
     std::vector<SceneRail> rails;           // may be empty
     std::vector<SceneSpawnPoint> spawns;    // the first is the default; may be empty
     std::vector<ScenePlayerStart> players;  // the scene's own players; may be empty
-    std::vector<std::string> body_names;    // by row of world.body when the scene was loaded
+    std::vector<std::string>
+        body_names;  // names when the scene was loaded, indexed by row of world.body
     // By the name of a body in the scene file: its authored grips in the file's frame, and the pose
     // of the body's frame in the file's frame (not the identity for hulls and compounds).
     std::map<std::string, std::vector<SceneGrip>> grips;
     std::map<std::string, Pose> body_in_file;
-    std::optional<SceneSession> session;  // the session that shows the scene
-    std::vector<std::string> notes;       // about the loaded files; see GltfLevel::notes
+    std::optional<SceneSession> session;  // session that shows the scene
+    std::vector<std::string> notes;       // remarks about the loaded files; see GltfLevel::notes
     int climbers = 0;  // scripted climbers beside the first player, unless --players says otherwise
 };
 

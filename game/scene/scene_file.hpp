@@ -36,7 +36,7 @@ struct ScenePath {
 // Motion of a kinematic body: a constant twist (see Mover), or a path. With a path, the other
 // fields are unused.
 struct SceneMotion {
-    Vec3 velocity_mps = Vec3::Zero();  // at time 0
+    Vec3 velocity_mps = Vec3::Zero();  // velocity at time 0
     Vec3 angular_velocity_radps = Vec3::Zero();
     bool turns_with_body = false;  // the velocity keeps its direction in the body's frame
     std::optional<ScenePath> path;
@@ -64,12 +64,12 @@ struct SceneBody {
     double restitution = 0.0;
     // Coulomb coefficient; in a contact, the geometric mean of the two bodies' values applies.
     double friction = 0.4;
-    std::vector<SceneGrip> grips;  // at most k_max_authored_grips
+    std::vector<SceneGrip> grips;  // k_max_authored_grips at most
 };
 
 struct SceneSpawn {
     std::string name;  // unique among the spawns
-    Pose pose;         // of the play space, at its floor point; the player faces -Z
+    Pose pose;         // play space's pose at its floor point; the player faces -Z
 };
 
 struct ScenePlayer {
@@ -95,8 +95,8 @@ struct SceneFile {
     std::vector<SceneSpawn> spawns;
     std::vector<ScenePlayer> players;
     std::optional<SceneSession> session;
-    Pose world_transform;            // of the scene's frame in the world; also rotates velocities
-    std::string tuning_json = "{}";  // the object "tuning" as JSON text; parse_tuning reads it
+    Pose world_transform;  // pose of the scene's frame in the world; also rotates velocities
+    std::string tuning_json = "{}";  // object "tuning" as JSON text; parse_tuning reads it
 };
 
 // Limits: coordinates 1e6 m, sizes of shapes [1e-3, 1e4] m, speeds 1e5 m/s and 1e3 rad/s, masses

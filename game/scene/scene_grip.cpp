@@ -18,7 +18,8 @@ constexpr NumberRange k_snap_radius_m = {0.0, 1.0, true};
 constexpr NumberRange k_snap_angle_deg = {0.0, 180.0, true};
 constexpr std::int64_t k_max_priority = 100;
 
-constexpr std::array<const char*, k_hand_count> k_side_keys = {"left", "right"};  // by HandSide
+constexpr std::array<const char*, k_hand_count> k_side_keys = {"left",
+                                                               "right"};  // indexed by HandSide
 constexpr std::array<const char*, 3> k_axes = {"x", "y", "z"};
 
 // Keys of a digit's angles; only the thumb has an opposition.

@@ -20,8 +20,8 @@ bool has_coordinate(JointKind kind) {
 struct Units {
     double scale;  // one unit of the file in SI units
     NumberRange range;
-    const char* suffix;        // of keys for coordinates
-    const char* force_suffix;  // of keys for forces and torques
+    const char* suffix;        // suffix of keys for coordinates
+    const char* force_suffix;  // suffix of keys for forces and torques
 
     explicit Units(JointKind kind)
         : scale(is_angle(kind) ? std::numbers::pi / 180.0 : 1.0),

@@ -18,8 +18,8 @@ struct SceneJoint {
     std::string b;  // name of a body
     // Joint that releases the latch: name of an earlier joint; empty: none.
     std::string handle;
-    bool handle_is_angle = true;  // the handle is a hinge; false: a slider
-    Pose pose;                    // the joint's frame in the scene at time 0
+    bool handle_is_angle = true;  // true: a hinge; false: a slider
+    Pose pose;                    // joint's frame in the scene at time 0
     // Distance joints: the end on body a; other kinds: the frame's origin.
     Vec3 end_a = Vec3::Zero();
     Joint joint;  // kind and numbers; the builder sets entities and frames

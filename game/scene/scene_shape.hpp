@@ -27,7 +27,7 @@ struct SceneShape {
 
 struct SceneShapePart {
     SceneShape shape;      // neither mesh nor compound
-    Pose pose;             // in the compound's frame
+    Pose pose;             // pose in the compound's frame
     double mass_kg = 0.0;  // 0 for all parts: the mass is divided by volume
 };
 

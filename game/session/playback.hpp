@@ -24,7 +24,7 @@ class Playback {
 
   private:
     std::vector<TrackingSample> samples_;
-    std::vector<bool> calibrates_;  // by index in samples_
+    std::vector<bool> calibrates_;  // indexed by index in samples_
     std::size_t next_ = 0;          // first sample not yet returned
     double duration_s_ = 0.0;
 };

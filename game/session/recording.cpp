@@ -13,7 +13,9 @@ namespace handhold {
 
 namespace {
 
-constexpr double k_max_time_s = 1e9;
+// Any epoch: clocks that count from the year 1 are at 6e10 s. The rounding of a double is still
+// 0.1 ms here.
+constexpr double k_max_time_s = 1e12;
 constexpr double k_max_recorded_m = 1e6;
 constexpr double k_max_buttons = 65535.0;
 constexpr double k_length_tolerance = 1e-2;
@@ -54,8 +56,9 @@ class RowReader {
     bool read(const Cells& cells, std::size_t line, RecordedSample& sample) {
         line_ = line;
         sample.t_s = cells[0];
-        bool is_good = check(0, std::abs(cells[0]) <= k_max_time_s, "a time within 1e9 s", cells) &&
-                       read_pose(cells, k_head_begin, sample.head);
+        bool is_good =
+            check(0, std::abs(cells[0]) <= k_max_time_s, "a time within 1e12 s", cells) &&
+            read_pose(cells, k_head_begin, sample.head);
         for (std::size_t hand = 0; hand < sample.hands.size() && is_good; ++hand) {
             is_good = read_hand(cells, hand, sample.hands[hand]);
         }
@@ -176,7 +179,7 @@ Result<Recording> parse_recording(std::string_view text, const std::string& file
     for (std::size_t i = 0; i < k_columns.size(); ++i) {
         const std::optional<std::size_t> column = table.value().find_column(k_columns[i]);
         if (!column) {
-            return FileError{file, "line 1",
+            return FileError{file, "line " + std::to_string(table.value().header_line),
                              std::string("expected a column \"") + k_columns[i] + "\", found none"};
         }
         column_of[i] = *column;
@@ -205,8 +208,7 @@ Result<Recording> parse_recording(std::string_view text, const std::string& file
             }
         }
         RecordedSample& sample = recording.samples[row];
-        constexpr std::size_t k_first_line = 2;
-        if (!reader.read(cells, row + k_first_line, sample)) {
+        if (!reader.read(cells, table.value().lines[row], sample)) {
             return *reader.error();
         }
         if (row > 0 && sample.t_s <= recording.samples[row - 1].t_s) {

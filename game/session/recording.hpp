@@ -33,7 +33,7 @@ struct RecordedHand {
 
 struct RecordedSample {
     double t_s = 0.0;  // strictly increasing; may start at any time
-    Pose head;         // between the eyes, in tracking space; all NaN while it was not tracked
+    Pose head;  // point between the eyes, in tracking space; all NaN while it was not tracked
     std::array<RecordedHand, 2> hands;  // left, right
 };
 
@@ -42,15 +42,15 @@ struct RecordedSample {
 RecordedSample recorded(const TrackingSample& sample);
 
 struct Recording {
-    std::vector<RecordedSample> samples;  // at least two; gaps and jitter are normal
+    std::vector<RecordedSample> samples;  // two or more; gaps and jitter are normal
 };
 
 // Refused, with the line: a required column that is missing, a row of other length, a time that
 // does not increase, a coordinate beyond 1e6 m, a quaternion further than 1e-2 from unit length
-// (the others are made unit), buttons that are no mask, a trigger outside [0, 1]; and a file with
-// less than two samples. Columns may come in any order and others may stand between them. Where one
-// of the seven cells of a pose is "nan", or its quaternion is all zeros, the device was not tracked
-// and all become NaN.
+// (the others are made unit), a time beyond 1e12 s, buttons that are no mask, a trigger outside
+// [0, 1]; and a file with less than two samples. Columns may come in any order and others may stand
+// between them. Where one of the seven cells of a pose is NaN, or its quaternion is all zeros, the
+// device was not tracked and all become NaN.
 Result<Recording> load_recording(const std::filesystem::path& path);
 // Parses text in memory. `file`: for messages.
 Result<Recording> parse_recording(std::string_view text, const std::string& file);

@@ -43,7 +43,7 @@ struct ScriptedReach {
 struct ScriptedPress {
     HandSide side = HandSide::left;
     double from_s = 0.0;
-    double until_s = 0.0;  // at least 0.3 s later
+    double until_s = 0.0;  // 0.3 s later or more
 };
 
 struct SessionScript {
@@ -51,7 +51,7 @@ struct SessionScript {
     // Height of the eyes above the play space's floor point at the start.
     double eye_height_m = 1.6;
     double duration_s = 0.0;
-    std::vector<ScriptedBody> body;   // by time, first at 0
+    std::vector<ScriptedBody> body;   // indexed by time, first at 0
     std::vector<ScriptedHold> holds;  // sorted by time for each hand, not overlapping
     std::vector<ScriptedReach> reaches;
     std::vector<ScriptedPress> presses;  // not overlapping

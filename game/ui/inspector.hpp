@@ -22,7 +22,7 @@ struct InspectorMemory {
     std::array<double, static_cast<std::size_t>(Stage::count)> smooth_us{};
     std::array<double, static_cast<std::size_t>(Fallback::count)> counted_at_s{};
     std::array<std::uint64_t, static_cast<std::size_t>(Fallback::count)> counted{};
-    std::optional<Entity> pointed_hand;  // the hand last pointed at
+    std::optional<Entity> pointed_hand;  // hand last pointed at
 };
 
 // What the inspector shows, and the tuning that it may change between frames.

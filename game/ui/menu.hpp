@@ -9,8 +9,8 @@ namespace handhold {
 // What the player chose in the menu in this picture.
 struct MenuChoice {
     std::string scene;     // scene to play now; empty: none
-    bool quality = false;  // the settings' quality has changed
-    bool goes_on = false;  // the player closes the menu and plays on
+    bool quality = false;  // true: the settings' quality has changed
+    bool goes_on = false;  // true: the player closes the menu and plays on
     bool leaves = false;
 };
 // Shows the scenes with descriptions, and the settings. Changes `settings` directly.

@@ -20,9 +20,9 @@ struct ControllerModel {
 };
 struct ControllerModels {
     std::string name;
-    std::array<ControllerModel, k_hand_count> sides;  // by HandSide
+    std::array<ControllerModel, k_hand_count> sides;  // indexed by HandSide
     bool has_own_joint = false;                       // false: Tuning's joint applies
-    std::vector<std::string> notes = {};  // about the loaded files; see GltfLevel::notes
+    std::vector<std::string> notes = {};  // remarks about the loaded files; see GltfLevel::notes
 
     std::array<Pose, k_hand_count> joints() const;
 };

@@ -21,7 +21,7 @@ inline constexpr double k_small_cost_m2 = 5e-7;
 
 // The term that most shapes a part; nullopt if all are small.
 std::optional<FitTerm> shaping_term(const FitTerms::Costs& cost_m2);
-Color color_of(FitTerm term);  // the same in gizmos and tables
+Color color_of(FitTerm term);  // same colour in gizmos and tables
 inline constexpr Color k_at_ease = {0.75F, 0.75F, 0.8F};
 
 const char* meaning_of(FitTerm term);  // ends a sentence that begins with a digit's name

@@ -16,7 +16,7 @@ enum class View { first_person, outside };
 
 // The player nearest to the first one within k_near_m; null if there is none.
 const RenderPose* player_near_first(const World& world) {
-    constexpr double k_near_m = 1.8;  // between the heads
+    constexpr double k_near_m = 1.8;  // least distance between heads
     const auto& players = world.render_pose.rows();
     const RenderPose* nearest = nullptr;
     double nearest_m = k_near_m;

@@ -13,7 +13,7 @@ namespace handhold {
 FittedGrip fit_grip(const GripMesh& mesh, const HandRig& rig, const Pose& wrist_bs,
                     const Tuning& tuning, const AuthoredHand* authored) {
     constexpr double k_at_once_s = std::numeric_limits<double>::infinity();
-    constexpr int k_max_frames = 40;  // until the fit converges, as that of a hand at rest
+    constexpr int k_max_frames = 40;  // frames until the fit of a hand at rest converges
     EntityPool entities;
     const Entity hand = entities.create();
     const Entity body = entities.create();
@@ -32,11 +32,24 @@ FittedGrip fit_grip(const GripMesh& mesh, const HandRig& rig, const Pose& wrist_
     GripSearchScratch search;
     ChainFitScratch fit;
     StageStats stats;
-    search_grip({hands, surface, search}, tuning, stats);
-    constrain_palms({hands, surface, offset});
-    sweep_fingers({hands, surface, offset, fingers, {}, fit}, tuning, stats);
+    search_grip({.hands = hands, .surface = surface, .scratch = search}, tuning, stats);
+    constrain_palms({.hands = hands, .surface = surface, .offset = offset});
+    sweep_fingers({.hands = hands,
+                   .surface = surface,
+                   .offset = offset,
+                   .fingers = fingers,
+                   .traces = {},
+                   .scratch = fit},
+                  tuning, stats);
     for (int frame = 0; frame < k_max_frames && !fingers.at(hand).is_converged; ++frame) {
-        fit_hands({k_at_once_s, hands, tracking, surface, offset, fingers, palm}, tuning, stats);
+        fit_hands({.dt_s = k_at_once_s,
+                   .hands = hands,
+                   .hand = tracking,
+                   .surface = surface,
+                   .offset = offset,
+                   .fingers = fingers,
+                   .palm = palm},
+                  tuning, stats);
     }
     FittedGrip fitted;
     fitted.wrist_bs = palm.at(hand).pose_ws;

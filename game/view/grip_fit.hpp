@@ -11,7 +11,7 @@ namespace handhold {
 // A hand that grips one mesh, as the runtime's stages fit it.
 struct FittedGrip {
     Pose wrist_bs;
-    std::array<FingerAngles, k_finger_count> fingers;  // by index in HandRig::fingers
+    std::array<FingerAngles, k_finger_count> fingers;  // indexed by index in HandRig::fingers
     bool is_gripping = false;                          // false: no surface is within reach
     // Number of posed fingers that would penetrate, so that they were fitted instead.
     std::uint64_t penetrating_fingers = 0;

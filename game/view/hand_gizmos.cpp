@@ -56,7 +56,8 @@ void add_search(const HandSurroundings& hand, const GripSurface& chosen, const T
     Column<GripSurface> surface;
     surface.add(hand.hand);
     StageStats stats;
-    search_grip({std::span(&hand, 1), surface, scratch}, tuning, stats);
+    search_grip({.hands = std::span(&hand, 1), .surface = surface, .scratch = scratch}, tuning,
+                stats);
     const SurfaceGraph& graph = hand.meshes.front().mesh->search;
     const Pose mesh_ws = hand.body_ws * hand.meshes.front().pose;
     const auto outline = [&](std::uint32_t triangle, const Color& color, double width_px) {
@@ -139,8 +140,7 @@ void add_cut(const HandSurroundings& hand, const GripSurface& surface, const Fin
     }
     const ChainSeed starts =
         chain_seed(hand, surface, finger_chain(finger, 0.0, inverse(hand.body_ws) * palm_ws));
-    const CrossingSearch found =
-        find_crossing(graph, disc, starts, SearchOrder::best_first, scratch);
+    const CrossingSearch found = find_crossing(graph, disc, starts, scratch);
     if (found.triangle == k_no_triangle) {
         return;
     }

@@ -18,7 +18,7 @@ struct PlayerModels {
     BodyModel body = builtin_body_model();
     std::optional<ControllerModels> controllers;  // drawn in empty hands; nullopt: not drawn
     GhostSettings ghosts;
-    std::vector<std::string> notes = {};  // about the loaded files; see GltfLevel::notes
+    std::vector<std::string> notes = {};  // remarks about the loaded files; see GltfLevel::notes
 
     // The hands' poses in the controllers' grip frames, by HandSide, if the profile defines them;
     // otherwise Tuning's apply.
@@ -31,7 +31,7 @@ struct PlayerModels {
 // Model files named on the command line; an empty name selects the built-in robot.
 struct PlayerModelFiles {
     std::vector<std::string> hands;  // two skins, left and right
-    std::string body;                // a figure's file
+    std::string body;                // file of a figure
     std::string body_map;            // file with the names of the figure's joints
     std::string controllers;         // "builtin" or a profile; empty: none
 };

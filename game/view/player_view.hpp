@@ -69,7 +69,7 @@ class PlayerView {
 
     const Scene* scene_;
     Renderer renderer_;            // each renderer has its own meshes
-    std::vector<MeshId> visuals_;  // by Scene::visuals
+    std::vector<MeshId> visuals_;  // indexed by Scene::visuals
     HandFigures hands_;
     BodyFigures body_;
     std::optional<ControllerFigures> controllers_;

@@ -19,7 +19,7 @@ RenderFrame make_scene_frame(const Scene& scene, const std::vector<MeshId>& mesh
     frame.lamps = scene.lamps;
     frame.key = scene.key;
     if (scene.lamps.empty()) {
-        frame.head_light = 0.55F;  // a level without its own lamps
+        frame.head_light = 0.55F;  // light for a level without its own lamps
     }
     if (!is_null(scene.lamps_body)) {  // a ship's lamps move with the ship
         const Pose& ship = world.body_pose.at(scene.lamps_body).pose_ws;

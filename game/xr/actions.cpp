@@ -98,7 +98,7 @@ bool HeadsetActions::create_actions(bool has_palms, std::string& why_not) {
 // Skips profiles that the runtime does not know; one known profile is enough.
 bool HeadsetActions::suggest(XrInstance instance, bool has_palms, std::string& why_not) const {
     bool any = false;
-    std::string refusal;  // of the last failed profile; reported only if none is known
+    std::string refusal;  // reason of the last failed profile; reported only if none is known
     for (const HeadsetProfile& profile : headset_profiles()) {
         std::vector<XrActionSuggestedBinding> bindings;
         for (const HeadsetBinding& binding : profile.bindings) {

@@ -20,7 +20,7 @@ class Eyes {
 
     struct Place {
         XrSpace room = XR_NULL_HANDLE;
-        Pose room_in_readings;  // the room's space in that of the readings
+        Pose room_in_readings;  // room's space in that of the readings
     };
     // Draws both eyes at their poses for `time` into pictures of the runtime. False if the runtime
     // gives no poses or lends no picture.

@@ -107,7 +107,7 @@ struct Headset::Impl {
     bool headless = false;
     std::string description;
     SessionState state = SessionState::unknown;
-    bool runs = false;  // between xrBeginSession and xrEndSession
+    bool runs = false;  // true between xrBeginSession and xrEndSession
     bool lost = false;
     bool leaves = false;
     bool has_focus = false;

@@ -29,7 +29,7 @@ struct EyeSizes {
 // the bottom up, bytes in sRGB.
 struct EyePicture {
     std::size_t eye = 0;  // 0 left, 1 right
-    Pose eye_ps;          // in play space
+    Pose eye_ps;          // eye in play space
     EyeFrustum frustum;
     std::uint32_t texture = 0;
     EyeSize size;
@@ -40,7 +40,7 @@ using DrawEye = std::function<void(const EyePicture&)>;
 enum class HeadsetState : std::uint8_t {
     waits,  // the runtime wants no frames now; poll again
     runs,
-    lost,   // for good; a new Headset may find the runtime again
+    lost,   // session is over for good; a new Headset may find the runtime again
     leaves  // the session is over: the player or the program asked to leave
 };
 

@@ -22,7 +22,7 @@ struct HeadsetInstance {
     OwnedXrInstance instance;
     XrSystemId system = XR_NULL_SYSTEM_ID;
     HeadsetFeatures features;
-    std::string runtime_name;  // with its version
+    std::string runtime_name;  // name with version
     std::string system_name;
 };
 

@@ -11,7 +11,7 @@ namespace handhold {
 struct HeadsetSpaces {
     OwnedXrSpace room;
     OwnedXrSpace head;
-    std::string room_name;  // which of OpenXR's spaces the room is
+    std::string room_name;  // name of the OpenXR space that serves as the room
     XrReferenceSpaceType room_type = XR_REFERENCE_SPACE_TYPE_LOCAL;
 };
 // `room` is the stage space if the runtime has it, else the local-floor space, else the local

@@ -88,8 +88,6 @@ std::optional<TPose> read_t_pose(const Vec3& head_ps, const Vec3& left_ps, const
     constexpr double k_level = 0.12;  // largest height difference of the hands / span
     // Largest distance of the head from the middle between the hands / span.
     constexpr double k_middle = 0.15;
-    constexpr double k_highest = 0.02;  // highest hands, below the eyes / span
-    constexpr double k_lowest = 0.47;   // lowest hands, below the eyes / span: arms 60 degrees down
     constexpr double k_level_arms = 0.30;  // lowest hands of level arms, below the eyes / span
     const Vec3 line = right_ps - left_ps;
     const Vec3 level(line.x(), 0.0, line.z());
@@ -103,7 +101,7 @@ std::optional<TPose> read_t_pose(const Vec3& head_ps, const Vec3& left_ps, const
     const Vec3 aside(head_ps.x() - middle.x(), 0.0, head_ps.z() - middle.z());
     const double below = below_m / span;
     const bool is_one = std::abs(line.y()) <= k_level * span && aside.norm() <= k_middle * span &&
-                        below >= k_highest && below <= k_lowest &&
+                        below >= k_highest_hands && below <= k_lowest_hands &&
                         head_ps.y() > TPoseRange::k_min_eyes_m &&
                         head_ps.y() < TPoseRange::k_max_eyes_m &&
                         is_plausible(span, head_ps.y(), below <= k_level_arms);

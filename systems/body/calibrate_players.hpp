@@ -13,7 +13,7 @@
 namespace handhold {
 
 struct CalibratePlayersIo {
-    double dt_s = 0.0;                       // in: > 0
+    double dt_s;                             // in: > 0
     const Column<PlayerCommands>& commands;  // in
     const Column<HeadTracking>& head;        // in
     const Column<HandOwner>& owner;          // in
@@ -22,10 +22,10 @@ struct CalibratePlayersIo {
     Column<BodyMeasures>& measures;          // in/out
 };
 
-// Stage 1a. Measures players who request it (PlayerCommands::calibrate) and hold a T-pose or an
-// A-pose (arms up to 60 degrees down) still for CalibrationTuning::hold_s. Measures the eye height,
-// and arms and shoulders from the distance of the wrists. Seated players get the eye height that
-// their arm span predicts. Measures once per request. Without the pose, nothing changes.
+// Measures players who request it (PlayerCommands::calibrate) and hold a T-pose or an A-pose
+// (read_t_pose) still for CalibrationTuning::hold_s. Measures the eye height, and arms and
+// shoulders from the distance of the wrists. Seated players get the eye height that their arm span
+// predicts. Measures once per request. Without the pose, nothing changes.
 void calibrate_players(const CalibratePlayersIo& io, const CalibrationTuning& tuning);
 
 // Measures of a T-pose or an A-pose.
@@ -33,9 +33,14 @@ struct TPose {
     double eyes_m = 0.0;  // height of the eyes above the floor
     double span_m = 0.0;  // arm span: distance between the wrists with the arms held level
 };
-// Returns none unless the player is in a T- or A-pose: hands at nearly equal heights, from just
-// below the eyes to 0.47 spans below them; head midway between the hands; arm span plausible for
-// the eye height. Positions are relative to the tracked floor.
+// Heights of the hands in a pose that is measured, below the eyes / arm span.
+inline constexpr double k_highest_hands = 0.02;
+inline constexpr double k_lowest_hands = 0.47;
+
+// Returns none unless the player is in a T- or A-pose: hands at nearly equal heights,
+// k_highest_hands to k_lowest_hands arm spans below the eyes; head midway between the hands; span
+// and eye height within TPoseRange and plausible for each other. Positions are relative to the
+// tracked floor.
 std::optional<TPose> read_t_pose(const Vec3& head_ps, const Vec3& left_ps, const Vec3& right_ps);
 
 // Body measures from a pose, with average human proportions.

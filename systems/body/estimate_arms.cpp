@@ -23,8 +23,8 @@ bool has_jumped(const Vec3& before, const Vec3& now, double dt_s) {
 struct Step {
     double dt_s = 0.0;
     std::array<double, k_look_filters> look_shares{};  // filter gains for the look direction
-    double chest_share = 0.0;                          // for the chest
-    TurnLimit limit;                                   // of ArmTuning::chest_limit_rad
+    double chest_share = 0.0;                          // share that moves the chest
+    TurnLimit limit;                                   // smooth form of ArmTuning::chest_limit_rad
     const ArmTuning& tuning;
 };
 Step step_of(double dt_s, const ArmTuning& tuning) {

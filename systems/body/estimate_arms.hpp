@@ -11,7 +11,7 @@
 namespace handhold {
 
 struct EstimateArmsIo {
-    double dt_s = 0.0;                     // in: > 0
+    double dt_s;                           // in: > 0
     const Column<PlayerOrigin>& origin;    // in
     const Column<HeadTracking>& head;      // in
     const Column<BodyMeasures>& measures;  // in: every player
@@ -21,10 +21,10 @@ struct EstimateArmsIo {
     Column<ArmEstimate>& estimate;         // out
 };
 
-// Stage 12. Estimates every player's chest, shoulders and elbow directions from head and hands
-// (talk rows 19 to 22; the steps are in systems/body/shared). Works in play space, so that players
-// may hang upside down or turn with a ship. If the head jumps, the state is re-initialised; if a
-// hand jumps, that arm's state.
+// Estimates every player's chest, shoulders and elbow directions from head and hands (talk rows 19
+// to 22; the steps are in systems/body/shared). Works in play space, so that players may hang
+// upside down or turn with a ship. If the head jumps, the state is re-initialised; if a hand jumps,
+// that arm's state.
 void estimate_arms(const EstimateArmsIo& io, const ArmTuning& tuning);
 
 }  // namespace handhold

@@ -96,18 +96,13 @@ double share_outside(const BodyLinkVectors& from_ws, const BodyLinkVectors& to_w
 // Adds the turns, or the share of them that keeps the body out of surfaces.
 void turn_body_outside(const LayerAdditivesIo& io, Entity player, ClipTurns& turns,
                        BodyClipState& state, SpinePose& pose) {
-    constexpr double k_less_per_s = 6.0;
-    constexpr double k_more_per_s = 1.0;
     const SpinePose was = pose;
     turn_body(turns, pose);
-    if (io.memory == nullptr || io.origin == nullptr) {
-        return;
-    }
     const double share =
-        share_outside(ends_of(was), ends_of(pose), io.memory->at(player), was.chest_ws.position,
-                      io.origin->at(player).pose_ws.rotation);
-    state.outside = std::clamp(share, state.outside - k_less_per_s * io.dt_s,
-                               state.outside + k_more_per_s * io.dt_s);
+        share_outside(ends_of(was), ends_of(pose), io.memory.at(player), was.chest_ws.position,
+                      io.origin.at(player).pose_ws.rotation);
+    state.outside = std::clamp(share, state.outside - k_outside_falls_per_s * io.dt_s,
+                               state.outside + k_outside_rises_per_s * io.dt_s);
     if (state.outside < 1.0) {
         for (Vec3& turn : turns) {
             turn *= state.outside;

@@ -27,28 +27,30 @@ void layer_clavicles(const LayerClaviclesIo& io, const AdditiveTuning& additive,
                      const ArmTuning& arm);
 
 struct LayerAdditivesIo {
-    double dt_s = 0.0;  // in: > 0
-    const BodyClips& clips;
+    double dt_s;                                 // in: > 0
+    const BodyClips& clips;                      // in: all but the clavicle clip
     const Column<HeadTracking>& head;            // in
+    const Column<PlayerOrigin>& origin;          // in: the contacts are relative to it
     const Column<PlayerVelocity>& velocity;      // in
     const Column<ReferenceVelocity>& reference;  // in
     const Column<HandOwner>& owner;              // in
     const Column<Grab>& grab;                    // in
     const Column<ArmEstimate>& estimate;         // in: facing_ps
+    const Column<SpineMemory>& memory;           // in: contacts
     Column<BodyClipState>& state;                // in/out
     Column<SpinePose>& pose;                     // in/out: all bones except the chest
-    // For surfaces: SpineMemory's contacts, and the origins that they are relative to. Set both or
-    // none.
-    const Column<SpineMemory>* memory = nullptr;   // in
-    const Column<PlayerOrigin>* origin = nullptr;  // in
 };
 
-// Stage 15, talk row 24. Adds the turns of the clips to spine and legs, bone by bone from the top.
-// The clips are the idle motion, the push-off after the last hand has let go, and those driven by
-// the look direction. Bones keep their lengths, and knees bend only backwards. The simulated chain
-// (SpineMemory) is not affected. At a surface the turns are reduced by a common factor, within a
-// sixth of a second, so that no joint moves farther into it than it already is. Without clips, or
-// with all weights 0, no pose changes.
+// Rates of the factor on the clips' turns at a surface.
+inline constexpr double k_outside_falls_per_s = 6.0;
+inline constexpr double k_outside_rises_per_s = 1.0;
+
+// Talk row 24. Adds the turns of the clips to spine and legs, bone by bone from the top. The clips
+// are the idle motion, the push-off after the last hand has let go, and those driven by the look
+// direction. Bones keep their lengths, and knees bend only backwards. The simulated chain
+// (SpineMemory) is not affected. At a surface the turns are reduced by a common factor, so that no
+// joint moves farther into it than it already is. The factor falls by k_outside_falls_per_s at
+// most, and rises by k_outside_rises_per_s. Without clips, or with all weights 0, no pose changes.
 void layer_additives(const LayerAdditivesIo& io, const AdditiveTuning& tuning);
 
 }  // namespace handhold

@@ -17,9 +17,9 @@ struct PoseArmsIo {
     Column<ArmPose>& arms;                 // out: for players who have hands
 };
 
-// Stage 13. Poses the arms' joints in the world by two-bone IK from the estimated shoulder to the
-// palm. The hand's joint equals the palm's pose exactly; if the arm is too short, both bones
-// stretch (ArmEstimate::Arm::stretch).
+// Poses the arms' joints in the world by two-bone IK from the estimated shoulder to the palm. The
+// hand's joint equals the palm's pose exactly; if the arm is too short, both bones stretch
+// (ArmEstimate::Arm::stretch).
 void pose_arms(const PoseArmsIo& io);
 
 }  // namespace handhold

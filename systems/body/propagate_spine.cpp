@@ -19,8 +19,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_longest_s = 0.5;
-
 // Angle of a link at rest, measured like the angle that its joint limit bounds.
 double rest_angle(const SpineLink& link) {
     return link.kind == SpineLinkKind::shin ? arc_tangent2(link.rest.z(), -link.rest.y()) : 0.0;
@@ -79,7 +77,7 @@ void pass_twist(const Quat& from, const Quat& to, const SpineTuning& tuning, Spi
         const double wanted = twist - passed;
         const double now =
             std::clamp((1.0 - share) * wanted, -tuning.twist_limit_rad, tuning.twist_limit_rad);
-        passed = now - wanted;  // this link's turn in the world, which the next link follows
+        passed = now - wanted;  // turn of this link in the world, which the next link follows
         twist = now;
     }
 }
@@ -88,7 +86,7 @@ void pass_twist(const Quat& from, const Quat& to, const SpineTuning& tuning, Spi
 struct TickShares {
     double back;                      // share of the return to rest per tick
     double drag;                      // factor on velocities per tick
-    std::array<JointRange, 3> range;  // by SpineLinkKind
+    std::array<JointRange, 3> range;  // indexed by SpineLinkKind
 };
 TickShares tick_shares(const SpineTuning& tuning) {
     return {std::min(1.0, tuning.return_per_s * k_spine_tick_s),
@@ -125,7 +123,7 @@ struct Ticked {
     Quat chest;
     Vec3 moved_m;  // chest displacement since the last tick
     Vec3 ahead_m;  // chest displacement from this tick to the frame's end
-    double share;  // of the frame that has passed; [0, 1]
+    double share;  // share of the frame that has passed, [0, 1]
 };
 
 void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemory& memory) {
@@ -194,7 +192,7 @@ struct Motion {
 };
 
 void play(const Motion& motion, double scale, const SpineTuning& tuning, SpineMemory& memory) {
-    const double span_s = std::min(motion.dt_s, k_longest_s);
+    const double span_s = std::min(motion.dt_s, k_longest_spine_s);
     const QuadraticPath path(motion.moved_m, span_s, memory.rate_mps, memory.rate_span_s);
     const Quat from = memory.chest_ps.rotation;
     double played_s = 0.0;
@@ -225,9 +223,9 @@ void touch_surfaces(const PropagateSpineIo& io, Entity player, const Motion& mot
     // The eyes are near the surface of the head's collider, which may touch other surfaces.
     const Vec3 in_head_m(0.0, 0.0, 0.08);
     const BodySurroundings around{io.surfaces,
-                                  io.persistent_id->at(player).value,
+                                  io.persistent_id.at(player).value,
                                   io.origin.at(player).pose_ws,
-                                  transform_point(io.head->at(player).pose_ps, in_head_m),
+                                  transform_point(io.head.at(player).pose_ps, in_head_m),
                                   motion.chest_ps.position,
                                   floor,
                                   io.pose.at(player)};
@@ -241,10 +239,10 @@ struct Held {
 };
 Held held(const PropagateSpineIo& io, Entity player) {
     Held found;
-    for (std::size_t row = 0; io.body_hold != nullptr && row < io.body_hold->size(); ++row) {
-        const Grab& grab = io.grab->at(io.body_hold->owners()[row]);
+    for (std::size_t row = 0; row < io.body_hold.size(); ++row) {
+        const Grab& grab = io.grab.at(io.body_hold.owners()[row]);
         if (grab.kind == GripKind::player && grab.body == player &&
-            swings(io.body_hold->rows()[row].part)) {
+            swings(io.body_hold.rows()[row].part)) {
             found.now = true;
             found.before = found.before || grab.since_s < io.t_s - io.dt_s;
         }
@@ -258,7 +256,7 @@ void propagate_player(const PropagateSpineIo& io, std::size_t row, const SpineTu
     const Pose& origin_ws = io.origin.at(player).pose_ws;
     const double scale = io.measures.at(player).eye_height_m / k_scale_eye_m;
     const Pose& chest_ps = io.estimate.at(player).chest_ps;
-    const double floor_m = io.head == nullptr ? 0.0 : io.head->at(player).shift_m.y();
+    const double floor_m = io.head.at(player).shift_m.y();
     const TrackedFloor floor{chest_ps.position.y() - floor_m, scale};
     const Held is_held = held(io, player);
     // A held body's velocities are relative to its player's.
@@ -292,19 +290,16 @@ void propagate_player(const PropagateSpineIo& io, std::size_t row, const SpineTu
 
 // Writes BodyPull::hands.
 void take_pulls(const PropagateSpineIo& io) {
-    if (io.grab == nullptr) {
-        return;
-    }
     for (SpineMemory& memory : io.memory.rows()) {
         memory.pull.hands_before = memory.pull.hands;
         memory.pull.hands = Vec3::Zero();
     }
-    for (std::size_t row = 0; row < io.owner->size(); ++row) {
-        const Grab* const grab = io.grab->find(io.owner->owners()[row]);
+    for (std::size_t row = 0; row < io.owner.size(); ++row) {
+        const Grab* const grab = io.grab.find(io.owner.owners()[row]);
         if (grab == nullptr || !can_push_off(*grab)) {
             continue;
         }
-        const HandOwner& owner = io.owner->rows()[row];
+        const HandOwner& owner = io.owner.rows()[row];
         const BodyMeasures& measures = io.measures.at(owner.player);
         const ArmEstimate& estimate = io.estimate.at(owner.player);
         const Vec3 from_chest_m =

@@ -13,37 +13,33 @@
 namespace handhold {
 
 struct PropagateSpineIo {
-    double dt_s = 0.0;                           // in: > 0
-    double t_s = 0.0;                            // in: the world's clock at the frame's end
+    double dt_s;                                 // in: > 0
+    double t_s;                                  // in: the world's clock at the frame's end
+    SurfaceQuery surfaces;                       // in: what trunk and legs touch; empty: nothing
+    const Column<PersistentId>& persistent_id;   // in: a body ignores its own player's head
     const Column<PlayerOrigin>& origin;          // in
     const Column<PlayerVelocity>& velocity;      // in
     const Column<ReferenceVelocity>& reference;  // in
+    const Column<HeadTracking>& head;            // in: pose_ps; shift_m is the floor's height
     const Column<BodyMeasures>& measures;        // in
     const Column<ArmEstimate>& estimate;         // in: the chest
+    const Column<HandOwner>& owner;              // in: of hands that pull the body
+    const Column<Grab>& grab;                    // in: hands without a row hold nothing
+    const Column<BodyHold>& body_hold;           // in: of hands on other players' parts
     Column<SpineMemory>& memory;                 // in/out
     Column<SpinePose>& pose;                     // out; in: as shown in the last frame
-    // In: for contacts of trunk and legs. Set `surfaces` and the two columns below it, or none of
-    // the three.
-    SurfaceQuery surfaces = {};  // in
-    // In: rays start in the head; shift_m is the floor's height.
-    const Column<HeadTracking>* head = nullptr;
-    // In: so that the body ignores its own player's head.
-    const Column<PersistentId>* persistent_id = nullptr;
-    // In: hands that pull the body. Set both or none.
-    const Column<HandOwner>* owner = nullptr;
-    const Column<Grab>* grab = nullptr;
-    // In: hands on other players' parts; needs `grab`. Null: nobody is held.
-    const Column<BodyHold>* body_hold = nullptr;
 };
 
-// Stage 14. Simulates spine and legs of every player as a chain of links: motion travels down from
-// the chest, link by link. The chain advances in ticks at multiples of 1/120 s of the world clock,
-// independent of the frame rate. Frames interpolate between the last two ticks.
+inline constexpr double k_longest_spine_s = 0.5;
+
+// Simulates spine and legs of every player as a chain of links: motion travels down from the chest,
+// link by link. The chain advances in ticks at multiples of k_spine_tick_s (spine_chain.hpp) of the
+// world clock, independent of the frame rate. Frames interpolate between the last two ticks.
 //
 // Two motions move the chain: the player's velocity relative to the reference velocity
 // (ReferenceVelocity), and the chest's motion in play space. When the play space turns or a player
 // is teleported, the chain moves along rigidly. If the chest jumps, the chain restarts from rest.
-// At most 0.5 s of a frame is simulated.
+// At most k_longest_spine_s of a frame is simulated.
 //
 // Hanging: the trunk turns towards the opposite of the direction to the gripping hands
 // (hang_body.hpp). Loose bodies in the hands pull nothing. Without a grip the trunk keeps its

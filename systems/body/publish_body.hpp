@@ -13,7 +13,7 @@ struct PublishBodyIo {
     Column<RenderPose>& render;      // out: arms, spine
 };
 
-// Part of stage 16: copies arms and spine to the render pose.
+// Copies arms and spine to the render pose.
 void publish_body(const PublishBodyIo& io);
 
 }  // namespace handhold

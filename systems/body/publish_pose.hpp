@@ -27,8 +27,8 @@ struct PublishPoseIo {
     Column<RenderPose>& render;                 // out
 };
 
-// Stage 16. Writes the world poses of head and hands that a host draws. Gripping hands are fitted
-// to the gripped surface.
+// Writes the world poses of head and hands that a host draws, with palm rays, kinds of grips and
+// push-backs. Gripping hands are fitted to the gripped surface.
 void publish_pose(const PublishPoseIo& io, const Tuning& tuning);
 
 }  // namespace handhold

@@ -1,20 +1,24 @@
 #include "systems/frame/frame.hpp"
 
 #include "systems/frame/frame_check.hpp"
+#include "systems/frame/frame_of_host.hpp"
 #include "systems/frame/frame_stages.hpp"
 
-namespace handhold {
+namespace handhold::stages {
 
-void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
-                StageStats& stats) {
-    check_frame(world, caches, tuning, input);
-    stats.clear();
-    using namespace stages;
-    const FrameContext f{world, caches, tuning, input, stats};
+// --- The stages of a frame, in order -------------------------------------------------------------
+// step_frame runs the five parts below, from top to bottom. Other kinds of frames leave parts out,
+// or put a few stages of their own in place of a part. Nothing else decides the order of stages.
 
-    // Input and intent: what players do.
+// Input: what devices and hosts say about players.
+void read_input(const FrameContext& f) {
     read_tracking(f);
     calibrate_players(f);
+}
+
+// Everything before the solve.
+void prepare_solve(const FrameContext& f, Contacts contacts) {
+    // Intent: what players do.
     group_joints(f);
     place_colliders(f, Stage::update_grabs);
     update_grabs(f);
@@ -26,25 +30,42 @@ void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const F
     predict_bodies(f);
     anchor_grabs(f);
 
-    // Constraints and solve: the poses and velocities of the frame.
+    // Constraints between bodies, players and hands.
     place_colliders(f, Stage::find_contacts);
-    find_contacts(f);
+    if (contacts == Contacts::searched) {
+        find_contacts(f);
+    } else {
+        clear_contacts(f);
+    }
     build_constraints(f);
+}
+
+// The poses and velocities of the frame.
+void solve(const FrameContext& f) {
     solve_phases(f);
     finish_positions(f);
-    update_velocities(f);
+    solve_velocities(f);
+    book_momentum(f);
+    record_valid_poses(f);
+}
+
+// Limits the solution, whoever found it: this solver or a host's.
+void finish_solve(const FrameContext& f) {
     limit_velocities(f);
     update_joints(f);
     discard_broken_results(f);
+}
 
-    // Shown hands: palms and fingers on what they hold.
+// What players see of each other.
+void show(const FrameContext& f) {
+    // Palms and fingers on what they hold.
     gather_surroundings(f);
     search_grip(f);
     constrain_palms(f);
     sweep_fingers(f);
     fit_hands(f);
 
-    // Shown body: arms, spine and legs between head and hands.
+    // Arms, spine and legs between head and hands.
     estimate_arms(f);
     layer_clavicles(f);
     pose_arms(f);
@@ -54,23 +75,97 @@ void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const F
     // Output.
     publish_pose(f);
     publish_body(f);
+}
 
-    ++world.clock.frame;
-    world.clock.t_s += input.dt_s;
+// --- Before and after the stages -----------------------------------------------------------------
+
+FrameContext begin_frame(World& world, FrameCaches& caches, const Tuning& tuning,
+                         const FrameInput& input, StageStats& stats) {
+    check_frame(world, caches, tuning, input);
+    stats.clear();
+    return {.w = world, .caches = caches, .tuning = tuning, .input = input, .stats = stats};
+}
+
+void advance_clock(const FrameContext& f) {
+    f.w.clock.t_s = f.end_s();
+    ++f.w.clock.frame;
+}
+
+}  // namespace handhold::stages
+
+namespace handhold {
+
+// --- Kinds of frames -----------------------------------------------------------------------------
+
+void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
+                StageStats& stats) {
+    using namespace stages;
+    const FrameContext f = begin_frame(world, caches, tuning, input, stats);
+    read_input(f);
+    prepare_solve(f, Contacts::searched);
+    solve(f);
+    finish_solve(f);
+    show(f);
+    advance_clock(f);
 }
 
 void step_pose_only(World& world, FrameCaches& caches, const Tuning& tuning,
                     const FrameInput& input, StageStats& stats) {
-    check_frame(world, caches, tuning, input);
-    stats.clear();
     using namespace stages;
-    const FrameContext f{world, caches, tuning, input, stats};
+    const FrameContext f = begin_frame(world, caches, tuning, input, stats);
     read_paused_tracking(f);
     place_colliders(f, Stage::find_contacts);
+    show(f);
+}
 
-    show_hands(f);
-    show_bodies(f);
-    publish(f);
+void begin_host_frame(World& world, FrameCaches& caches, const Tuning& tuning,
+                      const FrameInput& input, StageStats& stats) {
+    using namespace stages;
+    const FrameContext f = begin_frame(world, caches, tuning, input, stats);
+    read_input(f);
+    prepare_solve(f, Contacts::from_host);
+}
+
+void end_host_frame(World& world, FrameCaches& caches, const Tuning& tuning,
+                    const FrameInput& input, std::span<const SolvedPlayer> solved,
+                    StageStats& stats) {
+    using namespace stages;
+    const FrameContext f{
+        .w = world, .caches = caches, .tuning = tuning, .input = input, .stats = stats};
+    accept_solution(f, solved);
+    finish_solve(f);
+    show(f);
+    advance_clock(f);
+}
+
+void show_host_frame(World& world, FrameCaches& caches, const Tuning& tuning,
+                     const FrameInput& input, StageStats& stats) {
+    using namespace stages;
+    const FrameContext f = begin_frame(world, caches, tuning, input, stats);
+    read_input(f);
+    place_colliders(f, Stage::gather_surroundings);
+    update_sights(f);
+    clear_solution(f);
+    keep_holds(f);
+    show(f);
+    advance_clock(f);
+}
+
+// --- Queries -------------------------------------------------------------------------------------
+
+std::optional<GrabTarget> find_grip(World& world, FrameCaches& caches, const Tuning& tuning,
+                                    Entity hand, StageStats& stats) {
+    using namespace stages;
+    const FrameInput no_input;
+    const FrameContext f{
+        .w = world, .caches = caches, .tuning = tuning, .input = no_input, .stats = stats};
+    // Bodies and shapes may have been added, removed or moved since the last step.
+    group_joints(f);
+    place_colliders(f, Stage::update_grabs);
+    const HandTracking& tracking = world.hand_tracking.at(hand);
+    const Pose hand_ws =
+        world.player_origin.at(world.hand_owner.at(hand).player).pose_ws * tracking.pose_ps;
+    return find_grab_target(grab_search(f), hand, hand_ws, k_no_entity, tuning, stats).target;
 }
 
 }  // namespace handhold

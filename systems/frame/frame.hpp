@@ -20,8 +20,11 @@
 // The library's entry point: feed tracking samples, step, read RenderPose.
 namespace handhold {
 
+inline constexpr double k_min_dt_s = 1e-6;
+inline constexpr double k_max_dt_s = 10.0;
+
 struct FrameInput {
-    double dt_s = 1.0 / 90.0;              // [1e-6, 10]
+    double dt_s = 1.0 / 90.0;              // [k_min_dt_s, k_max_dt_s]
     std::span<const PlayerInput> players;  // any subset of the world's players
 };
 
@@ -43,17 +46,17 @@ struct FrameCaches {
     // Assets. Set them again whenever new caches are made.
     std::array<HandRig, k_hand_count> hand_rigs = {builtin_hand_rig(HandSide::left),
                                                    builtin_hand_rig(HandSide::right)};
-    std::vector<HandRig> more_hand_rigs;  // for hands with a HandRigChoice
+    std::vector<HandRig> more_hand_rigs;  // rigs of hands with a HandRigChoice
     BodyClips body_clips;                 // empty: no additive clips
     Column<BodySurface> body_surfaces;    // bodies with a grip mesh of their own
     HandScratch hands;
-    PartMeshes part_meshes;  // of held players' parts; built when a hand grips one
+    PartMeshes part_meshes;  // meshes of held players' parts; built when a hand grips one
 };
 
-// Steps one frame: a straight line of stage calls, in frame.cpp. `stats` is cleared first. No
-// player input makes it fail. Throws PreconditionError, before it changes anything, if dt_s or a
-// number of `tuning` or of the world is out of range, or a collider's shape is not in the caches'
-// library or is a mesh on a free body.
+// Steps one frame: every stage in the order of the list in frame.cpp. `stats` is cleared first. No
+// player input makes it fail. Throws PreconditionError, before it changes anything, if dt_s, a
+// number of `tuning`, or the world's gravity or reference velocity is out of range, or a collider's
+// shape is not in the caches' library or is a mesh on a free body or a player.
 void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
                 StageStats& stats);
 

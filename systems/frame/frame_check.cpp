@@ -6,12 +6,7 @@
 #include "engine/core/check.hpp"
 
 namespace handhold {
-namespace {
-
-constexpr double k_min_dt_s = 1e-6;
-constexpr double k_max_dt_s = 10.0;
-
-}  // namespace
+namespace {}  // namespace
 
 void check_frame(const World& world, const FrameCaches& caches, const Tuning& tuning,
                  const FrameInput& input) {

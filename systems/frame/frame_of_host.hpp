@@ -7,8 +7,8 @@
 #include "systems/grab/shared/grab_search.hpp"
 #include "systems/physics/accept_solution.hpp"
 
-// Frames for hosts with their own physics. Such a host sets FrameCaches::host_surfaces. Its bodies
-// need no colliders.
+// Frames for hosts with their own physics, made of the stages that frame.cpp lists. Such a host
+// sets FrameCaches::host_surfaces. Its bodies need no colliders.
 namespace handhold {
 
 // First half of a frame: computes intent, prediction and the frame's hand constraints, which are in

@@ -53,32 +53,30 @@ void gather_surroundings(const FrameContext& f) {
     }
     f.hands().surroundings.resize(w.hand_owner.size());
     f.hands().traces.assign(w.hand_owner.size(), {});
-    const Column<BodySurface>* const own_surfaces =
-        f.caches.body_surfaces.empty() ? nullptr : &f.caches.body_surfaces;
-    const bool has_all_colliders = !f.caches.host_surfaces && own_surfaces == nullptr;
+    const bool has_all_colliders = !f.caches.host_surfaces && f.caches.body_surfaces.empty();
     const GatherSurroundingsIo io{
-        f.caches.meshes_for_hands,
-        f.caches.hand_rigs,
-        f.graph().entities,
-        w.persistent_id,
-        w.hand_owner,
-        w.hand_tracking,
-        w.grab,
-        w.player_origin,
-        w.head_tracking,
-        w.body_pose,
-        w.collider,
-        w.authored_hold,
-        f.hands().surroundings,
-        &w.hand_rig,
-        f.caches.more_hand_rigs,
-        own_surfaces,
-        has_all_colliders ? &f.collision() : nullptr,
-        f.graph().proxies,
-        &w.body_hold,
-        f.caches.meshes_for_hands != nullptr ? &f.caches.part_meshes : nullptr,
-        &w.render_pose,
-        &w.body_measures};
+        .meshes = {.of_shapes = f.caches.meshes_for_hands,
+                   .of_bodies = f.caches.body_surfaces,
+                   .of_parts = f.caches.part_meshes},
+        .rigs = f.caches.hand_rigs,
+        .more_rigs = f.caches.more_hand_rigs,
+        .rig_choice = w.hand_rig,
+        .near = {.bodies = f.graph().entities,
+                 .collision = has_all_colliders ? &f.collision() : nullptr,
+                 .proxies = f.graph().proxies},
+        .persistent_id = w.persistent_id,
+        .owner = w.hand_owner,
+        .hand = w.hand_tracking,
+        .grab = w.grab,
+        .body_hold = w.body_hold,
+        .origin = w.player_origin,
+        .head = w.head_tracking,
+        .shown = w.render_pose,
+        .measures = w.body_measures,
+        .body_pose = w.body_pose,
+        .collider = w.collider,
+        .authored_hold = w.authored_hold,
+        .surroundings = f.hands().surroundings};
     for_hand_slices(f, [&io](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
         handhold::gather_surroundings(io, first, last, slice.stats);
     });
@@ -87,8 +85,10 @@ void gather_surroundings(const FrameContext& f) {
 void search_grip(const FrameContext& f) {
     const StageTimer timer(Stage::search_grip, f.stats);
     for_hand_slices(f, [&f](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
-        handhold::search_grip({hands_of(f, first, last), f.w.grip_surface, slice.search}, f.tuning,
-                              slice.stats);
+        handhold::search_grip({.hands = hands_of(f, first, last),
+                               .surface = f.w.grip_surface,
+                               .scratch = slice.search},
+                              f.tuning, slice.stats);
     });
 }
 
@@ -96,7 +96,9 @@ void constrain_palms(const FrameContext& f) {
     const StageTimer timer(Stage::constrain_palms, f.stats);
     World& w = f.w;
     for_hand_slices(f, [&](HandScratch::Slice& /*slice*/, std::size_t first, std::size_t last) {
-        handhold::constrain_palms({hands_of(f, first, last), w.grip_surface, w.palm_offset});
+        handhold::constrain_palms({.hands = hands_of(f, first, last),
+                                   .surface = w.grip_surface,
+                                   .offset = w.palm_offset});
     });
 }
 
@@ -104,10 +106,13 @@ void sweep_fingers(const FrameContext& f) {
     const StageTimer timer(Stage::sweep_fingers, f.stats);
     World& w = f.w;
     for_hand_slices(f, [&](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
-        handhold::sweep_fingers(
-            {hands_of(f, first, last), w.grip_surface, w.palm_offset, w.finger_pose,
-             std::span(f.hands().traces).subspan(first, last - first), slice.fit},
-            f.tuning, slice.stats);
+        handhold::sweep_fingers({.hands = hands_of(f, first, last),
+                                 .surface = w.grip_surface,
+                                 .offset = w.palm_offset,
+                                 .fingers = w.finger_pose,
+                                 .traces = std::span(f.hands().traces).subspan(first, last - first),
+                                 .scratch = slice.fit},
+                                f.tuning, slice.stats);
     });
 }
 
@@ -115,8 +120,13 @@ void fit_hands(const FrameContext& f) {
     const StageTimer timer(Stage::fit_hands, f.stats);
     World& w = f.w;
     for_hand_slices(f, [&](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
-        handhold::fit_hands({f.dt_s(), hands_of(f, first, last), w.hand_tracking, w.grip_surface,
-                             w.palm_offset, w.finger_pose, w.palm_pose},
+        handhold::fit_hands({.dt_s = f.dt_s(),
+                             .hands = hands_of(f, first, last),
+                             .hand = w.hand_tracking,
+                             .surface = w.grip_surface,
+                             .offset = w.palm_offset,
+                             .fingers = w.finger_pose,
+                             .palm = w.palm_pose},
                             f.tuning, slice.stats);
     });
 }
@@ -126,80 +136,94 @@ void fit_hands(const FrameContext& f) {
 void estimate_arms(const FrameContext& f) {
     const StageTimer timer(Stage::estimate_arms, f.stats);
     World& w = f.w;
-    handhold::estimate_arms({f.dt_s(), w.player_origin, w.head_tracking, w.body_measures,
-                             w.hand_owner, w.palm_pose, w.arm_memory, w.arm_estimate},
+    handhold::estimate_arms({.dt_s = f.dt_s(),
+                             .origin = w.player_origin,
+                             .head = w.head_tracking,
+                             .measures = w.body_measures,
+                             .owner = w.hand_owner,
+                             .palm = w.palm_pose,
+                             .memory = w.arm_memory,
+                             .estimate = w.arm_estimate},
                             f.tuning.arm);
 }
 
 void layer_clavicles(const FrameContext& f) {
     const StageTimer timer(Stage::layer_additives, f.stats);
-    handhold::layer_clavicles({f.caches.body_clips, f.w.body_measures, f.w.arm_estimate},
-                              f.tuning.additive, f.tuning.arm);
+    handhold::layer_clavicles(
+        {.clips = f.caches.body_clips, .measures = f.w.body_measures, .estimate = f.w.arm_estimate},
+        f.tuning.additive, f.tuning.arm);
 }
 
 void pose_arms(const FrameContext& f) {
     const StageTimer timer(Stage::pose_arms, f.stats);
     World& w = f.w;
-    handhold::pose_arms(
-        {w.player_origin, w.body_measures, w.hand_owner, w.palm_pose, w.arm_estimate, w.arm_pose});
+    handhold::pose_arms({.origin = w.player_origin,
+                         .measures = w.body_measures,
+                         .owner = w.hand_owner,
+                         .palm = w.palm_pose,
+                         .estimate = w.arm_estimate,
+                         .arms = w.arm_pose});
 }
 
 void propagate_spine(const FrameContext& f) {
     const StageTimer timer(Stage::propagate_spine, f.stats);
     World& w = f.w;
-    handhold::propagate_spine(
-        {f.dt_s(), f.end_s(), w.player_origin, w.player_velocity, w.reference_velocity,
-         w.body_measures, w.arm_estimate, w.spine_memory, w.spine_pose, f.surfaces(),
-         &w.head_tracking, &w.persistent_id, &w.hand_owner, &w.grab, &w.body_hold},
-        f.tuning.spine);
+    handhold::propagate_spine({.dt_s = f.dt_s(),
+                               .t_s = f.end_s(),
+                               .surfaces = f.surfaces(),
+                               .persistent_id = w.persistent_id,
+                               .origin = w.player_origin,
+                               .velocity = w.player_velocity,
+                               .reference = w.reference_velocity,
+                               .head = w.head_tracking,
+                               .measures = w.body_measures,
+                               .estimate = w.arm_estimate,
+                               .owner = w.hand_owner,
+                               .grab = w.grab,
+                               .body_hold = w.body_hold,
+                               .memory = w.spine_memory,
+                               .pose = w.spine_pose},
+                              f.tuning.spine);
 }
 
 void layer_additives(const FrameContext& f) {
     const StageTimer timer(Stage::layer_additives, f.stats);
     World& w = f.w;
-    handhold::layer_additives({f.dt_s(), f.caches.body_clips, w.head_tracking, w.player_velocity,
-                               w.reference_velocity, w.hand_owner, w.grab, w.arm_estimate,
-                               w.body_clip_state, w.spine_pose, &w.spine_memory, &w.player_origin},
+    handhold::layer_additives({.dt_s = f.dt_s(),
+                               .clips = f.caches.body_clips,
+                               .head = w.head_tracking,
+                               .origin = w.player_origin,
+                               .velocity = w.player_velocity,
+                               .reference = w.reference_velocity,
+                               .owner = w.hand_owner,
+                               .grab = w.grab,
+                               .estimate = w.arm_estimate,
+                               .memory = w.spine_memory,
+                               .state = w.body_clip_state,
+                               .pose = w.spine_pose},
                               f.tuning.additive);
 }
 
 void publish_pose(const FrameContext& f) {
     const StageTimer timer(Stage::publish_pose, f.stats);
     World& w = f.w;
-    handhold::publish_pose(
-        {f.graph().push_backs, w.player_origin, w.head_tracking, w.hand_owner, w.hand_tracking,
-         w.grab, w.palm_pose, w.finger_pose, w.authored_hold, w.render_pose},
-        f.tuning);
+    handhold::publish_pose({.push_backs = f.graph().push_backs,
+                            .origin = w.player_origin,
+                            .head = w.head_tracking,
+                            .owner = w.hand_owner,
+                            .hand = w.hand_tracking,
+                            .grab = w.grab,
+                            .palm = w.palm_pose,
+                            .fingers = w.finger_pose,
+                            .authored_hold = w.authored_hold,
+                            .render = w.render_pose},
+                           f.tuning);
 }
 
 void publish_body(const FrameContext& f) {
     const StageTimer timer(Stage::publish_pose, f.stats);
-    handhold::publish_body({f.w.arm_pose, f.w.spine_pose, f.w.render_pose});
-}
-
-// --- Groups of stages ----------------------------------------------------------------------------
-
-// Palms and fingers on what they hold.
-void show_hands(const FrameContext& f) {
-    gather_surroundings(f);
-    search_grip(f);
-    constrain_palms(f);
-    sweep_fingers(f);
-    fit_hands(f);
-}
-
-// Arms, spine and legs between head and hands.
-void show_bodies(const FrameContext& f) {
-    estimate_arms(f);
-    layer_clavicles(f);
-    pose_arms(f);
-    propagate_spine(f);
-    layer_additives(f);
-}
-
-void publish(const FrameContext& f) {
-    publish_pose(f);
-    publish_body(f);
+    handhold::publish_body(
+        {.arms = f.w.arm_pose, .spine = f.w.spine_pose, .render = f.w.render_pose});
 }
 
 }  // namespace handhold::stages

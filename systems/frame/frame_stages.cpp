@@ -4,12 +4,14 @@
 #include "systems/frame/frame_slices.hpp"
 #include "systems/frame/frame_stage_timer.hpp"
 #include "systems/grab/anchor_grabs.hpp"
+#include "systems/grab/keep_holds.hpp"
 #include "systems/grab/pull_bodies.hpp"
 #include "systems/grab/update_grabs.hpp"
 #include "systems/input/read_paused_tracking.hpp"
 #include "systems/input/read_tracking.hpp"
 #include "systems/locomotion/locomote_players.hpp"
 #include "systems/physics/animate_movers.hpp"
+#include "systems/physics/book_momentum.hpp"
 #include "systems/physics/build_constraints.hpp"
 #include "systems/physics/discard_broken_results.hpp"
 #include "systems/physics/find_contacts.hpp"
@@ -18,9 +20,10 @@
 #include "systems/physics/limit_velocities.hpp"
 #include "systems/physics/place_colliders.hpp"
 #include "systems/physics/predict_bodies.hpp"
+#include "systems/physics/record_valid_poses.hpp"
 #include "systems/physics/solve_phases.hpp"
+#include "systems/physics/solve_velocities.hpp"
 #include "systems/physics/update_joints.hpp"
-#include "systems/physics/update_velocities.hpp"
 
 namespace handhold::stages {
 
@@ -29,9 +32,15 @@ namespace handhold::stages {
 void read_tracking(const FrameContext& f) {
     const StageTimer timer(Stage::read_tracking, f.stats);
     World& w = f.w;
-    const ReadTrackingIo io{f.input.players, f.start_s(),          f.end_s(),
-                            w.hand_owner,    w.controller_to_hand, w.head_tracking,
-                            w.hand_tracking, w.hand_history,       w.player_commands};
+    const ReadTrackingIo io{.inputs = f.input.players,
+                            .frame_start_s = f.start_s(),
+                            .frame_end_s = f.end_s(),
+                            .owner = w.hand_owner,
+                            .controller_to_hand = w.controller_to_hand,
+                            .head = w.head_tracking,
+                            .hand = w.hand_tracking,
+                            .history = w.hand_history,
+                            .commands = w.player_commands};
     for_slices(f, w.head_tracking.size(),
                [&](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
                    handhold::read_tracking(io, first, last, f.tuning, slice.stats);
@@ -41,27 +50,34 @@ void read_tracking(const FrameContext& f) {
 void read_paused_tracking(const FrameContext& f) {
     const StageTimer timer(Stage::read_tracking, f.stats);
     World& w = f.w;
-    handhold::read_paused_tracking({f.input.players,
-                                    w.hand_owner,
-                                    w.controller_to_hand,
-                                    w.head_tracking,
-                                    w.hand_tracking,
-                                    w.hand_history,
-                                    {default_controller_to_hand(HandSide::left, f.tuning.hand),
-                                     default_controller_to_hand(HandSide::right, f.tuning.hand)}});
+    handhold::read_paused_tracking(
+        {.inputs = f.input.players,
+         .owner = w.hand_owner,
+         .controller_to_hand = w.controller_to_hand,
+         .head = w.head_tracking,
+         .hand = w.hand_tracking,
+         .history = w.hand_history,
+         .hand_in_controller = {default_controller_to_hand(HandSide::left, f.tuning.hand),
+                                default_controller_to_hand(HandSide::right, f.tuning.hand)}});
 }
 
 void calibrate_players(const FrameContext& f) {
     const StageTimer timer(Stage::calibrate_players, f.stats);
     World& w = f.w;
-    handhold::calibrate_players({f.dt_s(), w.player_commands, w.head_tracking, w.hand_owner,
-                                 w.hand_tracking, w.calibration, w.body_measures},
+    handhold::calibrate_players({.dt_s = f.dt_s(),
+                                 .commands = w.player_commands,
+                                 .head = w.head_tracking,
+                                 .owner = w.hand_owner,
+                                 .hand = w.hand_tracking,
+                                 .calibration = w.calibration,
+                                 .measures = w.body_measures},
                                 f.tuning.calibration);
 }
 
 void group_joints(const FrameContext& f) {
     const StageTimer timer(Stage::group_joints, f.stats);
-    handhold::group_joints({f.w.joint, f.w.body, f.graph()}, f.tuning.phases);
+    handhold::group_joints({.joint = f.w.joint, .body = f.w.body, .frame = f.graph()},
+                           f.tuning.phases);
 }
 
 // Runs twice per frame. Each run's time is added to `needed_by`, the stage that needs the
@@ -69,37 +85,55 @@ void group_joints(const FrameContext& f) {
 void place_colliders(const FrameContext& f, Stage needed_by) {
     const StageTimer timer(needed_by, f.stats);
     World& w = f.w;
-    handhold::place_colliders({w.persistent_id, w.collider, w.body, w.body_pose, w.body_start,
-                               w.player_origin, w.player_start, w.head_tracking, w.last_valid,
-                               f.collision(), f.graph(), &w.filter, &w.body_velocity},
+    handhold::place_colliders({.persistent_id = w.persistent_id,
+                               .collider = w.collider,
+                               .filter = w.filter,
+                               .body = w.body,
+                               .body_pose = w.body_pose,
+                               .body_start = w.body_start,
+                               .body_velocity = w.body_velocity,
+                               .origin = w.player_origin,
+                               .player_start = w.player_start,
+                               .head = w.head_tracking,
+                               .last_valid = w.last_valid,
+                               .collision = f.collision(),
+                               .frame = f.graph()},
                               f.tuning.head);
 }
 
+namespace {
+
+GrabRules grab_rules(const World& w) {
+    return {.rule = w.grab_rule, .layers = w.grab_layers, .filter = w.filter};
+}
+
+}  // namespace
+
 GrabSearch grab_search(const FrameContext& f) {
     World& w = f.w;
-    return {f.surfaces(),
-            w.persistent_id,
-            w.hand_owner,
-            w.hand_tracking,
-            w.player_origin,
-            w.head_tracking,
-            w.body,
-            w.body_pose,
-            f.graph().joint_groups,
-            w.authored_grips,
-            w.hand_pull,
-            w.reference_velocity,
-            w.hand_sight,
-            w.grab,
-            w.authored_hold,
-            w.head_ignores,
-            {&w.grab_rule, &w.grab_layers, &w.filter},
-            &w.grab_order,
-            f.start_s(),
-            f.dt_s(),
-            &w.render_pose,
-            &w.body_measures,
-            &w.body_hold};
+    return {.start_s = f.start_s(),
+            .dt_s = f.dt_s(),
+            .surfaces = f.surfaces(),
+            .persistent_id = w.persistent_id,
+            .owner = w.hand_owner,
+            .hand = w.hand_tracking,
+            .origin = w.player_origin,
+            .head = w.head_tracking,
+            .body = w.body,
+            .body_pose = w.body_pose,
+            .joint_groups = f.graph().joint_groups,
+            .authored_grips = w.authored_grips,
+            .rules = grab_rules(w),
+            .shown = w.render_pose,
+            .measures = w.body_measures,
+            .pull = w.hand_pull,
+            .reference = w.reference_velocity,
+            .sight = w.hand_sight,
+            .grab = w.grab,
+            .authored_hold = w.authored_hold,
+            .head_ignores = w.head_ignores,
+            .body_hold = w.body_hold,
+            .order = w.grab_order};
 }
 
 void update_grabs(const FrameContext& f) {
@@ -115,32 +149,41 @@ void update_sights(const FrameContext& f) {
 void locomote_players(const FrameContext& f) {
     const StageTimer timer(Stage::locomote_players, f.stats);
     World& w = f.w;
-    handhold::locomote_players(
-        {f.dt_s(), w.reference_velocity_mps, w.player_commands, w.head_tracking, w.hand_owner,
-         w.hand_tracking, w.grab, w.body_pose, w.body_velocity, w.player_origin, w.player_velocity,
-         w.reference_velocity, &w.body_hold},
-        f.tuning.locomotion);
+    handhold::locomote_players({.dt_s = f.dt_s(),
+                                .scene_velocity_mps = w.reference_velocity_mps,
+                                .commands = w.player_commands,
+                                .head = w.head_tracking,
+                                .owner = w.hand_owner,
+                                .hand = w.hand_tracking,
+                                .grab = w.grab,
+                                .body_pose = w.body_pose,
+                                .body_velocity = w.body_velocity,
+                                .origin = w.player_origin,
+                                .velocity = w.player_velocity,
+                                .reference = w.reference_velocity,
+                                .body_hold = w.body_hold},
+                               f.tuning.locomotion);
 }
 
 void pull_bodies(const FrameContext& f) {
     const StageTimer timer(Stage::locomote_players, f.stats);
     World& w = f.w;
-    handhold::pull_bodies({f.dt_s(),
-                           f.surfaces(),
-                           w.persistent_id,
-                           w.hand_owner,
-                           w.hand_tracking,
-                           w.grab,
-                           w.hand_sight,
-                           w.player,
-                           w.player_origin,
-                           w.body,
-                           w.body_pose,
-                           f.graph().joint_groups,
-                           w.hand_pull,
-                           w.body_velocity,
-                           w.player_velocity,
-                           {&w.grab_rule, &w.grab_layers, &w.filter}},
+    handhold::pull_bodies({.dt_s = f.dt_s(),
+                           .surfaces = f.surfaces(),
+                           .persistent_id = w.persistent_id,
+                           .owner = w.hand_owner,
+                           .hand = w.hand_tracking,
+                           .grab = w.grab,
+                           .sight = w.hand_sight,
+                           .player = w.player,
+                           .origin = w.player_origin,
+                           .body = w.body,
+                           .body_pose = w.body_pose,
+                           .joint_groups = f.graph().joint_groups,
+                           .rules = grab_rules(w),
+                           .pull = w.hand_pull,
+                           .body_velocity = w.body_velocity,
+                           .player_velocity = w.player_velocity},
                           f.tuning, f.stats);
 }
 
@@ -149,26 +192,52 @@ void pull_bodies(const FrameContext& f) {
 void animate_movers(const FrameContext& f) {
     const StageTimer timer(Stage::animate_movers, f.stats);
     World& w = f.w;
-    handhold::animate_movers({f.end_s(), w.mover, w.path_mover, w.leg_mover, w.body_pose,
-                              w.body_start, w.body_velocity, &w.move_target, f.dt_s()});
+    handhold::animate_movers({.dt_s = f.dt_s(),
+                              .end_s = f.end_s(),
+                              .mover = w.mover,
+                              .path_mover = w.path_mover,
+                              .leg_mover = w.leg_mover,
+                              .target = w.move_target,
+                              .body_pose = w.body_pose,
+                              .body_start = w.body_start,
+                              .velocity = w.body_velocity});
 }
 
 void predict_bodies(const FrameContext& f) {
     const StageTimer timer(Stage::predict_bodies, f.stats);
     World& w = f.w;
-    handhold::predict_bodies({f.dt_s(), w.body, w.player_velocity, w.body_pose, w.body_start,
-                              w.body_velocity, w.player_origin, w.player_start, w.gravity_mps2,
-                              &w.gravity_scale});
+    handhold::predict_bodies({.dt_s = f.dt_s(),
+                              .gravity_mps2 = w.gravity_mps2,
+                              .gravity_scale = w.gravity_scale,
+                              .body = w.body,
+                              .player_velocity = w.player_velocity,
+                              .body_pose = w.body_pose,
+                              .body_start = w.body_start,
+                              .body_velocity = w.body_velocity,
+                              .origin = w.player_origin,
+                              .player_start = w.player_start});
 }
 
 void anchor_grabs(const FrameContext& f) {
     const StageTimer timer(Stage::anchor_grabs, f.stats);
     World& w = f.w;
-    handhold::anchor_grabs(
-        {f.start_s(), f.end_s(), w.hand_owner, w.hand_tracking, w.hand_history, w.player_start,
-         w.player_origin, w.head_tracking, w.body_start, w.body_pose, w.authored_hold, w.body,
-         w.joint, w.joint_state, w.grab, &w.body_hold},
-        f.tuning, f.stats);
+    handhold::anchor_grabs({.start_s = f.start_s(),
+                            .end_s = f.end_s(),
+                            .owner = w.hand_owner,
+                            .hand = w.hand_tracking,
+                            .hand_history = w.hand_history,
+                            .player_start = w.player_start,
+                            .origin = w.player_origin,
+                            .head = w.head_tracking,
+                            .body_start = w.body_start,
+                            .body_pose = w.body_pose,
+                            .authored_hold = w.authored_hold,
+                            .body = w.body,
+                            .joint = w.joint,
+                            .joint_state = w.joint_state,
+                            .body_hold = w.body_hold,
+                            .grab = w.grab},
+                           f.tuning, f.stats);
 }
 
 // --- Constraints and solve -----------------------------------------------------------------------
@@ -176,62 +245,143 @@ void anchor_grabs(const FrameContext& f) {
 void find_contacts(const FrameContext& f) {
     const StageTimer timer(Stage::find_contacts, f.stats);
     World& w = f.w;
-    handhold::find_contacts({w.persistent_id, w.body, w.joint, w.head_tracking, w.hand_owner,
-                             w.grab, f.collision(), w.head_ignores, f.graph()},
+    handhold::find_contacts({.persistent_id = w.persistent_id,
+                             .body = w.body,
+                             .joint = w.joint,
+                             .owner = w.hand_owner,
+                             .grab = w.grab,
+                             .collision = f.collision(),
+                             .head_ignores = w.head_ignores,
+                             .frame = f.graph()},
                             f.tuning.contact);
 }
+
+void clear_contacts(const FrameContext& f) { f.graph().contacts.clear(); }
 
 void build_constraints(const FrameContext& f) {
     const StageTimer timer(Stage::build_constraints, f.stats);
     World& w = f.w;
-    handhold::build_constraints(
-        {f.dt_s(), w.persistent_id, w.body, w.body_pose, w.body_velocity, w.joint, w.joint_state,
-         w.player, w.player_origin, w.player_velocity, w.head_tracking, w.hand_owner, w.grab,
-         f.graph(), &w.body_hold},
-        f.tuning);
+    handhold::build_constraints({.dt_s = f.dt_s(),
+                                 .persistent_id = w.persistent_id,
+                                 .body = w.body,
+                                 .body_pose = w.body_pose,
+                                 .body_velocity = w.body_velocity,
+                                 .joint = w.joint,
+                                 .joint_state = w.joint_state,
+                                 .player = w.player,
+                                 .origin = w.player_origin,
+                                 .player_velocity = w.player_velocity,
+                                 .head = w.head_tracking,
+                                 .owner = w.hand_owner,
+                                 .grab = w.grab,
+                                 .body_hold = w.body_hold,
+                                 .frame = f.graph()},
+                                f.tuning);
 }
 
 void solve_phases(const FrameContext& f) {
     const StageTimer timer(Stage::solve_phases, f.stats);
-    handhold::solve_phases({f.collision(), f.graph()}, f.tuning, f.stats);
+    handhold::solve_phases({.collision = f.collision(), .frame = f.graph()}, f.tuning, f.stats);
 }
 
 void finish_positions(const FrameContext& f) {
     const StageTimer timer(Stage::solve_phases, f.stats);
     World& w = f.w;
-    handhold::finish_positions({f.collision(), f.graph(), w.body_pose, w.player_origin, w.grab,
-                                f.dt_s(), w.head_tracking, w.player_velocity},
+    handhold::finish_positions({.dt_s = f.dt_s(),
+                                .head = w.head_tracking,
+                                .player_velocity = w.player_velocity,
+                                .collision = f.collision(),
+                                .frame = f.graph(),
+                                .body_pose = w.body_pose,
+                                .origin = w.player_origin,
+                                .grab = w.grab},
                                f.tuning.contact, f.tuning.head, f.stats);
 }
 
-void update_velocities(const FrameContext& f) {
-    const StageTimer timer(Stage::update_velocities, f.stats);
-    World& w = f.w;
-    handhold::update_velocities(
-        {w.head_tracking, f.graph(), w.body_velocity, w.player_velocity, w.last_valid}, f.tuning,
-        f.stats);
+void solve_velocities(const FrameContext& f) {
+    const StageTimer timer(Stage::solve_velocities, f.stats);
+    handhold::solve_velocities({.frame = f.graph(),
+                                .body_velocity = f.w.body_velocity,
+                                .player_velocity = f.w.player_velocity},
+                               f.tuning, f.stats);
+}
+
+void book_momentum(const FrameContext& f) {
+    const StageTimer timer(Stage::book_momentum, f.stats);
+    handhold::book_momentum(f.graph().graph, f.stats.ledger);
+}
+
+void record_valid_poses(const FrameContext& f) {
+    const StageTimer timer(Stage::record_valid_poses, f.stats);
+    handhold::record_valid_poses(
+        {.head = f.w.head_tracking, .frame = f.graph(), .last_valid = f.w.last_valid});
 }
 
 void limit_velocities(const FrameContext& f) {
-    const StageTimer timer(Stage::update_velocities, f.stats);
+    const StageTimer timer(Stage::solve_velocities, f.stats);
     World& w = f.w;
-    handhold::limit_velocities(
-        {w.hand_owner, w.reference_velocity, f.graph(), w.body_velocity, w.player_velocity, w.grab},
-        f.tuning.locomotion, f.stats);
+    handhold::limit_velocities({.owner = w.hand_owner,
+                                .reference = w.reference_velocity,
+                                .frame = f.graph(),
+                                .body_velocity = w.body_velocity,
+                                .player_velocity = w.player_velocity,
+                                .grab = w.grab},
+                               f.tuning.locomotion, f.stats);
 }
 
 void update_joints(const FrameContext& f) {
     const StageTimer timer(Stage::update_joints, f.stats);
-    handhold::update_joints({f.dt_s(), f.graph(), f.w.joint, f.w.joint_state});
+    handhold::update_joints(
+        {.dt_s = f.dt_s(), .frame = f.graph(), .joint = f.w.joint, .state = f.w.joint_state});
 }
 
 void discard_broken_results(const FrameContext& f) {
     const StageTimer timer(Stage::update_joints, f.stats);
     World& w = f.w;
-    handhold::discard_broken_results(
-        {w.body_start, w.player_start, w.body_pose, w.body_velocity, w.player_origin,
-         w.player_velocity, w.last_valid, w.joint_state, w.grab, f.graph()},
-        f.stats);
+    handhold::discard_broken_results({.body_start = w.body_start,
+                                      .player_start = w.player_start,
+                                      .body_pose = w.body_pose,
+                                      .body_velocity = w.body_velocity,
+                                      .player_origin = w.player_origin,
+                                      .player_velocity = w.player_velocity,
+                                      .last_valid = w.last_valid,
+                                      .joint_state = w.joint_state,
+                                      .grab = w.grab,
+                                      .frame = f.graph()},
+                                     f.stats);
+}
+
+// --- Frames that a host solves -------------------------------------------------------------------
+
+void accept_solution(const FrameContext& f, std::span<const SolvedPlayer> solved) {
+    World& w = f.w;
+    f.stats.hand_error_m = handhold::accept_solution({.players = solved,
+                                                      .body_pose = w.body_pose,
+                                                      .body_velocity = w.body_velocity,
+                                                      .frame = f.graph(),
+                                                      .origin = w.player_origin,
+                                                      .velocity = w.player_velocity,
+                                                      .grab = w.grab,
+                                                      .last_valid = w.last_valid});
+}
+
+void clear_solution(const FrameContext& f) {
+    clear_contacts(f);
+    f.graph().graph.blocks.clear();
+    f.graph().push_backs.clear();
+}
+
+void keep_holds(const FrameContext& f) {
+    World& w = f.w;
+    handhold::keep_holds({.scene_velocity_mps = w.reference_velocity_mps,
+                          .owner = w.hand_owner,
+                          .hand = w.hand_tracking,
+                          .body = w.body,
+                          .body_pose = w.body_pose,
+                          .body_velocity = w.body_velocity,
+                          .origin = w.player_origin,
+                          .grab = w.grab,
+                          .reference = w.reference_velocity});
 }
 
 }  // namespace handhold::stages

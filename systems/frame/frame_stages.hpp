@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstdint>
+
 #include "systems/frame/frame.hpp"
 #include "systems/grab/shared/grab_search.hpp"
+#include "systems/physics/accept_solution.hpp"
 
-// Runs the stages on a world's columns. frame.cpp and frame_of_host.cpp decide their order.
+// Each function runs one stage on a world's columns. frame.cpp alone decides their order.
 namespace handhold::stages {
 
 // The data that stages may need. Each function below passes its stage only the columns it uses.
@@ -40,12 +43,22 @@ void animate_movers(const FrameContext& f);
 void predict_bodies(const FrameContext& f);
 void anchor_grabs(const FrameContext& f);
 void find_contacts(const FrameContext& f);
+// Leaves the frame without contacts of ours, because the host finds them.
+void clear_contacts(const FrameContext& f);
 void build_constraints(const FrameContext& f);
 void solve_phases(const FrameContext& f);
 void finish_positions(const FrameContext& f);
-void update_velocities(const FrameContext& f);
+void solve_velocities(const FrameContext& f);
+void book_momentum(const FrameContext& f);
+void record_valid_poses(const FrameContext& f);
 void limit_velocities(const FrameContext& f);
 void update_joints(const FrameContext& f);
+// The host's solution, and StageStats::hand_error_m. Its time belongs to no stage.
+void accept_solution(const FrameContext& f, std::span<const SolvedPlayer> solved);
+// Leaves the frame without constraints and push-backs, because the host has moved everything.
+void clear_solution(const FrameContext& f);
+// Its time belongs to no stage.
+void keep_holds(const FrameContext& f);
 void discard_broken_results(const FrameContext& f);
 void gather_surroundings(const FrameContext& f);
 void search_grip(const FrameContext& f);
@@ -59,8 +72,17 @@ void propagate_spine(const FrameContext& f);
 void layer_additives(const FrameContext& f);
 void publish_pose(const FrameContext& f);
 void publish_body(const FrameContext& f);
-void show_hands(const FrameContext& f);
-void show_bodies(const FrameContext& f);
-void publish(const FrameContext& f);
+
+// The parts of a frame, in order: frame.cpp lists their stages.
+void read_input(const FrameContext& f);
+enum class Contacts : std::uint8_t { searched, from_host };
+void prepare_solve(const FrameContext& f, Contacts contacts);
+void solve(const FrameContext& f);
+void finish_solve(const FrameContext& f);
+void show(const FrameContext& f);
+// Checks the input and clears the statistics. Throws PreconditionError for invalid input.
+FrameContext begin_frame(World& world, FrameCaches& caches, const Tuning& tuning,
+                         const FrameInput& input, StageStats& stats);
+void advance_clock(const FrameContext& f);
 
 }  // namespace handhold::stages

@@ -9,7 +9,7 @@
 namespace handhold {
 
 struct KeepHoldsIo {
-    Vec3 scene_velocity_mps = Vec3::Zero();     // in: reference of players that hold nothing
+    Vec3 scene_velocity_mps;                    // in: reference of players that hold nothing
     const Column<HandOwner>& owner;             // in
     const Column<HandTracking>& hand;           // in: end of the frame
     const Column<RigidBody>& body;              // in

@@ -10,7 +10,7 @@
 namespace handhold {
 namespace {
 
-constexpr double k_lost_ratio = 1.5;  // of the reach: distance at which a pull ends
+constexpr double k_lost_ratio = 1.5;  // distance at which a pull ends, as a share of the reach
 
 PalmRay ray_of(const PullBodiesIo& io, Entity hand, const Pose& hand_ps, const HandTuning& tuning) {
     const HandOwner& owner = io.owner.at(hand);

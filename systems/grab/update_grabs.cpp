@@ -55,31 +55,24 @@ bool is_at_palm(const GrabTarget& target, const PalmRay& ray) {
 
 // Gives the hand a BodyHold if it grips a part of a player, and takes that of an earlier grip away.
 const BodyHold* hold_part(const UpdateGrabsIo& io, Entity hand, const GrabTarget& target) {
-    if (io.body_hold == nullptr) {
-        return nullptr;
-    }
-    io.body_hold->remove(hand);
+    io.body_hold.remove(hand);
     if (!target.part) {
         return nullptr;
     }
     const Pose part_ps = io.bodies().part_ps(target.body, *target.part);
-    return &io.body_hold->add(hand, {*target.part, part_ps, part_ps});
-}
-
-BodyHold* body_hold_of(const UpdateGrabsIo& io, Entity hand) {
-    return io.body_hold != nullptr ? io.body_hold->find(hand) : nullptr;
+    return &io.body_hold.add(hand, {*target.part, part_ps, part_ps});
 }
 
 // Grips on parts follow the shown bodies.
 void follow_parts(const UpdateGrabsIo& io, const HandTuning& tuning) {
     for (const Entity hand : io.grab.owners()) {
-        BodyHold* const hold = body_hold_of(io, hand);
+        BodyHold* const hold = io.body_hold.find(hand);
         if (hold == nullptr) {
             continue;
         }
         const Grab& grab = io.grab.at(hand);
         if (grab.kind != GripKind::player || !io.origin.contains(grab.body)) {
-            io.body_hold->remove(hand);
+            io.body_hold.remove(hand);
             continue;
         }
         const double share = swings(hold->part) ? io.dt_s / (io.dt_s + tuning.swing_lag_s) : 1.0;
@@ -205,7 +198,7 @@ void release_grab(const UpdateGrabsIo& io, std::size_t row, Fallback reason, Sta
             const Pose hand_ws =
                 io.origin.at(io.owner.at(hand).player).pose_ws * io.hand.at(hand).start_ps;
             staying.anchor_bs =
-                inverse(gripped_start_ws(io, staying.body, body_hold_of(io, hand))) * hand_ws;
+                inverse(gripped_start_ws(io, staying.body, io.body_hold.find(hand))) * hand_ws;
             staying.error_m = 0.0;
             stats.count(Fallback::grip_reanchored);
         }
@@ -256,7 +249,7 @@ void release_overstretched_grabs(const UpdateGrabsIo& io, double max_stretch_m, 
 // On a player's part, the distance is that from the surface point that was gripped.
 bool is_out_of_reach(const UpdateGrabsIo& io, Entity hand, const Vec3& palm_ws, double reach_m) {
     const Grab& grab = io.grab.at(hand);
-    if (const BodyHold* const hold = body_hold_of(io, hand)) {
+    if (const BodyHold* const hold = io.body_hold.find(hand)) {
         const Pose part_ws = gripped_start_ws(io, grab.body, hold);
         return (transform_point(part_ws, grab.hit_bs) - palm_ws).norm() > reach_m;
     }
@@ -332,10 +325,10 @@ void release_half_held_bodies(const UpdateGrabsIo& io, StageStats& stats) {
 }
 
 void carry_out_orders(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats) {
-    while (io.order != nullptr && !io.order->empty()) {
-        const Entity hand = io.order->owners().front();
-        const Entity body = io.order->rows().front().body;
-        io.order->remove(hand);
+    while (!io.order.empty()) {
+        const Entity hand = io.order.owners().front();
+        const Entity body = io.order.rows().front().body;
+        io.order.remove(hand);
         const std::size_t row = io.grab.find_row(hand);
         if (row >= io.grab.size()) {
             continue;  // no hand

@@ -8,14 +8,14 @@ namespace handhold {
 
 using UpdateGrabsIo = GrabSearch;  // systems/grab/shared/grab_search.hpp
 
-// Stage 2. A hand that closes grips, in this order:
+// A hand that closes grips, in this order:
 //  - an authored grip whose snap zone it is in (talk row 10): the one of the highest priority, of
 //    equal ones the one that moves the palm least. Grips that another hand occupies, or that an
 //    obstacle blocks, do not count;
 //  - the first surface on the palm ray (talk rows 2, 3), or one in reach of a higher
 //    GrabRule::priority;
 //  - the nearest surface within HandTuning::reach_m of the palm, from any angle. Other players'
-//    heads count as surfaces.
+//    heads, and their bodies as the last frame showed them, count as surfaces.
 // The hand must get there without crossing a wall: palm or surface must be visible from where the
 // palm was last outside of walls (HandSight), or from the head, or a hand's width beside those
 // lines. A palm pushed through a surface grips that surface.

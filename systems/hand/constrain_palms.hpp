@@ -23,7 +23,8 @@ struct ConstrainPalmsIo {
 //
 // A palm in an authored grip is held at the authored wrist. Talk row 10.
 //
-// Idempotent: the held pose of a hand tracked at its own held pose stays within 0.1 mm.
+// Idempotent with an error below 0.1 mm: so far the held pose of a hand that is tracked at its own
+// held pose moves.
 //
 // Fallbacks counted: none. search_grip counts hands without a surface, which are shown as tracked.
 void constrain_palms(const ConstrainPalmsIo& io);

@@ -12,15 +12,10 @@ namespace handhold {
 namespace {
 
 constexpr std::int32_t k_closing_rounds = 10;
-constexpr std::int32_t k_closing_again_rounds = 2;  // of a hand that shows a fit meanwhile
+constexpr std::int32_t k_closing_again_rounds = 2;  // rounds of a hand that shows a fit meanwhile
 // A warm fit continues in the next frame.
 constexpr std::int32_t k_rounds = 1;
 constexpr double k_max_flex_rad = 0.15;
-// Hysteresis: a hand that closes again while it grips changes to the new closing if that costs less
-// than this share of its last fit's cost.
-constexpr double k_change_cost_share = 0.75;
-// Travel of the tracked wrist up to which a fitted hand stays where it is on its surface.
-constexpr double k_stick_m = 1e-3;
 constexpr double k_deep_m = 3e-3;     // a fit that penetrates deeper is counted
 constexpr double k_fist_curl = 0.85;  // share of the range from open to fully curled
 

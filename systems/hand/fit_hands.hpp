@@ -13,8 +13,14 @@
 
 namespace handhold {
 
+// Hysteresis: a hand that closes again while it grips changes to the new closing if that costs less
+// than this share of its last fit's cost.
+inline constexpr double k_change_cost_share = 0.75;
+// Travel of the tracked wrist up to which a fitted hand stays where it is on its surface.
+inline constexpr double k_stick_m = 1e-3;
+
 struct FitHandsIo {
-    double dt_s = 0.0;                        // in: length of the frame; infinity: no rate limit
+    double dt_s;                              // in: length of the frame; infinity: no rate limit
     std::span<const HandSurroundings> hands;  // in: body frame (_bs)
     const Column<HandTracking>& hand;         // in: pressed, squeeze, trigger
     const Column<GripSurface>& surface;       // in: body frame (_bs)
@@ -28,10 +34,10 @@ struct FitHandsIo {
 //
 // A hand that has just closed starts at the palm within its limits and the closed digits
 // (constrain_palms, sweep_fingers). Other hands move on from last frame's fit, carried along with
-// the tracked wrist; while that has travelled less than 1 mm, the hand stays where it is on its
-// body. A hand that closes again while it grips tries both and changes only if the
-// closing costs less than 75 % of the other. The fit is kept while wrist and surroundings are
-// unchanged and another one would change nothing.
+// the tracked wrist; while that has travelled less than k_stick_m, the hand stays where it is on
+// its body. A hand that closes again while it grips tries both and changes only if the closing
+// costs less than k_change_cost_share of the other. The fit is kept while wrist and surroundings
+// are unchanged and another one would change nothing.
 //
 // A palm in an authored grip keeps the authored wrist. Digits with an authored pose keep it, or
 // move to their pressed pose with the trigger; other digits do not depend on the trigger. Fingers

@@ -9,8 +9,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_hand_length_m = 0.25;  // bodies closer to the palm than this are gathered
-
 class Gatherer {
   public:
     Gatherer(const GatherSurroundingsIo& io, StageStats& stats) : io_(io), stats_(stats) {}
@@ -21,8 +19,7 @@ class Gatherer {
         const Grab& grab = io_.grab.at(hand);
         const Pose tracked_ws = io_.origin.at(owner.player).pose_ws * io_.hand.at(hand).pose_ps;
         out.hand = hand;
-        const HandRigChoice* const choice =
-            io_.rig_choice != nullptr ? io_.rig_choice->find(hand) : nullptr;
+        const HandRigChoice* const choice = io_.rig_choice.find(hand);
         out.rig = choice != nullptr && choice->index < io_.more_rigs.size()
                       ? &io_.more_rigs[choice->index]
                       : &io_.rigs[index_of(owner.side)];
@@ -39,8 +36,7 @@ class Gatherer {
             return;
         }
         const BodyHold* const hold_on_part =
-            io_.body_hold != nullptr && grab.kind == GripKind::player ? io_.body_hold->find(hand)
-                                                                      : nullptr;
+            grab.kind == GripKind::player ? io_.body_hold.find(hand) : nullptr;
         out.body_ws = gripped_pose_ws(io_.body_pose, io_.origin, io_.head, grab.body, hold_on_part);
         out.wrist_bs = grab.anchor_bs;
         if (may_turn_on_grip(grab)) {
@@ -61,7 +57,7 @@ class Gatherer {
             add_to_signature(stream, grab.body, out.meshes.back());
             add_nearby_meshes(out, stream);
             out.signature = stream.value() | 1U;  // never 0, which means that there is no body
-        } else if ((io_.meshes != nullptr || io_.body_surface != nullptr) &&
+        } else if ((io_.meshes.of_shapes != nullptr || !io_.meshes.of_bodies.empty()) &&
                    io_.body_pose.contains(grab.body)) {
             stats_.count(Fallback::body_no_surface);
         }
@@ -78,11 +74,11 @@ class Gatherer {
     // Null: the hand is not fitted to parts.
     const GripMesh* enter_part(const BodyHold& hold, Entity player, HandSurroundings& out,
                                HashStream& stream) const {
-        if (io_.part_meshes == nullptr) {
+        if (io_.meshes.of_shapes == nullptr) {
             return nullptr;
         }
         const PartCapsule capsule =
-            part_capsule(io_.shown->at(player), io_.measures->at(player), hold.part);
+            part_capsule(io_.shown.at(player), io_.measures.at(player), hold.part);
         const auto [length, radius] = PartMeshes::size_of(capsule);
         stream.add(static_cast<std::uint64_t>(hold.part));
         stream.add(length);
@@ -90,22 +86,21 @@ class Gatherer {
         const Pose frame = PartMeshes::frame_of_mesh(capsule);
         out.body_ws = out.body_ws * frame;
         out.wrist_bs = inverse(frame) * out.wrist_bs;
-        return io_.part_meshes->find(capsule);
+        return io_.meshes.of_parts.find(capsule);
     }
 
     const GripMesh* mesh_of(Entity body) const {
         if (!io_.body_pose.contains(body)) {
             return nullptr;
         }
-        if (io_.body_surface != nullptr) {
-            if (const BodySurface* const own = io_.body_surface->find(body)) {
-                return own->mesh.get();
-            }
+        if (const BodySurface* const own = io_.meshes.of_bodies.find(body)) {
+            return own->mesh.get();
         }
         const Collider* const collider = io_.collider.find(body);
+        const GripMeshLibrary* const of_shapes = io_.meshes.of_shapes;
         const bool is_known =
-            io_.meshes != nullptr && collider != nullptr && io_.meshes->has(collider->shape);
-        return is_known ? &io_.meshes->at(collider->shape) : nullptr;
+            of_shapes != nullptr && collider != nullptr && of_shapes->has(collider->shape);
+        return is_known ? &of_shapes->at(collider->shape) : nullptr;
     }
 
     // Adds the body and its pose to the hash. The pose is rounded, so that tiny numerical
@@ -131,8 +126,8 @@ class Gatherer {
     void add_nearby_meshes(HandSurroundings& out, HashStream& stream) const {
         const Vec3 palm_ws =
             transform_point(out.body_ws, transform_point(out.wrist_bs, out.rig->palm_center_hs));
-        if (io_.collision == nullptr) {
-            for (const Entity body : io_.bodies) {
+        if (io_.near.collision == nullptr) {
+            for (const Entity body : io_.near.bodies) {
                 add_if_near(body, palm_ws, out, stream);
             }
             return;
@@ -142,11 +137,12 @@ class Gatherer {
         constexpr double k_slack_m = 0.05;
         const Vec3 reach_m = Vec3::Constant(k_hand_length_m + k_slack_m);
         for (const std::uint64_t id :
-             io_.collision->find_near(palm_ws - reach_m, palm_ws + reach_m)) {
-            const auto proxy = std::ranges::lower_bound(io_.proxies, id, {}, &ColliderProxy::id);
-            const auto i = static_cast<std::size_t>(proxy - io_.proxies.begin());
-            if (proxy != io_.proxies.end() && proxy->id == id) {
-                add_if_near(io_.bodies[i], palm_ws, out, stream);
+             io_.near.collision->find_near(palm_ws - reach_m, palm_ws + reach_m)) {
+            const auto proxy =
+                std::ranges::lower_bound(io_.near.proxies, id, {}, &ColliderProxy::id);
+            const auto i = static_cast<std::size_t>(proxy - io_.near.proxies.begin());
+            if (proxy != io_.near.proxies.end() && proxy->id == id) {
+                add_if_near(io_.near.bodies[i], palm_ws, out, stream);
             }
         }
     }

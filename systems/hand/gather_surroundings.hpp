@@ -19,48 +19,57 @@
 
 namespace handhold {
 
+inline constexpr double k_hand_length_m = 0.25;
+
+// Meshes that hands are fitted to.
+struct MeshesForHands {
+    // By shape. Null: hands are fitted neither to shapes nor to parts of players.
+    const GripMeshLibrary* of_shapes = nullptr;
+    const Column<BodySurface>& of_bodies;  // used instead of the mesh of the body's shape
+    const PartMeshes& of_parts;            // meshes of every part that a hand holds
+};
+
+// Where gather_surroundings looks for bodies near a hand.
+struct BodiesNearHands {
+    std::span<const Entity> bodies;  // bodies in an order independent of entity slots
+    // Has the colliders of `bodies`. Null: every body is tested.
+    const CollisionWorld* collision = nullptr;
+    std::span<const ColliderProxy> proxies =
+        {};  // proxies of `collision`, indexed like `bodies`, sorted by id
+};
+
 struct GatherSurroundingsIo {
-    // In: grip meshes by shape. Null: hands are not fitted to surfaces.
-    const GripMeshLibrary* meshes = nullptr;
-    const std::array<HandRig, k_hand_count>& rigs;  // in: by HandSide
-    // In: the bodies that may be near a hand, in an order independent of entity slots.
-    std::span<const Entity> bodies;
-    const Column<PersistentId>& persistent_id;  // in
-    const Column<HandOwner>& owner;             // in
-    const Column<HandTracking>& hand;           // in: pose_ps, end of the frame
-    const Column<Grab>& grab;                   // in: kind, body, anchor_bs
-    const Column<PlayerOrigin>& origin;         // in: pose_ws, end of the frame
-    const Column<HeadTracking>& head;           // in: pose_ps, for hands on a player's head
-    const Column<BodyPose>& body_pose;          // in: pose_ws, end of the frame
-    const Column<Collider>& collider;           // in: shape, the key into `meshes`
+    MeshesForHands meshes;                        // in
+    std::span<const HandRig, k_hand_count> rigs;  // in: by HandSide
+    std::span<const HandRig> more_rigs;           // in: by HandRigChoice::index
+    const Column<HandRigChoice>& rig_choice;      // in: without a row or a rig: `rigs`
+    BodiesNearHands near;                         // in: end of the frame
+    const Column<PersistentId>& persistent_id;    // in
+    const Column<HandOwner>& owner;               // in
+    const Column<HandTracking>& hand;             // in: pose_ps, end of the frame
+    const Column<Grab>& grab;                     // in: kind, body, anchor_bs
+    const Column<BodyHold>& body_hold;            // in: of hands on a player's part
+    const Column<PlayerOrigin>& origin;           // in: pose_ws, end of the frame
+    const Column<HeadTracking>& head;             // in: pose_ps, for hands on a player's head
+    const Column<RenderPose>& shown;              // in: held players, as of the last frame
+    const Column<BodyMeasures>& measures;         // in: held players
+    const Column<BodyPose>& body_pose;            // in: pose_ws, end of the frame
+    const Column<Collider>& collider;             // in: shape, the key into `meshes.of_shapes`
     // In. HandSurroundings::authored points into this column, so it must not change before the hand
     // stages have run.
     const Column<AuthoredHold>& authored_hold;
     std::vector<HandSurroundings>& surroundings;  // out: one per row of `owner`, in its order
-    // In: hands with a rig of their own, and these rigs. Null, or an index beyond: `rigs`.
-    const Column<HandRigChoice>* rig_choice = nullptr;
-    std::span<const HandRig> more_rigs = {};
-    // In: bodies that have their own grip mesh. It is used instead of the mesh of their shape.
-    const Column<BodySurface>* body_surface = nullptr;
-    // In: collision world with the colliders of `bodies`, used to find bodies near a hand.
-    // `proxies` are in the order of `bodies`, sorted by id. Null: every body is tested.
-    const CollisionWorld* collision = nullptr;
-    std::span<const ColliderProxy> proxies = {};
-    const Column<BodyHold>* body_hold = nullptr;  // in: of hands on a player's part
-    // In: meshes of the parts that hands hold, and the bodies as the last frame showed them. Null:
-    // hands on parts are shown as tracked.
-    const PartMeshes* part_meshes = nullptr;
-    const Column<RenderPose>* shown = nullptr;
-    const Column<BodyMeasures>* measures = nullptr;
 };
 
 // Collects each hand's wrist pose and the surfaces near the hand, in the gripped body's frame. This
 // is the first hand stage; the later ones read its output and their own columns.
 //
 // The wrist of a gripping hand is at its anchor. Its rotation is the tracked one, unless the
-// gripped object turns with the hand. A body is near if its mesh's bounding box is within 0.25 m of
-// the palm. Heads have no grip mesh: a hand that grips a head is shown as tracked. A hand on
-// another player's part is fitted to the part's capsule; the body's frame is then the capsule's.
+// gripped object turns with the hand. A body is near if its mesh's bounding box is within
+// k_hand_length_m of the palm. Heads have no grip mesh: a hand that grips a head is shown as
+// tracked. A hand on another player's part is fitted to the part's capsule; the body's frame is
+// then the capsule's.
+// Where `meshes` has no mesh for the gripped body, the hand is shown as tracked.
 //
 // Fallbacks counted: body_no_surface.
 void gather_surroundings(const GatherSurroundingsIo& io, StageStats& stats);

@@ -10,8 +10,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_search_again_m = 0.03;  // travel since the last search
-
 // The surface nearest to a palm in an authored grip. It seeds the searches of the closing fingers.
 GripSurface authored_grip_surface(const HandSurroundings& hand, const PalmTuning& tuning) {
     const PalmFitter fitter(hand, hand.authored->wrist_bs, tuning);
@@ -49,12 +47,6 @@ GripSurface surface_of_smallest_sync(const HandSurroundings& hand, const Tuning&
     return SurfaceCandidates(fitter, search, tuning.palm, scratch.patch).best(last);
 }
 
-GripSurface surface_of_ray(const HandSurroundings& hand, const Tuning& tuning) {
-    const PalmFitter fitter(hand, hand.wrist_bs, tuning.palm);
-    const auto hit = cast_palm_ray(fitter, tuning.hand);
-    return hit ? fitter.fit({hit->triangle, hit->point, 0.0}, {}).surface : GripSurface{};
-}
-
 // True if the result of the last search is of this body's mesh.
 bool is_valid(const HandSurroundings& hand, const GripSurface& surface) {
     return surface.body == hand.body &&
@@ -63,8 +55,7 @@ bool is_valid(const HandSurroundings& hand, const GripSurface& surface) {
 
 }  // namespace
 
-void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats,
-                 GripSearch search) {
+void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats) {
     for (const HandSurroundings& hand : io.hands) {
         GripSurface& surface = io.surface.at(hand.hand);
         if (is_null(hand.body) || hand.meshes.empty()) {
@@ -86,9 +77,7 @@ void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats
             continue;
         }
         const GripSurface last = has_last ? surface : GripSurface{};
-        surface = search == GripSearch::ray_only
-                      ? surface_of_ray(hand, tuning)
-                      : surface_of_smallest_sync(hand, tuning, last, io.scratch);
+        surface = surface_of_smallest_sync(hand, tuning, last, io.scratch);
         if (surface.triangle == GripSurface::k_none) {
             stats.count(Fallback::palm_no_surface);
         }

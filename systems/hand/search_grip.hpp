@@ -11,17 +11,13 @@
 
 namespace handhold {
 
-// How a palm's surface is chosen.
-enum class GripSearch : std::uint8_t {
-    smallest_sync,  // the surface of lowest full cost, see search_grip
-    ray_only,       // the surface that the palm ray hits; for comparisons
-};
+inline constexpr double k_search_again_m = 0.03;  // travel after which a hand searches again
 
 struct SearchGripIo {
     std::span<const HandSurroundings> hands;  // in: body frame (_bs)
     // In/out: last frame's result, then this frame's; body frame (_bs).
     Column<GripSurface>& surface;
-    GripSearchScratch& scratch;
+    GripSearchScratch& scratch;  // scratch: nothing is read from an earlier call
 };
 
 // Chooses the surface under each gripping palm: the one for which the palm must move least from its
@@ -34,13 +30,12 @@ struct SearchGripIo {
 // 2. Evaluation (shared/surface_candidates.hpp): the palm is fitted to candidates in the order of
 //    their closed-form costs, until no other candidate can be better.
 //
-// A hand searches when its grip begins, when its surroundings change, and after 3 cm of travel
-// (hand_travel_m: 0.3 rad of turn). In other frames its surface is kept.
+// A hand searches when its grip begins, when its surroundings change, and after k_search_again_m of
+// travel (hand_travel_m). In other frames its surface is kept.
 //
 // A palm in an authored grip gets the nearest triangle, without a search. Talk row 10.
 //
 // Fallbacks counted: palm_no_surface (GripSurface::triangle is k_none).
-void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats,
-                 GripSearch search = GripSearch::smallest_sync);
+void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats);
 
 }  // namespace handhold

@@ -8,8 +8,6 @@
 namespace handhold {
 namespace {
 
-// Travel of the held palm after which a hand closes again: fingers may reach other parts.
-constexpr double k_close_again_m = 0.08;
 constexpr double k_close_again_in_grip_m = 1e-6;  // authored poses are checked where they are
 
 void count_fallback(ChainFallback fallback, StageStats& stats) {
@@ -36,11 +34,8 @@ bool is_closing_due(const HandSurroundings& hand, const GripSurface& surface,
 
 class FingerCloser {
   public:
-    FingerCloser(const SweepFingersIo& io, const Tuning& tuning, SearchOrder order,
-                 StageStats& stats)
-        : io_(io), tuning_(tuning), settings_(chain_settings(tuning.finger)), stats_(stats) {
-        settings_.order = order;
-    }
+    FingerCloser(const SweepFingersIo& io, const Tuning& tuning, StageStats& stats)
+        : io_(io), tuning_(tuning), settings_(chain_settings(tuning.finger)), stats_(stats) {}
 
     void close(std::size_t hand_index) {
         const HandSurroundings& hand = io_.hands[hand_index];
@@ -157,9 +152,8 @@ class FingerCloser {
 
 }  // namespace
 
-void sweep_fingers(const SweepFingersIo& io, const Tuning& tuning, StageStats& stats,
-                   SearchOrder order) {
-    FingerCloser closer(io, tuning, order, stats);
+void sweep_fingers(const SweepFingersIo& io, const Tuning& tuning, StageStats& stats) {
+    FingerCloser closer(io, tuning, stats);
     for (std::size_t hand_index = 0; hand_index < io.hands.size(); ++hand_index) {
         closer.close(hand_index);
     }

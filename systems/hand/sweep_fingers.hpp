@@ -11,6 +11,9 @@
 
 namespace handhold {
 
+// Travel of the held palm after which a hand closes again: fingers may reach other parts.
+inline constexpr double k_close_again_m = 0.08;
+
 struct SweepFingersIo {
     std::span<const HandSurroundings> hands;  // in: body frame (_bs)
     const Column<GripSurface>& surface;       // in: body frame (_bs)
@@ -18,7 +21,7 @@ struct SweepFingersIo {
     Column<FingerPose>& fingers;              // in/out: closed and what it was closed for, radians
     // Out: by index in `hands`, for hands that close in this frame; or empty.
     std::span<std::array<FingerTrace, k_finger_count>> traces;
-    ChainFitScratch& scratch;
+    ChainFitScratch& scratch;  // scratch: nothing is read from an earlier call
 };
 
 // Closes all digits of a hand that begins to grip, until they touch the surfaces near it, with the
@@ -32,14 +35,13 @@ struct SweepFingersIo {
 // (shared/thumb_closing.hpp).
 //
 // A hand closes again on another body, at another place of the surface (search_grip), when it
-// enters or leaves an authored grip, and after 3 cm of travel.
+// enters or leaves an authored grip, and after k_close_again_m of travel.
 //
 // Digits with an authored pose take it, unless it penetrates by more than
 // FingerTuning::search_depth_m. Talk row 10.
 //
 // Fallbacks counted: finger_full_search, finger_depenetrated, finger_opened, finger_no_contact,
 // authored_finger_rejected.
-void sweep_fingers(const SweepFingersIo& io, const Tuning& tuning, StageStats& stats,
-                   SearchOrder order = SearchOrder::best_first);
+void sweep_fingers(const SweepFingersIo& io, const Tuning& tuning, StageStats& stats);
 
 }  // namespace handhold

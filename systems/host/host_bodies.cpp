@@ -135,7 +135,8 @@ hh_result hh_body_name(const hh_world* world, hh_body body, const char** name) {
         const hh_world& host = world_of(world);
         require(name != nullptr, HH_ERROR_NULL, "the output is null");
         const std::string_view found = name_of(host.world, body_of(host, body));
-        *name = found.empty() ? "" : found.data();  // of a std::string: it ends with 0
+        *name =
+            found.empty() ? "" : found.data();  // ends with 0, because it belongs to a std::string
     });
 }
 
@@ -272,6 +273,26 @@ hh_result hh_body_set_grab_rule(hh_world* world, hh_body body, bool left, bool r
     return call([&] {
         hh_world& host = world_of(world);
         set_rule(host, body_of(host, body), {left, right, two_hands, priority});
+    });
+}
+
+hh_result hh_body_get_kind(const hh_world* world, hh_body body, hh_body_kind* kind) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(kind != nullptr, HH_ERROR_NULL, "the output is null");
+        const BodyKind found = host.world.body.at(body_of(host, body)).kind;
+        *kind = found == BodyKind::fixed       ? HH_STATIC
+                : found == BodyKind::kinematic ? HH_KINEMATIC
+                                               : HH_DYNAMIC;
+    });
+}
+
+hh_result hh_body_mass(const hh_world* world, hh_body body, double* mass_kg) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(mass_kg != nullptr, HH_ERROR_NULL, "the output is null");
+        const RigidBody& rigid = host.world.body.at(body_of(host, body));
+        *mass_kg = rigid.kind == BodyKind::free ? rigid.mass_kg : 0.0;
     });
 }
 

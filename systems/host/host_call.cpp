@@ -12,6 +12,12 @@ namespace {
 constexpr std::size_t k_error_bytes = 512;
 thread_local std::array<char, k_error_bytes> t_last_error{};
 
+void check_thread_count(std::uint32_t count) {
+    constexpr std::uint32_t k_max_threads = 256;
+    require(count >= 1 && count <= k_max_threads, HH_ERROR_VALUE,
+            "thread_count must lie in [1, 256]");
+}
+
 hh_host_hooks& hooks() {
     static hh_host_hooks set = hh_default_host_hooks();
     return set;
@@ -87,6 +93,20 @@ void hh_version(uint32_t* major, uint32_t* minor, uint32_t* patch) {
 
 hh_pose hh_identity_pose(void) { return to_c(Pose{}); }
 
+void hh_sin_cos(double angle_rad, double* sine, double* cosine) {
+    double s = 0.0;
+    double c = 1.0;
+    sin_cos(angle_rad, s, c);
+    if (sine != nullptr) {
+        *sine = s;
+    }
+    if (cosine != nullptr) {
+        *cosine = c;
+    }
+}
+
+double hh_atan2(double y, double x) { return arc_tangent2(y, x); }
+
 hh_host_hooks hh_default_host_hooks(void) {
     hh_host_hooks set{};
     set.struct_size = sizeof set;
@@ -98,12 +118,21 @@ hh_result hh_set_host_hooks(const hh_host_hooks* wanted) {
     return call([&] {
         const hh_host_hooks defaults = hh_default_host_hooks();
         const hh_host_hooks set = wanted != nullptr ? read_def(wanted, defaults) : defaults;
-        constexpr std::uint32_t k_max_threads = 256;
-        require(set.thread_count >= 1 && set.thread_count <= k_max_threads, HH_ERROR_VALUE,
-                "thread_count must lie in [1, 256]");
+        check_thread_count(set.thread_count);
         require(world_count() == 0, HH_ERROR_STATE, "hooks are set before the first world");
         set_thread_count(set.parallel_for != nullptr ? 1 : static_cast<int>(set.thread_count));
         set_parallel_backend(set.parallel_for, set.context);
         hooks() = set;
     });
 }
+
+hh_result hh_set_thread_count(uint32_t count) {
+    return call([&] {
+        check_thread_count(count);
+        require(hooks().parallel_for == nullptr, HH_ERROR_STATE,
+                "the host lends its own threads by parallel_for");
+        set_thread_count(static_cast<int>(count));
+    });
+}
+
+uint32_t hh_thread_count(void) { return static_cast<uint32_t>(thread_count()); }

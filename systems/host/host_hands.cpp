@@ -101,6 +101,16 @@ hh_result hh_world_player_poses(const hh_world* world, const hh_player* players,
     });
 }
 
+hh_result hh_hand_moves_player(const hh_world* world, hh_player player, hh_side side,
+                               bool* moves_player) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(moves_player != nullptr, HH_ERROR_NULL, "the output is null");
+        const Entity hand = hand_of(host.world, player_of(host, player), side_of(side));
+        *moves_player = can_push_off(host.world.grab.at(hand));
+    });
+}
+
 hh_result hh_hand_grip(hh_world* world, hh_player player, hh_side side, hh_body body) {
     return call([&] {
         hh_world& host = world_of(world);

@@ -87,6 +87,23 @@ bool hh_joint_is_valid(const hh_world* world, hh_joint joint) {
     return world != nullptr && world->world.joint.contains(entity_of(joint));
 }
 
+hh_result hh_body_joints(const hh_world* world, hh_body body, hh_joint* joints, size_t capacity,
+                         size_t* count) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        const Entity entity = body_of(host, body);
+        std::vector<Entity> found;
+        for (std::size_t row = 0; row < host.world.joint.size(); ++row) {
+            const Joint& joint = host.world.joint.rows()[row];
+            if (joint.a == entity || joint.b == entity) {
+                found.push_back(host.world.joint.owners()[row]);
+            }
+        }
+        write_list(found.size(), joints, capacity, count,
+                   [&](std::size_t i) { return id_of<hh_joint>(found[i]); });
+    });
+}
+
 hh_result hh_joint_state(const hh_world* world, hh_joint joint, double* coordinate, double* speed,
                          bool* latched) {
     return call([&] {

@@ -40,7 +40,7 @@ void place(World& world, const ToldMotion& motion) {
     if (LastValidPose* const valid = world.last_valid.find(motion.body)) {
         *valid = {motion.pose_ws, true};
     }
-    if (kind == BodyKind::kinematic) {  // it rests there unless the host says where it goes
+    if (kind == BodyKind::kinematic) {  // stays there unless the host says where it goes
         if (MoveTarget* const target = world.move_target.find(motion.body)) {
             target->pose_ws = motion.pose_ws;
         } else {
@@ -187,7 +187,7 @@ hh_result hh_world_held_bodies(const hh_world* world, hh_body* bodies, size_t ca
                                size_t* count) {
     return call([&] {
         const hh_world& host = world_of(world);
-        std::vector<Entity> held;  // without those that were removed since
+        std::vector<Entity> held;  // bodies that still exist
         std::ranges::copy_if(host.held_bodies, std::back_inserter(held),
                              [&](Entity body) { return host.world.body.contains(body); });
         write_list(held.size(), bodies, capacity, count,

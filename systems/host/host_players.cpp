@@ -1,4 +1,5 @@
 // Players of the C interface (handhold/players.h).
+#include "components/play_space.hpp"
 #include "components/world_edit.hpp"
 #include "systems/host/host_world.hpp"
 #include "systems/input/read_tracking.hpp"
@@ -50,7 +51,8 @@ hh_result hh_player_add(hh_world* world, const hh_player_def* wanted, hh_player*
                     "the name of one of the player's hands is taken");
         }
         constexpr double k_max_scale = 100.0;
-        const double scale = checked(def.scale, 1e-3, k_max_scale, "scale must lie in (0, 100]");
+        const double scale =
+            checked(def.scale, 1e-3, k_max_scale, "scale must lie in [0.001, 100]");
         PlayerDescription description;
         description.name = name;
         description.body.mass_kg = def.mass_kg;
@@ -122,6 +124,34 @@ hh_result hh_player_set_velocity(hh_world* world, hh_player player, hh_vec3 velo
     });
 }
 
+hh_result hh_player_reference_velocity(const hh_world* world, hh_player player,
+                                       hh_vec3* velocity_mps) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(velocity_mps != nullptr, HH_ERROR_NULL, "the output is null");
+        *velocity_mps = to_c(host.world.reference_velocity.at(player_of(host, player)).linear_mps);
+    });
+}
+
+hh_result hh_player_head(const hh_world* world, hh_player player, hh_vec3* center, double* radius_m,
+                         bool* is_tracked) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        const Entity entity = player_of(host, player);
+        const HeadTracking& head = host.world.head_tracking.at(entity);
+        if (center != nullptr) {
+            *center = to_c(transform_point(host.world.player_origin.at(entity).pose_ws,
+                                           head_center_ps(head, host.tuning.head)));
+        }
+        if (radius_m != nullptr) {
+            *radius_m = host.tuning.head.radius_m;
+        }
+        if (is_tracked != nullptr) {
+            *is_tracked = head.state == TrackingState::tracked;
+        }
+    });
+}
+
 hh_result hh_player_measures(const hh_world* world, hh_player player, hh_measures* measures) {
     return call([&] {
         const hh_world& host = world_of(world);
@@ -185,5 +215,14 @@ hh_result hh_player_hand_in_controller(const hh_world* world, hh_player player, 
         *hand_in_controller =
             to_c(own != nullptr ? own->hand_in_controller
                                 : default_controller_to_hand(which, host.tuning.hand));
+    });
+}
+
+hh_result hh_world_hand_in_controller(const hh_world* world, hh_side side,
+                                      hh_pose* hand_in_controller) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(hand_in_controller != nullptr, HH_ERROR_NULL, "the output is null");
+        *hand_in_controller = to_c(default_controller_to_hand(side_of(side), host.tuning.hand));
     });
 }

@@ -11,13 +11,14 @@
 namespace handhold {
 namespace {
 
-// External buffers are looked for beside this file, which does not exist: data must be inside.
-constexpr const char* k_memory_file = "/nonexistent/memory.glb";
-
+// `name` stands for the file in messages: bytes in memory have none, and no file is read beside
+// them.
 template <typename T>
-T value_or_throw(Result<T> result) {
+T value_or_throw(Result<T> result, const char* name) {
     if (!result) {
-        throw HostError{HH_ERROR_DATA, result.error().message()};
+        FileError error = result.error();
+        error.file = name;
+        throw HostError{HH_ERROR_DATA, error.message()};
     }
     return std::move(result.value());
 }
@@ -80,8 +81,8 @@ hh_result hh_player_set_hand_rig(hh_world* world, hh_player player, hh_side side
             return;
         }
         const SkinnedMesh skin =
-            value_or_throw(parse_gltf_skin(text_of_bytes(gltf, size), k_memory_file));
-        HandRig rig = value_or_throw(hand_rig_from_skin(skin, which));
+            value_or_throw(parse_gltf_skin(text_of_bytes(gltf, size), {}), "hand rig");
+        HandRig rig = value_or_throw(hand_rig_from_skin(skin, which), "hand rig");
         const auto index = static_cast<std::uint32_t>(host.caches.more_hand_rigs.size());
         host.caches.more_hand_rigs.push_back(std::move(rig));
         host.world.hand_rig.remove(hand);
@@ -98,8 +99,8 @@ hh_result hh_player_set_body_rig(hh_world* world, hh_player player, const void* 
             return;
         }
         const SkinnedMesh figure =
-            value_or_throw(parse_gltf_figure(text_of_bytes(gltf, size), k_memory_file));
-        auto rig = std::make_unique<BodyRig>(value_or_throw(fit_body_rig(figure)));
+            value_or_throw(parse_gltf_figure(text_of_bytes(gltf, size), {}), "body rig");
+        auto rig = std::make_unique<BodyRig>(value_or_throw(fit_body_rig(figure), "body rig"));
         host.body_rigs.remove(entity);
         host.body_rigs.add(entity, {std::move(rig), {}});
     });
@@ -108,9 +109,10 @@ hh_result hh_player_set_body_rig(hh_world* world, hh_player player, const void* 
 hh_result hh_world_load_body_clips(hh_world* world, const char* json, size_t size) {
     return call([&] {
         hh_world& host = world_of(world);
-        host.caches.body_clips = json == nullptr
-                                     ? BodyClips{}
-                                     : value_or_throw(parse_body_clips({json, size}, "body clips"));
+        host.caches.body_clips =
+            json == nullptr
+                ? BodyClips{}
+                : value_or_throw(parse_body_clips({json, size}, "body clips"), "body clips");
     });
 }
 

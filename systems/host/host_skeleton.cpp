@@ -19,7 +19,7 @@ constexpr std::size_t k_joints_of_finger = 5;
 std::size_t joint_of(FingerName finger, HandBone bone) {
     const auto number = static_cast<std::size_t>(finger);
     const auto at = static_cast<std::size_t>(bone);
-    if (finger == FingerName::thumb) {  // it has no intermediate bone
+    if (finger == FingerName::thumb) {  // a thumb has no intermediate bone
         return k_thumb_finger + (bone >= HandBone::intermediate ? at - 1 : at);
     }
     return k_first_finger + (number - 1) * k_joints_of_finger + at;
@@ -98,7 +98,7 @@ PosedHandJoints pose_hand_joints(const HandRig& rig,
     PosedHandJoints out;
     const double palm_radius_m = rig.palm.empty() ? 0.0 : rig.palm.front().radius_m;
     Vec3 palm_hs = rig.palm_center_hs;
-    palm_hs.y() = 0.0;  // from the skin to the bones
+    palm_hs.y() = 0.0;  // moves from the skin to the bones
     out[k_palm] = {wrist_ws * Pose{palm_hs, Quat::Identity()}, palm_radius_m, true};
     out[k_wrist] = {wrist_ws, palm_radius_m, true};
     for (std::size_t i = 0; i < rig.fingers.size(); ++i) {

@@ -5,29 +5,10 @@
 #include "components/play_space.hpp"
 #include "systems/frame/frame_of_host.hpp"
 #include "systems/host/host_step.hpp"
-#include "systems/physics/shared/player_share.hpp"
+#include "systems/physics/shared/mass_shares.hpp"
 
 namespace handhold {
 namespace {
-
-// Mass of the player's body for the host's solver, in kg. A player who grips no surface counts as
-// heavier than the bodies that they hold (least_player_share).
-double mass_for_host(const hh_world& host, Entity player) {
-    const FrameGraph& frame = host.caches.graph;
-    const double mass_kg = host.world.player.at(player).mass_kg;
-    const std::size_t index = find_body(frame.graph, host.world.persistent_id.at(player).value);
-    if (index >= frame.phase.size() || frame.phase[index].grips_surface) {
-        return mass_kg;
-    }
-    double heaviest_kg = 0.0;
-    for (const RowBlock& block : frame.hand_blocks) {
-        if (block.a == index) {
-            heaviest_kg = std::max(heaviest_kg, frame.graph.bodies[block.b].mass_kg);
-        }
-    }
-    const double least_share = least_player_share(heaviest_kg, mass_kg);
-    return mass_kg / std::max(frame.phase[index].forward_share, least_share);
-}
 
 hh_hand_constraint constraint_of(const hh_world& host, const RowBlock& block, double dt_s) {
     const World& world = host.world;
@@ -52,7 +33,7 @@ hh_hand_constraint constraint_of(const hh_world& host, const RowBlock& block, do
     const Quat body_rotation = block.kind == RowKind::drive_direction
                                    ? Quat(play_space * block.rotation_a_bs)
                                    : Quat(target.rotation * grab.anchor_bs.rotation.conjugate());
-    const Pose frame_bs = to_host_bs(host, grab.body, {});  // of the library, in the host's
+    const Pose frame_bs = to_host_bs(host, grab.body, {});  // library's frame in the host's
     out.body_rotation =
         to_c(Pose{Vec3::Zero(), (body_rotation * frame_bs.rotation.conjugate()).normalized()})
             .rotation;
@@ -73,7 +54,10 @@ hh_player_motion motion_of(const hh_world& host, Entity player) {
     out.player = id_of<hh_player>(player);
     out.origin = to_c(world.player_start.at(player).pose_ws.position);
     out.velocity_mps = to_c(world.player_velocity.at(player).linear_mps);
-    out.mass_kg = mass_for_host(host, player);
+    const FrameGraph& frame = host.caches.graph;
+    out.mass_kg =
+        mass_for_host_kg(frame, find_body(frame.graph, world.persistent_id.at(player).value),
+                         world.player.at(player).mass_kg);
     out.head = to_c(Pose{play_space * head_center_ps(head, host.tuning.head),
                          (play_space * head.pose_ps.rotation).normalized()});
     out.head_radius_m = host.tuning.head.radius_m;

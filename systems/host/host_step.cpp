@@ -2,6 +2,7 @@
 #include "systems/host/host_step.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <limits>
 
@@ -15,9 +16,9 @@ constexpr double k_max_step_s = 10.0;
 
 // Poses that are not tracked, or that no tracking gives, become NaN: read_tracking ignores them.
 Pose tracked_or_invalid(const Pose& pose, bool is_tracked) {
-    constexpr double k_farthest_m = 1e4;
     Pose read;
-    if (is_tracked && is_valid(pose) && pose.position.cwiseAbs().maxCoeff() < k_farthest_m) {
+    if (is_tracked && is_valid(pose) &&
+        pose.position.cwiseAbs().maxCoeff() < k_farthest_tracked_m) {
         return pose;
     }
     read.position.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -26,9 +27,9 @@ Pose tracked_or_invalid(const Pose& pose, bool is_tracked) {
 
 // A host that computes a step's end in another way than the world's clock, such as by dividing a
 // frame's number, differs from it by rounding.
-TrackingSample read_sample(const hh_tracking_sample& sample, double end_s) {
-    constexpr double k_rounding_s = 1e-6;
-    const bool is_at_end = sample.time_s > end_s && sample.time_s <= end_s + k_rounding_s;
+TrackingSample read_sample(const hh_tracking_sample& sample, double end_s, bool is_exact) {
+    const double rounding_s = is_exact ? 0.0 : 1e-6;
+    const bool is_at_end = sample.time_s > end_s && sample.time_s <= end_s + rounding_s;
     TrackingSample read;
     read.t_s = is_at_end ? end_s : sample.time_s;
     read.head_ps = tracked_or_invalid(unchecked_pose(sample.head), sample.head_tracked);
@@ -83,16 +84,23 @@ const hh_player_input& input_at(const hh_player_input* inputs, std::size_t i) {
     return *reinterpret_cast<const hh_player_input*>(bytes + i * inputs->struct_size);
 }
 
+// Of any version: `repeats_samples` came after the first.
+hh_player_input read_input(const hh_player_input* inputs, std::size_t i) {
+    return read_def(&input_at(inputs, i), hh_default_player_input(),
+                    offsetof(hh_player_input, repeats_samples));
+}
+
 }  // namespace
 
 void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std::size_t count) {
     checked(dt_s, k_min_step_s, k_max_step_s, "dt_s must lie in [1e-6, 10]");
     require(count == 0 || inputs != nullptr, HH_ERROR_NULL, "the inputs are null");
     host.inputs.clear();
+    host.repeats_samples.clear();
     host.samples.clear();
     std::size_t sample_count = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const hh_player_input input = read_def(&input_at(inputs, i), hh_default_player_input());
+        const hh_player_input input = read_input(inputs, i);
         require(input.sample_count == 0 || input.samples != nullptr, HH_ERROR_NULL,
                 "an input's samples are null");
         constexpr std::size_t k_max_samples = 1U << 16U;
@@ -103,28 +111,32 @@ void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std
             require(other.player != player, HH_ERROR_VALUE, "a player has two inputs");
         }
         host.inputs.push_back({player, {}, read_commands(input.commands)});
+        host.repeats_samples.push_back(input.repeats_samples ? 1 : 0);
         sample_count += input.sample_count;
     }
     const double end_s = host.world.clock.t_s + dt_s;
     host.samples.reserve(sample_count + count);  // spans into it must not move
     for (std::size_t i = 0; i < count; ++i) {
-        const hh_player_input& input = input_at(inputs, i);
+        const hh_player_input input = read_input(inputs, i);
         const std::size_t first = host.samples.size();
         const EarlySample* const early = host.world.early_sample.find(host.inputs[i].player);
         if (early != nullptr && (input.sample_count == 0 || input.samples[0].time_s > early->t_s)) {
             host.samples.push_back(read_sample(*early));
         }
         for (std::size_t j = 0; j < input.sample_count; ++j) {
-            host.samples.push_back(read_sample(input.samples[j], end_s));
+            host.samples.push_back(read_sample(input.samples[j], end_s, input.repeats_samples));
         }
         host.inputs[i].samples = {host.samples.data() + first, host.samples.size() - first};
     }
 }
 
 void keep_early_samples(hh_world& host, double end_s) {
-    constexpr double k_latest_s = 1e9;
-    for (const PlayerInput& input : host.inputs) {
+    for (std::size_t i = 0; i < host.inputs.size(); ++i) {
+        const PlayerInput& input = host.inputs[i];
         host.world.early_sample.remove(input.player);
+        if (host.repeats_samples[i] != 0) {
+            continue;
+        }
         for (const TrackingSample& sample : input.samples) {
             if (sample.t_s > end_s && sample.t_s <= k_latest_s) {
                 host.world.early_sample.add(input.player, early_of(sample));
@@ -279,6 +291,22 @@ hh_result hh_world_set_reference_velocity(hh_world* world, hh_vec3 velocity_mps)
         World& state = world_of(world).world;
         state.reference_velocity_mps = checked(velocity_mps, world_limits::k_max_speed_mps,
                                                "a reference velocity beyond 1e6 m/s, or NaN");
+    });
+}
+
+hh_result hh_world_gravity(const hh_world* world, hh_vec3* gravity_mps2) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(gravity_mps2 != nullptr, HH_ERROR_NULL, "the output is null");
+        *gravity_mps2 = to_c(host.world.gravity_mps2);
+    });
+}
+
+hh_result hh_world_reference_velocity(const hh_world* world, hh_vec3* velocity_mps) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(velocity_mps != nullptr, HH_ERROR_NULL, "the output is null");
+        *velocity_mps = to_c(host.world.reference_velocity_mps);
     });
 }
 

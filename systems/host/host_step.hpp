@@ -5,7 +5,7 @@
 // Work that the step functions of the C interface share: it runs before and after their stages.
 namespace handhold {
 
-// Checks and fills host.inputs. Nothing else changes.
+// Checks the inputs and fills host.inputs and host.samples. Nothing else changes.
 void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std::size_t count);
 // For each player with an input, keeps the first sample after the step's end and drops the old one.
 // A player without an input keeps the old sample.

@@ -1,6 +1,7 @@
 // Tuning and statistics of the C interface (handhold/world.h).
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdio>
 #include <numeric>
 #include <string>
@@ -158,7 +159,17 @@ hh_result hh_world_get_stats(const hh_world* world, hh_world_stats* stats) {
         read.overlap_m = last.residual_m;
         read.joint_error_m = last.joint_error_m;
         read.step_us = std::accumulate(last.stage_us.begin(), last.stage_us.end(), 0.0);
-        write_out(stats, read);
+        read.joint_error_rad = last.joint_error_rad;
+        read.islands_pushed = last.islands_pushed;
+        read.contact_rounds = last.contact_rounds;
+        read.hands_closed = last.grab_onsets;
+        read.hands_gripped = last.grabs_gripped;
+        static_assert(int{MomentumLedger::receiver_count} == int{HH_MOMENTUM_RECEIVERS});
+        for (std::size_t i = 0; i < MomentumLedger::receiver_count; ++i) {
+            read.momentum.linear_kgmps[i] = to_c(last.ledger.linear_kgmps[i]);
+            read.momentum.angular_kgm2ps[i] = to_c(last.ledger.angular_kgm2ps[i]);
+        }
+        write_out(stats, read, offsetof(hh_world_stats, joint_error_rad));
     });
 }
 

@@ -27,8 +27,11 @@ const HostShape* moved_shape_of(const hh_world& host, Entity body) {
     if (collider == nullptr || collider->shape == k_no_shape) {
         return nullptr;
     }
-    const HostShape& shape = host.host_shapes[collider->shape.index];
-    return shape.is_moved ? &shape : nullptr;
+    // Shapes that a source embedder adds to the library have no entry.
+    const std::size_t index = collider->shape.index;
+    return index < host.host_shapes.size() && host.host_shapes[index].is_moved
+               ? &host.host_shapes[index]
+               : nullptr;
 }
 
 Pose host_pose_of(const hh_world& host, Entity body) {
@@ -53,7 +56,7 @@ Pose from_host_bs(const hh_world& host, Entity body, const Pose& pose_bs) {
 }
 
 std::string new_name(const hh_world& host, const char* name, const char* kind) {
-    require_idle(host);  // it is called to add an entity
+    require_idle(host);  // called to add an entity
     std::string made;
     if (name != nullptr) {
         made = name;

@@ -22,7 +22,7 @@ namespace handhold {
 
 // What the C interface knows of a shape id beyond the library's entry.
 struct HostShape {
-    std::uint32_t generation = 0;  // of the id's current or last shape
+    std::uint32_t generation = 0;  // generation of the id's current or last shape
     // The library's frame (centre of mass, principal axes) in the frame in which the host made the
     // shape.
     Pose frame;
@@ -44,8 +44,8 @@ struct HandReport {
     Entity body = k_no_entity;
     bool is_player = false;  // `body` is one
     double since_s = 0.0;
-    Vec3 impulse_ns = Vec3::Zero();  // on what it grips
-    Entity touched = k_no_entity;    // by the open palm
+    Vec3 impulse_ns = Vec3::Zero();  // impulse on the gripped entity
+    Entity touched = k_no_entity;    // entity that the open palm touches
 };
 
 struct JointReport {
@@ -87,8 +87,8 @@ struct hh_world {
 
     hh_world_def settings;
     handhold::ShapeLibrary shapes;
-    std::vector<handhold::HostShape> host_shapes;  // by ShapeId::index
-    std::vector<handhold::ShapeId> head_shapes;    // of players; they stay
+    std::vector<handhold::HostShape> host_shapes;  // indexed by ShapeId::index
+    std::vector<handhold::ShapeId> head_shapes;    // shapes of players' heads, which stay
     handhold::GripMeshLibrary grip_meshes;
     handhold::World world;
     handhold::Tuning tuning;
@@ -97,27 +97,32 @@ struct hh_world {
 
     // Not state: none of it changes what a step computes.
     handhold::Column<handhold::UserData> user_data;
-    handhold::Column<handhold::BodyRigSlot> body_rigs;  // by player
+    handhold::Column<handhold::BodyRigSlot> body_rigs;  // indexed by player
     handhold::Column<handhold::HandReport> hands;
     handhold::Column<handhold::JointReport> joints;
-    std::vector<handhold::HostContact> contacts;       // of the last step
-    std::vector<handhold::HostContact> last_contacts;  // of the step before
+    std::vector<handhold::HostContact> contacts;       // contacts of the last step
+    std::vector<handhold::HostContact> last_contacts;  // contacts of the step before
     std::vector<hh_event> events;
 
     // Scratch of a step.
-    std::vector<double> impulse_shares;  // by constraint block: what is reported of its impulse
+    std::vector<double> impulse_shares;  // reported share of each constraint block's impulse
     std::vector<handhold::PlayerInput> inputs;
+    std::vector<std::uint8_t> repeats_samples;  // indexed by index of `inputs`
     std::vector<handhold::TrackingSample> samples;
     std::vector<std::byte> snapshot;
     // Of the shapes at `assets_revision`.
     std::optional<handhold::SnapshotAssets> assets;
     std::uint64_t assets_revision = 0;
     bool may_recycle_shapes = false;  // shapes were removed since the last step
+    // Colliders are where bodies and heads are: no call has changed the world since a query.
+    bool has_placed_colliders = false;
+    std::vector<std::uint64_t> near_ids;  // scratch of queries
+    std::vector<hh_hit> hits;             // scratch of queries
 
     // Of hosts with physics of their own.
     handhold::HostSurfaces surfaces;
-    handhold::StageStats search_stats;  // of queries between steps: ignored
-    bool is_stepping = false;           // between hh_world_begin_step and hh_world_end_step
+    handhold::StageStats search_stats;  // counters of queries between steps: ignored
+    bool is_stepping = false;           // true between hh_world_begin_step and hh_world_end_step
     double begun_dt_s = 0.0;
     std::vector<hh_hand_constraint> hand_constraints;
     std::vector<hh_player_motion> player_motions;
@@ -125,8 +130,9 @@ struct hh_world {
     std::vector<handhold::Entity> held_bodies;  // free bodies that hands held in the last step
     std::vector<handhold::SolvedPlayer> solved_players;     // scratch
     std::vector<handhold::BodyVelocity> solved_velocities;  // scratch, by row
-    std::vector<handhold::BodyVelocity> begun_velocities;   // by row, before hh_world_begin_step
-    std::vector<std::uint8_t> are_placed;                   // by row, since then
+    std::vector<handhold::BodyVelocity>
+        begun_velocities;  // velocities before hh_world_begin_step, indexed like the column
+    std::vector<std::uint8_t> are_placed;  // 1: placed since then; indexed like the column
 };
 // NOLINTEND(readability-identifier-naming)
 
@@ -137,6 +143,7 @@ inline hh_world& world_of(hh_world* world) {
     require(world != nullptr, HH_ERROR_NULL, "the world is null");
     require(!world->surfaces.is_asking(), HH_ERROR_STATE,
             "the world is asking your surface query: calls inside of it may only read");
+    world->has_placed_colliders = false;
     return *world;
 }
 inline const hh_world& world_of(const hh_world* world) {
@@ -184,7 +191,8 @@ Pose to_host_bs(const hh_world& host, Entity body, const Pose& pose_bs);
 Pose from_host_bs(const hh_world& host, Entity body, const Pose& pose_bs);
 
 // The name, or one made of the id that the next entity gets, which is part of the state: so replays
-// after a restore give equal names. HH_ERROR_NAME if it is taken.
+// after a restore give equal names. HH_ERROR_NAME if it is taken; HH_ERROR_STATE inside a begun
+// step.
 std::string new_name(const hh_world& host, const char* name, const char* kind);
 
 // Removes an entity from the world and from all that this layer knows of it.

@@ -87,7 +87,7 @@ bool is_plausible(const HandTracking& hand, const HandHistory& history, const Po
 struct HandReader {
     HandTracking& hand;
     HandHistory& history;
-    PlaySpaceTracker space;  // from the end of the last frame
+    PlaySpaceTracker space;  // state at the end of the last frame
     HandSide side;
     const ReadTrackingIo& io;
     const Tuning& tuning;
@@ -134,9 +134,9 @@ struct HandReader {
         if (jumps_to(hand_ps)) {
             has_jumped = true;
             if (hand.reading_t_s > hand.sample_t_s) {
-                clear(history);  // it jumped: no velocity
+                clear(history);  // no velocity after a jump
             }
-            if (hand.edge == GrabEdge::onset) {  // it closes where it is now
+            if (hand.edge == GrabEdge::onset) {  // the hand closes where it is now
                 hand.edge_ps = hand_ps;
                 hand.edge_t_s = std::max(t_s, io.frame_start_s);
             }

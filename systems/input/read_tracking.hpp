@@ -12,8 +12,8 @@ namespace handhold {
 
 struct ReadTrackingIo {
     std::span<const PlayerInput> inputs;  // in: at most one per player; without one, poses are held
-    double frame_start_s = 0.0;           // in
-    double frame_end_s = 0.0;             // in: > frame_start_s
+    double frame_start_s;                 // in
+    double frame_end_s;                   // in: > frame_start_s
     const Column<HandOwner>& owner;       // in
     const Column<ControllerToHand>& controller_to_hand;  // in: hands without it use Tuning's
     Column<HeadTracking>& head;                          // in/out
@@ -22,9 +22,9 @@ struct ReadTrackingIo {
     Column<PlayerCommands>& commands;                    // out
 };
 
-// Stage 1. Resamples devices of any rate to the frame clock. Poses at the end of the frame are
-// interpolated if a later sample is known, and held otherwise. Button edges keep the time and pose
-// of their sample.
+// Resamples devices of any rate to the frame clock. Poses at the end of the frame are interpolated
+// if a later sample is known, and held otherwise. Button edges keep the time and pose of their
+// sample.
 //
 // Ignored, and counted: samples out of order; poses that are not finite; a controller at exactly
 // (0, 0, 0); a hand farther than max_arm_m from its head; a hand that would have moved faster than

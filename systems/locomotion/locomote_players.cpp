@@ -66,11 +66,9 @@ void turn_about(PlayerOrigin& origin, const Vec3& pivot_ps, const Quat& turn_ws)
 // parts (update_grabs).
 void keep_holds_in_place(const LocomotePlayersIo& io, Entity player, const Pose& before_ws,
                          const Pose& now_ws) {
-    const std::span<const Entity> hands =
-        io.body_hold != nullptr ? io.body_hold->owners() : std::span<const Entity>();
-    for (const Entity hand : hands) {
+    for (const Entity hand : io.body_hold.owners()) {
         if (io.grab.at(hand).body == player) {
-            BodyHold& hold = io.body_hold->at(hand);
+            BodyHold& hold = io.body_hold.at(hand);
             const Pose turned = inverse(now_ws) * before_ws;
             hold.start_ps = turned * hold.start_ps;
             hold.pose_ps = turned * hold.pose_ps;

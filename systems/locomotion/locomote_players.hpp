@@ -12,8 +12,8 @@
 namespace handhold {
 
 struct LocomotePlayersIo {
-    double dt_s = 0.0;                          // in
-    Vec3 scene_velocity_mps = Vec3::Zero();     // in: reference until something is gripped
+    double dt_s;                                // in
+    Vec3 scene_velocity_mps;                    // in: reference until something is gripped
     const Column<PlayerCommands>& commands;     // in
     const Column<HeadTracking>& head;           // in
     const Column<HandOwner>& owner;             // in
@@ -21,16 +21,16 @@ struct LocomotePlayersIo {
     const Column<Grab>& grab;                   // in
     const Column<BodyPose>& body_pose;          // in: at the start of the frame
     const Column<BodyVelocity>& body_velocity;  // in
-    Column<PlayerOrigin>& origin;           // in/out: turned about the gripping hand, else the head
-    Column<PlayerVelocity>& velocity;       // in/out
-    Column<ReferenceVelocity>& reference;   // in/out
-    Column<BodyHold>* body_hold = nullptr;  // in/out: kept in place when the held player turns
+    Column<PlayerOrigin>& origin;          // in/out: turned about the gripping hand, else the head
+    Column<PlayerVelocity>& velocity;      // in/out
+    Column<ReferenceVelocity>& reference;  // in/out
+    Column<BodyHold>& body_hold;           // in/out: kept in place when the held player turns
 };
 
-// Stage 2b. Moves players by their commands: snap and smooth turns, brake, thrusters. Updates the
-// reference velocity, and turns the play space with a support as LocomotionTuning::support_follow
-// says. Two hands on one turning body always make the play space follow it fully: two fixed points
-// allow no other motion.
+// Moves players by their commands: snap and smooth turns; brake and thrusters while no hand is on a
+// surface. Updates the reference velocity, and turns the play space with a support as
+// LocomotionTuning::support_follow says. Two hands on one turning body always make the play space
+// follow it fully: two fixed points allow no other motion.
 void locomote_players(const LocomotePlayersIo& io, const LocomotionTuning& tuning);
 
 }  // namespace handhold

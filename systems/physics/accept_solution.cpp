@@ -61,7 +61,6 @@ void throw_released(const AcceptSolutionIo& io, const RowBlock& block, bool is_w
 }  // namespace
 
 double accept_solution(const AcceptSolutionIo& io) {
-    constexpr double k_follows_m = 1e-3;
     write_solved_bodies(io);
     for (Grab& grab : io.grab.rows()) {
         grab.error_m = 0.0;

@@ -8,14 +8,18 @@
 #include "components/player.hpp"
 #include "engine/ecs/column.hpp"
 
-// Takes the results of a host's own solver for the frame's hand constraints. Replaces solve_phases,
-// finish_positions and update_velocities.
+// Takes the results of a host's own solver for the frame's hand constraints. Replaces the stages
+// from solve_phases to record_valid_poses.
 //
-// A hand that lets go throws at its release velocity, as after update_velocities, because a
-// solver's velocity also contains its position corrections. This applies only if the hand was
-// within 1 mm of its anchor at the end of the frame. Otherwise something stopped the body, and the
-// host's velocity is kept. Fallbacks counted: none.
+// A hand that lets go throws at its release velocity, as after solve_velocities, because a
+// solver's velocity also contains its position corrections. This applies to a hand that let go of a
+// surface or of a body that it alone held without joints to something immovable, and only if the
+// hand was within k_follows_m of its anchor at the end of the frame. Otherwise something stopped
+// the body, and the host's velocity is kept. Fallbacks counted: none.
 namespace handhold {
+
+// A hand that is farther from its anchor did not follow it.
+inline constexpr double k_follows_m = 1e-3;
 
 // A player's play space after a host's solver. The solver does not rotate it.
 struct SolvedPlayer {

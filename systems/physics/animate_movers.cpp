@@ -38,14 +38,14 @@ BodyVelocity mover_velocity(const Mover& mover, double t_s) {
 }
 
 BodyVelocity leg_velocity(const PosePath& torso, const LegMover& mover, double t_s) {
-    constexpr double k_step_s = 1e-4;
     const auto pose_at = [&](double at_s) {
         return crawler_bone_pose(torso, mover.gait, mover.leg, mover.bone, at_s);
     };
-    const Pose before = pose_at(t_s - k_step_s);
-    const Pose after = pose_at(t_s + k_step_s);
-    return {(after.position - before.position) / (2.0 * k_step_s),
-            rotation_to_vector(after.rotation * before.rotation.conjugate()) / (2.0 * k_step_s)};
+    const Pose before = pose_at(t_s - k_leg_step_s);
+    const Pose after = pose_at(t_s + k_leg_step_s);
+    return {
+        (after.position - before.position) / (2.0 * k_leg_step_s),
+        rotation_to_vector(after.rotation * before.rotation.conjugate()) / (2.0 * k_leg_step_s)};
 }
 
 void animate_movers(const AnimateMoversIo& io) {
@@ -74,10 +74,10 @@ void animate_movers(const AnimateMoversIo& io) {
         move(body, crawler_bone_pose(torso->path, mover.gait, mover.leg, mover.bone, io.end_s),
              leg_velocity(torso->path, mover, io.end_s));
     }
-    for (std::size_t row = 0; io.target != nullptr && row < io.target->size(); ++row) {
-        const Entity body = io.target->owners()[row];
+    for (std::size_t row = 0; row < io.target.size(); ++row) {
+        const Entity body = io.target.owners()[row];
         const Pose& start_ws = io.body_pose.at(body).pose_ws;
-        const Pose& end_ws = io.target->rows()[row].pose_ws;
+        const Pose& end_ws = io.target.rows()[row].pose_ws;
         const Quat turn = end_ws.rotation * start_ws.rotation.conjugate();
         move(body, end_ws,
              {(end_ws.position - start_ws.position) / io.dt_s,

@@ -8,6 +8,7 @@
 #include "components/play_space.hpp"
 #include "engine/solver/contact/contact_rows.hpp"
 #include "engine/solver/model/drive_pair.hpp"
+#include "systems/physics/shared/mass_shares.hpp"
 
 namespace handhold {
 namespace {
@@ -31,8 +32,8 @@ void write_rigid(const BuildConstraintsIo& io, Entity entity, const RigidBody& b
     out.spin_radps = velocity.angular_radps;
     out.restitution = body.restitution;
     out.friction = body.friction;
-    if (body.kind == BodyKind::free) {
-        out.role = body.mass_kg >= tuning.heavy_body_kg ? BodyRole::heavy : BodyRole::free;
+    out.role = role_of(body, tuning);
+    if (out.role != BodyRole::fixed) {
         out.mass_kg = body.mass_kg;
         out.inertia_kgm2 = body.inertia_kgm2;
     }
@@ -160,8 +161,7 @@ void write_hands(const BuildConstraintsIo& io, const PhaseTuning& tuning) {
         block.b = static_cast<std::uint32_t>(b);
         block.source = static_cast<std::uint32_t>(row);
         if (grab.kind == GripKind::player) {
-            const BodyHold* const hold =
-                io.body_hold != nullptr ? io.body_hold->find(hand) : nullptr;
+            const BodyHold* const hold = io.body_hold.find(hand);
             hold_player(grab, io.head.at(grab.body), hold, frame.graph.bodies[b].pose_ws.rotation,
                         io.dt_s, block);
         }
@@ -169,20 +169,7 @@ void write_hands(const BuildConstraintsIo& io, const PhaseTuning& tuning) {
             continue;
         }
         frame.hand_blocks.push_back(block);
-        frame.phase[b].held = grab.kind == GripKind::held;
-        if (grab.kind == GripKind::held && !grab.jointed) {
-            // 1/kappa: 0 for light objects, 1 for objects heavy enough for exact momentum exchange.
-            // The heaviest held object counts.
-            const double share =
-                smooth_step(frame.graph.bodies[b].mass_kg, tuning.kappa_light_kg,
-                            std::max(tuning.kappa_heavy_kg, tuning.kappa_light_kg + 1e-9));
-            frame.phase[a].forward_share = std::max(frame.phase[a].forward_share, share);
-        } else if (grab.kind != GripKind::held) {
-            frame.phase[a].grips_surface = true;
-        }
-        if (grab.kind == GripKind::player) {
-            frame.phase[b].grips_surface = true;  // the grip is symmetric
-        }
+        note_grip(grab, a, b, tuning, frame);
     }
 }
 

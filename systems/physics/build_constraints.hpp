@@ -12,16 +12,17 @@
 
 // Builds the solver's model of the frame: one solver body per body and player, constraint rows for
 // grips, joints and contacts, and islands.
-// Talk rows 4 (inside the step) and 5 (arbitrary chains). Stage 5.
+// Talk rows 4 (inside the step) and 5 (arbitrary chains).
 //
 // Rows of a grip: surface or player: three (the point). Held object: six (a weld), three if it is
 // jointed to something immovable. Two hands on one object: three for the first hand's point, and
-// three for the direction between the hands and the rotation about it.
+// three for the direction between the hands and the rotation about it; if the hands are too close
+// for that, six for the first hand.
 // Fallbacks counted: none.
 namespace handhold {
 
 struct BuildConstraintsIo {
-    double dt_s = 0.0;                              // in: s
+    double dt_s;                                    // in: s
     const Column<PersistentId>& persistent_id;      // in
     const Column<RigidBody>& body;                  // in: kg, kg m^2
     const Column<BodyPose>& body_pose;              // in: world, predicted
@@ -33,9 +34,9 @@ struct BuildConstraintsIo {
     const Column<PlayerVelocity>& player_velocity;  // in: world, m/s, start of the frame
     const Column<HeadTracking>& head;               // in: play space
     const Column<HandOwner>& owner;                 // in
-    const Column<Grab>& grab;  // in: anchors in body frames, targets in play space
-    FrameGraph& frame;         // in: proxies, entities, contacts; out: graph, phase
-    const Column<BodyHold>* body_hold = nullptr;  // in: play space, of hands on a player's part
+    const Column<Grab>& grab;           // in: anchors in body frames, targets in play space
+    const Column<BodyHold>& body_hold;  // in: play space, of hands on a player's part
+    FrameGraph& frame;                  // in: proxies, entities, contacts; out: graph, phase
 };
 void build_constraints(const BuildConstraintsIo& io, const Tuning& tuning);
 

@@ -5,17 +5,16 @@
 namespace handhold {
 namespace {
 
-constexpr double k_farthest_m = 1e12;
-constexpr double k_fastest = 1e9;  // m/s or rad/s
-
 // False for NaN.
 bool is_within(const Vec3& v, double limit) {
     return std::abs(v.x()) <= limit && std::abs(v.y()) <= limit && std::abs(v.z()) <= limit;
 }
 
-bool is_good(const Pose& pose) { return is_within(pose.position, k_farthest_m) && is_valid(pose); }
+bool is_good(const Pose& pose) {
+    return is_within(pose.position, k_farthest_result_m) && is_valid(pose);
+}
 
-void bound(double& number) { number = std::abs(number) <= k_farthest_m ? number : 0.0; }
+void bound(double& number) { number = std::abs(number) <= k_farthest_result_m ? number : 0.0; }
 
 }  // namespace
 
@@ -27,8 +26,8 @@ void discard_broken_results(const DiscardBrokenResultsIo& io, StageStats& stats)
         }
         Pose& pose_ws = io.body_pose.at(body).pose_ws;
         BodyVelocity& velocity = io.body_velocity.at(body);
-        if (is_good(pose_ws) && is_within(velocity.linear_mps, k_fastest) &&
-            is_within(velocity.angular_radps, k_fastest)) {
+        if (is_good(pose_ws) && is_within(velocity.linear_mps, k_fastest_result) &&
+            is_within(velocity.angular_radps, k_fastest_result)) {
             continue;
         }
         pose_ws = io.body_start.at(body).pose_ws;
@@ -39,7 +38,7 @@ void discard_broken_results(const DiscardBrokenResultsIo& io, StageStats& stats)
         const Entity player = io.player_origin.owners()[row];
         Pose& pose_ws = io.player_origin.rows()[row].pose_ws;
         Vec3& velocity_mps = io.player_velocity.at(player).linear_mps;
-        if (is_good(pose_ws) && is_within(velocity_mps, k_fastest)) {
+        if (is_good(pose_ws) && is_within(velocity_mps, k_fastest_result)) {
             continue;
         }
         pose_ws = io.player_start.at(player).pose_ws;

@@ -10,23 +10,28 @@
 
 namespace handhold {
 
+// Largest numbers that a frame may end with, in each coordinate.
+inline constexpr double k_farthest_result_m = 1e12;
+inline constexpr double k_fastest_result = 1e9;  // m/s or rad/s
+
 struct DiscardBrokenResultsIo {
     const Column<BodyStart>& body_start;      // in
     const Column<PlayerStart>& player_start;  // in
-    Column<BodyPose>& body_pose;              // in, out
-    Column<BodyVelocity>& body_velocity;      // in, out
-    Column<PlayerOrigin>& player_origin;      // in, out
-    Column<PlayerVelocity>& player_velocity;  // in, out
-    Column<LastValidPose>& last_valid;        // in, out
-    Column<JointState>& joint_state;          // in, out
-    Column<Grab>& grab;                       // in, out
-    FrameGraph& frame;                        // in, out: push_backs
+    Column<BodyPose>& body_pose;              // in/out
+    Column<BodyVelocity>& body_velocity;      // in/out
+    Column<PlayerOrigin>& player_origin;      // in/out
+    Column<PlayerVelocity>& player_velocity;  // in/out
+    Column<LastValidPose>& last_valid;        // in/out
+    Column<JointState>& joint_state;          // in/out
+    Column<Grab>& grab;                       // in/out
+    FrameGraph& frame;                        // in/out: push_backs
 };
 
-// Extreme masses, moments and distances (1e-12 to 1e15 kg in one chain) may overflow a solve. A
-// body or player whose pose or velocity is then not finite or beyond 1e12 m or 1e9 m/s returns to
-// the start of the frame, at rest, and is counted as restored_last_valid_pose. So no frame begins
-// with such a number, and no snapshot holds one.
+// Extreme masses, moments and distances (for instance 1e-12 to 1e15 kg in one chain) may overflow a
+// solve. A body or player whose pose is then not valid or beyond k_farthest_result_m, or whose
+// velocity is not finite or beyond k_fastest_result, returns to the start of the frame, at rest,
+// and is counted as restored_last_valid_pose. Broken last valid poses become the present ones,
+// other broken numbers 0. So no frame begins with such a number, and no snapshot holds one.
 void discard_broken_results(const DiscardBrokenResultsIo& io, StageStats& stats);
 
 }  // namespace handhold

@@ -12,7 +12,7 @@
 #include "engine/ecs/column.hpp"
 
 // Finds the contacts of all colliders at the predicted poses.
-// Stage 4. The result does not depend on earlier frames; the collision world's caches do not show.
+// The result does not depend on earlier frames; the collision world's caches do not show.
 // No contacts are made between bodies connected by a joint (unless it says so), and between a
 // player's head and what that player holds, or has released and is not yet clear of.
 // Fallbacks counted: none.
@@ -22,7 +22,6 @@ struct FindContactsIo {
     const Column<PersistentId>& persistent_id;  // in
     const Column<RigidBody>& body;              // in
     const Column<Joint>& joint;                 // in
-    const Column<HeadTracking>& head;           // in: a head that was never tracked touches nothing
     const Column<HandOwner>& owner;             // in
     const Column<Grab>& grab;                   // in
     CollisionWorld& collision;  // in: proxies at the predicted poses, world; out: ignored pairs

@@ -12,9 +12,6 @@ namespace {
 
 // --- Players who are pushed out ------------------------------------------------------------------
 
-// Largest speed at which a player who is stuck in a wall is pushed out of it.
-constexpr double k_eject_mps = 3.0;
-
 // Displacement of the head in this frame if no contact stops it, in world axes: the sum of grips,
 // play space and tracking.
 Vec3 head_motion_m(const FinishPositionsIo& io, std::uint32_t player, const HeadTuning& tuning) {
@@ -36,7 +33,7 @@ struct StuckIn {
 };
 
 // `motion_m`: head_motion_m. The approach of head and wall in this frame is undone in full. Older
-// penetration is reduced at k_eject_mps at most.
+// penetration is reduced at k_head_eject_mps at most.
 StuckIn stuck_in(const FinishPositionsIo& io, const RowBlock& block, const Vec3& motion_m) {
     const FrameGraph& frame = io.frame;
     const Pose& wall_ws = frame.graph.bodies[block.b].pose_ws;
@@ -45,7 +42,7 @@ StuckIn stuck_in(const FinishPositionsIo& io, const RowBlock& block, const Vec3&
     const Vec3 wall_motion_m = transform_point(wall.to_ws, block.point_b_bs) -
                                transform_point(wall.from_ws, block.point_b_bs);
     const double allowed_m =
-        std::max(0.0, normal.dot(wall_motion_m - motion_m)) + k_eject_mps * io.dt_s;
+        std::max(0.0, normal.dot(wall_motion_m - motion_m)) + k_head_eject_mps * io.dt_s;
     const double depth_m =
         normal.dot(transform_point(wall_ws, block.point_b_bs) -
                    transform_point(frame.phase[block.a].reached_ws, block.point_a_bs));
@@ -64,7 +61,7 @@ void limit_pushes(const FinishPositionsIo& io, const HeadTuning& tuning) {
         }
         const Vec3& reached_m = frame.phase[i].reached_ws.position;
         Vec3 push_m = body.pose_ws.position - reached_m;
-        if (push_m.norm() <= k_eject_mps * io.dt_s) {
+        if (push_m.norm() <= k_head_eject_mps * io.dt_s) {
             continue;
         }
         const Vec3 motion_m = head_motion_m(io, i, tuning);

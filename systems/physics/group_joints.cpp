@@ -6,14 +6,6 @@
 #include "engine/core/disjoint_sets.hpp"
 
 namespace handhold {
-namespace {
-
-bool is_light(const RigidBody& body, const PhaseTuning& tuning) {
-    return body.kind == BodyKind::free && body.mass_kg < tuning.heavy_body_kg;
-}
-
-}  // namespace
-
 void group_joints(const GroupJointsIo& io, const PhaseTuning& tuning) {
     JointGroups& groups = io.frame.joint_groups;
     groups.of_body.clear();
@@ -26,7 +18,8 @@ void group_joints(const GroupJointsIo& io, const PhaseTuning& tuning) {
     std::iota(groups.of_body.begin(), groups.of_body.end(), 0U);
     const auto light_row = [&](Entity entity) {
         const std::size_t row = io.body.find_row(entity);
-        return row != Column<RigidBody>::k_npos && is_light(io.body.rows()[row], tuning)
+        return row != Column<RigidBody>::k_npos &&
+                       is_light(io.body.rows()[row], tuning.heavy_body_kg)
                    ? row
                    : Column<RigidBody>::k_npos;
     };

@@ -7,8 +7,9 @@
 #include "engine/ecs/column.hpp"
 
 // Groups free bodies that joints connect, and marks the groups that are anchored: connected to
-// something a hand cannot move (the world, or a fixed, kinematic or heavy body).
-// Talk row 5 (arbitrary chains). Stage 1b, before update_grabs.
+// something a hand cannot move (the world, or a fixed, kinematic or heavy body). A distance joint
+// that may be slack anchors nothing.
+// Talk row 5 (arbitrary chains). Runs before update_grabs.
 // Fallbacks counted: none.
 namespace handhold {
 

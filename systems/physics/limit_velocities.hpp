@@ -9,7 +9,7 @@
 #include "engine/ecs/column.hpp"
 
 // Ends the grips that are released in this frame, and limits the velocities that hands gave to
-// players and bodies. Talk row 7. Stage 9, after update_velocities or after a host's own solver.
+// players and bodies. Talk row 7. Runs after solve_velocities or after a host's own solver.
 //
 // A tracking error must launch neither a player nor a body, now or when the grip breaks. Speeds are
 // relative to the reference velocity. Except at a release, a speed is kept that existed before the

@@ -14,8 +14,7 @@ ColliderProxy proxy_of(const PlaceCollidersIo& io, Entity entity, const HeadTuni
     proxy.id = io.persistent_id.at(entity).value;
     const Collider* const collider = io.collider.find(entity);
     proxy.shape = collider != nullptr ? collider->shape : k_no_shape;
-    if (const CollisionFilter* const filter =
-            io.filter != nullptr ? io.filter->find(entity) : nullptr) {
+    if (const CollisionFilter* const filter = io.filter.find(entity)) {
         proxy.layers = filter->layers;
         proxy.mask = filter->mask;
     }
@@ -98,8 +97,8 @@ bool note_changes(const PlaceCollidersIo& io) {
     same = watches.body_start.update(io.body_start, note) && same;
     same = watches.last_valid.update(io.last_valid, note) && same;
     same = watches.origin.update(io.origin, note) && same;
-    same = (io.velocity == nullptr || watches.body_velocity.update(*io.velocity, note)) && same;
-    same = (io.filter == nullptr || watches.filter.update(*io.filter, note)) && same;
+    same = watches.body_velocity.update(io.body_velocity, note) && same;
+    same = watches.filter.update(io.filter, note) && same;
     for (const Entity player : io.origin.owners()) {
         note(player);
     }
@@ -128,7 +127,7 @@ void place_colliders(const PlaceCollidersIo& io, const HeadTuning& tuning) {
     if (!note_changes(io) || !place_noted(io, tuning)) {
         place_all(io, tuning);
     }
-    io.frame.active.is_tracked = io.velocity != nullptr;
+    io.frame.active.is_tracked = true;
 }
 
 }  // namespace handhold

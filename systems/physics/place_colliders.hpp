@@ -9,29 +9,28 @@
 #include "engine/ecs/column.hpp"
 
 // Lists all bodies and players by persistent id and gives their colliders to the collision world.
-// Runs before stages 2 and 4. Places only bodies whose components changed since the last call; for
-// the others it compares bytes. A proxy's motion is from the last valid pose to the current pose.
-// For fixed and kinematic bodies it is from the pose at the start of the frame. A player's collider
-// is the sphere of the head, at the end of the frame. A head that was never tracked has no
-// contacts.
+// Runs before update_grabs and find_contacts. Places all players, and bodies whose components
+// changed since the last call; for the other bodies it compares bytes. A proxy's motion is from the
+// last valid pose to the current pose. For fixed and kinematic bodies, and for a head without a
+// valid pose, it is from the pose at the start of the frame. A player's collider is the sphere of
+// the head, at the end of the frame. A head that was never tracked has no contacts.
 // Fallbacks counted: none.
 namespace handhold {
 
 struct PlaceCollidersIo {
-    const Column<PersistentId>& persistent_id;        // in
-    const Column<Collider>& collider;                 // in
-    const Column<RigidBody>& body;                    // in
-    const Column<BodyPose>& body_pose;                // in: world, current
-    const Column<BodyStart>& body_start;              // in: world, start of the frame
-    const Column<PlayerOrigin>& origin;               // in: world, current
-    const Column<PlayerStart>& player_start;          // in: world, start of the frame
-    const Column<HeadTracking>& head;                 // in: play space, end of the frame
-    const Column<LastValidPose>& last_valid;          // in: world
-    CollisionWorld& collision;                        // out: proxies, world
-    FrameGraph& frame;                                // out: proxies, entities
-    const Column<CollisionFilter>* filter = nullptr;  // in: null or without a row: the default
-    // in: world, m/s and rad/s; null: build_constraints treats all bodies as changed
-    const Column<BodyVelocity>* velocity = nullptr;
+    const Column<PersistentId>& persistent_id;  // in
+    const Column<Collider>& collider;           // in
+    const Column<CollisionFilter>& filter;      // in: without a row: the default
+    const Column<RigidBody>& body;              // in
+    const Column<BodyPose>& body_pose;          // in: world, current
+    const Column<BodyStart>& body_start;        // in: world, start of the frame
+    const Column<BodyVelocity>& body_velocity;  // in: world, m/s and rad/s; whether it changed
+    const Column<PlayerOrigin>& origin;         // in: world, current
+    const Column<PlayerStart>& player_start;    // in: world, start of the frame
+    const Column<HeadTracking>& head;           // in: play space, end of the frame
+    const Column<LastValidPose>& last_valid;    // in: world
+    CollisionWorld& collision;                  // out: proxies, world
+    FrameGraph& frame;                          // out: proxies, entities
 };
 void place_colliders(const PlaceCollidersIo& io, const HeadTuning& tuning);
 

@@ -16,8 +16,7 @@ void predict_bodies(const PredictBodiesIo& io) {
         BodyVelocity& velocity = io.body_velocity.at(entity);
         io.body_start.at(entity).pose_ws = pose_ws;
         if (has_gravity) {
-            const GravityScale* const scale =
-                io.gravity_scale != nullptr ? io.gravity_scale->find(entity) : nullptr;
+            const GravityScale* const scale = io.gravity_scale.find(entity);
             velocity.linear_mps +=
                 (scale != nullptr ? scale->scale : 1.0) * io.dt_s * io.gravity_mps2;
         }

@@ -6,7 +6,6 @@
 
 #include "engine/core/profile.hpp"
 #include "engine/solver/contact/moving_contacts.hpp"
-#include "systems/physics/shared/phase_solve.hpp"
 
 namespace handhold {
 namespace {
@@ -14,21 +13,24 @@ namespace {
 // Smallest violation that starts another phase, at least twice the solver's tolerance: below lie
 // rounding and the residual of a solved phase.
 constexpr double k_violated_m = 2e-7;
-constexpr double k_touching_m = 1e-5;  // closer contacts may support a body
 // Overlap within a heap from which the hands that press it give way.
 constexpr double k_heap_violated_m = 1e-3;
 // Limit on the constraint blocks of a heap, summed over the contact searches of a frame. Above it,
 // the heap's bodies keep their present contacts until the next frame. Other islands are not
 // affected.
 constexpr std::uint64_t k_max_heap_visits = 12'000;
-constexpr int k_max_heap_rounds = 2;  // of a phase; what appears later waits for the next frame
+constexpr int k_max_heap_rounds =
+    2;  // rounds of a phase; contacts that appear later wait for the next frame
 
 struct Solve {
+    PositionSolver solver;
     const SolvePhasesIo& io;
     const Tuning& tuning;
     StageStats& stats;
 
-    double violated_m() const { return std::max(k_violated_m, 2.0 * tuning.solver.tolerance_m); }
+    double violated_m() const {
+        return std::max(k_violated_m, 2.0 * tuning.solver.positions.tolerance_m);
+    }
     ConstraintGraph& graph() const { return io.frame.graph; }
     FrameGraph::PhaseBody& phase_of(std::uint32_t body) const { return io.frame.phase[body]; }
 };
@@ -55,40 +57,6 @@ void clear_errors(const Solve& s, const Island& island) { cached_errors(s, islan
 // For all islands, after they were rebuilt.
 void clear_errors(const Solve& s) { s.io.frame.island_errors.assign(s.graph().islands.size(), {}); }
 
-bool has_hand_or_joint(const Solve& s, const Island& island) {
-    return std::ranges::any_of(s.graph().blocks_of(island),
-                               [&](std::uint32_t i) { return !is_contact(s.graph().blocks[i]); });
-}
-
-// True if the backward phase may push a player of this island: it has two players, or an active row
-// with a body that the forward phase cannot move.
-bool may_push(const Solve& s, const Island& island) {
-    const auto players = std::ranges::count_if(s.graph().bodies_of(island), [&](std::uint32_t i) {
-        return s.graph().bodies[i].role == BodyRole::translating;
-    });
-    if (players == 0) {
-        return false;
-    }
-    const auto is_unmoved = [&](std::uint32_t i) {
-        return s.graph().bodies[i].role == BodyRole::fixed ||
-               s.graph().bodies[i].role == BodyRole::heavy;
-    };
-    return players > 1 || std::ranges::any_of(s.graph().blocks_of(island), [&](std::uint32_t i) {
-               const RowBlock& block = s.graph().blocks[i];
-               const bool active = !is_contact(block) ||
-                                   contact_separation_m(s.graph().bodies, block) < k_touching_m;
-               return active && (is_unmoved(block.a) || is_unmoved(block.b));
-           });
-}
-
-// From now on players of this island take part in its push with their own mass, velocities
-// included.
-void mark_pushed(const Solve& s, const Island& island) {
-    for (const std::uint32_t i : s.graph().bodies_of(island)) {
-        s.phase_of(i).pushed = true;
-    }
-}
-
 // --- Rounds of solving and of searching contacts -------------------------------------------------
 
 // Solves the islands for which `wanted` is true. Returns how many were solved.
@@ -101,7 +69,7 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
             chosen.push_back(i);
         }
     }
-    solve_chosen_islands(phase, s.tuning.solver, s.io.frame, s.stats);
+    solve_chosen_islands(phase, s.tuning.solver, s.solver, s.io.frame, s.stats);
     return chosen.size();
 }
 
@@ -173,7 +141,7 @@ void solve_rounds(const Solve& s, Phase phase, Wanted&& wanted) {
 void reach(const Solve& s) {
     HH_DETAIL_ZONE("reach");
     solve_islands(s, Phase::reach,
-                  [&](const Island& island) { return has_hand_or_joint(s, island); });
+                  [&](const Island& island) { return has_hand_or_joint(s.graph(), island); });
     // build_constraints wrote reached_ws of all other bodies.
     for (const std::uint32_t i : s.graph().island_bodies) {
         s.phase_of(i).reached_ws = s.graph().bodies[i].pose_ws;
@@ -181,14 +149,9 @@ void reach(const Solve& s) {
     refresh_contacts(s, OldPoints::replaced);
 }
 
-bool is_pushed(const Solve& s, const Island& island) {
-    return std::ranges::any_of(s.graph().bodies_of(island),
-                               [&](std::uint32_t i) { return s.phase_of(i).pushed; });
-}
-
 // An island that has begun to push stays one, even if what gave way has left the wall since.
 bool pushes_player(const Solve& s, const Island& island) {
-    return is_pushed(s, island) || may_push(s, island);
+    return is_pushed(s.io.frame, island) || may_push(s.graph(), island);
 }
 
 // True if a heap overlaps deeply and may only come apart by pushing the player. A heap that touches
@@ -212,7 +175,7 @@ void forward(const Solve& s) {
             return false;
         }
         return has_role(s, island, BodyRole::free) &&
-               (errors.without_drives_m() > s.tuning.solver.tolerance_m ||
+               (errors.without_drives_m() > s.tuning.solver.positions.tolerance_m ||
                 errors.heap_m > k_heap_slack_m);
     });
 }
@@ -225,7 +188,7 @@ void relax(const Solve& s) {
     // Marked before the heap gives way, because it may separate from the wall that it touches now.
     for (const Island& island : s.graph().islands) {
         if (wanted(island)) {
-            mark_pushed(s, island);
+            mark_pushed(island, s.io.frame);
         }
     }
     solve_rounds(s, Phase::relax, wanted);
@@ -245,7 +208,7 @@ bool prepare_backward(const Solve& s) {
         }
         any = true;
         ++s.stats.islands_pushed;
-        mark_pushed(s, island);
+        mark_pushed(island, s.io.frame);
         for (const std::uint32_t i : s.graph().bodies_of(island)) {
             SolverBody& body = s.graph().bodies[i];
             // Backward has its own budget. A heap that used up forward's budget must not make the
@@ -266,7 +229,7 @@ void backward(const Solve& s) {
         return;
     }
     const auto wanted = [&](const Island& island) {
-        return is_pushed(s, island) && errors_of(s, island).worst_m() > s.violated_m();
+        return is_pushed(s.io.frame, island) && errors_of(s, island).worst_m() > s.violated_m();
     };
     solve_rounds(s, Phase::backward, wanted);
     // The contacts that forward found may all be satisfied at the reach poses, so that nothing was
@@ -287,8 +250,8 @@ void contradiction(const Solve& s) {
             continue;
         }
         s.stats.count(Fallback::contacts_contradict);
-        if (may_push(s, island)) {
-            mark_pushed(s, island);
+        if (may_push(s.graph(), island)) {
+            mark_pushed(island, s.io.frame);
         }
     }
     solve_rounds(s, Phase::contradiction, wanted);
@@ -297,7 +260,12 @@ void contradiction(const Solve& s) {
 }  // namespace
 
 void solve_phases(const SolvePhasesIo& io, const Tuning& tuning, StageStats& stats) {
-    const Solve s{io, tuning, stats};
+    solve_phases_with(&solve_positions, io, tuning, stats);
+}
+
+void solve_phases_with(PositionSolver solver, const SolvePhasesIo& io, const Tuning& tuning,
+                       StageStats& stats) {
+    const Solve s{solver, io, tuning, stats};
     clear_errors(s);
     count_heap_visits(s);
     activate_islands(io.frame);

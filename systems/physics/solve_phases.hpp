@@ -4,11 +4,12 @@
 #include "components/stats.hpp"
 #include "components/tuning.hpp"
 #include "engine/collision/collision_world.hpp"
+#include "systems/physics/shared/phase_solve.hpp"
 
 // Solves the positions of the frame in phases: designer physics, in which players move objects
 // freely and are pushed only by what cannot give way.
 // Talk rows 4 (inside the step), 7 (forward and backward phase) and 8 (one-frame convergence).
-// Stages 6 to 8. Each phase is a Newton solve of every island:
+// Each phase is a Newton solve of every island:
 //
 // - reach: grips and joints without contacts. A player who grips something fixed is moved; a player
 //   who holds a light object has infinite mass.
@@ -34,5 +35,10 @@ struct SolvePhasesIo {
     FrameGraph& frame;          // in: rows; in/out: poses (world), contacts, phase
 };
 void solve_phases(const SolvePhasesIo& io, const Tuning& tuning, StageStats& stats);
+
+// solve_phases with another method in place of solve_positions. Tools that compare methods call it;
+// the runtime does not.
+void solve_phases_with(PositionSolver solver, const SolvePhasesIo& io, const Tuning& tuning,
+                       StageStats& stats);
 
 }  // namespace handhold

@@ -15,7 +15,7 @@ AuthoredHand mirror_authored_hand(const AuthoredHand& hand, int body_axis);
 
 // Distance of a hand from a grip. The two wrist poses are in the same frame.
 struct GripSync {
-    double palm_m = 0.0;  // from the centre of the hand's palm to that of the grip's palm
+    double palm_m = 0.0;  // distance from the centre of the hand's palm to that of the grip's palm
     double turn_rad = 0.0;
 };
 GripSync grip_sync(const Pose& hand, const Pose& grip_wrist, const Vec3& palm_center_hs);

@@ -47,7 +47,7 @@ struct ClavicleReach {
     double weight = 0.0;
 };
 struct BodyClips {
-    std::array<BodyClip, k_body_clip_count> clips;  // by BodyClipName
+    std::array<BodyClip, k_body_clip_count> clips;  // indexed by BodyClipName
     std::vector<ClavicleReach> reach;               // sorted by distance; empty: weight 1
 
     const BodyClip& at(BodyClipName name) const { return clips[static_cast<std::size_t>(name)]; }

@@ -160,12 +160,12 @@ double arm_twist(const Quat& parent, const Quat& child) {
 }
 
 double followed_twist(const Quat& parent, const Quat& child, double rest_rad) {
-    constexpr double k_wholly_rad = 2.0 / 3.0 * k_pi;
     const Quat turn = parent.conjugate() * child;
     const double twist_rad = std::remainder(arm_twist(parent, child) - rest_rad, 2.0 * k_pi);
     const double size = std::abs(twist_rad);
-    const double followed =
-        size <= k_wholly_rad ? size : k_wholly_rad * (k_pi - size) / (k_pi - k_wholly_rad);
+    const double followed = size <= k_wholly_followed_rad ? size
+                                                          : k_wholly_followed_rad * (k_pi - size) /
+                                                                (k_pi - k_wholly_followed_rad);
     const double bent = smooth_step(turn.w() * turn.w() + turn.z() * turn.z(), 0.0, 0.25);
     return std::copysign(bent * std::max(followed, 0.0), twist_rad);
 }

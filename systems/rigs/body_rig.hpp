@@ -55,7 +55,7 @@ struct BodyRig {
     static constexpr std::size_t k_chest = 0;
     static constexpr std::size_t k_head = 1;
 
-    std::vector<Joint> joints;  // in the file's order
+    std::vector<Joint> joints;  // joints in the file's order
     std::vector<Carrier> carriers;
     Vec3 head_joint_ms = Vec3::Zero();  // upper end of the neck
     double eye_height_m = 1.6;          // height of the eyes above the figure's soles; > 0
@@ -65,11 +65,11 @@ struct BodyRig {
 // Pose of a rig's joints in the world. Joint poses are rigid. `carry_ws` transforms vertices; it
 // also scales along and across each bone, because the player's proportions differ from the file's.
 struct SkeletonPose {
-    std::vector<Pose> joint_ws;     // by BodyRig::joints
-    std::vector<Pose> joint_ls;     // in the parent joint's frame; roots: joint_ws
-    std::vector<Affine> carry_ws;   // by joint: from the file's frame to the world
-    std::vector<Pose> carrier_ws;   // by BodyRig::carriers: frames of the bones
-    std::vector<Affine> stretched;  // by carrier: from the file's frame to the world
+    std::vector<Pose> joint_ws;     // indexed by BodyRig::joints
+    std::vector<Pose> joint_ls;     // pose in the parent joint's frame; roots: joint_ws
+    std::vector<Affine> carry_ws;   // transform of each joint from the file's frame to the world
+    std::vector<Pose> carrier_ws;   // frames of the bones, indexed like BodyRig::carriers
+    std::vector<Affine> stretched;  // transform of each carrier from the file's frame to the world
 };
 
 // Poses the joints of `rig` like the player's head, chest, arms, hands, spine and legs (talk rows
@@ -82,13 +82,15 @@ void pose_skeleton(const BodyRig& rig, const BodyMeasures& measures, const Rende
                    SkeletonPose& out);
 
 // Angle by which `child` is twisted about the Z axis of `parent`, in (-pi, pi], whatever the bend
-// between both. 0 for a bend of 180 degrees.
+// between both. 0 if the bend is half a turn.
 double arm_twist(const Quat& parent, const Quat& child);
 
+inline constexpr double k_wholly_followed_rad = 2.0 / 3.0 * k_pi;
+
 // The part of a child's twist about the Z axis of `parent` that joints between both follow,
-// relative to the twist `rest_rad` of the figure's file, in radians. Up to 120 degrees to either
-// side it is the whole difference. Beyond that it is less, and at 180 degrees nothing, so that the
-// result is continuous. Fades out if the bend exceeds 120 degrees.
+// relative to the twist `rest_rad` of the figure's file, in radians. Up to k_wholly_followed_rad to
+// either side it is the whole difference. Beyond that it is less, and at half a turn nothing, so
+// that the result is continuous. Fades out if the bend exceeds k_wholly_followed_rad.
 double followed_twist(const Quat& parent, const Quat& child, double rest_rad);
 
 // Pose of the player's trunk at `along`: 0 is the pelvis, 1 midway between the shoulders.

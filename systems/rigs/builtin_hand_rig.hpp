@@ -5,8 +5,8 @@
 namespace handhold {
 
 // The built-in robot hand. It has five fingers in the order of FingerName, and joints with WebXR
-// names. It has adult size: 0.18 m from the wrist to the end of the middle finger's skin. The left
-// hand is the exact mirror image of the right one.
+// names. It has the size of an adult's hand. The left hand is the exact mirror image of the right
+// one.
 HandRig builtin_hand_rig(HandSide side);
 
 }  // namespace handhold

@@ -26,6 +26,10 @@ struct HandRigFit {
     Pose hand_ms;  // pose of hand space in the file's frame
 };
 
+inline constexpr double k_min_bone_m = 0.004;
+inline constexpr double k_min_hand_m = 0.05;  // least distance from the wrist to the farthest tip
+inline constexpr double k_max_hand_m = 1.0;
+
 // Fits a hand rig to a skinned mesh.
 // - Uses the joints' positions, but not their axes, since exporters choose these differently. A
 //   mirrored right hand is a left hand.
@@ -36,12 +40,12 @@ struct HandRigFit {
 //   offsets from the finger's disc.
 // - A link's radius is the median distance of the skin from the bone. The last link ends one radius
 //   before the end of the skin. The palm's capsules are flush with the palm's skin.
-// - Limits and rest angles are those of the built-in hand.
+// - Limits and rest angles are those of the built-in hand; a limit gives way to the file's pose.
 //
 // Errors (the message names the joints): missing or duplicate joints; fewer than two fingers; bones
-// shorter than 4 mm; a hand of the other side, recognised by fingers bent towards the back of the
-// hand (a flat hand is accepted as `side`); a hand shorter than 0.05 m or longer than 1 m; invalid
-// sizes in the file.
+// shorter than k_min_bone_m; a hand of the other side, recognised by fingers bent towards the back
+// of the hand (a flat hand is accepted as `side`); a hand shorter than k_min_hand_m or longer than
+// k_max_hand_m; invalid sizes in the file.
 Result<HandRigFit> fit_hand_rig(const SkinnedMesh& skin, HandSide side);
 // The same, without the bind angles.
 Result<HandRig> hand_rig_from_skin(const SkinnedMesh& skin, HandSide side);

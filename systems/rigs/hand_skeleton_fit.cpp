@@ -12,9 +12,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_min_bone_m = 0.004;
-constexpr double k_min_hand_m = 0.05;  // from the wrist to the farthest tip
-constexpr double k_max_hand_m = 1.0;
 // Weight w of the usual hinge axis in fit_hinge_axis. The usual axis is needed because a straight
 // finger does not determine its disc.
 constexpr double k_prior_weight = 0.3;

@@ -19,7 +19,7 @@ struct FingerBones {
 };
 struct HandBones {
     std::size_t wrist = 0;
-    std::vector<FingerBones> fingers;  // in the order of FingerName
+    std::vector<FingerBones> fingers;  // fingers in the order of FingerName
 };
 Result<HandBones> find_hand_bones(const SkinnedMesh& skin);
 

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t k_owner_bytes = 8;
 // Larger numbers could overflow in products of squares, and are no valid length or time.
 constexpr double k_largest_number = 1e18;
-constexpr double k_unit_tolerance = 1e-3;  // as in is_valid(Pose)
+constexpr double k_unit_tolerance = 1e-3;  // same as in is_valid(Pose)
 
 // --- Saving --------------------------------------------------------------------------------------
 

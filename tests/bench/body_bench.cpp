@@ -32,6 +32,9 @@ struct Bodies {
     Column<BodyMeasures> measures;
     Column<HandOwner> owner;
     Column<PalmPose> palm;
+    Column<PersistentId> no_ids;
+    Column<Grab> no_grips;
+    Column<BodyHold> no_holds;
     Column<ArmMemory> arm_memory;
     Column<ArmEstimate> estimate;
     Column<ArmPose> arms;
@@ -77,13 +80,41 @@ struct Bodies {
         }
     }
     void run_estimate() {
-        estimate_arms({k_dt_s, origin, head, measures, owner, palm, arm_memory, estimate}, {});
+        estimate_arms({.dt_s = k_dt_s,
+                       .origin = origin,
+                       .head = head,
+                       .measures = measures,
+                       .owner = owner,
+                       .palm = palm,
+                       .memory = arm_memory,
+                       .estimate = estimate},
+                      {});
     }
-    void run_pose() { pose_arms({origin, measures, owner, palm, estimate, arms}); }
+    void run_pose() {
+        pose_arms({.origin = origin,
+                   .measures = measures,
+                   .owner = owner,
+                   .palm = palm,
+                   .estimate = estimate,
+                   .arms = arms});
+    }
     void run_spine() {
-        propagate_spine(
-            {k_dt_s, t_s, origin, velocity, reference, measures, estimate, spine_memory, spine},
-            {});
+        propagate_spine({.dt_s = k_dt_s,
+                         .t_s = t_s,
+                         .surfaces = {},
+                         .persistent_id = no_ids,
+                         .origin = origin,
+                         .velocity = velocity,
+                         .reference = reference,
+                         .head = head,
+                         .measures = measures,
+                         .estimate = estimate,
+                         .owner = owner,
+                         .grab = no_grips,
+                         .body_hold = no_holds,
+                         .memory = spine_memory,
+                         .pose = spine},
+                        {});
     }
 };
 

@@ -64,7 +64,7 @@ struct Step {
             const NewtonResult result = solve_positions(view, settings, scratch);
             iterations += result.iterations;
             residual_m = std::max(residual_m, result.residual_m);
-            solve_velocities(view, {}, scratch);
+            solve_island_velocities(view, {}, scratch);
         }
         t_s += k_dt_s;
     }

@@ -25,7 +25,7 @@ void check_notes(const std::vector<std::string>& notes) {
 
 // The same bytes as a skinned hand.
 void run_skin(Bytes bytes) {
-    const Result<SkinnedMesh> skin = parse_gltf_skin(text_of(bytes), "/nonexistent/fuzz.gltf");
+    const Result<SkinnedMesh> skin = parse_gltf_skin(text_of(bytes), {});
     if (!skin) {
         promise(!skin.error().expected.empty(), "a refusal says what was expected");
         return;
@@ -53,7 +53,7 @@ void run_skin(Bytes bytes) {
 
 // The same bytes as a body, in the default pose.
 void run_figure(Bytes bytes) {
-    const Result<SkinnedMesh> figure = parse_gltf_figure(text_of(bytes), "/nonexistent/fuzz.gltf");
+    const Result<SkinnedMesh> figure = parse_gltf_figure(text_of(bytes), {});
     if (!figure) {
         promise(!figure.error().expected.empty(), "a refusal says what was expected");
         return;
@@ -73,9 +73,8 @@ void run_figure(Bytes bytes) {
 
 // The same bytes as an authored grip. A scene file must accept every grip that was read.
 void run_grip(Bytes bytes) {
-    const Result<SceneGrip> grip =
-        parse_grip_glb(text_of(bytes), "/nonexistent/fuzz.gltf",
-                       {builtin_hand_rig(HandSide::left), builtin_hand_rig(HandSide::right)});
+    const Result<SceneGrip> grip = parse_grip_glb(
+        text_of(bytes), {}, {builtin_hand_rig(HandSide::left), builtin_hand_rig(HandSide::right)});
     if (!grip) {
         promise(!grip.error().expected.empty(), "a refusal says what was expected");
         return;
@@ -94,7 +93,7 @@ void run_gltf(Bytes bytes) {
     run_figure(bytes);
     run_grip(bytes);
     // The folder does not exist, so no external buffer is found.
-    Result<GltfLevel> level = parse_gltf_level(text_of(bytes), "/nonexistent/fuzz.gltf");
+    Result<GltfLevel> level = parse_gltf_level(text_of(bytes), {});
     if (!level) {
         promise(!level.error().expected.empty(), "a refusal says what was expected");
         return;

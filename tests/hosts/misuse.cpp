@@ -68,6 +68,25 @@ void misuse_pointers(hh_world* world, hh_body body, hh_player player, hh_joint j
     HH_GIVES(HH_ERROR_NULL, hh_player_body_joints(world, player, HH_SPACE_WORLD, nullptr));
     HH_GIVES(HH_OK, hh_player_set_hand_rig(world, player, HH_LEFT, nullptr, 0));
     HH_GIVES(HH_OK, hh_player_set_body_rig(world, player, nullptr, 0));
+    hh_hit hit{};
+    hh_vec3 v{};
+    HH_GIVES(HH_ERROR_NULL, hh_world_gravity(world, nullptr));
+    HH_GIVES(HH_ERROR_NULL, hh_world_gravity(nullptr, &v));
+    HH_GIVES(HH_ERROR_NULL, hh_world_reference_velocity(world, nullptr));
+    HH_GIVES(HH_ERROR_NULL, hh_world_hand_in_controller(world, HH_LEFT, nullptr));
+    HH_GIVES(HH_ERROR_NULL, hh_world_cast_ray(world, {}, {}, {}, nullptr));
+    HH_GIVES(HH_ERROR_NULL, hh_world_cast_ray(nullptr, {}, {}, {}, &hit));
+    HH_GIVES(HH_ERROR_NULL, hh_world_cast_sphere(world, 1.0, {}, {}, {}, nullptr));
+    HH_GIVES(HH_ERROR_NULL, hh_world_closest_point(world, {}, 1.0, {}, nullptr));
+    HH_GIVES(HH_ERROR_NULL, hh_world_overlap_sphere(world, {}, 1.0, {}, nullptr, 0, nullptr));
+    HH_GIVES(HH_ERROR_NULL, hh_body_get_kind(world, body, nullptr));
+    HH_GIVES(HH_ERROR_NULL, hh_body_mass(world, body, nullptr));
+    HH_GIVES(HH_ERROR_NULL, hh_body_joints(world, body, nullptr, 0, nullptr));
+    HH_GIVES(HH_ERROR_NULL, hh_player_reference_velocity(world, player, nullptr));
+    HH_GIVES(HH_OK, hh_player_head(world, player, nullptr, nullptr, nullptr));
+    HH_GIVES(HH_ERROR_NULL, hh_hand_moves_player(world, player, HH_LEFT, nullptr));
+    HH_GIVES(HH_ERROR_VALUE, hh_set_thread_count(0));
+    hh_sin_cos(1.0, nullptr, nullptr);
     hh_world_destroy(nullptr);
     hh_mesh_destroy(nullptr);
     hh_version(nullptr, nullptr, nullptr);
@@ -96,6 +115,21 @@ void misuse_ids(hh_world* world, std::uint32_t index, std::uint32_t generation) 
     HH_GIVES(HH_ERROR_HANDLE, hh_body_set_grab_rule(world, body, true, true, false, 0));
     HH_GIVES(HH_ERROR_HANDLE, hh_body_set_user_data(world, body, 1));
     HH_GIVES(HH_ERROR_HANDLE, hh_body_user_data(world, body, &number));
+    hh_body_kind kind{};
+    HH_GIVES(HH_ERROR_HANDLE, hh_body_get_kind(world, body, &kind));
+    double mass_kg = 0.0;
+    HH_GIVES(HH_ERROR_HANDLE, hh_body_mass(world, body, &mass_kg));
+    size_t joint_count = 0;
+    HH_GIVES(HH_ERROR_HANDLE, hh_body_joints(world, body, nullptr, 0, &joint_count));
+    HH_GIVES(HH_ERROR_HANDLE, hh_player_reference_velocity(world, player, &v));
+    HH_GIVES(HH_ERROR_HANDLE, hh_player_head(world, player, &v, nullptr, nullptr));
+    bool moves_player = false;
+    HH_GIVES(HH_ERROR_HANDLE, hh_hand_moves_player(world, player, HH_LEFT, &moves_player));
+    if (generation != 0) {  // a null player: none is skipped
+        hh_hit hit{};
+        HH_GIVES(HH_ERROR_HANDLE, hh_world_cast_ray(world, {}, {1, 0, 0}, player, &hit));
+        HH_GIVES(HH_ERROR_HANDLE, hh_world_closest_point(world, {}, 1.0, player, &hit));
+    }
     const hh_grip_def grip = hh_default_grip_def();
     HH_GIVES(HH_ERROR_HANDLE, hh_body_add_grip(world, body, &grip));
     HH_GIVES(HH_ERROR_HANDLE, hh_joint_remove(world, joint));
@@ -238,6 +272,18 @@ void misuse_numbers(hh_world* world, hh_body body, hh_body kinematic, hh_player 
     if (hh_joint_add(world, &joint_def, &joint) == HH_OK) {
         HH_GIVES(HH_OK, hh_joint_remove(world, joint));
     }
+    hh_hit hits[4];
+    size_t hit_count = 0;
+    (void)hh_world_cast_ray(world, rng.vector(), rng.vector(), player, hits);
+    (void)hh_world_cast_sphere(world, rng.number(), rng.vector(), rng.vector(), {}, hits);
+    (void)hh_world_closest_point(world, rng.vector(), rng.number(), {}, hits);
+    (void)hh_world_overlap_sphere(world, rng.vector(), rng.number(), {}, hits, 4, &hit_count);
+    HH_GIVES(HH_ERROR_VALUE, hh_world_cast_ray(world, {k_nan, 0, 0}, {}, {}, hits));
+    HH_GIVES(HH_ERROR_VALUE, hh_world_closest_point(world, {}, k_inf, {}, hits));
+    double sine = 0.0;
+    hh_sin_cos(rng.number(), &sine, nullptr);
+    const double angle = hh_atan2(rng.number(), rng.number());
+    expect(sine >= -1.0 && sine <= 1.0 && angle >= -3.2 && angle <= 3.2, "no angle", __LINE__);
     (void)hh_body_set_velocity(world, body, rng.vector(), rng.vector());
     (void)hh_body_set_velocity(world, body, {}, {});
     (void)hh_body_apply_impulse(world, body, rng.vector(), rng.vector());

@@ -3,7 +3,7 @@
 
 usage: tests/hosts/run.py BUILD WORK     BUILD: a build with BUILD_SHARED_LIBS; WORK: a folder of its own, emptied first
 Exit status 0: all hosts run; pkg-config builds the C host; add_subdirectory and FetchContent configure without the tests' dependencies; the
-shared library exports exactly the functions of symbols.txt.
+shared library exports exactly the functions of symbols.txt; programs of the release before get what earlier.py says.
 """
 import os
 import re
@@ -11,6 +11,8 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+
+from earlier import Broken, check_earlier_release
 
 HERE = Path(__file__).resolve().parent
 SOURCE = HERE.parent.parent
@@ -103,6 +105,11 @@ def main() -> int:
         print(f"{host}: {run(program).strip() if program.exists() else f'skipped, {what} is missing'}")
     check_pkg_config(prefix, work)
     check_subprojects(work)
+    try:
+        print("\n".join(f"release 0.1: {line}" for line in check_earlier_release(prefix, work)))
+    except Broken as error:
+        print(error, file=sys.stderr)
+        return 1
     return 0
 
 

@@ -60,8 +60,8 @@ GripMesh make_tube(const Vec3& middle, double radius_m, int sides) {
 ClosedFinger close_by_talk(const HingeChain& chain, const GripMesh& mesh) {
     ChainFitScratch scratch;
     const auto near = mesh.search_bvh.closest_point(chain.base.position, 1.0);
-    return lab::close_by_talk(chain, mesh, {near->triangle, near->point}, SearchOrder::best_first,
-                              scratch);
+    return lab::close_by_talk(chain, mesh, {near->triangle, near->point},
+                              lab::SearchOrder::best_first, scratch);
 }
 
 double sum_of_lengths(const HingeChain& chain) {

@@ -172,7 +172,9 @@ TEST_F(GripCommand, HandsWithNothingInReachGiveAReason) {
 }
 
 TEST_F(GripCommand, CapsulesOfAFingerAreConnected) {
-    ASSERT_EQ(run(files() + " --hand left --search bfs --palm ray --grip-edge-mm 11"), 0) << err_;
+    ASSERT_EQ(
+        run(files() + " --hand left --fingers talk --search bfs --palm ray --grip-edge-mm 11"), 0)
+        << err_;
     const Json hand = hands()[0];
     for (std::size_t i = 1; i < hand["capsules"].size(); ++i) {
         const Json& before = hand["capsules"][i - 1];
@@ -210,10 +212,24 @@ TEST_F(GripCommand, BaselinesWriteTheSameFormat) {
     }
 }
 
+// Earlier scripts give a search alone.
+TEST_F(GripCommand, SearchWithoutFingersMeansTheTalks) {
+    ASSERT_EQ(run(files() + " --search bfs"), 0) << err_;
+    const std::vector<Json> alone = hands();
+    ASSERT_EQ(run(files() + " --search bfs --fingers talk"), 0) << err_;
+    const std::vector<Json> named = hands();
+    ASSERT_EQ(alone.size(), named.size());
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+        EXPECT_EQ(alone[i]["capsules"], named[i]["capsules"]);
+        EXPECT_EQ(alone[i]["fingers"], named[i]["fingers"]);
+    }
+}
+
 TEST_F(GripCommand, RefusesWrongFlagsAndLeavesNoOutput) {
     for (const char* flag :
-         {"--hand middle", "--sync maybe", "--search dijkstra", "--grip-edge-mm 0",
-          "--grip-edge-mm wide", "--palm none", "--fingers nails", "--depth 3"}) {
+         {"--hand middle", "--sync maybe", "--search dijkstra", "--search bfs --fingers fit",
+          "--grip-edge-mm 0", "--grip-edge-mm wide", "--palm none", "--fingers nails",
+          "--depth 3"}) {
         EXPECT_EQ(run(files() + " " + flag), 1) << flag;
         EXPECT_FALSE(err_.empty());
         EXPECT_FALSE(has_output());

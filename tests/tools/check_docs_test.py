@@ -68,6 +68,24 @@ class CheckDocs(unittest.TestCase):
     def test_other_documents_may_name_missing_files(self):
         self.assertEqual(breaches({"CONTRIBUTING.md": "make `systems/grip/new_stage.cpp`\n"}), [])
 
+    def test_guide_names_what_its_files_have(self):
+        tree = {
+            "systems/a.cpp": "void begin_grab() {}\nvoid drive() {}\n",
+            "components/tuning.hpp": 'see("hand.reach_m", t);\n',
+            "components/stats.hpp": "std::uint64_t contacts = 0;\n",
+            "components/stats.cpp": '{Fallback::grip_lost, "grip_lost"}\n',
+        }
+        line = "`drive` and `begin_grab` in [a](../../systems/a.cpp), `hand.reach_m`, `hand.cpp`, counters `grip_lost` (3 mm), `contacts`\n"
+        self.assertEqual(breaches(tree | {"docs/guide/a.md": line}), [])
+        for right, wrong, expected in (("`drive`", "`drives`", "../../systems/a.cpp has no drives"),
+                                       ("begin_grab", "begin", "../../systems/a.cpp has no begin"),
+                                       ("reach_m", "reach", "no tuning number is called hand.reach"),
+                                       ("grip_lost", "grip_gone", "no counter is called grip_gone"),
+                                       ("`contacts`", "`contact`", "no counter is called contact")):
+            page = {"docs/guide/a.md": line.replace(right, wrong)}
+            self.assertEqual(breaches(tree | page), [f"docs/guide/a.md:1: {expected}"])
+            self.assertEqual(breaches(tree | {"docs/reference/a.md": line.replace(right, wrong)}), [])
+
     def test_valid_decisions_are_allowed(self):
         self.assertEqual(breaches(decisions("# 1. One\nStatus: accepted\n" + 13 * (100 * "a" + "\n"))), [])
         for status in ("superseded by 2", "amended by 2"):

@@ -38,6 +38,20 @@ class CheckLanguage(unittest.TestCase):
         self.assertEqual(len(breaches("engine/a.cpp", "// What is clear stays.\n")), 1)
         self.assertEqual(len(breaches("engine/a.cpp", "// Sorted. Of those two the first.\n")), 1)
 
+    def test_trailing_comments_that_begin_with_a_preposition_or_pronoun_are_found(self):
+        for words in ("of the frame", "by HandSide", "in [0, 1]", "at most 3", "its index", "without tremor"):
+            with self.subTest(words=words):
+                found = breaches("engine/a.hpp", f"#pragma once\nint a = 0;  // {words}\n")
+                self.assertEqual(len(found), 1, found)
+                self.assertTrue(found[0].startswith("engine/a.hpp:2: "), found)
+                self.assertEqual(breaches("tests/a.cpp", f"int a = 0;  // {words}\n"), [])
+
+    def test_nouns_sentences_and_marks_of_inputs_are_clean(self):
+        for words in ("index of the frame", "one per hand", "in", "in: world, m", "in/out", "in (play space)", "the hand closes where it is"):
+            with self.subTest(words=words):
+                self.assertEqual(breaches("engine/a.hpp", f"#pragma once\nint a = 0;  // {words}\n"), [])
+        self.assertEqual(breaches("engine/a.hpp", "// of a whole comment line\nint a = 0;\n"), [])
+
     def test_plain_text_identifiers_and_contract_keys_are_clean(self):
         self.assertEqual(breaches("engine/a.cpp", '// Re-solves the finger from scratch.\nint sunk = 0;\nadd("sunk_m");\n'), [])
         self.assertEqual(breaches("docs/a.md", "The field `sunk_m` is gone; there is no room for doubt.\n"), [])

@@ -54,9 +54,22 @@ class OnePlayer {
         } else if (estimator_ == "talk") {
             estimate_as_talked(sample.head_ps, measures, estimate);
         } else {
-            estimate_arms({dt_s, origin_, head_, measures_, owner_, palm_, memory_, estimate_}, {});
+            estimate_arms({.dt_s = dt_s,
+                           .origin = origin_,
+                           .head = head_,
+                           .measures = measures_,
+                           .owner = owner_,
+                           .palm = palm_,
+                           .memory = memory_,
+                           .estimate = estimate_},
+                          {});
         }
-        pose_arms({origin_, measures_, owner_, palm_, estimate_, arms_});
+        pose_arms({.origin = origin_,
+                   .measures = measures_,
+                   .owner = owner_,
+                   .palm = palm_,
+                   .estimate = estimate_,
+                   .arms = arms_});
     }
 
     double chest_yaw_deg() const {

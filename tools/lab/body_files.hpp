@@ -16,7 +16,7 @@ namespace handhold::lab {
 struct BodySample {
     std::int64_t clip = 0;
     double t_s = 0.0;  // increases within a clip
-    Pose head_ps;      // between the eyes
+    Pose head_ps;      // point between the eyes
     std::array<Pose, k_hand_count> hands_ps;
 };
 

@@ -54,8 +54,8 @@ struct BulletRun::Impl {
     btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
     std::vector<std::unique_ptr<btCollisionShape>> shapes;
     std::vector<std::unique_ptr<btTriangleMesh>> meshes;
-    std::vector<BodyPtr> bodies;  // in the order of FrameRecord::poses
-    BodyPtr ground;               // a fixed body, for joints to the world
+    std::vector<BodyPtr> bodies;  // same order as FrameRecord::poses
+    BodyPtr ground;               // fixed body, for joints to the world
     std::vector<std::unique_ptr<btTypedConstraint>> joints;
     // By index in LabScene::holds; null: released.
     std::vector<std::unique_ptr<btTypedConstraint>> grabs;

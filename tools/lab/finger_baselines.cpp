@@ -152,7 +152,7 @@ ClosedFinger close_by_talk(const HingeChain& chain, const GripMesh& mesh,
     closed.discs = 1;
     const Disc disc = disc_of(chain);
     const CrossingSearch found =
-        find_crossing(mesh.search, disc, {&seed_under_palm, 1}, order, scratch.trace);
+        find_crossing_in(order, mesh.search, disc, {&seed_under_palm, 1}, scratch.trace);
     closed.pops = found.pops;
     // Walks the surface that fingers touch. On the search detail, the comparison would be of
     // levels of detail instead of closing methods.
@@ -163,8 +163,8 @@ ClosedFinger close_by_talk(const HingeChain& chain, const GripMesh& mesh,
         return closed;
     }
     const GraphPoint contact_start = {near->triangle, near->point};
-    const CrossingSearch onto = find_crossing(mesh.contact, disc, {&contact_start, 1},
-                                              SearchOrder::best_first, scratch.trace);
+    const CrossingSearch onto =
+        find_crossing(mesh.contact, disc, {&contact_start, 1}, scratch.trace);
     closed.walked = onto.pops;
     if (onto.triangle == k_no_triangle) {
         return closed;
@@ -182,7 +182,7 @@ ClosedFinger close_by_spheres(const HingeChain& chain, const GripMesh& mesh) {
     constexpr int k_steps = 50;
     ClosedFinger closed;
     closed.angle_rad = chain.open_rad;
-    std::size_t moving = 0;  // the first joint that still moves
+    std::size_t moving = 0;  // first joint that still moves
     for (int step = 0; step <= k_steps; ++step) {
         const double share = static_cast<double>(step) / k_steps;
         while (moving < chain.link_count) {

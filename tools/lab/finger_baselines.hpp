@@ -6,14 +6,15 @@
 #include "engine/geometry/chain_fit.hpp"
 #include "engine/geometry/grip_mesh.hpp"
 #include "engine/geometry/hinge_chain.hpp"
+#include "tools/lab/disc_search.hpp"
 
 // Other methods of closing fingers, as baselines for sweep_fingers and fit_hands. All arguments of
 // one call are in the mesh's frame.
 namespace handhold::lab {
 
 enum class FingerMethod : std::uint8_t {
-    fit,      // the runtime's method
-    closing,  // the runtime's closing without its fit
+    fit,      // method of the runtime
+    closing,  // closing of the runtime without its fit
     talk,     // talk rows 12 to 14, taken literally
     spheres,  // spheres on the bones, moved in steps
 };

@@ -173,7 +173,7 @@ class GaussSeidel {
 
     const IslandView& island_;
     std::vector<Row>& rows_;
-    std::vector<std::uint32_t> depths_;  // by body
+    std::vector<std::uint32_t> depths_;  // indexed by body
     std::vector<std::uint32_t> order_;   // indices of blocks, in the order in which they are solved
 };
 

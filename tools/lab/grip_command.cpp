@@ -65,12 +65,20 @@ SearchOrder search_order_of(const std::string& name) {
                              : SearchOrder::best_first;
 }
 
+// Only the talk's fingers have other searches than the runtime's.
+std::string fingers_of(const GripOptions& options) {
+    if (!options.fingers.empty()) {
+        return options.fingers;
+    }
+    return options.search == "astar" ? "fit" : "talk";
+}
+
 GripVariant variant_of(const GripOptions& options) {
     GripVariant variant;
     variant.sync = options.sync == "on";
     variant.order = search_order_of(options.search);
-    variant.palm = options.palm == "ray" ? GripSearch::ray_only : GripSearch::smallest_sync;
-    variant.fingers = finger_method_of(options.fingers);
+    variant.palm = options.palm == "ray" ? PalmChoice::ray_only : PalmChoice::smallest_sync;
+    variant.fingers = finger_method_of(fingers_of(options));
     return variant;
 }
 
@@ -155,6 +163,11 @@ std::optional<FileError> move_all(const GripOptions& options, const GripMesh& me
 }  // namespace
 
 int grip_command(const GripOptions& options) {
+    if (options.search != "astar" && fingers_of(options) != "talk") {
+        std::fprintf(stderr, "handhold-lab: --search %s needs --fingers talk\n",
+                     options.search.c_str());
+        return k_exit_usage;
+    }
     const Result<HandRig> rig = load_rig(options);
     if (!rig) {
         return refuse(rig.error());

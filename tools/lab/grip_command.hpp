@@ -15,12 +15,13 @@ struct GripOptions {
     std::string sync = "on";
     std::string search = "astar";
     std::string palm = "least";
-    std::string fingers = "fit";  // or a baseline: finger_baselines.hpp
+    // "fit" or a baseline (finger_baselines.hpp); empty: "talk" if `search` needs it, else "fit".
+    std::string fingers;
     double grip_edge_mm = 20.0;
     std::filesystem::path rig_json;  // empty: not written
     // Frames of recorded motion, and as many of standing still, per hand; 0: none.
     int warm_frames = 0;
-    std::filesystem::path motions;    // of `recorded-grips`
+    std::filesystem::path motions;    // output of `recorded-grips`
     std::filesystem::path moved_out;  // hands at the end of their motion; empty: not written
     std::filesystem::path warm_json;  // figures of every frame; empty: not written
 };

@@ -22,7 +22,7 @@ std::optional<FileError> read_json_lines(const std::filesystem::path& path,
 
 struct Placement {
     std::int64_t id = 0;
-    Pose wrist;  // in the mesh's frame
+    Pose wrist;  // wrist in the mesh's frame
 };
 
 // One JSON object per line: {"id": 0, "wrist": {"position_m": [3], "rotation_xyzw": [4]}}. Ignores

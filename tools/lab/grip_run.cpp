@@ -10,7 +10,9 @@
 #include "engine/core/profile.hpp"
 #include "systems/hand/constrain_palms.hpp"
 #include "systems/hand/fit_hands.hpp"
+#include "systems/hand/search_grip.hpp"
 #include "systems/hand/shared/finger_chain.hpp"
+#include "systems/hand/shared/palm_fitter.hpp"
 #include "systems/hand/sweep_fingers.hpp"
 #include "systems/rigs/authored_hand.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
@@ -92,7 +94,27 @@ class OneHand {
     }
 
     void search(const Tuning& tuning, const GripVariant& variant) {
-        search_grip({surroundings_, surface_, search_scratch_}, tuning, stats_, variant.palm);
+        if (variant.palm == PalmChoice::ray_only) {
+            choose_by_palm_ray(tuning);
+        } else {
+            search_grip({.hands = surroundings_, .surface = surface_, .scratch = search_scratch_},
+                        tuning, stats_);
+        }
+    }
+    // Keeps the surface of a hand at rest, as search_grip does.
+    void choose_by_palm_ray(const Tuning& tuning) {
+        const HandSurroundings& hand = surroundings_.front();
+        GripSurface& surface = surface_.rows().front();
+        if (has_surface() &&
+            hand_travel_m(surface.wrist_bs, hand.wrist_bs) < tuning.finger.reuse_travel_m) {
+            return;
+        }
+        const PalmFitter fitter(hand, hand.wrist_bs, tuning.palm);
+        const PalmFrame& palm = fitter.palm();
+        const auto hit = mesh_.search_bvh.cast_ray(
+            palm.center + tuning.hand.ray_back_m * palm.up,
+            palm.center - (tuning.hand.ray_length_m - tuning.hand.ray_back_m) * palm.up);
+        surface = hit ? fitter.fit({hit->triangle, hit->point, 0.0}, {}).surface : GripSurface{};
     }
     static bool is_fitted(const GripVariant& variant) {
         return variant.fingers == FingerMethod::fit && variant.sync;
@@ -100,7 +122,7 @@ class OneHand {
     bool has_surface() const { return surface_.rows().front().triangle != GripSurface::k_none; }
 
     void constrain(const GripVariant& variant) {
-        constrain_palms({surroundings_, surface_, offset_});
+        constrain_palms({.hands = surroundings_, .surface = surface_, .offset = offset_});
         PalmOffset& offset = offset_.rows().front();
         if (!variant.sync) {
             offset.held_m = Vec3::Zero();
@@ -112,8 +134,13 @@ class OneHand {
         const bool is_baseline =
             variant.fingers == FingerMethod::talk || variant.fingers == FingerMethod::spheres;
         if (!is_baseline || !has_surface()) {
-            sweep_fingers({surroundings_, surface_, offset_, fingers_, traces_, fit_scratch_},
-                          tuning, stats_, variant.order);
+            sweep_fingers({.hands = surroundings_,
+                           .surface = surface_,
+                           .offset = offset_,
+                           .fingers = fingers_,
+                           .traces = traces_,
+                           .scratch = fit_scratch_},
+                          tuning, stats_);
             return;
         }
         for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
@@ -124,8 +151,14 @@ class OneHand {
     void fit(double dt_s, const Tuning& tuning, const GripVariant& variant) {
         FingerPose& pose = fingers_.rows().front();
         if (is_fitted(variant) || !has_surface()) {
-            fit_hands({dt_s, surroundings_, tracking_, surface_, offset_, fingers_, palm_}, tuning,
-                      stats_);
+            fit_hands({.dt_s = dt_s,
+                       .hands = surroundings_,
+                       .hand = tracking_,
+                       .surface = surface_,
+                       .offset = offset_,
+                       .fingers = fingers_,
+                       .palm = palm_},
+                      tuning, stats_);
         } else {
             pose.shown = pose.closed;
             pose.target = pose.closed;

@@ -11,16 +11,21 @@
 #include "components/hand_surroundings.hpp"
 #include "components/tuning.hpp"
 #include "engine/geometry/grip_mesh.hpp"
-#include "systems/hand/search_grip.hpp"
 #include "tools/lab/finger_baselines.hpp"
 
 // One hand on one mesh, posed by the runtime's systems over columns of one element.
 namespace handhold::lab {
 
+// How the palm's surface is chosen.
+enum class PalmChoice : std::uint8_t {
+    smallest_sync,  // search_grip, the runtime's
+    ray_only,       // the surface that the palm ray hits
+};
+
 struct GripVariant {
     bool sync = true;  // the palm moves to its limits; else it stays at its tracked pose
-    SearchOrder order = SearchOrder::best_first;
-    GripSearch palm = GripSearch::smallest_sync;
+    SearchOrder order = SearchOrder::best_first;  // FingerMethod::talk only
+    PalmChoice palm = PalmChoice::smallest_sync;
     // The talk's fingers include its palm fit: three limits and no depenetration of knuckles and
     // heel. Only the runtime's own method fits the wrist together with the fingers.
     FingerMethod fingers = FingerMethod::fit;
@@ -37,13 +42,13 @@ struct GripTimes {  // microseconds of thread CPU time
 struct PosedHand {
     bool gripped = false;
     std::string reason;  // why the hand does not grip; empty if it grips
-    Pose wrist;          // as shown, in the mesh's frame
+    Pose wrist;          // shown wrist, in the mesh's frame
     double sync_m = 0.0;
     double sync_rad = 0.0;
     std::uint32_t triangle = 0;  // index in the mesh as loaded
     Vec3 point = Vec3::Zero();
     Vec3 normal = Vec3::UnitY();
-    std::array<FingerAngles, k_finger_count> angles;  // by index in HandRig::fingers
+    std::array<FingerAngles, k_finger_count> angles;  // indexed by index in HandRig::fingers
     std::array<FingerTrace, k_finger_count> traces;
     GripTimes us;
 };
@@ -60,7 +65,7 @@ struct WarmHand {
     std::vector<double> stand_us;
     // Visited triangles per searched disc: one mean for each finger and frame.
     std::vector<std::uint32_t> pops;
-    PosedHand moved;  // in the last moving frame; without times
+    PosedHand moved;  // pose in the last moving frame; without times
     // While moving: number of joints of all fingers times number of frames.
     std::uint32_t joint_frames = 0;
     // Joint frames in which the target angle changed by 10 degrees or more.

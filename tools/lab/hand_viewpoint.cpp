@@ -110,7 +110,7 @@ HandView hand_bounds(std::span<const HandCapsule> capsules) {
 HandView choose_hand_view(std::span<const HandCapsule> capsules, const Quat& wrist,
                           std::span<const Triangle> around, double distance_m,
                           const HandView* other) {
-    constexpr double k_max_cosine = 0.342;  // of 70 degrees
+    constexpr double k_max_cosine = 0.342;  // cosine of 70 degrees
     HandView view = hand_bounds(capsules);
     const Vec3 back = wrist * Vec3::UnitY();
     double best = -1.0;

@@ -20,8 +20,8 @@ struct HandCapsule {
 };
 
 struct HandView {
-    Vec3 center = Vec3::Zero();    // of the hand
-    double radius_m = 0.1;         // of a sphere around the centre that contains the hand
+    Vec3 center = Vec3::Zero();    // centre of the hand
+    double radius_m = 0.1;         // radius of a sphere around the centre that contains the hand
     Vec3 towards = Vec3::UnitZ();  // unit, from the hand to the eye
 };
 

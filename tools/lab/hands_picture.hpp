@@ -15,7 +15,7 @@ struct HandsPictureOptions {
     std::filesystem::path out;       // PNG
     std::string style = "capsules";  // or "skin": the game's hand
     std::string hand = "right";      // side of the game's hand
-    int views = 1;                   // of each hand, side by side: 1 or 2
+    int views = 1;                   // views of each hand, side by side: 1 or 2
     std::vector<std::int64_t> ids;   // empty: `count` hands spread evenly over the file
     int count = 12;
     int columns = 4;

@@ -32,11 +32,11 @@ struct LabBody {
     Pose pose_ws;
     BodyVelocity velocity;
     double mass_kg = 0.0;
-    Vec3 half_m = Vec3::Zero();  // a box
+    Vec3 half_m = Vec3::Zero();  // half extents of a box
     bool collides = false;       // has a collider
     // Fixed body: a one-sided mesh of the box's +x face instead of the box.
     bool is_mesh = false;
-    bool is_ball = false;  // a ball of radius half_m.x() instead of the box
+    bool is_ball = false;  // true: a ball of radius half_m.x() instead of the box
     double restitution = 0.0;
     double friction = 0.0;
     PathOfTime drive;  // kinematic body: its pose over time
@@ -77,7 +77,7 @@ struct LabHold {
     int player = 0;
     HandSide side = HandSide::right;
     int body = 0;
-    Vec3 anchor_bs = Vec3::Zero();  // the hand's position in the body's frame
+    Vec3 anchor_bs = Vec3::Zero();  // hand's position in the body's frame
     PathOfTime hand_ps;
     double release_s = k_never_s;
     // The hand holds only a point and may rotate, as it does with heavy bodies and with bodies
@@ -96,7 +96,7 @@ struct FrameRecord {
     std::vector<Pose> targets;       // tracked hands in the world, by LabScene::holds
     std::vector<std::uint8_t> held;  // whether the body is still held, by LabScene::holds
     double step_us = 0.0;            // physics stages, thread CPU time
-    double frame_us = 0.0;           // the whole frame
+    double frame_us = 0.0;           // time of the whole frame
     int iterations = 0;
 };
 

@@ -61,7 +61,7 @@ void add_grip_options(CLI::App& grip, lab::GripOptions& options) {
     grip.add_option("--out", options.out, "Posed hands, JSON lines")->required();
     grip.add_option("--sync", options.sync, "Whether the palm moves to its limits")
         ->check(one_of({"on", "off"}));
-    grip.add_option("--search", options.search, "How a finger's disc finds the surface")
+    grip.add_option("--search", options.search, "How a disc of --fingers talk finds the surface")
         ->check(one_of({"astar", "bfs", "flood"}));
     grip.add_option("--palm", options.palm, "How the palm's surface is chosen")
         ->check(one_of({"least", "ray"}));

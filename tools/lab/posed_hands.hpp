@@ -15,7 +15,7 @@ namespace handhold::lab {
 // mesh's frame.
 struct DrawnHand {
     std::int64_t id = 0;
-    Pose wrist;  // as shown
+    Pose wrist;  // shown wrist
     std::vector<HandCapsule> capsules;
     // Joint angles of the game's hand, by FingerName. Angles that the line does not give are 0.
     std::array<FingerAngles, k_finger_count> angles;

@@ -61,7 +61,7 @@ class GripWatch {
 
   private:
     struct Current {
-        std::size_t grip = 0;  // into grips
+        std::size_t grip = 0;  // index into grips
         Entity body = k_no_entity;
         double since_s = 0.0;
         Pose first_bs;

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "components/frame_graph.hpp"
+#include "systems/physics/solve_phases.hpp"
 
 // Residual by iteration: solves the first island of a frame repeatedly from the same start, each
 // time with one iteration more.

@@ -10,7 +10,8 @@ namespace handhold::lab {
 namespace {
 
 constexpr std::array k_physics = {Stage::predict_bodies, Stage::build_constraints,
-                                  Stage::solve_phases, Stage::update_velocities};
+                                  Stage::solve_phases,   Stage::solve_velocities,
+                                  Stage::book_momentum,  Stage::record_valid_poses};
 
 // A box's +x face as a one-sided mesh of two by two quads, facing outward.
 std::shared_ptr<const Mesh> face_mesh(const Vec3& half_m) {
@@ -50,16 +51,15 @@ void write_grip(World& world, const PlayerEntities& player, const LabScene& scen
 
     const Pose& body_ws = world.body_pose.at(body).pose_ws;
     const RigidBody& rigid = world.body.at(body);
-    const bool is_light =
-        rigid.kind == BodyKind::free && rigid.mass_kg < scene.tuning.phases.heavy_body_kg;
+    const bool holds = is_light(rigid, scene.tuning.phases.heavy_body_kg);
     Grab& grab = world.grab.at(hand);
-    grab.kind = is_light ? GripKind::held : GripKind::surface;
+    grab.kind = holds ? GripKind::held : GripKind::surface;
     grab.phase = GrabPhase::holding;
     grab.body = body;
     grab.anchor_bs = {hold.anchor_bs, body_ws.rotation.conjugate() * hand_ps.rotation};
     grab.target_ps = hand_ps;
-    grab.jointed = is_light && hold.point_only;
-    if (is_light) {
+    grab.jointed = holds && hold.point_only;
+    if (holds) {
         HeadIgnores& ignores = world.head_ignores.at(player.player);
         ignores.bodies[index_of(hold.side)] = body;
     }
@@ -68,7 +68,7 @@ void write_grip(World& world, const PlayerEntities& player, const LabScene& scen
 }  // namespace
 
 RuntimeRun::RuntimeRun(const LabScene& scene, Holder holder, double hz, PositionSolver solver)
-    : scene_(scene), holder_(holder), dt_s_(1.0 / hz) {
+    : scene_(scene), holder_(holder), dt_s_(1.0 / hz), solver_(solver) {
     add_bodies();
     add_joints();
     if (holder_ == Holder::player) {
@@ -84,7 +84,6 @@ RuntimeRun::RuntimeRun(const LabScene& scene, Holder holder, double hz, Position
         }
     }
     caches_ = std::make_unique<FrameCaches>(shapes_);
-    caches_->graph.position_solver = solver;
 }
 
 void RuntimeRun::add_bodies() {
@@ -214,7 +213,7 @@ void RuntimeRun::warm_up() {
     World copy = world_;
     drive_all(copy, end_s());
     sample_devices(end_s());
-    step_frame(copy, *caches_, scene_.tuning, {dt_s_, inputs_}, stats_);
+    step_frame_with(solver_, copy, *caches_, scene_.tuning, {dt_s_, inputs_}, stats_);
 }
 
 void RuntimeRun::step(FrameRecord& record) {
@@ -222,7 +221,7 @@ void RuntimeRun::step(FrameRecord& record) {
     drive_all(world_, t_s);
     sample_devices(t_s);
     const std::int64_t begin_ns = stage_now_ns();
-    step_frame(world_, *caches_, scene_.tuning, {dt_s_, inputs_}, stats_);
+    step_frame_with(solver_, world_, *caches_, scene_.tuning, {dt_s_, inputs_}, stats_);
     record.frame_us = 1e-3 * static_cast<double>(stage_now_ns() - begin_ns);
     record.step_us = 0.0;
     for (const Stage stage : k_physics) {

@@ -2,13 +2,12 @@
 
 #include <memory>
 
-#include "components/frame_graph.hpp"
-#include "systems/frame/frame.hpp"
+#include "tools/lab/lab_frame.hpp"
 #include "tools/lab/lab_scene.hpp"
 
 namespace handhold::lab {
 
-// Plays a scene with the runtime, calling step_frame with the given position solver.
+// Plays a scene with the runtime and the given position solver.
 class RuntimeRun {
   public:
     // `scene` must outlive the run.
@@ -21,6 +20,7 @@ class RuntimeRun {
     // State after the last frame.
     const World& world() const { return world_; }
     const StageStats& stats() const { return stats_; }
+    const ShapeLibrary& shapes() const { return shapes_; }
 
   private:
     void add_bodies();
@@ -38,13 +38,14 @@ class RuntimeRun {
     const LabScene& scene_;
     Holder holder_;
     double dt_s_;
+    PositionSolver solver_;
     ShapeLibrary shapes_;
     World world_;
     StageStats stats_;
     std::unique_ptr<FrameCaches> caches_;
     std::vector<Entity> bodies_;
     std::vector<PlayerEntities> players_;
-    std::vector<Entity> kinematic_hands_;  // by LabScene::holds
+    std::vector<Entity> kinematic_hands_;  // indexed by LabScene::holds
     std::vector<Entity> hand_joints_;
     std::vector<TrackingSample> samples_;
     std::vector<PlayerInput> inputs_;

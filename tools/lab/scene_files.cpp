@@ -118,7 +118,7 @@ Json planes_json(const LabScene& scene) {
     for (const LabPlane& plane : scene.planes) {
         planes.push_back({{"normal", list(plane.normal)}, {"offset_m", plane.offset_m}});
         if (plane.body != k_world) {
-            planes.back()["body"] = plane.body;  // in this body's frame
+            planes.back()["body"] = plane.body;  // body whose frame the plane is in
         }
     }
     return planes;

@@ -17,11 +17,12 @@ namespace {
 constexpr double k_ball_m = 0.05;     // radius of the balls at rest
 constexpr double k_striker_m = 0.03;  // radius of the striking balls
 constexpr double k_lane_m = 20.0;     // distance of the pairs
-constexpr double k_apart_s = 0.3;     // by then every pair has met and parted
+constexpr double k_apart_s = 0.3;     // time in which every pair has met and parted
 
 struct Impact {
     double speed_mps;
-    double offset;  // of the striker's path from the ball's centre, as a share of both radii
+    double
+        offset;  // distance of the striker's path from the ball's centre, as a share of both radii
     double striker_kg;
     double restitution;
 };

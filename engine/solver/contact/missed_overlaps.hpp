@@ -14,7 +14,7 @@ namespace handhold {
 // The deepest overlap of one body; depth 0 and the body itself if there is none.
 struct Overlap {
     double depth_m = 0.0;
-    std::uint32_t with = 0;  // into ConstraintGraph::bodies
+    std::uint32_t with = 0;  // index into ConstraintGraph::bodies
 };
 
 struct MissedOverlaps {

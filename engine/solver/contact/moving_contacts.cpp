@@ -72,8 +72,8 @@ bool is_pair_before(const ContactPoint& x, const ContactPoint& y) {
 
 // The distance between a contact's two points at the bodies' current poses.
 struct PointOffset {
-    double normal_m = 0.0;   // along the normal; negative if penetrating
-    double tangent_m = 0.0;  // across it
+    double normal_m = 0.0;   // component along the normal; negative: penetrating
+    double tangent_m = 0.0;  // component across the normal
 };
 PointOffset offset_of(const ConstraintGraph& graph, const ContactPoint& contact) {
     const auto pose_of = [&graph](std::uint64_t id) {

@@ -107,7 +107,7 @@ HH_INLINE void turn_asymmetric(double dt_s, const Double4& spin_radps, const Dou
 struct Rotation4 {
     Wide3 momentum_ws;
     SortedAxes axes;
-    Mask4 exchanged[3];  // which exchanges sorted the axes, in order
+    Mask4 exchanged[3];  // exchanges that sorted the axes, in order
     // 1/moment of the outer axis minus 1/moment of the middle axis, 1/(kg m^2).
     Double4 min_rate, max_rate;
     // The rotation common to all three axes: a rotation vector along the momentum, world axes.
@@ -238,9 +238,8 @@ bool is_top(const Vec3& inertia_kgm2) {
 }  // namespace
 
 void FreeRotations::add(const Vec3& inertia_kgm2, Quat& rotation, Vec3& spin_radps) {
-    constexpr double k_fastest_radps = 1e6;
     const double square = spin_radps.squaredNorm();
-    if (square == 0.0 || !(square < k_fastest_radps * k_fastest_radps)) {
+    if (square == 0.0 || !(square < k_fastest_spin_radps * k_fastest_spin_radps)) {
         return;
     }
     const Kind kind = is_top(inertia_kgm2) ? Kind::top : Kind::any;

@@ -11,10 +11,12 @@
 
 namespace handhold {
 
+inline constexpr double k_fastest_spin_radps = 1e6;
+
 // Rotates torque-free bodies by dt_s, four at a time. The result of a body does not depend on the
 // other three. Angular momentum is kept to rounding. The energy error is bounded and does not grow
 // with time, for rotations up to 64 rad per dt_s. Exact for spheres and symmetric tops. A body with
-// a spin of 1e6 rad/s or more is left unchanged.
+// a spin of k_fastest_spin_radps or more is left unchanged.
 //
 // Method: energy splitting after Dullweber, Leimkuhler and McLachlan (1997, J. Chem. Phys. 107,
 // 5840). The rotation common to all three axes is factored out first; it commutes with the rest.
@@ -57,7 +59,7 @@ class FreeRotations {
 
     double dt_s_;
     Vectors vectors_;
-    std::array<Batch, 2> batches_;  // by kind
+    std::array<Batch, 2> batches_;  // indexed by kind
 };
 
 }  // namespace handhold

@@ -14,9 +14,9 @@
 namespace handhold {
 
 struct Island {
-    std::uint32_t bodies_begin = 0;  // into ConstraintGraph::island_bodies
+    std::uint32_t bodies_begin = 0;  // index into ConstraintGraph::island_bodies
     std::uint32_t bodies_end = 0;
-    std::uint32_t blocks_begin = 0;  // into ConstraintGraph::island_blocks
+    std::uint32_t blocks_begin = 0;  // index into ConstraintGraph::island_blocks
     std::uint32_t blocks_end = 0;
     bool is_heap = false;  // has more than k_max_direct_contacts contacts of loose bodies
 };
@@ -55,7 +55,7 @@ struct ConstraintGraph {
         bool moves_b = false;
         friend bool operator==(const Tie&, const Tie&) = default;
     };
-    std::vector<Tie> ties;  // by block: its two bodies
+    std::vector<Tie> ties;  // two bodies of each block
 
     // Scratch of sort_blocks and build_islands.
     struct BlockPlace {
@@ -68,9 +68,9 @@ struct ConstraintGraph {
     std::vector<BlockPlace> places;
     std::vector<RowBlock> sorted_blocks;
     std::vector<std::uint32_t> members;         // movable bodies with a block, ascending
-    std::vector<std::uint8_t> is_member;        // by body; all 0 between builds
-    std::vector<std::uint32_t> parent;          // by body; valid for members
-    std::vector<std::uint32_t> island_of_root;  // by body; valid for members
+    std::vector<std::uint8_t> is_member;        // indexed by body; all 0 between builds
+    std::vector<std::uint32_t> parent;          // indexed by body; valid for members
+    std::vector<std::uint32_t> island_of_root;  // indexed by body; valid for members
     std::vector<std::uint32_t> root_of_block;
 };
 

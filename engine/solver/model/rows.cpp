@@ -11,9 +11,9 @@ namespace {
 
 // The two ends of a block, in world axes.
 struct Ends {
-    Vec3 arm_a;  // from each body's centre to its anchor point
+    Vec3 arm_a;  // vector from each body's centre to its anchor point
     Vec3 arm_b;
-    Vec3 error;  // from b's point to a's point
+    Vec3 error;  // vector from b's point to a's point
 
     Ends(std::span<const SolverBody> bodies, const RowBlock& block) {
         const Pose& a = bodies[block.a].pose_ws;

@@ -22,8 +22,8 @@ enum class BodyRole : std::uint8_t {
 struct SolverBody {
     std::uint64_t id = 0;  // persistent
     BodyRole role = BodyRole::fixed;
-    Pose pose_ws;                      // in/out of every solve
-    Vec3 velocity_mps = Vec3::Zero();  // in/out of solve_velocities; world axes
+    Pose pose_ws;                      // in/out: every solve
+    Vec3 velocity_mps = Vec3::Zero();  // in/out: solve_island_velocities; world axes
     Vec3 spin_radps = Vec3::Zero();    // angular velocity; world axes
     double mass_kg = 0.0;
     // Principal moments, body axes; zero for translating and fixed bodies.
@@ -84,7 +84,7 @@ struct JointRows {
     // Impulse at which a lock gives way; 0: it never does.
     double lock_limit_impulse = 0.0;
 
-    double lock_impulse = 0.0;  // out of solve_velocities: impulse that held the lock
+    double lock_impulse = 0.0;  // out of solve_island_velocities: impulse that held the lock
 };
 
 // One constraint between two bodies. Drives: a is the driving body (BodyRole::translating), and b
@@ -92,7 +92,7 @@ struct JointRows {
 // the lower id). The normal is given in b's frame.
 struct RowBlock {
     RowKind kind = RowKind::contact;
-    std::uint32_t a = 0;  // into ConstraintGraph::bodies
+    std::uint32_t a = 0;  // index into ConstraintGraph::bodies
     std::uint32_t b = 0;
     // Orders blocks of one kind between the same bodies: id of the drive's source or of the joint,
     // feature id of the contact.
@@ -115,9 +115,9 @@ struct RowBlock {
     double friction = 0.0;     // contact: Coulomb coefficient
     JointRows joint;
 
-    // Out of solve_velocities: linear impulse on a at its point; b gets the opposite.
+    // Out of solve_island_velocities: linear impulse on a at its point; b gets the opposite.
     Vec3 impulse_ws_ns = Vec3::Zero();
-    // Out of solve_velocities: angular impulse on a; b gets the opposite.
+    // Out of solve_island_velocities: angular impulse on a; b gets the opposite.
     Vec3 angular_impulse_ws_nms = Vec3::Zero();
 };
 inline bool is_drive(RowKind kind) {
@@ -129,7 +129,7 @@ inline bool is_contact(const RowBlock& block) { return block.kind == RowKind::co
 inline bool is_joint(const RowBlock& block) { return !is_drive(block) && !is_contact(block); }
 
 // Lever that converts angles to lengths, metres. Angular rows are multiplied by it, so that all
-// residuals of a solve have one unit: 0.01 rad counts as 1 mm.
+// residuals of a solve have one unit: for example, 0.01 rad counts as 1 mm.
 inline constexpr double k_angle_lever_m = 0.1;
 
 // Selects a row's regularisation (model/regularisation.hpp).
@@ -150,8 +150,8 @@ struct Row {
     // drive velocity). Angular rows of drives, joints and limits: rad/s times k_angle_lever_m.
     // Friction and motor rows of angular joints (append_sliding_rows): rad/s, without the lever.
     double residual = 0.0;
-    std::uint32_t block = 0;  // into ConstraintGraph::blocks
-    std::uint32_t a = 0;      // into ConstraintGraph::bodies
+    std::uint32_t block = 0;  // index into ConstraintGraph::blocks
+    std::uint32_t a = 0;      // index into ConstraintGraph::bodies
     std::uint32_t b = 0;
     RowGroup group = RowGroup::contact;
     bool unilateral = false;  // true: satisfied if residual >= 0

@@ -38,6 +38,11 @@ void prepare_inertia(const IslandView& island, SolveScratch& scratch) {
     }
 }
 
+void gather_residuals(SolveScratch& scratch) {
+    scratch.values.resize(scratch.rows.size());
+    std::ranges::transform(scratch.rows, scratch.values.begin(), &Row::residual);
+}
+
 double gather_moves(std::span<const RowMatrix::Twist> moves, SolveScratch& scratch) {
     scratch.moves_m.resize(moves.size());
     scratch.rotations_rad.resize(moves.size());

@@ -21,10 +21,10 @@ namespace handhold {
 // solved concurrently.
 struct SolveScratch {
     std::vector<Row> rows;
-    std::vector<Row> previous_rows;        // of the previous step; lambda belongs to these
-    std::vector<Mat3> inverse_inertia_ws;  // by slot
-    std::vector<Mat3> stiffness;           // by slot
-    std::vector<Vec3> moves_m;             // by slot
+    std::vector<Row> previous_rows;        // rows of the previous step; lambda belongs to these
+    std::vector<Mat3> inverse_inertia_ws;  // indexed by slot
+    std::vector<Mat3> stiffness;           // indexed by slot
+    std::vector<Vec3> moves_m;             // indexed by slot
     std::vector<Vec3> rotations_rad;
     std::vector<double> values;
     std::vector<double> lambda;
@@ -63,7 +63,8 @@ void prepare_inertia(const IslandView& island, SolveScratch& scratch);
 // A solve whose step is implausibly long is repeated with more regularisation, at most this often.
 inline constexpr int k_max_regularisation_retries = 3;
 inline constexpr double k_retry_regularisation_increase = 100.0;
-// Longest plausible move of a body by contact rows, relative to the residual: a lever of 1 m.
+// Longest plausible move of a body by contact rows, relative to the residual: a lever of ten
+// k_angle_lever_m.
 inline constexpr double k_max_move_ratio = 10.0;
 
 // Writes the system's alpha: model/regularisation.hpp.
@@ -86,6 +87,8 @@ void regularise(std::span<const Row> rows, const Regularisation& regularisation,
     }
 }
 
+// Copies the residuals of `rows` to `values`.
+void gather_residuals(SolveScratch& scratch);
 // Copies the moves W J^T lambda of a solve, by slot. Returns the largest rotation
 // in radians.
 double gather_moves(std::span<const RowMatrix::Twist> moves, SolveScratch& scratch);

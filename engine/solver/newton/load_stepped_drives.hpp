@@ -33,7 +33,7 @@ class LoadSteppedDrives {
 
   private:
     struct Drive {
-        std::uint32_t block = 0;  // into the graph's blocks
+        std::uint32_t block = 0;  // index into the graph's blocks
         Vec3 point_a_bs = Vec3::Zero();
         Quat rotation_a_bs = Quat::Identity();
         Vec3 point_error_a_bs = Vec3::Zero();  // p_a - p_b in a's frame
@@ -41,7 +41,7 @@ class LoadSteppedDrives {
         Vec3 rotation_error_a_bs = Vec3::Zero();
     };
     std::vector<Drive> drives_;
-    std::vector<Pose> start_;  // by slot
+    std::vector<Pose> start_;  // indexed by slot
 };
 
 }  // namespace handhold

@@ -1,6 +1,6 @@
 // Solver, newton: the damped Newton iteration of the position solve. One iteration,
 //   (J W J^T + R) lambda = -C,   dx = W J^T lambda,   x += scale * dx
-// is the same for islands solved row by row (RowSteps) and in packed triads (TriadSteps).
+// is the same for islands solved row by row, in packed triads and by sweeps (newton_step.hpp).
 // Sources: Levenberg-Marquardt regularisation of constrained rigid bodies; geometric stiffness
 // after Tournier, Nesme, Gilles and Faure, Stable Constrained Dynamics (2015).
 #include "engine/solver/newton/newton.hpp"
@@ -14,6 +14,7 @@
 #include "engine/solver/model/negligible.hpp"
 #include "engine/solver/newton/load_stepping.hpp"
 #include "engine/solver/newton/newton_rows.hpp"
+#include "engine/solver/newton/newton_step.hpp"
 #include "engine/solver/newton/regularisation_schedule.hpp"
 #include "engine/solver/newton/sweep_steps.hpp"
 
@@ -29,73 +30,59 @@ constexpr double k_unlimited_move_m = 0.1;  // a shorter move is always plausibl
 constexpr double k_drive_tolerance_ratio = 0.1;
 // Bodies that a step moves by less than this share of the tolerance count as at rest.
 constexpr double k_inactive_move_ratio = 1e-3;
-constexpr double k_stall_ratio = 0.7;  // Sweeps give up after a step that leaves more of the error.
 
 // --- Row by row ---------------------------------------------------------------------------------
 
 // The step of an island solved by RowSystem: any kind of row, with an active set.
 class RowSteps {
   public:
-    RowSteps(const IslandView& island, std::uint64_t max_work, SolveScratch& scratch)
-        : island_(island), scratch_(scratch) {
+    RowSteps(const IslandView& island, SolveScratch& scratch) : island_(island), scratch_(scratch) {
         scratch_.system.reset_active_set();
-        scratch_.system.limit_work(max_work);
+        scratch_.system.limit_work(island.max_work);
         clear_stiffness(island_, scratch_);
     }
 
+    static constexpr bool k_has_cheap_factor = false;
+
     // If all rows are point rows and the last step was unscaled, updates only the residuals and
-    // keeps the Jacobian of the current factor until `renew`.
-    void evaluate(bool was_full_step) {
-        reuses_jacobian_ = was_full_step && has_only_point_rows_;
+    // keeps the Jacobian of the current factor until `prepare`.
+    StepErrors evaluate(bool was_whole) {
+        reuses_jacobian_ = was_whole && has_only_point_rows_;
         if (reuses_jacobian_) {
             update_point_residuals();
         } else {
             collect();
         }
+        return {.worst_m = worst_error(scratch_.rows),
+                .worst_drive_m = worst_drive_error(scratch_.rows),
+                .overlap_m = worst_overlap(scratch_.rows),
+                .has_contact = has_contact(scratch_.rows),
+                .keeps_factor = has_only_point_rows_ || has_same_rows()};
     }
-    void renew() {
+    void prepare(const StepHints& hints) {
         if (reuses_jacobian_) {
             collect();
         }
-    }
-    double worst_m() const { return worst_error(scratch_.rows); }
-    double worst_drive_m() const { return worst_drive_error(scratch_.rows); }
-    double overlap_m() const { return worst_overlap(scratch_.rows); }
-    bool has_contact() const { return handhold::has_contact(scratch_.rows); }
-    bool is_active_set_unconverged() const { return scratch_.system.is_active_set_unconverged(); }
-    std::uint64_t work() const { return scratch_.system.work(); }
-
-    // True if the last factor fits the current rows.
-    bool keeps_factor() const { return has_only_point_rows_ || has_same_rows(); }
-    void stiffen(bool stiff) {
         clear_stiffness(island_, scratch_);
-        if (stiff) {
+        if (hints.adds_stiffness) {
             gather_stiffness();
         }
     }
-
-    void solve(const Regularisation& regularisation, double factor) {
+    StepWork solve(const Regularisation& regularisation, double factor) {
         has_only_point_rows_ = has_only_point_rows();
         prepare_inertia(island_, scratch_);
         scratch_.system.assemble(island_.bodies, scratch_.inverse_inertia_ws, scratch_.rows);
         regularise(scratch_.rows, regularisation, factor, scratch_.system);
         take(scratch_.system.solve(scratch_.rows));
+        return {scratch_.system.work(), scratch_.system.is_active_set_unconverged()};
     }
     void solve_with_last_factor() {
-        scratch_.values.clear();
-        for (const Row& row : scratch_.rows) {
-            scratch_.values.push_back(row.residual);
-        }
+        gather_residuals(scratch_);
         take(scratch_.system.solve_with_last_factor(scratch_.values));
     }
     double longest_move() const { return handhold::longest_move(scratch_); }
     double largest_rotation() const { return largest_rotation_; }
     double apply_moves(double scale) { return handhold::apply_moves(island_, scale, scratch_); }
-    static void restrict_to_active(double /*still_m*/) {}
-    static void activate_all_rows() {}
-    static bool has_cheap_factor() { return false; }
-    static bool gives_up() { return false; }
-    static std::optional<JointError> worst_joints() { return std::nullopt; }
 
   private:
     // True if the number of rows is unchanged and all are bilateral.
@@ -170,37 +157,37 @@ class RowSteps {
 // The step of an island solved by TriadSystem: bilateral rows only.
 class TriadSteps {
   public:
+    static constexpr bool k_has_cheap_factor = true;
+
     TriadSteps(const IslandView& island, TriadSystem& system) : island_(island), system_(system) {}
 
-    void evaluate(bool /*was_full_step*/) { system_.evaluate(island_); }
-    static void renew() {}
-    double worst_m() { return system_.worst_residual(); }
-    double worst_drive_m() const { return system_.worst_drive_residual(); }
-    static double overlap_m() { return 0.0; }
-    static bool has_contact() { return false; }
-    static bool is_active_set_unconverged() { return false; }
-    static std::uint64_t work() { return 0; }
-    static bool keeps_factor() { return true; }
-    void stiffen(bool stiff) {
-        if (stiff) {
+    StepErrors evaluate(bool /*was_whole*/) {
+        system_.evaluate(island_);
+        return {.worst_m = system_.worst_residual(),
+                .worst_drive_m = system_.worst_drive_residual(),
+                .keeps_factor = true};
+    }
+    void prepare(const StepHints& hints) {
+        if (hints.min_move_m) {
+            system_.restrict_to_active(*hints.min_move_m);
+        } else {
+            system_.activate_all_rows();
+        }
+        if (hints.adds_stiffness) {
             system_.gather_stiffness();
         } else {
             system_.clear_stiffness();
         }
     }
-    void solve(const Regularisation& regularisation, double factor) {
+    StepWork solve(const Regularisation& regularisation, double factor) {
         system_.factorise(regularisation, factor);
         system_.solve();
+        return {};
     }
     void solve_with_last_factor() { system_.solve(); }
     double longest_move() const { return system_.longest_move(); }
     double largest_rotation() const { return system_.largest_rotation(); }
     double apply_moves(double scale) { return system_.apply_moves(scale); }
-    void restrict_to_active(double min_move_m) { system_.restrict_to_active(min_move_m); }
-    void activate_all_rows() { system_.activate_all_rows(); }
-    static bool has_cheap_factor() { return true; }
-    static bool gives_up() { return false; }
-    std::optional<JointError> worst_joints() const { return system_.worst_joints(); }
 
   private:
     const IslandView& island_;
@@ -211,21 +198,24 @@ class TriadSteps {
 
 struct StepResult {
     double length_m = 0.0;
-    bool whole = true;  // not scaled down
+    bool is_whole = true;  // not scaled down
+    StepWork work;
 };
 
 // One Newton step. If the step would be scaled below min_step_scale, it is repeated with more
 // regularisation.
-template <typename Steps>
+template <NewtonStep Steps>
 StepResult take_step(const Regularisation& regularisation, const StepControl& schedule,
-                     double worst_m, Steps& steps) {
+                     const StepErrors& errors, Steps& steps) {
+    const double worst_m = errors.worst_m;
+    StepResult result;
     double factor = 1.0;
     double scale = 1.0;
     for (int attempt = 0; attempt <= k_max_regularisation_retries; ++attempt) {
-        steps.solve(regularisation, factor);
+        result.work = steps.solve(regularisation, factor);
         const double turn = std::max(steps.largest_rotation(), 1e-30);
         const double move = std::max(steps.longest_move(), 1e-30);
-        const double largest = steps.has_contact()
+        const double largest = errors.has_contact
                                    ? k_max_move_ratio * worst_m
                                    : std::max(k_max_joint_move_ratio * worst_m, k_unlimited_move_m);
         scale = std::min({1.0, schedule.max_step_rotation_rad / turn, largest / move});
@@ -234,24 +224,17 @@ StepResult take_step(const Regularisation& regularisation, const StepControl& sc
         }
         factor *= k_retry_regularisation_increase;
     }
-    return {steps.apply_moves(scale), scale == 1.0};
-}
-
-// While each step halves the error, later steps skip the bodies that the last one hardly moved.
-template <typename Steps>
-void choose_active_rows(bool halves, const NewtonSettings& settings, Steps& steps) {
-    if (halves) {
-        steps.restrict_to_active(k_inactive_move_ratio * settings.tolerance_m);
-    } else {
-        steps.activate_all_rows();
-    }
+    result.length_m = steps.apply_moves(scale);
+    result.is_whole = scale == 1.0;
+    return result;
 }
 
 // A step with the previous factor. As good as a new one if the poses hardly moved since.
-template <typename Steps>
-StepResult repeat_step(Steps& steps) {
+template <FactorisedStep Steps>
+void repeat_step(Steps& steps, StepResult& result) {
     steps.solve_with_last_factor();
-    return {steps.apply_moves(1.0), true};
+    result.length_m = steps.apply_moves(1.0);
+    result.is_whole = true;
 }
 
 // True if the last step reduced the error so well that its factor is worth another step. If a new
@@ -265,60 +248,84 @@ bool is_good_step(double residual_m, double previous_m, bool is_factor_cheap,
            (!is_factor_cheap || ratio * residual_m < k_safety * settings.tolerance_m);
 }
 
-template <typename Steps>
-NewtonResult iterate(const NewtonSettings& settings, Steps&& steps) {
+// Ends when the error has converged, when the last step was short or the work is spent, or after a
+// step that leaves more than `stall_ratio` of the smallest error so far.
+template <NewtonStep Steps>
+NewtonResult iterate(const IslandView& island, const NewtonSettings& settings, double stall_ratio,
+                     Steps& steps) {
     NewtonResult result;
     Regularisation regularisation = settings.regularisation;
     double previous = std::numeric_limits<double>::infinity();
     double previous_overlap = previous;
     double smallest = previous;
-    StepResult step{previous, false};
+    StepResult step{previous, false, {}};
     SteadyDecrease steady(settings.schedule);
     bool refines_drives = false;  // the next or last step only refines drives
     for (;;) {
-        steps.evaluate(step.whole);
-        result.residual_m = steps.worst_m();
+        const StepErrors errors = steps.evaluate(step.is_whole);
+        result.residual_m = errors.worst_m;
         result.converged = result.residual_m < settings.tolerance_m;
-        const bool is_stalled = steps.gives_up() && result.iterations > 0 &&
-                                result.residual_m > k_stall_ratio * smallest;
+        const bool is_stalled = result.iterations > 0 && result.residual_m > stall_ratio * smallest;
         if (result.iterations == 0) {
-            result.initial_drive_error_m = steps.worst_drive_m();
+            result.initial_drive_error_m = errors.worst_drive_m;
         }
-        refines_drives = result.converged && !refines_drives && step.whole &&
-                         steps.keeps_factor() && result.iterations + 1 < settings.max_iterations &&
-                         steps.worst_drive_m() > k_drive_tolerance_ratio * settings.tolerance_m;
-        result.work = steps.work();
-        result.out_of_work = !result.converged && result.work >= settings.max_work;
+        refines_drives = result.converged && !refines_drives && step.is_whole &&
+                         errors.keeps_factor && result.iterations + 1 < settings.max_iterations &&
+                         errors.worst_drive_m > k_drive_tolerance_ratio * settings.tolerance_m;
+        result.work = step.work.spent;
+        result.out_of_work = !result.converged && result.work >= island.max_work;
         if ((result.converged && !refines_drives) || result.iterations == settings.max_iterations ||
             step.length_m < settings.step_tolerance_m || result.out_of_work || is_stalled) {
-            result.joints = steps.worst_joints();
             return result;
         }
-        const double overlap = steps.overlap_m();
-        const bool repeats = refines_drives || (step.whole && steps.keeps_factor() &&
-                                                is_good_step(result.residual_m, previous,
-                                                             steps.has_cheap_factor(), settings));
-        if (!repeats) {
-            steps.renew();
+        bool repeats = false;
+        if constexpr (FactorisedStep<Steps>) {
+            repeats = refines_drives || (step.is_whole && errors.keeps_factor &&
+                                         is_good_step(result.residual_m, previous,
+                                                      Steps::k_has_cheap_factor, settings));
+            if (result.iterations > 0 && !repeats) {
+                // While each step halves the error, later steps skip what the last one hardly
+                // moved.
+                const bool halves = step.is_whole && result.residual_m < 0.5 * previous;
+                steps.prepare(
+                    {.adds_stiffness = result.residual_m > settings.geometric_stiffness_from_m,
+                     .min_move_m = halves
+                                       ? std::optional(k_inactive_move_ratio * settings.tolerance_m)
+                                       : std::nullopt});
+            }
         }
         if (result.iterations > 0 && !repeats) {
             const bool is_steady = steady.take({.residual_m = result.residual_m,
                                                 .smallest_residual_m = smallest,
-                                                .is_unscaled = step.whole,
-                                                .has_contact = steps.has_contact()});
-            update_regularisation(result.residual_m < 0.5 * smallest || is_steady, overlap,
+                                                .is_unscaled = step.is_whole,
+                                                .has_contact = errors.has_contact});
+            update_regularisation(result.residual_m < 0.5 * smallest || is_steady, errors.overlap_m,
                                   previous_overlap, settings, regularisation);
-            choose_active_rows(step.whole && result.residual_m < 0.5 * previous, settings, steps);
-            steps.stiffen(result.residual_m > settings.geometric_stiffness_from_m);
         }
-        step = repeats ? repeat_step(steps)
-                       : take_step(regularisation, settings.schedule, result.residual_m, steps);
-        result.active_set_unconverged |= steps.is_active_set_unconverged();
+        if constexpr (FactorisedStep<Steps>) {
+            if (repeats) {
+                repeat_step(steps, step);
+            }
+        }
+        if (!repeats) {
+            step = take_step(regularisation, settings.schedule, errors, steps);
+        }
+        result.active_set_unconverged |= step.work.is_active_set_unconverged;
         previous = result.residual_m;
         smallest = std::min(smallest, previous);
-        previous_overlap = overlap;
+        previous_overlap = errors.overlap_m;
         ++result.iterations;
     }
+}
+
+constexpr double k_never_stalls = std::numeric_limits<double>::infinity();
+
+NewtonResult iterate_triads(const IslandView& island, const NewtonSettings& settings,
+                            TriadSystem& triads) {
+    TriadSteps steps(island, triads);
+    NewtonResult result = iterate(island, settings, k_never_stalls, steps);
+    result.joints = triads.worst_joints();
+    return result;
 }
 
 // Solves from the bodies' current poses, which may have changed since the island was loaded.
@@ -327,14 +334,14 @@ NewtonResult solve_load_step(const IslandView& island, const NewtonSettings& set
     if (!scratch.triads.load(island)) {
         return {};
     }
-    const NewtonResult result = iterate(settings, TriadSteps(island, scratch.triads));
+    const NewtonResult result = iterate_triads(island, settings, scratch.triads);
     scratch.triads.store_poses(island);
     return result;
 }
 
 NewtonResult solve_triads(const IslandView& island, const NewtonSettings& settings,
                           SolveScratch& scratch) {
-    const NewtonResult full_load = iterate(settings, TriadSteps(island, scratch.triads));
+    const NewtonResult full_load = iterate_triads(island, settings, scratch.triads);
     reserve_load_stepping(island, scratch);
     const bool steps_load =
         needs_load_stepping(full_load, settings) && scratch.load_stepped.take(island);
@@ -344,11 +351,18 @@ NewtonResult solve_triads(const IslandView& island, const NewtonSettings& settin
                : full_load;
 }
 
+NewtonResult solve_rows(const IslandView& island, const NewtonSettings& settings,
+                        SolveScratch& scratch) {
+    RowSteps steps(island, scratch);
+    return iterate(island, settings, k_never_stalls, steps);
+}
+
 NewtonResult solve_heap(const IslandView& island, const NewtonSettings& settings,
                         SolveScratch& scratch) {
     NewtonSettings of_heap = settings;
-    of_heap.max_iterations = std::min(settings.max_iterations, settings.sweeps.max_iterations);
-    return iterate(of_heap, SweepSteps(island, settings, scratch));
+    of_heap.max_iterations = std::min(settings.max_iterations, SweepSteps::k_max_iterations);
+    SweepSteps steps(island, settings.tolerance_m, scratch);
+    return iterate(island, of_heap, SweepSteps::k_stall_ratio, steps);
 }
 
 }  // namespace
@@ -360,9 +374,8 @@ NewtonResult solve_positions(const IslandView& island, const NewtonSettings& set
         if (island.is_heap) {
             return solve_heap(island, settings, scratch);
         }
-        return scratch.triads.load(island)
-                   ? solve_triads(island, settings, scratch)
-                   : iterate(settings, RowSteps(island, settings.max_work, scratch));
+        return scratch.triads.load(island) ? solve_triads(island, settings, scratch)
+                                           : solve_rows(island, settings, scratch);
     };
     const NewtonResult result = solve();
     drop_negligible(island);

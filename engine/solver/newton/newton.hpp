@@ -13,7 +13,7 @@ namespace handhold {
 enum class LoadStepping : std::uint8_t { none, converged, failed };
 
 struct NewtonResult {
-    int iterations = 0;                  // of all load steps
+    int iterations = 0;                  // sum over all load steps
     double initial_drive_error_m = 0.0;  // largest drive error before the first iteration
     double residual_m = 0.0;             // largest error at the end (Row::residual)
     bool converged = false;              // residual_m < tolerance_m
@@ -21,7 +21,7 @@ struct NewtonResult {
     // In some step the active set did not converge: inactive rows may overlap.
     bool active_set_unconverged = false;
     std::uint64_t work = 0;    // spent, in the unit of WorkBudget; packed islands spend none
-    bool out_of_work = false;  // ended because it had spent NewtonSettings::max_work
+    bool out_of_work = false;  // ended because it had spent IslandView::max_work
     // Load stepping, if the iterations ran out; failed: the bodies are where the full load left
     // them.
     LoadStepping load_stepping = LoadStepping::none;

@@ -25,19 +25,21 @@ bool SteadyDecrease::take(const Step& step) {
 void update_regularisation(bool progresses, double overlap_m, double previous_overlap_m,
                            const NewtonSettings& settings, Regularisation& regularisation) {
     const StepControl& schedule = settings.schedule;
-    const bool drive_at_max = regularisation.drive >= schedule.max_drive_regularisation;
+    const double min_drive = schedule.min_drive_regularisation;
+    const double max_drive = std::max(schedule.max_drive_regularisation, min_drive);
+    const double min_contact = settings.regularisation.contact;
+    const double max_contact = std::max(schedule.max_contact_regularisation, min_contact);
+    const bool drive_at_max = regularisation.drive >= max_drive;
     const bool is_unresolved =
         drive_at_max && overlap_m > k_unresolved_overlap_m && overlap_m > 0.5 * previous_overlap_m;
-    regularisation.drive = progresses
-                               ? std::max(regularisation.drive * schedule.regularisation_decrease,
-                                          schedule.min_drive_regularisation)
-                               : std::min(regularisation.drive * schedule.regularisation_increase,
-                                          schedule.max_drive_regularisation);
+    regularisation.drive =
+        progresses ? std::max(regularisation.drive * schedule.regularisation_decrease, min_drive)
+                   : std::min(regularisation.drive * schedule.regularisation_increase, max_drive);
     regularisation.contact =
-        is_unresolved ? std::min(regularisation.contact * schedule.regularisation_increase,
-                                 schedule.max_contact_regularisation)
-                      : std::max(regularisation.contact * (1.0 / schedule.regularisation_increase),
-                                 settings.regularisation.contact);
+        is_unresolved
+            ? std::min(regularisation.contact * schedule.regularisation_increase, max_contact)
+            : std::max(regularisation.contact * (1.0 / schedule.regularisation_increase),
+                       min_contact);
 }
 
 }  // namespace handhold

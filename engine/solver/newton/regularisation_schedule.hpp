@@ -30,7 +30,7 @@ class SteadyDecrease {
 
     struct Step {
         double residual_m = 0.0;
-        double smallest_residual_m = 0.0;  // of all steps before
+        double smallest_residual_m = 0.0;  // least residual of all steps before
         bool is_unscaled = false;
         bool has_contact = false;
     };

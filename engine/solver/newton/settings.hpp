@@ -1,5 +1,5 @@
-// Solver, newton: settings of the position and velocity solves. The defaults are those the runtime
-// uses (components/tuning.hpp takes its defaults from here).
+// Solver, newton: settings of the position and velocity solves, with the runtime's defaults.
+// SolverTuning (components/tuning.hpp) holds NewtonSettings as it is.
 
 #pragma once
 
@@ -12,9 +12,10 @@ namespace handhold {
 // How the regularisation of drives and contacts changes from step to step, and how long a Newton
 // step may be. See regularisation_schedule.hpp.
 struct StepControl {
-    double max_drive_regularisation = 1e-2;
+    double max_drive_regularisation = 1e-2;  // >= min_drive_regularisation
     double min_drive_regularisation = 1e-9;
-    double max_contact_regularisation = 1e-3;  // of contacts that contradict each other
+    // Of contacts that contradict each other; at least their initial regularisation.
+    double max_contact_regularisation = 1e-3;
     // Factor on the drives' regularisation after a step that reduced the error, and after one that
     // did not.
     double regularisation_decrease = 0.03;
@@ -30,22 +31,13 @@ struct StepControl {
 
 // Work that the solves of one island may spend in a frame. Counted, never timed, so that the same
 // frame ends at the same point everywhere. The unit is one visit of a row by a sweep, or
-// k_multiply_adds of a factorisation: about 30 ns.
+// k_multiply_adds of a factorisation: it costs about 30 ns.
 struct WorkBudget {
     static constexpr std::uint64_t k_multiply_adds = 64;
-    std::uint64_t positions = 250'000;  // of all phases together
+    std::uint64_t positions = 250'000;  // budget of all phases together
     std::uint64_t velocities = 100'000;
     std::uint64_t per_block = 60;  // added to both for each of the island's first max_blocks
     std::size_t max_blocks = 4000;
-};
-
-// Solves by sweeps (sweeps/row_sweeps.hpp).
-struct SweepSettings {
-    int max_iterations = 6;  // Newton steps of a position solve
-    int max_sweeps = 30;     // per Newton step
-    int max_velocity_sweeps = 60;
-    // Of a velocity solve that is not a heap's, after the direct solve found no answer.
-    int max_small_velocity_sweeps = 30;
 };
 
 struct NewtonSettings {
@@ -59,8 +51,6 @@ struct NewtonSettings {
     // (load_stepping.hpp).
     double load_stepping_from_m = 0.05;
     StepControl schedule{};
-    SweepSettings sweeps{};
-    std::uint64_t max_work = WorkBudget{}.positions;  // what is left of it
 };
 
 struct VelocitySettings {
@@ -72,8 +62,6 @@ struct VelocitySettings {
     int friction_passes = 6;       // limit of the stick-slip iteration
     double tolerance_mps = 1e-10;  // iterative refinement ends below this residual
     int refinements = 8;           // limit of the iterative refinement
-    SweepSettings sweeps{};
-    std::uint64_t max_work = WorkBudget{}.velocities;
 };
 
 }  // namespace handhold

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <span>
 
 #include "engine/solver/model/islands.hpp"
 #include "engine/solver/newton/newton_rows.hpp"
-#include "engine/solver/newton/settings.hpp"
+#include "engine/solver/newton/newton_step.hpp"
 
 namespace handhold {
 
@@ -24,13 +23,44 @@ class SweepSteps {
     // Longest move of a loose body in a step.
     static constexpr double k_max_loose_move_m = 0.05;
 
-    SweepSteps(const IslandView& island, const NewtonSettings& settings, SolveScratch& scratch)
-        : island_(island), settings_(settings), scratch_(scratch) {
+    static constexpr int k_max_iterations = 6;  // Newton steps of a solve
+    static constexpr int k_max_sweeps = 30;     // maximum per Newton step
+    // The solve ends after a step that leaves more of the smallest error.
+    static constexpr double k_stall_ratio = 0.7;
+
+    // `tolerance_m`: NewtonSettings.
+    SweepSteps(const IslandView& island, double tolerance_m, SolveScratch& scratch)
+        : island_(island), tolerance_m_(tolerance_m), scratch_(scratch) {
         clear_stiffness(island_, scratch_);
     }
 
-    void evaluate(bool /*was_full_step*/) { collect_rows(island_, scratch_.rows); }
-    static void renew() {}
+    StepErrors evaluate(bool /*was_whole*/) {
+        collect_rows(island_, scratch_.rows);
+        return {.worst_m = worst_m(),
+                .worst_drive_m = worst_drive_error(scratch_.rows),
+                .overlap_m = worst_overlap(scratch_.rows),
+                .has_contact = true};
+    }
+    StepWork solve(const Regularisation& regularisation, double factor) {
+        prepare_inertia(island_, scratch_);
+        RowSweeps& sweeps = scratch_.sweeps;
+        sweeps.assemble(island_.bodies, scratch_.inverse_inertia_ws, scratch_.rows, {});
+        regularise(scratch_.rows, regularisation, factor, sweeps);
+        sweeps.factorise();
+        gather_residuals(scratch_);
+        sweeps.solve(scratch_.values,
+                     {island_.max_work - std::min(work_, island_.max_work), k_max_sweeps,
+                      k_heap_tolerance_m, k_tolerance_ratio * tolerance_m_});
+        work_ += sweeps.work();
+        largest_rotation_ = gather_moves(sweeps.moves(), scratch_);
+        limit_loose_moves();
+        return {.spent = work_};
+    }
+    double longest_move() const { return handhold::longest_move(scratch_); }
+    double largest_rotation() const { return largest_rotation_; }
+    double apply_moves(double scale) { return handhold::apply_moves(island_, scale, scratch_); }
+
+  private:
     // Overlaps within a heap count from k_heap_slack_m.
     double worst_m() const {
         double worst = 0.0;
@@ -43,42 +73,6 @@ class SweepSteps {
         }
         return worst;
     }
-    double worst_drive_m() const { return worst_drive_error(scratch_.rows); }
-    double overlap_m() const { return worst_overlap(scratch_.rows); }
-    static bool has_contact() { return true; }
-    static bool is_active_set_unconverged() { return false; }
-    std::uint64_t work() const { return work_; }
-    static bool keeps_factor() { return false; }
-    static void stiffen(bool /*stiff*/) {}
-
-    void solve(const Regularisation& regularisation, double factor) {
-        prepare_inertia(island_, scratch_);
-        RowSweeps& sweeps = scratch_.sweeps;
-        sweeps.assemble(island_.bodies, scratch_.inverse_inertia_ws, scratch_.rows, {});
-        regularise(scratch_.rows, regularisation, factor, sweeps);
-        sweeps.factorise();
-        scratch_.values.clear();
-        for (const Row& row : scratch_.rows) {
-            scratch_.values.push_back(row.residual);
-        }
-        sweeps.solve(scratch_.values, {settings_.max_work - std::min(work_, settings_.max_work),
-                                       settings_.sweeps.max_sweeps, k_heap_tolerance_m,
-                                       k_tolerance_ratio * settings_.tolerance_m});
-        work_ += sweeps.work();
-        largest_rotation_ = gather_moves(sweeps.moves(), scratch_);
-        limit_loose_moves();
-    }
-    static void solve_with_last_factor() {}
-    double longest_move() const { return handhold::longest_move(scratch_); }
-    double largest_rotation() const { return largest_rotation_; }
-    double apply_moves(double scale) { return handhold::apply_moves(island_, scale, scratch_); }
-    static void restrict_to_active(double /*still_m*/) {}
-    static void activate_all_rows() {}
-    static bool has_cheap_factor() { return false; }
-    static bool gives_up() { return true; }
-    static std::optional<JointError> worst_joints() { return std::nullopt; }
-
-  private:
     // Bodies that were spawned in one place come apart over several frames.
     void limit_loose_moves() {
         for (const std::uint32_t i : island_.island_bodies) {
@@ -91,7 +85,7 @@ class SweepSteps {
     }
 
     const IslandView& island_;
-    const NewtonSettings& settings_;
+    double tolerance_m_;
     SolveScratch& scratch_;
     double largest_rotation_ = 0.0;
     std::uint64_t work_ = 0;

@@ -8,7 +8,7 @@
 
 namespace handhold {
 
-// solve_velocities for the island that `triads` has loaded.
+// solve_island_velocities for the island that `triads` has loaded.
 void solve_triad_velocities(const IslandView& island, const VelocitySettings& settings,
                             TriadSystem& triads);
 

@@ -216,10 +216,7 @@ void refine_velocities(const IslandView& island, const VelocitySettings& setting
             return;
         }
         previous = worst;
-        scratch.values.clear();
-        for (const Row& row : scratch.rows) {
-            scratch.values.push_back(row.residual);
-        }
+        gather_residuals(scratch);
         const std::span<const double> lambda =
             scratch.system.solve_with_last_factor(scratch.values);
         gather_moves(scratch.system.moves(), scratch);
@@ -235,7 +232,7 @@ class DirectMethod {
     DirectMethod(const IslandView& island, const VelocitySettings& settings, SolveScratch& scratch)
         : island_(island), settings_(settings), scratch_(scratch) {
         scratch_.system.reset_active_set();
-        scratch_.system.limit_work(settings.max_work);
+        scratch_.system.limit_work(island.max_work);
         scratch_.system.assemble(island.bodies, scratch_.inverse_inertia_ws, scratch_.rows);
         regularise(scratch_.rows, settings.regularisation, 1.0, scratch_.system);
     }
@@ -317,9 +314,11 @@ class SweepMethod {
     // Sweeps end when they change no row's velocity by more than this.
     static constexpr double k_tolerance_mps = 1e-8;
     static constexpr double k_heap_tolerance_mps = 1e-5;
+    static constexpr int k_max_heap_sweeps = 60;
+    static constexpr int k_max_sweeps = 30;  // maximum once the direct solve has found no answer
 
     SweepMethod(const IslandView& island, const VelocitySettings& settings, SolveScratch& scratch)
-        : settings_(settings), scratch_(scratch), is_heap_(island.is_heap) {
+        : island_(island), settings_(settings), scratch_(scratch) {
         scratch_.bounded.clear();
         for (const SolveScratch::Friction& friction : scratch_.frictions) {
             scratch_.bounded.push_back({friction.row, friction.width, friction.limit,
@@ -333,27 +332,20 @@ class SweepMethod {
     }
     void solve() {
         RowSweeps& sweeps = scratch_.sweeps;
-        scratch_.values.clear();
-        for (const Row& row : scratch_.rows) {
-            scratch_.values.push_back(row.residual);
-        }
-        const std::span<const double> lambda =
-            sweeps.solve(scratch_.values, {settings_.max_work,
-                                           is_heap_ ? settings_.sweeps.max_velocity_sweeps
-                                                    : settings_.sweeps.max_small_velocity_sweeps,
-                                           is_heap_ ? k_heap_tolerance_mps : k_tolerance_mps,
-                                           settings_.tolerance_mps});
+        gather_residuals(scratch_);
+        const std::span<const double> lambda = sweeps.solve(
+            scratch_.values,
+            {island_.max_work, island_.is_heap ? k_max_heap_sweeps : k_max_sweeps,
+             island_.is_heap ? k_heap_tolerance_mps : k_tolerance_mps, settings_.tolerance_mps});
         gather_moves(sweeps.moves(), scratch_);
         scratch_.lambda.assign(lambda.begin(), lambda.end());
     }
-    bool is_out_of_work() const { return work() >= settings_.max_work; }
+    bool is_out_of_work() const { return scratch_.sweeps.work() >= island_.max_work; }
 
   private:
-    std::uint64_t work() const { return scratch_.sweeps.work(); }
-
+    const IslandView& island_;
     const VelocitySettings& settings_;
     SolveScratch& scratch_;
-    bool is_heap_;
 };
 
 VelocityResult solve_island(const IslandView& island, const VelocitySettings& settings,
@@ -391,8 +383,8 @@ VelocityResult solve_island(const IslandView& island, const VelocitySettings& se
 
 }  // namespace
 
-VelocityResult solve_velocities(const IslandView& island, const VelocitySettings& settings,
-                                SolveScratch& scratch) {
+VelocityResult solve_island_velocities(const IslandView& island, const VelocitySettings& settings,
+                                       SolveScratch& scratch) {
     const FlushDenormals flush;
     const VelocityResult result = solve_island(island, settings, scratch);
     drop_negligible(island);

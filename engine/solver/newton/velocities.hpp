@@ -11,7 +11,7 @@ namespace handhold {
 struct VelocityResult {
     // Stick and slip did not converge: the result is the last iterate, or that of sweeps.
     bool unconverged = false;
-    bool out_of_work = false;  // ended because it had spent VelocitySettings::max_work
+    bool out_of_work = false;  // ended because it had spent IslandView::max_work
 };
 // Solves the same rows as the position solve for the bodies' velocities v:
 //   drives     v_a + v_drive - v_b = 0, and the same for spins (RowBlock::drive_velocity_ws_mps,
@@ -20,7 +20,7 @@ struct VelocityResult {
 //   contacts   v_n >= -e v_n(before); e: restitution, 0 for slow impacts
 //   friction   |impulse| <= limit, opposing the slip
 // Writes the bodies' velocities, the blocks' impulses and the impulses of locked joints.
-VelocityResult solve_velocities(const IslandView& island, const VelocitySettings& settings,
-                                SolveScratch& scratch);
+VelocityResult solve_island_velocities(const IslandView& island, const VelocitySettings& settings,
+                                       SolveScratch& scratch);
 
 }  // namespace handhold

@@ -18,6 +18,8 @@ std::uint32_t other_side(std::uint32_t end) { return end ^ 1U; }
 
 }  // namespace
 
+void StrandPlan::reserve(const StrandPlan& other) { reserve_as(buffers(other), buffers(*this)); }
+
 void StrandPlan::build(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate) {
     slot_count_ = can_rotate.size();
     strand_packs_.clear();
@@ -34,22 +36,6 @@ void StrandPlan::build(std::span<const RowNode> nodes, std::span<const std::uint
         }
     }
     lay_out_rest(nodes, can_rotate);
-}
-
-void StrandPlan::reserve(const StrandPlan& other) {
-    reserve_as(other.strand_packs_, strand_packs_);
-    reserve_as(other.bodies_, bodies_);
-    reserve_as(other.links_, links_);
-    reserve_as(other.rest_, rest_);
-    reserve_as(other.places_, places_);
-    reserve_as(other.rest_nodes_, rest_nodes_);
-    reserve_as(other.rest_can_rotate_, rest_can_rotate_);
-    reserve_as(other.rest_slots_, rest_slots_);
-    reserve_as(other.ends_, ends_);
-    reserve_as(other.uses_, uses_);
-    reserve_as(other.is_open_, is_open_);
-    reserve_as(other.run_, run_);
-    reserve_as(other.strand_of_slot_, strand_of_slot_);
 }
 
 void StrandPlan::find_ends(std::span<const RowNode> nodes) {

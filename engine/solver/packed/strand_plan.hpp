@@ -57,6 +57,11 @@ class StrandPlan {
     std::size_t slot_count() const { return slot_count_; }
 
   private:
+    static auto buffers(auto& plan) {
+        return std::tie(plan.strand_packs_, plan.bodies_, plan.links_, plan.rest_, plan.places_,
+                        plan.rest_nodes_, plan.rest_can_rotate_, plan.rest_slots_, plan.ends_,
+                        plan.uses_, plan.is_open_, plan.run_, plan.strand_of_slot_);
+    }
     void find_ends(std::span<const RowNode> nodes);
     std::uint32_t beyond(std::span<const RowNode> nodes, std::uint32_t end) const;
     void find_links(std::span<const RowNode> nodes);
@@ -79,8 +84,8 @@ class StrandPlan {
     // Scratch of build.
     // by slot: its first two nodes, as 2 * node + side
     std::vector<std::array<std::uint32_t, 2>> ends_;
-    std::vector<std::uint32_t> uses_;    // by slot: its number of nodes
-    std::vector<std::uint8_t> is_open_;  // by node: 1 for links in no run yet
+    std::vector<std::uint32_t> uses_;    // number of nodes of each slot
+    std::vector<std::uint8_t> is_open_;  // one per node; 1: a link in no run yet
     std::vector<std::uint32_t> run_;     // the current run: 2 * node + side nearer its start
     std::vector<std::uint32_t> strand_of_slot_;
 };

@@ -19,7 +19,7 @@ namespace handhold {
 // Four bodies, one per lane. Inverse mass and inertia are 0 in a lane without a body or with an
 // immovable one.
 struct Bodies4 {
-    Wide3 position;  // of the centre of mass
+    Wide3 position;  // position of the centre of mass
     Wide4 rotation;  // unit
     Wide3 velocity;
     Wide3 spin;
@@ -88,26 +88,27 @@ struct RowWindow {
 // `ends`, `lambdas` and `blocks` have one extra element for the dummies of the plan. A dummy end or
 // block may be written, but has no effect. The dummy triad's multiplier is 0.
 struct TriadArrays {
-    std::span<Bodies4> bodies;           // by group of four bodies: place / 4
-    std::span<Ends4> body_ends;          // by TriadPlan::packed_ends
-    std::span<WideSymmetric> stiffness;  // as `bodies`
+    std::span<Bodies4> bodies;           // one per group of four bodies: place / 4
+    std::span<Ends4> body_ends;          // indexed by TriadPlan::packed_ends
+    std::span<WideSymmetric> stiffness;  // indexed like `bodies`
     // indexed like StrandPlan::links(): one entry per step of each strand pack
     std::span<Links4> links;
     std::span<Wide3> multipliers;  // lambdas of strand packs: see TriadPlan::StrandPack::bound
-    std::span<Strands4> strands;   // by strand pack
-    std::span<TriadVector> ends;   // by end: its contribution to the triad's residual
+    std::span<Strands4> strands;   // indexed by strand pack
+    std::span<TriadVector> ends;   // contribution of each end to the triad's residual
     // By triad: residual, as Row::residual (metres or m/s; angles times k_angle_lever_m).
     std::span<TriadVector> values;
-    std::span<TriadVector> lambdas;  // by triad, of the last solve: on a; b gets the opposite
-    std::span<const std::uint8_t> is_drive;  // by triad: 1 for drives
-    std::span<Rows3> blocks;                 // by the plan's block index: matrix, then factor
-    std::span<Rows3> inverses;               // by step: inverse of its diagonal block
+    std::span<TriadVector>
+        lambdas;  // impulse of each triad on a in the last solve; b gets the opposite
+    std::span<const std::uint8_t> is_drive;  // one per triad; 1: a drive
+    std::span<Rows3> blocks;    // matrix, then factor; indexed by the plan's block index
+    std::span<Rows3> inverses;  // inverse of each step's diagonal block
     // Scratch by step: the diagonals during factorisation, then intermediate results of the
     // substitution.
     std::span<TriadVector> unknowns;
-    std::span<const RowWindow> windows;  // by strand pack
+    std::span<const RowWindow> windows;  // indexed by strand pack
     const TriadPlan* plan = nullptr;
-    bool has_turn = false;       // at least one triad is angular
+    bool has_turn = false;       // true: one triad or more is angular
     bool has_stiffness = false;  // inertia includes the geometric stiffness
 };
 

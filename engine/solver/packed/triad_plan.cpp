@@ -43,23 +43,7 @@ void TriadPlan::build(std::span<const RowNode> nodes, std::span<const std::uint8
 void TriadPlan::reserve(const TriadPlan& other) {
     strands_.reserve(other.strands_);
     plan_.reserve(other.plan_);
-    reserve_as(other.nodes_, nodes_);
-    reserve_as(other.can_rotate_, can_rotate_);
-    reserve_as(other.steps_, steps_);
-    reserve_as(other.later_, later_);
-    reserve_as(other.updates_, updates_);
-    reserve_as(other.strand_packs_, strand_packs_);
-    reserve_as(other.anchored_ends_, anchored_ends_);
-    reserve_as(other.places_, places_);
-    reserve_as(other.slots_, slots_);
-    reserve_as(other.packed_ends_, packed_ends_);
-    reserve_as(other.groups_, groups_);
-    reserve_as(other.ends_, ends_);
-    reserve_as(other.pairs_, pairs_);
-    reserve_as(other.zeros_, zeros_);
-    reserve_as(other.place_in_body_, place_in_body_);
-    reserve_as(other.counts_, counts_);
-    reserve_as(other.is_written_, is_written_);
+    reserve_as(buffers(other), buffers(*this));
 }
 
 void TriadPlan::take_steps() {

@@ -32,7 +32,7 @@ class TriadPlan {
     struct Step {
         std::uint32_t node = 0;
         std::uint32_t own = 0;
-        std::uint32_t later_begin = 0;  // into later()
+        std::uint32_t later_begin = 0;  // index into later()
         std::uint32_t later_end = 0;
         // Into updates(): one target block for each pair (x, y) of later nodes, x <= y, by x, then
         // by y.
@@ -43,7 +43,9 @@ class TriadPlan {
     std::span<const std::uint32_t> later(const Step& step) const {
         return std::span(later_).subspan(step.later_begin, step.later_end - step.later_begin);
     }
-    std::span<const std::uint32_t> later() const { return later_; }  // of all steps, concatenated
+    std::span<const std::uint32_t> later() const {
+        return later_;
+    }  // later nodes of all steps, concatenated
     std::span<const std::uint32_t> updates() const { return updates_; }
     std::size_t block_count() const { return block_count_; }
 
@@ -67,13 +69,14 @@ class TriadPlan {
     // Four strands, one per lane. A row holds one body of each strand.
     struct StrandPack {
         std::uint32_t length = 0;  // links per strand: one less than rows
-        std::uint32_t row = 0;     // its first row, as index of a group of four bodies
+        std::uint32_t row = 0;     // index of the first group of four bodies
         std::uint32_t step = 0;    // first of its `length` steps; a step eliminates four links
         // First of its length + 2 elements in TriadArrays::multipliers: those of `before`, of each
         // step and of `after`.
         std::uint32_t bound = 0;
-        Lanes before{};  // by lane: end of a node of the rest at the first body, or dummy_end()
-        Lanes after{};   // same, at the last body
+        Lanes
+            before{};   // one per lane: end of a node of the rest at the first body, or dummy_end()
+        Lanes after{};  // same, at the last body
         // By lane: blocks of `before`, of `after` and between both, or dummy_block(). The
         // elimination of the strand changes them.
         Lanes block_before{};
@@ -104,8 +107,8 @@ class TriadPlan {
     struct Group {
         std::uint32_t width = 0;
         std::uint32_t group_index = 0;  // index among all groups; rows of strands come first
-        std::uint32_t packed = 0;       // into packed_ends()
-        std::uint32_t ends = 0;         // into ends(): first of `width` entries
+        std::uint32_t packed = 0;       // index into packed_ends()
+        std::uint32_t ends = 0;         // index into ends() of the first of `width` entries
         // Into TriadPlan::pairs(): one pair for each two of a body's ends, in the order of
         // Step::updates: (0, 0), (0, 1) .. (1, 1), (1, 2) ..
         std::uint32_t pairs = 0;
@@ -125,6 +128,12 @@ class TriadPlan {
     std::uint32_t dummy_block() const { return static_cast<std::uint32_t>(block_count_); }
 
   private:
+    static auto buffers(auto& plan) {
+        return std::tie(plan.nodes_, plan.can_rotate_, plan.steps_, plan.later_, plan.updates_,
+                        plan.strand_packs_, plan.anchored_ends_, plan.places_, plan.slots_,
+                        plan.packed_ends_, plan.groups_, plan.ends_, plan.pairs_, plan.zeros_,
+                        plan.place_in_body_, plan.counts_, plan.is_written_);
+    }
     void take_steps();
     void find_places();
     void find_groups();
@@ -137,10 +146,10 @@ class TriadPlan {
         return strands_.rest_nodes()[end / 2].slots[end % 2];
     }
 
-    std::vector<RowNode> nodes_;  // as given
+    std::vector<RowNode> nodes_;  // nodes as given by the caller
     std::vector<std::uint8_t> can_rotate_;
     StrandPlan strands_;
-    EliminationPlan plan_;  // of the nodes of the rest
+    EliminationPlan plan_;  // plan of the nodes of the rest
     std::vector<Step> steps_;
     std::vector<std::uint32_t> later_;  // nodes
     std::vector<std::uint32_t> updates_;
@@ -153,13 +162,13 @@ class TriadPlan {
     std::vector<Lanes> ends_;
     std::vector<Pair> pairs_;
     std::vector<std::uint32_t> zeros_;
-    std::vector<std::uint32_t> place_in_body_;  // by end: its position among its body's ends
+    std::vector<std::uint32_t> place_in_body_;  // position of each end among its body's ends
     std::size_t block_count_ = 0;
 
     // Scratch of build.
     // First the ends of each slot, later the products that write each block.
     std::vector<std::uint32_t> counts_;
-    std::vector<std::uint8_t> is_written_;  // by block
+    std::vector<std::uint8_t> is_written_;  // indexed by block
 };
 
 }  // namespace handhold

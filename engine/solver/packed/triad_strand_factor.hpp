@@ -65,7 +65,7 @@ struct StrandElimination {
     WideCoupling row;  // contribution of the bodies after the link eliminated last
     WideMat3 before;   // couples the current link with `before`
     WideSymmetric subtracted, subtracted_before;
-    Wide3 diagonal;  // of the link eliminated last, before its elimination
+    Wide3 diagonal;  // block of the link eliminated last, before its elimination
     Double4 inverse_sum;
 };
 

@@ -12,10 +12,10 @@ namespace handhold::triads {
 
 // The elements of TriadArrays that belong to one strand pack.
 struct StrandPackArrays {
-    Bodies4* bodies;  // by row
+    Bodies4* bodies;  // indexed by row
     Ends4* ends;  // [2 * row]: the row's ends of the link before; [2 * row + 1]: of the link after
-    Links4* links;       // by step
-    Wide3* multipliers;  // of `before`, of each step, of `after`
+    Links4* links;       // indexed by step
+    Wide3* multipliers;  // one for `before`, one per step, one for `after`
 };
 HH_INLINE StrandPackArrays part_of(const TriadPlan::StrandPack& strand_pack,
                                    const TriadArrays& arrays) {

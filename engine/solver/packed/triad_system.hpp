@@ -93,8 +93,8 @@ class TriadSystem {
     // velocities of the drives' targets.
     void evaluate_velocities(const IslandView& island);
     double worst_residual();
-    double worst_drive_residual() const;  // of drives only
-    JointError worst_joints() const;      // of all other triads
+    double worst_drive_residual() const;  // maximum over drives only
+    JointError worst_joints() const;      // maximum over all other triads
 
     // Restricts the following steps to the rows near bodies that the last solve moved by at least
     // `min_move_m` (rotations count times k_angle_lever_m). A long rope moves where it is pulled
@@ -124,7 +124,7 @@ class TriadSystem {
 
   private:
     struct Triad {
-        std::uint32_t block = 0;  // into the graph's blocks
+        std::uint32_t block = 0;  // index into the graph's blocks
         bool is_angular = false;  // rotation on rotation, else point on point
         bool is_drive = false;
     };
@@ -133,7 +133,7 @@ class TriadSystem {
     // numbering of TriadPlan.
     struct Anchor {
         std::uint32_t end = 0;   // 2 * triad + side
-        std::uint32_t body = 0;  // into the graph's bodies
+        std::uint32_t body = 0;  // index into the graph's bodies
         Vec3 point_bs;
         std::uint32_t rest_end = k_no_slot;
         std::uint32_t place = k_no_slot;
@@ -163,13 +163,14 @@ class TriadSystem {
     TriadArrays arrays();
 
     const TriadKernels* kernels_;
-    std::uint64_t revision_ = 0;  // of the graph loaded last; 0: `resume` is not possible
-    std::vector<std::uint32_t> body_indices_;  // by slot: into the graph's bodies
+    std::uint64_t revision_ = 0;  // revision of the graph loaded last; 0: `resume` is not possible
+    std::vector<std::uint32_t> body_indices_;  // index of each slot in the graph's bodies
     std::size_t triad_count_ = 0;
     std::vector<Triad> triads_;
     std::vector<Anchor> anchors_;
-    std::vector<TriadVector> points_;  // by end: x, y, z: anchor point times the sign; w: the sign
-    std::vector<TriadVector> impulses_;  // by triad outside strands: sum of its lambdas
+    std::vector<TriadVector>
+        points_;  // one per end; x, y, z: anchor point times the sign; w: the sign
+    std::vector<TriadVector> impulses_;  // sum of the lambdas of each triad outside strands
 
     // Storage of `arrays`; documented at TriadArrays.
     std::vector<Bodies4> bodies_;
@@ -185,13 +186,13 @@ class TriadSystem {
     std::vector<Rows3> blocks_;
     std::vector<Rows3> inverses_;
     std::vector<TriadVector> unknowns_;
-    std::vector<RowWindow> windows_;  // by strand pack
+    std::vector<RowWindow> windows_;  // indexed by strand pack
 
     PlanCache<TriadPlan> plans_;
     std::vector<RowNode> nodes_;
-    std::vector<std::uint8_t> may_turn_;  // by slot
-    std::vector<std::uint8_t> uses_;      // by slot: number of triads at the body
-    double drive_scale_ = 0.0;            // of the last unrestricted factor
+    std::vector<std::uint8_t> may_turn_;  // indexed by slot
+    std::vector<std::uint8_t> uses_;      // number of triads at each slot's body
+    double drive_scale_ = 0.0;            // scale of the last unrestricted factor
     double longest_move_ = 0.0;
     double largest_rotation_ = 0.0;
     bool is_evaluated_ = false;  // residuals are those of the current poses

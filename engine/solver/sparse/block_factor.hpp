@@ -29,7 +29,7 @@ class BlockFactor {
     void update_later_panels(const EliminationPlan& plan, const EliminationPlan::Panel& panel);
 
     std::vector<double> values_;
-    std::vector<double> inverse_pivots_;  // by unknown
+    std::vector<double> inverse_pivots_;  // indexed by unknown
 };
 
 }  // namespace handhold

@@ -38,27 +38,9 @@ void EliminationPlan::reserve(const EliminationPlan& other) {
         neighbours_.resize(other.neighbours_.size());
     }
     for (std::size_t node = 0; node < other.neighbours_.size(); ++node) {
-        reserve_as(other.neighbours_[node], neighbours_[node]);
+        neighbours_[node].reserve(other.neighbours_[node].capacity());
     }
-    reserve_as(other.nodes_, nodes_);
-    reserve_as(other.can_rotate_, can_rotate_);
-    reserve_as(other.panels_, panels_);
-    reserve_as(other.blocks_, blocks_);
-    reserve_as(other.updates_, updates_);
-    reserve_as(other.couplings_, couplings_);
-    reserve_as(other.hub_couplings_, hub_couplings_);
-    reserve_as(other.hubs_, hubs_);
-    reserve_as(other.panel_of_node_, panel_of_node_);
-    reserve_as(other.appearances_, appearances_);
-    reserve_as(other.appearances_begin_, appearances_begin_);
-    reserve_as(other.ends_, ends_);
-    reserve_as(other.ends_begin_, ends_begin_);
-    reserve_as(other.rows_of_slot_, rows_of_slot_);
-    reserve_as(other.hub_of_slot_, hub_of_slot_);
-    reserve_as(other.merged_, merged_);
-    reserve_as(other.order_, order_);
-    reserve_as(other.eliminated_, eliminated_);
-    reserve_as(other.candidates_, candidates_);
+    reserve_as(buffers(other), buffers(*this));
 }
 
 // Finds the row nodes of each body, and which bodies are hubs.

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace handhold {
@@ -19,9 +21,13 @@ inline constexpr double k_smallest_pivot = 1e-14;
 inline constexpr std::uint32_t k_hub_nodes = 4;  // bodies with more row nodes are hubs
 inline constexpr std::uint32_t k_no_slot = std::numeric_limits<std::uint32_t>::max();
 
-template <typename T>
-void reserve_as(const std::vector<T>& other, std::vector<T>& here) {
-    here.reserve(other.capacity());
+// Reserves in the vectors `here` the capacities of the vectors `other`; both are std::tie.
+template <typename Here, typename Other>
+void reserve_as(const Other& other, Here&& here) {
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+        (std::get<I>(here).reserve(std::get<I>(other).capacity()), ...);
+    }
+    (std::make_index_sequence<std::tuple_size_v<Other>>());
 }
 
 // A node of unknowns: the multipliers of all rows between the same two bodies.
@@ -58,13 +64,13 @@ class EliminationPlan {
         std::uint32_t stride = 0;        // length of a row
         std::uint32_t begin = 0;         // first value, in BlockFactor::values()
         std::uint32_t scalar = 0;        // index of the node's first unknown
-        std::uint32_t blocks_begin = 0;  // its blocks with later nodes, in blocks_
+        std::uint32_t blocks_begin = 0;  // index in blocks_ of the blocks with later nodes
         std::uint32_t blocks_end = 0;
         // Into updates(): one target for each pair (x, y) of its blocks, x <= y, by x, then by y.
         std::uint32_t updates = 0;
     };
     struct Block {
-        std::uint32_t panel = 0;   // of the later node
+        std::uint32_t panel = 0;   // panel of the later node
         std::uint32_t column = 0;  // first column in the rows of the panel that contains the block
     };
     // A product of two row nodes that share a body, added to the matrix at `target`: in the rows of
@@ -85,7 +91,7 @@ class EliminationPlan {
     };
     struct Hub {
         std::uint32_t slot = 0;
-        std::uint32_t target = 0;  // its diagonal block
+        std::uint32_t target = 0;  // diagonal block of the target
         std::uint32_t stride = 0;
     };
     // Location of a node's columns in an earlier panel. The column of the node's unknown m has the
@@ -96,7 +102,7 @@ class EliminationPlan {
         std::uint32_t stride = 0;
     };
 
-    std::span<const Panel> panels() const { return panels_; }  // in the order of elimination
+    std::span<const Panel> panels() const { return panels_; }  // panels in the order of elimination
     std::span<const Block> blocks(const Panel& panel) const {
         return std::span(blocks_).subspan(panel.blocks_begin,
                                           panel.blocks_end - panel.blocks_begin);
@@ -115,6 +121,13 @@ class EliminationPlan {
     std::size_t scalar_count() const { return scalar_count_; }  // number of unknowns
 
   private:
+    static auto buffers(auto& plan) {
+        return std::tie(plan.nodes_, plan.can_rotate_, plan.panels_, plan.blocks_, plan.updates_,
+                        plan.couplings_, plan.hub_couplings_, plan.hubs_, plan.panel_of_node_,
+                        plan.appearances_, plan.appearances_begin_, plan.ends_, plan.ends_begin_,
+                        plan.rows_of_slot_, plan.hub_of_slot_, plan.merged_, plan.order_,
+                        plan.eliminated_, plan.candidates_);
+    }
     void find_incidence();
     void find_neighbours();
     void connect(std::uint32_t x, std::uint32_t y);

@@ -42,7 +42,7 @@ class RowMatrix {
 
     // Computes the bodies' moves W J^T lambda and keeps them until the next call.
     void gather_moves(std::span<const double> lambda);
-    std::span<const Twist> moves() const { return moves_; }  // by slot
+    std::span<const Twist> moves() const { return moves_; }  // indexed by slot
     // For other moves, of which row_motion then gives J times them.
     std::span<Twist> edit_moves() { return moves_; }
     // Jacobian of one row times the displacements in moves(). After gather_moves: J W J^T lambda.
@@ -82,12 +82,12 @@ class RowMatrix {
 
     std::vector<double> jacobians_;  // indexed by end_begin
     std::vector<double> responses_;
-    std::vector<double> matrix_;  // in the plan's panels
+    std::vector<double> matrix_;  // matrix in the plan's panels
     std::vector<double> diagonal_;
     std::vector<double> alpha_;
-    std::vector<double> smallest_pivots_;  // by unknown
+    std::vector<double> smallest_pivots_;  // indexed by unknown
     BlockFactor factor_;
-    std::vector<std::uint8_t> takes_part_;  // by row: part of the last factor
+    std::vector<std::uint8_t> takes_part_;  // one per row; 1: part of the last factor
     std::vector<double> unknowns_;
     std::vector<Twist> moves_;
 };

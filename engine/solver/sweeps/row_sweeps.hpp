@@ -81,7 +81,8 @@ class RowSweeps {
         std::array<double, 6> jacobian_b{};
         std::array<double, 6> response_a{};  // W J^T
         std::array<double, 6> response_b{};
-        double inverse_diagonal = 0.0;  // of J w + R; 0: nothing can move this row
+        double inverse_diagonal =
+            0.0;  // inverse of the diagonal of J w + R; 0: nothing can move this row
         std::uint32_t slot_a = 0;
         std::uint32_t slot_b = 0;
         // Range in `responses_` that replaces response_a and response_b; empty: none.
@@ -116,12 +117,12 @@ class RowSweeps {
     void sweep_until(double tolerance, bool only_stiff, const SweepLimits& limits);
     void satisfy_exact_rows();
 
-    std::vector<Kind> kinds_;        // by row
-    std::vector<PackedRow> packed_;  // by row
-    std::vector<double> diagonal_;   // by row
-    std::vector<double> alpha_;      // by row
-    std::vector<double> lambda_;     // by row
-    std::vector<double> values_;     // by row
+    std::vector<Kind> kinds_;        // indexed by row
+    std::vector<PackedRow> packed_;  // indexed by row
+    std::vector<double> diagonal_;   // indexed by row
+    std::vector<double> alpha_;      // indexed by row
+    std::vector<double> lambda_;     // indexed by row
+    std::vector<double> values_;     // indexed by row
     // Conjugate gradients: the state before the last sweep, and the search direction.
     std::vector<double> last_lambda_;
     std::vector<Twist> last_moves_;
@@ -130,20 +131,20 @@ class RowSweeps {
     std::vector<Group> groups_;
     std::vector<Response> responses_;
     bool is_condensed_ = true;  // the responses include the exact rows
-    std::vector<Twist> moves_;  // by slot, and one for bodies that cannot move
+    std::vector<Twist> moves_;  // one per slot, and one for bodies that cannot move
 
     RowMatrix exact_;
     std::vector<Row> exact_rows_;
-    std::vector<std::uint32_t> exact_indices_;  // into the rows
+    std::vector<std::uint32_t> exact_indices_;  // indices into the rows
     std::vector<std::uint8_t> chosen_;
     std::vector<double> exact_values_;
     std::vector<double> exact_lambda_;
     // Clusters are the sets of bodies that exact rows connect, named by their lowest slot.
     std::vector<std::uint32_t> cluster_of_slot_;
-    std::vector<std::uint32_t> cluster_size_;   // by cluster
-    std::vector<std::uint32_t> cluster_begin_;  // by cluster, into cluster_slots_
+    std::vector<std::uint32_t> cluster_size_;   // indexed by cluster
+    std::vector<std::uint32_t> cluster_begin_;  // index of each cluster in cluster_slots_
     std::vector<std::uint32_t> cluster_slots_;
-    std::vector<std::uint8_t> is_exact_body_;  // by slot: has an exact row
+    std::vector<std::uint8_t> is_exact_body_;  // one per slot; 1: has an exact row
     std::uint64_t work_ = 0;
     // Of one sweep: over all groups, over the stiff ones.
     std::uint64_t sweep_work_ = 0;

@@ -60,81 +60,184 @@ export class Desktop {
         const axis = (plus, minus) => Number(this.keys.has(plus)) - Number(this.keys.has(minus));
         const thrust = new THREE.Vector3(axis('KeyD', 'KeyA'), axis('KeyE', 'KeyQ'), axis('KeyS', 'KeyW')).applyQuaternion(head.quaternion);
         return {
-            usesWrists: true,
+            usesWrists: [true, true],
             sample: { head: plain(head), hands: hands.map(plain), grab: [...this.closed] },
             commands: { thrust: { x: thrust.x, y: thrust.y, z: thrust.z }, brake: this.keys.has('KeyX') ? 1 : 0 },
         };
     }
 }
 
+// As game/devices/headset_hands.cpp: tests/game/devices/headset_cases.json is played by both.
+const k_closes = 0.55;
+const k_opens = 0.35;
+const k_dead_stick = 0.18;
+const k_snap_stick = 0.7;
+const k_fingers = ['middle', 'ring', 'pinky']; // index and thumb may point while the hand is closed
+const k_open_palm_m = 0.19; // from the palm to the tips of straight fingers, as the curl has it where no knuckle is known
+
+/** What one side's devices said so far. */
+const forgotten = () => ({ grabs: false, usesWrists: false, curl: 0, isTransient: false });
+
 /** Controllers or tracked hands by WebXR. */
 export class Headset {
+    #session;
     #turned = false;
+    #hands = [forgotten(), forgotten()];
+    #pressed = new Map(); // by input source: {select, squeeze}, told by events: sources without a gamepad have no other buttons
 
-    /** turnsSmoothly: the stick turns at a rate, else a flick turns by the tuning's snap angle. */
+    /** turnsSmoothly: the right stick turns at a rate, else a push turns by the tuning's snap angle. */
     read(frame, space, turnsSmoothly) {
+        this.#enter(frame.session);
         const viewer = frame.getViewerPose(space);
         const sample = { head_tracked: viewer !== undefined && viewer !== null, hand_tracked: [false, false], grab: [false, false], squeeze: [0, 0], trigger: [0, 0], hands: [{}, {}] };
         if (sample.head_tracked) {
             sample.head = transform(viewer.transform);
         }
-        let usesWrists = false;
         const commands = {};
-        for (const source of frame.session.inputSources) {
-            const side = { left: HH_LEFT, right: HH_RIGHT }[source.handedness];
-            if (side === undefined) {
-                continue;
-            }
+        // A menu of the system covers the game: its devices move that. Hands count as lost, buttons as they were.
+        const hasFocus = (frame.session.visibilityState ?? 'visible') === 'visible';
+        const readings = sides.map((side) => (hasFocus ? this.#readSide(frame, space, side) : undefined));
+        readings.forEach((reading, side) => this.#take(reading, side, sample, hasFocus));
+        if (hasFocus) {
+            this.#command(readings, sample, turnsSmoothly, commands);
+        }
+        return { usesWrists: this.#hands.map((hand) => hand.usesWrists), sample, commands };
+    }
+
+    /** A session begins with open hands; called when the one before ends. */
+    forget() {
+        this.#turned = false;
+        this.#hands = [forgotten(), forgotten()];
+        this.#pressed.clear();
+    }
+
+    #enter(session) {
+        if (session === this.#session) {
+            return;
+        }
+        this.#session = session;
+        for (const [event, button, down] of [['selectstart', 'select', true], ['selectend', 'select', false], ['squeezestart', 'squeeze', true], ['squeezeend', 'squeeze', false]]) {
+            session.addEventListener?.(event, ({ inputSource }) => { this.#pressed.set(inputSource, { ...this.#pressed.get(inputSource), [button]: down }); });
+        }
+        session.addEventListener?.('inputsourceschange', ({ removed }) => { for (const source of removed ?? []) this.#pressed.delete(source); });
+        session.addEventListener?.('end', () => this.forget());
+    }
+
+    // The reading of the side's best source: a controller, tracked fingers, then what stands for a pinch that is no device.
+    #readSide(frame, space, side) {
+        const sources = [...frame.session.inputSources].filter((source) => ({ left: HH_LEFT, right: HH_RIGHT })[source.handedness] === side);
+        const readings = [];
+        for (const source of sources) {
             if (source.hand && frame.getJointPose) {
-                usesWrists = true;
-                this.#readHand(frame, space, source.hand, side, sample);
+                readings.push({ rank: 1, ...this.#readFingers(frame, space, source.hand) });
             } else if (source.gripSpace) {
-                const pose = frame.getPose(source.gripSpace, space);
-                if (pose) {
-                    sample.hand_tracked[side] = true;
-                    sample.hands[side] = transform(pose.transform);
-                }
-                const buttons = source.gamepad?.buttons ?? [];
-                sample.grab[side] = (buttons[0]?.pressed ?? false) || (buttons[1]?.pressed ?? false);
-                sample.squeeze[side] = Math.max(buttons[0]?.value ?? 0, buttons[1]?.value ?? 0);
-                sample.trigger[side] = buttons[0]?.value ?? 0;
-                if (side === HH_RIGHT) {
-                    this.#readStick(source.gamepad?.axes ?? [], turnsSmoothly, commands);
-                }
-                commands.brake = Math.max(commands.brake ?? 0, buttons[4]?.pressed ? 1 : 0);
+                const isTransient = source.targetRayMode === 'transient-pointer';
+                readings.push({ rank: isTransient ? 2 : 0, isTransient, ...this.#readController(frame, space, source, isTransient) });
             }
         }
-        return { usesWrists, sample, commands };
+        const best = (list) => list.reduce((a, b) => (a !== undefined && a.rank <= b.rank ? a : b), undefined);
+        // A controller that lies on the table, unseen, leaves the side to the fingers.
+        return best(readings.filter((reading) => reading.pose !== undefined && !reading.isInferred)) ?? best(readings.filter((reading) => reading.rank < 2)) ?? best(readings);
     }
-    // A hand is closed when its middle and ring tips are near the palm.
-    #readHand(frame, space, hand, side, sample) {
-        const pose = (name) => frame.getJointPose(hand.get(name), space);
+
+    #readController(frame, space, source, isTransient) {
+        const pose = frame.getPose(source.gripSpace, space);
+        const told = this.#pressed.get(source) ?? {};
+        const buttons = source.gamepad?.buttons;
+        const value = (button) => Math.max(button?.value ?? 0, button?.pressed && !(button.value > 0) ? 1 : 0);
+        const axes = source.gamepad?.axes ?? [];
+        const stick = axes.length >= 4 ? [axes[2], axes[3]] : [axes[0] ?? 0, axes[1] ?? 0]; // a touchpad where there is no stick
+        return {
+            ...tracked(pose), usesWrists: false,
+            trigger: isTransient ? 1 : buttons ? value(buttons[0]) : Number(told.select ?? false), // a transient source lives as long as its pinch
+            squeeze: buttons ? value(buttons[1]) : Number(told.squeeze ?? false),
+            stick: [stick[0], -stick[1]],
+            brake: (buttons?.[4] ?? buttons?.[2])?.pressed ?? false,
+            calibrate: buttons?.[5]?.pressed ?? false,
+        };
+    }
+
+    // The curl is the mean of the fingers that are known; unknown if none is.
+    #readFingers(frame, space, hand) {
+        const pose = (name) => frame.getJointPose(hand.get(name), space) ?? undefined;
         const wrist = pose('wrist');
-        const palm = pose('middle-finger-metacarpal');
-        const tips = [pose('middle-finger-tip'), pose('ring-finger-tip')];
-        if (!wrist || !palm || tips.includes(null) || tips.includes(undefined)) {
-            return;
-        }
-        sample.hand_tracked[side] = true;
-        sample.hands[side] = transform(wrist.transform);
-        const distance = (a, b) => Math.hypot(a.x - b.x, a.y - b.y, a.z - b.z);
-        sample.grab[side] = tips.every((tip) => distance(tip.transform.position, palm.transform.position) < 0.085);
+        const place = (name) => pose(name)?.transform.position;
+        const palm = place('middle-finger-metacarpal');
+        const curls = wrist === undefined ? [] : k_fingers.map((finger) => {
+            const tip = place(`${finger}-finger-tip`);
+            const knuckle = place(`${finger}-finger-phalanx-proximal`);
+            if (tip === undefined || (knuckle === undefined && palm === undefined)) {
+                return undefined;
+            }
+            return knuckle === undefined ? 1 - length(minus(tip, palm)) / k_open_palm_m : fingerCurl(wrist.transform.position, knuckle, tip);
+        }).filter((curl) => curl !== undefined && Number.isFinite(curl));
+        return {
+            ...tracked(wrist), usesWrists: true, trigger: 0, squeeze: 0, stick: [0, 0], brake: false, calibrate: false,
+            curl: curls.length === 0 ? undefined : curls.reduce((sum, curl) => sum + curl, 0) / curls.length,
+        };
     }
-    #readStick(axes, turnsSmoothly, commands) {
-        const x = axes[2] ?? 0;
-        if (turnsSmoothly) {
-            commands.smooth_turn = Math.abs(x) > 0.15 ? -x : 0;
-            return;
+
+    // A hand that is not seen keeps its button: losing sight of it does not open it.
+    #take(reading, side, sample, hasFocus) {
+        const memory = this.#hands[side];
+        if (reading !== undefined) {
+            memory.usesWrists = reading.usesWrists;
         }
-        if (Math.abs(x) < 0.4) {
-            this.#turned = false;
-        } else if (Math.abs(x) > 0.7 && !this.#turned) {
+        if (reading?.pose !== undefined && !reading.isInferred) {
+            memory.curl = reading.usesWrists ? reading.curl ?? memory.curl : 0;
+            const closes = Math.max(reading.squeeze, reading.trigger, memory.curl);
+            memory.grabs = closes > (memory.grabs ? k_opens : k_closes);
+            sample.hand_tracked[side] = true;
+            sample.hands[side] = reading.pose;
+            sample.squeeze[side] = Math.min(1, Math.max(0, closes));
+            sample.trigger[side] = reading.trigger;
+        } else if (reading === undefined && memory.isTransient && hasFocus) {
+            memory.grabs = false; // the pinch has ended, and with it its source
+        }
+        memory.isTransient = reading?.isTransient ?? (memory.isTransient && memory.grabs);
+        sample.grab[side] = memory.grabs;
+    }
+
+    #command(readings, sample, turnsSmoothly, commands) {
+        const stick = (side) => readings[side]?.stick ?? [0, 0];
+        const turn = stick(HH_RIGHT)[0];
+        if (turnsSmoothly) {
+            commands.smooth_turn = -pastDeadZone(turn);
+        } else if (Math.abs(turn) > k_snap_stick) {
+            commands.snap_turns = this.#turned ? 0 : turn > 0 ? -1 : 1;
             this.#turned = true;
-            commands.snap_turns = x > 0 ? -1 : 1;
+        } else if (pastDeadZone(turn) === 0) {
+            this.#turned = false;
+        }
+        commands.brake = readings.some((reading) => reading?.brake) ? 1 : 0;
+        commands.calibrate = readings.every((reading) => reading?.calibrate);
+        if (sample.head_tracked) {
+            const [x, y] = stick(HH_LEFT).map(pastDeadZone);
+            commands.thrust = turned(sample.head.rotation, { x, y: 0, z: -y });
         }
     }
 }
 
+function pastDeadZone(value) {
+    return Math.sign(value) * Math.min(1, Math.max(0, (Math.abs(value) - k_dead_stick) / (1 - k_dead_stick)));
+}
+const minus = (a, b) => ({ x: a.x - b.x, y: a.y - b.y, z: a.z - b.z });
+const dot = (a, b) => a.x * b.x + a.y * b.y + a.z * b.z;
+const length = (a) => Math.hypot(a.x, a.y, a.z);
+// 0 in line with the hand, 1 if the finger points back at the wrist; undefined for lengths that no finger has.
+function fingerCurl(wrist, knuckle, tip) {
+    const [hand, finger] = [minus(knuckle, wrist), minus(tip, knuckle)];
+    const cosine = dot(hand, finger) / (length(hand) * length(finger));
+    return length(finger) < 4 * length(hand) ? Math.min(1, Math.max(0, 0.5 * (1 - cosine))) : undefined;
+}
+function turned(q, v) {
+    const cross = (a, b) => ({ x: a.y * b.z - a.z * b.y, y: a.z * b.x - a.x * b.z, z: a.x * b.y - a.y * b.x });
+    const t = cross(q, v);
+    const u = cross(q, { x: t.x + q.w * v.x, y: t.y + q.w * v.y, z: t.z + q.w * v.z });
+    return { x: v.x + 2 * u.x, y: v.y + 2 * u.y, z: v.z + 2 * u.z };
+}
+// A pose that the runtime infers, as from the head while no camera sees the device, is not tracked.
+const tracked = (pose) => ({ pose: pose ? transform(pose.transform) : undefined, isInferred: pose?.emulatedPosition ?? false });
 function transform({ position: p, orientation: q }) {
     return { position: { x: p.x, y: p.y, z: p.z }, rotation: { x: q.x, y: q.y, z: q.z, w: q.w } };
 }

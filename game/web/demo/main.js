@@ -95,13 +95,13 @@ function resize() {
 addEventListener('resize', resize);
 resize();
 
-// Wrists or controllers: the library is told when that changes.
-let usedWrists;
+// Wrists or controllers, by side: the library is told when that changes.
+const usedWrists = [];
 function chooseHands(usesWrists) {
-    if (usesWrists !== usedWrists) {
-        usedWrists = usesWrists;
-        for (const side of [HH_LEFT, HH_RIGHT]) {
-            world.setHandInController(player, side, usesWrists ? {} : null);
+    for (const side of [HH_LEFT, HH_RIGHT]) {
+        if (usesWrists[side] !== usedWrists[side]) {
+            usedWrists[side] = usesWrists[side];
+            world.setHandInController(player, side, usesWrists[side] ? {} : null);
         }
     }
 }
@@ -169,7 +169,9 @@ function onFrame(now_ms, frame) {
     if (recorded) { // by the recorded eyes; the camera is at the rig's origin
         place(rig, pose.head);
     }
-    renderer.render(level.scene, camera);
+    if (!isContextLost) {
+        renderer.render(level.scene, camera);
+    }
     frame_ms = performance.now() - begin_ms;
 }
 
@@ -180,6 +182,15 @@ async function keepOffline() {
     await (await caches.open('handhold')).addAll([location.href, ...new Set(files)]);
 }
 
+// The browser may take the GPU away, as when the computer wakes up. The world goes on; three.js uploads all again on return.
+let isContextLost = false;
+renderer.domElement.addEventListener('webglcontextlost', (event) => {
+    event.preventDefault(); // else it is never restored
+    isContextLost = true;
+    renderer.xr.getSession()?.end().catch(() => {});
+});
+renderer.domElement.addEventListener('webglcontextrestored', () => { isContextLost = false; });
+
 async function offerHeadset() {
     const button = element('enter');
     if (!await navigator.xr?.isSessionSupported('immersive-vr').catch(() => false)) {
@@ -188,10 +199,20 @@ async function offerHeadset() {
     button.disabled = false;
     button.textContent = 'Enter the headset';
     button.addEventListener('click', async () => {
-        const session = await navigator.xr.requestSession('immersive-vr', { requiredFeatures: ['local-floor'], optionalFeatures: ['hand-tracking'] });
-        session.addEventListener('end', () => { last_ms = undefined; });
-        last_ms = undefined;
-        await renderer.xr.setSession(session);
+        button.disabled = true; // one session at a time
+        try {
+            const session = await navigator.xr.requestSession('immersive-vr', { requiredFeatures: ['local-floor'], optionalFeatures: ['hand-tracking'] });
+            headset.forget();
+            session.addEventListener('end', () => {
+                last_ms = undefined;
+                button.disabled = false;
+            });
+            last_ms = undefined;
+            await renderer.xr.setSession(session);
+        } catch (error) {
+            button.disabled = false;
+            element('help').textContent = `The headset could not be entered: ${error.message}`;
+        }
     });
 }
 

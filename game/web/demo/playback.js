@@ -6,7 +6,7 @@ const k_menu = 8;
 
 /** Samples with times from 0. A device that was not tracked has no pose. */
 export function parseRecording(text) {
-    const [header, ...lines] = text.trim().split(/\r?\n/);
+    const [header, ...lines] = text.split(/\r?\n/).filter((line) => line.trim() !== '').map((line) => line.trim());
     const names = header.split(',');
     let first_s;
     return lines.map((line) => {
@@ -16,7 +16,7 @@ export function parseRecording(text) {
             position: { x: cell[key + 'x'], y: cell[key + 'y'], z: cell[key + 'z'] },
             rotation: { x: cell[key + 'qx'], y: cell[key + 'qy'], z: cell[key + 'qz'], w: cell[key + 'qw'] },
         });
-        const isTracked = ({ position: p, rotation: q }) => [p.x, p.y, p.z, q.x, q.y, q.z, q.w].every((x) => !Number.isNaN(x));
+        const isTracked = ({ position: p, rotation: q }) => [p.x, p.y, p.z, q.x, q.y, q.z, q.w].every((x) => !Number.isNaN(x)) && [q.x, q.y, q.z, q.w].some((x) => x !== 0);
         const hands = [pose('l'), pose('r')];
         const head = pose('h');
         first_s ??= cell.t;

@@ -53,7 +53,7 @@ namespace handhold::body_constants {
 inline constexpr std::array<double, k_look_filters> k_look_lags_s = {0.15, 0.35, 1.0};
 
 // The talk's form: chest_facing, chest_lean, chest_pose; trunk_view (nod, ears). Lengths: for an
-// eye height of 1.6 m.
+// eye height of k_scale_eye_m.
 inline constexpr double k_hand_share = 0.475;
 inline constexpr double k_line_share = 2.475;
 inline constexpr double k_roll_share = -0.1562;

@@ -19,18 +19,17 @@ constexpr double k_trunk_radius_m = 0.09;
 constexpr double k_thigh_contact_radius_m = 0.065;
 constexpr double k_shin_contact_radius_m = 0.05;
 constexpr double k_cast_wider_m = 0.015;
-constexpr double k_widest_cast_m = 0.105;  // of a player of any size
-constexpr double k_part_moved_m = 0.005;   // a part that moved less is not searched again
-constexpr double k_sole_m = 0.11;          // below the ankle
+constexpr double k_widest_cast_m = 0.105;  // greatest radius of a cast, for players of any size
+constexpr double k_sole_m = 0.11;          // distance of the sole below the ankle
 constexpr double k_ahead_m = 0.15;         // margin for motion until the next search
 
 // True if this part is searched in this frame. The phase differs between players and parts.
 bool searches_now(double t_s, double dt_s, std::uint64_t player, std::size_t part) {
-    constexpr double k_per_s = 15.0;
     constexpr std::uint64_t k_phases = 8;
     const double phase = static_cast<double>(player % k_phases) / static_cast<double>(k_phases) +
                          static_cast<double>(part) / static_cast<double>(k_body_parts);
-    return std::floor(t_s * k_per_s + phase) != std::floor((t_s - dt_s) * k_per_s + phase);
+    return std::floor(t_s * k_body_searches_per_s + phase) !=
+           std::floor((t_s - dt_s) * k_body_searches_per_s + phase);
 }
 
 // The line along a part, relative to the chest.
@@ -132,7 +131,7 @@ BodyContact find_contact(const BodySurroundings& around, std::size_t part, Spine
     const Vec3 normal_ps = around.origin_ws.rotation.conjugate() * search.normal_ws;
     const double surface_m =
         normal_ps.dot(inverse_transform_point(around.origin_ws, search.point_ws) - around.chest_ps);
-    const double pelvis_m =  // of the chain before it is folded
+    const double pelvis_m =  // length of the chain before it is folded
         (around.floor.chest_m + memory.offset_m[k_spine_links - 1].y()) / around.floor.scale;
     if (legs_fold(pelvis_m) && is_tracked_floor(normal_ps, surface_m, around.floor)) {
         return {};
@@ -174,7 +173,7 @@ Vec3 before_surface(const Vec3& towards, const Vec3& base_m, double length_m,
 }
 
 Vec3 touching_mps(const Vec3& normal, const Vec3& velocity_mps, const Vec3& correction_mps) {
-    constexpr double k_kept = 0.85;  // per tick: surfaces are rough
+    constexpr double k_kept = 0.85;  // kept share of the speed per tick: surfaces are rough
     const double before = normal.dot(velocity_mps);
     const Vec3 corrected_mps = velocity_mps + correction_mps;
     const double after = normal.dot(corrected_mps);

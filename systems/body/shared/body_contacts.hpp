@@ -12,7 +12,7 @@ namespace handhold {
 // What the search for surfaces knows of a player.
 struct BodySurroundings {
     SurfaceQuery surfaces;
-    std::uint64_t own_id = 0;  // of the player, whose head is ignored
+    std::uint64_t own_id = 0;  // id of the player, whose head is ignored
     Pose origin_ws;
     Vec3 head_ps = Vec3::Zero();  // a point well inside the head's collider
     Vec3 chest_ps = Vec3::Zero();
@@ -22,10 +22,14 @@ struct BodySurroundings {
     const SpinePose& shown;
 };
 
-// Updates SpineMemory::contacts for one frame that ends at t_s. Each part is searched at most 15
-// times a second of the world's clock: a sphere is cast along it, from the part's end that is
-// nearer to the head. The last answer is used again while no surface near the part has moved and
-// the part has moved by less than 5 mm. In frames between searches the plane moves with the
+inline constexpr double k_body_searches_per_s = 15.0;
+inline constexpr double k_part_moved_m = 0.005;
+
+// Updates SpineMemory::contacts for one frame that ends at t_s. Each part is searched at most
+// k_body_searches_per_s times a second of the world's clock: a sphere is cast along it, from the
+// part's end that is nearer to the head. The last answer is used again while no surface near the
+// part has moved and both ends have moved by less than k_part_moved_m; never if
+// SurfaceQuery::hash_near has no answer. In frames between searches the plane moves with the
 // reference velocity. `moved_m`: displacement of the chest relative to it.
 void find_body_contacts(const BodySurroundings& around, double t_s, double dt_s,
                         const Vec3& moved_m, SpineMemory& memory);

@@ -29,7 +29,7 @@ double clavicle_reach_m(double distance) {
     return k_curve.back().reach_m;
 }
 
-constexpr double k_near_bend_cosine = 0.95;  // for larger cosines, share_of_line is used
+constexpr double k_near_bend_cosine = 0.95;  // share_of_line is used for larger cosines
 
 }  // namespace
 

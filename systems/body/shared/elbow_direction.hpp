@@ -23,8 +23,8 @@ Vec3 shoulder_follow(const Vec3& hand_m, double arm_m, double shifted_m, const A
 
 // The line from a shoulder to its hand.
 struct ArmLine {
-    Vec3 shoulder_ts;  // from the shoulder at rest
-    Vec3 reach_ts;     // from the shoulder to the hand
+    Vec3 shoulder_ts;  // offset from the shoulder at rest
+    Vec3 reach_ts;     // vector from the shoulder to the hand
     double distance_m;
     Vec3 axis_ts;  // unit, along reach_ts
 };
@@ -32,8 +32,9 @@ struct ArmLine {
 // Direction in which the elbow of `side` points, torso axes, not normalised.
 Vec3 elbow_pole(const BodyView& view, HandSide side);
 
-// What the network adds to elbow_pole. Zero for inputs that do not resemble its data. `turned`:
-// sine of the angle from the chest's facing to the look direction.
+// What the network adds to elbow_pole. Zero for inputs that do not resemble its data, and for a
+// hand near its shoulder (body_constants::k_near_shoulder). `turned`: sine of the angle from the
+// chest's facing to the look direction.
 Vec3 elbow_correction(const BodyView& view, const std::array<ArmLine, k_hand_count>& lines,
                       double turned, double arm_m, HandSide side);
 

@@ -15,7 +15,7 @@ using ChestAnswer = NetworkAnswer<body_constants::k_chest_outputs>;
 // What both sides' inputs share.
 struct ChestView {
     BodyView axes;
-    std::array<Vec3, k_hand_count> hand;  // from the eyes, in arm lengths
+    std::array<Vec3, k_hand_count> hand;  // offset from the eyes in arm lengths
     std::array<double, k_hand_count> distance;
     std::array<double, k_look_filters> turned;  // sines of the look direction, see chest_inputs
 };

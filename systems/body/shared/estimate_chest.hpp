@@ -32,7 +32,7 @@ Vec3 chest_facing(const Vec3& look_ps, const Quat& lean_ps, const TrackedBody& b
 
 // What the network adds to the talk's form. All zero for inputs that do not resemble its data.
 struct ChestCorrection {
-    double turn_rad = 0.0;  // to the left
+    double turn_rad = 0.0;  // positive: to the left
     ChestOffset offset;
 };
 // facing_ps: of the talk's form. looks_ps: as ArmMemory::looks_ps; look_ps: not filtered.
@@ -40,11 +40,13 @@ ChestCorrection chest_correction(const Vec3& facing_ps, const Vec3& look_ps,
                                  const std::array<Vec3, k_look_filters>& looks_ps,
                                  const TrackedBody& body, const BodyAxes& axes);
 
+inline constexpr double k_across_most_rad = 1.1;
+
 // Turn to the left (rad) that reduces how far a nearly straight arm reaches across the chest, if it
 // is farther than shoulders allow. The line between the hands does not determine the chest's facing
 // if both hands are on one side, as on a rail beside the player: chest_facing may then turn away
-// from them, and the far arm would pass through the neck. Zero for the usual poses; continuous; in
-// absolute value below 1.1 rad. `chest_ps`: chest_pose for `facing_ps` and `lean_ps`.
+// from them, and the far arm would pass through the neck. Zero for the usual poses; continuous; its
+// absolute value is below k_across_most_rad. `chest_ps`: chest_pose for `facing_ps` and `lean_ps`.
 double turn_to_reach_across(const Vec3& facing_ps, const Quat& lean_ps, const Pose& chest_ps,
                             const TrackedBody& body);
 

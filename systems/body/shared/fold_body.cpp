@@ -8,10 +8,6 @@ namespace {
 
 // Lean of each link / lean of the trunk, from the top down.
 constexpr std::array<double, k_spine_links> k_lean_share = {0.5, 0.85, 1.0};
-// Lowest height of the pelvis. The trunk starts to fold when the pelvis of the straight trunk is
-// less than k_seat_width_m above this height.
-constexpr double k_seat_m = 0.20;
-constexpr double k_seat_width_m = 0.12;
 constexpr double k_max_lean_rad = 2.0;
 
 // Height of the ankle above a flat sole.

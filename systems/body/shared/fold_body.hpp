@@ -31,6 +31,11 @@ inline constexpr double k_pelvis_clearance_m = 0.12;
 inline constexpr double k_knee_clearance_m = 0.06;
 inline constexpr double k_ankle_clearance_m = 0.05;
 
+// Lowest height of the pelvis. The trunk starts to fold when the pelvis of the straight trunk is
+// less than k_seat_width_m above this height.
+inline constexpr double k_seat_m = 0.20;
+inline constexpr double k_seat_width_m = 0.12;
+
 // Turns that fold the trunk: about the X axis of the frame of the link above. A positive turn moves
 // the link's lower end backwards.
 struct TrunkFold {
@@ -38,8 +43,8 @@ struct TrunkFold {
     double lean_rad = 0.0;  // sum of bend_rad
 };
 // chest_m: height of the chest above the floor. up_cs: the floor's normal in the chest's axes, a
-// unit vector. All turns are zero while the pelvis of the straight trunk is at least 0.32 m above
-// the floor.
+// unit vector. All turns are zero while the pelvis of the straight trunk is at least k_seat_m +
+// k_seat_width_m above the floor.
 TrunkFold fold_trunk(double chest_m, const Vec3& up_cs);
 
 // Turns about X that fold a leg. All are zero while a hanging leg has enough height.

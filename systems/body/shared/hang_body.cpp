@@ -7,9 +7,7 @@ namespace {
 
 // Angle by which a trunk turns whose pull is strong, at `angle_rad` from the chest's +Y.
 double whole_lean_rad(double angle_rad) {
-    constexpr double k_whole_rad = 80.0 / 180.0 * k_pi;
-    constexpr double k_none_rad = 130.0 / 180.0 * k_pi;
-    return angle_rad * (1.0 - smooth_step(angle_rad, k_whole_rad, k_none_rad));
+    return angle_rad * (1.0 - smooth_step(angle_rad, k_whole_lean_rad, k_no_lean_rad));
 }
 
 // -Y turned by a rotation about a horizontal axis. `turn`: rotation vector with y = 0.

@@ -18,13 +18,17 @@ void follow_pull(const Vec3& hands, double tick_s, const SpineTuning& tuning, Bo
 // Bend of the trunk: the shown chest turns about its X axis first, then each link of the spine
 // turns against the link above.
 struct TrunkLean {
-    double chest_rad = 0.0;                      // about the chest's X axis
+    double chest_rad = 0.0;                      // turn about the chest's X axis
     std::array<Vec3, k_spine_links> rest_above;  // rest directions in the frames of the links above
 };
+inline constexpr double k_whole_lean_rad = 80.0 / 180.0 * k_pi;
+inline constexpr double k_no_lean_rad = 130.0 / 180.0 * k_pi;
+
 // `pull_cs`: BodyPull::now in the chest's axes, of length p < 1 at the angle a from +Y. The trunk
 // turns by a p from the chest's -Y towards the opposite of the pull: not at all without a pull, and
-// nearly all the way for a strong one. From a = 80 degrees on the bend fades, and is zero from
-// 130 degrees on: hands below the chest push rather than pull, and no trunk folds onto itself.
+// nearly all the way for a strong one. From a = k_whole_lean_rad on the bend fades, and is zero
+// from k_no_lean_rad on: hands below the chest push rather than pull, and no trunk folds onto
+// itself.
 TrunkLean lean_of(const Vec3& pull_cs);
 
 inline Quat leaning_chest(const Quat& chest, const TrunkLean& lean) {

@@ -8,7 +8,7 @@
 namespace handhold {
 namespace {
 
-constexpr double k_near_level_cosine = 0.95;  // for larger cosines, share_of_line is used
+constexpr double k_near_level_cosine = 0.95;  // share_of_line is used for larger cosines
 
 Vec3 level_unit(const Vec3& v) {
     const double by = 1.0 / std::sqrt(v.x() * v.x() + v.z() * v.z());
@@ -34,7 +34,7 @@ Quat level_rotation(const Vec3& facing) {
 Vec3 level_look(const Vec3& ahead, const Vec3& up) {
     // Blends from 45 degrees of pitch to 90; ahead.y() is the sine of the pitch.
     const double pitch = ahead.y();
-    const double blend = smooth_step(std::abs(pitch), 0.70710678118654752, 1.0);
+    const double blend = smooth_step(std::abs(pitch), k_level_look_sine, 1.0);
     const Vec3 look = (1.0 - blend) * ahead + (pitch > 0.0 ? -blend : blend) * up;
     const double length = std::sqrt(look.x() * look.x() + look.z() * look.z());
     return length > 1e-9 ? Vec3(look.x() / length, 0.0, look.z() / length) : Vec3(-Vec3::UnitZ());

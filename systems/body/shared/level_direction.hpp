@@ -31,8 +31,11 @@ Vec3 turned_left(const Vec3& v, double cosine, double sine);
 // Rotation about +Y that turns -Z to the level direction.
 Quat level_rotation(const Vec3& facing);
 
-// Level look direction of a head, from its forward axis `ahead` and its up axis. Beyond 45 degrees
-// of pitch the up axis blends in (negated if the head looks up), because `ahead` becomes vertical.
+inline constexpr double k_level_look_sine = 0.70710678118654752;  // sine of an eighth of a turn
+
+// Level look direction of a head, from its forward axis `ahead` and its up axis. Beyond a pitch
+// with the sine k_level_look_sine the up axis blends in (negated if the head looks up), because
+// `ahead` becomes vertical.
 Vec3 level_look(const Vec3& ahead, const Vec3& up);
 
 // Gain dt / (dt + lag) of an implicit low-pass filter. The output lags a steady motion by lag_s at

@@ -99,25 +99,24 @@ Pose follow_part(const Pose& from_ps, const Pose& to_ps, const Vec3& anchor_bs,
 }
 
 Pose ShownBodies::part_ps(Entity player, BodyPart part) const {
-    const RenderPose& body = shown->at(player);
-    const Pose frame_ws = part_capsule(body, measures->at(player), part).frame_ws;
+    const RenderPose& body = shown.at(player);
+    const Pose frame_ws = part_capsule(body, measures.at(player), part).frame_ws;
     return head.at(player).start_ps * (inverse(body.head_ws) * frame_ws);
 }
 
 template <typename Test>
 std::optional<PartHit> ShownBodies::nearest(const Vec3& near_ws, double within_m, Skip skip,
                                             const Test& test) const {
-    constexpr double k_reach_eyes =
-        2.0;  // in eye heights; parts farther from the head are not found
+    constexpr double k_reach_eyes = 2.0;  // eye heights; parts farther from the head are not found
     std::optional<PartHit> best;
-    for (std::size_t row = 0; shown != nullptr && row < shown->size(); ++row) {
-        const Entity player = shown->owners()[row];
-        const RenderPose& body = shown->rows()[row];
+    for (std::size_t row = 0; row < shown.size(); ++row) {
+        const Entity player = shown.owners()[row];
+        const RenderPose& body = shown.rows()[row];
         const std::uint64_t id = persistent_id.at(player).value;
         if (std::ranges::find(skip, id) != skip.end() || !is_shown(body)) {
             continue;
         }
-        const BodyMeasures& size = measures->at(player);
+        const BodyMeasures& size = measures.at(player);
         const Pose head_ws = origin.at(player).pose_ws * head.at(player).start_ps;
         if ((head_ws.position - near_ws).norm() > within_m + k_reach_eyes * size.eye_height_m) {
             continue;

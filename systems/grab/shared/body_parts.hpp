@@ -26,18 +26,18 @@ Pose follow_part(const Pose& from_ps, const Pose& to_ps, const Vec3& anchor_bs,
 
 // A point on a part. `normal_ws`: unit, outward.
 struct PartHit {
-    std::uint64_t id = 0;  // of the player
+    std::uint64_t id = 0;  // id of the player
     BodyPart part = BodyPart::left_upper_arm;
     Vec3 point_ws = Vec3::Zero();
     Vec3 normal_ws = Vec3::UnitY();
-    double distance_m = 0.0;  // from the ray's start or the query point; negative: inside
+    double distance_m = 0.0;  // distance from the ray's start or the query point; negative: inside
 };
 
-// The bodies of all players, as the last frame showed them, at the start of this frame. A null
-// column: no body can be gripped.
+// The bodies of all players, as the last frame showed them, at the start of this frame. A player
+// without a row of `shown` has no body that can be gripped.
 struct ShownBodies {
-    const Column<RenderPose>* shown = nullptr;
-    const Column<BodyMeasures>* measures = nullptr;
+    const Column<RenderPose>& shown;
+    const Column<BodyMeasures>& measures;  // every player of `shown`
     const Column<PersistentId>& persistent_id;
     const Column<PlayerOrigin>& origin;
     const Column<HeadTracking>& head;

@@ -19,7 +19,7 @@ Pose hand_within_frame(const HandTracking& hand, const HandHistory& history, dou
     };
     Knot before{0.0, &hand.start_ps};
     Knot after{1.0, &hand.pose_ps};
-    const bool jumps = hand.resumed;  // it did not travel
+    const bool jumps = hand.resumed;  // true: the hand did not travel
     for (std::uint32_t i = 0; i < history.count && !jumps; ++i) {
         const HandHistory::Entry& entry = history.entries[i];
         const double at = (entry.t_s - start_s) / (end_s - start_s);
@@ -58,8 +58,7 @@ Pose GrabInstant::body_ws(Entity body) const {
 }
 
 Pose GrabInstant::gripped_ws(const Grab& grab) const {
-    const BodyHold* const hold =
-        io.body_hold != nullptr ? io.body_hold->find(io.grab.owner_of(grab)) : nullptr;
+    const BodyHold* const hold = io.body_hold.find(io.grab.owner_of(grab));
     if (hold == nullptr || grab.kind != GripKind::player) {
         return body_ws(grab.body);
     }
@@ -127,8 +126,8 @@ bool drives_whole_frame(const Grab& grab, const HandTracking& hand) {
 
 Pose hand_driven_body_ws(const GrabInstant& now, Entity body, const PhaseTuning& tuning) {
     const GrabFrame& io = now.io;
-    const std::optional<JointRail> rail =
-        find_rail({io.body, io.joint, io.joint_state}, body, tuning);
+    const std::optional<JointRail> rail = find_rail(
+        {.body = io.body, .joint = io.joint, .joint_state = io.joint_state}, body, tuning);
     if (!rail) {
         return now.body_ws(body);
     }

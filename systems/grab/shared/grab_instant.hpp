@@ -18,22 +18,22 @@ namespace handhold {
 // Everything that anchors of a frame depend on; also AnchorGrabsIo. The functions below read it;
 // only anchor_grabs writes, and only `grab`.
 struct GrabFrame {
-    double start_s = 0.0;  // in: the frame
-    double end_s = 0.0;
-    const Column<HandOwner>& owner;               // in
-    const Column<HandTracking>& hand;             // in
-    const Column<HandHistory>& hand_history;      // in: samples within the frame
-    const Column<PlayerStart>& player_start;      // in
-    const Column<PlayerOrigin>& origin;           // in: predicted
-    const Column<HeadTracking>& head;             // in
-    const Column<BodyStart>& body_start;          // in
-    const Column<BodyPose>& body_pose;            // in: predicted
-    const Column<AuthoredHold>& authored_hold;    // in
-    const Column<RigidBody>& body;                // in
-    const Column<Joint>& joint;                   // in
-    const Column<JointState>& joint_state;        // in: at the frame's start
-    Column<Grab>& grab;                           // in/out: anchor, target, phase, two_handed
-    const Column<BodyHold>* body_hold = nullptr;  // in: of hands on a player's part
+    double start_s;                             // in: of the frame
+    double end_s;                               // in: of the frame
+    const Column<HandOwner>& owner;             // in
+    const Column<HandTracking>& hand;           // in
+    const Column<HandHistory>& hand_history;    // in: samples within the frame
+    const Column<PlayerStart>& player_start;    // in
+    const Column<PlayerOrigin>& origin;         // in: predicted
+    const Column<HeadTracking>& head;           // in
+    const Column<BodyStart>& body_start;        // in
+    const Column<BodyPose>& body_pose;          // in: predicted
+    const Column<AuthoredHold>& authored_hold;  // in
+    const Column<RigidBody>& body;              // in
+    const Column<Joint>& joint;                 // in
+    const Column<JointState>& joint_state;      // in: at the frame's start
+    const Column<BodyHold>& body_hold;          // in: of hands on a player's part
+    Column<Grab>& grab;                         // in/out: anchor, target, phase, two_handed
 };
 
 // Poses at one instant within the frame; t = 0 is its start, 1 its end.
@@ -80,8 +80,8 @@ bool drives_whole_frame(const Grab& grab, const HandTracking& hand);
 Pose hand_driven_body_ws(const GrabInstant& now, Entity body, const PhaseTuning& tuning);
 
 // Pose of a held free body: it follows its hands, not its velocity. Its error stays what it was at
-// the start of the frame; a grip that began in this frame has none. `first` drives the body, alone
-// or with the other hand.
+// the start of the frame; a grip that began in this frame has none. Predicted if one of these hands
+// is `resumed`. `first` drives the body, alone or with the other hand.
 Pose held_body_ws(const GrabInstant& now, const HandPair& first);
 
 // The player's origin by a hand on a jointed body: it takes the part of the hand's travel that the

@@ -6,11 +6,11 @@
 
 namespace handhold {
 
-// Rules that restrict which hand may grip which body. A null column restricts nothing.
+// Rules that restrict which hand may grip which body. Empty columns restrict nothing.
 struct GrabRules {
-    const Column<GrabRule>* rule = nullptr;
-    const Column<GrabLayers>* layers = nullptr;       // of players
-    const Column<CollisionFilter>* filter = nullptr;  // layers of bodies; without one: the default
+    const Column<GrabRule>& rule;           // rules of bodies
+    const Column<GrabLayers>& layers;       // layers of players
+    const Column<CollisionFilter>& filter;  // layers of bodies; without a row: the default
 
     // The body's rule; null if it has none.
     const GrabRule* rule_of(Entity body) const;

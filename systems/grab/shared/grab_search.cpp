@@ -71,8 +71,7 @@ SightLines sight_lines(const GrabSearch& io, Entity hand, const Vec3& palm_ws,
 }
 
 bool any_priority(const GrabRules& rules) {
-    return rules.rule != nullptr &&
-           std::ranges::any_of(rules.rule->rows(),
+    return std::ranges::any_of(rules.rule.rows(),
                                [](const GrabRule& rule) { return rule.priority != 0; });
 }
 
@@ -169,7 +168,7 @@ class SurfaceFinder {
     const PalmRay& ray_;
     bool continues_;  // past the first surface, for one of a higher priority
     Ids skipped_;     // already offered
-    Ids refusing_;    // of these, those that refuse the hand
+    Ids refusing_;    // subset that refuses the hand
     std::optional<GrabTarget> best_;
     std::int32_t priority_ = 0;
     Entity refused_by_ = k_no_entity;
@@ -205,7 +204,7 @@ GrabSearchResult find_visible_surface(const GrabSearch& io, const HandOwner& own
 
 // An authored grip that a hand may snap to.
 struct Snap {
-    GrabTarget target;  // its point is the palm in the grip
+    GrabTarget target;  // target whose point is the palm in the grip
     std::int32_t priority = 0;
     double sync_m = 0.0;
     std::uint64_t body_id = 0;

@@ -20,32 +20,36 @@ namespace handhold {
 
 // Also UpdateGrabsIo. The functions below write `sight` only.
 struct GrabSearch {
-    SurfaceQuery surfaces;                           // in: at the start of the frame
-    const Column<PersistentId>& persistent_id;       // in
-    const Column<HandOwner>& owner;                  // in
-    const Column<HandTracking>& hand;                // in: edges
-    const Column<PlayerOrigin>& origin;              // in: at the start of the frame
-    const Column<HeadTracking>& head;                // in: as the colliders have it
-    const Column<RigidBody>& body;                   // in
-    const Column<BodyPose>& body_pose;               // in: at the start of the frame
-    const JointGroups& joint_groups;                 // in
-    const Column<AuthoredGrips>& authored_grips;     // in
-    const Column<HandPull>& pull;                    // in: of the last frame
-    const Column<ReferenceVelocity>& reference;      // in: of the last frame
-    Column<HandSight>& sight;                        // in/out
-    Column<Grab>& grab;                              // in/out
-    Column<AuthoredHold>& authored_hold;             // in/out: of hands in an authored grip
-    Column<HeadIgnores>& head_ignores;               // in/out: held bodies are added
-    GrabRules rules = {};                            // in
-    Column<GrabOrder>* order = nullptr;              // in/out: carried out and removed
-    double start_s = 0.0;                            // in: of the frame; for orders
-    double dt_s = 0.0;                               // in: of the frame
-    const Column<RenderPose>* shown = nullptr;       // in: of the last frame; null: heads alone
-    const Column<BodyMeasures>* measures = nullptr;  // in
-    Column<BodyHold>* body_hold = nullptr;           // in/out: of hands on a player's part
+    double start_s;                               // in: of the frame; for orders
+    double dt_s;                                  // in: of the frame
+    SurfaceQuery surfaces;                        // in: at the start of the frame
+    const Column<PersistentId>& persistent_id;    // in
+    const Column<HandOwner>& owner;               // in
+    const Column<HandTracking>& hand;             // in: edges
+    const Column<PlayerOrigin>& origin;           // in: at the start of the frame
+    const Column<HeadTracking>& head;             // in: as the colliders have it
+    const Column<RigidBody>& body;                // in
+    const Column<BodyPose>& body_pose;            // in: at the start of the frame
+    const JointGroups& joint_groups;              // in
+    const Column<AuthoredGrips>& authored_grips;  // in
+    GrabRules rules;                              // in
+    const Column<RenderPose>& shown;       // in: of the last frame; without a row: heads alone
+    const Column<BodyMeasures>& measures;  // in: every player of `shown`
+    const Column<HandPull>& pull;          // in: of the last frame
+    const Column<ReferenceVelocity>& reference;  // in: of the last frame
+    Column<HandSight>& sight;                    // in/out
+    Column<Grab>& grab;                          // in/out
+    Column<AuthoredHold>& authored_hold;         // in/out: of hands in an authored grip
+    Column<HeadIgnores>& head_ignores;           // in/out: held bodies are added
+    Column<BodyHold>& body_hold;                 // in/out: of hands on a player's part
+    Column<GrabOrder>& order;                    // in/out: carried out and removed
 
     ShownBodies bodies() const {
-        return {body_hold != nullptr ? shown : nullptr, measures, persistent_id, origin, head};
+        return {.shown = shown,
+                .measures = measures,
+                .persistent_id = persistent_id,
+                .origin = origin,
+                .head = head};
     }
 };
 
@@ -55,7 +59,7 @@ struct GrabTarget {
     Vec3 point_ws;
     Vec3 normal_ws;                     // unit, out of the solid
     std::optional<AuthoredHold> hold;   // if it is an authored grip
-    std::optional<BodyPart> part = {};  // of another player; none: their head
+    std::optional<BodyPart> part = {};  // part of another player; none: their head
 };
 
 // Advances HandSight of all hands to the start of the frame.

@@ -8,14 +8,13 @@ namespace {
 constexpr double k_same_m = 1e-6;
 
 SightLines::Sight sight_between(const SightLines& lines, const Vec3& from_ws, const Vec3& to_ws) {
-    constexpr double k_beyond_m = 0.01;
     const Vec3 line = to_ws - from_ws;
     const double length_m = line.norm();
     if (length_m < k_same_m) {
         return SightLines::Sight::clear_beyond;
     }
     const auto hit =
-        lines.surfaces.cast_ray(from_ws, to_ws + (k_beyond_m / length_m) * line, lines.skip);
+        lines.surfaces.cast_ray(from_ws, to_ws + (k_sight_beyond_m / length_m) * line, lines.skip);
     if (!hit) {
         return SightLines::Sight::clear_beyond;
     }

@@ -9,6 +9,8 @@
 
 namespace handhold {
 
+inline constexpr double k_sight_beyond_m = 0.01;
+
 // What a hand can get at without crossing a wall. `outside_ws` is where the palm was last known to
 // be outside of walls; the head always is. Bodies in `skip` are no obstacles.
 struct SightLines {
@@ -18,7 +20,7 @@ struct SightLines {
     Vec3 head_ws;
 
     enum class Sight : std::uint8_t { blocked, clear, clear_beyond };
-    // `clear_beyond`: nothing stands in the way until 1 cm past the palm.
+    // `clear_beyond`: nothing stands in the way until k_sight_beyond_m past the palm.
     Sight sight_of_palm(const Vec3& palm_ws) const;
 
     // True if the hand may grip `point_ws` of a body: its palm is in sight, or the point is

@@ -8,7 +8,7 @@ namespace {
 
 bool is_hand_driven(const JointRailIo& io, Entity entity, const PhaseTuning& tuning) {
     const RigidBody* const body = io.body.find(entity);  // none: the world
-    return body != nullptr && body->kind == BodyKind::free && body->mass_kg < tuning.heavy_body_kg;
+    return body != nullptr && is_light(*body, tuning.heavy_body_kg);
 }
 
 }  // namespace

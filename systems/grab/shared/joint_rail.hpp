@@ -22,13 +22,14 @@ struct JointRail {
     Entity holder;  // null: the world
     Vec3 point_hs = Vec3::Zero();
     Vec3 axis_hs = Vec3::UnitX();  // unit
-    bool turns = false;            // about the axis; else along it
+    bool turns = false;            // true: turns about the axis; false: slides along it
     double back = 0.0;             // lowest travel, rad or m, <= 0
     double ahead = 0.0;            // highest travel, >= 0
 };
 
-// The rail of a light free body. None if it has no joint, more than one joint, or a joint with more
-// than one degree of freedom (ball, distance).
+// The rail of a light free body: its only joint to something that no hand moves, a hinge or a
+// slider. None if there is no such joint, more than one, or one of another kind. Joints to other
+// light free bodies do not count.
 std::optional<JointRail> find_rail(const JointRailIo& io, Entity body, const PhaseTuning& tuning);
 
 // Travel of the body along its rail when a hand takes one of its points as close to `to_hs` as the

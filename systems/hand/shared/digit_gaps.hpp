@@ -19,14 +19,14 @@ DigitCapsules digit_capsules(const HandRig& rig, const HandLinkFrames& frames);
 
 // A thumb's link and a finger's link.
 struct DigitGap {
-    std::size_t thumb = 0;  // into HandRig::fingers, as `finger`
+    std::size_t thumb = 0;  // index into HandRig::fingers, like `finger`
     std::size_t thumb_link = 0;
     std::size_t finger = 0;
     std::size_t finger_link = 0;
     Vec3 on_thumb = Vec3::Zero();  // the axes' nearest points
     Vec3 on_finger = Vec3::Zero();
     Vec3 away = Vec3::Zero();  // unit, from the finger to the thumb
-    double gap_m = 0.0;        // below 0: depth of the overlap
+    double gap_m = 0.0;        // negative: depth of the overlap
 };
 
 inline constexpr std::size_t k_max_digit_gaps = k_max_links * k_max_links * (k_finger_count - 1);

@@ -19,7 +19,8 @@ GraphPoint seed_under_palm(const PlacedMesh& placed, const GripSurface& surface)
 
 GraphPoint seed_near_finger(const PlacedMesh& placed, const HingeChain& chain) {
     const double radius_m = reach_m(chain);
-    const Vec3 half_closed_middle(0.0, -0.2 * radius_m, -0.4 * radius_m);  // in the base's frame
+    const Vec3 half_closed_middle(0.0, -0.2 * radius_m,
+                                  -0.4 * radius_m);  // point in the base's frame
     const Vec3 middle = transform_point(inverse(placed.pose) * chain.base, half_closed_middle);
     const auto near = placed.mesh->search_bvh.closest_point(middle, radius_m);
     return near ? GraphPoint{near->triangle, near->point} : GraphPoint{};
@@ -68,9 +69,8 @@ ChainSeed chain_seed(const HandSurroundings& hand, const GripSurface& surface,
 }
 
 double hand_travel_m(const Pose& from, const Pose& to) {
-    constexpr double k_arm_m = 0.1;
     const Pose moved = inverse(from) * to;
-    return moved.position.norm() + k_arm_m * rotation_to_vector(moved.rotation).norm();
+    return moved.position.norm() + k_travel_arm_m * rotation_to_vector(moved.rotation).norm();
 }
 
 bool touches(const ChainFit& fit) {

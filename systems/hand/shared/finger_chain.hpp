@@ -26,8 +26,10 @@ Pose held_wrist_bs(const HandSurroundings& hand, const PalmOffset& offset);
 ChainSeed chain_seed(const HandSurroundings& hand, const GripSurface& surface,
                      const HingeChain& chain);
 
-// Returns the approximate travel of a hand between two wrist poses: |translation| + 0.1 m *
-// |rotation|.
+inline constexpr double k_travel_arm_m = 0.1;
+
+// Returns the approximate travel of a hand between two wrist poses: |translation| + k_travel_arm_m
+// * |rotation|.
 double hand_travel_m(const Pose& from, const Pose& to);
 
 // True if a surface stops the chain. False for a rest pose, even if it penetrates.

@@ -15,7 +15,7 @@ struct FitPart {
     FitPart(FitTerm of, std::size_t one, std::size_t other) : term(of), a(one), b(other) {}
 
     FitTerm term;
-    std::size_t a;  // into FitTerms::cost_m2
+    std::size_t a;  // index into FitTerms::cost_m2
     std::size_t b;
 };
 

@@ -12,9 +12,6 @@ namespace handhold {
 namespace {
 
 // The weights and lengths of hand_fit.hpp.
-constexpr double k_arm_m = 0.05;
-constexpr double k_lever_m = 0.05;   // l
-constexpr double k_let_go_m = 0.03;  // g
 constexpr double k_touch = 2.0;
 constexpr double k_tip = 1.0;
 constexpr double k_thumb_tip = 0.5;
@@ -35,19 +32,15 @@ constexpr double k_palm_limit = 20.0;
 constexpr double k_bend_limit = 0.3;
 constexpr double k_fan_limit = 2.0;
 constexpr double k_claw_limit = 4.0;
-constexpr double k_digit_contact = 500.0;  // of the thumb and a finger
+constexpr double k_digit_contact = 500.0;  // weight of contacts between the thumb and a finger
 constexpr double k_digit_reach_m = 0.03;   // digits farther apart need no row
-constexpr double k_max_fan_rad = 0.5;
-constexpr double k_max_apart_rad = 1.6;
-constexpr double k_max_bend_rad = 2.75;
 constexpr double k_claw_share = 0.6;
-constexpr double k_claw_rad = 20.0 * k_degree;
 constexpr double k_clear_m = 3e-4;  // gap that contacts aim for
 // Largest step of one round: gaps are linearised.
 constexpr double k_max_move_m = 0.02;
 constexpr double k_max_turn_rad = 0.3;
 
-constexpr double k_lever2 = k_lever_m * k_lever_m;
+constexpr double k_lever2 = k_fit_lever_m * k_fit_lever_m;
 
 bool is_thumb(const FingerRig& finger) { return finger.name == FingerName::thumb; }
 
@@ -134,8 +127,8 @@ class Fitter {
             (pose_.wrist_bs.rotation * hand_.wrist_bs.rotation.conjugate()).normalized());
         for (int i = 0; i < 3; ++i) {
             problem_.add_square({FitTerm::sync, FitTerms::k_palm}, 1.0, moved[i], unit(i));
-            problem_.add_square({FitTerm::sync, FitTerms::k_palm}, k_arm_m * k_arm_m, turned[i],
-                                unit(3 + i));
+            problem_.add_square({FitTerm::sync, FitTerms::k_palm}, k_fit_arm_m * k_fit_arm_m,
+                                turned[i], unit(3 + i));
         }
     }
 
@@ -342,7 +335,7 @@ class Fitter {
             turn.segment<3>(3) = across.normalized();
             problem_.add_row(part, turn,
                              tuning_.max_angle_rad - arc_tangent2(across.norm(), up.dot(normal)),
-                             k_palm_limit * k_arm_m * k_arm_m);
+                             k_palm_limit * k_fit_arm_m * k_fit_arm_m);
         }
     }
 
@@ -440,9 +433,9 @@ class Fitter {
     const HandUnknowns layout_;
     HandPose pose_;
     HandSpheres spheres_;
-    Vec3 center_ = Vec3::Zero();  // of the palm at pose_
+    Vec3 center_ = Vec3::Zero();  // centre of the palm at pose_
     HandLinkFrames frames_;
-    FitProblem problem_;  // at pose_
+    FitProblem problem_;  // problem at pose_
 };
 
 }  // namespace

@@ -13,7 +13,7 @@
 //
 //   minimise
 //     |p - p0|^2 + (arm |r|)^2               p: palm's centre, p0: tracked one, r: rotation vector
-//                                            from the tracked wrist; arm = 5 cm
+//                                            from the tracked wrist; arm = k_fit_arm_m
 //   + 2   sum_d pull(gap_d)                  nearest point of each digit d
 //   + 1   sum_f pull(tip_f)                  each finger's tip; fingers f are without the thumb
 //   + 0.5 tip_t^2                            the thumb's tip
@@ -30,21 +30,31 @@
 //   subject to
 //     every capsule's gap >= 0, gaps between thumb and fingers >= 0
 //     joint limits
-//     q1 >= 0.6 q2 - 20 degrees              claw: no stretched knuckle with a bent middle
-//     q1 + q2 + q3 <= 158 degrees            bend: no finger folded into itself
-//     neighbours' total bends within 92 degrees, and their directions within 29 degrees
+//     q1 >= 0.6 q2 - k_claw_rad             claw: no stretched knuckle with a bent middle
+//     q1 + q2 + q3 <= k_max_bend_rad         bend: no finger folded into itself
+//     neighbours' total bends within k_max_apart_rad, and directions within k_max_fan_rad
 //     the palm's limits on height and tilt (PalmTuning)
 //
 // Fingers whose angles are kept have no fan and alike with their neighbours.
-// pull(x) = x^2 / (1 + x^2 / g^2) lets go of what is far off: g = 3 cm; l = 5 cm. Hinges q1, q2, q3
-// are numbered from the knuckle. Gaps within 2 cm count, those of tips within 6 cm. Costs are half
-// of these sums. The inequalities are penalties, stiffer in this order: bends, directions, claw,
-// palm, joints, gaps; the fit shares what cannot be met. Each round queries the gaps
-// (hand_spheres.hpp), linearises and solves (engine/math/penalty_quadratic.hpp).
-// Sources: Santello, Flanders, Soechting, Postural hand synergies for tool use, 1998 (fingers bend
-// alike); Rijpkema, Girard, Computer animation of knowledge-based human grasping, 1991 (2/3). The
-// weights follow 694 labels of posed hands (docs/decisions).
+// pull(x) = x^2 / (1 + x^2 / g^2) is bounded by g^2, so distant surfaces hardly attract a digit;
+// g = k_let_go_m; l = k_fit_lever_m.
+// Hinges q1, q2, q3 are numbered from the knuckle. Gaps within k_sphere_reach_m count, those of
+// tips within their own reach (hand_spheres.hpp). Costs are half of these sums. The inequalities
+// are penalties, stiffer in this order: bends, directions, claw, palm, joints, gaps; the fit shares
+// what cannot be met. Each round queries the gaps (hand_spheres.hpp), linearises and solves
+// (engine/math/penalty_quadratic.hpp). Sources: Santello, Flanders, Soechting, Postural hand
+// synergies for tool use, 1998 (fingers bend alike); Rijpkema, Girard, Computer animation of
+// knowledge-based human grasping, 1991 (2/3). The weights follow 694 labels of posed hands
+// (docs/decisions).
 namespace handhold {
+
+inline constexpr double k_fit_arm_m = 0.05;
+inline constexpr double k_fit_lever_m = 0.05;
+inline constexpr double k_let_go_m = 0.03;
+inline constexpr double k_max_fan_rad = 0.5;
+inline constexpr double k_max_apart_rad = 1.6;
+inline constexpr double k_max_bend_rad = 2.75;
+inline constexpr double k_claw_rad = 20.0 * k_degree;
 
 struct HandFitGoal {
     HandPose first;  // where the rounds start; from the closing, or last frame's fit
@@ -54,14 +64,14 @@ struct HandFitGoal {
     std::array<bool, k_finger_count> is_clear = {};  // HandSpheres: `first` is outside solids
     std::array<bool, k_finger_count> is_fixed = {};  // the angles are kept, as in authored poses
     bool is_wrist_fixed = false;                     // the wrist is kept
-    std::int32_t rounds = 0;                         // at most
+    std::int32_t rounds = 0;                         // maximum number of rounds
     double max_flex_rad = 0.4;                       // largest step of an angle in one round
 };
 
 struct HandFit {
-    HandPose pose;               // of the cheapest round; `first` if none was cheaper
-    double cost = 0.0;           // of the objective, m^2
-    double penetration_m = 0.0;  // of the deepest sphere; at least 0
+    HandPose pose;               // pose of the cheapest round; `first` if none was cheaper
+    double cost = 0.0;           // value of the objective, m^2
+    double penetration_m = 0.0;  // depth of the deepest sphere, >= 0
     // By finger: smallest gap, below 0 if penetrating; infinity: nothing within reach.
     std::array<double, k_finger_count> gap_m = {};
     bool is_converged = false;  // the last round gained nothing

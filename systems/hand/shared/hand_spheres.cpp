@@ -12,7 +12,6 @@ namespace handhold {
 namespace {
 
 constexpr double k_spacing_m = 0.018;          // largest distance between spheres of one link
-constexpr double k_keep_travel_m = 1.2e-3;     // of a centre whose gap is kept
 constexpr double k_extra_gap_m = 0.005;        // links farther away need no extra sphere
 constexpr double k_max_depth_inside_m = 0.03;  // deepest centre inside a solid that is found
 
@@ -107,7 +106,7 @@ std::array<double, k_finger_count + 1> HandSpheres::keep_gaps_m(
 }
 
 void HandSpheres::query(const HandPose& pose, const HandLinkFrames& frames) {
-    const HandSphere* nearest = nullptr;   // of the present capsule
+    const HandSphere* nearest = nullptr;   // nearest sphere of the present capsule
     const HandSphere* previous = nullptr;  // searched last
     const auto keep_m = keep_gaps_m(pose, frames);
     for (std::size_t i = 0; i < count_; ++i) {

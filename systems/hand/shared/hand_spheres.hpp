@@ -15,7 +15,7 @@ namespace handhold {
 // A wrist and all digits. `wrist_bs` is in the frame of HandSurroundings::meshes.
 struct HandPose {
     Pose wrist_bs;
-    std::array<FingerAngles, k_finger_count> fingers;  // by index into HandRig::fingers
+    std::array<FingerAngles, k_finger_count> fingers;  // indexed like HandRig::fingers
 };
 
 // Frames of all links in the frame of the wrist's parent: hinge at the origin, -Z along the link.
@@ -24,10 +24,10 @@ HandLinkFrames link_frames(const HandRig& rig, const HandPose& pose);
 
 struct HandSphere {
     static constexpr std::int32_t k_palm = -1;
-    std::int32_t finger = k_palm;  // into HandRig::fingers
-    std::size_t link = 0;          // of that finger, or index into HandRig::palm
+    std::int32_t finger = k_palm;  // index into HandRig::fingers
+    std::size_t link = 0;          // link of that finger, or index into HandRig::palm
     double radius_m = 0.0;
-    Vec3 center_ls = Vec3::Zero();  // in the link's frame, or in hand space for the palm
+    Vec3 center_ls = Vec3::Zero();  // centre in the link's frame, or in hand space for the palm
     // An extra sphere where the capsule's axis is nearest to the surface. Without it, an edge could
     // penetrate between two spheres.
     bool is_extra = false;
@@ -36,7 +36,7 @@ struct HandSphere {
     // Written by HandSpheres::query.
     Vec3 center = Vec3::Zero();
     Vec3 away = Vec3::Zero();  // unit, from the nearest surface point to the centre, out of solids
-    double gap_m = 0.0;        // below 0: penetration depth
+    double gap_m = 0.0;        // negative: penetration depth
     bool has_gap = false;      // a surface is within reach of the sphere
     // Of the last search: the centre, its gap (infinity: none), its signed distance to the gripped
     // mesh, at most the query radius, and the nearest triangle there.
@@ -48,13 +48,14 @@ struct HandSphere {
 
 bool is_knuckle(const HandSphere& sphere);
 
+inline constexpr double k_keep_travel_m = 1.2e-3;  // travel of a centre whose gap is kept
 // Gaps up to this are reported. A digit's tip can be far from a surface that its base touches.
 inline constexpr double k_sphere_reach_m = 0.02;
 inline constexpr double k_tip_reach_m = 0.06;
 
 class HandSpheres {
   public:
-    static constexpr int k_max_pieces = 4;  // of a link
+    static constexpr int k_max_pieces = 4;  // maximum per link
     // A link has a sphere at the end of each piece and an extra one, a digit one more at its base.
     static constexpr std::size_t k_max_count =
         k_finger_count * (k_max_links * (std::size_t{k_max_pieces} + 1) + 1) +
@@ -66,17 +67,17 @@ class HandSpheres {
     HandSpheres(const HandSurroundings& hand, const GripSurface& surface,
                 const std::array<bool, k_finger_count>& is_clear);
 
-    // Computes all gaps at a pose. Spheres that have moved less than 1.2 mm since their last
-    // search, or cannot be a digit's nearest, keep its gap, moved along `away`. At the first call,
-    // a centre is inside a solid if it is below the plane of its nearest triangle. Later a centre
-    // changes sides only if its path since the last call crosses a surface of the gripped mesh:
-    // windings of open or broken meshes cannot flip a finger through a wall.
+    // Computes all gaps at a pose. Spheres that have moved less than k_keep_travel_m since their
+    // last search, or cannot be a digit's nearest, keep its gap, moved along `away`. At the first
+    // call, a centre is inside a solid if it is below the plane of its nearest triangle. Later a
+    // centre changes sides only if its path since the last call crosses a surface of the gripped
+    // mesh: windings of open or broken meshes cannot flip a finger through a wall.
     void query(const HandPose& pose, const HandLinkFrames& frames);
 
     std::span<const HandSphere> all() const { return {spheres_.data(), count_}; }
     // The sphere of a digit with the smallest gap, knuckles left out; null: none in reach.
     const HandSphere* nearest(std::size_t finger) const;
-    double penetration_m() const;            // of the deepest sphere; at least 0
+    double penetration_m() const;            // depth of the deepest sphere, >= 0
     double gap_m(std::size_t finger) const;  // smallest of a digit; infinity: none in reach
 
   private:

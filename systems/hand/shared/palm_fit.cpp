@@ -70,7 +70,7 @@ Pose clamp_to_limits(const HandSurroundings& hand, const Pose& tracked_bs,
 struct PalmGap {
     Vec3 along = Vec3::Zero();
     Vec3 turn = Vec3::Zero();
-    double gap_m = 0.0;  // below 0: violated
+    double gap_m = 0.0;  // negative: violated
 };
 
 class PalmGaps {
@@ -323,14 +323,12 @@ double size_of(const PalmMove& move, double arm_m) {
     return move.translation_m.norm() + arm_m * move.turn_rad.norm();
 }
 
-// True if further iterations would not improve the fit. A penetrating palm has converged when it no
-// longer moves. A clear palm has converged when it no longer moves or started without a correction;
-// otherwise a smaller correction may suffice.
-bool is_converged(double deepest_m, double step_m, bool is_corrected) {
+// True if further iterations would not improve the fit: the palm no longer moves. A clear palm has
+// converged earlier, because a smaller correction gains little.
+bool is_converged(double deepest_m, double step_m) {
     constexpr double k_stuck_m = 2e-5;
     constexpr double k_converged_m = 2e-4;
-    return deepest_m > k_penetration_slop_m ? step_m <= k_stuck_m
-                                            : !is_corrected || step_m <= k_converged_m;
+    return step_m <= (deepest_m > k_penetration_slop_m ? k_stuck_m : k_converged_m);
 }
 
 PalmMove move_between(const Pose& from, const Pose& to, const Vec3& center_hs) {
@@ -360,9 +358,12 @@ PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface,
     Pose wrist = held;
     PalmFit best = {wrist, palm.query(wrist, gaps), palm.finger_penetration_m()};
     double deepest_m = std::max(best.penetration_m, best.finger_penetration_m);
+    if (deepest_m <= k_penetration_slop_m) {
+        return best;
+    }
     double smallest_m = deepest_m;
     double step_m = k_first_step_m;
-    for (int i = 0; i < k_max_iterations && !is_converged(deepest_m, step_m, i > 0); ++i) {
+    for (int i = 0; i < k_max_iterations && !is_converged(deepest_m, step_m); ++i) {
         if (i >= k_min_iterations && smallest_m > max_penetration_m) {
             break;
         }

@@ -36,9 +36,10 @@ class PalmFitter {
 
     const HandSurroundings& hand() const { return hand_; }
     const PlacedMesh& placed() const { return placed_; }
-    const PalmFrame& palm() const { return palm_; }  // in the mesh's frame
+    const PalmFrame& palm() const { return palm_; }  // palm in the mesh's frame
 
-    GripSurface surface_at(const Candidate& candidate) const;  // without fitted_wrist_bs
+    // Leaves GripSurface::fitted_wrist_bs unset.
+    GripSurface surface_at(const Candidate& candidate) const;
     // Fits the palm, with the fingers in `finger_samples` as part of its shape; see fit_palm.
     FittedPalm fit(const Candidate& candidate, const FingerSamplePoses& finger_samples,
                    double max_penetration_m = std::numeric_limits<double>::infinity()) const;

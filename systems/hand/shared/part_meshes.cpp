@@ -4,12 +4,7 @@
 #include <cmath>
 
 namespace handhold {
-namespace {
-
-constexpr double k_length_step_m = 0.01;
-constexpr double k_radius_step_m = 0.001;
-
-}  // namespace
+namespace {}  // namespace
 
 PartMeshes::Size PartMeshes::size_of(const PartCapsule& capsule) {
     constexpr double k_most_steps = 1e4;

@@ -9,9 +9,12 @@
 
 namespace handhold {
 
-// Grip meshes of the capsules of shown bodies. Lengths are rounded to 1 cm and radii to 1 mm, so
-// that players share meshes and a stretched arm needs few. A cache: a mesh depends on the rounded
-// sizes alone.
+inline constexpr double k_length_step_m = 0.01;
+inline constexpr double k_radius_step_m = 0.001;
+
+// Grip meshes of the capsules of shown bodies. Lengths are rounded to k_length_step_m and radii to
+// k_radius_step_m, so that players share meshes and a stretched arm needs few. A cache: a mesh
+// depends on the rounded sizes alone.
 class PartMeshes {
   public:
     // Length and radius in steps.

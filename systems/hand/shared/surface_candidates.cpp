@@ -17,8 +17,8 @@ constexpr double k_good_enough_cost_m = 0.02;
 constexpr double k_inside_cost_m = 0.05;  // penalty for a backface inside a solid
 // Penalty for a path into a solid; as much as 25 mm of palm penetration.
 constexpr double k_enters_solid_cost_m = 0.3;
-constexpr double k_penetration_cost = 12.0;  // per metre of palm penetration
-constexpr double k_finger_cost = 9.0;        // per metre of finger penetration
+constexpr double k_penetration_cost = 12.0;  // cost per metre of palm penetration
+constexpr double k_finger_cost = 9.0;        // cost per metre of finger penetration
 
 }  // namespace
 

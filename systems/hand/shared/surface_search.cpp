@@ -33,10 +33,8 @@ PalmCost cost_of(const SurfaceGraph& graph, std::uint32_t triangle, const PalmFr
 
 bool is_duplicate_place(const Vec3& point, const Vec3& normal, const Vec3& other,
                         const Vec3& other_normal) {
-    constexpr double k_max_distance_m = 0.025;
-    constexpr double k_min_cosine = 0.7;
-    return (point - other).squaredNorm() < k_max_distance_m * k_max_distance_m &&
-           normal.dot(other_normal) > k_min_cosine;
+    return (point - other).squaredNorm() < k_duplicate_place_m * k_duplicate_place_m &&
+           normal.dot(other_normal) > k_duplicate_place_cosine;
 }
 
 SurfaceSearch::SurfaceSearch(const SurfaceGraph& graph, const PalmFrame& palm,

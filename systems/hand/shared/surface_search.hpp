@@ -16,13 +16,13 @@
 namespace handhold {
 
 struct PalmFrame {
-    Vec3 center;  // on the palm's skin
+    Vec3 center;  // point on the palm's skin
     Vec3 up;      // unit, towards the back of the hand
 };
 
 struct PalmCost {
     double cost_m = std::numeric_limits<double>::infinity();
-    Vec3 point = Vec3::Zero();  // on the triangle, under the palm
+    Vec3 point = Vec3::Zero();  // point on the triangle, under the palm
 };
 
 // Cost of fitting the palm to one triangle, in closed form:
@@ -34,8 +34,11 @@ struct PalmCost {
 PalmCost cost_of(const SurfaceGraph& graph, std::uint32_t triangle, const PalmFrame& palm,
                  const PalmTuning& tuning);
 
-// True if two surface points with unit normals count as the same place: within 25 mm and about 45
-// degrees.
+inline constexpr double k_duplicate_place_m = 0.025;
+inline constexpr double k_duplicate_place_cosine = 0.7;
+
+// True if two surface points with unit normals count as the same place: within k_duplicate_place_m,
+// with a cosine between the normals above k_duplicate_place_cosine.
 bool is_duplicate_place(const Vec3& point, const Vec3& normal, const Vec3& other,
                         const Vec3& other_normal);
 
@@ -44,7 +47,7 @@ bool is_duplicate_place(const Vec3& point, const Vec3& normal, const Vec3& other
 class SurfaceSearch {
   public:
     using Candidate = GripSearchScratch::Candidate;
-    static constexpr std::uint32_t k_max_pops = 300;  // in all calls of run together
+    static constexpr std::uint32_t k_max_pops = 300;  // maximum in all calls of run together
 
     SurfaceSearch(const SurfaceGraph& graph, const PalmFrame& palm, const PalmTuning& tuning,
                   GripSearchScratch& scratch);

@@ -19,7 +19,7 @@ struct ClosingThumb {
 
 struct ClosedThumb {
     double opposition_rad = 0.0;
-    ChainFit fit;  // with the visits of all oppositions
+    ChainFit fit;  // fit that counts the visits of all oppositions
     bool touches = false;
 };
 

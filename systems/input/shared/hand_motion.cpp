@@ -7,12 +7,9 @@
 namespace handhold {
 namespace {
 
-// Enlarges the window, up to four times, until its samples span 5 ms: samples microseconds apart
-// would turn a tenth of a millimetre of noise into metres per second.
+// The enlarged window.
 double measured_window(const HandHistory& history, double t_s, double window_s) {
-    constexpr double k_shortest_span_s = 0.005;
-    constexpr int k_longest = 4;  // windows
-    for (int times = 1; times < k_longest; ++times) {
+    for (int times = 1; times < k_longest_window; ++times) {
         double oldest_s = t_s;
         for (std::uint32_t i = 0; i < history.count; ++i) {
             const double at_s = history.entries[i].t_s;
@@ -22,7 +19,7 @@ double measured_window(const HandHistory& history, double t_s, double window_s) 
             return times * window_s;
         }
     }
-    return k_longest * window_s;
+    return k_longest_window * window_s;
 }
 
 }  // namespace

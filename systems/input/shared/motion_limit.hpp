@@ -29,14 +29,16 @@ inline bool could_move(const Pose& from, const Pose& to, double dt_s, double max
     return k_m_per_rad * k_over_pi * sine <= limit_m || travel_m(from, to) <= limit_m;
 }
 
+inline constexpr double k_min_apart_s = 1e-3;
+inline constexpr double k_max_apart_s = 0.05;
+
 // The pose at `t_s` at constant velocity and spin, from two earlier ones. The last one itself if
-// the two are not 1 to 50 ms apart: noise would dominate, or the velocity be out of date.
+// the two are not k_min_apart_s to k_max_apart_s apart: noise would dominate, or the velocity be
+// out of date.
 inline Pose extrapolate(const Pose& before, double before_s, const Pose& last, double last_s,
                         double t_s) {
-    constexpr double k_min_dt_s = 1e-3;
-    constexpr double k_max_dt_s = 0.05;
     const double dt_s = last_s - before_s;
-    if (dt_s < k_min_dt_s || dt_s > k_max_dt_s) {
+    if (dt_s < k_min_apart_s || dt_s > k_max_apart_s) {
         return last;
     }
     const double steps = (t_s - last_s) / dt_s;

@@ -18,12 +18,10 @@ Quat turn_about_up(const Quat& rotation) {
 }  // namespace
 
 bool is_trackable(const Pose& pose_ps) {
-    constexpr double k_farthest_m = 1e4;
-    return is_valid(pose_ps) && pose_ps.position.cwiseAbs().maxCoeff() < k_farthest_m;
+    return is_valid(pose_ps) && pose_ps.position.cwiseAbs().maxCoeff() < k_farthest_tracked_m;
 }
 
 bool is_stale(double t_s, bool has_sample, double last_t_s) {
-    constexpr double k_latest_s = 1e9;  // a snapshot refuses later times too
     return !(std::abs(t_s) <= k_latest_s) || (has_sample && t_s <= last_t_s);
 }
 

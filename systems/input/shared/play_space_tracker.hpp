@@ -10,7 +10,11 @@
 
 namespace handhold {
 
-// False for a pose that no tracking system can mean: not valid, or 10 km away.
+inline constexpr double k_farthest_tracked_m = 1e4;
+inline constexpr double k_latest_s = 1e9;  // a snapshot refuses later times too
+
+// False for a pose that no tracking system can mean: not valid, or k_farthest_tracked_m or more
+// away along an axis.
 bool is_trackable(const Pose& pose_ps);
 // A controller that sleeps, or was never found, reports exactly (0, 0, 0).
 inline bool is_asleep(const ControllerSample& reading) {
@@ -21,7 +25,7 @@ inline bool is_seen(const ControllerSample& reading) {
 }
 // How far a button is pressed, [0, 1]; 0 if `reading` is NaN.
 inline double pressed_share(double reading) { return reading > 0.0 ? std::min(1.0, reading) : 0.0; }
-// True for a sample that is not newer than the last one, or has no time.
+// True for a sample that is not newer than the last one, or has no time or one beyond k_latest_s.
 bool is_stale(double t_s, bool has_sample, double last_t_s);
 
 // Follows one player's readings from sample to sample and corrects those that jump with the play

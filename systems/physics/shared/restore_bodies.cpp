@@ -17,11 +17,6 @@ namespace {
 // Heaps in a player's island have a higher limit, because players see their overlaps.
 constexpr std::size_t k_max_pushed_restore_blocks = 4000;
 constexpr std::size_t k_max_loose_restore_blocks = 300;
-// About the length of an arm's jump. A body that was dragged farther while penetrating stays.
-constexpr double k_max_restore_distance_m = 2.0;
-// Smaller overlaps with a restored body are left to the next frames: restoring a player as well
-// costs the exactness of their hands.
-constexpr double k_joining_depth_m = 1e-3;
 constexpr double k_max_error_ratio = 0.5;  // a restore must reduce the error at least to this share
 
 // The worst error of a body's own rows without grips, or of its contacts only.
@@ -93,7 +88,7 @@ double worst_overlap_m(const FrameGraph& frame, const Island& island) {
 FrameGraph::PenetratingBody penetrating_body(const FrameGraph& frame, std::uint32_t index,
                                              std::uint32_t island, std::uint32_t carrier) {
     const SolverBody& body = frame.graph.bodies[index];
-    Pose valid_ws = frame.proxies[index].from_ws;  // of the collider
+    Pose valid_ws = frame.proxies[index].from_ws;  // last valid pose of the collider
     if (carrier != index) {
         const ColliderProxy& proxy = frame.proxies[carrier];
         valid_ws = proxy.to_ws * (inverse(proxy.from_ws) * valid_ws);

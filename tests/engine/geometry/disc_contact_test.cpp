@@ -15,8 +15,6 @@ namespace {
 using test::ClosingOracle;
 using test::Random;
 
-constexpr double k_tolerance_m = 5e-5;  // disc_contact.hpp: each contact is found within 0.05 mm
-
 int case_count() {
     const char* const text = std::getenv("HANDHOLD_CHAIN_CASES");
     return text != nullptr ? std::atoi(text) : 20000;
@@ -120,7 +118,7 @@ void compare_tips(const ClosingOracle& oracle, std::span<const DiscSegment> segm
     const double tip_m =
         (oracle.points_at(at)[link + 1] - oracle.points_at(*exact)[link + 1]).norm();
     ++tally.contacts;
-    tally.far_tips += tip_m > k_tolerance_m ? 1 : 0;
+    tally.far_tips += tip_m > k_disc_accuracy_m ? 1 : 0;
     tally.worst_any_tip_m = std::max(tally.worst_any_tip_m, tip_m);
     constexpr double k_firm_share = 0.5;
     if (firmness(oracle, segments, link, at) > k_firm_share &&
@@ -148,11 +146,11 @@ void replay(const DiscChain& chain, std::span<const DiscSegment> segments,
                                   : 1.0;
         std::vector<DiscSegment> clear;
         for (const DiscSegment& segment : segments) {
-            if (oracle.min_separation_m({&segment, 1}, from) > 2.0 * k_tolerance_m) {
+            if (oracle.min_separation_m({&segment, 1}, from) > 2.0 * k_disc_accuracy_m) {
                 clear.push_back(segment);
             }
         }
-        const auto penetrating = first_nearer(oracle, clear, from, at, -k_tolerance_m);
+        const auto penetrating = first_nearer(oracle, clear, from, at, -k_disc_accuracy_m);
         tally.missed += penetrating ? 1 : 0;
         tally.worst_depth_m = std::max(tally.worst_depth_m, -oracle.min_separation_m(clear, at));
         if (touches) {
@@ -201,7 +199,7 @@ TEST(CloseChain, SingleHingeStopsAtClosedFormAngle) {
         DiscChain chain = test::random_chain(random);
         chain.link_count = 1;
         const DiscSegment segment =
-            test::random_clear_segments(chain, 2.0 * k_tolerance_m, random).front();
+            test::random_clear_segments(chain, 2.0 * k_disc_accuracy_m, random).front();
         if (chain.radius_m[segment.plane][0] < 0.0) {
             continue;
         }
@@ -211,23 +209,24 @@ TEST(CloseChain, SingleHingeStopsAtClosedFormAngle) {
         const double at =
             (closure.angle_rad[0] - chain.open_rad[0]) / (chain.closed_rad[0] - chain.open_rad[0]);
         const ClosingOracle oracle{chain};
-        ASSERT_GT(oracle.separation_m(0, segment, at), -k_tolerance_m) << "case " << i;
+        ASSERT_GT(oracle.separation_m(0, segment, at), -k_disc_accuracy_m) << "case " << i;
         if (closure.contact_link == DiscClosure::k_none) {
             // A grazing contact shallower than the tolerance may be missed.
             const double deepest_at = std::min(exact.value_or(1.0) + 1e-3, 1.0);
-            ASSERT_TRUE(!exact || oracle.separation_m(0, segment, deepest_at) > -k_tolerance_m)
+            ASSERT_TRUE(!exact || oracle.separation_m(0, segment, deepest_at) > -k_disc_accuracy_m)
                 << "case " << i << " is to touch at " << *exact;
             continue;
         }
         ++contacts;
-        ASSERT_LT(oracle.separation_m(0, segment, at), k_tolerance_m) << "case " << i;
+        ASSERT_LT(oracle.separation_m(0, segment, at), k_disc_accuracy_m) << "case " << i;
         const Vec2 tip = oracle.points_at(at)[1];
         const double exact_at = exact.value_or(at);
         const double rise = oracle.separation_m(0, segment, exact_at - 1e-6) / 1e-6;
         const double speed = chain.length_m[0] * (chain.closed_rad[0] - chain.open_rad[0]);
         if (rise > 0.5 * speed) {
             ++firm;
-            ASSERT_LT((tip - oracle.points_at(exact_at)[1]).norm(), k_tolerance_m) << "case " << i;
+            ASSERT_LT((tip - oracle.points_at(exact_at)[1]).norm(), k_disc_accuracy_m)
+                << "case " << i;
         }
     }
     EXPECT_GT(contacts, case_count() / 50);
@@ -240,7 +239,7 @@ TEST(CloseChain, StopsWhereBisectionStopsAndMissesNoContact) {
     DiscScratch scratch;
     for (int i = 0; i < case_count(); ++i) {
         const DiscChain chain = test::random_chain(random);
-        const auto segments = test::random_clear_segments(chain, 2.0 * k_tolerance_m, random);
+        const auto segments = test::random_clear_segments(chain, 2.0 * k_disc_accuracy_m, random);
         replay(chain, segments, close_chain(chain, segments, {}, scratch), tally);
     }
     std::cout << "contacts " << tally.contacts << ", firm " << tally.firm << ", tips off by more "
@@ -251,9 +250,9 @@ TEST(CloseChain, StopsWhereBisectionStopsAndMissesNoContact) {
     RecordProperty("worst_tip_mm", std::to_string(1e3 * tally.worst_tip_m));
     EXPECT_GT(tally.firm, case_count() / 4);
     EXPECT_EQ(tally.missed, 0);
-    EXPECT_LT(tally.worst_depth_m, k_tolerance_m);
-    EXPECT_LT(tally.worst_early_m, k_tolerance_m);
-    EXPECT_LT(tally.worst_tip_m, k_tolerance_m);
+    EXPECT_LT(tally.worst_depth_m, k_disc_accuracy_m);
+    EXPECT_LT(tally.worst_early_m, k_disc_accuracy_m);
+    EXPECT_LT(tally.worst_tip_m, k_disc_accuracy_m);
 }
 
 TEST(CloseChain, IndependentOfSegmentOrder) {
@@ -342,7 +341,7 @@ TEST(CloseChain, IgnoredSegmentStopsChainOnceItHasSeparated) {
     // From that side it first touches the far corner (0.05, -0.03).
     const double far_m = std::hypot(0.05, 0.03);
     const double exact = 2.0 * M_PI - std::atan2(0.03, 0.05) - std::asin(0.01 / far_m);
-    EXPECT_NEAR(0.1 * closure.angle_rad[0], 0.1 * exact, k_tolerance_m);
+    EXPECT_NEAR(0.1 * closure.angle_rad[0], 0.1 * exact, k_disc_accuracy_m);
 }
 
 TEST(CloseChain, LinksBeyondFirstContactGoOnClosing) {
@@ -361,7 +360,7 @@ TEST(CloseChain, LinksBeyondFirstContactGoOnClosing) {
     DiscScratch scratch;
     const DiscClosure closure = close_chain(chain, wall, {}, scratch);
     EXPECT_EQ(closure.touching, 1U);
-    EXPECT_NEAR(0.05 * closure.angle_rad[0], 0.05 * M_PI / 4.0, k_tolerance_m);
+    EXPECT_NEAR(0.05 * closure.angle_rad[0], 0.05 * M_PI / 4.0, k_disc_accuracy_m);
     EXPECT_DOUBLE_EQ(closure.angle_rad[1], M_PI / 2.0);
 }
 

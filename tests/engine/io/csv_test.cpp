@@ -1,7 +1,11 @@
 #include "engine/io/csv.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -53,24 +57,91 @@ TEST(Csv, ErrorsNameLineExpectedAndFound) {
     EXPECT_EQ(error_of("").place, "line 1");
     EXPECT_EQ(error_of("\n").place, "line 1");
     EXPECT_EQ(error_of("a,,b\n").place, "line 1");
-    EXPECT_EQ(error_of("a,b\n1,2\n\n3,4\n").place, "line 3");
+    EXPECT_EQ(error_of("a,b\n1,\n").place, "line 2");
+    EXPECT_EQ(error_of("a,b\n1,2\n\n3,x\n").place, "line 4");
+    EXPECT_EQ(error_of("\n\na,a\n").place, "line 3");
 }
 
 TEST(Csv, RefusesCellsThatAreNoPlainFiniteNumber) {
-    for (const char* cell : {"", " 1", "1 ", "+1", "1.5.2", "0x10", "inf", "-inf", "nan", "1e999",
+    for (const char* cell : {" 1", "1 ", "+1", "1.5.2", "0x10", "inf", "-inf", "nan", "1e999",
                              "1,5e", "\"1\"", "1;2", "--1", "1e", "."}) {
         EXPECT_EQ(error_of(std::string("a\n") + cell + "\n1\n").place, "line 2") << cell;
     }
 }
 
-TEST(Csv, AllowsNanByTheNameOfNanOnly) {
-    const Result<NumericTable> table = parse_csv("a,b\nnan,NaN\n", "f.csv", NanCells::allowed);
-    ASSERT_TRUE(table.ok());
-    EXPECT_TRUE(std::isnan(table.value().at(0, 0)));
-    EXPECT_TRUE(std::isnan(table.value().at(0, 1)));
-    for (const char* cell : {"-nan", "nan(1)", "inf", "na", "nano"}) {
+TEST(Csv, OtherThanNanIsRefusedWhereNanIsAllowed) {
+    for (const char* cell :
+         {"inf", "-inf", "na", "nano", "nan(", "nan)", "nan(1", "nan(1))", "nan()x", "--nan", "n",
+          "1.#INF", "1.#QNAN5", "1.#", "nan nan", "nan(-1)"}) {
         error_of(std::string("a\n") + cell + "\n", NanCells::allowed);
     }
+}
+
+// The spellings of C libraries: C11 7.21.6.1 ("nan" or "nan(n-char-sequence)" after an optional
+// sign, in capitals for %F), Microsoft's since 2015 ("-nan(ind)", "nan(snan)") and before
+// ("-1.#IND00", "1.#QNAN"; the precision pads with zeros); "NaN" of Java, JavaScript and C#.
+RC_GTEST_PROP(Csv, NanIsReadInEverySpelling, ()) {
+    std::string text =
+        *rc::gen::element<std::string>("nan", "nan()", "nan(ind)", "nan(snan)",
+                                       "nan(0x8000000000000)", "1.#qnan", "1.#ind", "1.#snan");
+    if (text.front() == '1') {
+        text += std::string(*rc::gen::inRange<std::size_t>(0, 5), '0');
+    }
+    for (char& letter : text) {
+        if (letter >= 'a' && letter <= 'z' && *rc::gen::arbitrary<bool>()) {
+            letter = static_cast<char>(letter - 'a' + 'A');
+        }
+    }
+    text = *rc::gen::element<std::string>("", "-", "+") + text;
+    const Result<NumericTable> table =
+        parse_csv("a,b\n" + text + ",1\n", "f.csv", NanCells::allowed);
+    RC_ASSERT(table.ok());
+    RC_ASSERT(std::isnan(table.value().at(0, 0)));
+    RC_ASSERT(table.value().at(0, 1) == 1.0);
+    RC_ASSERT(!parse_csv("a,b\n" + text + ",1\n", "f.csv", NanCells::refused).ok());
+}
+
+// What this machine's own printf makes of NaNs of either sign and any payload.
+TEST(Csv, ReadsWhatPrintfMakesOfNan) {
+    for (const char* format : {"%f", "%g", "%e", "%.17g", "%F", "%+f", "%a"}) {
+        for (const double nan : {std::nan(""), -std::nan(""), std::nan("1234")}) {
+            std::array<char, 64> text{};
+            std::snprintf(text.data(), text.size(), format, nan);  // NOLINT(*-vararg)
+            const Result<NumericTable> table =
+                parse_csv(std::string("a\n") + text.data() + "\n", "f.csv", NanCells::allowed);
+            ASSERT_TRUE(table.ok()) << text.data();
+            EXPECT_TRUE(std::isnan(table.value().cells.at(0))) << text.data();
+        }
+    }
+}
+
+RC_GTEST_PROP(Csv, BlankLinesChangeNothingButLineNumbers, ()) {
+    const auto blanks = [] {
+        std::string text;
+        for (int count = *rc::gen::inRange(0, 4); count > 0; --count) {
+            text += *rc::gen::element<std::string>("", " ", "\t", "  \t ") +
+                    *rc::gen::element<std::string>("\n", "\r\n");
+        }
+        return text;
+    };
+    std::string text = blanks() + "a,b\n";
+    const int rows = *rc::gen::inRange(0, 5);
+    std::vector<double> cells;
+    std::vector<std::size_t> lines;
+    for (int row = 0; row < rows; ++row) {
+        text += blanks();
+        lines.push_back(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1);
+        text += std::to_string(row) + ",-1\n";
+        cells.insert(cells.end(), {static_cast<double>(row), -1.0});
+    }
+    text += blanks();
+    const Result<NumericTable> table = parse_csv(text, "f.csv");
+    RC_ASSERT(table.ok());
+    RC_ASSERT(table.value().cells == cells);
+    RC_ASSERT(table.value().lines == lines);
+    const FileError error = error_of(text + "1\n");
+    RC_ASSERT(error.place ==
+              "line " + std::to_string(std::count(text.begin(), text.end(), '\n') + 1));
 }
 
 TEST(Csv, LongCellsAreCutInMessages) {

@@ -1,10 +1,14 @@
 #include "engine/io/gltf.hpp"
 
+#include <array>
+#include <cctype>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <string>
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include "engine/core/text_file.hpp"
 #include "engine/math/math.hpp"
@@ -269,6 +273,42 @@ TEST_F(LoadGltfLevelFromFolder, ReadsExternalBuffer) {
     EXPECT_TRUE(load_with_buffer("a%20b.bin", "level/a b.bin").ok());
 }
 
+// A percent sign that begins no escape, and a file whose very name looks like one.
+TEST_F(LoadGltfLevelFromFolder, ReadsBuffersWhoseNamesHavePercentSigns) {
+    for (const char* name :
+         {"100% a.bin", "a%.bin", "50%zz.bin", "%", "a%2", "b%20c.bin", "%%41"}) {
+        EXPECT_TRUE(load_with_buffer(name, std::string("level/") + name).ok()) << name;
+    }
+    EXPECT_TRUE(load_with_buffer("50%25%20b.bin", "level/50% b.bin").ok());
+}
+
+// Any name of printable characters and umlauts, written as it is or escaped as RFC 3986 says.
+RC_GTEST_FIXTURE_PROP(LoadGltfLevelFromFolder, ReadsBuffersOfAnyName, ()) {
+    std::string name = *rc::gen::nonEmpty(rc::gen::container<std::string>(
+        rc::gen::element('a', 'B', '7', '%', ' ', '#', '+', '?', '&', '(', '2', '0', 'F')));
+    name += ".bin";
+    std::string escaped;
+    for (const char c : name) {
+        std::array<char, 8> code{};
+        std::snprintf(code.data(), code.size(), "%%%02X", static_cast<unsigned>(c));  // NOLINT
+        escaped +=
+            std::isalnum(static_cast<unsigned char>(c)) != 0 ? std::string(1, c) : code.data();
+    }
+    RC_ASSERT(load_with_buffer(escaped, "level/" + name).ok());
+    RC_ASSERT(load_with_buffer(name, "level/" + name).ok());
+    std::filesystem::remove(folder_ / "level" / name);
+}
+
+TEST(LoadGltfLevel, FilesInMemoryReadNoOthers) {
+    GltfBuilder builder = triangle_file();
+    builder.json["buffers"][0]["uri"] = "CMakeLists.txt";
+    const Result<GltfLevel> level = parse_gltf_level(builder.json.dump(), {});
+    ASSERT_FALSE(level.ok());
+    EXPECT_EQ(level.error().place, "/buffers/0/uri");
+    EXPECT_EQ(level.error().expected,
+              "expected a data URI or a .glb, as the file is in memory, found CMakeLists.txt");
+}
+
 TEST_F(LoadGltfLevelFromFolder, RefusesBufferOutsideItsFolder) {
     EXPECT_FALSE(load_with_buffer("../secret.bin", "secret.bin").ok());
     EXPECT_FALSE(load_with_buffer("%2e%2e/secret.bin", "secret.bin").ok());
@@ -286,10 +326,11 @@ TEST_F(LoadGltfLevelFromFolder, RefusesExternalBufferOfOtherLength) {
 }
 
 TEST(LoadGltfLevel, ReadsBufferInDataUri) {
-    // 36 bytes of zeros are 48 "A"; a triangle without area is dropped, but it was read.
+    // 36 bytes of zeros are 48 "A"; a triangle without area is dropped, but it was read. "%41" is
+    // an escaped "A".
     const char* text = R"({"asset":{"version":"2.0"},
         "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,)"
-                       "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"
+                       "AAAAAAAAAAAA%41AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"
                        R"("}],
         "bufferViews":[{"buffer":0,"byteLength":36}],
         "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],

@@ -129,7 +129,7 @@ struct SolverScene {
     void solve_velocities(const VelocitySettings& settings = {}) {
         build_islands(graph);
         for (const Island& island : graph.islands) {
-            handhold::solve_velocities(view(island), settings, scratch);
+            solve_island_velocities(view(island), settings, scratch);
         }
     }
     std::vector<Row> rows() const {

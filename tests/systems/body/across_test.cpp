@@ -76,8 +76,21 @@ Posed pose_of(const Tracked& body) {
     owner.add(test::k_right, {test::k_player, HandSide::right});
     palm.add(test::k_left).pose_ws = body.left_ps;
     palm.add(test::k_right).pose_ws = body.right_ps;
-    estimate_arms({1.0 / 90.0, origin, head, measures, owner, palm, memory, estimate}, {});
-    pose_arms({origin, measures, owner, palm, estimate, pose});
+    estimate_arms({.dt_s = 1.0 / 90.0,
+                   .origin = origin,
+                   .head = head,
+                   .measures = measures,
+                   .owner = owner,
+                   .palm = palm,
+                   .memory = memory,
+                   .estimate = estimate},
+                  {});
+    pose_arms({.origin = origin,
+               .measures = measures,
+               .owner = owner,
+               .palm = palm,
+               .estimate = estimate,
+               .arms = pose});
     return {estimate.at(test::k_player), pose.at(test::k_player)};
 }
 

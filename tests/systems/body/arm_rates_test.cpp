@@ -54,8 +54,21 @@ struct Arms {
         head.at(k_player).pose_ps = sample.head_ps;
         palm.at(k_left).pose_ws = sample.hands_ps[0];
         palm.at(k_right).pose_ws = sample.hands_ps[1];
-        estimate_arms({dt_s, origin, head, measures, owner, palm, memory, estimate}, {});
-        pose_arms({origin, measures, owner, palm, estimate, pose});
+        estimate_arms({.dt_s = dt_s,
+                       .origin = origin,
+                       .head = head,
+                       .measures = measures,
+                       .owner = owner,
+                       .palm = palm,
+                       .memory = memory,
+                       .estimate = estimate},
+                      {});
+        pose_arms({.origin = origin,
+                   .measures = measures,
+                   .owner = owner,
+                   .palm = palm,
+                   .estimate = estimate,
+                   .arms = pose});
         const ArmPose& out = pose.at(k_player);
         return {out.arms[0].forearm_ws.position, out.arms[1].forearm_ws.position};
     }

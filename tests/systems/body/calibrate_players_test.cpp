@@ -45,7 +45,14 @@ struct TPosed {
     void play(double seconds, double dt_s = 1.0 / 90.0) {
         const int frames = static_cast<int>(seconds / dt_s + 0.5);
         for (int i = 0; i < frames; ++i) {
-            calibrate_players({dt_s, commands, head, owner, hand, calibration, measures}, {});
+            calibrate_players({.dt_s = dt_s,
+                               .commands = commands,
+                               .head = head,
+                               .owner = owner,
+                               .hand = hand,
+                               .calibration = calibration,
+                               .measures = measures},
+                              {});
         }
     }
     const BodyMeasures& found() const { return measures.rows()[0]; }

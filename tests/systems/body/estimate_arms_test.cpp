@@ -48,8 +48,21 @@ struct Arms {
         head.at(k_player).pose_ps = head_ps;
         palm.at(k_left).pose_ws = at * left_ps;
         palm.at(k_right).pose_ws = at * right_ps;
-        estimate_arms({dt_s, origin, head, measures, owner, palm, memory, estimate}, tuning);
-        pose_arms({origin, measures, owner, palm, estimate, pose});
+        estimate_arms({.dt_s = dt_s,
+                       .origin = origin,
+                       .head = head,
+                       .measures = measures,
+                       .owner = owner,
+                       .palm = palm,
+                       .memory = memory,
+                       .estimate = estimate},
+                      tuning);
+        pose_arms({.origin = origin,
+                   .measures = measures,
+                   .owner = owner,
+                   .palm = palm,
+                   .estimate = estimate,
+                   .arms = pose});
         return pose.at(k_player);
     }
 };

@@ -26,6 +26,10 @@ struct Body {
     Column<HeadTracking> head;
     Column<ArmEstimate> estimate;
     Column<SpineMemory> memory;
+    Column<PersistentId> no_ids;
+    Column<HandOwner> no_hands;
+    Column<Grab> no_grips;
+    Column<BodyHold> no_holds;
     Column<SpinePose> pose;
     double floor_m = 0.0;
     double t_s = 0.0;
@@ -51,18 +55,21 @@ struct Body {
             Vec3(0.0, floor_m + eyes_m - k_eyes_to_chest_m * scale(), 0.0), chest};
         velocity.at(k_player).linear_mps = velocity_mps;
         t_s += dt_s;
-        propagate_spine({dt_s,
-                         t_s,
-                         origin,
-                         velocity,
-                         reference,
-                         measures,
-                         estimate,
-                         memory,
-                         pose,
-                         {},
-                         &head,
-                         nullptr},
+        propagate_spine({.dt_s = dt_s,
+                         .t_s = t_s,
+                         .surfaces = {},
+                         .persistent_id = no_ids,
+                         .origin = origin,
+                         .velocity = velocity,
+                         .reference = reference,
+                         .head = head,
+                         .measures = measures,
+                         .estimate = estimate,
+                         .owner = no_hands,
+                         .grab = no_grips,
+                         .body_hold = no_holds,
+                         .memory = memory,
+                         .pose = pose},
                         {});
         return pose.at(k_player);
     }

@@ -28,6 +28,7 @@ struct HangingBody {
     Column<Grab> grab;
     Column<SpineMemory> memory;
     Column<SpinePose> pose;
+    Column<BodyHold> no_holds;
     SpineTuning tuning;
     double t_s = 0.0;
 
@@ -71,9 +72,21 @@ struct HangingBody {
     }
     const SpinePose& step(double dt_s) {
         t_s += dt_s;
-        propagate_spine({dt_s, t_s, origin, velocity, reference, measures, estimate, memory, pose,
-                         surfaces || !collision ? surfaces : SurfaceQuery(*collision), &head, &id,
-                         &owner, &grab},
+        propagate_spine({.dt_s = dt_s,
+                         .t_s = t_s,
+                         .surfaces = surfaces || !collision ? surfaces : SurfaceQuery(*collision),
+                         .persistent_id = id,
+                         .origin = origin,
+                         .velocity = velocity,
+                         .reference = reference,
+                         .head = head,
+                         .measures = measures,
+                         .estimate = estimate,
+                         .owner = owner,
+                         .grab = grab,
+                         .body_hold = no_holds,
+                         .memory = memory,
+                         .pose = pose},
                         tuning);
         return pose.at(k_player);
     }

@@ -36,6 +36,9 @@ struct Body {
     Column<ArmEstimate> estimate;
     Column<ArmPose> arms;
     Column<SpineMemory> spine_memory;
+    Column<PersistentId> no_ids;
+    Column<Grab> no_grips;  // for the chain, which does not hang from hands here
+    Column<BodyHold> no_holds;
     Column<SpinePose> spine;
     Column<BodyClipState> state;
     BodyClips clips;
@@ -64,13 +67,51 @@ struct Body {
     }
     void step(double dt_s = k_dt_s) {
         t_s += dt_s;
-        estimate_arms({dt_s, origin, head, measures, owner, palm, arm_memory, estimate}, {});
-        layer_clavicles({clips, measures, estimate}, tuning, {});
-        pose_arms({origin, measures, owner, palm, estimate, arms});
-        propagate_spine(
-            {dt_s, t_s, origin, velocity, reference, measures, estimate, spine_memory, spine}, {});
-        layer_additives(
-            {dt_s, clips, head, velocity, reference, owner, grab, estimate, state, spine}, tuning);
+        estimate_arms({.dt_s = dt_s,
+                       .origin = origin,
+                       .head = head,
+                       .measures = measures,
+                       .owner = owner,
+                       .palm = palm,
+                       .memory = arm_memory,
+                       .estimate = estimate},
+                      {});
+        layer_clavicles({.clips = clips, .measures = measures, .estimate = estimate}, tuning, {});
+        pose_arms({.origin = origin,
+                   .measures = measures,
+                   .owner = owner,
+                   .palm = palm,
+                   .estimate = estimate,
+                   .arms = arms});
+        propagate_spine({.dt_s = dt_s,
+                         .t_s = t_s,
+                         .surfaces = {},
+                         .persistent_id = no_ids,
+                         .origin = origin,
+                         .velocity = velocity,
+                         .reference = reference,
+                         .head = head,
+                         .measures = measures,
+                         .estimate = estimate,
+                         .owner = owner,
+                         .grab = no_grips,
+                         .body_hold = no_holds,
+                         .memory = spine_memory,
+                         .pose = spine},
+                        {});
+        layer_additives({.dt_s = dt_s,
+                         .clips = clips,
+                         .head = head,
+                         .origin = origin,
+                         .velocity = velocity,
+                         .reference = reference,
+                         .owner = owner,
+                         .grab = grab,
+                         .estimate = estimate,
+                         .memory = spine_memory,
+                         .state = state,
+                         .pose = spine},
+                        tuning);
     }
     void hold(bool holds) { grab.at(k_left).kind = holds ? GripKind::surface : GripKind::none; }
     const SpinePose& pose() const { return spine.at(k_player); }
@@ -271,8 +312,18 @@ TEST(LayerAdditives, LookClipFollowsTheHeadRelativeToTheChest) {
         body.arm_memory.at(k_player).known = true;
         body.estimate.at(k_player).facing_ps = -Vec3::UnitZ();
         body.spine.at(k_player) = {};
-        layer_additives({k_dt_s, body.clips, body.head, body.velocity, body.reference, body.owner,
-                         body.grab, body.estimate, body.state, body.spine},
+        layer_additives({.dt_s = k_dt_s,
+                         .clips = body.clips,
+                         .head = body.head,
+                         .origin = body.origin,
+                         .velocity = body.velocity,
+                         .reference = body.reference,
+                         .owner = body.owner,
+                         .grab = body.grab,
+                         .estimate = body.estimate,
+                         .memory = body.spine_memory,
+                         .state = body.state,
+                         .pose = body.spine},
                         body.tuning);
         return rotation_to_vector(body.pose().spine_ws[0].rotation).z();
     };

@@ -19,7 +19,12 @@ struct Body {
     Column<ReferenceVelocity> reference;
     Column<BodyMeasures> measures;
     Column<ArmEstimate> estimate;
+    Column<HeadTracking> head;
     Column<SpineMemory> memory;
+    Column<PersistentId> no_ids;
+    Column<HandOwner> no_hands;
+    Column<Grab> no_grips;
+    Column<BodyHold> no_holds;
     Column<SpinePose> pose;
     SpineTuning tuning;
     double t_s = 0.0;
@@ -28,6 +33,7 @@ struct Body {
         origin.add(k_player);
         velocity.add(k_player);
         reference.add(k_player);
+        head.add(k_player);
         measures.add(k_player);
         estimate.add(k_player);
         memory.add(k_player);
@@ -39,7 +45,21 @@ struct Body {
         origin.at(k_player).pose_ws.position += dt_s * velocity_mps;
         velocity.at(k_player).linear_mps = velocity_mps;
         t_s += dt_s;
-        propagate_spine({dt_s, t_s, origin, velocity, reference, measures, estimate, memory, pose},
+        propagate_spine({.dt_s = dt_s,
+                         .t_s = t_s,
+                         .surfaces = {},
+                         .persistent_id = no_ids,
+                         .origin = origin,
+                         .velocity = velocity,
+                         .reference = reference,
+                         .head = head,
+                         .measures = measures,
+                         .estimate = estimate,
+                         .owner = no_hands,
+                         .grab = no_grips,
+                         .body_hold = no_holds,
+                         .memory = memory,
+                         .pose = pose},
                         tuning);
         return pose.at(k_player);
     }

@@ -47,9 +47,17 @@ struct Publishing {
         hand.at(k_right).pose_ps = random.pose(1.0);
     }
     const RenderPose& run() {
-        publish_pose(
-            {push_backs, origin, head, owner, hand, grab, palm, fingers, authored_hold, render},
-            tuning);
+        publish_pose({.push_backs = push_backs,
+                      .origin = origin,
+                      .head = head,
+                      .owner = owner,
+                      .hand = hand,
+                      .grab = grab,
+                      .palm = palm,
+                      .fingers = fingers,
+                      .authored_hold = authored_hold,
+                      .render = render},
+                     tuning);
         return render.at(k_player);
     }
     const Pose& origin_ws() const { return origin.at(k_player).pose_ws; }

@@ -93,8 +93,18 @@ struct ClippedBody : HangingBody {
     }
     SpinePose clipped(double dt_s) {
         step(dt_s);
-        layer_additives({dt_s, clips, head, velocity, reference, owner, grab, estimate, state, pose,
-                         &memory, &origin},
+        layer_additives({.dt_s = dt_s,
+                         .clips = clips,
+                         .head = head,
+                         .origin = origin,
+                         .velocity = velocity,
+                         .reference = reference,
+                         .owner = owner,
+                         .grab = grab,
+                         .estimate = estimate,
+                         .memory = memory,
+                         .state = state,
+                         .pose = pose},
                         {1.0, 0.0, 1.5, 0.0, 0.0});
         return pose.at(k_player);
     }

@@ -36,6 +36,7 @@ struct Anchoring {
     Column<JointState> joint_state;
     Tuning tuning;
     Column<Grab> grab;
+    Column<BodyHold> body_hold;
     StageStats stats;
 
     explicit Anchoring(std::initializer_list<Entity> hands = {k_left, k_right}) {
@@ -85,8 +86,22 @@ struct Anchoring {
     }
     void run() {
         stats = {};
-        anchor_grabs({k_start_s, k_end_s, owner, hand, hand_history, player_start, origin, head,
-                      body_start, body_pose, authored_hold, rigid_body, joint, joint_state, grab},
+        anchor_grabs({.start_s = k_start_s,
+                      .end_s = k_end_s,
+                      .owner = owner,
+                      .hand = hand,
+                      .hand_history = hand_history,
+                      .player_start = player_start,
+                      .origin = origin,
+                      .head = head,
+                      .body_start = body_start,
+                      .body_pose = body_pose,
+                      .authored_hold = authored_hold,
+                      .body = rigid_body,
+                      .joint = joint,
+                      .joint_state = joint_state,
+                      .body_hold = body_hold,
+                      .grab = grab},
                      tuning, stats);
     }
 };

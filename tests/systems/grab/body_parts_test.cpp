@@ -48,7 +48,13 @@ struct Body {
             leg = {near(), near(), near()};
         }
     }
-    ShownBodies bodies() const { return {&shown, &measures, persistent_id, origin, head}; }
+    ShownBodies bodies() const {
+        return {.shown = shown,
+                .measures = measures,
+                .persistent_id = persistent_id,
+                .origin = origin,
+                .head = head};
+    }
     Vec3 head_ws() const { return shown.at(k_player).head_ws.position; }
 };
 

@@ -42,6 +42,13 @@ struct Grabs {
     Column<ReferenceVelocity> reference;
     Column<HandSight> sight;
     Column<HeadIgnores> head_ignores;
+    Column<BodyHold> body_hold;
+    Column<GrabOrder> order;
+    Column<GrabRule> grab_rule;
+    Column<GrabLayers> grab_layers;
+    Column<CollisionFilter> filter;
+    Column<RenderPose> shown;
+    Column<BodyMeasures> measures;
     Tuning tuning;
     StageStats stats;
 
@@ -95,10 +102,30 @@ struct Grabs {
                   [](const auto& a, const auto& b) { return a.id < b.id; });
         collision.set_proxies(proxies);
         stats = {};
-        update_grabs(
-            {collision, persistent_id, owner, hand, origin, head, body, body_pose, joint_groups,
-             authored_grips, pull, reference, sight, grab, authored_hold, head_ignores},
-            tuning, stats);
+        update_grabs({.start_s = 0.0,
+                      .dt_s = 0.0,
+                      .surfaces = collision,
+                      .persistent_id = persistent_id,
+                      .owner = owner,
+                      .hand = hand,
+                      .origin = origin,
+                      .head = head,
+                      .body = body,
+                      .body_pose = body_pose,
+                      .joint_groups = joint_groups,
+                      .authored_grips = authored_grips,
+                      .rules = {.rule = grab_rule, .layers = grab_layers, .filter = filter},
+                      .shown = shown,
+                      .measures = measures,
+                      .pull = pull,
+                      .reference = reference,
+                      .sight = sight,
+                      .grab = grab,
+                      .authored_hold = authored_hold,
+                      .head_ignores = head_ignores,
+                      .body_hold = body_hold,
+                      .order = order},
+                     tuning, stats);
     }
 };
 

@@ -35,7 +35,8 @@ struct Joined {
         return joint.add(entity, settings);
     }
     std::optional<JointRail> rail() const {
-        return find_rail({body, joint, joint_state}, k_thing, PhaseTuning{});
+        return find_rail({.body = body, .joint = joint, .joint_state = joint_state}, k_thing,
+                         PhaseTuning{});
     }
 };
 

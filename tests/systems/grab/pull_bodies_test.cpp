@@ -43,6 +43,9 @@ struct Pulls {
     Column<BodyPose> body_pose;
     JointGroups joint_groups;
     Column<HandPull> pull;
+    Column<GrabRule> grab_rule;
+    Column<GrabLayers> grab_layers;
+    Column<CollisionFilter> filter;
     Column<BodyVelocity> body_velocity;
     Column<PlayerVelocity> player_velocity;
     Tuning tuning;
@@ -99,8 +102,22 @@ struct Pulls {
         std::ranges::sort(proxies, {}, &ColliderProxy::id);
         collision.set_proxies(proxies);
         stats = {};
-        pull_bodies({k_dt_s, collision, persistent_id, owner, hand, grab, sight, player, origin,
-                     body, body_pose, joint_groups, pull, body_velocity, player_velocity},
+        pull_bodies({.dt_s = k_dt_s,
+                     .surfaces = collision,
+                     .persistent_id = persistent_id,
+                     .owner = owner,
+                     .hand = hand,
+                     .grab = grab,
+                     .sight = sight,
+                     .player = player,
+                     .origin = origin,
+                     .body = body,
+                     .body_pose = body_pose,
+                     .joint_groups = joint_groups,
+                     .rules = {.rule = grab_rule, .layers = grab_layers, .filter = filter},
+                     .pull = pull,
+                     .body_velocity = body_velocity,
+                     .player_velocity = player_velocity},
                     tuning, stats);
         for (HandTracking& tracking : hand.rows()) {
             tracking.edge = GrabEdge::none;

@@ -13,7 +13,7 @@
 
 namespace handhold::test {
 
-// Frame length that lifts all rate limits.
+// Frame length that lifts all rate limits and budgets.
 constexpr double k_unbudgeted_s = std::numeric_limits<double>::infinity();
 
 // A floor in the plane y = 0 facing up, one metre wide, with cells of 25 mm.
@@ -62,18 +62,33 @@ struct FittedHand {
     FittedHand(const FittedHand&) = delete;
     FittedHand& operator=(const FittedHand&) = delete;
 
-    void search() { search_grip({hands, surface, search_scratch}, tuning, stats); }
+    void search() {
+        search_grip({.hands = hands, .surface = surface, .scratch = search_scratch}, tuning, stats);
+    }
     // Shows the palm where it is held, until fit() shows the fitted one.
     void constrain() {
-        constrain_palms({hands, surface, offset});
+        constrain_palms({.hands = hands, .surface = surface, .offset = offset});
         palm.at(k_right).pose_ws =
             hands.front().body_ws * held_wrist_bs(hands.front(), offset.at(k_right));
     }
     void sweep() {
-        sweep_fingers({hands, surface, offset, fingers, traces, fit_scratch}, tuning, stats);
+        sweep_fingers({.hands = hands,
+                       .surface = surface,
+                       .offset = offset,
+                       .fingers = fingers,
+                       .traces = traces,
+                       .scratch = fit_scratch},
+                      tuning, stats);
     }
     void fit(double dt_s) {
-        fit_hands({dt_s, hands, tracking, surface, offset, fingers, palm}, tuning, stats);
+        fit_hands({.dt_s = dt_s,
+                   .hands = hands,
+                   .hand = tracking,
+                   .surface = surface,
+                   .offset = offset,
+                   .fingers = fingers,
+                   .palm = palm},
+                  tuning, stats);
     }
     void frame(double dt_s) {
         search();

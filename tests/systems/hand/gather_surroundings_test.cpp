@@ -29,6 +29,12 @@ struct OneHand {
     Column<BodyPose> body_pose;
     Column<Collider> collider;
     Column<AuthoredHold> authored_hold;
+    Column<BodySurface> own_surfaces;
+    Column<HandRigChoice> rig_choice;
+    Column<BodyHold> body_hold;
+    Column<RenderPose> shown;
+    Column<BodyMeasures> measures;
+    PartMeshes part_meshes;
     std::vector<HandSurroundings> surroundings;
     StageStats stats;
 
@@ -47,9 +53,26 @@ struct OneHand {
     }
 
     const HandSurroundings& gather(const GripMeshLibrary* meshes) {
-        gather_surroundings({meshes, rigs, bodies, persistent_id, owner, hand, grab, origin, head,
-                             body_pose, collider, authored_hold, surroundings},
-                            stats);
+        gather_surroundings(
+            {.meshes = {.of_shapes = meshes, .of_bodies = own_surfaces, .of_parts = part_meshes},
+             .rigs = rigs,
+             .more_rigs = {},
+             .rig_choice = rig_choice,
+             .near = {.bodies = bodies},
+             .persistent_id = persistent_id,
+             .owner = owner,
+             .hand = hand,
+             .grab = grab,
+             .body_hold = body_hold,
+             .origin = origin,
+             .head = head,
+             .shown = shown,
+             .measures = measures,
+             .body_pose = body_pose,
+             .collider = collider,
+             .authored_hold = authored_hold,
+             .surroundings = surroundings},
+            stats);
         return surroundings.front();
     }
     std::uint64_t counted() const { return test::count_of(stats, Fallback::body_no_surface); }

@@ -274,6 +274,21 @@ TEST(HostInput, SamplesOfAfterTheStepAreNotLost) {
 }
 
 // The samples are of after the step's end: the world keeps them for the next step.
+// Bytes in memory have no file name, and no file is read beside them.
+TEST(HostRigs, RefusalsNameTheRigAndWhatIsWrong) {
+    HostScene scene;
+    const std::string outside =
+        R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"rig.bin"}],)"
+        R"("bufferViews":[{"buffer":0,"byteLength":4}],"nodes":[{}]})";
+    EXPECT_EQ(
+        hh_player_set_body_rig(scene.world.get(), scene.player, outside.data(), outside.size()),
+        HH_ERROR_DATA);
+    EXPECT_EQ(std::string_view(hh_last_error()).substr(0, 10), "body rig: ") << hh_last_error();
+    EXPECT_EQ(hh_player_set_hand_rig(scene.world.get(), scene.player, HH_LEFT, "{}", 2),
+              HH_ERROR_DATA);
+    EXPECT_EQ(std::string_view(hh_last_error()).substr(0, 10), "hand rig: ") << hh_last_error();
+}
+
 TEST(HostGrips, IndexFingerOfAnAuthoredGripFollowsTheTrigger) {
     HostScene scene;
     hh_body_def def = crate(scene.world, {0.2, 1.4, -0.53});

@@ -61,7 +61,15 @@ struct Devices {
 
     void step_inputs(std::span<const PlayerInput> inputs, double dt_s = k_frame_s) {
         stats = {};
-        read_tracking({inputs, t_s, t_s + dt_s, owner, joint, head, hand, history, commands},
+        read_tracking({.inputs = inputs,
+                       .frame_start_s = t_s,
+                       .frame_end_s = t_s + dt_s,
+                       .owner = owner,
+                       .controller_to_hand = joint,
+                       .head = head,
+                       .hand = hand,
+                       .history = history,
+                       .commands = commands},
                       tuning, stats);
         t_s += dt_s;
     }

@@ -34,6 +34,7 @@ struct Locomotion {
     Column<PlayerOrigin> origin;
     Column<PlayerVelocity> velocity;
     Column<ReferenceVelocity> reference;
+    Column<BodyHold> body_hold;
     LocomotionTuning tuning;
 
     Locomotion() {
@@ -68,8 +69,19 @@ struct Locomotion {
         grab.at(which).body = body;
     }
     void run() {
-        locomote_players({k_dt_s, scene_velocity, commands, head, owner, hand, grab, body_pose,
-                          body_velocity, origin, velocity, reference},
+        locomote_players({.dt_s = k_dt_s,
+                          .scene_velocity_mps = scene_velocity,
+                          .commands = commands,
+                          .head = head,
+                          .owner = owner,
+                          .hand = hand,
+                          .grab = grab,
+                          .body_pose = body_pose,
+                          .body_velocity = body_velocity,
+                          .origin = origin,
+                          .velocity = velocity,
+                          .reference = reference,
+                          .body_hold = body_hold},
                          tuning);
     }
 };

@@ -108,6 +108,7 @@ struct Movers {
     Column<Mover> mover;
     Column<PathMover> path_mover;
     Column<LegMover> leg_mover;
+    Column<MoveTarget> targets;
     Column<BodyPose> body_pose;
     Column<BodyStart> body_start;
     Column<BodyVelocity> velocity;
@@ -124,7 +125,15 @@ struct Movers {
         velocity.add(entity);
     }
     void run(double end_s) {
-        animate_movers({end_s, mover, path_mover, leg_mover, body_pose, body_start, velocity});
+        animate_movers({.dt_s = 1.0 / 90.0,
+                        .end_s = end_s,
+                        .mover = mover,
+                        .path_mover = path_mover,
+                        .leg_mover = leg_mover,
+                        .target = targets,
+                        .body_pose = body_pose,
+                        .body_start = body_start,
+                        .velocity = velocity});
     }
 };
 

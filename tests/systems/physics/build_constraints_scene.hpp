@@ -28,6 +28,7 @@ struct Building {
     Column<HeadTracking> head;
     Column<HandOwner> owner;
     Column<Grab> grab;
+    Column<BodyHold> body_hold;
     FrameGraph frame;
     Tuning tuning;
 
@@ -77,8 +78,21 @@ struct Building {
         return grip;
     }
     void run() {
-        build_constraints({1.0 / 90.0, persistent_id, body, body_pose, body_velocity, joint,
-                           joint_state, player, origin, player_velocity, head, owner, grab, frame},
+        build_constraints({.dt_s = 1.0 / 90.0,
+                           .persistent_id = persistent_id,
+                           .body = body,
+                           .body_pose = body_pose,
+                           .body_velocity = body_velocity,
+                           .joint = joint,
+                           .joint_state = joint_state,
+                           .player = player,
+                           .origin = origin,
+                           .player_velocity = player_velocity,
+                           .head = head,
+                           .owner = owner,
+                           .grab = grab,
+                           .body_hold = body_hold,
+                           .frame = frame},
                           tuning);
     }
     std::uint32_t index_of_body(Entity entity) const {

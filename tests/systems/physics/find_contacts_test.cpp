@@ -31,7 +31,6 @@ struct Contacts {
     Column<PersistentId> persistent_id;
     Column<RigidBody> body;
     Column<Joint> joint;
-    Column<HeadTracking> head;
     Column<HandOwner> owner;
     Column<Grab> grab;
     Column<HeadIgnores> head_ignores;
@@ -51,8 +50,6 @@ struct Contacts {
                 grab.add(entity);
             }
         }
-        head.add(k_player);
-        head.at(k_player).state = TrackingState::tracked;
         head_ignores.add(k_player);
         place(k_player, head_shape, Vec3::Zero(), true);
     }
@@ -79,9 +76,15 @@ struct Contacts {
     }
     void run() {
         collision.set_proxies(proxies);
-        find_contacts(
-            {persistent_id, body, joint, head, owner, grab, collision, head_ignores, frame},
-            ContactTuning{});
+        find_contacts({.persistent_id = persistent_id,
+                       .body = body,
+                       .joint = joint,
+                       .owner = owner,
+                       .grab = grab,
+                       .collision = collision,
+                       .head_ignores = head_ignores,
+                       .frame = frame},
+                      ContactTuning{});
     }
     std::size_t count_between(Entity x, Entity y) const {
         return static_cast<std::size_t>(
@@ -168,8 +171,6 @@ TEST(FindContacts, HeldRockTouchesAnotherPlayersHead) {
     constexpr Entity k_other = entity(9);
     Contacts scene;
     scene.persistent_id.add(k_other, {id_of(k_other)});
-    scene.head.add(k_other);
-    scene.head.at(k_other).state = TrackingState::tracked;
     scene.head_ignores.add(k_other);
     scene.place_rock(-0.01);
     scene.place(k_other, scene.head_shape,

@@ -37,6 +37,8 @@ struct Placing {
     Column<PlayerStart> player_start;
     Column<HeadTracking> head;
     Column<LastValidPose> last_valid;
+    Column<BodyVelocity> body_velocity;
+    Column<CollisionFilter> filter;
     CollisionWorld collision{shapes};
     FrameGraph frame;
 
@@ -58,8 +60,19 @@ struct Placing {
         last_valid.add(k_player, {random.pose(10.0), true});
     }
     void run(const HeadTuning& tuning = {}) {
-        place_colliders({persistent_id, collider, body, body_pose, body_start, origin, player_start,
-                         head, last_valid, collision, frame},
+        place_colliders({.persistent_id = persistent_id,
+                         .collider = collider,
+                         .filter = filter,
+                         .body = body,
+                         .body_pose = body_pose,
+                         .body_start = body_start,
+                         .body_velocity = body_velocity,
+                         .origin = origin,
+                         .player_start = player_start,
+                         .head = head,
+                         .last_valid = last_valid,
+                         .collision = collision,
+                         .frame = frame},
                         tuning);
     }
     const ColliderProxy& proxy(Entity entity) const {

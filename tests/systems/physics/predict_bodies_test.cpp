@@ -24,6 +24,7 @@ struct Prediction {
     Column<BodyVelocity> body_velocity;
     Column<PlayerOrigin> origin;
     Column<PlayerStart> player_start;
+    Column<GravityScale> gravity_scale;
 
     void add_body(Entity entity, BodyKind kind, const Vec3& inertia_kgm2, const Pose& pose,
                   const BodyVelocity& velocity) {
@@ -35,8 +36,16 @@ struct Prediction {
     Pose& pose() { return body_pose.at(k_body).pose_ws; }
     Vec3& spin() { return body_velocity.at(k_body).angular_radps; }
     void run(double dt_s) {
-        predict_bodies({dt_s, body, player_velocity, body_pose, body_start, body_velocity, origin,
-                        player_start});
+        predict_bodies({.dt_s = dt_s,
+                        .gravity_mps2 = Vec3::Zero(),
+                        .gravity_scale = gravity_scale,
+                        .body = body,
+                        .player_velocity = player_velocity,
+                        .body_pose = body_pose,
+                        .body_start = body_start,
+                        .body_velocity = body_velocity,
+                        .origin = origin,
+                        .player_start = player_start});
     }
 };
 

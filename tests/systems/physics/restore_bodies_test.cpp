@@ -36,6 +36,7 @@ struct Restoring {
     Column<BodyStart> body_start;
     Column<BodyVelocity> body_velocity;
     Column<LastValidPose> last_valid;
+    Column<CollisionFilter> filter;
     Column<Joint> joint;
     Column<JointState> joint_state;
     Column<PlayerBody> player;
@@ -45,6 +46,7 @@ struct Restoring {
     Column<HeadTracking> head;
     Column<HandOwner> owner;
     Column<Grab> grab;
+    Column<BodyHold> body_hold;
     CollisionWorld collision{shapes};
     FrameGraph frame;
     Tuning tuning;
@@ -61,11 +63,35 @@ struct Restoring {
         last_valid.add(entity, {pose_at(valid), true});
     }
     void place() {
-        place_colliders({persistent_id, collider, body, body_pose, body_start, origin, player_start,
-                         head, last_valid, collision, frame},
+        place_colliders({.persistent_id = persistent_id,
+                         .collider = collider,
+                         .filter = filter,
+                         .body = body,
+                         .body_pose = body_pose,
+                         .body_start = body_start,
+                         .body_velocity = body_velocity,
+                         .origin = origin,
+                         .player_start = player_start,
+                         .head = head,
+                         .last_valid = last_valid,
+                         .collision = collision,
+                         .frame = frame},
                         tuning.head);
-        build_constraints({1.0 / 90.0, persistent_id, body, body_pose, body_velocity, joint,
-                           joint_state, player, origin, player_velocity, head, owner, grab, frame},
+        build_constraints({.dt_s = 1.0 / 90.0,
+                           .persistent_id = persistent_id,
+                           .body = body,
+                           .body_pose = body_pose,
+                           .body_velocity = body_velocity,
+                           .joint = joint,
+                           .joint_state = joint_state,
+                           .player = player,
+                           .origin = origin,
+                           .player_velocity = player_velocity,
+                           .head = head,
+                           .owner = owner,
+                           .grab = grab,
+                           .body_hold = body_hold,
+                           .frame = frame},
                           tuning);
     }
     std::size_t index_of(Entity entity) const {

@@ -46,9 +46,10 @@ struct Phases {
         for (SolverBody& body : frame.graph.bodies) {
             body.inverse_mass = body.mass_kg > 0.0 ? 1.0 / body.mass_kg : 0.0;
         }
-        frame.position_solver = &fake_solver;
     }
-    void solve() { solve_phases({collision, frame}, tuning, stats); }
+    void solve() {
+        solve_phases_with(&fake_solver, {.collision = collision, .frame = frame}, tuning, stats);
+    }
 };
 
 TEST(SolvePhases, CountsLoadSteppingByItsResult) {
@@ -66,19 +67,15 @@ TEST(SolvePhases, CountsLoadSteppingByItsResult) {
     EXPECT_EQ(counted(LoadStepping::failed), (std::array<std::uint64_t, 2>{0, 1}));
 }
 
-TEST(SolvePhases, MaxRegularisationIsNeverBelowMin) {
+TEST(SolvePhases, SettingsOfTheTuningReachTheSolver) {
     g_result = {};
     g_result.converged = true;
     Phases phases;
-    phases.tuning.solver.max_drive_regularisation = 1e-9;
-    phases.tuning.solver.min_drive_regularisation = 1e-4;
-    phases.tuning.solver.max_contact_regularisation = 1e-9;
-    phases.tuning.solver.contact_regularisation = 1e-5;
+    phases.tuning.solver.positions.max_iterations = 7;
+    phases.tuning.solver.positions.schedule.min_step_scale = 0.125;
     phases.solve();
-    EXPECT_EQ(g_settings.schedule.max_drive_regularisation, 1e-4);
-    EXPECT_EQ(g_settings.schedule.min_drive_regularisation, 1e-4);
-    EXPECT_EQ(g_settings.schedule.max_contact_regularisation, 1e-5);
-    EXPECT_EQ(g_settings.regularisation.contact, 1e-5);
+    EXPECT_EQ(g_settings.max_iterations, 7);
+    EXPECT_EQ(g_settings.schedule.min_step_scale, 0.125);
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ namespace handhold::body_constants {{
 inline constexpr std::array<double, k_look_filters> k_look_lags_s = {{{lags}}};
 
 // The talk's form: chest_facing, chest_lean, chest_pose; trunk_view (nod, ears). Lengths: for an
-// eye height of 1.6 m.
+// eye height of k_scale_eye_m.
 {scalars(chest)}
 // turn_to_reach_across: the angle at which the turn begins, and the hand's distance, arm lengths.
 {scalars(across)}

@@ -80,6 +80,12 @@ typedef struct hh_pose {
 /* The pose at the origin, not rotated. Any thread. */
 HH_API hh_pose hh_identity_pose(void);
 
+/* Equal on every machine and compiler, unlike sin, cos and atan2 of C: for inputs that must replay
+ * bit for bit. Errors are below 1e-14 up to 1e6 rad; beyond that, and for NaN, sine is 0 and cosine
+ * 1. Null outputs are skipped. hh_atan2 gives 0 for (0, 0) and NaN. Any thread. */
+HH_API void hh_sin_cos(double angle_rad, double* sine, double* cosine);
+HH_API double hh_atan2(double y, double x);
+
 /* Ids: plain values. All zero is null. An id whose object was removed finds nothing, even if its
  * index is used again. Ids of two worlds must not be mixed; that is not always detected. */
 typedef struct hh_shape {
@@ -130,6 +136,11 @@ HH_API hh_host_hooks hh_default_host_hooks(void);
 /* Sets the hooks of the process; null: back to the defaults. HH_ERROR_STATE while a world exists.
  * Not beside any other call of the library. */
 HH_API hh_result hh_set_host_hooks(const hh_host_hooks* hooks);
+/* Threads of the library's own pool, as hh_host_hooks.thread_count, also while worlds exist: for
+ * instance all while a level loads. HH_ERROR_STATE if the host lends parallel_for. Not beside any
+ * other call of the library. */
+HH_API hh_result hh_set_thread_count(uint32_t count);
+HH_API uint32_t hh_thread_count(void);
 
 #ifdef __cplusplus
 }

@@ -10,6 +10,7 @@
 //   step_frame, step_pose_only, hash_state             one frame; a hash of the whole state
 //   begin_host_frame, end_host_frame                   frames around a host's own solver
 //   save_snapshot, restore_snapshot                    rollback and saved games
+//   columns_of                                         from a hh_world of handhold.h to all of this
 //   rigs.hpp, tuning.hpp, files.hpp                    assets and numbers
 //
 // The rule of state: the columns of `World` are the whole state. Everything in `FrameCaches` may be
@@ -26,5 +27,6 @@
 #include "engine/geometry/grip_mesh_library.hpp"
 #include "engine/geometry/shape_library.hpp"
 #include "systems/frame/frame_of_host.hpp"
+#include "systems/host/host_columns.hpp"
 #include "systems/input/read_tracking.hpp"
 #include "systems/snapshot/snapshot.hpp"

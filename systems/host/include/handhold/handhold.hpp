@@ -11,9 +11,11 @@
 #error "handhold.hpp needs C++20 (target_compile_features(... cxx_std_20) or -std=c++20)"
 #endif
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -43,6 +45,7 @@ using Joint = hh_joint;
 using Player = hh_player;
 using Sample = hh_tracking_sample;
 using Event = hh_event;
+using Hit = hh_hit;
 using Side = hh_side;
 
 inline constexpr Quat k_no_turn{0.0, 0.0, 0.0, 1.0};
@@ -151,7 +154,7 @@ class Mesh {
 class World {
   public:
     World() : World(world_def()) {}
-    // As hh_world_create. Check is_valid().
+    // Makes an empty world. Check is_valid().
     explicit World(const hh_world_def& def) {
         if (hh_world_create(&def, &world_) != HH_OK) {
             world_ = nullptr;
@@ -172,103 +175,166 @@ class World {
     // The handle of the C interface; null if not valid.
     const hh_world* get() const { return world_; }
 
-    // Level.
+    // ---- Level: shapes, bodies, joints. ----
+
+    // A box of twice these lengths.
     Maybe<Shape> add_box(Vec3 half_extents_m) {
         return make<Shape>([&](Shape* s) { return hh_shape_add_box(world_, half_extents_m, s); });
     }
-    // As hh_shape_add_sphere.
+    // A sphere about the shape's origin.
     Maybe<Shape> add_sphere(double radius_m) {
         return make<Shape>([&](Shape* s) { return hh_shape_add_sphere(world_, radius_m, s); });
     }
-    // As hh_shape_add_capsule.
+    // A capsule along Y. half_height_m does not count the caps.
     Maybe<Shape> add_capsule(double radius_m, double half_height_m) {
         return make<Shape>(
             [&](Shape* s) { return hh_shape_add_capsule(world_, radius_m, half_height_m, s); });
     }
-    // As hh_shape_add_cylinder.
+    // A cylinder along Y.
     Maybe<Shape> add_cylinder(double radius_m, double half_height_m) {
         return make<Shape>(
             [&](Shape* s) { return hh_shape_add_cylinder(world_, radius_m, half_height_m, s); });
     }
-    // As hh_shape_add_hull.
+    // The convex hull of points that are not coplanar.
     Maybe<Shape> add_hull(std::span<const Vec3> points) {
         return make<Shape>(
             [&](Shape* s) { return hh_shape_add_hull(world_, points.data(), points.size(), s); });
     }
-    // As hh_shape_add_compound.
+    // Parts that move as one. It keeps copies: the parts may be removed.
     Maybe<Shape> add_compound(std::span<const hh_compound_part> parts) {
         return make<Shape>(
             [&](Shape* s) { return hh_shape_add_compound(world_, parts.data(), parts.size(), s); });
     }
-    // As hh_shape_add_mesh.
+    // Triangles for static and kinematic bodies. A scale other than 1 prepares the hands' surface
+    // again.
     Maybe<Shape> add_mesh(const Mesh& mesh, Vec3 scale = {1.0, 1.0, 1.0}) {
         return make<Shape>(
             [&](Shape* s) { return hh_shape_add_mesh(world_, mesh.get(), scale, s); });
     }
-    // As hh_shape_remove.
+    // Fails while a body or a player has the shape.
     Status remove(Shape shape) { return hh_shape_remove(world_, shape); }
 
-    // As hh_body_add.
+    // Adds a body at its pose.
     Maybe<Body> add(const hh_body_def& def) {
         return make<Body>([&](Body* b) { return hh_body_add(world_, &def, b); });
     }
-    // As hh_joint_add.
+    // Joins two bodies where they are now.
     Maybe<Joint> add(const hh_joint_def& def) {
         return make<Joint>([&](Joint* j) { return hh_joint_add(world_, &def, j); });
     }
-    // As hh_player_add.
+    // Adds a player with two hands, which are open until tracking says otherwise.
     Maybe<Player> add(const hh_player_def& def) {
         return make<Player>([&](Player* p) { return hh_player_add(world_, &def, p); });
     }
-    // As hh_body_remove.
+    // Removes a body with its joints. Hands that grip it are empty at once.
     Status remove(Body body) { return hh_body_remove(world_, body); }
-    // As hh_joint_remove.
+    // Removes a joint; its bodies stay.
     Status remove(Joint joint) { return hh_joint_remove(world_, joint); }
-    // As hh_player_remove.
+    // Removes a player with both hands.
     Status remove(Player player) { return hh_player_remove(world_, player); }
-    // As hh_shape_is_valid.
+    // True if the shape is in this world.
     bool has(Shape shape) const { return hh_shape_is_valid(world_, shape); }
-    // As hh_body_is_valid.
+    // True if the body is in this world.
     bool has(Body body) const { return hh_body_is_valid(world_, body); }
-    // As hh_joint_is_valid.
+    // True if the joint is in this world.
     bool has(Joint joint) const { return hh_joint_is_valid(world_, joint); }
-    // As hh_player_is_valid.
+    // True if the player is in this world.
     bool has(Player player) const { return hh_player_is_valid(world_, player); }
-    // `name` ends with a 0.
+    // The body with this name. `name` ends with a 0.
     Maybe<Body> find_body(const char* name) const {
         return make<Body>([&](Body* b) { return hh_body_find(world_, name, b); });
     }
 
-    // Bodies.
+    // ---- Bodies ----
+
+    // Where the body is: its shape's own frame, in the world.
     Maybe<Pose> pose(Body body) const {
         return make<Pose>([&](Pose* p) { return hh_body_pose(world_, body, p); });
     }
-    // `poses` is at least as long as `bodies`.
+    // Poses of many bodies; none is written if an id is stale. `poses` is at least as long as
+    // `bodies`.
     Status poses(std::span<const Body> bodies, std::span<Pose> poses) const {
         return poses.size() < bodies.size()
                    ? HH_ERROR_CAPACITY
                    : hh_world_body_poses(world_, bodies.data(), bodies.size(), poses.data());
     }
-    // As hh_body_set_velocity.
+    // A body's velocity in the world.
+    struct Motion {
+        // Of the centre of mass.
+        Vec3 velocity_mps;
+        // About the world's axes.
+        Vec3 angular_velocity_radps;
+    };
+    // The body's velocity after the last step.
+    Maybe<Motion> motion(Body body) const {
+        return make<Motion>([&](Motion* m) {
+            return hh_body_velocity(world_, body, &m->velocity_mps, &m->angular_velocity_radps);
+        });
+    }
+    // Static, kinematic or dynamic.
+    Maybe<hh_body_kind> kind(Body body) const {
+        return make<hh_body_kind>(
+            [&](hh_body_kind* k) { return hh_body_get_kind(world_, body, k); });
+    }
+    // The mass of a dynamic body.
+    Maybe<double> mass_kg(Body body) const {
+        return make<double>([&](double* m) { return hh_body_mass(world_, body, m); });
+    }
+    // Ids of all bodies.
+    std::vector<Body> bodies() const { return all<Body>(&hh_world_bodies); }
+    // Sets the velocity of a dynamic body's centre of mass, in the world.
     Status set_velocity(Body body, Vec3 linear_mps, Vec3 angular_radps = {}) {
         return hh_body_set_velocity(world_, body, linear_mps, angular_radps);
     }
-    // As hh_body_apply_impulse.
+    // Changes a dynamic body's velocity by an impulse at a point in the world.
     Status apply_impulse(Body body, Vec3 impulse_ns, Vec3 point) {
         return hh_body_apply_impulse(world_, body, impulse_ns, point);
     }
-    // As hh_body_teleport.
+    // Places a body at once and keeps its velocity. Hands that grip it let go.
     Status teleport(Body body, Pose pose) { return hh_body_teleport(world_, body, pose); }
-    // As hh_body_move_kinematic.
+    // A kinematic body reaches the pose at the end of the next step, and then rests.
     Status move_kinematic(Body body, Pose pose) {
         return hh_body_move_kinematic(world_, body, pose);
     }
-    // As hh_body_add_grip.
+    // Adds an authored grip, which hands that close near it take.
     Status add_grip(Body body, const hh_grip_def& def) {
         return hh_body_add_grip(world_, body, &def);
     }
 
-    // Players.
+    // Queries: nullopt if nothing was found, or if the call failed. The first surface on a segment.
+    std::optional<Hit> cast_ray(Vec3 from, Vec3 to, Player skip = {}) {
+        Hit hit{};
+        return found(hh_world_cast_ray(world_, from, to, skip, &hit), hit);
+    }
+    // The first impact of a sphere that moves along a segment.
+    std::optional<Hit> cast_sphere(double radius_m, Vec3 from, Vec3 to, Player skip = {}) {
+        Hit hit{};
+        return found(hh_world_cast_sphere(world_, radius_m, from, to, skip, &hit), hit);
+    }
+    // The nearest surface point within a distance.
+    std::optional<Hit> closest_point(Vec3 point, double max_distance_m, Player skip = {}) {
+        Hit hit{};
+        return found(hh_world_closest_point(world_, point, max_distance_m, skip, &hit), hit);
+    }
+    // Every body that a sphere touches. `hits` keeps its memory from call to call.
+    Status overlap_sphere(Vec3 center, double radius_m, std::vector<Hit>& hits, Player skip = {}) {
+        std::size_t count = 0;
+        hits.resize(std::max<std::size_t>(hits.capacity(), 8));
+        hh_result result = hh_world_overlap_sphere(world_, center, radius_m, skip, hits.data(),
+                                                   hits.size(), &count);
+        if (result == HH_ERROR_CAPACITY) {
+            hits.resize(count);
+            result = hh_world_overlap_sphere(world_, center, radius_m, skip, hits.data(),
+                                             hits.size(), &count);
+        }
+        hits.resize(result == HH_OK ? count : 0);
+        return result;
+    }
+
+    // ---- Players ----
+
+    // Places a play space at once, at rest. Dynamic bodies in its hands that no joint holds come
+    // along.
     Status teleport(Player player, Pose origin) {
         return hh_player_teleport(world_, player, origin);
     }
@@ -280,127 +346,172 @@ class World {
                    ? left
                    : hh_player_set_hand_in_controller(world_, player, HH_RIGHT, &identity);
     }
-    // As hh_world_player_poses.
+    // Play space, head, velocity and hands.
     Maybe<hh_player_pose> pose(Player player) const {
         return make<hh_player_pose>(
             [&](hh_player_pose* p) { return hh_world_player_poses(world_, &player, 1, p); });
     }
-    // As hh_world_player_poses.
+    // The same of many players; none is written if an id is stale. `poses` is at least as long as
+    // `players`.
     Status poses(std::span<const Player> players, std::span<hh_player_pose> poses) const {
         return poses.size() < players.size()
                    ? HH_ERROR_CAPACITY
                    : hh_world_player_poses(world_, players.data(), players.size(), poses.data());
     }
-    // As hh_player_hand.
+    // What the hand grips, and where it is tracked and shown.
     Maybe<hh_hand_state> hand(Player player, Side side) const {
         return make<hh_hand_state>(
             [&](hh_hand_state* h) { return hh_player_hand(world_, player, side, h); });
     }
-    // As hh_player_hand_joints gives them.
+    // True if the hand's grip moves its player.
+    bool moves_player(Player player, Side side) const {
+        bool moves = false;
+        return hh_hand_moves_player(world_, player, side, &moves) == HH_OK && moves;
+    }
+    // The velocity that counts as rest for the player.
+    Maybe<Vec3> reference_velocity_mps(Player player) const {
+        return make<Vec3>([&](Vec3* v) { return hh_player_reference_velocity(world_, player, v); });
+    }
+    // The wrist in the frame of the player's samples.
+    Maybe<Pose> hand_in_controller(Player player, Side side) const {
+        return make<Pose>(
+            [&](Pose* p) { return hh_player_hand_in_controller(world_, player, side, p); });
+    }
+    // The wrist in a controller's frame by the tuning.
+    Maybe<Pose> hand_in_controller(Side side) const {
+        return make<Pose>([&](Pose* p) { return hh_world_hand_in_controller(world_, side, p); });
+    }
+    // Sets the wrist in the frame of the player's samples.
+    Status set_hand_in_controller(Player player, Side side, const Pose& hand_in_controller) {
+        return hh_player_set_hand_in_controller(world_, player, side, &hand_in_controller);
+    }
+    // Ids of all players.
+    std::vector<Player> players() const { return all<Player>(&hh_world_players); }
+    // By hh_hand_joint_name.
     using HandJoints = std::array<hh_hand_joint, HH_HAND_JOINT_COUNT>;
-    // As hh_player_hand_joints.
+    // Joints of the shown hand, with the axes of XR_EXT_hand_tracking.
     Maybe<HandJoints> hand_joints(Player player, Side side, hh_space space) const {
         return make<HandJoints>([&](HandJoints* joints) {
             return hh_player_hand_joints(world_, player, side, space, joints->data());
         });
     }
-    // As hh_player_body_joints gives them.
+    // By hh_body_joint.
     using BodyJoints = std::array<Pose, HH_BODY_JOINT_COUNT>;
-    // As hh_player_body_joints.
+    // Joints of the shown body, with VRM's names.
     Maybe<BodyJoints> body_joints(Player player, hh_space space) const {
         return make<BodyJoints>([&](BodyJoints* joints) {
             return hh_player_body_joints(world_, player, space, joints->data());
         });
     }
-    // As hh_hand_grip.
+    // In the next step the hand grips the body where both are, at any distance.
     Status grip(Player player, Side side, Body body) {
         return hh_hand_grip(world_, player, side, body);
     }
-    // As hh_hand_release.
+    // In the next step the hand lets go, without a throw.
     Status release(Player player, Side side) { return hh_hand_release(world_, player, side); }
 
-    // Stepping.
+    // ---- Stepping ----
+
+    // Steps the world. Players without an input are silent.
     Status step(double dt_s, std::span<const hh_player_input> inputs = {}) {
         return hh_world_step(world_, dt_s, inputs.data(), inputs.size());
     }
-    // As hh_world_step.
+    // The same for a world with one player.
     Status step(double dt_s, const hh_player_input& input) {
         return hh_world_step(world_, dt_s, &input, 1);
     }
-    // As hh_world_step_pose_only.
+    // While the game is paused: players follow their last sample, the world stands still.
     Status step_pose_only(double dt_s, std::span<const hh_player_input> inputs) {
         return hh_world_step_pose_only(world_, dt_s, inputs.data(), inputs.size());
     }
 
-    // For hosts with their own physics (your_physics.h). As hh_world_set_surface_query.
+    // ---- For hosts with their own physics (your_physics.h) ----
+
+    // From now on hands and legs ask the host for surfaces, not the world's shapes.
     Status set_surface_query(const hh_surface_query& query) {
         return hh_world_set_surface_query(world_, &query);
     }
-    // As hh_body_set_surface.
+    // The triangles that palm and fingers close on, for a body without a shape.
     Status set_surface(Body body, const Mesh& mesh) {
         return hh_body_set_surface(world_, body, mesh.get());
     }
-    // As hh_world_place_bodies.
+    // Where bodies are now. Ends no grip, unlike a teleport.
     Status place(std::span<const hh_body_motion> motions) {
         return hh_world_place_bodies(world_, motions.data(), motions.size());
     }
-    // As hh_player_place.
+    // Where a play space is now. Ends no grip, unlike a teleport.
     Status place(Player player, Pose origin, Vec3 velocity_mps = {}) {
         return hh_player_place(world_, player, origin, velocity_mps);
     }
-    // As hh_hand_hold.
+    // The hand holds the body from now on; a null id: nothing. For worlds that step_hands steps.
     Status hold(Player player, Side side, Body body, const Pose* anchor = nullptr) {
         return hh_hand_hold(world_, player, side, body, anchor);
     }
-    // As hh_hand_find_grip.
+    // What the hand would grip if it closed where it is; a null body: nothing.
     Maybe<hh_surface_hit> find_grip(Player player, Side side) {
         return make<hh_surface_hit>(
             [&](hh_surface_hit* hit) { return hh_hand_find_grip(world_, player, side, hit); });
     }
-    // As hh_world_step_hands.
+    // Reads tracking and shows hands and bodies. Moves neither players nor bodies.
     Status step_hands(double dt_s, std::span<const hh_player_input> inputs) {
         return hh_world_step_hands(world_, dt_s, inputs.data(), inputs.size());
     }
-    // As hh_world_begin_step.
+    // First half of a step around the host's solver: tracking, grips and constraints.
     Status begin_step(double dt_s, std::span<const hh_player_input> inputs) {
         return hh_world_begin_step(world_, dt_s, inputs.data(), inputs.size());
     }
-    // As hh_world_hand_constraints.
+    // What each hand asks of the host's solver. Valid until end_step.
     std::span<const hh_hand_constraint> hand_constraints() const {
         return list<hh_hand_constraint>(&hh_world_hand_constraints);
     }
-    // As hh_world_player_motions.
+    // Each player's body for the host's solver. Valid until end_step.
     std::span<const hh_player_motion> player_motions() const {
         return list<hh_player_motion>(&hh_world_player_motions);
     }
-    // As hh_world_end_step.
+    // Second half: takes the solved play spaces and shows hands and bodies.
     Status end_step(std::span<const hh_solved_player> players) {
         return hh_world_end_step(world_, players.data(), players.size());
     }
-    // As hh_world_velocity_changes.
+    // Velocities that the host must give its bodies. Valid until the next step.
     std::span<const hh_velocity_change> velocity_changes() const {
         return list<hh_velocity_change>(&hh_world_velocity_changes);
     }
-    // As hh_world_time.
+    // The world's clock.
     double time_s() const {
         double time_s = 0.0;
         return hh_world_time(world_, &time_s, nullptr) == HH_OK ? time_s : 0.0;
     }
-    // Of the last step; valid until the next.
+    // The number of steps.
+    std::uint64_t frame() const {
+        std::uint64_t frame = 0;
+        return hh_world_time(world_, nullptr, &frame) == HH_OK ? frame : 0;
+    }
+    // The velocity of the scene.
+    Vec3 reference_velocity_mps() const {
+        Vec3 velocity{};
+        return hh_world_reference_velocity(world_, &velocity) == HH_OK ? velocity : Vec3{};
+    }
+    // How often each fallback occurred in the last step, by index of hh_fallback_name.
+    std::vector<std::uint64_t> fallbacks() const { return all<std::uint64_t>(&hh_world_fallbacks); }
+    // Microseconds of each stage in the last step, by index of hh_stage_name.
+    std::vector<double> stage_times_us() const { return all<double>(&hh_world_stage_times); }
+    // The events of the last step, in a fixed order. Valid until the next step or restore.
     std::span<const Event> events() const {
         const Event* first = nullptr;
         std::size_t count = 0;
         return hh_world_events(world_, &first, &count) == HH_OK ? std::span(first, count)
                                                                 : std::span<const Event>();
     }
-    // As hh_world_get_stats.
+    // Numbers of the last step.
     Maybe<hh_world_stats> stats() const {
         hh_world_stats stats = hh_default_world_stats();
         const hh_result result = hh_world_get_stats(world_, &stats);
         return {result, stats};
     }
 
-    // Saving. `bytes` keeps its memory from call to call.
+    // ---- Saving ----
+
+    // Saves every bit of the state. `bytes` keeps its memory from call to call.
     Status save(std::vector<std::byte>& bytes) {
         std::size_t size = 0;
         hh_result result = hh_world_save(world_, bytes.data(), bytes.size(), &size);
@@ -413,34 +524,54 @@ class World {
         }
         return result;
     }
-    // As hh_world_restore.
+    // Returns to a saved state. Without a change if the bytes are damaged or of other shapes.
     Status restore(std::span<const std::byte> bytes) {
         return hh_world_restore(world_, bytes.data(), bytes.size());
     }
-    // As hh_world_hash.
+    // Hash of the whole state, equal on every machine; 0 for an invalid world.
     std::uint64_t hash() const {
         std::uint64_t hash = 0;
         return hh_world_hash(world_, &hash) == HH_OK ? hash : 0;
     }
 
-    // As hh_world_load_tuning.
+    // Sets all numbers from JSON; those that it lacks get their defaults.
     Status load_tuning(std::string_view json) {
         return hh_world_load_tuning(world_, json.data(), json.size());
     }
-    // As hh_world_load_body_clips. Empty: none.
+    // Replaces the additive clips of all players. Empty: none.
     Status load_body_clips(std::string_view json) {
         return hh_world_load_body_clips(world_, json.empty() ? nullptr : json.data(), json.size());
     }
-    // As hh_world_set_tuning. `name` ends with a 0.
+    // Sets one number between steps. `name` ends with a 0.
     Status tune(const char* name, double value) {
         return hh_world_set_tuning(world_, name, &value, 1);
     }
-    // As hh_world_get_tuning.
+    // A vector of the tuning.
+    Maybe<Vec3> tuning_vector(const char* name) const {
+        double v[3] = {};
+        const hh_result result = hh_world_get_tuning(world_, name, v, 3);
+        return {result, {v[0], v[1], v[2]}};
+    }
+    // One number. `name` ends with a 0.
     Maybe<double> tuning(const char* name) const {
         return make<double>([&](double* v) { return hh_world_get_tuning(world_, name, v, 1); });
     }
 
   private:
+    static std::optional<Hit> found(hh_result result, const Hit& hit) {
+        const bool is_hit = hit.body.generation != 0 || hit.player.generation != 0;
+        return result == HH_OK && is_hit ? std::optional(hit) : std::nullopt;
+    }
+    template <typename T>
+    std::vector<T> all(hh_result (*call)(const hh_world*, T*, std::size_t, std::size_t*)) const {
+        std::size_t count = 0;
+        std::vector<T> values;
+        if (call(world_, nullptr, 0, &count) == HH_OK) {
+            values.resize(count);
+            values.resize(call(world_, values.data(), count, &count) == HH_OK ? count : 0);
+        }
+        return values;
+    }
     template <typename T>
     std::span<const T> list(hh_result (*call)(const hh_world*, const T**, std::size_t*)) const {
         const T* first = nullptr;

@@ -127,6 +127,9 @@ HH_API hh_result hh_body_set_gravity_scale(hh_world* world, hh_body body, double
 HH_API hh_result hh_body_set_layers(hh_world* world, hh_body body, uint32_t layers, uint32_t mask);
 HH_API hh_result hh_body_set_grab_rule(hh_world* world, hh_body body, bool left, bool right,
                                        bool two_hands, int32_t priority);
+HH_API hh_result hh_body_get_kind(const hh_world* world, hh_body body, hh_body_kind* kind);
+/* 0 of a body that is not dynamic: nothing that acts on it moves it. */
+HH_API hh_result hh_body_mass(const hh_world* world, hh_body body, double* mass_kg);
 HH_API hh_result hh_body_set_user_data(hh_world* world, hh_body body, uint64_t user_data);
 HH_API hh_result hh_body_user_data(const hh_world* world, hh_body body, uint64_t* user_data);
 
@@ -167,9 +170,44 @@ HH_API hh_joint_def hh_default_joint_def(void);
 HH_API hh_result hh_joint_add(hh_world* world, const hh_joint_def* def, hh_joint* joint);
 HH_API hh_result hh_joint_remove(hh_world* world, hh_joint joint);
 HH_API bool hh_joint_is_valid(const hh_world* world, hh_joint joint);
+/* The joints at a body; as hh_world_bodies. */
+HH_API hh_result hh_body_joints(const hh_world* world, hh_body body, hh_joint* joints,
+                                size_t capacity, size_t* count);
 /* As of the last step; null outputs are skipped. A hinge counts full turns. */
 HH_API hh_result hh_joint_state(const hh_world* world, hh_joint joint, double* coordinate,
                                 double* speed, bool* latched);
+
+/* ---- Queries -------------------------------------------------------------------------------- */
+
+/* Against the shapes of all bodies, whatever their layers, and the tracked heads of players, where
+ * they are now. Bodies without a shape, and surfaces of hh_world_set_surface_query, are not found.
+ * HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds; the first
+ * query after a change of the world also compares every body with its place before. */
+typedef struct hh_hit {
+    hh_body body;      /* null: a player's head, or nothing was found */
+    hh_player player;  /* whose head; null: a body, or nothing was found */
+    hh_vec3 point;     /* on the surface, in the world */
+    hh_vec3 normal;    /* unit, to the side that the query came from */
+    double distance_m; /* see each query */
+} hh_hit;
+/* First surface that the segment hits, from outside or inside; distance_m: from `from`. `skip`: a
+ * player whose head counts as not there; null: none. Coordinates within 1e9 m. */
+HH_API hh_result hh_world_cast_ray(hh_world* world, hh_vec3 from, hh_vec3 to, hh_player skip,
+                                   hh_hit* hit);
+/* First impact of a sphere that moves along the segment, radius within 1e4 m; distance_m: how far
+ * its centre has moved, 0 if it touches something at the start. */
+HH_API hh_result hh_world_cast_sphere(hh_world* world, double radius_m, hh_vec3 from, hh_vec3 to,
+                                      hh_player skip, hh_hit* hit);
+/* Nearest surface point within max_distance_m of the point, [0, 1e4]; distance_m: 0 inside a solid,
+ * where the normal points outward. */
+HH_API hh_result hh_world_closest_point(hh_world* world, hh_vec3 point, double max_distance_m,
+                                        hh_player skip, hh_hit* hit);
+/* Everything that a sphere touches: the nearest point of each body and head to its centre, as
+ * hh_world_closest_point gives it, in a fixed order. `count` gets their number; HH_ERROR_CAPACITY
+ * if it is more than `capacity`. Radius as hh_world_closest_point's distance. */
+HH_API hh_result hh_world_overlap_sphere(hh_world* world, hh_vec3 center, double radius_m,
+                                         hh_player skip, hh_hit* hits, size_t capacity,
+                                         size_t* count);
 
 #ifdef __cplusplus
 }

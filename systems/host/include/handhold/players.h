@@ -27,7 +27,7 @@ typedef struct hh_player_def {
     hh_vec3 velocity_mps;
     double mass_kg; /* default 80 */
     hh_measures measures;
-    double scale;          /* of all measures, (0, 100]; default 1 */
+    double scale;          /* of all measures, [0.001, 100]; default 1 */
     bool head_collides;    /* the head is a sphere of head.radius_m; default true */
     uint32_t layers, mask; /* of the head; as hh_body_def's */
     uint32_t grab_layers;  /* the hands grip bodies with one of these layers; default all */
@@ -44,6 +44,14 @@ HH_API hh_result hh_world_players(const hh_world* world, hh_player* players, siz
 HH_API hh_result hh_player_teleport(hh_world* world, hh_player player, hh_pose origin);
 HH_API hh_result hh_player_velocity(const hh_world* world, hh_player player, hh_vec3* velocity_mps);
 HH_API hh_result hh_player_set_velocity(hh_world* world, hh_player player, hh_vec3 velocity_mps);
+/* The velocity that counts as rest for the player: of what the player gripped last, where it was
+ * gripped, else the scene's. Speed against it is what a player feels: for vignettes and wind. */
+HH_API hh_result hh_player_reference_velocity(const hh_world* world, hh_player player,
+                                              hh_vec3* velocity_mps);
+/* The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked: false
+ * before the head's first sample and while it is lost. */
+HH_API hh_result hh_player_head(const hh_world* world, hh_player player, hh_vec3* center,
+                                double* radius_m, bool* is_tracked);
 HH_API hh_result hh_player_measures(const hh_world* world, hh_player player, hh_measures* measures);
 HH_API hh_result hh_player_set_measures(hh_world* world, hh_player player,
                                         const hh_measures* measures);
@@ -57,6 +65,9 @@ HH_API hh_result hh_player_set_hand_in_controller(hh_world* world, hh_player pla
 /* The same numbers, for hosts that have wrists and need controllers. */
 HH_API hh_result hh_player_hand_in_controller(const hh_world* world, hh_player player, hh_side side,
                                               hh_pose* hand_in_controller);
+/* The same numbers for a player who has none of their own, by the tuning alone. */
+HH_API hh_result hh_world_hand_in_controller(const hh_world* world, hh_side side,
+                                             hh_pose* hand_in_controller);
 
 /* ---- Hands ---------------------------------------------------------------------------------- */
 
@@ -97,6 +108,11 @@ typedef struct hh_player_pose {
 
 HH_API hh_result hh_player_hand(const hh_world* world, hh_player player, hh_side side,
                                 hh_hand_state* hand);
+/* True if the player can pull on what the hand grips: something static, kinematic or heavy, another
+ * player, or a body that joints connect to something fixed, such as a lever. False if the hand is
+ * empty, or what it holds comes along. */
+HH_API hh_result hh_hand_moves_player(const hh_world* world, hh_player player, hh_side side,
+                                      bool* moves_player);
 /* Poses of many players in one call; HH_ERROR_HANDLE, and nothing written, if one is stale. */
 HH_API hh_result hh_world_player_poses(const hh_world* world, const hh_player* players,
                                        size_t count, hh_player_pose* poses);
@@ -113,7 +129,7 @@ HH_API hh_result hh_hand_release(hh_world* world, hh_player player, hh_side side
 /* ---- Events --------------------------------------------------------------------------------- */
 
 typedef enum hh_event_kind {
-    HH_EVENT_TOUCHED = 0,        /* an open palm came within 2 cm of a body */
+    HH_EVENT_TOUCHED = 0,        /* the palm of an empty hand came within 2 cm of a body or player */
     HH_EVENT_GRABBED = 1,        /* a hand grips */
     HH_EVENT_RELEASED = 2,       /* the player opened the hand, or `reason` says who did */
     HH_EVENT_REFUSED = 3,        /* a hand closed and grips nothing: `reason` */

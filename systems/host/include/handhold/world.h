@@ -67,6 +67,11 @@ typedef struct hh_player_input {
     const hh_tracking_sample* samples;
     size_t sample_count;
     hh_commands commands;
+    /* The host gives a sample that is later than the step's end again in the next step, so the world
+     * keeps none; and a sample's time is taken to the bit, where otherwise a microsecond after the
+     * end counts as the end. For hosts that have the whole stream: recordings, rollback. Default
+     * false. */
+    bool repeats_samples;
 } hh_player_input;
 
 HH_API hh_player_input hh_default_player_input(void);
@@ -88,6 +93,8 @@ HH_API hh_result hh_world_time(const hh_world* world, double* time_s, uint64_t* 
 HH_API hh_result hh_world_set_gravity(hh_world* world, hh_vec3 gravity_mps2);
 /* Velocity of the scene: drifting players come to rest against it. Each axis within 1e6 m/s. */
 HH_API hh_result hh_world_set_reference_velocity(hh_world* world, hh_vec3 velocity_mps);
+HH_API hh_result hh_world_gravity(const hh_world* world, hh_vec3* gravity_mps2);
+HH_API hh_result hh_world_reference_velocity(const hh_world* world, hh_vec3* velocity_mps);
 
 /* Hash of the whole state. Equal on every machine, compiler and number of threads after equal
  * calls with equal names. Cost: linear in the state, about 0.1 ms for a scene of 100 bodies. */
@@ -101,6 +108,20 @@ HH_API hh_result hh_world_save(hh_world* world, void* buffer, size_t capacity, s
  * any bytes. */
 HH_API hh_result hh_world_restore(hh_world* world, const void* bytes, size_t size);
 
+/* What receives the impulses of constraints, index of hh_momentum's arrays. */
+typedef enum hh_momentum_receiver {
+    HH_MOMENTUM_BODIES = 0, /* dynamic ones */
+    HH_MOMENTUM_PLAYERS = 1,
+    HH_MOMENTUM_DISCARDED = 2, /* that hands moved bodies with, without pushing the player back */
+    HH_MOMENTUM_STATICS = 3,   /* static and kinematic bodies */
+    HH_MOMENTUM_RECEIVERS = 4
+} hh_momentum_receiver;
+/* Sums of all impulses of a step, by hh_momentum_receiver. Each array's sum is 0. */
+typedef struct hh_momentum {
+    hh_vec3 linear_kgmps[4];
+    hh_vec3 angular_kgm2ps[4]; /* about the world's origin */
+} hh_momentum;
+
 /* Numbers of the last step. */
 typedef struct hh_world_stats {
     uint32_t struct_size;
@@ -112,6 +133,12 @@ typedef struct hh_world_stats {
     double overlap_m;           /* worst contact overlap at the end */
     double joint_error_m;       /* worst joint */
     double step_us;             /* sum of all stages */
+    double joint_error_rad;     /* worst direction or angle of a joint beyond its limit */
+    uint64_t islands_pushed;    /* islands in which something pushed a player back */
+    uint64_t contact_rounds;    /* searches for contacts inside the solve */
+    uint64_t hands_closed;      /* hands that closed */
+    uint64_t hands_gripped;     /* those of them that gripped something */
+    hh_momentum momentum;
 } hh_world_stats;
 HH_API hh_world_stats hh_default_world_stats(void);
 HH_API hh_result hh_world_get_stats(const hh_world* world, hh_world_stats* stats);

@@ -66,7 +66,7 @@ HH_API hh_result hh_body_set_surface(hh_world* world, hh_body body, const hh_mes
 
 typedef struct hh_body_motion {
     hh_body body;
-    hh_pose pose; /* centre of mass and principal axes, in the world */
+    hh_pose pose; /* as hh_body_def.pose; without a shape: centre of mass and principal axes */
     hh_vec3 velocity_mps;
     hh_vec3 angular_velocity_radps;
 } hh_body_motion;

@@ -247,7 +247,7 @@ TEST(SolveVelocities, FrictionBrakesADrivenBodyWhenTheDriveReverses) {
     sort_blocks(scene.graph);
     build_islands(scene.graph);
     const Island& island = scene.graph.islands.front();
-    const VelocityResult result = solve_velocities(scene.view(island), {}, scene.scratch);
+    const VelocityResult result = solve_island_velocities(scene.view(island), {}, scene.scratch);
     EXPECT_FALSE(result.unconverged);
     const auto wall = std::ranges::find_if(scene.graph.blocks, is_contact);
     ASSERT_GT(wall->impulse_ws_ns.y(), 0.0);
