@@ -44,7 +44,7 @@ GripSurface surface_of_smallest_sync(const HandSurroundings& hand, const Tuning&
     search.add_seed(last.triangle);
     search.add_seed(hit ? hit->triangle : GripSurface::k_none);
     search.add_seed(near ? near->triangle : GripSurface::k_none);
-    return SurfaceCandidates(fitter, search, tuning.palm, scratch.patch).best(last);
+    return SurfaceCandidates(fitter, search, tuning.palm).best(last);
 }
 
 // True if the result of the last search is of this body's mesh.

@@ -114,7 +114,7 @@ class OneHand {
         const auto hit = mesh_.search_bvh.cast_ray(
             palm.center + tuning.hand.ray_back_m * palm.up,
             palm.center - (tuning.hand.ray_length_m - tuning.hand.ray_back_m) * palm.up);
-        surface = hit ? fitter.fit({hit->triangle, hit->point, 0.0}, {}).surface : GripSurface{};
+        surface = hit ? fitter.fit({hit->triangle, hit->point, 0.0}).surface : GripSurface{};
     }
     static bool is_fitted(const GripVariant& variant) {
         return variant.fingers == FingerMethod::fit && variant.sync;

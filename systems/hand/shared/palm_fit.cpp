@@ -7,7 +7,6 @@
 #include <span>
 
 #include "engine/geometry/closest_point.hpp"
-#include "systems/hand/shared/finger_clearance.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold {
@@ -118,14 +117,14 @@ void add_limits(const HandSurroundings& hand, const GripSurface& surface, const 
 // sides are swapped if the palm is fitted to a backface.
 class PalmSpheres {
   public:
-    PalmSpheres(const HandSurroundings& hand, const GripSurface& surface,
-                const FingerSamplePoses& finger_samples)
-        : hand_(hand) {
+    PalmSpheres(const HandSurroundings& hand, const GripSurface& surface) : hand_(hand) {
         const PlacedMesh& placed = hand.meshes.front();
         const Vec3 wound = placed.pose.rotation * placed.mesh->search.normals[surface.triangle];
         side_ = wound.dot(surface.normal_bs) < 0.0 ? -1.0 : 1.0;
-        for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
-            add_finger(hand.rig->fingers[f], finger_samples[f]);
+        for (const FingerRig& finger : hand.rig->fingers) {
+            if (finger.name != FingerName::thumb) {
+                add_open_finger(finger);
+            }
         }
     }
 
@@ -146,16 +145,12 @@ class PalmSpheres {
         }
         return deepest_m;
     }
-    // Largest penetration, at the last query(), of the fingers that are part of the palm's shape.
+    // Largest penetration of the open fingers at the last query().
     double finger_penetration_m() const { return finger_penetration_m_; }
 
   private:
-    void add_finger(const FingerRig& finger, std::uint8_t sample) {
-        const auto angles = sample_pose_angles(finger, sample);
-        if (!angles) {
-            return;
-        }
-        const auto points = finger_points(finger, *angles);
+    void add_open_finger(const FingerRig& finger) {
+        const auto points = finger_points(finger, {finger.lower_rad, 0.0});
         for (std::size_t i = 0; i < finger.link_count; ++i) {
             is_first_[link_count_] = i == 0;
             links_[link_count_++] = {points[i], points[i + 1], finger.radius_m[i]};
@@ -264,7 +259,7 @@ class PalmSpheres {
 
     const HandSurroundings& hand_;
     double side_ = 1.0;
-    // Links of the fingers in a sample pose.
+    // Links of the open fingers.
     std::array<PalmCapsule, k_finger_count * k_max_links> links_;
     // True: the first link of its finger.
     std::array<bool, k_finger_count* k_max_links> is_first_ = {};
@@ -346,13 +341,12 @@ Pose moved_by(const PalmMove& move, const Pose& wrist, const Vec3& center_hs) {
 
 }  // namespace
 
-PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface,
-                 const FingerSamplePoses& finger_samples, const PalmTuning& tuning,
+PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, const PalmTuning& tuning,
                  double max_penetration_m) {
     const Vec3& center_hs = hand.rig->palm_center_hs;
     const double arm_m = std::max(k_min_arm_m, tuning.rotation_arm_m);
     const Pose held = clamp_to_limits(hand, hand.wrist_bs, surface, tuning);
-    PalmSpheres palm(hand, surface, finger_samples);
+    PalmSpheres palm(hand, surface);
     PalmGaps gaps;
     PalmMove moved;
     Pose wrist = held;

@@ -5,7 +5,6 @@
 #include "components/hand.hpp"
 #include "components/hand_surroundings.hpp"
 #include "components/tuning.hpp"
-#include "systems/hand/shared/finger_clearance.hpp"
 
 // Fits a palm to a surface: applies its height and tilt limits and depenetrates it. search_grip
 // evaluates candidates with it. Talk row 16.
@@ -14,7 +13,7 @@ namespace handhold {
 struct PalmFit {
     Pose wrist_bs;  // fitted wrist: within the limits, and depenetrated as far as possible
     double penetration_m = 0.0;  // remaining penetration of the palm; at least 0
-    // Remaining penetration of the fingers in the palm's collision shape.
+    // Remaining penetration of the open fingers; at least 0.
     double finger_penetration_m = 0.0;
 };
 
@@ -29,11 +28,10 @@ struct PalmFit {
 //    PalmTuning::rotation_arm_m. gap_i is the distance of one of the palm's spheres from a surface,
 //    or the margin to one of the limits; a_i and b_i are its derivatives by t and r.
 //
-// Fingers with a sample pose in `finger_samples` are part of the palm's collision shape. A fit that
-// penetrates deeper than `max_penetration_m` after 2 iterations is abandoned. Precondition: the
-// hand has meshes, and `surface` is on the first mesh.
-PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface,
-                 const FingerSamplePoses& finger_samples, const PalmTuning& tuning,
+// Open fingers, without the thumb, are part of the palm's collision shape: a finger that closes
+// starts there. A fit that penetrates deeper than `max_penetration_m` after 2 iterations is
+// abandoned. Precondition: the hand has meshes, and `surface` is on the first mesh.
+PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, const PalmTuning& tuning,
                  double max_penetration_m = std::numeric_limits<double>::infinity());
 
 }  // namespace handhold

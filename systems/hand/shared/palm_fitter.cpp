@@ -70,11 +70,10 @@ GripSurface PalmFitter::surface_at(const Candidate& candidate) const {
     return surface;
 }
 
-FittedPalm PalmFitter::fit(const Candidate& candidate, const FingerSamplePoses& finger_samples,
-                           double max_penetration_m) const {
+FittedPalm PalmFitter::fit(const Candidate& candidate, double max_penetration_m) const {
     FittedPalm held;
     held.surface = surface_at(candidate);
-    const PalmFit fit = fit_palm(hand_, held.surface, finger_samples, tuning_, max_penetration_m);
+    const PalmFit fit = fit_palm(hand_, held.surface, tuning_, max_penetration_m);
     held.surface.fitted_wrist_bs = fit.wrist_bs;
     held.penetration_m = fit.penetration_m;
     held.finger_penetration_m = fit.finger_penetration_m;

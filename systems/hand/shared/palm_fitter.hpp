@@ -11,14 +11,15 @@
 
 namespace handhold {
 
-// A palm has clearance if it penetrates no deeper than this.
+// A palm has clearance if it and its open fingers penetrate no deeper than these.
 inline constexpr double k_palm_penetration_tolerance_m = 1e-3;
+inline constexpr double k_finger_penetration_tolerance_m = 1.5e-3;
 
 // A surface and the palm's fit to it.
 struct FittedPalm {
     GripSurface surface;
     double penetration_m = 0.0;  // remaining penetration of the palm
-    // Remaining penetration of the fingers in the palm's collision shape.
+    // Remaining penetration of the open fingers.
     double finger_penetration_m = 0.0;
     // Movement of the palm from its tracked pose: translation plus PalmTuning::tilt_cost_m_per_rad
     // times rotation.
@@ -40,8 +41,8 @@ class PalmFitter {
 
     // Leaves GripSurface::fitted_wrist_bs unset.
     GripSurface surface_at(const Candidate& candidate) const;
-    // Fits the palm, with the fingers in `finger_samples` as part of its shape; see fit_palm.
-    FittedPalm fit(const Candidate& candidate, const FingerSamplePoses& finger_samples,
+    // Fits the palm; see fit_palm.
+    FittedPalm fit(const Candidate& candidate,
                    double max_penetration_m = std::numeric_limits<double>::infinity()) const;
 
     // True if the triangle's outside faces away from the palm.

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "systems/hand/shared/finger_clearance.hpp"
-
 namespace handhold {
 namespace {
 
@@ -23,8 +21,8 @@ constexpr double k_finger_cost = 9.0;        // cost per metre of finger penetra
 }  // namespace
 
 SurfaceCandidates::SurfaceCandidates(const PalmFitter& fitter, SurfaceSearch& search,
-                                     const PalmTuning& tuning, ChainPatch& patch)
-    : fitter_(fitter), search_(search), tuning_(tuning), patch_(patch) {}
+                                     const PalmTuning& tuning)
+    : fitter_(fitter), search_(search), tuning_(tuning) {}
 
 GripSurface SurfaceCandidates::best(const GripSurface& last) {
     search_.run(k_max_idle_pops);
@@ -35,7 +33,7 @@ GripSurface SurfaceCandidates::best(const GripSurface& last) {
     if (!first) {
         return {};
     }
-    FittedPalm held = fit(*first, {});
+    FittedPalm held = fit(*first);
     allows_backfaces_ = fitter_.is_backface(*first) || held.sync_m > k_max_direct_sync_m ||
                         std::max(held.penetration_m, fitter_.crossing_depth_m(held)) >
                             k_palm_penetration_tolerance_m;
@@ -48,7 +46,7 @@ GripSurface SurfaceCandidates::best(const GripSurface& last) {
     const std::size_t count = search_.append_cheapest_excluding(candidates, 1, best_.cost_m);
     for (std::size_t i = 1; i < count && is_cheaper(candidates[i].cost_m); ++i) {
         if (is_eligible(candidates[i])) {
-            evaluate(candidates[i], fit(candidates[i], {}));
+            evaluate(candidates[i], fit(candidates[i]));
         }
     }
     return best_.surface;
@@ -74,45 +72,28 @@ bool SurfaceCandidates::is_eligible(const Candidate& candidate) const {
     return !fitter_.is_backface(candidate) || (allows_backfaces_ && !fitter_.is_inside(candidate));
 }
 
-// Evaluates a candidate; `held` is its fit with the palm alone. Checks the fingers only if the cost
-// of the palm alone is below the best cost, since fingers can only add cost. If some have no
-// clearance, evaluates the candidate again with these as part of the palm's shape; the others are
-// not checked again.
+// Evaluates a candidate; `held` is its fit.
 void SurfaceCandidates::evaluate(const Candidate& candidate, FittedPalm held) {
-    double placement_m = placement_cost_m(candidate, held);
+    const double placement_m = placement_cost_m(candidate, held);
     add_crossing_depth(placement_m, held);
-    if (!is_cheaper(scored(held, placement_m, 0.0).cost_m)) {
-        return;
-    }
-    const FingerClearance clearance =
-        find_finger_clearance(fitter_.hand(), held.surface.fitted_wrist_bs, patch_);
-    if (clearance.penetration_m <= k_finger_penetration_tolerance_m) {
-        keep_better(scored(held, placement_m, 0.0));
-        return;
-    }
-    keep_better(scored(held, placement_m, clearance.penetration_m));
-    held = fit(candidate, clearance.finger_samples);
-    placement_m = placement_cost_m(candidate, held);
-    add_crossing_depth(placement_m, held);
-    if (is_cheaper(scored(held, placement_m, held.finger_penetration_m).cost_m)) {
-        const double sample_depth_m = sample_pose_depth_m(fitter_.hand(), clearance.finger_samples,
-                                                          held.surface.fitted_wrist_bs, patch_);
-        keep_better(scored(held, placement_m, std::max(held.finger_penetration_m, sample_depth_m)));
+    const Evaluated evaluated = scored(held, placement_m);
+    if (is_cheaper(evaluated.cost_m)) {
+        best_ = evaluated;
+        has_best_ = true;
     }
 }
 
 // A fit is abandoned early if its penetration alone costs more than the best candidate.
-FittedPalm SurfaceCandidates::fit(const Candidate& candidate,
-                                  const FingerSamplePoses& finger_samples) const {
-    return has_best_ ? fitter_.fit(candidate, finger_samples, best_.cost_m / k_penetration_cost)
-                     : fitter_.fit(candidate, finger_samples);
+FittedPalm SurfaceCandidates::fit(const Candidate& candidate) const {
+    return has_best_ ? fitter_.fit(candidate, best_.cost_m / k_penetration_cost)
+                     : fitter_.fit(candidate);
 }
 
 // Raises held.penetration_m to the depth of surfaces that cross the palm's capsules. The spheres
 // that fit_palm uses miss thin walls, rods and rims between them. Skipped if the candidate already
 // costs more than the best one.
 void SurfaceCandidates::add_crossing_depth(double placement_m, FittedPalm& held) const {
-    if (is_cheaper(scored(held, placement_m, held.finger_penetration_m).cost_m)) {
+    if (is_cheaper(scored(held, placement_m).cost_m)) {
         held.penetration_m = std::max(held.penetration_m, fitter_.crossing_depth_m(held));
     }
 }
@@ -131,21 +112,13 @@ double SurfaceCandidates::placement_cost_m(const Candidate& candidate,
     return cost_m;
 }
 
-SurfaceCandidates::Evaluated SurfaceCandidates::scored(const FittedPalm& held, double placement_m,
-                                                       double finger_depth_m) {
+SurfaceCandidates::Evaluated SurfaceCandidates::scored(const FittedPalm& held, double placement_m) {
     const bool has_clearance = held.penetration_m <= k_palm_penetration_tolerance_m &&
-                               finger_depth_m <= k_finger_penetration_tolerance_m;
-    const double depth_cost_m =
-        has_clearance ? 0.0
-                      : k_penetration_cost * held.penetration_m + k_finger_cost * finger_depth_m;
+                               held.finger_penetration_m <= k_finger_penetration_tolerance_m;
+    const double depth_cost_m = has_clearance ? 0.0
+                                              : k_penetration_cost * held.penetration_m +
+                                                    k_finger_cost * held.finger_penetration_m;
     return {held.surface, held.sync_m + placement_m + depth_cost_m, has_clearance};
-}
-
-void SurfaceCandidates::keep_better(const Evaluated& candidate) {
-    if (is_cheaper(candidate.cost_m)) {
-        best_ = candidate;
-        has_best_ = true;
-    }
 }
 
 }  // namespace handhold

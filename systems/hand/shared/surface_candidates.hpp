@@ -16,18 +16,16 @@ namespace handhold {
 //   cost = sync + placement
 //        + (without clearance) 12 * palm penetration + 9 * finger penetration
 // sync is the movement of the fitted, depenetrated palm (FittedPalm::sync_m). placement is a
-// penalty for backfaces and for palms inside a solid. A candidate at which fingers have no
-// clearance is evaluated again with them as part of the palm's collision shape. Candidates are
-// evaluated in the order of their closed-form costs (cost_of), which rarely exceed the full costs,
-// as long as the closed-form cost is below the best full cost.
+// penalty for backfaces and for palms inside a solid. Candidates are evaluated in the order of
+// their closed-form costs (cost_of), which rarely exceed the full costs, as long as the closed-form
+// cost is below the best full cost.
 //
-// Keeps references to its constructor arguments; `patch` is scratch.
+// Keeps references to its constructor arguments.
 class SurfaceCandidates {
   public:
     static constexpr std::size_t k_max_count = 14;
 
-    SurfaceCandidates(const PalmFitter& fitter, SurfaceSearch& search, const PalmTuning& tuning,
-                      ChainPatch& patch);
+    SurfaceCandidates(const PalmFitter& fitter, SurfaceSearch& search, const PalmTuning& tuning);
 
     // Returns the best surface; call once. The surface of `last` is the first candidate. The
     // result's triangle is k_none if there is no surface within reach. Precondition: last.triangle
@@ -45,17 +43,15 @@ class SurfaceCandidates {
     void search_surroundings();
     void evaluate(const Candidate& candidate, FittedPalm held);
     bool is_eligible(const Candidate& candidate) const;
-    FittedPalm fit(const Candidate& candidate, const FingerSamplePoses& finger_samples) const;
+    FittedPalm fit(const Candidate& candidate) const;
     double placement_cost_m(const Candidate& candidate, const FittedPalm& held) const;
     void add_crossing_depth(double placement_m, FittedPalm& held) const;
-    static Evaluated scored(const FittedPalm& held, double placement_m, double finger_depth_m);
-    void keep_better(const Evaluated& candidate);
+    static Evaluated scored(const FittedPalm& held, double placement_m);
     bool is_cheaper(double cost_m) const { return !has_best_ || cost_m < best_.cost_m; }
 
     const PalmFitter& fitter_;
     SurfaceSearch& search_;
     const PalmTuning& tuning_;
-    ChainPatch& patch_;
     Evaluated best_;
     bool has_best_ = false;
     // The palm may have crossed the first candidate's surface, so backfaces are evaluated as well.

@@ -4,7 +4,6 @@
 #include "engine/geometry/closest_point.hpp"
 #include "fitted_hand.hpp"
 #include "systems/hand/shared/finger_chain.hpp"
-#include "systems/hand/shared/finger_clearance.hpp"
 #include "systems/hand/shared/palm_fit.hpp"
 
 namespace handhold::search_grip_test {
@@ -28,29 +27,37 @@ inline double palm_penetration_m(FittedHand& hand) {
     return deepest_m;
 }
 
-// True if a surface crosses the axis of a finger without clearance, in the sample pose in which it
-// penetrates least.
-inline bool is_finger_crossed(FittedHand& hand) {
-    const GripSurface& surface = hand.surface.at(k_right);
-    ChainPatch patch;
-    const FingerClearance clearance =
-        find_finger_clearance(hand.hands.front(), surface.fitted_wrist_bs, patch);
-    for (std::size_t f = 0; f < hand.rig.fingers.size(); ++f) {
-        const FingerRig& finger = hand.rig.fingers[f];
-        const auto bent = sample_pose_angles(finger, clearance.finger_samples[f]);
-        if (!bent) {
+// Calls `use` with the penetration of each link of the open fingers, without the thumb.
+template <typename Use>
+void visit_open_fingers(const FittedHand& hand, const Pose& wrist_bs, Use&& use) {
+    for (const FingerRig& finger : hand.rig.fingers) {
+        if (finger.name == FingerName::thumb) {
             continue;
         }
-        const HingeChain chain =
-            finger_chain(finger, bent->opposition_rad, surface.fitted_wrist_bs);
-        const auto links = chain_capsules(chain, bent->curl_rad);
-        for (std::size_t i = 0; i < chain.link_count; ++i) {
-            if (find_penetration(links[i], hand.hands.front().meshes).crossed_at) {
-                return true;
-            }
+        const auto links = chain_capsules(finger_chain(finger, 0.0, wrist_bs), finger.lower_rad);
+        for (std::size_t i = 0; i < finger.link_count; ++i) {
+            use(find_penetration(links[i], hand.hands.front().meshes));
         }
     }
-    return false;
+}
+
+// Penetration of the open fingers.
+inline double finger_penetration_m(const FittedHand& hand, const Pose& wrist_bs) {
+    double deepest_m = 0.0;
+    visit_open_fingers(hand, wrist_bs, [&](const CapsulePenetration& found) {
+        deepest_m = std::max(deepest_m, found.depth_m);
+    });
+    return deepest_m;
+}
+
+// True if a surface crosses the axis of an open finger.
+inline bool is_finger_crossed(FittedHand& hand) {
+    bool is_crossed = false;
+    visit_open_fingers(hand, hand.surface.at(k_right).fitted_wrist_bs,
+                       [&](const CapsulePenetration& found) {
+                           is_crossed = is_crossed || found.crossed_at.has_value();
+                       });
+    return is_crossed;
 }
 
 }  // namespace handhold::search_grip_test

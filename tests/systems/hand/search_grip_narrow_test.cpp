@@ -7,7 +7,6 @@
 #include "fitted_hand.hpp"
 #include "held_hand.hpp"
 #include "systems/hand/shared/finger_chain.hpp"
-#include "systems/hand/shared/finger_clearance.hpp"
 #include "systems/hand/shared/palm_fit.hpp"
 #include "systems/rigs/authored_hand.hpp"
 #include "tests/engine/geometry/surface_cuts.hpp"
@@ -132,7 +131,7 @@ TEST(SearchGrip, RarelyHoldsPalmInsideWallsOfNarrowHole) {
 }
 
 // Hands in a box without a floor whose walls are thin enough to lie between the palm's spheres:
-// walls rarely cross the palm, or fingers that have no clearance where it is held.
+// walls rarely cross the palm or its open fingers.
 TEST(SearchGrip, RarelyHoldsHandThroughThinWall) {
     constexpr double k_half_m = 0.06;
     constexpr double k_height_m = 0.04;

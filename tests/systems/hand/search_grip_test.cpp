@@ -8,7 +8,6 @@
 #include "fitted_hand.hpp"
 #include "held_hand.hpp"
 #include "systems/hand/shared/finger_chain.hpp"
-#include "systems/hand/shared/finger_clearance.hpp"
 #include "systems/hand/shared/palm_fit.hpp"
 #include "systems/rigs/authored_hand.hpp"
 #include "tests/engine/geometry/surface_cuts.hpp"
@@ -16,7 +15,7 @@
 namespace handhold::search_grip_test {
 namespace {
 
-// A floor with a block in front of the palm: the fingers penetrate it in every sample pose.
+// A floor with a block in front of the palm: the open fingers penetrate it.
 GripMesh make_floor_and_block() {
     constexpr double k_front_m = -0.05;
     constexpr double k_back_m = -0.25;
@@ -44,29 +43,15 @@ struct FloorAndBlock {
     const GripMesh mesh = make_floor_and_block();
     const HandRig rig = builtin_hand_rig(HandSide::right);
     const Pose before_block = wrist_with_palm_at(rig, {0.0, 0.02, 0.0}, Vec3::UnitY());
-    ChainPatch patch;
-
-    double penetration_m(FittedHand& hand) {
-        return find_finger_clearance(hand.hands.front(), hand.surface.at(k_right).fitted_wrist_bs,
-                                     patch)
-            .penetration_m;
-    }
 };
 
 TEST(SearchGrip, ChoosesSurfaceWithFingerClearance) {
     FloorAndBlock scene;
     FittedHand hand(scene.mesh, scene.before_block);
-    // The surface under the palm has none.
-    GripSurface under;
-    under.normal_bs = Vec3::UnitY();
-    const auto near = scene.mesh.search_bvh.closest_point({0.0, 0.0, 0.0}, 0.1);
-    ASSERT_TRUE(near);
-    under.triangle = near->triangle;
-    const Pose fitted_wrist_bs = fit_palm(hand.hands.front(), under, {}, hand.tuning.palm).wrist_bs;
-    ASSERT_GT(find_finger_clearance(hand.hands.front(), fitted_wrist_bs, scene.patch).penetration_m,
-              0.005);
+    ASSERT_GT(finger_penetration_m(hand, scene.before_block), 0.005);
     hand.search();
-    EXPECT_LE(scene.penetration_m(hand), k_finger_penetration_tolerance_m);
+    EXPECT_LE(finger_penetration_m(hand, hand.surface.at(k_right).fitted_wrist_bs),
+              k_finger_penetration_tolerance_m);
 }
 
 // A gripping hand jumps into a block.
@@ -112,16 +97,10 @@ TEST(SearchGrip, MovesPalmUntilFingersAreClear) {
     // Tilted more than depenetrating the palm's own capsules needs.
     const Vec3 up = rotation_about(Vec3::UnitX(), -0.4) * Vec3::UnitY();
     FittedHand hand(floor, wrist_with_palm_at(rig, {0.013, 0.012, 0.007}, up));
-    ChainPatch patch;
-    GripSurface palm_alone;
-    palm_alone.triangle = floor.search_bvh.closest_point({0.013, 0.0, 0.007}, 0.1)->triangle;
-    const Pose alone_bs = fit_palm(hand.hands.front(), palm_alone, {}, hand.tuning.palm).wrist_bs;
-    ASSERT_GT(find_finger_clearance(hand.hands.front(), alone_bs, patch).penetration_m, 0.003);
+    ASSERT_GT(finger_penetration_m(hand, hand.wrist_bs()), 0.003);
     hand.search();
-    EXPECT_LE(
-        find_finger_clearance(hand.hands.front(), hand.surface.at(k_right).fitted_wrist_bs, patch)
-            .penetration_m,
-        k_finger_penetration_tolerance_m);
+    EXPECT_LE(finger_penetration_m(hand, hand.surface.at(k_right).fitted_wrist_bs),
+              k_finger_penetration_tolerance_m);
 }
 
 // Wrists at random near a ring. A hand searches again after 3 cm of travel, where 0.1 rad counts
