@@ -22,7 +22,7 @@ struct ActiveBodies {
     void reset(std::size_t count) {
         list.clear();
         noted.clear();
-        // A list holds each index at most once, so the stages allocate nothing.
+        // Each list holds an index at most once, so this capacity is never exceeded.
         list.reserve(count + 1);
         noted.reserve(count + 1);
         is_listed_.assign(count + 1, 0);

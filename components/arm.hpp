@@ -61,7 +61,10 @@ struct ArmEstimate {
         double stretch = 1.0;  // >= 1; scale of upper arm and forearm so that they reach the hand
     };
     Pose chest_ps;  // midway between the shoulders' rest positions; -Z ahead, +Y up
-    Vec3 facing_ps = -Vec3::UnitZ();     // horizontal unit vector: where the chest faces
+    Vec3 facing_ps = -Vec3::UnitZ();  // horizontal unit vector: where the chest faces
+    double lying = 0.0;               // [0, 1]; 1: the player lies, the trunk as the head's +Y
+    // From the point about which a neck bends, which stays if nothing else moves, to the chest.
+    Vec3 from_neck_m = Vec3::Zero();
     std::array<Arm, k_hand_count> arms;  // indexed by HandSide
 };
 

@@ -77,8 +77,8 @@ struct MoveTarget {
     Pose pose_ws;
 };
 
-// Share of the world's gravity that a free body feels, [-1e3, 1e3]. A body without one feels all.
-// Written by the host.
+// Share of the world's gravity that a free body feels, [-1e3, 1e3]. A body without this component
+// feels all of it. Written by the host.
 struct GravityScale {
     static constexpr double k_max = 1e3;
 
@@ -86,8 +86,8 @@ struct GravityScale {
 };
 
 // Contacts of bodies and players' heads: two touch only if each one's layers meet the other's mask.
-// Hands grip a body if its layers meet their player's GrabLayers. Without one: layer 1, all masks.
-// Written by the host.
+// Hands grip a body if its layers meet their player's GrabLayers. A body without this component has
+// layer 1 and all masks. Written by the host.
 struct CollisionFilter {
     std::uint32_t layers = 1;
     std::uint32_t mask = ~0U;

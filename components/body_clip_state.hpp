@@ -11,7 +11,7 @@ struct BodyClipState {
     // length. A new push-off starts only after the clip has ended.
     double push_off_s = 0.0;
     double push_off_weight = 0.0;  // [0, 1], from the speed at release; 0: no push-off yet
-    double outside = 1.0;  // [0, 1], share of the clips' turns for which surfaces leave room
+    double outside = 1.0;  // [0, 1]: factor on the clips' turns that keeps the body out of surfaces
 };
 
 }  // namespace handhold

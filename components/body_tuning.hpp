@@ -17,7 +17,7 @@ inline bool is_jump(double distance_m, double dt_s) {
     return distance_m > k_jump_m + k_jump_speed_mps * dt_s;
 }
 
-// Chest, shoulders and elbows: the constants that are a matter of looks. The fitted ones are in
+// Chest, shoulders and elbows: constants chosen by eye. Those fitted to data are in
 // systems/body/shared/body_constants.hpp.
 struct ArmTuning {
     double learned = 1.0;
@@ -70,7 +70,8 @@ struct AdditiveTuning {
 template <typename TuningType, typename See>
 void visit_body_tuning(TuningType& t, const See& see) {
     see("arm.learned", t.arm.learned, "", 0.0, 1.0,
-        "Weight of the fitted networks' corrections; 0: the talk's form alone.");
+        "Weight with which fitted neural networks correct the estimated chest and elbows; 0: "
+        "none.");
     see("arm.chest_limit_rad", t.arm.chest_limit_rad, "rad", 0.0, 3.0,
         "Maximum angle between the chest's facing and the head's look direction.");
     see("arm.chest_lag_s", t.arm.chest_lag_s, "s", 0.0, 10.0,
@@ -81,11 +82,11 @@ void visit_body_tuning(TuningType& t, const See& see) {
     see("arm.clavicle_share", t.arm.clavicle_share, "", 0.0, 3.0,
         "Scale of the clavicle's movement; 0: rigid clavicles.");
     see("arm.reach", t.arm.reach, "", 0.5, 1.0,
-        "Share of the arm's length above which the shoulder follows the hand before the bones "
-        "stretch.");
+        "Distance of a hand from its shoulder, as a share of the arm's length, above which the "
+        "shoulder follows the hand. The bones stretch only after that.");
     see("arm.shoulder_follow_m", t.arm.shoulder_follow_m, "m", 0.0, 0.5,
         "Maximum movement of a shoulder by clavicle and reach together, before the bones stretch; "
-        "what the clavicle alone does is not limited by it.");
+        "movement by the clavicle alone is not limited.");
     see("arm.swivel_lag_s", t.arm.swivel_lag_s, "s", 0.0, 10.0,
         "Time constant with which an elbow follows its wanted direction.");
     see("arm.swivel_speed_radps", t.arm.swivel_speed_radps, "rad/s", 0.1, 1e3,
@@ -95,8 +96,8 @@ void visit_body_tuning(TuningType& t, const See& see) {
     see("arm.elbow_cone_cosine", t.arm.elbow_cone_cosine, "", -2.0, 1.0,
         "Cosine of the half angle of the cone arm.elbow_cone; -1 or less: no limit.");
     see("arm.elbow_inertia", t.arm.elbow_inertia, "", 0.0, 1.0,
-        "Share by which a bent arm's elbow keeps its position while the hand moves; 0: none, 1: "
-        "all.");
+        "How much a bent arm's elbow keeps its position while the hand moves; 0: not at all, 1: "
+        "fully.");
     see("arm.chest_speed_radps", t.arm.chest_speed_radps, "rad/s", 0.1, 1e3,
         "Maximum angular speed of the chest.");
     see("calibration.hold_s", t.calibration.hold_s, "s", 0.1, 10.0,
@@ -116,8 +117,8 @@ void visit_body_tuning(TuningType& t, const See& see) {
     see("spine.drag_per_s", t.spine.drag_per_s, "1/s", 0.0, 100.0,
         "Drag rate of the spine and legs relative to the reference velocity.");
     see("spine.hand_back", t.spine.hand_back, "", 0.0, 1.0,
-        "Share of a joint's correction applied back to its parent; above 0.5 the chain does not "
-        "settle.");
+        "Damping of spine and legs: share of a joint's velocity correction that is subtracted "
+        "from its parent joint. Above 0.5 the chain oscillates.");
     see("spine.speed_max_mps", t.spine.speed_max_mps, "m/s", 0.1, 1000.0,
         "Maximum speed of any spine or leg joint relative to the reference velocity.");
     see("spine.twist_lag_s", t.spine.twist_lag_s, "s", 0.0, 10.0,
@@ -125,20 +126,21 @@ void visit_body_tuning(TuningType& t, const See& see) {
     see("spine.twist_limit_rad", t.spine.twist_limit_rad, "rad", 0.0, 1.5,
         "Maximum twist of each link against the link above.");
     see("spine.hang", t.spine.hang, "", 0.0, 10.0,
-        "How far the trunk turns to hang from the gripping hands: at 1, a hand at arm's length "
-        "turns "
-        "it by 0.7 of the angle. 0: off.");
+        "Strength with which the trunk turns to hang from the gripping hands; 0: off. At 1, a hand "
+        "at arm's length turns the trunk through 0.7 of the angle to hanging straight.");
     see("spine.hang_lag_s", t.spine.hang_lag_s, "s", 0.0, 10.0,
         "Mean delay with which the trunk follows the pull of the hands.");
     see("additive.idle", t.additive.idle, "", 0.0, 3.0, "Weight of the idle clip; 0: off.");
     see("additive.push_off", t.additive.push_off, "", 0.0, 3.0,
         "Weight of the push-off clip that plays when the last hand lets go; 0: off.");
     see("additive.push_off_speed_mps", t.additive.push_off_speed_mps, "m/s", 0.3, 100.0,
-        "Speed from which the push-off clip plays in full; it does not play below 0.2 m/s.");
+        "Player speed at a push-off from which the clip plays in full; below 0.2 m/s it does not "
+        "play.");
     see("additive.look", t.additive.look, "", 0.0, 3.0,
         "Weight of the clips driven by the head's look direction; 0: off.");
     see("additive.clavicle", t.additive.clavicle, "", 0.0, 3.0,
-        "Weight of the clavicle clip, whose turn comes on top of arm.clavicle_share; 0: off.");
+        "Weight of the clavicle clip, which adds to the movement that arm.clavicle_share scales; "
+        "0: off.");
 }
 
 }  // namespace handhold

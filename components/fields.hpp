@@ -23,7 +23,7 @@ inline constexpr std::uint32_t k_value_count = 0;
 template <>
 inline constexpr std::uint32_t k_value_count<BodyKind> = 3;
 template <>
-inline constexpr std::uint32_t k_value_count<TrackingState> = 3;
+inline constexpr std::uint32_t k_value_count<TrackingState> = 4;
 template <>
 inline constexpr std::uint32_t k_value_count<HandSide> = 2;
 template <>

@@ -68,9 +68,9 @@ struct FrameGraph {
     std::uint64_t proxy_set = 0;               // CollisionWorld::proxy_set() after place_colliders
     struct PhaseBody {
         Pose reached_ws;  // pose after the reach phase
-        // The facts from which systems/physics/shared/mass_shares.hpp decides who yields to whom.
-        // Players: kappa's share of the heaviest body that a hand holds by all its rows, from 0
-        // (light bodies do not move the player) to 1.
+        // From here to grips_surface: inputs of systems/physics/shared/mass_shares.hpp, which
+        // decides who yields to whom. Players: momentum_share of the heaviest body that a hand
+        // holds by all its rows, from 0 (light bodies do not move the player) to 1.
         double forward_share = 0.0;
         bool held = false;  // held by a hand, or connected by joints to a held body
         // Players: a hand grips a fixed, kinematic or heavy body or another player, or another
@@ -78,8 +78,9 @@ struct FrameGraph {
         bool grips_surface = false;
         bool pushed = false;  // the backward or contradiction phase ran on the body's island
         Vec3 velocity_before_mps = Vec3::Zero();  // players: velocity before the velocity solve
-        std::uint64_t work = 0;    // spent by the position solves of its islands (WorkBudget)
-        std::uint64_t visits = 0;  // contacts of its heaps that searches have visited
+        std::uint64_t work = 0;  // spent by the position solves of its islands (WorkBudget)
+        // contacts in its heaps visited by the contact searches of this frame
+        std::uint64_t visits = 0;
     };
     // graph.bodies has one more element at the end, the world, if a joint connects a body to the
     // world.
@@ -93,6 +94,7 @@ struct FrameGraph {
 
     // Scratch.
     std::vector<ContactPoint> fresh_contacts;
+    std::vector<ContactPoint> impacts;  // written by solve_phases
     // By element of the RigidBody column: index into graph.bodies.
     std::vector<std::uint32_t> body_of_row;
     // Written by build_constraints, in the order of the Grab column.
@@ -120,8 +122,8 @@ struct FrameGraph {
     // Sorted by island. Within an island, those kept at the first evaluation come first.
     std::vector<PenetratingBody> penetrating_bodies;
     MissedOverlaps hidden_overlaps;  // written by finish_positions; read by record_valid_poses
-    // Largest errors, by island. After a solve that met all its constraint rows: an upper bound.
-    // Otherwise none until something asks for the errors.
+    // Largest errors, one per island. Exact, or an upper bound if the island's last solve
+    // converged. Nullopt until they are first needed.
     std::vector<std::optional<IslandErrors>> island_errors;
     std::vector<VelocityResult> velocity_results;  // indexed by island
     std::vector<SolveScratch> island_scratch;

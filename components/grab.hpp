@@ -60,16 +60,19 @@ struct Grab {
     Vec3 target_spin_ps_radps = Vec3::Zero();
     double since_s = 0.0;  // time at which the hand closed; see is_first_hand
     double error_m = 0.0;  // distance between hand and anchor at the end of the frame
-    // Both hands of the player hold the body and drive it together: the first hand's point, the
-    // line between the hands, and the twist about that line.
+    // Both hands of the player hold the body and drive it together: its gripped point follows the
+    // first hand, its direction follows the line between the hands, and its twist about that line
+    // is the mean of both hands' twists.
     bool two_handed = false;
     // Joints connect the held body to something fixed; the hand may turn on it as on a surface.
     bool jointed = false;
     // Displacement of the hand by tracking errors: the hand's first anchor in the frame of the
-    // present one. Identity: none. A held free body returns by it (move_into_hand).
+    // present one. Identity: none. A held free body moves back into the hand by it
+    // (move_into_hand).
     Pose slip_hs;
 };
-// True if the player can pull on what the hand grips: it does not come along as a loose body does.
+// True if the player can pull on what the hand grips. False for a loose body, which would just move
+// with the hand.
 inline bool can_push_off(const Grab& grab) {
     return grab.kind == GripKind::surface || grab.kind == GripKind::player || grab.jointed;
 }
@@ -86,23 +89,25 @@ struct HandSight {
     bool is_clear = true;            // no wall from outside_bs, or from the head, to the palm
 };
 
-// Which hands may grip a body. A body without one may be gripped by any hand. Written by the host.
+// Which hands may grip a body. A body without this component may be gripped by any hand. Written by
+// the host.
 struct GrabRule {
     bool left = true;
     bool right = true;
     bool two_hands = false;  // only by both hands of one player at once
-    // Of the bodies in reach of a closing hand, one of highest priority is gripped; 0: none set.
+    // A closing hand grips the body of highest priority within its reach. Default 0.
     std::int32_t priority = 0;
 };
 
-// Layers of the bodies that a player's hands grip. A player without one grips all. Written by the
-// host.
+// Layers of the bodies that a player's hands grip. A player without this component grips all.
+// Written by the host.
 struct GrabLayers {
     std::uint32_t layers = ~0U;
 };
 
-// A host's order to a hand: grip `body` (a body, or another player's head) wherever the hand is, or
-// let go without a throw if it is null. Carried out and removed by update_grabs in the next frame.
+// A host's order to a hand: grip `body` (a body, or another player's head), wherever the hand is. A
+// null `body` orders the hand to let go without a throw. Carried out and removed by update_grabs in
+// the next frame.
 struct GrabOrder {
     Entity body = k_no_entity;
 };

@@ -67,8 +67,8 @@ struct FingerPose {
     // Digits in their authored pose, and digits whose authored pose penetrates in this grip.
     std::array<bool, k_finger_count> is_authored = {};
     std::array<bool, k_finger_count> authored_pose_rejected = {};
-    // What the digits closed for: they close again on another body, at another place of its
-    // surface, in another grip, or far from this wrist. Null body: not closed.
+    // Cache key of the closing. The digits close again on another body, at another place of its
+    // surface, in another grip, or after enough wrist travel. Null body: not closed.
     Entity closed_body = k_no_entity;
     Pose closed_wrist_bs;  // wrist of the closed hand with the held palm
     Vec3 closed_point_bs = Vec3::Zero();
@@ -76,8 +76,8 @@ struct FingerPose {
     bool is_closed_in_grip = false;  // closed by an authored grip
     // True until fit_hands has fitted the closing.
     bool is_newly_closed = false;
-    // The body that `target` was fitted to, null if none, and digits known to be outside its solids
-    // there.
+    // The body that `target` was fitted to; null: none. Below, the digits that this fit left
+    // outside of solids.
     Entity fitted_body = k_no_entity;
     std::array<bool, k_finger_count> is_clear = {};
     // Cache key of the target: tracked wrist and HandSurroundings::signature of the last fit.

@@ -69,6 +69,7 @@ void visit_fields(const HandTracking& c, V&& visit) {
     visit("interrupted", c.interrupted);
     visit("reading_ps", c.reading_ps);
     visit("reading_t_s", c.reading_t_s);
+    visit("inferred_t_s", c.inferred_t_s);
     visit("edge", c.edge);
     visit("edge_t_s", c.edge_t_s);
     visit("edge_ps", c.edge_ps);
@@ -76,6 +77,7 @@ void visit_fields(const HandTracking& c, V&& visit) {
     visit("raw_pressed", c.raw_pressed);
     visit("squeeze", c.squeeze);
     visit("trigger", c.trigger);
+    visit("curls", c.curls);
     visit("release_velocity_ps_mps", c.release_velocity_ps_mps);
     visit("release_spin_ps_radps", c.release_spin_ps_radps);
 }

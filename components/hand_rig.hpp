@@ -15,8 +15,6 @@
 // while frames run.
 namespace handhold {
 
-enum class FingerName : std::uint8_t { thumb, index, middle, ring, little };
-inline constexpr std::size_t k_finger_count = 5;
 inline constexpr std::size_t k_max_links = 3;
 
 // One finger: a chain of hinges in one plane, the finger's disc. Link i runs from hinge i to hinge
@@ -68,8 +66,8 @@ struct HandRig {
     std::vector<RigJoint> joints;                    // empty: no skin
 };
 
-// A hand that has its own rig: index into FrameCaches::more_hand_rigs. A hand without one, or with
-// an index beyond the list, has the rig of its side. Written by the host.
+// A hand that has its own rig: index into FrameCaches::more_hand_rigs. A hand without this
+// component, or with an index beyond the list, has the rig of its side. Written by the host.
 struct HandRigChoice {
     std::uint32_t index = 0;
 };

@@ -3,13 +3,12 @@
 #include "components/grab.hpp"
 #include "engine/ecs/column.hpp"
 
-// Finds a player's hands in the columns, and tells how two hands of one player grip. "Row" here
-// means the index of an element in a column.
+// Finds a player's hands in the columns, and tells how two hands of one player grip.
 namespace handhold {
 
-// Returns the row of a hand of `player`, or the column's size if the player has no hand. Searches
-// from row `from` and wraps around at the end. A player's hands usually lie in adjacent rows, so
-// that a good `from` needs one or two steps.
+// Returns the index of a hand of `player` in the column, or the column's size if the player has no
+// hand. Searches from index `from` and wraps around at the end. A player's hands are usually
+// adjacent, so that a good `from` needs one or two steps.
 inline std::size_t find_hand_row(const Column<HandOwner>& owner, Entity player, std::size_t from) {
     const std::size_t count = owner.size();
     for (std::size_t step = 0; step < count; ++step) {
@@ -21,13 +20,13 @@ inline std::size_t find_hand_row(const Column<HandOwner>& owner, Entity player, 
     return count;
 }
 
-// `row` is the row of a hand in `grab`. Returns the row of the same player's other hand;
-// grab.size() if none.
+// `row` is the index of a hand in `grab`. Returns the index of the same player's other hand;
+// grab.size() if there is none.
 inline std::size_t find_other_hand(const Column<HandOwner>& owner, const Column<Grab>& grab,
                                    std::size_t row) {
     const std::size_t own = owner.find_row(grab.owners()[row]);
     const Entity player = owner.rows()[own].player;
-    // The left hand's row usually comes just before the right hand's.
+    // The left hand usually comes just before the right hand.
     const std::size_t adjacent =
         owner.rows()[own].side == HandSide::left ? own + 1 : own + owner.size() - 1;
     std::size_t other = find_hand_row(owner, player, adjacent);
@@ -47,15 +46,15 @@ inline bool share_free_body(const Grab& a, const Grab& b) {
 }
 
 // True if two hands of one player grip together: both on surfaces, or both on the same body. If
-// their targets contradict each other, the position error is shared between them. When one hand
+// their targets contradict each other, the position error is divided between them. When one hand
 // lets go, the other gets a new anchor.
 inline bool share_hold(const Grab& a, const Grab& b) {
     const bool both_fixed = a.kind == GripKind::surface && b.kind == GripKind::surface;
     return both_fixed || (a.kind != GripKind::none && a.kind == b.kind && a.body == b.body);
 }
 
-// True if the hand at `row` is the first of two hands on one body: the hand that closed earlier, or
-// the left hand if both closed at the same time.
+// True if the hand at index `row` is the first of two hands on one body: the hand that closed
+// earlier, or the left hand if both closed at the same time.
 inline bool is_first_hand(const Column<HandOwner>& owner, const Column<Grab>& grab, std::size_t row,
                           std::size_t other) {
     const double difference_s = grab.rows()[row].since_s - grab.rows()[other].since_s;

@@ -37,8 +37,9 @@ struct PushBack {
     double distance_m = 0.0;
 };
 
-// Velocity relative to which drag, brake and the release clamp act: that of the body last gripped
-// at the point of the grip, else the scene's. Written by locomote_players.
+// Velocity relative to which drag, brake and the release clamp act: the velocity of the body last
+// gripped, at the gripped point, or the scene's velocity before the first grip. Written by
+// locomote_players.
 struct ReferenceVelocity {
     Vec3 linear_mps = Vec3::Zero();
     Entity body = k_no_entity;     // last gripped; null: none yet
@@ -46,12 +47,12 @@ struct ReferenceVelocity {
 };
 
 // Bodies that do not collide with the player's head: those in the player's hands, and released ones
-// until they no longer touch the head. update_grabs adds them, find_contacts removes them. When all
-// places are used, they are overwritten in turn.
+// until they no longer touch the head. update_grabs adds them, find_contacts removes them. When the
+// array is full, the oldest entry is overwritten.
 struct HeadIgnores {
     static constexpr std::size_t k_capacity = 8;
     std::array<Entity, k_capacity> bodies;  // null: unused
-    std::uint32_t next = 0;                 // index of the place that is overwritten next
+    std::uint32_t next = 0;                 // index of the entry that is overwritten next
 };
 
 }  // namespace handhold

@@ -46,6 +46,11 @@ void visit_fields(const HeadTracking& c, V&& visit) {
     visit("state", c.state);
     visit("shift_m", c.shift_m);
     visit("shift_turn", c.shift_turn);
+    visit("is_inferred", c.is_inferred);
+}
+template <typename V>
+void visit_fields(const RecenterGuess& c, V&& visit) {
+    visit("guesses", c.guesses);
 }
 template <typename V>
 void visit_fields(const EarlySample& c, V&& visit) {
@@ -57,6 +62,14 @@ void visit_fields(const EarlySample& c, V&& visit) {
     visit("grab", c.grab);
     visit("squeeze", c.squeeze);
     visit("trigger", c.trigger);
+    visit("head_inferred", c.head_inferred);
+    visit("inferred", c.inferred);
+    visit("curls", c.curls);
+}
+template <typename V>
+void visit_fields(const EarlySamples& c, V&& visit) {
+    visit("count", c.count);
+    visit("samples", c.samples);
 }
 template <typename V>
 void visit_fields(const HeadIgnores& c, V&& visit) {
@@ -112,6 +125,8 @@ template <typename V>
 void visit_fields(const ArmEstimate& c, V&& visit) {
     visit("chest_ps", c.chest_ps);
     visit("facing_ps", c.facing_ps);
+    visit("lying", c.lying);
+    visit("from_neck_m", c.from_neck_m);
     visit("arms", c.arms);
 }
 template <typename V>
@@ -156,6 +171,7 @@ void visit_fields(const SpineMemory& c, V&& visit) {
     visit("since_tick_s", c.since_tick_s);
     visit("moved_m", c.moved_m);
     visit("chest_ps", c.chest_ps);
+    visit("neck_ps", c.neck_ps);
     visit("rate_mps", c.rate_mps);
     visit("rate_span_s", c.rate_span_s);
     visit("tick_chest_ps", c.tick_chest_ps);

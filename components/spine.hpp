@@ -21,8 +21,8 @@ inline BodyLinkVectors zero_vectors() {
     return zero;
 }
 
-// Parts of the body that keep in front of surfaces: the trunk, left thigh, left shin, right thigh,
-// right shin.
+// Parts of the body that are kept outside of surfaces: the trunk, left thigh, left shin, right
+// thigh, right shin.
 inline constexpr std::size_t k_body_parts = 1 + 2 * k_hand_count;
 inline constexpr std::size_t body_part_of(std::size_t link) {
     return link < k_spine_links ? 0 : link - k_spine_links + 1;
@@ -38,7 +38,7 @@ struct BodyContact {
     double surface_m = 0.0;          // includes the part's thickness
 };
 
-// The last search for a surface along a part of the body, and its answer. Written by
+// The last search for a surface along a part of the body, and its result. Written by
 // find_body_contacts, which repeats it when the part or a surface near it has moved.
 struct BodySearch {
     bool known = false;           // false: the next search casts
@@ -50,12 +50,12 @@ struct BodySearch {
     Vec3 normal_ws = Vec3::UnitY();  // unit, towards the cast
 };
 
-// What pulls a player: the gripping hands. Play-space axes.
+// How strongly and in which direction the gripping hands pull the trunk. Play-space axes.
 struct BodyPull {
-    Vec3 now = Vec3::Zero();         // followed with a lag, at the last tick; length in [0, 1)
+    Vec3 now = Vec3::Zero();  // pull at the last tick; follows `hands` with a lag; length in [0, 1)
     Vec3 before = Vec3::Zero();      // one tick earlier
     Vec3 rate_per_s = Vec3::Zero();  // rate of change of `now`
-    // The sum of the lines from the chest to the hands in the last frame, in arm lengths.
+    // Sum of the vectors from the chest to the gripping hands in the last frame, in arm lengths.
     Vec3 hands = Vec3::Zero();
     Vec3 hands_before = Vec3::Zero();  // one frame earlier
 };
@@ -67,9 +67,10 @@ struct BodyPull {
 struct SpineMemory {
     bool known = false;                     // false: the next frame starts from rest
     double since_tick_s = 0.0;              // time since the last tick; [0, k_spine_tick_s)
-    Vec3 moved_m = Vec3::Zero();            // chest displacement since the last tick
+    Vec3 moved_m = Vec3::Zero();            // neck's displacement since the last tick
     Pose chest_ps;                          // chest at the end of the last frame
-    Vec3 rate_mps = Vec3::Zero();           // chest velocity in the last frame
+    Vec3 neck_ps = Vec3::Zero();            // neck then: chest less ArmEstimate::from_neck_m
+    Vec3 rate_mps = Vec3::Zero();           // velocity of the neck in the last frame
     double rate_span_s = 1.0;               // duration of the last frame; > 0
     Quat tick_chest_ps = Quat::Identity();  // chest rotation at the last tick
     Vec3 reference_ws_mps = Vec3::Zero();  // reference velocity (see ReferenceVelocity), last frame

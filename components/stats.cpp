@@ -43,6 +43,8 @@ constexpr EnumTexts<Fallback> k_fallbacks = {{
     {Fallback::device_asleep, "device_asleep"},
     {Fallback::hand_implausible, "hand_implausible"},
     {Fallback::space_recentred, "space_recentred"},
+    {Fallback::sample_too_far_ahead, "sample_too_far_ahead"},
+    {Fallback::sample_too_old, "sample_too_old"},
     {Fallback::grab_no_surface, "grab_no_surface"},
     {Fallback::grip_stretched, "grip_stretched"},
     {Fallback::grip_lost, "grip_lost"},

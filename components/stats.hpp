@@ -46,14 +46,16 @@ enum class Stage : std::uint8_t {
 // event is counted.
 enum class Fallback : std::uint8_t {
     // Input.
-    sample_out_of_order,  // a sample older than the previous one: ignored
-    sample_not_finite,    // one device's pose in a sample is not finite: ignored
-    tracking_lost,        // a device is silent or invalid: its pose is frozen
-    hand_out_of_reach,    // hand farther from its head than HandTuning::max_arm_m: sample ignored
-    head_recentred,       // head moved more than TrackingTuning::max_jump_m: the player stays put
-    device_asleep,        // a controller at exactly (0, 0, 0): sample ignored
-    hand_implausible,     // faster than TrackingTuning::max_hand_speed_mps: sample ignored
-    space_recentred,      // head and hands jumped as one rigid body: the player stays put
+    sample_out_of_order,   // a sample older than the previous one: ignored
+    sample_not_finite,     // one device's pose in a sample is not finite: ignored
+    tracking_lost,         // a device is silent or invalid: its pose is frozen
+    hand_out_of_reach,     // hand farther from its head than HandTuning::max_arm_m: sample ignored
+    head_recentred,        // head moved more than TrackingTuning::max_jump_m: the player stays put
+    device_asleep,         // a controller at exactly (0, 0, 0): sample ignored
+    hand_implausible,      // faster than TrackingTuning::max_hand_speed_mps: sample ignored
+    space_recentred,       // head and hands jumped as one rigid body: the player stays put
+    sample_too_far_ahead,  // a sample more than 0.5 s or 64 samples after the frame: dropped
+    sample_too_old,        // a sample more than 0.5 s before the frame: another clock's?
     // Grabs.
     grab_no_surface,       // a hand closed with no surface in reach
     grip_stretched,        // hand farther from its anchor than HandTuning::max_stretch_m: let go
@@ -63,8 +65,8 @@ enum class Fallback : std::uint8_t {
     two_hand_grip_ended,   // one of two hands let go: the body is not thrown
     hands_too_close,       // both hands too close on one free body: only the first hand drives it
     grab_refused_by_rule,  // a body within reach or pull refuses the hand: GrabRule or GrabLayers
-    grab_needs_two_hands,  // the body is gripped by both hands or by none, and one closed
-    grip_needs_two_hands,  // one of both hands left such a body: the other lets go
+    grab_needs_two_hands,  // the rule asks for two hands, but only one closed
+    grip_needs_two_hands,  // one of two hands left a two-handed body: the other lets go
     grip_ended_by_host,    // released by a GrabOrder
     grip_out_of_reach,     // palm too far from its surface after a tracking error: let go
     grip_speed_limited,    // a gripping hand was faster than max_hand_speed_mps: its anchor slips
@@ -79,10 +81,10 @@ enum class Fallback : std::uint8_t {
     active_set_not_converged,
     hands_load_stepped,      // a solve ran out of iterations, then converged by load stepping
     load_stepping_failed,    // load stepping failed too: the first result is kept
-    friction_not_converged,  // stick or slip did not converge: last iterate, or sweeps
-    // An island spent its WorkBudget: the rest goes on in the next frame.
+    friction_not_converged,  // stick or slip did not converge: the last iterate is used, or sweeps
+    // An island spent its WorkBudget: its solve continues in the next frame.
     solver_budget,
-    // A pair of bodies that overlap deeply waits: CollisionWork::deferred_pairs.
+    // Contacts of a deeply overlapping pair were postponed: CollisionWork::deferred_pairs.
     pairs_deferred,
     release_speed_clamped,
     object_speed_clamped,
@@ -91,7 +93,7 @@ enum class Fallback : std::uint8_t {
     finger_full_search,   // the seeded searches did not suffice: all triangles in reach were tested
     finger_depenetrated,  // the closed finger penetrated: moved to a sample pose
     finger_opened,        // the finger still penetrated: opened step by step
-    finger_no_contact,    // a closing digit touches nothing: it goes with its neighbours
+    finger_no_contact,    // a closing digit touches nothing: it bends like its neighbours
     hand_penetrates,      // the fitted hand still penetrates by more than 3 mm: shown like that
     body_no_surface,      // the gripped body has no grip mesh: hand shown as tracked
     palm_no_surface,      // no surface near a gripping palm: hand shown as tracked
@@ -105,9 +107,9 @@ enum class Fallback : std::uint8_t {
     pull_refused_fixed,  // the body cannot move or has joints
     pull_refused_heavy,  // the body is heavier than PullTuning::max_mass_kg
     pull_refused_held,   // the body is held, or pulled by another hand
-    pull_lost,  // body gone, too far or held, or hand not tracked: the pull ends, the body flies on
+    pull_lost,           // body gone, too far or held, or hand not tracked: the pull ends
     // Hosts.
-    surface_answer_invalid,  // a host answered a query with numbers that mean nothing: no surface
+    surface_answer_invalid,  // a host answered a query with invalid numbers: counts as no surface
     count
 };
 
@@ -122,8 +124,8 @@ struct MomentumLedger {
                                                     Vec3::Zero()};
 };
 
-// A hand that did not grip, or let go without its button, and why: with `reason` counted. `body`
-// may be null.
+// Why a hand did not grip, or let go although its button is down: a fallback counted in this frame.
+// `body` may be null.
 struct HandNote {
     Entity hand;
     Entity body;

@@ -16,6 +16,15 @@ enum class HandSide : std::uint8_t { left, right };
 inline constexpr std::size_t k_hand_count = 2;
 inline constexpr std::size_t index_of(HandSide side) { return static_cast<std::size_t>(side); }
 
+enum class FingerName : std::uint8_t { thumb, index, middle, ring, little };
+inline constexpr std::size_t k_finger_count = 5;
+
+// How far each finger is bent, indexed by FingerName: 0 straight, 1 as in a fist.
+using FingerCurls = std::array<double, k_finger_count>;
+inline constexpr double k_unknown_curl = -1.0;  // nobody measures the finger
+inline constexpr FingerCurls k_unknown_curls = {k_unknown_curl, k_unknown_curl, k_unknown_curl,
+                                                k_unknown_curl, k_unknown_curl};
+
 // One reading of one controller. Not tracked: a pose that is not finite, a rotation that is not of
 // unit length, or a position of exactly (0, 0, 0).
 struct ControllerSample {
@@ -25,12 +34,16 @@ struct ControllerSample {
     // How far the index finger's trigger is pressed, [0, 1]. Bends the index finger of an empty
     // hand, and the fingers of authored grips that follow the trigger.
     double trigger = 0.0;
+    bool is_inferred = false;  // true: the runtime guesses the pose, it does not see the device
+    // Shapes an empty hand; before squeeze and trigger where a finger's curl is known.
+    FingerCurls curls = k_unknown_curls;
 };
 // Readings of all devices at one time. Input, not state.
 struct TrackingSample {
     double t_s = 0.0;                                        // time on the frame clock
     Pose head_ps;                                            // frame between the eyes
     std::array<ControllerSample, k_hand_count> controllers;  // indexed by HandSide
+    bool is_head_inferred = false;  // true: the runtime guesses the head's position
 };
 
 // Commands from sticks and buttons for one frame. All zero: none.
@@ -56,6 +69,9 @@ enum class TrackingState : std::uint8_t {
     never,    // no valid sample yet: the device does not exist
     tracked,  // the last valid sample is not older than TrackingTuning::lost_after_s
     lost,     // the pose is frozen at the last valid one
+    // Hands only: the pose follows guesses of the runtime, or is frozen while the hand grips what
+    // the player can pull on. Such a hand neither grips nor moves the player.
+    inferred,
 };
 
 // The head of a player. Written by read_tracking; read by all later stages.
@@ -67,10 +83,18 @@ struct HeadTracking {
     Pose before_ps;  // valid sample before that one
     double before_t_s = 0.0;
     TrackingState state = TrackingState::never;
-    // Corrects samples: pose_ps = (shift_m, shift_turn) * sample. When the samples jump
-    // (recentring, a tracking error), it changes so that the head stays where it was in the world.
+    // Correction of samples: pose_ps = (shift_m, shift_turn) * sample. When samples jump
+    // (recentring, a tracking error), the correction changes so that the head stays where it was in
+    // the world.
     Vec3 shift_m = Vec3::Zero();
     Quat shift_turn = Quat::Identity();  // turn about +Y
+    bool is_inferred = false;            // the last sample's position is a guess of the runtime
+};
+
+// Whether jumps of all samples count as recentrings of the device, which the player does not see.
+// Only players with another answer than yes have this component. Written by the host.
+struct RecenterGuess {
+    bool guesses = false;  // false: the host announces recentrings, every other jump is meant
 };
 
 enum class GrabEdge : std::uint8_t { none, onset, release };
@@ -93,32 +117,45 @@ struct HandTracking {
     // have moved too fast.
     Pose reading_ps;
     double reading_t_s = 0.0;
+    double inferred_t_s = 0.0;  // time of the last guess; used in state `inferred`
     // At most one edge per frame and hand. If a button bounces faster, the next frame begins with
     // the next edge.
     GrabEdge edge = GrabEdge::none;
-    double edge_t_s = 0.0;     // time of the edge's sample, within the frame
-    Pose edge_ps;              // hand at that time
-    bool pressed = false;      // state after the edge
-    bool raw_pressed = false;  // value in the last sample
-    double squeeze = 0.0;      // value in the last sample, [0, 1]
-    double trigger = 0.0;      // value in the last sample, [0, 1]
+    double edge_t_s = 0.0;                // time of the edge's sample, within the frame
+    Pose edge_ps;                         // hand at that time
+    bool pressed = false;                 // state after the edge
+    bool raw_pressed = false;             // value in the last sample
+    double squeeze = 0.0;                 // value in the last sample, [0, 1]
+    double trigger = 0.0;                 // value in the last sample, [0, 1]
+    FingerCurls curls = k_unknown_curls;  // value in the last sample: [0, 1] or k_unknown_curl
     // At a release: velocity of the hand in play space over TrackingTuning::release_window_s.
     Vec3 release_velocity_ps_mps = Vec3::Zero();
     Vec3 release_spin_ps_radps = Vec3::Zero();
 };
 
-// A player's sample of after the last frame's end, for hosts that give each sample once: it comes
-// before the next frame's samples. Only players with such a sample have this component. Written and
-// read by the C interface.
+// A sample later than the end of the last frame.
 struct EarlySample {
     double t_s = 0.0;
     Pose head_ps;
     std::array<Pose, k_hand_count> controllers_ps;  // indexed by HandSide
-    bool head_tracked = false;                      // false: the pose says nothing
+    bool head_tracked = false;                      // false: the pose is invalid
     std::array<bool, k_hand_count> tracked = {};    // indexed by HandSide
     std::array<bool, k_hand_count> grab = {};       // indexed by HandSide
     std::array<double, k_hand_count> squeeze = {};  // indexed by HandSide
     std::array<double, k_hand_count> trigger = {};  // indexed by HandSide
+    bool head_inferred = false;
+    std::array<bool, k_hand_count> inferred = {};  // indexed by HandSide
+    std::array<FingerCurls, k_hand_count> curls = {k_unknown_curls,
+                                                   k_unknown_curls};  // hands, by HandSide
+};
+
+// A player's samples later than the end of the last frame, as devices that predict poses send them.
+// Hosts pass each sample once; it is used in the frame of its time, before that frame's samples.
+// Only players with such samples have this component. Written and read by the C interface.
+struct EarlySamples {
+    static constexpr std::size_t k_capacity = 64;
+    std::uint32_t count = 0;                           // number of samples, at most k_capacity
+    std::array<EarlySample, k_capacity> samples = {};  // ascending times
 };
 
 // The hand's last samples in a ring, for velocities that do not depend on the frame rate. Written

@@ -113,7 +113,8 @@ struct ContactTuning {
 
 struct SolverTuning {
     NewtonSettings positions;  // settings of solve_positions
-    // In place of positions.regularisation.drive in the forward phase: contacts outweigh hands.
+    // Replaces positions.regularisation.drive in the forward phase, where contacts must outweigh
+    // hands.
     double forward_drive_regularisation = 1e-3;
     std::int32_t friction_passes = VelocitySettings{}.friction_passes;
 };
@@ -154,7 +155,7 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         visit(TuningInfo{name, unit, low, high, what}, field);
     };
     see("tracking.lost_after_s", t.tracking.lost_after_s, "s", 0.02, 10.0,
-        "Silent or invalid time after which a device counts as lost and its pose is frozen.");
+        "Time without a valid sample after which a device counts as lost and its pose is frozen.");
     see("tracking.max_jump_m", t.tracking.max_jump_m, "m", 0.1, 1000.0,
         "Head movement between two samples above which the headset counts as re-centred: the "
         "player stays in place.");
@@ -184,7 +185,7 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "Speed at which a held body comes back to its hand after a tracking error.");
     see("hand.part_speed_mps", t.hand.part_speed_mps, "m/s", 0.0, 100.0,
         "Greatest speed at which a grip on another player's arm, trunk or leg follows that part, "
-        "relative to the player. Limits how fast a jump of the estimated body moves either one.");
+        "relative to the player. Limits how fast a jump of the estimated body moves both players.");
     see("hand.swing_lag_s", t.hand.swing_lag_s, "s", 0.0, 10.0,
         "Time constant with which a grip on another player's trunk or leg follows that "
         "part. Damps the feedback: the part moves because the grip moves its player.");
@@ -217,7 +218,8 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "Penetration depth above which a closing finger tests every triangle in reach, and above "
         "which a finger does not take its authored pose.");
     see("finger.open_depth_m", t.finger.open_depth_m, "m", 0.0, 0.1,
-        "Penetration depth above which a depenetrated finger is also opened step by step.");
+        "Penetration depth left after depenetration above which a finger is also opened step by "
+        "step.");
     see("finger.open_step_rad", t.finger.open_step_rad, "rad", 1e-3, 1.0,
         "Opening step while a finger is depenetrated.");
     see("finger.open_steps", t.finger.open_steps, "", 0.0, 64.0,
@@ -321,7 +323,9 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "the "
         "hand regularisation is reduced, as after one fast step.");
     see("solver.linear_decrease_ratio", t.solver.positions.schedule.linear_decrease_ratio, "", 0.0,
-        1.0, "Largest share of the error that a step of slow decrease may leave.");
+        1.0,
+        "A Newton step that leaves less than this share of the error counts towards "
+        "solver.linear_decrease_steps.");
     see("solver.max_step_rotation_rad", t.solver.positions.schedule.max_step_rotation_rad, "rad",
         1e-3, 3.0, "Maximum rotation of a body in one Newton step; larger steps are scaled down.");
     see("solver.min_step_scale", t.solver.positions.schedule.min_step_scale, "", 0.0, 1.0,

@@ -40,8 +40,8 @@ Entity add_named(World& world, std::string_view name) {
     const Entity entity = world.entities.create();
     world.persistent_id.add(entity, id);
     world.entity_by_id.add(id, entity);
-    // Names outlive their entities, because a snapshot may bring them back. Now and then those of
-    // entities that are gone are dropped.
+    // Names outlive their entities, because a snapshot may restore those. Names of destroyed
+    // entities are dropped once they are the majority.
     if (world.name_of_id.size() > 2 * world.persistent_id.size() + 64) {
         std::erase_if(world.name_of_id, [&world](const auto& named) {
             return is_null(world.entity_by_id.find({named.first}));
@@ -267,8 +267,8 @@ bool destroy(World& world, Entity entity) {
     }
     const std::span<const Entity> listed = world.joints_by_body.of(entity);
     std::vector<Entity> joints(listed.begin(), listed.end());
-    // Destroys joints from the last row to the first, so that the order in which slots become free
-    // does not depend on the cache.
+    // Destroys joints from the last to the first, so that the order in which slots become free does
+    // not depend on the cache.
     std::ranges::sort(joints, std::ranges::greater(),
                       [&world](Entity joint) { return world.joint.find_row(joint); });
     for (const Entity joint : joints) {

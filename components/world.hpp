@@ -86,13 +86,14 @@ struct World {
     Column<FingerPose> finger_pose;
     // Only hands with a controller-to-hand pose of their own; other hands use HandTuning.
     Column<ControllerToHand> controller_to_hand;
-    Column<AuthoredHold> authored_hold;  // only hands in an authored grip
-    Column<BodyHold> body_hold;          // only hands on another player's arm, trunk or leg
-    Column<HandPull> hand_pull;          // only hands that pull a body from a distance
-    Column<EarlySample> early_sample;    // only players with a sample of after the last frame
-    Column<GrabLayers> grab_layers;      // only players whose hands do not grip everything
-    Column<GrabOrder> grab_order;        // only hands with an order for the next frame
-    Column<HandRigChoice> hand_rig;      // only hands with a rig of their own
+    Column<AuthoredHold> authored_hold;    // only hands in an authored grip
+    Column<BodyHold> body_hold;            // only hands on another player's arm, trunk or leg
+    Column<HandPull> hand_pull;            // only hands that pull a body from a distance
+    Column<EarlySamples> early_samples;    // only players with samples later than the last frame
+    Column<RecenterGuess> recenter_guess;  // only players whose samples' jumps are meant
+    Column<GrabLayers> grab_layers;        // only players whose hands do not grip everything
+    Column<GrabOrder> grab_order;          // only hands with an order for the next frame
+    Column<HandRigChoice> hand_rig;        // only hands with a rig of their own
 
     // Caches of persistent_id and joint, maintained by the functions below. Not state.
     EntityById entity_by_id;
@@ -150,7 +151,8 @@ void visit_columns(WorldType& world, Visit&& visit) {
     visit("authored_hold", world.authored_hold);
     visit("body_hold", world.body_hold);
     visit("hand_pull", world.hand_pull);
-    visit("early_sample", world.early_sample);
+    visit("early_samples", world.early_samples);
+    visit("recenter_guess", world.recenter_guess);
     visit("grab_layers", world.grab_layers);
     visit("grab_order", world.grab_order);
     visit("hand_rig", world.hand_rig);

@@ -71,7 +71,7 @@ void teleport_body(World& world, Entity body, const Pose& pose_ws) {
     let_go_of(world, body, k_no_entity);
     for (HandSight& sight : world.hand_sight.rows()) {
         if (sight.frame == body) {
-            sight = {};  // the hand stays where it is
+            sight = {};  // the hand does not move: its sight is found again
         }
     }
     place_body(world, body, pose_ws);
@@ -89,7 +89,7 @@ void teleport_player(World& world, Entity player, const Pose& origin_ws) {
         if (world.hand_owner.at(hand).player != player) {
             continue;
         }
-        world.hand_sight.at(hand) = {};  // the way of the hand to its new place crosses no wall
+        world.hand_sight.at(hand) = {};  // the hand is repositioned: no wall test on the path
         const Grab& grab = world.grab.rows()[row];
         if (!is_carried(world, grab)) {
             let_go(world, row);

@@ -12,13 +12,13 @@ namespace handhold {
 // with a mover.
 void move_kinematic(World& world, Entity body, const Pose& pose_ws);
 
-// A body is at `pose_ws` at once: nothing between is touched. Its velocity stays. Hands that grip
-// it let go.
+// Places a body at `pose_ws` at once, without collisions on the path. The body keeps its velocity.
+// Hands that grip it let go.
 void teleport_body(World& world, Entity body, const Pose& pose_ws);
 
-// A player's play space is at `origin_ws` at once, at rest against the scene. Free bodies in the
-// player's hands that no joint holds come along; hands let go of everything else. Hands of others
-// let go of this player's head and of bodies that come along.
+// Places a player's play space at `origin_ws` at once, at rest relative to the scene. Free bodies
+// in the player's hands that no joint holds come along; the hands let go of everything else. Hands
+// of other players let go of this player's head and of bodies that come along.
 void teleport_player(World& world, Entity player, const Pose& origin_ws);
 
 // The player's hand on that side. Throws if there is no such player.

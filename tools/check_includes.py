@@ -27,6 +27,20 @@ FRONT_DOOR = re.compile(r"systems/(frame|snapshot|host)/.*")
 NAMES_WORLD = re.compile(r"(systems/(frame|snapshot|host)/.*|components/world\w*\.[hc]pp|(game|tools|tests)/.*)")
 # Headers that a host includes: systems/host/include is an include directory, so these are named `handhold/...`.
 PUBLIC_HEADERS = "systems/host/include/"
+# Files of the game that know the library by its public headers alone, as a stranger's game would: climbers, sessions, devices, runs and the
+# loops of desktop and headset. Levels, pictures, inspector and reports use the columns.
+PLAYS_THE_INTERFACE = re.compile(r"game/(climber|session|devices|run|play|desktop|headset)/.*|game/commands/play_files\.[hc]pp")
+# Of these, the loops show what is in the columns. The others do not name them.
+NAMES_NO_COLUMNS = re.compile(r"game/(climber|session|devices|run|play)/.*")
+COLUMNS = re.compile(r"(?<!hh::)\b(World|FrameCaches|StageStats|CollisionWorld|PlayerEntities|step_frame|hash_state|columns_of|entity_of|from_host)\b"
+                     r"|\bscene_?(\(\))?\.(world|tuning|shapes|grip_meshes|caches|stats)\(\)")
+# The progress of a level that loads has no place in the interface.
+INTERFACE_EXCEPTIONS = {("game/play/loading.cpp", "engine/core/work_meter.hpp")}
+# Public headers for source embedders: each counts as the private headers that it includes.
+EMBEDDERS_HEADER = re.compile(r"handhold/(ecs|files|rigs|tuning)\.hpp")
+# Includes of private headers in game/, which may only become fewer.
+MOST_PRIVATE_INCLUDES_OF_GAME = 186
+PRIVATE_HEADER = re.compile(r"(engine|components|systems)/.*")
 # Words of the player's body that engine code must not use in identifiers.
 ENGINE_FOREIGN = re.compile(r"(?<![A-Za-z])(?:player|hand|hands|finger|fingers|palm|thumb)(?![a-z])|(?:Player|Hand|Finger|Palm|Thumb)(?![a-z])")
 
@@ -104,6 +118,9 @@ def include_rules(file: str, mark: str, path: str) -> Iterator[str]:
     """The rules that the include of `path` in `file` breaks."""
     folder = file.split("/")[0]
     target = path.split("/")[0]
+    if PLAYS_THE_INTERFACE.fullmatch(file) and (PRIVATE_HEADER.fullmatch(path) or EMBEDDERS_HEADER.fullmatch(path)):
+        if (file, path) not in INTERFACE_EXCEPTIONS:
+            yield f'"{path}": this file plays the interface, by handhold.h, handhold.hpp and math.hpp'
     if target not in ALLOWED_FOLDERS:
         if folder not in PRODUCT_FOLDERS:
             return  # a library, or a helper next to a test
@@ -126,6 +143,9 @@ def code_rules(file: str, line: str) -> Iterator[str]:
     """The rules that one line of code, without comments and literals, breaks."""
     if re.search(r"\bWorld\b", line) and not NAMES_WORLD.fullmatch(file):
         yield "World: only components/world, systems/frame/frame, systems/snapshot/snapshot, game, tools and tests name it"
+    column = COLUMNS.search(line) if NAMES_NO_COLUMNS.fullmatch(file) else None
+    if column:
+        yield f"{column[0]}: this file plays the interface and names no column"
     if file.split("/")[0] not in PRODUCT_FOLDERS:
         return
     for lib in LIBRARIES:
@@ -189,6 +209,34 @@ def circles_of(includes: list[tuple[str, int, str]]) -> Iterator[Breach]:
                 yield Breach(file, line, f"circle of folders: {' -> '.join(circle)} ({', '.join(places)})")
 
 
+def private_headers_of(root: Path, public: str) -> int:
+    """How many private headers a public header includes, itself or by other public headers."""
+    path = root / PUBLIC_HEADERS / public
+    if not path.is_file():
+        return 0
+    count = 0
+    for line in without_comments(path.read_text(encoding="utf-8")).split("\n"):
+        include = INCLUDE.match(line)
+        if include and PRIVATE_HEADER.fullmatch(include["path"]):
+            count += 1
+        elif include and EMBEDDERS_HEADER.fullmatch(include["path"]):
+            count += private_headers_of(root, include["path"])
+    return count
+
+
+def count_private_includes(root: Path) -> int:
+    """Includes of private headers in game/, with those behind the headers for source embedders."""
+    count = 0
+    for path in sorted((root / "game").rglob("*.[hc]pp")):
+        for line in without_comments(path.read_text(encoding="utf-8")).split("\n"):
+            include = INCLUDE.match(line)
+            if include and PRIVATE_HEADER.fullmatch(include["path"]):
+                count += 1
+            elif include and EMBEDDERS_HEADER.fullmatch(include["path"]):
+                count += private_headers_of(root, include["path"])
+    return count
+
+
 def check_tree(root: Path) -> list[Breach]:
     breaches = []
     includes: dict[str, list[tuple[str, int, str]]] = {tree: [] for tree in TREES_WITHOUT_CIRCLES}
@@ -204,6 +252,9 @@ def check_tree(root: Path) -> list[Breach]:
                         includes[folder].append((file, number, include["path"]))
     for tree in includes.values():
         breaches.extend(circles_of(tree))
+    count = count_private_includes(root)
+    if count > MOST_PRIVATE_INCLUDES_OF_GAME:
+        breaches.append(Breach("game", 0, f"{count} includes of private headers, at most {MOST_PRIVATE_INCLUDES_OF_GAME}: use handhold.hpp"))
     return breaches
 
 

@@ -20,7 +20,7 @@ Vec3 clamp_to_cone(const Vec3& towards, const Vec3& rest, const JointRange& rang
     const Vec3 aside = towards - along * rest;
     const double length = aside.norm();
     const double wanted = arc_tangent2(length, along);
-    // The angle from `rest` approaches only its upper limit.
+    // The angle from `rest` is never negative, so only the upper limit is approached.
     angle_rad = std::min(wanted, approach_limit(range, angle_rad, std::max(wanted, angle_rad)));
     if (angle_rad >= wanted) {
         return towards;

@@ -76,7 +76,7 @@ class PeriodicSpline {
 
   private:
     static void check_turn(double cosine, std::size_t key) {
-        // `cosine` is that of half the angle between the rotations.
+        // `cosine`: of half the angle between the rotations.
         double sine = 0.0;
         double min_cosine = 1.0;
         sin_cos(0.5 * k_max_path_turn_rad, sine, min_cosine);

@@ -58,8 +58,8 @@ class Broadphase {
     bool indices_changed() const { return indices_changed_; }
     void finish_pass();
     void set_isolated(std::size_t body, const Bounds& box_ws);
-    // A search for a region that found none is not repeated in the next passes: among moving bodies
-    // it would find none in every pass. use_up_wait returns true while it waits.
+    // Back-off: after a search that found no region, the next passes do not search again, because
+    // among moving bodies every search would fail. use_up_wait returns true during the back-off.
     bool use_up_wait(std::size_t body) {
         std::uint32_t& wait = bodies_[body].isolation_wait;
         return wait > 0 && wait-- > 0;

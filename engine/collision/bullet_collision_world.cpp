@@ -62,7 +62,8 @@ void CollisionWorld::Impl::update_shapes() {
     }
     cache.resize(shapes.size());
     extents.resize(shapes.size());
-    // Removed ones first: a new mesh may lie where an old one was, and must not find its tree.
+    // Removes old trees first: a new mesh may have the address of a removed one, and must not get
+    // its tree.
     for (std::uint32_t i = 0; i < shapes.size(); ++i) {
         if (shapes.revision_of({i}) > shapes_revision) {
             cache[i] = {};

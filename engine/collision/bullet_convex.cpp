@@ -193,7 +193,8 @@ std::array<Vec3, 2> Convex::side_line(const Vec3& direction) const {
     const Vec3 half = barrel->half_height_m * up;
     Vec3 out = direction - direction.dot(up) * up;
     const double length = out.norm();
-    // `direction` parallel to the axis: all lines on the side are equivalent.
+    // If `direction` is parallel to the axis, all lines on the curved side are equally far: takes
+    // any.
     out = length > 0.0 ? Vec3(out / length) : from_bullet(pose_ns.getBasis().getColumn(2));
     const Vec3 middle = centre_ns() + barrel->radius_m * out;
     return {middle - half, middle + half};

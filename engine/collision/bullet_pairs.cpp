@@ -33,7 +33,7 @@ bool CollisionWorld::Impl::is_pair(const BroadphaseBody& a, const BroadphaseBody
 }
 
 bool CollisionWorld::Impl::is_deep(const BroadphaseBody& a, const BroadphaseBody& b) const {
-    // The centre of a compound may be empty.
+    // Compounds are excluded: there may be nothing at a compound's centre.
     if (!b.proxy.free || cache[a.proxy.shape.index].parts.size() > 1 ||
         cache[b.proxy.shape.index].parts.size() > 1) {
         return false;

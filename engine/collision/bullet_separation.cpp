@@ -138,7 +138,7 @@ bool search_until_optimal(Query search, const Convex& a, const Convex& b, btVect
 
 CoreSeparation separate(const Convex& a, const Convex& b) {
     const Vec3 fallback = flat_exit_direction(a, b);
-    // `guess` is also EPA's answer if the intersection has no volume.
+    // Bullet returns `guess` as the normal if the intersection has no volume.
     const btVector3 guess = -(to_bullet(fallback) * a.pose_ns.getBasis());
     CoreSeparation result;
     if (search_until_optimal(Query::apart, a, b, guess, result) && result.separation_m > 0.0) {

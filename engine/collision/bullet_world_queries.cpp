@@ -79,7 +79,8 @@ std::uint64_t CollisionWorld::hash_near(const Vec3& low_ws, const Vec3& high_ws,
     HashStream hash;
     const Bounds box{low_ws, high_ws};
     visit_bodies(impl_->broadphase, box, skip, [&](const ColliderProxy& proxy) {
-        // The broadphase's bounds contain the motion from from_ws, on which no query depends.
+        // Tests the bounds at the end pose, because the broadphase's bounds also contain the motion
+        // from from_ws, on which no query depends.
         if (!overlaps(box,
                       swept_bounds(impl_->extents[proxy.shape.index], proxy.to_ws, proxy.to_ws))) {
             return;

@@ -14,7 +14,7 @@
 // (Bullet).
 namespace handhold {
 
-// One collider as find_contacts and the queries see it.
+// Input of find_contacts and of the queries for one collider.
 struct ColliderProxy {
     std::uint64_t id = 0;  // persistent; unique among proxies, not 0
     ShapeId shape;         // k_no_shape: the proxy is ignored
@@ -27,7 +27,7 @@ struct ColliderProxy {
     std::uint32_t layers = 1;
     std::uint32_t mask = ~0U;
 };
-// Bitwise equal.
+// True if the poses are bitwise equal.
 inline bool same_pose(const Pose& x, const Pose& y) {
     return x.position == y.position && x.rotation.coeffs() == y.rotation.coeffs();
 }
@@ -130,8 +130,8 @@ class CollisionWorld {
     // centre.
     //
     // Separations are exact for disjoint bodies, and along the shortest exit for overlapping ones.
-    // Of contacts with the same normal only the deepest and at most 8 corners of their outline are
-    // kept.
+    // Among contacts with the same normal, keeps only the deepest and at most 8 corners of their
+    // outline.
     void find_contacts(const ContactLimits& limits, std::vector<ContactPoint>& contacts);
 
     // Depth of the deepest contact of two colliders at their end poses, with the sides of meshes as

@@ -36,7 +36,7 @@ void keep_earlier(const std::optional<Impact>& impact, std::optional<Impact>& fi
     }
 }
 
-// Heap order: the smallest fraction is on top.
+// Comparison for a priority queue with the smallest fraction on top.
 bool touches_later(const TriangleApproach& x, const TriangleApproach& y) {
     return x.approach.fraction != y.approach.fraction ? x.approach.fraction > y.approach.fraction
                                                       : x.triangle > y.triangle;

@@ -275,7 +275,7 @@ LocalSurfacePoint closest_on_hull(const ConvexHull& hull, const Vec3& point) {
     Vec3 best = hull.corners.front();
     for (const HullFace& face : hull.faces) {
         if (face.normal.dot(point) < face.offset_m) {
-            continue;  // back face: the nearest point is on a front face
+            continue;  // back faces are skipped: the nearest point is on a front face
         }
         for (std::size_t i = 1; i + 1 < face.loop.size(); ++i) {
             const Vec3 candidate =
@@ -352,7 +352,7 @@ LocalSurfacePoint closest_on_shape(const Shape& shape, const Vec3& point) {
 }
 
 LocalSurfacePoint closest_on_triangle_surface(const Corners& corners, const Vec3& point) {
-    // At smaller distances the direction to the point is rounding noise.
+    // Smaller distances count as 0, because the direction to the point is then rounding noise.
     constexpr double k_on_surface_m = 1e-9;
     const Vec3 surface = closest_on_triangle(point, corners);
     const Vec3 along = point - surface;

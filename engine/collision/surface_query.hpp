@@ -35,7 +35,7 @@ class SurfaceQuery {
     using Skip = std::span<const std::uint64_t>;
 
     SurfaceQuery() = default;
-    // Implicit, as a view of a container is.
+    // Implicit conversion, like that of a container to a view.
     template <typename Surfaces>
     requires(!std::is_same_v<Surfaces, SurfaceQuery>)
         // NOLINTNEXTLINE(google-explicit-constructor)

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/core/check.hpp"
+#include "engine/core/float_environment.hpp"
 #include "engine/core/parallel_pool.hpp"
 #include "engine/core/thread_sanitizer.hpp"
 
@@ -33,6 +34,9 @@ class InTask {
     ~InTask() { t_in_task = false; }
     InTask(const InTask&) = delete;
     InTask& operator=(const InTask&) = delete;
+
+  private:
+    FloatEnvironment environment_;  // a worker's may differ from the caller's
 };
 
 // The work of one call. Each runner claims the next index, so the first (largest) tasks start

@@ -11,8 +11,8 @@ namespace handhold {
 void resize_pool(int threads);
 
 // Calls runner(context, i) for i in [0, runners), at the same time as far as threads are free, and
-// returns when all are done. Without threads only the first one is called: runners share the work,
-// so one may do all of it.
+// returns when all are done. Without threads only the first runner is called: any runner can do all
+// of the work.
 void run_on_pool(std::size_t runners, void* context, IndexedTask runner);
 
 }  // namespace handhold

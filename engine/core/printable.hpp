@@ -11,7 +11,7 @@ constexpr std::size_t k_max_quoted = 200;
 // Largest number of characters of a name from a file in a message.
 constexpr std::size_t k_max_shown_name = 60;
 
-// `text` in a form that is safe in one line of a terminal or log. Every byte of a control
+// Returns `text` in a form that is safe in one line of a terminal or log. Every byte of a control
 // character, of a character that reorders or hides text (bidirectional overrides, zero-width
 // characters, line separators) and of invalid UTF-8 becomes \xNN. Longer texts lose their middle:
 // "abc...xyz". The result has at most `max_characters` characters. Precondition: max_characters >=

@@ -60,7 +60,7 @@ void begin_trace(ThreadZones& thread, std::size_t max_zones, std::int64_t trace_
     thread.trace_begin_ns = trace_begin_ns;
 }
 
-// The calling thread's zones, shared with the trace so that they outlive the thread.
+// The calling thread's zones. The trace owns them too, so that they outlive the thread.
 ThreadZones& thread_zones() {
     thread_local const std::shared_ptr<ThreadZones> t_zones = [] {
         auto zones = std::make_shared<ThreadZones>();

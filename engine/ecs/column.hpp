@@ -13,9 +13,10 @@
 
 namespace handhold {
 
-// One component of many entities: packed elements ("rows" in this API), their owners, and a sparse
-// map from an entity's slot to its row. Removing a row moves the last row into the gap. Equal
-// histories give equal orders. References and row numbers are valid until the next add or remove.
+// One component of many entities: packed elements, their owners, and a sparse map from an entity's
+// slot to the index of its element. Removing an element moves the last one into the gap. Equal
+// histories give equal orders. References and indices are valid until the next add or remove. In
+// the names of this API, a "row" is an element or its index.
 template <typename T>
 class Column {
     static_assert(!std::is_same_v<T, bool>, "std::vector<bool> has no rows to refer to");
@@ -23,9 +24,9 @@ class Column {
   public:
     using Row = T;
 
-    // Returns the new row. Throws PreconditionError if the entity is null, if it already has a row,
-    // or if its slot still has the row of a destroyed entity: code that destroys an entity must
-    // remove its rows.
+    // Returns the new element. Throws PreconditionError if the entity is null, if it already has an
+    // element, or if its slot still has the element of a destroyed entity: code that destroys an
+    // entity must remove its elements.
     T& add(Entity entity, T value = {}) {
         HH_CHECK(!is_null(entity), "the entity is null", entity.slot);
         if (entity.slot >= row_of_slot_.size()) {
@@ -43,7 +44,7 @@ class Column {
         return rows_.back();
     }
 
-    // Returns false and changes nothing if the entity has no row.
+    // Returns false and changes nothing if the entity has no element.
     bool remove(Entity entity) {
         const std::size_t row = find_row(entity);
         if (row == k_npos) {
@@ -65,7 +66,8 @@ class Column {
     }
 
     static constexpr std::size_t k_npos = std::numeric_limits<std::size_t>::max();
-    // The entity's row number. k_npos for null and stale handles, and for entities without a row.
+    // The index of the entity's element. k_npos for null and stale handles, and for entities
+    // without an element.
     std::size_t find_row(Entity entity) const {
         if (entity.slot >= row_of_slot_.size()) {
             return k_npos;
@@ -87,7 +89,7 @@ class Column {
         return owners_[static_cast<std::size_t>(&row - rows_.data())];
     }
 
-    // The entity's row. Throws PreconditionError if it has none.
+    // The entity's element. Throws PreconditionError if it has none.
     T& at(Entity entity) {
         const std::size_t row = find_row(entity);
         HH_CHECK(row != k_npos, "no row for this entity", entity.slot);
@@ -105,7 +107,7 @@ class Column {
     std::span<const T> rows() const { return rows_; }
     std::span<const Entity> owners() const { return owners_; }
 
-    // Block b holds the rows [b * k_block_rows, ...). is_run is true only if the block's owners
+    // Block b holds the elements [b * k_block_rows, ...). is_run is true only if the block's owners
     // have equal generations and consecutive slots, so that the first owner determines all. It may
     // be false for such a block after removals.
     static constexpr std::size_t k_block_rows = 256;

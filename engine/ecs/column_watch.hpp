@@ -11,16 +11,16 @@
 
 namespace handhold {
 
-// Finds the rows of a column that changed since the last update, by comparing their bytes with a
-// copy. Columns do not record changes, because references allow writes to rows at any time. An
-// unchanged row costs the bandwidth of a memcmp. A difference in padding counts as a change.
+// Finds the elements of a column that changed since the last update, by comparing their bytes with
+// a copy. Columns do not record changes, because references allow writes to elements at any time.
+// An unchanged element costs the bandwidth of a memcmp. A difference in padding counts as a change.
 template <typename T>
 class ColumnWatch {
     static_assert(std::is_trivially_destructible_v<T>, "rows are compared as bytes");
 
   public:
-    // Calls visit(owner) for each row that differs from the last call, and updates the copy. If the
-    // owners differ, returns false without calling visit: every row may then have changed.
+    // Calls visit(owner) for each element that differs from the last call, and updates the copy. If
+    // the owners differ, returns false without calling visit: every element may then have changed.
     template <typename Visit>
     bool update(const Column<T>& column, Visit&& visit) {
         const std::size_t count = column.size();
@@ -30,7 +30,7 @@ class ColumnWatch {
             (count > 0 && std::memcmp(owners, owners_.data(), count * sizeof(Entity)) != 0)) {
             rows_.assign(column.rows().begin(), column.rows().end());
             owners_.assign(column.owners().begin(), column.owners().end());
-            // Copies the bytes, because assignment leaves the padding of rows unspecified.
+            // Copies the bytes, because assignment leaves the padding of elements unspecified.
             copy(rows, 0, count);
             return false;
         }

@@ -9,10 +9,10 @@
 
 namespace handhold {
 
-// Looks in `other` for the owners of the driver's rows [begin, begin + length), in the same order
-// and without gaps. Returns the first of their rows, or k_npos. The range is a block or the last
-// part of one. The result is exact: two runs (Column::is_run) are equal if their first owners are;
-// other blocks are compared owner by owner.
+// Looks in `other` for the owners of the driver's elements [begin, begin + length), in the same
+// order and without gaps. Returns the index of the first of them in `other`, or k_npos. The range
+// is a block or the last part of one. The result is exact: two runs (Column::is_run) are equal if
+// their first owners are; other blocks are compared owner by owner.
 template <typename Driver, typename Other>
 std::size_t find_equal_block(const Driver& driver, std::size_t begin, std::size_t length,
                              const Other& other) {
@@ -31,13 +31,13 @@ std::size_t find_equal_block(const Driver& driver, std::size_t begin, std::size_
     return equal ? row : Other::k_npos;
 }
 
-// Calls visit(entity, driver_row, other_rows...) for every entity that has a row in all columns, in
-// the order of the driver's rows. Columns may be const. No column may gain or lose rows during the
-// call.
+// Calls visit(entity, element of the driver, elements of the others...) for every entity that is in
+// all columns, in the order of the driver. Columns may be const. No column may gain or lose
+// elements during the call.
 //
-// Columns that are filled together have equal orders. If the owners of a block of the driver's rows
-// appear in the same sequence in every other column, the block is walked as plain arrays. Otherwise
-// every entity is looked up. Orders are compared on each call, never cached.
+// Columns that are filled together have equal orders. If the owners of a block of the driver appear
+// in the same sequence in every other column, the block is walked as plain arrays. Otherwise every
+// entity is looked up. Orders are compared on each call, never cached.
 template <typename Driver, typename Visit, typename... Others>
 void join(Driver& driver, Visit&& visit, Others&... others) {
     const std::size_t count = driver.size();

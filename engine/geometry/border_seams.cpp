@@ -114,7 +114,8 @@ std::vector<SeamCut> find_cuts(const SurfaceGraph& graph, const Borders& borders
             const Vec3& from = graph.positions[triangle[side]];
             const Vec3 edge_m = graph.positions[triangle[(side + 1) % 3]] - from;
             const double along = (graph.positions[v] - from).dot(edge_m) / edge_m.squaredNorm();
-            // Vertices nearer than this to an end of the edge are merged with the end instead.
+            // A vertex nearer than this to an end of the edge is merged with that end instead of
+            // splitting the edge.
             const double end_share = reach / edge_m.norm();
             if (along > end_share && along < 1.0 - end_share) {
                 cuts.push_back({edge.id / 3, side, along, v});

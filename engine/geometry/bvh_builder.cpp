@@ -158,8 +158,8 @@ std::uint32_t BvhBuilder::part(const Work& work, const Split& split, const Box& 
         });
         return static_cast<std::uint32_t>(middle - items_.begin());
     }
-    // There is no useful split, the tree is too deep, or two leaves suffice. Splits by position and
-    // index: into halves, or into a full leaf and the rest.
+    // If there is no useful split, the tree is too deep, or two leaves suffice: splits by position
+    // and index, into halves or into a full leaf and the rest.
     std::size_t widest = 0;
     for (std::size_t axis = 1; axis < 3; ++axis) {
         if (middles.high[axis] - middles.low[axis] > middles.high[widest] - middles.low[widest]) {

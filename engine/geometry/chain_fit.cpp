@@ -200,7 +200,7 @@ class ChainFitter {
     struct SamplePoses {
         std::optional<Angles> touching;           // clear and touching, nearest to rest_rad
         std::optional<Angles> clear;              // clear, nearest to rest_rad
-        std::optional<Angles> least_penetrating;  // if none is clear
+        std::optional<Angles> least_penetrating;  // the least penetrating pose, if none is clear
         double min_m = 0.0;                       // depth of least_penetrating
     };
 
@@ -341,7 +341,8 @@ class ChainFitter {
         fit_.fallback = ChainFallback::rest_pose;
     }
 
-    // Values per variable: first hinge; other hinges together.
+    // Number of sampled values of each variable. The variables are the first hinge's angle and the
+    // common angle of the others.
     static constexpr int k_pose_samples = 5;
     // Upper bound on the distance between the search detail and the contact detail.
     static constexpr double k_detail_apart_m = 0.02;

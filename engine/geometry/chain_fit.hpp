@@ -82,7 +82,7 @@ ChainFit fit_chain(const HingeChain& chain, std::span<const PlacedMesh> meshes,
                    const ChainSeed& seed, const ChainFitSettings& settings,
                    ChainFitScratch& scratch);
 
-// Penetration of a single capsule, as fit_chain computes it. Gathers and allocates on every call:
+// Penetration of a single capsule, computed like in fit_chain. Gathers and allocates on every call:
 // for tests and tools.
 CapsulePenetration find_penetration(const Capsule& capsule, std::span<const PlacedMesh> meshes);
 

@@ -67,8 +67,8 @@ std::pair<Vec3, Vec3> closest_between_segments(const std::array<Vec3, 2>& a,
         on_a = std::clamp((offset.dot(along_a) * bb - offset.dot(along_b) * ab) / determinant, 0.0,
                           1.0);
     }
-    // One alternation is enough: the point of b closest to a's point, then the point of a closest
-    // to that.
+    // Clamping once in turn is enough: first the point of b closest to a's point, then the point of
+    // a closest to that point.
     const double on_b = segment_parameter(a[0] + on_a * along_a, b[0], along_b);
     const Vec3 point_b = b[0] + on_b * along_b;
     on_a = segment_parameter(point_b, a[0], along_a);

@@ -286,7 +286,7 @@ class ChainCloser {
                 const bool is_early = pair.next > at;
                 if (pair.next <= at + k_simultaneous && !(is_early && pair.leaving) &&
                     touches(pair, motion, at)) {
-                    // A pair that had moved apart gets deeper again: it touches at the last step,
+                    // A pair that was moving apart gets deeper again: it touches at the last step,
                     // when it was shallower.
                     const Touch touch = {pair.leaving ? std::max(at - k_leave_step, from) : at,
                                          pair.link, pair.segment};

@@ -84,8 +84,8 @@ class DistanceLowerBound {
         return lower(is_over ? clear * clear : min_squared, k_max_float);
     }
 
-    // Largest squared lower bound of an item that is nearer than sqrt(`squared`). Infinite input is
-    // clamped to the largest float.
+    // Items whose squared lower bound exceeds the returned value are farther away than
+    // sqrt(`squared`). Infinite input is clamped to the largest float.
     static float limit(double squared) {
         return static_cast<float>(std::min(squared * k_slack, static_cast<double>(k_max_float[0])));
     }

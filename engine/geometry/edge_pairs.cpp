@@ -87,7 +87,8 @@ void pair_opposed(std::vector<FaceLeaf>& leaves, std::vector<EdgePair>& pairs) {
 
 // Pairs the flattest first: those with a dihedral angle nearest to pi. Removes them from `leaves`.
 void pair_flattest(std::vector<FaceLeaf>& leaves, std::vector<EdgePair>& pairs) {
-    // If there are more half-edges than this, pairs them arbitrarily. Real surfaces have fewer.
+    // Largest number of half-edges at one edge for which all pairs are compared. More are paired
+    // arbitrarily; real surfaces have fewer.
     constexpr std::size_t k_max_exhaustive = 32;
     while (leaves.size() >= 2) {
         std::size_t best_a = 0;

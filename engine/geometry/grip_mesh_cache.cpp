@@ -127,7 +127,7 @@ bool read_graph(WordReader& in, SurfaceGraph& graph) {
                 return false;
             }
         }
-        // Bitwise equal to the normals that link_graph computes.
+        // Recomputes the normals, bitwise equal to those of link_graph.
         graph.normals[t] =
             area_vector({graph.positions[a], graph.positions[b], graph.positions[c]}).normalized();
     }
@@ -239,7 +239,7 @@ GripMesh cached_grip_mesh(const Mesh& mesh, const GripMeshSettings& settings,
 
 GripMesh cached_grip_mesh(const Shape& shape, const GripMeshSettings& settings,
                           const fs::path& directory) {
-    // Building these takes no longer than reading a file.
+    // Other shapes are not cached: building them takes no longer than reading a file.
     if (shape.kind != ShapeKind::mesh) {
         return build_grip_mesh(shape, settings);
     }

@@ -16,10 +16,10 @@ namespace handhold {
 // grip meshes.
 std::uint64_t grip_mesh_key(const Mesh& mesh, const GripMeshSettings& settings);
 
-// As build_grip_mesh, but cached in a file in `directory`, which is created if missing. A damaged,
-// truncated, outdated or foreign file is ignored and replaced. An empty path disables the cache. If
-// the directory is not writable, the mesh is built on every call. Processes may share a directory:
-// a file appears complete or not at all.
+// Returns the result of build_grip_mesh, cached in a file in `directory`, which is created if
+// missing. A damaged, truncated, outdated or foreign file is ignored and replaced. An empty path
+// disables the cache. If the directory is not writable, the mesh is built on every call. Several
+// processes may use one directory: a file appears complete or not at all.
 GripMesh cached_grip_mesh(const Mesh& mesh, const GripMeshSettings& settings,
                           const std::filesystem::path& directory);
 GripMesh cached_grip_mesh(const Shape& shape, const GripMeshSettings& settings,

@@ -20,8 +20,8 @@ std::size_t work_of(const Shape& shape) {
     return shape.kind == ShapeKind::mesh ? shape.mesh->triangles.size() : 1000;
 }
 
-// Round shapes above this size would be tessellated too coarsely to grip, or into too many
-// triangles.
+// True for round shapes above k_largest_round_m: they would be tessellated too coarsely to grip, or
+// into too many triangles.
 bool is_too_large(const Shape& shape) {
     const bool may_be_round = shape.kind == ShapeKind::sphere || shape.kind == ShapeKind::capsule ||
                               shape.kind == ShapeKind::cylinder ||
@@ -109,7 +109,8 @@ void GripMeshLibrary::add(const ShapeLibrary& shapes, std::span<const ShapeId> w
         const auto made =
             std::make_shared<const GripMesh>(cached_grip_mesh(shape, settings, cache_directory));
         meshes_[missing[order[i]].mesh].mesh = made;
-        // What was not counted on the way: triangles that are dropped, or come from the cache.
+        // Adds the work that was not counted during the build: triangles that were dropped or came
+        // from the cache.
         const std::uint64_t planned = k_passes * work_of(shape);
         meter.done += planned - std::min<std::uint64_t>(
                                     planned, made->full_triangles + made->contact.triangles.size());

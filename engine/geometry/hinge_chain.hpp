@@ -87,7 +87,7 @@ class ChainDepths {
   public:
     ChainDepths(const HingeChain& chain, ChainPatch& patch) : chain_(chain), patch_(patch) {}
 
-    // As ChainDepth::depth_m, but exact only if it is below `sufficient_depth_m`.
+    // ChainDepth::depth_m at these angles; exact only if it is below `sufficient_depth_m`.
     double depth_m(const ChainAngles& angle_rad, double sufficient_depth_m);
 
   private:

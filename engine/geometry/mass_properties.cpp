@@ -44,7 +44,7 @@ MassProperties of_cylinder(double radius, double half_height) {
 MassProperties of_capsule(double radius, double half_height) {
     const double r2 = radius * radius;
     const double h = half_height;
-    // Volumes divided by 2 pi r^2; the factor cancels in the mass fractions.
+    // Both volumes are divided by 2 pi r^2, which cancels in the mass fractions.
     const double sphere_fraction = (2.0 / 3.0 * radius) / (2.0 / 3.0 * radius + h);
     const double cylinder_fraction = 1.0 - sphere_fraction;
     const double along = cylinder_fraction * r2 / 2.0 + sphere_fraction * 0.4 * r2;

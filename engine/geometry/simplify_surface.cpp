@@ -287,7 +287,8 @@ SurfaceGraph simplify_surface(const SurfaceGraph& graph, const DetailLimits& lim
         }
     }
     mesh.positions = graph.positions;
-    // Does not weld, but drops triangles that collapsed onto a line and duplicates.
+    // Builds the graph without welding. This drops duplicates and triangles that collapsed onto a
+    // line.
     SurfaceGraph result = build_surface_graph(mesh, {0.0, 0.0, 0.0, 0.0});
     mesh = {};
     std::optional<TriangleBvh> own_bvh;

@@ -68,7 +68,7 @@ class Cover {
         if (max_out > k_min_piece_share * limit_m_) {
             return covers_clipped(piece, beyond, cuts);
         }
-        // If it reaches over no edge, bisects the longest edge, which keeps pieces compact.
+        // If the piece reaches over no edge, bisects its longest edge, which keeps pieces compact.
         std::size_t longest = 0;
         for (std::size_t i = 1; i < 3; ++i) {
             if (squared_edge(piece, i) > squared_edge(piece, longest)) {
@@ -81,10 +81,10 @@ class Cover {
         const Vec3 cut = 0.5 * (from + to);
         return covers({from, cut, apex}, cuts + 1) && covers({cut, to, apex}, cuts + 1);
     }
-    // Splits off the part of the corner that is alone on its side of the cut. The other part is two
-    // triangles.
+    // Splits the piece along the cut. One corner is alone on its side: its part is one triangle,
+    // the other part two.
     bool covers_clipped(const Corners& piece, const std::array<double, 3>& beyond, int cuts) {
-        std::size_t lone = 0;  // index of that corner
+        std::size_t lone = 0;  // index of the corner that is alone on its side
         for (std::size_t i = 1; i < 3; ++i) {
             const bool side = beyond[i] > 0.0;
             if (side != (beyond[(i + 1) % 3] > 0.0) && side != (beyond[(i + 2) % 3] > 0.0)) {

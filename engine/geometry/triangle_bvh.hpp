@@ -102,7 +102,7 @@ class TriangleBvh {
         std::array<Child, 4> child = {k_no_child, k_no_child, k_no_child, k_no_child};
     };
     static constexpr std::size_t k_max_depth = 64;
-    // At most three pending children per level.
+    // Largest number of pending items: at most three pending children per level.
     static constexpr std::size_t k_max_open = 3 * k_max_depth + 1;
 
     // Calls visit(first_slot, count) for the leaves of all nodes whose boxes pass may_meet(boxes),

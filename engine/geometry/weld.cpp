@@ -52,7 +52,7 @@ class CellLists {
   private:
     double cell(double coordinate) const { return std::floor(coordinate * per_cell_); }
     std::size_t slot(double x, double y, double z) const {
-        // + 0.0 turns cell -0 into cell 0.
+        // Adding 0.0 turns -0.0 into 0.0, so that both are one cell.
         const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value + 0.0); };
         return mix64(mix64(mix64(bits(x)) + bits(y)) + bits(z)) & mask_;
     }
@@ -76,7 +76,7 @@ std::vector<std::uint32_t> find_representatives(std::span<const Vec3> points,
             farthest_m = std::max(farthest_m, points[i].cwiseAbs().maxCoeff());
         }
     }
-    // Keeps the cell indices small enough for a double to represent them exactly.
+    // The lower bound on the cell size keeps cell indices small enough to be exact in a double.
     const double cell_m = std::max(k_cell_per_reach * longest_m, farthest_m * 0x1p-48);
     CellLists cells(points.size(), cell_m);
     std::vector<std::uint32_t> result(points.size());

@@ -51,8 +51,9 @@ bool skip_letters(std::string_view& text, std::string_view prefix) {
     return true;
 }
 
-// How printf, iostreams and other languages write a NaN: "nan", "-nan", "+NaN", "nan(ind)",
-// "-nan(0x8000000000000)", and "1.#QNAN" or "-1.#IND000" by C libraries of Windows before 2015.
+// True if the cell is a NaN as printf, iostreams or other languages write it: "nan", "-nan",
+// "+NaN", "nan(ind)", "-nan(0x8000000000000)", and "1.#QNAN" or "-1.#IND000" by C libraries of
+// Windows before 2015.
 bool is_nan_text(std::string_view cell) {
     if (!cell.empty() && (cell.front() == '-' || cell.front() == '+')) {
         cell.remove_prefix(1);
@@ -107,7 +108,7 @@ std::optional<FileError> parse_header(std::string_view line, std::size_t line_nu
     return std::nullopt;
 }
 
-// Appends the cells of one row.
+// Appends the cells of one line.
 std::optional<FileError> parse_row(std::string_view line, std::size_t line_number, NanCells nan,
                                    const std::string& file, NumericTable& table) {
     const auto refuse = [&](std::string expected) {
@@ -119,7 +120,7 @@ std::optional<FileError> parse_row(std::string_view line, std::size_t line_numbe
         const std::string_view cell = line.substr(begin, end - begin);
         begin = end + 1;
         if (column >= table.columns.size()) {
-            continue;  // the error below names the number of cells
+            continue;  // skipped here: the error below states the number of cells
         }
         double value = 0.0;
         if (!parse_cell(cell, nan, value)) {

@@ -14,8 +14,8 @@ namespace handhold {
 // A table of numbers with named columns.
 struct NumericTable {
     std::vector<std::string> columns;  // names are unique and not empty
-    std::vector<double> cells;         // row-major; columns.size() per row
-    std::vector<std::size_t> lines;    // each row's line in the file, from 1
+    std::vector<double> cells;         // line by line; columns.size() per line
+    std::vector<std::size_t> lines;    // number of each line in the file, from 1
     std::size_t header_line = 1;       // the line of the names
 
     std::size_t row_count() const { return lines.size(); }

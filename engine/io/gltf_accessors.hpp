@@ -33,7 +33,7 @@ class AccessorReader {
     bool read_floats(int accessor, Elements elements, const std::string& place,
                      std::vector<float>& out);
     bool read_indices(int accessor, const std::string& place, std::vector<std::uint32_t>& out);
-    // The bytes of a view, decompressed; valid as long as the reader.
+    // Sets `bytes` to the decompressed bytes of a view, which are valid as long as the reader.
     bool read_view(int view, const std::string& place, std::string_view& bytes);
 
   private:

@@ -10,7 +10,7 @@
 
 #include "engine/io/gltf_writer.hpp"
 
-// Shared by the glTF writers.
+// Used by all glTF writers.
 namespace handhold {
 
 // Keeps keys in the order of insertion, so that files are easier to read.

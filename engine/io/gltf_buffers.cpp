@@ -88,8 +88,9 @@ std::optional<std::filesystem::path> path_below(const std::filesystem::path& fol
     return folder / relative;
 }
 
-// The file that a relative URI names below `folder`; nullopt as path_below. Exporters that do not
-// escape names write "a%20b.bin" for a file with that very name: the unescaped name comes first.
+// The file that a relative URI names below `folder`; nullopt for an absolute path, a scheme, or a
+// path that leaves the folder. Exporters that do not escape names write "a%20b.bin" for a file with
+// that very name: the unescaped name comes first.
 std::optional<std::filesystem::path> file_below(const std::filesystem::path& folder,
                                                 const std::string& uri) {
     const std::optional<std::filesystem::path> decoded = path_below(folder, decode_percent(uri));

@@ -9,7 +9,7 @@
 #include "engine/io/gltf_model.hpp"
 #include "engine/io/json.hpp"
 
-// Functions that the parts of the document parser share. Private to engine/io/gltf*.
+// Functions that all parts of the document parser use. Private to engine/io/gltf*.
 namespace handhold::gltf {
 
 // With these limits no sum or product of a count, a stride and an offset overflows 64 bits.

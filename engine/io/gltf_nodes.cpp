@@ -18,7 +18,7 @@ Result<std::vector<GltfNode>> parse_gltf_nodes(std::string_view bytes,
         return refusal.error();
     }
     std::vector<GltfNode> nodes;
-    // By a child's index in the file: its parent's index in `nodes`.
+    // Maps a child's index in the file to its parent's index in `nodes`.
     std::map<int, std::size_t> parent_of;
     for (const PlacedNode& node : placed) {
         const gltf::Node& from = gltf::element(model.value().nodes, node.node);

@@ -135,7 +135,7 @@ bool PrimitiveReader::read_compressed() {
     for (std::size_t i = 0; i < attributes_.size(); ++i) {
         *attributes_[i].values = std::move(geometry->values[i]);
     }
-    out_.mode = TriangleMode::list;  // also of a strip
+    out_.mode = TriangleMode::list;  // decoded strips are lists too
     out_.vertices = geometry->vertices;
     out_.indices = std::move(geometry->indices);
     return true;

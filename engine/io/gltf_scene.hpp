@@ -9,11 +9,12 @@
 
 namespace handhold::gltf {
 
-// The nodes of the default scene, parents before children. If there is no default scene, those of
-// the first scene; if there are no scenes, all nodes. Private to engine/io/gltf*.
+// Lists the nodes of the default scene, parents before children. If there is no default scene: the
+// nodes of the first scene; if there are no scenes: all nodes. Returns false after an error.
+// Private to engine/io/gltf*.
 bool place_scene(const Model& model, Refusal& refusal, std::vector<PlacedNode>& placed);
 
-// The transforms of a node's mesh into the scene: one, or one per instance
+// Sets the transforms of a node's mesh into the scene: one, or one per instance
 // (EXT_mesh_gpu_instancing). Errors: more than 2^20 instances of a node, and transforms that are
 // not finite.
 bool place_instances(const PlacedNode& placed, const Model& model, AccessorReader& reader,

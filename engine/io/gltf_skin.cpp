@@ -7,6 +7,7 @@
 
 #include "engine/core/text_file.hpp"
 #include "engine/io/gltf_accessors.hpp"
+#include "engine/io/gltf_bind_pose.hpp"
 #include "engine/io/gltf_buffers.hpp"
 #include "engine/io/gltf_influences.hpp"
 #include "engine/io/gltf_model.hpp"
@@ -30,6 +31,7 @@ class SkinReader {
 
     bool read() {
         if (!gltf::place_scene(model_, refusal_, placed_) ||
+            !gltf::pose_as_bound(model_, reader_, refusal_, placed_) ||
             !gltf::read_skin_joints(model_, placed_, source_, refusal_, joints_) ||
             !read_meshes()) {
             return false;

@@ -20,13 +20,14 @@ namespace handhold {
 struct SkinJoint {
     std::string name;          // name of the joint's node; may be empty
     std::int32_t parent = -1;  // index of the nearest joint above it; -1: none
-    Pose bind_ms;              // file's pose without its scale
+    Pose bind_ms;              // pose in which the mesh was bound, without scale
     // Extras of the joint's node that are numbers or arrays of numbers.
     std::map<std::string, std::vector<double>> numbers = {};
 };
 
-// A mesh and its joints in the frame of the file's scene (_ms), metres. The pose is that of the
-// file's nodes: the bind pose in nearly all files.
+// A mesh and its joints in the frame of the file's scene (_ms), metres, in the pose in which the
+// mesh was bound: that of the skin's inverse bind matrices, whatever pose the file's nodes have.
+// Without a skin it is the nodes' pose.
 struct SkinnedMesh {
     std::string file;  // used in messages
     std::vector<Vec3> positions;
@@ -57,7 +58,7 @@ Result<SkinnedMesh> parse_gltf_skin(std::string_view bytes, const std::filesyste
 // Loads a whole figure: every node of the default scene becomes a joint. Meshes without a skin
 // follow their node rigidly, and there may be several skins. Joints may also be scaled unevenly or
 // sheared: bind_ms is then found as for mirrored joints. More than k_max_skin_joints nodes are an
-// error. Otherwise as load_gltf_skin.
+// error. All other rules and errors are those of load_gltf_skin.
 Result<SkinnedMesh> load_gltf_figure(const std::filesystem::path& path);
 Result<SkinnedMesh> parse_gltf_figure(std::string_view bytes, const std::filesystem::path& path);
 

@@ -61,7 +61,8 @@ class JsonValue {
     // A quaternion x, y, z, w. Its length must be within 1e-2 of 1; the result is normalised.
     Quat rotation() const;
 
-    // As above, but an absent value reads as `fallback`. A null is not an absent value.
+    // Like the readers above, but an absent value reads as `fallback`. A null is not an absent
+    // value.
     double number_or(double fallback, const NumberRange& range = {}) const;
     bool flag_or(bool fallback) const;
     std::string text_or(std::string fallback) const;

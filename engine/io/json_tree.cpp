@@ -58,7 +58,7 @@ class TreeBuilder {
         return add(Json(value)) != nullptr;
     }
     bool string(std::string& value) { return add(Json(std::move(value))) != nullptr; }
-    // Only binary formats call this.
+    // Required by the parser's interface; called only for binary formats.
     bool binary(  // NOLINT(readability-convert-member-functions-to-static)
         Json::binary_t& /*value*/) {
         return false;

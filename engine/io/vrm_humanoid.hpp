@@ -10,7 +10,7 @@
 namespace handhold {
 
 // Maps the name of a VRM bone ("leftUpperArm") to the name of its node. Empty if the file has no
-// such table. Leaves out nodes without a name and names that several nodes share. `bytes` are those
+// such table. Leaves out nodes without a name and names that several nodes have. `bytes` are those
 // of a .glb, .vrm or .gltf; `file` is used in messages.
 //
 // Errors, with the JSON pointer of the cause: bytes that are not glTF; a table with members of

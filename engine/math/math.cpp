@@ -65,7 +65,7 @@ bool is_valid(const Pose& pose) {
 }
 
 void sin_cos(double angle_rad, double& sine, double& cosine) {
-    if (!(std::abs(angle_rad) < k_largest_reduced_rad)) {  // or NaN
+    if (!(std::abs(angle_rad) < k_largest_reduced_rad)) {  // true for NaN, too
         sine = 0.0;
         cosine = 1.0;
         return;

@@ -37,7 +37,7 @@ void solve_positive_definite(UnknownsSquare& matrix, Unknowns& vector, std::size
     }
 }
 
-// One row along a step: value + length * along.
+// Value of an inequality along a step: value + length * along.
 struct RowOnLine {
     double value;
     double along;
@@ -123,7 +123,8 @@ Unknowns minimise_penalised(const UnknownsSquare& hessian, const Unknowns& gradi
         const double length = best_length(turned.dot(step) + gradient.dot(step), bent.dot(step),
                                           {line.data(), line_count});
         x += length * step;
-        // A whole step that leaves the same rows violated ends at the minimum.
+        // If the whole step is taken and the same rows stay violated, it ends exactly at the
+        // minimum.
         bool is_exact = length == 1.0;
         for (std::size_t r = 0; r < rows.size(); ++r) {
             const double before = values[r];

@@ -5,7 +5,7 @@
 
 #include "engine/math/math.hpp"
 
-// A small dense quadratic programme whose inequalities are penalties: what cannot be met is shared
+// A small dense quadratic programme whose inequalities are penalties: what cannot be met is divided
 // by least squares, so that a solution always exists.
 namespace handhold {
 

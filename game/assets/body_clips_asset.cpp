@@ -1,17 +1,16 @@
 #include "game/assets/body_clips_asset.hpp"
 
-#include <utility>
+#include <stdexcept>
+#include <string>
 
-#include "engine/core/check.hpp"
 #include "game/assets/assets.hpp"
-#include "systems/rigs/body_clips_json.hpp"
 
 namespace handhold {
 
-BodyClips game_body_clips() {
-    Result<BodyClips> clips = parse_body_clips(game_asset("body_clips.json"), "body_clips.json");
-    HH_CHECK(clips.ok(), "the body's clips are good", 0);
-    return std::move(clips.value());
+void load_game_body_clips(hh::World& world) {
+    if (const hh::Status loaded = world.load_body_clips(game_asset("body_clips.json")); !loaded) {
+        throw std::logic_error("body_clips.json: " + std::string(loaded.text()));
+    }
 }
 
 }  // namespace handhold

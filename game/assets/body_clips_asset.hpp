@@ -1,10 +1,10 @@
 #pragma once
 
-#include "systems/rigs/body_clips.hpp"
+#include <handhold/handhold.hpp>
 
 namespace handhold {
 
-// The clips of the game's players: game/assets/body_clips.json.
-BodyClips game_body_clips();
+// Loads the additive clips of the game's players, game/assets/body_clips.json, into a world.
+void load_game_body_clips(hh::World& world);
 
 }  // namespace handhold

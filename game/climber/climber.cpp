@@ -2,14 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
-#include "engine/core/check.hpp"
 #include "game/climber/climber_body.hpp"
 #include "game/climber/climber_plan.hpp"
 #include "game/climber/climber_steer.hpp"
 #include "game/scene/player_defaults.hpp"
 
 namespace handhold {
+using hh::conjugate;
+using hh::dot;
+using hh::length;
+using hh::normalized;
+using hh::transform_point;
+
 namespace {
 
 constexpr double k_query_interval_s = 0.1;
@@ -27,8 +33,8 @@ constexpr std::uint32_t k_failed_queries_before_leap = 3;
 constexpr double k_adrift_s = 1.0;  // time without a hold before the climber may use jets
 constexpr double k_return_mps = 1.2;
 
-constexpr std::array<HandSide, k_hand_count> k_sides = {HandSide::left, HandSide::right};
-HandSide other(HandSide side) { return side == HandSide::left ? HandSide::right : HandSide::left; }
+constexpr std::array<hh::Side, 2> k_sides = {HH_LEFT, HH_RIGHT};
+hh::Side other(hh::Side side) { return side == HH_LEFT ? HH_RIGHT : HH_LEFT; }
 
 std::size_t count_hands(const ClimberState& state, ClimberHandMode mode) {
     return static_cast<std::size_t>(
@@ -37,17 +43,28 @@ std::size_t count_hands(const ClimberState& state, ClimberHandMode mode) {
 
 // --- Results of grabs ---
 
-void feel_closing(const ClimberMind& mind, HandSide side, const Grab& grab) {
+// What a hand holds, as a climber feels it.
+enum class Felt : std::uint8_t { nothing, support, free_body };
+Felt feel(const ClimberMind& mind, const hh_hand_state& hand) {
+    if (hand.grip == HH_GRIP_NONE || hand.body == hh::Body{}) {
+        return Felt::nothing;  // or another player
+    }
+    const double mass_kg = mind.sight.world.mass_kg(hand.body).value_or(0.0);
+    return mass_kg > 0.0 && mass_kg < mind.sight.heavy_body_kg ? Felt::free_body : Felt::support;
+}
+
+void feel_closing(const ClimberMind& mind, hh::Side side, const hh_hand_state& now) {
     ClimberHand& hand = mind.hand(side);
-    if (grab.kind == GripKind::surface) {
+    const Felt felt = feel(mind, now);
+    if (felt == Felt::support) {
         hand.mode = ClimberHandMode::holding;
         hand.change_s = mind.now.t_s;
         mind.state.home = hand.hold;
         // The hand may have gripped a body in front of the planned hold.
-        mind.state.home.body = grab.body;
-        hand.hold.body = grab.body;
-        hand.hold.wrist_bs = grab.anchor_bs;
-    } else if (grab.kind == GripKind::held) {
+        mind.state.home.body = now.body;
+        hand.hold.body = now.body;
+        hand.hold.wrist_bs = now.anchor;
+    } else if (felt == Felt::free_body) {
         hand.mode = ClimberHandMode::carrying;
         hand.change_s = mind.now.t_s + mind.state.random.between(0.4, 1.6);
         begin_rest(mind.state, side);
@@ -57,22 +74,22 @@ void feel_closing(const ClimberMind& mind, HandSide side, const Grab& grab) {
 }
 
 void feel_hands(const ClimberMind& mind) {
-    for (const HandSide side : k_sides) {
+    for (const hh::Side side : k_sides) {
         ClimberHand& hand = mind.hand(side);
-        const Grab& grab = mind.world().grab.at(mind.task.player.hands[index_of(side)]);
+        const hh_hand_state now = *mind.world().hand(mind.player(), side);
         if (hand.mode == ClimberHandMode::closing) {
-            feel_closing(mind, side, grab);
+            feel_closing(mind, side, now);
         } else if (hand.mode == ClimberHandMode::holding) {
-            if (grab.kind != GripKind::surface || grab.error_m > k_grip_lost_m ||
+            if (feel(mind, now) != Felt::support || now.error_m > k_grip_lost_m ||
                 mind.stretch_m(side) > k_climber_arm_m + 0.01) {
                 let_go(mind.state, side);
             }
         } else if (hand.mode == ClimberHandMode::carrying) {
-            if (grab.kind == GripKind::none || mind.now.t_s >= hand.change_s) {
+            if (now.grip == HH_GRIP_NONE || mind.now.t_s >= hand.change_s) {
                 let_go(mind.state, side);
             }
-        } else if (hand.mode == ClimberHandMode::reaching && !is_null(hand.hold.body) &&
-                   !mind.world().body.contains(hand.hold.body)) {
+        } else if (hand.mode == ClimberHandMode::reaching && !(hand.hold.body == hh::Body{}) &&
+                   !mind.world().has(hand.hold.body)) {
             let_go(mind.state, side);
         }
     }
@@ -83,7 +100,7 @@ void feel_hands(const ClimberMind& mind) {
 
 // --- Hand over hand ---
 
-bool try_reach(const ClimberMind& mind, HandSide side, const Vec3& toward_ws) {
+bool try_reach(const ClimberMind& mind, hh::Side side, const hh::Vec3& toward_ws) {
     const bool loose_too =
         mind.task.picks_up_bodies && mind.now.carried && mind.state.random.chance(0.15);
     const auto found =
@@ -92,31 +109,30 @@ bool try_reach(const ClimberMind& mind, HandSide side, const Vec3& toward_ws) {
         return false;
     }
     begin_reach(found->hold, found->reach_s, mind.state, side);
-    const Vec3 way = mind.wrist_ws(side) - mind.now.head_ws;
-    mind.state.gaze_ws = (mind.state.heading_ws + 0.5 * way).normalized();
+    const hh::Vec3 way = mind.wrist_ws(side) - mind.now.head_ws;
+    mind.state.gaze_ws = normalized(mind.state.heading_ws + 0.5 * way);
     return true;
 }
 
 // Precondition: both hands hold. Releases the hand that is farther back along the heading.
 void release_trailing(const ClimberMind& mind) {
-    const auto ahead_m = [&mind](HandSide side) {
-        return (mind.wrist_ws(side) - mind.now.head_ws).dot(mind.state.heading_ws);
+    const auto ahead_m = [&mind](hh::Side side) {
+        return dot(mind.wrist_ws(side) - mind.now.head_ws, mind.state.heading_ws);
     };
-    const double since_s =
-        std::max(mind.hand(HandSide::left).change_s, mind.hand(HandSide::right).change_s);
+    const double since_s = std::max(mind.hand(HH_LEFT).change_s, mind.hand(HH_RIGHT).change_s);
     if (mind.now.t_s - since_s < k_both_hold_s) {
         return;
     }
-    const double left_m = ahead_m(HandSide::left);
-    const double right_m = ahead_m(HandSide::right);
-    let_go(mind.state, left_m < right_m ? HandSide::left : HandSide::right);
+    const double left_m = ahead_m(HH_LEFT);
+    const double right_m = ahead_m(HH_RIGHT);
+    let_go(mind.state, left_m < right_m ? HH_LEFT : HH_RIGHT);
 }
 
 // For ClimberTask::single_hand: releases the holding hand shortly before the other hand closes, so
 // the climber floats for a moment.
 void hand_over(const ClimberMind& mind) {
     constexpr double k_float_s = 0.06;
-    for (const HandSide side : k_sides) {
+    for (const hh::Side side : k_sides) {
         const ClimberHand& next = mind.hand(other(side));
         if (mind.hand(side).mode == ClimberHandMode::holding &&
             (next.mode == ClimberHandMode::closing ||
@@ -132,21 +148,21 @@ void begin_leap(const ClimberMind& mind) {
     mind.state.failed_queries = 0;
 }
 
-void go_on(const ClimberMind& mind, const Vec3& wanted_mps) {
+void go_on(const ClimberMind& mind, const hh::Vec3& wanted_mps) {
     ClimberState& state = mind.state;
-    state.wanted_ps_mps = mind.now.origin_ws.rotation.conjugate() * wanted_mps;
+    state.wanted_ps_mps = conjugate(mind.now.origin_ws.rotation) * wanted_mps;
     state.gaze_ws = state.heading_ws;
-    if (is_at_target(mind.task, state) && wanted_mps.norm() < 0.1) {
+    if (is_at_target(mind.task, state) && length(wanted_mps) < 0.1) {
         return;
     }
-    if (count_hands(state, ClimberHandMode::holding) == k_hand_count) {
+    if (count_hands(state, ClimberHandMode::holding) == 2) {
         release_trailing(mind);
         return;
     }
-    for (const HandSide side : k_sides) {
+    for (const hh::Side side : k_sides) {
         const ClimberHand& free_hand = mind.hand(side);
         const bool ready =
-            free_hand.mode == ClimberHandMode::rest && state.last.t_s > free_hand.from_s + 0.1;
+            free_hand.mode == ClimberHandMode::rest && state.last.time_s > free_hand.from_s + 0.1;
         if (!ready || mind.hand(other(side)).mode != ClimberHandMode::holding) {
             continue;
         }
@@ -166,18 +182,18 @@ void go_on(const ClimberMind& mind, const Vec3& wanted_mps) {
 // straight, or the push has lasted too long.
 void leap(const ClimberMind& mind) {
     ClimberState& state = mind.state;
-    const Vec3 heading_ps = mind.now.origin_ws.rotation.conjugate() * state.heading_ws;
+    const hh::Vec3 heading_ps = conjugate(mind.now.origin_ws.rotation) * state.heading_ws;
     state.wanted_ps_mps = k_leap_mps * heading_ps;
     bool off = mind.now.t_s >= state.leap_until_s ||
-               state.velocity_ps_mps.dot(heading_ps) > 0.9 * k_leap_mps;
-    for (const HandSide side : k_sides) {
+               dot(state.velocity_ps_mps, heading_ps) > 0.9 * k_leap_mps;
+    for (const hh::Side side : k_sides) {
         off = off || (mind.hand(side).mode == ClimberHandMode::holding &&
                       mind.stretch_m(side) > k_leap_stretch_m);
     }
     if (!off) {
         return;
     }
-    for (const HandSide side : k_sides) {
+    for (const hh::Side side : k_sides) {
         if (mind.hand(side).mode == ClimberHandMode::holding) {
             let_go(state, side);
         }
@@ -191,11 +207,12 @@ void leap(const ClimberMind& mind) {
 // first replaces `home` by a surface nearby.
 void return_home(const ClimberMind& mind) {
     ClimberState& state = mind.state;
-    const double jets_mps2 = mind.sight.scene.tuning.locomotion.thruster_mps2;
-    Vec3 home_ws = transform_point(body_at(mind.world(), state.home.body, mind.now, mind.now.t_s),
-                                   state.home.wrist_bs.position);
+    const double jets_mps2 = mind.world().tuning("locomotion.thruster_mps2").value_or(0.0);
+    hh::Vec3 home_ws =
+        transform_point(body_at(mind.world(), state.home.body, mind.now, mind.now.t_s),
+                        state.home.wrist_bs.position);
     constexpr double k_there_m = 0.5;
-    if ((home_ws - mind.now.head_ws).norm() < k_there_m || state.random.chance(0.05)) {
+    if (length(home_ws - mind.now.head_ws) < k_there_m || state.random.chance(0.05)) {
         if (const auto shore =
                 find_shore(mind.sight, mind.player(), mind.now.head_ws, state.random)) {
             state.home = *shore;
@@ -204,37 +221,37 @@ void return_home(const ClimberMind& mind) {
                                 state.home.wrist_bs.position);
         }
     }
-    const Vec3 way = home_ws - mind.now.head_ws;
-    const double distance_m = way.norm();
+    const hh::Vec3 way = home_ws - mind.now.head_ws;
+    const double distance_m = length(way);
     if (jets_mps2 <= 0.0 || distance_m < 1e-3) {
         return;
     }
     state.heading_ws = way / distance_m;
     const double speed_mps = std::clamp(0.5 * distance_m, 0.3, k_return_mps);
-    const Vec3 change_mps = speed_mps * state.heading_ws - mind.now.relative_mps;
+    const hh::Vec3 change_mps = speed_mps * state.heading_ws - mind.now.relative_mps;
     constexpr double k_ease_s = 0.3;
-    Vec3 thrust = change_mps / (jets_mps2 * k_ease_s);
-    if (thrust.norm() > 1.0) {
-        thrust.normalize();
+    hh::Vec3 thrust = change_mps / (jets_mps2 * k_ease_s);
+    if (length(thrust) > 1.0) {
+        thrust = normalized(thrust);
     }
-    state.thrust_ps = mind.now.origin_ws.rotation.conjugate() * thrust;
+    state.thrust_ps = conjugate(mind.now.origin_ws.rotation) * thrust;
 }
 
 void drift(const ClimberMind& mind) {
     ClimberState& state = mind.state;
     state.leaping = false;
-    state.wanted_ps_mps.setZero();
+    state.wanted_ps_mps = {};
     if (count_hands(state, ClimberHandMode::reaching) > 0 ||
         count_hands(state, ClimberHandMode::closing) > 0) {
         return;
     }
-    const double speed_mps = mind.now.relative_mps.norm();
+    const double speed_mps = length(mind.now.relative_mps);
     constexpr double k_drifts_mps = 0.15;
-    const Vec3 toward_ws =
-        speed_mps > k_drifts_mps ? Vec3(mind.now.relative_mps / speed_mps) : state.heading_ws;
+    const hh::Vec3 toward_ws =
+        speed_mps > k_drifts_mps ? (mind.now.relative_mps / speed_mps) : state.heading_ws;
     state.gaze_ws = toward_ws;
-    const HandSide first = state.random.chance(0.5) ? HandSide::left : HandSide::right;
-    for (const HandSide side : {first, other(first)}) {
+    const hh::Side first = state.random.chance(0.5) ? HH_LEFT : HH_RIGHT;
+    for (const hh::Side side : {first, other(first)}) {
         if (mind.hand(side).mode == ClimberHandMode::rest && try_reach(mind, side, toward_ws)) {
             return;
         }
@@ -252,9 +269,9 @@ void drift(const ClimberMind& mind) {
 }
 
 void decide(const ClimberMind& mind) {
-    mind.state.thrust_ps.setZero();
+    mind.state.thrust_ps = {};
     if (mind.now.carried) {
-        const Vec3 wanted_mps = steer(mind);
+        const hh::Vec3 wanted_mps = steer(mind);
         if (!mind.state.leaping) {
             go_on(mind, wanted_mps);
         }
@@ -265,38 +282,44 @@ void decide(const ClimberMind& mind) {
 
 }  // namespace
 
-ClimberState begin_climber(const Scene& scene, const ClimberTask& task, std::uint64_t seed) {
-    HH_CHECK(task.sample_hz >= 10.0 && task.sample_hz <= 1000.0,
-             "sample_hz must lie between 10 and 1000", task.sample_hz);
+ClimberSight sight_of(Scene& scene) {
+    return {scene.host, scene.rails, *scene.host.tuning_vector("hand.palm_center_m"),
+            *scene.host.tuning("phases.heavy_body_kg")};
+}
+
+ClimberState begin_climber(const hh::World& world, const ClimberTask& task, std::uint64_t seed) {
+    if (!(task.sample_hz >= 10.0 && task.sample_hz <= 1000.0)) {
+        throw std::invalid_argument("sample_hz must lie between 10 and 1000");
+    }
     ClimberState state;
-    state.random = Random(mix64(seed));
-    const double now_s = scene.world.clock.t_s;
+    state.random = Random::of(seed);
+    const double now_s = world.time_s();
     state.next_sample = static_cast<std::uint64_t>(now_s * task.sample_hz) + 1;
-    state.last.t_s = now_s;
+    state.last.time_s = now_s;
     state.tremor_phase_rad = state.random.between(0.0, 6.0);
-    const Pose& origin_ws = scene.world.player_origin.at(task.player.player).pose_ws;
-    state.heading_ws = origin_ws.rotation * -Vec3::UnitZ();
+    const hh::Pose origin_ws = world.pose(task.player)->origin;
+    state.heading_ws = origin_ws.rotation * -hh::k_z;
     state.gaze_ws = state.heading_ws;
     state.next_query_s = now_s + state.random.between(0.0, k_query_interval_s);
     state.carried_s = now_s;
     state.waypoint_since_s = now_s;
     place_body(state);
-    state.last = sample_body(scene, task, now_s, state);
+    state.last = sample_body(world, task, now_s, state);
     state.home.wrist_bs.position = transform_point(origin_ws, state.eyes_ps);
     return state;
 }
 
-PlayerCommands climb(const ClimberSight& sight, const ClimberTask& task, double frame_end_s,
-                     ClimberState& state, std::vector<TrackingSample>& samples) {
+hh_commands climb(const ClimberSight& sight, const ClimberTask& task, double frame_end_s,
+                  ClimberState& state, std::vector<hh::Sample>& samples) {
     samples.clear();
-    ClimberMind mind{sight, task, sense(sight.scene, task, state), state};
-    if (state.last.t_s > mind.now.t_s || !state.first_given) {
+    ClimberMind mind{sight, task, sense(sight.world, task, state), state};
+    if (state.last.time_s > mind.now.t_s || !state.first_given) {
         samples.push_back(state.last);
         state.first_given = true;
     }
     feel_hands(mind);
     // Again: feel_hands() may have changed the hold that supports the climber.
-    mind.now = sense(sight.scene, task, state);
+    mind.now = sense(sight.world, task, state);
     if (mind.now.t_s >= state.next_query_s) {
         // The interval is random, so that the climbers of a crowd decide in different frames.
         state.next_query_s = mind.now.t_s + state.random.between(0.8, 1.2) * k_query_interval_s;
@@ -308,14 +331,14 @@ PlayerCommands climb(const ClimberSight& sight, const ClimberTask& task, double 
     if (state.leaping && mind.now.carried) {
         leap(mind);
     }
-    while (state.last.t_s <= frame_end_s) {
+    while (state.last.time_s <= frame_end_s) {
         const double t_s = next_sample_time(task, state);
-        move_body(sight.scene, mind.now, t_s, state);
-        state.last = sample_body(sight.scene, task, t_s, state);
+        move_body(sight.world, mind.now, t_s, state);
+        state.last = sample_body(sight.world, task, t_s, state);
         samples.push_back(state.last);
     }
-    PlayerCommands commands;
-    commands.thrust_ps = state.thrust_ps;
+    hh_commands commands{};
+    commands.thrust = state.thrust_ps;
     return commands;
 }
 

@@ -2,11 +2,12 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "components/tracking.hpp"
-#include "components/world.hpp"
-#include "engine/collision/collision_world.hpp"
+#include <handhold/handhold.hpp>
+#include <handhold/math.hpp>
+
 #include "game/scene/random.hpp"
 #include "game/scene/scene.hpp"
 
@@ -19,13 +20,13 @@ namespace handhold {
 // A point that the climber's head moves to, in the frame of `body`; in world space if `body` is
 // null.
 struct ClimberWaypoint {
-    Entity body = k_no_entity;
-    Vec3 point_bs = Vec3::Zero();
+    hh::Body body = hh::Body{};
+    hh::Vec3 point_bs = hh::Vec3{};
 };
 
 // One climber's player and settings. Constant while climbing.
 struct ClimberTask {
-    PlayerEntities player;
+    hh::Player player{};
     // Visited in order; the climber stays at the last one. Empty: wanders.
     std::vector<ClimberWaypoint> waypoints;
     double sample_hz = 90.0;      // [10, 1000]; a hand that closes adds a sample of its own
@@ -46,19 +47,19 @@ enum class ClimberHandMode : std::uint8_t {
 
 // A place where a hand can grip.
 struct ClimberHold {
-    Entity body = k_no_entity;     // null: a point in world space with nothing to grip
-    Pose wrist_bs;                 // pose of the wrist when the hand grips
-    Vec3 away_bs = Vec3::UnitY();  // unit normal of the surface, outward
+    hh::Body body = hh::Body{};        // null: a point in world space with nothing to grip
+    hh::Pose wrist_bs = hh::k_origin;  // pose of the wrist when the hand grips
+    hh::Vec3 away_bs = hh::k_y;        // unit normal of the surface, outward
 };
 
 struct ClimberHand {
     ClimberHandMode mode = ClimberHandMode::rest;
-    Pose wrist_ps;  // wrist without tremor
-    Vec3 velocity_ps_mps = Vec3::Zero();
+    hh::Pose wrist_ps = hh::k_origin;  // wrist without tremor
+    hh::Vec3 velocity_ps_mps = hh::Vec3{};
     ClimberHold hold;  // valid if reaching, closing or holding
     // Start and times of the current movement, or of the last one.
-    Pose from_ps;
-    Vec3 from_velocity_ps_mps = Vec3::Zero();
+    hh::Pose from_ps = hh::k_origin;
+    hh::Vec3 from_velocity_ps_mps = hh::Vec3{};
     double from_s = 0.0;
     double until_s = 0.0;   // end of the movement; closing: when the button was pressed
     double change_s = 0.0;  // holding: start of the hold; carrying: when to release
@@ -68,21 +69,22 @@ struct ClimberHand {
 struct ClimberState {
     Random random;
     std::uint64_t next_sample = 0;  // number of the next regular sample, at next_sample / sample_hz
-    TrackingSample last;            // the newest sample; its time may be after the end of the frame
-    bool first_given = false;       // whether climb() has returned the sample of the start pose
+    hh::Sample last =
+        hh::sample();          // the newest sample; its time may be after the end of the frame
+    bool first_given = false;  // whether climb() has returned the sample of the start pose
     double tremor_phase_rad = 0.0;
 
     // The climber's body at time last.t_s. The head's velocity is that of the play space.
-    Vec3 eyes_ps = Vec3::Zero();
-    Quat look_ps = Quat::Identity();
+    hh::Vec3 eyes_ps = hh::Vec3{};
+    hh::Quat look_ps = hh::k_no_turn;
     double chest_yaw_rad = 0.0;
-    std::array<ClimberHand, k_hand_count> hands;
-    Vec3 velocity_ps_mps = Vec3::Zero();  // velocity of the head relative to the support
-    Vec3 wanted_ps_mps = Vec3::Zero();    // target of velocity_ps_mps
+    std::array<ClimberHand, 2> hands;
+    hh::Vec3 velocity_ps_mps = hh::Vec3{};  // velocity of the head relative to the support
+    hh::Vec3 wanted_ps_mps = hh::Vec3{};    // target of velocity_ps_mps
 
     // What the climber plans to do, and what the plans follow from.
-    Vec3 heading_ws = -Vec3::UnitZ();  // unit
-    Vec3 gaze_ws = -Vec3::UnitZ();     // unit
+    hh::Vec3 heading_ws = -hh::k_z;  // unit
+    hh::Vec3 gaze_ws = -hh::k_z;     // unit
     double heading_until_s = 0.0;
     double next_query_s = 0.0;
     double way_ahead_m = 0.0;  // free distance along the heading at the last query
@@ -95,26 +97,28 @@ struct ClimberState {
     double leap_until_s = 0.0;
     double carried_s = 0.0;  // when the climber last had a support
     ClimberHold home;        // the last hold, or the place to return to
-    Vec3 thrust_ps = Vec3::Zero();
+    hh::Vec3 thrust_ps = hh::Vec3{};
 };
 
-// The scene as a climber can query it. Precondition: every collider of `collision` is at its
-// current pose (place_scene).
+// What a climber can query, and what it knows of itself.
 struct ClimberSight {
-    const Scene& scene;
-    const CollisionWorld& collision;
+    hh::World& world;
+    std::span<const SceneRail> rails;
+    hh::Vec3 palm_center_m{};    // palm of the right hand in the frame of the wrist
+    double heavy_body_kg = 0.0;  // lighter dynamic bodies cannot carry a climber
 };
+ClimberSight sight_of(Scene& scene);
 
 // The initial state: the climber stands in the play space with both hands at rest. Equal seeds give
 // equal states.
-ClimberState begin_climber(const Scene& scene, const ClimberTask& task, std::uint64_t seed);
+ClimberState begin_climber(const hh::World& world, const ClimberTask& task, std::uint64_t seed);
 
 // Advances the climber by one frame; call it between two frames. Observes, decides, and moves head
 // and hands to the first sample after `frame_end_s`. Replaces the contents of `samples` by the
 // samples within the coming frame and the first one after it. The head stays below 3 m/s relative
 // to the support, and the wrists within 0.75 m of the shoulders.
-PlayerCommands climb(const ClimberSight& sight, const ClimberTask& task, double frame_end_s,
-                     ClimberState& state, std::vector<TrackingSample>& samples);
+hh_commands climb(const ClimberSight& sight, const ClimberTask& task, double frame_end_s,
+                  ClimberState& state, std::vector<hh::Sample>& samples);
 
 // True once the climber has reached the last waypoint; never for a wandering climber.
 bool is_at_target(const ClimberTask& task, const ClimberState& state);

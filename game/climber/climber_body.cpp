@@ -5,12 +5,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/play_space.hpp"
-#include "game/devices/controller_profile.hpp"
-#include "game/mesh/primitives.hpp"
 #include "game/scene/player_defaults.hpp"
 
 namespace handhold {
+using hh::conjugate;
+using hh::cross;
+using hh::dot;
+using hh::interpolate;
+using hh::inverse;
+using hh::length;
+using hh::normalized;
+using hh::rotation_about;
+using hh::rotation_from_vector;
+using hh::transform_point;
+
 namespace {
 
 constexpr double k_acceleration_mps2 = 2.5;
@@ -23,20 +31,20 @@ constexpr double k_climber_lift_m = 0.06;  // height of a moving hand above the 
 constexpr double k_rest_s = 0.5;
 constexpr double k_tremor_m = 0.0005;  // amplitude of the hands' tremor
 
-double outward(HandSide side) { return side == HandSide::right ? 1.0 : -1.0; }
+double outward(hh::Side side) { return side == HH_RIGHT ? 1.0 : -1.0; }
 
-Quat chest(const ClimberState& state) { return rotation_about(Vec3::UnitY(), state.chest_yaw_rad); }
+hh::Quat chest(const ClimberState& state) { return rotation_about(hh::k_y, state.chest_yaw_rad); }
 
 // Position of the eyes in play space. A standing person sways slightly.
-Vec3 eyes_at(double t_s, double phase_rad) {
-    return {0.02 * sine(0.4 * t_s + phase_rad), k_eye_height_m + 0.01 * sine(0.5 * t_s),
-            0.02 * sine(0.3 * t_s + 2.0 * phase_rad)};
+hh::Vec3 eyes_at(double t_s, double phase_rad) {
+    return {0.02 * hh::sine(0.4 * t_s + phase_rad), k_eye_height_m + 0.01 * hh::sine(0.5 * t_s),
+            0.02 * hh::sine(0.3 * t_s + 2.0 * phase_rad)};
 }
 
 // Rest pose of a wrist: beside and in front of the chest, palm down, fingers forward.
-Pose rest_ps(const ClimberState& state, HandSide side) {
-    const Quat ahead = chest(state);
-    return {state.eyes_ps + ahead * Vec3(0.22 * outward(side), -0.42, -0.30), ahead};
+hh::Pose rest_ps(const ClimberState& state, hh::Side side) {
+    const hh::Quat ahead = chest(state);
+    return {state.eyes_ps + ahead * hh::Vec3{0.22 * outward(side), -0.42, -0.30}, ahead};
 }
 
 double minimum_jerk(double u) { return u * u * u * (10.0 + u * (-15.0 + 6.0 * u)); }
@@ -44,29 +52,30 @@ double minimum_jerk(double u) { return u * u * u * (10.0 + u * (-15.0 + 6.0 * u)
 // The wrist's pose at `t_s` during a movement. It starts with the hand's start pose and velocity,
 // and ends at `to_ps`, which may move meanwhile. `bow_ps`: offset from the direct path at half
 // time.
-Pose on_the_way(const ClimberHand& hand, const Pose& to_ps, const Vec3& bow_ps, double t_s) {
+hh::Pose on_the_way(const ClimberHand& hand, const hh::Pose& to_ps, const hh::Vec3& bow_ps,
+                    double t_s) {
     const double seconds = std::max(hand.until_s - hand.from_s, 1e-3);
     const double u = std::clamp((t_s - hand.from_s) / seconds, 0.0, 1.0);
-    Pose pose = interpolate(hand.from_ps, to_ps, minimum_jerk(u));
+    hh::Pose pose = interpolate(hand.from_ps, to_ps, minimum_jerk(u));
     const double left = 1.0 - u;
     pose.position += (seconds * u * left * left * left) * hand.from_velocity_ps_mps;
     pose.position += (16.0 * u * u * left * left) * bow_ps;
     return pose;
 }
 
-void keep_in_reach(const Vec3& shoulder, Vec3& wrist) {
-    const Vec3 arm = wrist - shoulder;
-    const double length = arm.norm();
-    if (length > k_climber_arm_m) {
-        wrist = shoulder + arm * (k_climber_arm_m / length);
+void keep_in_reach(const hh::Vec3& shoulder, hh::Vec3& wrist) {
+    const hh::Vec3 arm = wrist - shoulder;
+    const double arm_m = length(arm);
+    if (arm_m > k_climber_arm_m) {
+        wrist = shoulder + arm * (k_climber_arm_m / arm_m);
     }
 }
 
 void begin_move(ClimberState& state, ClimberHand& hand, double seconds) {
     hand.from_ps = hand.wrist_ps;
     hand.from_velocity_ps_mps = hand.velocity_ps_mps;
-    hand.from_s = state.last.t_s;
-    hand.until_s = state.last.t_s + seconds;
+    hand.from_s = state.last.time_s;
+    hand.until_s = state.last.time_s + seconds;
 }
 
 bool pulls(const ClimberHand& hand) {
@@ -76,23 +85,23 @@ bool pulls(const ClimberHand& hand) {
 // Moves the head's velocity towards the wanted velocity with limited acceleration. Slows down
 // before an arm is straight.
 void pull_body(double dt_s, ClimberState& state) {
-    Vec3 change = (k_hurry_per_s * dt_s) * (state.wanted_ps_mps - state.velocity_ps_mps);
-    const bool brakes = state.wanted_ps_mps.norm() < state.velocity_ps_mps.norm();
+    hh::Vec3 change = (k_hurry_per_s * dt_s) * (state.wanted_ps_mps - state.velocity_ps_mps);
+    const bool brakes = length(state.wanted_ps_mps) < length(state.velocity_ps_mps);
     const double limit = (brakes ? k_braking_mps2 : k_acceleration_mps2) * dt_s;
-    if (change.norm() > limit) {
-        change *= limit / change.norm();
+    if (length(change) > limit) {
+        change *= limit / length(change);
     }
     state.velocity_ps_mps += change;
-    for (const HandSide side : {HandSide::left, HandSide::right}) {
-        const ClimberHand& hand = state.hands[index_of(side)];
-        const Vec3 arm = hand.wrist_ps.position - shoulder_ps(state, side);
-        const double length = arm.norm();
-        if (!pulls(hand) || length < 1e-3) {
+    for (const hh::Side side : {HH_LEFT, HH_RIGHT}) {
+        const ClimberHand& hand = state.hands[side];
+        const hh::Vec3 arm = hand.wrist_ps.position - shoulder_ps(state, side);
+        const double arm_m = length(arm);
+        if (!pulls(hand) || arm_m < 1e-3) {
             continue;
         }
-        const Vec3 along = arm / length;
-        const double growth_mps = -state.velocity_ps_mps.dot(along);
-        const double most_mps = k_stretch_rate_per_s * std::max(0.0, k_climber_arm_m - length);
+        const hh::Vec3 along = arm / arm_m;
+        const double growth_mps = -dot(state.velocity_ps_mps, along);
+        const double most_mps = k_stretch_rate_per_s * std::max(0.0, k_climber_arm_m - arm_m);
         if (growth_mps > most_mps) {
             state.velocity_ps_mps += (growth_mps - most_mps) * along;
         }
@@ -101,65 +110,65 @@ void pull_body(double dt_s, ClimberState& state) {
 
 // Turns the chest towards the heading, unless a pulling arm is nearly straight. Turns the head
 // towards the gaze.
-void turn_body(double dt_s, const Quat& play_space, ClimberState& state) {
-    const Vec3 ahead = play_space.conjugate() * state.heading_ws;
+void turn_body(double dt_s, const hh::Quat& play_space, ClimberState& state) {
+    const hh::Vec3 ahead = conjugate(play_space) * state.heading_ws;
     constexpr double k_steep = 0.4;
     const bool stretched =
-        std::ranges::any_of(std::array{HandSide::left, HandSide::right}, [&state](HandSide side) {
-            const ClimberHand& hand = state.hands[index_of(side)];
-            return pulls(hand) && (hand.wrist_ps.position - shoulder_ps(state, side)).norm() > 0.6;
+        std::ranges::any_of(std::array{HH_LEFT, HH_RIGHT}, [&state](hh::Side side) {
+            const ClimberHand& hand = state.hands[side];
+            return pulls(hand) && length(hand.wrist_ps.position - shoulder_ps(state, side)) > 0.6;
         });
-    if (!stretched && Vec3(ahead.x(), 0.0, ahead.z()).norm() > k_steep) {
-        const Vec3 in_chest = chest(state).conjugate() * ahead;
-        const double off_rad = arc_tangent2(-in_chest.x(), -in_chest.z());
+    if (!stretched && length(hh::Vec3{ahead.x, 0.0, ahead.z}) > k_steep) {
+        const hh::Vec3 in_chest = conjugate(chest(state)) * ahead;
+        const double off_rad = hh_atan2(-in_chest.x, -in_chest.z);
         state.chest_yaw_rad += std::clamp(off_rad, -k_turn_radps * dt_s, k_turn_radps * dt_s);
     }
     // The gaze's pitch is limited to 50 degrees, as a neck's is.
-    Vec3 gaze = chest(state).conjugate() * (play_space.conjugate() * state.gaze_ws);
-    gaze.z() = std::min(gaze.z(), -0.3);
-    gaze.y() = std::clamp(gaze.y(), 1.2 * gaze.z(), -1.2 * gaze.z());
-    const Quat wanted = chest(state) * look_along(Vec3::Zero(), gaze, Vec3::UnitY()).rotation;
-    const Pose look = interpolate({Vec3::Zero(), state.look_ps}, {Vec3::Zero(), wanted},
-                                  std::min(1.0, 5.0 * dt_s));
+    hh::Vec3 gaze = conjugate(chest(state)) * (conjugate(play_space) * state.gaze_ws);
+    gaze.z = std::min(gaze.z, -0.3);
+    gaze.y = std::clamp(gaze.y, 1.2 * gaze.z, -1.2 * gaze.z);
+    const hh::Quat wanted = chest(state) * hh::look_rotation(gaze, hh::k_y);
+    const hh::Pose look =
+        interpolate({hh::Vec3{}, state.look_ps}, {hh::Vec3{}, wanted}, std::min(1.0, 5.0 * dt_s));
     state.look_ps = look.rotation;
 }
 
 // A hold in play space: the tracked wrist of a hand there, and the surface's outward normal.
 struct HoldPlace {
-    Pose wrist_ps;
-    Vec3 away_ps;
+    hh::Pose wrist_ps = hh::k_origin;
+    hh::Vec3 away_ps{};
 };
-HoldPlace place_of(const World& world, const ClimberHold& hold, const ClimberMoment& now,
+HoldPlace place_of(const hh::World& world, const ClimberHold& hold, const ClimberMoment& now,
                    double t_s, const ClimberState& state) {
-    const Pose body_ws = body_at(world, hold.body, now, t_s);
-    const Vec3 own_mps =
-        now.carried ? Vec3(now.support_mps + now.origin_ws.rotation * state.velocity_ps_mps)
+    const hh::Pose body_ws = body_at(world, hold.body, now, t_s);
+    const hh::Vec3 own_mps =
+        now.carried ? (now.support_mps + now.origin_ws.rotation * state.velocity_ps_mps)
                     : now.origin_mps;
-    Pose origin_ws = now.origin_ws;
+    hh::Pose origin_ws = now.origin_ws;
     origin_ws.position += (t_s - now.t_s) * own_mps;
-    const Vec3 away_ws = body_ws.rotation * hold.away_bs;
+    const hh::Vec3 away_ws = body_ws.rotation * hold.away_bs;
     return {inverse(origin_ws) * (body_ws * hold.wrist_bs),
-            origin_ws.rotation.conjugate() * away_ws};
+            conjugate(origin_ws.rotation) * away_ws};
 }
 
 // Sets the velocity of a drifting climber who catches a hold: that of the play space relative to
 // the hold.
-void catch_body(const World& world, const ClimberMoment& now, const ClimberHold& hold,
+void catch_body(const hh::World& world, const ClimberMoment& now, const ClimberHold& hold,
                 ClimberState& state) {
-    const Vec3 point_ws =
+    const hh::Vec3 point_ws =
         transform_point(body_at(world, hold.body, now, now.t_s), hold.wrist_bs.position);
-    state.velocity_ps_mps = now.origin_ws.rotation.conjugate() *
+    state.velocity_ps_mps = conjugate(now.origin_ws.rotation) *
                             (now.origin_mps - velocity_at(world, hold.body, point_ws));
 }
 
-void move_hand(const World& world, const ClimberMoment& now, double t_s, double dt_s,
-               ClimberState& state, HandSide side) {
-    ClimberHand& hand = state.hands[index_of(side)];
-    const Vec3 before = hand.wrist_ps.position;
+void move_hand(const hh::World& world, const ClimberMoment& now, double t_s, double dt_s,
+               ClimberState& state, hh::Side side) {
+    ClimberHand& hand = state.hands[side];
+    const hh::Vec3 before = hand.wrist_ps.position;
     switch (hand.mode) {
         case ClimberHandMode::rest:
         case ClimberHandMode::carrying:
-            hand.wrist_ps = on_the_way(hand, rest_ps(state, side), Vec3::Zero(), t_s);
+            hand.wrist_ps = on_the_way(hand, rest_ps(state, side), hh::Vec3{}, t_s);
             keep_in_reach(shoulder_ps(state, side), hand.wrist_ps.position);
             break;
         case ClimberHandMode::reaching: {
@@ -185,44 +194,43 @@ void move_hand(const World& world, const ClimberMoment& now, double t_s, double 
 
 }  // namespace
 
-Vec3 shoulder_ps(const ClimberState& state, HandSide side) {
-    return state.eyes_ps + chest(state) * Vec3(0.17 * outward(side), -0.22, 0.06);
+hh::Vec3 shoulder_ps(const ClimberState& state, hh::Side side) {
+    return state.eyes_ps + chest(state) * hh::Vec3{0.17 * outward(side), -0.22, 0.06};
 }
 
 double reach_time_s(double distance_m) { return std::clamp(0.25 + 0.7 * distance_m, 0.3, 0.8); }
 
-Vec3 velocity_at(const World& world, Entity body, const Vec3& point_ws) {
-    const BodyVelocity* const velocity = world.body_velocity.find(body);
-    if (velocity == nullptr) {
-        return Vec3::Zero();
-    }
-    const Vec3 arm = point_ws - world.body_pose.at(body).pose_ws.position;
-    return velocity->linear_mps + velocity->angular_radps.cross(arm);
-}
-
-Pose body_at(const World& world, Entity body, const ClimberMoment& now, double t_s) {
-    const BodyPose* const pose = world.body_pose.find(body);
-    if (pose == nullptr) {
+hh::Vec3 velocity_at(const hh::World& world, hh::Body body, const hh::Vec3& point_ws) {
+    if (!world.has(body)) {
         return {};
     }
-    const BodyVelocity& velocity = world.body_velocity.at(body);
-    const double dt_s = t_s - now.t_s;
-    return {pose->pose_ws.position + dt_s * velocity.linear_mps,
-            (rotation_from_vector(dt_s * velocity.angular_radps) * pose->pose_ws.rotation)
-                .normalized()};
+    const hh::World::Motion motion = *world.motion(body);
+    const hh::Vec3 arm = point_ws - world.pose(body)->position;
+    return motion.velocity_mps + cross(motion.angular_velocity_radps, arm);
 }
 
-ClimberMoment sense(const Scene& scene, const ClimberTask& task, const ClimberState& state) {
-    const World& world = scene.world;
-    const Entity player = task.player.player;
+hh::Pose body_at(const hh::World& world, hh::Body body, const ClimberMoment& now, double t_s) {
+    if (!world.has(body)) {
+        return hh::k_origin;
+    }
+    const hh::Pose pose = *world.pose(body);
+    const hh::World::Motion motion = *world.motion(body);
+    const double dt_s = t_s - now.t_s;
+    return {pose.position + dt_s * motion.velocity_mps,
+            normalized(rotation_from_vector(dt_s * motion.angular_velocity_radps) * pose.rotation)};
+}
+
+ClimberMoment sense(const hh::World& world, const ClimberTask& task, const ClimberState& state) {
+    const hh_player_pose player = *world.pose(task.player);
     ClimberMoment now;
-    now.t_s = world.clock.t_s;
-    now.origin_ws = world.player_origin.at(player).pose_ws;
-    now.origin_mps = world.player_velocity.at(player).linear_mps;
-    const HeadTracking& head = world.head_tracking.at(player);
-    now.head_ws = transform_point(now.origin_ws, head.state == TrackingState::never
-                                                     ? state.eyes_ps
-                                                     : head_center_ps(head, scene.tuning.head));
+    now.t_s = world.time_s();
+    now.origin_ws = player.origin;
+    now.origin_mps = player.velocity_mps;
+    std::uint8_t is_tracked = 0;
+    hh_player_head(world.get(), task.player, &now.head_ws, nullptr, &is_tracked);
+    if (is_tracked == 0) {
+        now.head_ws = transform_point(now.origin_ws, state.eyes_ps);
+    }
     const ClimberHold* support = &state.home;
     for (const ClimberHand& hand : state.hands) {
         if (hand.mode == ClimberHandMode::holding) {
@@ -230,38 +238,38 @@ ClimberMoment sense(const Scene& scene, const ClimberTask& task, const ClimberSt
             now.carried = true;
         }
     }
-    const Vec3 point_ws =
+    const hh::Vec3 point_ws =
         transform_point(body_at(world, support->body, now, now.t_s), support->wrist_bs.position);
-    now.support_mps = is_null(support->body) ? world.reference_velocity_mps
-                                             : velocity_at(world, support->body, point_ws);
+    now.support_mps = support->body == hh::Body{} ? world.reference_velocity_mps()
+                                                  : velocity_at(world, support->body, point_ws);
     now.relative_mps = now.origin_mps - now.support_mps;
     return now;
 }
 
 void place_body(ClimberState& state) {
-    state.eyes_ps = eyes_at(state.last.t_s, state.tremor_phase_rad);
-    for (const HandSide side : {HandSide::left, HandSide::right}) {
-        ClimberHand& hand = state.hands[index_of(side)];
+    state.eyes_ps = eyes_at(state.last.time_s, state.tremor_phase_rad);
+    for (const hh::Side side : {HH_LEFT, HH_RIGHT}) {
+        ClimberHand& hand = state.hands[side];
         hand.wrist_ps = rest_ps(state, side);
         hand.from_ps = hand.wrist_ps;
-        hand.from_s = hand.until_s = state.last.t_s;
+        hand.from_s = hand.until_s = state.last.time_s;
     }
 }
 
-void begin_reach(const ClimberHold& hold, double seconds, ClimberState& state, HandSide side) {
-    ClimberHand& hand = state.hands[index_of(side)];
+void begin_reach(const ClimberHold& hold, double seconds, ClimberState& state, hh::Side side) {
+    ClimberHand& hand = state.hands[side];
     begin_move(state, hand, seconds);
     hand.mode = ClimberHandMode::reaching;
     hand.hold = hold;
 }
 
-void begin_rest(ClimberState& state, HandSide side) {
-    begin_move(state, state.hands[index_of(side)], k_rest_s);
+void begin_rest(ClimberState& state, hh::Side side) {
+    begin_move(state, state.hands[side], k_rest_s);
 }
 
-void let_go(ClimberState& state, HandSide side) {
+void let_go(ClimberState& state, hh::Side side) {
     begin_rest(state, side);
-    state.hands[index_of(side)].mode = ClimberHandMode::rest;
+    state.hands[side].mode = ClimberHandMode::rest;
 }
 
 double next_sample_time(const ClimberTask& task, ClimberState& state) {
@@ -270,8 +278,8 @@ double next_sample_time(const ClimberTask& task, ClimberState& state) {
     // A hand that closes this near to a regular sample adds no sample.
     constexpr double k_apart_s = 1e-4;
     for (const ClimberHand& hand : state.hands) {
-        if (hand.mode == ClimberHandMode::reaching && hand.until_s > state.last.t_s + k_apart_s &&
-            hand.until_s < t_s - k_apart_s) {
+        if (hand.mode == ClimberHandMode::reaching &&
+            hand.until_s > state.last.time_s + k_apart_s && hand.until_s < t_s - k_apart_s) {
             t_s = hand.until_s;
         }
     }
@@ -279,37 +287,35 @@ double next_sample_time(const ClimberTask& task, ClimberState& state) {
     return t_s;
 }
 
-void move_body(const Scene& scene, const ClimberMoment& now, double t_s, ClimberState& state) {
-    const double dt_s = t_s - state.last.t_s;
+void move_body(const hh::World& world, const ClimberMoment& now, double t_s, ClimberState& state) {
+    const double dt_s = t_s - state.last.time_s;
     state.eyes_ps = eyes_at(t_s, state.tremor_phase_rad);
     turn_body(dt_s, now.origin_ws.rotation, state);
     if (std::any_of(state.hands.begin(), state.hands.end(), pulls)) {
         pull_body(dt_s, state);
     } else {
-        state.velocity_ps_mps = now.origin_ws.rotation.conjugate() * now.relative_mps;
+        state.velocity_ps_mps = conjugate(now.origin_ws.rotation) * now.relative_mps;
     }
-    for (const HandSide side : {HandSide::left, HandSide::right}) {
-        move_hand(scene.world, now, t_s, dt_s, state, side);
+    for (const hh::Side side : {HH_LEFT, HH_RIGHT}) {
+        move_hand(world, now, t_s, dt_s, state, side);
     }
 }
 
-TrackingSample sample_body(const Scene& scene, const ClimberTask& task, double t_s,
-                           const ClimberState& state) {
+hh::Sample sample_body(const hh::World& world, const ClimberTask& task, double t_s,
+                       const ClimberState& state) {
     constexpr double k_tremor_radps = 56.0;  // 9 Hz
-    TrackingSample sample;
-    sample.t_s = t_s;
-    sample.head_ps = {state.eyes_ps, state.look_ps};
-    for (const HandSide side : {HandSide::left, HandSide::right}) {
-        const ClimberHand& hand = state.hands[index_of(side)];
+    hh::Sample sample = hh::sample();
+    sample.time_s = t_s;
+    sample.head = {state.eyes_ps, state.look_ps};
+    for (const hh::Side side : {HH_LEFT, HH_RIGHT}) {
+        const ClimberHand& hand = state.hands[side];
         const double phase = state.tremor_phase_rad + outward(side) + k_tremor_radps * t_s;
-        Pose wrist_ps = hand.wrist_ps;
-        wrist_ps.position +=
-            k_tremor_m * Vec3(sine(phase), sine(1.13 * phase + 1.0), sine(0.91 * phase + 2.0));
-        const Pose joint = controller_joint(scene.world, task.player.hands[index_of(side)], side,
-                                            scene.tuning.hand);
-        sample.controllers[index_of(side)] = {
-            wrist_ps * inverse(joint),
-            hand.mode != ClimberHandMode::rest && hand.mode != ClimberHandMode::reaching};
+        hh::Pose wrist_ps = hand.wrist_ps;
+        wrist_ps.position += k_tremor_m * hh::Vec3{hh::sine(phase), hh::sine(1.13 * phase + 1.0),
+                                                   hh::sine(0.91 * phase + 2.0)};
+        sample.hands[side] = wrist_ps * inverse(*world.hand_in_controller(task.player, side));
+        sample.grab[side] =
+            hand.mode != ClimberHandMode::rest && hand.mode != ClimberHandMode::reaching;
     }
     return sample;
 }

@@ -10,19 +10,20 @@ namespace handhold {
 
 // Distance from `from_ws` to the first surface in a direction; nullopt if it is more than
 // `length_m`. `player`: the climber, whose own head is ignored.
-std::optional<double> free_distance_m(const ClimberSight& sight, Entity player, const Vec3& from_ws,
-                                      const Vec3& direction_ws, double length_m);
+std::optional<double> free_distance_m(const ClimberSight& sight, hh::Player player,
+                                      const hh::Vec3& from_ws, const hh::Vec3& direction_ws,
+                                      double length_m);
 
 // Chooses a random heading for a wandering climber: preferably forward, and free for some metres.
-Vec3 choose_heading(const ClimberSight& sight, Entity player, const Vec3& from_ws,
-                    ClimberState& state);
+hh::Vec3 choose_heading(const ClimberSight& sight, hh::Player player, const hh::Vec3& from_ws,
+                        ClimberState& state);
 
 // A search for a hold.
 struct HoldSearch {
     const ClimberTask& task;
     const ClimberMoment& now;
-    HandSide side = HandSide::left;
-    Vec3 toward_ws = Vec3::UnitZ();  // unit; holds in this direction are preferred
+    hh::Side side = HH_LEFT;
+    hh::Vec3 toward_ws = hh::k_z;  // unit; holds in this direction are preferred
     // Also considers free bodies that are too light to support the climber.
     bool loose_too = false;
 };
@@ -37,7 +38,7 @@ std::optional<FoundHold> find_hold(const ClimberSight& sight, const HoldSearch& 
 
 // A place to return to if nothing is within reach: the nearest surface in a dozen random
 // directions, else the nearest surface within 100 m. nullopt if there is none.
-std::optional<ClimberHold> find_shore(const ClimberSight& sight, Entity player, const Vec3& from_ws,
-                                      Random& random);
+std::optional<ClimberHold> find_shore(const ClimberSight& sight, hh::Player player,
+                                      const hh::Vec3& from_ws, Random& random);
 
 }  // namespace handhold

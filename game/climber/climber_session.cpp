@@ -1,18 +1,16 @@
 #include "game/climber/climber_session.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
-#include "engine/core/check.hpp"
-#include "game/scene/place_scene.hpp"
 #include "game/session/interrupt.hpp"
-#include "systems/frame/frame.hpp"
 
 namespace handhold {
 namespace {
 
 constexpr double k_hz = 90.0;
 
-ClimberTask task_of(const ClimbPlan& plan, const PlayerEntities& player) {
+ClimberTask task_of(const ClimbPlan& plan, hh::Player player) {
     ClimberTask task;
     task.player = player;
     task.waypoints = plan.waypoints;
@@ -26,27 +24,29 @@ ClimberTask task_of(const ClimbPlan& plan, const PlayerEntities& player) {
 }  // namespace
 
 Recording record_climb(Scene& scene, const ClimbPlan& plan) {
-    HH_CHECK(scene.world.clock.frame == 0, "the scene has been played", plan.seconds);
+    hh::World& world = scene.host;
     // Recordings contain no stick input, so the use of jets could not be replayed.
-    scene.tuning.locomotion.thruster_mps2 = 0.0;
-    const PlayerEntities player = add_scene_player(scene, {"player0", plan.origin_ws, 80.0});
-    const ClimberTask task = task_of(plan, player);
-    ClimberState state = begin_climber(scene, task, plan.seed);
-    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
-    std::vector<TrackingSample> samples;
-    StageStats stats;
+    if (world.frame() != 0 || !world.tune("locomotion.thruster_mps2", 0.0)) {
+        throw std::invalid_argument("the scene has been played");
+    }
+    const ClimberTask task = task_of(plan, add_scene_player(scene, "player0", plan.origin_ws));
+    ClimberState state = begin_climber(world, task, plan.seed);
+    const ClimberSight sight = sight_of(scene);
+    std::vector<hh::Sample> samples;
     Recording recording;
     double end_s = plan.seconds;
-    while (scene.world.clock.t_s < end_s) {
-        place_scene(scene, caches);
-        climb({scene, caches.collision}, task, scene.world.clock.t_s + 1.0 / k_hz, state, samples);
-        for (const TrackingSample& sample : samples) {
-            if (recording.samples.empty() || sample.t_s > recording.samples.back().t_s) {
+    while (world.time_s() < end_s) {
+        climb(sight, task, world.time_s() + 1.0 / k_hz, state, samples);
+        for (const hh::Sample& sample : samples) {
+            if (recording.samples.empty() || sample.time_s > recording.samples.back().t_s) {
                 recording.samples.push_back(recorded(sample));
             }
         }
-        const PlayerInput input{player.player, samples, {}};
-        step_frame(scene.world, caches, scene.tuning, {1.0 / k_hz, {&input, 1}}, stats);
+        hh_player_input input = hh::input(task.player, samples);
+        input.repeats_samples = true;
+        if (const hh::Status stepped = world.step(1.0 / k_hz, input); !stepped) {
+            throw std::runtime_error(std::string(stepped.text()));
+        }
         if (is_at_target(task, state)) {
             end_s = std::min(end_s, state.waypoint_since_s + plan.linger_s);
         }

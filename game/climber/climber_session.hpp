@@ -10,7 +10,7 @@ namespace handhold {
 
 // The session of a single climber, to be recorded.
 struct ClimbPlan {
-    Pose origin_ws;
+    hh::Pose origin_ws = hh::k_origin;
     std::vector<ClimberWaypoint> waypoints;  // empty: wanders
     double seconds = 20.0;  // maximum; the session ends linger_s after the last waypoint is reached
     double linger_s = 1.5;

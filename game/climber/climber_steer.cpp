@@ -1,13 +1,16 @@
 #include "game/climber/climber_steer.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
 
 #include "game/climber/climber_plan.hpp"
 #include "game/scene/player_defaults.hpp"
 
 namespace handhold {
+
+using hh::dot;
+using hh::length;
+using hh::normalized;
+
 namespace {
 
 constexpr double k_near_waypoint_m = 0.3;
@@ -15,25 +18,26 @@ constexpr double k_detour_s = 2.0;
 // Time without reaching the next waypoint before the climber takes a detour.
 constexpr double k_stuck_s = 12.0;
 
-Vec3 waypoint_ws(const ClimberMind& mind) {
+hh::Vec3 waypoint_ws(const ClimberMind& mind) {
     const std::size_t index =
         std::min<std::size_t>(mind.state.waypoint, mind.task.waypoints.size() - 1);
     const ClimberWaypoint& waypoint = mind.task.waypoints[index];
-    const BodyPose* const body = mind.world().body_pose.find(waypoint.body);
-    return body != nullptr ? transform_point(body->pose_ws, waypoint.point_bs) : waypoint.point_bs;
+    return mind.world().has(waypoint.body)
+               ? hh::transform_point(*mind.world().pose(waypoint.body), waypoint.point_bs)
+               : waypoint.point_bs;
 }
 
 // Sets the heading towards the current waypoint, or a detour if the climber is stuck. Returns false
 // if the climber is at the last waypoint and stays.
 bool head_for_waypoint(const ClimberMind& mind) {
     ClimberState& state = mind.state;
-    Vec3 way = waypoint_ws(mind) - mind.now.head_ws;
-    if (way.norm() < k_near_waypoint_m && !is_at_target(mind.task, state)) {
+    hh::Vec3 way = waypoint_ws(mind) - mind.now.head_ws;
+    if (length(way) < k_near_waypoint_m && !is_at_target(mind.task, state)) {
         ++state.waypoint;
         state.waypoint_since_s = mind.now.t_s;
         way = waypoint_ws(mind) - mind.now.head_ws;
     }
-    if (is_at_target(mind.task, state) && way.norm() < 2.0 * k_near_waypoint_m) {
+    if (is_at_target(mind.task, state) && length(way) < 2.0 * k_near_waypoint_m) {
         return false;
     }
     if (mind.now.t_s < state.detour_until_s) {
@@ -45,7 +49,7 @@ bool head_for_waypoint(const ClimberMind& mind) {
         state.heading_ws = choose_heading(mind.sight, mind.player(), mind.now.head_ws, state);
         return true;
     }
-    state.heading_ws = way.norm() > 1e-6 ? Vec3(way.normalized()) : state.heading_ws;
+    state.heading_ws = length(way) > 1e-6 ? (normalized(way)) : state.heading_ws;
     return true;
 }
 
@@ -66,7 +70,7 @@ void head_anywhere(const ClimberMind& mind) {
     state.failed_queries = 0;
 }
 
-Vec3 steer(const ClimberMind& mind) {
+hh::Vec3 steer(const ClimberMind& mind) {
     ClimberState& state = mind.state;
     bool goes_on = true;
     look_ahead(mind);
@@ -78,18 +82,16 @@ Vec3 steer(const ClimberMind& mind) {
         look_ahead(mind);
     }
     const double room = std::clamp((state.way_ahead_m - k_head_clear_m) / 0.4, 0.0, 1.0);
-    Vec3 wanted_mps = Vec3::Zero();
+    hh::Vec3 wanted_mps = hh::Vec3{};
     if (goes_on) {
         wanted_mps = (mind.task.cruise_mps * room) * state.heading_ws;
     }
-    const std::array<std::uint64_t, 1> own_id = {
-        mind.world().persistent_id.at(mind.player()).value};
     if (const auto near =
-            mind.sight.collision.closest_point(mind.now.head_ws, k_head_clear_m, own_id)) {
+            mind.sight.world.closest_point(mind.now.head_ws, k_head_clear_m, mind.player())) {
         constexpr double k_push_mps = 0.5;
-        const double into = wanted_mps.dot(near->normal_ws);
-        wanted_mps -= std::min(0.0, into) * near->normal_ws;
-        wanted_mps += (k_push_mps * (1.0 - near->distance_m / k_head_clear_m)) * near->normal_ws;
+        const double into = dot(wanted_mps, near->normal);
+        wanted_mps -= std::min(0.0, into) * near->normal;
+        wanted_mps += (k_push_mps * (1.0 - near->distance_m / k_head_clear_m)) * near->normal;
     }
     return wanted_mps;
 }

@@ -13,14 +13,14 @@ struct ClimberMind {
     ClimberMoment now;
     ClimberState& state;
 
-    const World& world() const { return sight.scene.world; }
-    Entity player() const { return task.player.player; }
-    ClimberHand& hand(HandSide side) const { return state.hands[index_of(side)]; }
-    Vec3 wrist_ws(HandSide side) const {
-        return transform_point(now.origin_ws, hand(side).wrist_ps.position);
+    const hh::World& world() const { return sight.world; }
+    hh::Player player() const { return task.player; }
+    ClimberHand& hand(hh::Side side) const { return state.hands[side]; }
+    hh::Vec3 wrist_ws(hh::Side side) const {
+        return hh::transform_point(now.origin_ws, hand(side).wrist_ps.position);
     }
-    double stretch_m(HandSide side) const {
-        return (hand(side).wrist_ps.position - shoulder_ps(state, side)).norm();
+    double stretch_m(hh::Side side) const {
+        return hh::length(hand(side).wrist_ps.position - shoulder_ps(state, side));
     }
 };
 
@@ -29,6 +29,6 @@ void head_anywhere(const ClimberMind& mind);
 
 // Updates the heading. Returns the wanted velocity of the head in the world: along the heading,
 // slower in front of a wall, and away from surfaces nearby.
-Vec3 steer(const ClimberMind& mind);
+hh::Vec3 steer(const ClimberMind& mind);
 
 }  // namespace handhold

@@ -1,9 +1,8 @@
 #include "game/climber/crowd.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
-#include "engine/core/check.hpp"
-#include "game/scene/place_scene.hpp"
 #include "game/scene/player_defaults.hpp"
 
 namespace handhold {
@@ -17,28 +16,27 @@ constexpr std::size_t k_max_attempts = 60;  // attempts per player until the dis
 
 class Spreader {
   public:
-    Spreader(const CollisionWorld& collision, std::uint64_t seed)
-        : collision_(collision), random_(mix64(seed)) {}
+    Spreader(hh::World& world, std::uint64_t seed) : world_(world), random_(Random::of(seed)) {}
 
-    std::vector<Vec3> heads;  // heads placed so far
-    std::vector<Vec3> seeds;  // heads at the scene's spawns: more start points for the search
+    std::vector<hh::Vec3> heads;  // heads placed so far
+    std::vector<hh::Vec3> seeds;  // heads at the scene's spawns: more start points for the search
 
     // Makes one attempt to add a head at a random free point: visible from a known head, and at
     // least `apart_m` from every placed head. False if the attempt failed.
     bool add(double apart_m) {
         const std::size_t known = heads.size() + seeds.size();
         const auto pick = static_cast<std::size_t>(random_.unit() * static_cast<double>(known));
-        const Vec3& from = pick < heads.size() ? heads[pick] : seeds[pick - heads.size()];
-        const Vec3 direction = random_.direction();
+        const hh::Vec3& from = pick < heads.size() ? heads[pick] : seeds[pick - heads.size()];
+        const hh::Vec3 direction = random_.direction();
         const double share = random_.between(0.1, 0.9);
-        const auto hit = collision_.cast_ray(from, from + k_view_m * direction);
+        const auto hit = world_.cast_ray(from, from + k_view_m * direction);
         if (!hit) {
             return false;
         }
-        const Vec3 place = from + share * hit->distance_m * direction;
+        const hh::Vec3 place = from + share * hit->distance_m * direction;
         const bool too_near = std::ranges::any_of(
-            heads, [&](const Vec3& head) { return (head - place).norm() < apart_m; });
-        if (too_near || collision_.closest_point(place, k_head_clear_m)) {
+            heads, [&](const hh::Vec3& head) { return hh::length(head - place) < apart_m; });
+        if (too_near || world_.closest_point(place, k_head_clear_m)) {
             return false;
         }
         heads.push_back(place);
@@ -47,20 +45,19 @@ class Spreader {
     double turn_rad() { return random_.between(-3.14, 3.14); }
 
   private:
-    const CollisionWorld& collision_;
+    hh::World& world_;
     Random random_;
 };
 
 }  // namespace
 
-Vec3 head_over(const Pose& origin_ws) {
-    return transform_point(origin_ws, Vec3(0.0, k_eye_height_m, 0.0));
+hh::Vec3 head_over(const hh::Pose& origin_ws) {
+    return hh::transform_point(origin_ws, hh::Vec3{0.0, k_eye_height_m, 0.0});
 }
 
-std::vector<Pose> spread_players(const Scene& scene, FrameCaches& caches, const Pose& first_ws,
-                                 std::size_t count, std::uint64_t seed) {
-    place_scene(scene, caches);
-    Spreader spreader(caches.collision, seed);
+std::vector<hh::Pose> spread_players(Scene& scene, const hh::Pose& first_ws, std::size_t count,
+                                     std::uint64_t seed) {
+    Spreader spreader(scene.host, seed);
     spreader.heads.push_back(head_over(first_ws));
     for (const SceneSpawnPoint& spawn : scene.spawns) {
         spreader.seeds.push_back(head_over(spawn.pose_ws));
@@ -71,40 +68,38 @@ std::vector<Pose> spread_players(const Scene& scene, FrameCaches& caches, const 
             spreader.add(apart_m);
         }
     }
-    std::vector<Pose> places = {first_ws};
-    const Quat upright = rotation_between(Vec3::UnitY(), scene.up_ws);
+    std::vector<hh::Pose> places = {first_ws};
+    const hh::Quat upright = hh::rotation_between(hh::k_y, to_host(scene.up_ws));
     for (std::size_t i = 1; i < spreader.heads.size(); ++i) {
-        const Quat rotation =
-            (upright * rotation_about(Vec3::UnitY(), spreader.turn_rad())).normalized();
-        places.push_back({spreader.heads[i] - rotation * Vec3(0.0, k_eye_height_m, 0.0), rotation});
+        const hh::Quat rotation =
+            hh::normalized(upright * hh::rotation_about(hh::k_y, spreader.turn_rad()));
+        places.push_back(
+            {spreader.heads[i] - rotation * hh::Vec3{0.0, k_eye_height_m, 0.0}, rotation});
     }
     return places;
 }
 
-Crowd::Crowd(const Scene& scene, std::span<const PlayerEntities> players, std::uint64_t seed)
+Crowd::Crowd(const hh::World& world, std::span<const hh::Player> players, std::uint64_t seed)
     : samples_(players.size()) {
-    Random random(mix64(seed));
-    for (const PlayerEntities& player : players) {
+    Random random = Random::of(seed);
+    for (const hh::Player player : players) {
         ClimberTask task;
         task.player = player;
         task.cruise_mps = random.between(0.4, 0.8);
         tasks_.push_back(task);
-        states_.push_back(begin_climber(scene, task, random.bits()));
+        states_.push_back(begin_climber(world, task, random.bits()));
     }
 }
 
-void Crowd::drive(const Scene& scene, FrameCaches& caches, double frame_end_s,
-                  std::span<PlayerInput> inputs) {
-    HH_CHECK(inputs.size() == tasks_.size(), "one input a climber", inputs.size());
-    if (tasks_.empty()) {
-        return;
+void Crowd::drive(const ClimberSight& sight, double frame_end_s,
+                  std::span<hh_player_input> inputs) {
+    if (inputs.size() != tasks_.size()) {
+        throw std::invalid_argument("a crowd needs one input a climber");
     }
-    place_scene(scene, caches);
-    const ClimberSight sight{scene, caches.collision};
     for (std::size_t i = 0; i < tasks_.size(); ++i) {
-        const PlayerCommands commands =
-            climb(sight, tasks_[i], frame_end_s, states_[i], samples_[i]);
-        inputs[i] = {tasks_[i].player.player, samples_[i], commands};
+        const hh_commands commands = climb(sight, tasks_[i], frame_end_s, states_[i], samples_[i]);
+        inputs[i] = hh::input(tasks_[i].player, samples_[i], commands);
+        inputs[i].repeats_samples = true;
     }
 }
 

@@ -72,7 +72,7 @@ std::optional<FileError> pose_new(const Scene& scene, const GripMesh& mesh,
                          "expected --wrist with a position and a unit quaternion for a new grip"};
     }
     const FittedGrip fitted =
-        fit_grip(mesh, rig, inverse(body_in_file) * *wrist, scene.tuning, nullptr);
+        fit_grip(mesh, rig, inverse(body_in_file) * *wrist, scene.tuning(), nullptr);
     if (!fitted.is_gripping) {
         return FileError{options.scene, "", "expected a surface in reach of the wrist, found none"};
     }
@@ -94,7 +94,7 @@ std::optional<FileError> pose_known(const Scene& scene, const GripMesh& mesh,
     if (!hand.is_there) {
         return FileError{scene.name, "", "expected a grip for this hand"};
     }
-    const FittedGrip fitted = fit_grip(mesh, rig, hand.wrist_bs, scene.tuning, &hand);
+    const FittedGrip fitted = fit_grip(mesh, rig, hand.wrist_bs, scene.tuning(), &hand);
     out.fingers = fitted.fingers;
     if (fitted.penetrating_fingers > 0) {
         std::fprintf(stderr, "%d posed fingers would penetrate and were fitted instead\n",
@@ -111,20 +111,20 @@ int export_grip_command(const ExportGripOptions& options) {
         return refuse(loaded.error());
     }
     const Scene& scene = loaded.value();
-    const Entity body = find_by_id(scene.world, persistent_id_from_name(options.body));
-    const Collider* const collider = scene.world.collider.find(body);
-    if (collider == nullptr || !scene.world.body.contains(body)) {
+    const Entity body = find_by_id(scene.world(), persistent_id_from_name(options.body));
+    const Collider* const collider = scene.world().collider.find(body);
+    if (collider == nullptr || !scene.world().body.contains(body)) {
         return refuse(
             {options.scene, "/bodies",
              "expected a body that can be touched, found none named \"" + options.body + "\""});
     }
     const auto frame = scene.body_in_file.find(options.body);
     const Pose body_in_file = frame != scene.body_in_file.end() ? frame->second : Pose();
-    const GripMesh& mesh = scene.grip_meshes->at(collider->shape);
+    const GripMesh& mesh = scene.grip_meshes().at(collider->shape);
     GripScene out;
     out.side = options.hand == "left" ? HandSide::left : HandSide::right;
     out.grip.name = options.grip;
-    out.controller_in_hand = inverse(default_controller_to_hand(out.side, scene.tuning.hand));
+    out.controller_in_hand = inverse(default_controller_to_hand(out.side, scene.tuning().hand));
     const HandRig rig = builtin_hand_rig(out.side);
     std::optional<FileError> error;
     bool is_known = false;

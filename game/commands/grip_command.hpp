@@ -19,8 +19,8 @@ struct ExportGripOptions {
 // or 2 after one line on standard error.
 int export_grip_command(const ExportGripOptions& options);
 
-// `handhold import-grip`: converts such a .glb to a JSON object for "grips" in a scene file. Writes
-// it to `out`, or to standard output if `out` is empty.
+// `handhold import-grip`: converts a .glb of `handhold export-grip` to a JSON object for "grips" in
+// a scene file. Writes it to `out`, or to standard output if `out` is empty.
 int import_grip_command(const std::string& file, const std::string& out);
 
 }  // namespace handhold

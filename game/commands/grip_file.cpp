@@ -124,7 +124,7 @@ void read_pressed(GripNodes& nodes, const GltfNode* wrist, AuthoredHand& hand) {
             continue;
         }
         const std::vector<double>& angles = wrist->numbers.at(key);
-        // The ranges of scene files.
+        // Tests the ranges that scene files allow.
         const auto is_curl = [](double angle_deg) {
             return angle_deg >= -30.0 && angle_deg <= 130.0;
         };

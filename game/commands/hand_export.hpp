@@ -20,8 +20,8 @@ RobotHandSkin make_robot_hand_skin(const HandRig& rig,
                                    const std::array<FingerAngles, k_finger_count>& fingers,
                                    const Pose& wrist_ms);
 
-// A .glb of that hand in the rest pose, for animation software. hand_rig_from_skin gives the same
-// rig back. Precondition: the rig has joints.
+// A .glb of the robot's hand in the rest pose, for animation software. hand_rig_from_skin gives the
+// same rig back. Precondition: the rig has joints.
 std::string export_robot_hand(const HandRig& rig);
 
 // `handhold export-hands`: writes robot_hand_left.glb and robot_hand_right.glb for the built-in

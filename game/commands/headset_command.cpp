@@ -128,7 +128,7 @@ int headset_command(const PlayOptions& options) {
     if (!left) {
         return refuse_headset(why_not);
     }
-    std::printf("state_hash %s\n", format_hash(hash_state(session.scene().world)).c_str());
+    std::printf("state_hash %s\n", format_hash(session.world().hash()).c_str());
     return 0;
 }
 

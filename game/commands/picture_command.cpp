@@ -25,17 +25,14 @@ namespace {
 
 void step_to(Scene& scene, double seconds) {
     constexpr double k_dt_s = 1.0 / 90.0;
-    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
-    StageStats stats;
-    while (scene.world.clock.t_s + 0.5 * k_dt_s < seconds) {
-        step_frame(scene.world, caches, scene.tuning, {k_dt_s, {}}, stats);
+    while (scene.host.time_s() + 0.5 * k_dt_s < seconds && scene.host.step(k_dt_s)) {
     }
 }
 
 Pose eyes_at(const SceneSpawnPoint& spawn, const PictureOptions& options) {
     const Quat look = rotation_about(Vec3::UnitY(), options.yaw_deg * k_degree) *
                       rotation_about(Vec3::UnitX(), options.pitch_deg * k_degree);
-    return spawn.pose_ws * Pose{Vec3(0.0, k_eye_height_m, 0.0), look};
+    return from_host(spawn.pose_ws) * Pose{Vec3(0.0, k_eye_height_m, 0.0), look};
 }
 
 // Pose of a wrist in front of the eyes. An open hand has its fingers up and its back to the player.
@@ -104,22 +101,23 @@ class PictureSaver {
 std::optional<FileError> draw_grips(const Scene& scene, const std::string& name,
                                     const RenderFrame& bare, HandFigures& figures,
                                     Renderer& renderer, PictureSaver& saver) {
-    const Entity body = find_by_id(scene.world, persistent_id_from_name(name));
-    const AuthoredGrips* const grips = scene.world.authored_grips.find(body);
-    const Collider* const collider = scene.world.collider.find(body);
+    const Entity body = find_by_id(scene.world(), persistent_id_from_name(name));
+    const AuthoredGrips* const grips = scene.world().authored_grips.find(body);
+    const Collider* const collider = scene.world().collider.find(body);
     if (grips == nullptr || collider == nullptr) {
         return FileError{scene.name, "/bodies",
                          "expected a body with grips, found none named \"" + name + "\""};
     }
-    const Pose& body_ws = scene.world.body_pose.at(body).pose_ws;
+    const Pose& body_ws = scene.world().body_pose.at(body).pose_ws;
     RenderFrame frame = bare;
     figures.begin();
     for (std::size_t i = 0; i < std::min<std::size_t>(grips->count, k_hand_count); ++i) {
         const HandSide side = i == 0 ? HandSide::right : HandSide::left;
         const AuthoredHand& hand = grips->grips[i].hands[index_of(side)];
         if (hand.is_there) {
-            const FittedGrip fit = fit_grip(scene.grip_meshes->at(collider->shape),
-                                            figures.rig(side), hand.wrist_bs, scene.tuning, &hand);
+            const FittedGrip fit =
+                fit_grip(scene.grip_meshes().at(collider->shape), figures.rig(side), hand.wrist_bs,
+                         scene.tuning(), &hand);
             figures.add(side, body_ws * fit.wrist_bs, fit.fingers, renderer, frame);
         }
     }

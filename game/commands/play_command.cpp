@@ -97,7 +97,7 @@ std::optional<int> play_scene(PlayProgram& program) {
         return refuse(*error);
     }
     if (end.leaves) {
-        std::printf("state_hash %s\n", format_hash(hash_state(session.scene().world)).c_str());
+        std::printf("state_hash %s\n", format_hash(session.world().hash()).c_str());
         return 0;
     }
     options.scene = end.scene;

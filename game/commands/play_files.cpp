@@ -4,8 +4,7 @@
 #include <array>
 #include <filesystem>
 
-#include "engine/core/printable.hpp"
-#include "engine/core/text_file.hpp"
+#include "game/files/file_tools.hpp"
 #include "game/play/loading.hpp"
 #include "game/play/shell_word.hpp"
 #include "game/report/run_summary.hpp"
@@ -42,7 +41,8 @@ std::string replay_command(const PlayOptions& options, const std::string& spawn,
         std::snprintf(text.data(), text.size(), " --hz %.17g", hz);
         command += text.data();
     }
-    // The profile's joint converted the samples to hand poses.
+    // The controller profile's hand poses were used to convert the samples, so the replay needs it
+    // too.
     if (!options.models.controllers.empty()) {
         command += option("--controllers", options.models.controllers);
     }
@@ -65,11 +65,10 @@ Result<PlayedScene> load_played_scene(const PlayOptions& options) {
         return FileError{options.scene, "/spawns",
                          "expected a spawn \"" + options.spawn + "\", found none of that name"};
     }
-    if (options.jets) {
-        loaded.scene.tuning.locomotion.thruster_mps2 = k_jets_mps2;
-    }
-    if (options.distance_grab) {
-        loaded.scene.tuning.pull.reach_m = k_pull_reach_m;
+    hh::World& world = loaded.scene.host;
+    if ((options.jets && !world.tune("locomotion.thruster_mps2", k_jets_mps2)) ||
+        (options.distance_grab && !world.tune("pull.reach_m", k_pull_reach_m))) {
+        return FileError{options.scene, "", hh_last_error()};
     }
     return loaded;
 }
@@ -109,7 +108,7 @@ std::optional<FileError> save_play(const PlayOptions& options, const EndedPlay& 
         }
     }
     if (!options.report.empty()) {
-        const std::string hash = format_hash(hash_state(play.scene.world));
+        const std::string hash = format_hash(play.scene.host.hash());
         return write_file_atomically(options.report, tally.report_json(play.scene.name, hash));
     }
     return std::nullopt;

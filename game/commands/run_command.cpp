@@ -20,6 +20,7 @@
 #include "game/play/loading.hpp"
 #include "game/play/progress.hpp"
 #include "game/report/run_summary.hpp"
+#include "game/report/state_size.hpp"
 #include "game/run/session_run.hpp"
 #include "game/session/interrupt.hpp"
 #include "systems/snapshot/snapshot.hpp"
@@ -27,12 +28,11 @@
 namespace handhold {
 namespace {
 
-RunLog play(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>& players,
-            const Recording* recording, const RunSettings& settings, RunFilm& film, RunTally& tally,
-            SnapshotTaker& snapshots) {
+RunLog play(Scene& scene, const std::vector<PlayerEntities>& players, const Recording* recording,
+            const RunSettings& settings, RunFilm& film, RunTally& tally, SnapshotTaker& snapshots) {
     Progress progress("playing " + printable(scene.name, k_max_shown_name));
     const double length_s = session_length_s(recording, settings);
-    return run_session(scene, caches, players, recording, settings,
+    return run_session(scene, player_ids(players), recording, settings,
                        [&](const Scene& played, const FrameLog& frame) {
                            snapshots.watch(played, frame.t_s);
                            film_frame(frame, film);
@@ -48,7 +48,6 @@ struct PreparedRun {
     PlayerModels models;
     RunSession session;
     StartPlace place;
-    std::unique_ptr<FrameCaches> caches;
     std::vector<PlayerEntities> players;
     std::unique_ptr<SnapshotAssets> assets;
     RunSettings settings;
@@ -89,40 +88,38 @@ std::optional<FileError> load_files(const RunOptions& options, PreparedRun& run)
         }
         run.out.emplace(std::move(folder.value()));
     }
-    run.caches = std::make_unique<FrameCaches>(*run.scene.shapes, run.scene.grip_meshes.get());
-    run.caches->body_clips = game_body_clips();
+    load_game_body_clips(run.scene.host);
     return {};
 }
 
 // Adds the players at their places.
 std::optional<FileError> place_players(const RunOptions& options, PreparedRun& run) {
-    Result<StartPlace> place =
-        choose_place(options, options.spawn, run.scene, *run.caches, run.recording());
+    Result<StartPlace> place = choose_place(options, options.spawn, run.scene, run.recording());
     if (!place) {
         return place.error();
     }
     run.place = std::move(place.value());
     const Result<std::vector<StartPlace>> places =
-        choose_places(options, run.place, run.scene, *run.caches, run.session);
+        choose_places(options, run.place, run.scene, run.session);
     if (!places) {
         return places.error();
     }
     Result<std::vector<PlayerEntities>> players =
-        add_players(run.scene, *run.caches, places.value(), options, run.session);
+        add_players(run.scene, places.value(), options, run.session);
     if (!players) {
         return players.error();
     }
     run.players = std::move(players.value());
-    warn_of_overlaps(run.scene, *run.caches, run.players);
+    warn_of_overlaps(run.scene, run.players);
     if (const auto joints = run.models.controller_joints()) {
-        set_controller_joints(*joints, run.scene.world);
+        set_controller_joints(*joints, run.scene.host);
     }
     return {};
 }
 
 // Chooses the run's settings and checks the session's length. Restores the snapshot of --resume.
 std::optional<FileError> set_start(const RunOptions& options, PreparedRun& run) {
-    run.assets = std::make_unique<SnapshotAssets>(*run.scene.shapes, run.scene.name);
+    run.assets = std::make_unique<SnapshotAssets>(run.scene.shapes(), run.scene.name);
     run.settings = choose_settings(options, run.session, run.players.size(), run.scene);
     run.settings.should_stop = is_interrupted;
     for (const Recording& more : run.session.more) {
@@ -140,13 +137,18 @@ int play_and_report(const RunOptions& options, PreparedRun& run) {
     if (!options.trace.empty()) {
         start_trace();
     }
+    // Before the first frame: grips add rows while they last.
+    const std::size_t bytes_per_player =
+        run.players.empty() ? 0
+                            : state_bytes(run.scene.host, player_id(run.players.front().player));
     RunTally tally;
     SnapshotTaker snapshots(options, *run.assets);
-    RunLog log = play(run.scene, *run.caches, run.players, run.recording(), run.settings, film,
-                      tally, snapshots);
+    RunLog log =
+        play(run.scene, run.players, run.recording(), run.settings, film, tally, snapshots);
     if (const auto error = snapshots.error()) {
         return refuse(*error);
     }
+    log.bytes_per_player = bytes_per_player;
     log.input = run.session.name;
     log.spawn = run.place.name;
     if (!options.trace.empty()) {
@@ -179,8 +181,7 @@ int run_command(const RunOptions& options) {
         }
     }
     if (!options.shots.empty()) {
-        return draw_shots(options,
-                          {run.scene, *run.caches, run.players, run.recording(), run.settings},
+        return draw_shots(options, {run.scene, run.players, run.recording(), run.settings},
                           std::move(run.models));
     }
     return play_and_report(options, run);

@@ -62,17 +62,16 @@ std::optional<FileError> check_length(const RunOptions& options, const std::stri
                          std::to_string(length_s) + " s"};
 }
 
-Result<StartPlace> choose_place(const RunOptions& options, const std::string& spawn,
-                                const Scene& scene, FrameCaches& caches,
+Result<StartPlace> choose_place(const RunOptions& options, const std::string& spawn, Scene& scene,
                                 const Recording* recording) {
     if (spawn == "auto") {
         if (recording == nullptr) {
             return FileError{options.scene, "", "expected a session for --spawn auto, found none"};
         }
-        const FoundSpawn found = find_spawn(scene, caches, *recording, options.hz);
-        const Vec3& at = found.origin_ws.position;
-        std::printf("spawn auto: %.3f %.3f %.3f, %zu of %zu grabs grip when tried\n", at.x(),
-                    at.y(), at.z(), found.gripped, found.onsets);
+        const FoundSpawn found = find_spawn(scene, *recording, options.hz);
+        const hh::Vec3& at = found.origin_ws.position;
+        std::printf("spawn auto: %.3f %.3f %.3f, %zu of %zu grabs grip when tried\n", at.x, at.y,
+                    at.z, found.gripped, found.onsets);
         return StartPlace{found.origin_ws, "auto"};
     }
     for (const SceneSpawnPoint& known : scene.spawns) {
@@ -91,19 +90,18 @@ Result<StartPlace> choose_place(const RunOptions& options, const std::string& sp
                              (scene.spawns.size() > k_listed ? "another spawn, " : "") +
                              "or auto, found \"" + spawn + "\""};
     }
-    return StartPlace{{}, "origin"};
+    return StartPlace{hh::k_origin, "origin"};
 }
 
 std::size_t recorded_players(const RunSession& session) { return 1 + session.more.size(); }
 
 Result<std::vector<StartPlace>> choose_places(const RunOptions& options, const StartPlace& first,
-                                              const Scene& scene, FrameCaches& caches,
-                                              const RunSession& session) {
+                                              Scene& scene, const RunSession& session) {
     std::vector<StartPlace> places = {first};
     for (std::size_t i = 1; i < recorded_players(session); ++i) {
         if (i - 1 < options.more_spawns.size()) {
-            Result<StartPlace> place = choose_place(options, options.more_spawns[i - 1], scene,
-                                                    caches, &session.more[i - 1]);
+            Result<StartPlace> place =
+                choose_place(options, options.more_spawns[i - 1], scene, &session.more[i - 1]);
             if (!place) {
                 return place.error();
             }
@@ -117,8 +115,7 @@ Result<std::vector<StartPlace>> choose_places(const RunOptions& options, const S
     return places;
 }
 
-Result<std::vector<PlayerEntities>> add_players(Scene& scene, FrameCaches& caches,
-                                                const std::vector<StartPlace>& places,
+Result<std::vector<PlayerEntities>> add_players(Scene& scene, const std::vector<StartPlace>& places,
                                                 const RunOptions& options,
                                                 const RunSession& session) {
     std::vector<ScenePlayerStart> starts;
@@ -130,12 +127,13 @@ Result<std::vector<PlayerEntities>> add_players(Scene& scene, FrameCaches& cache
             options.players > 0
                 ? static_cast<std::size_t>(options.players)
                 : std::max(recorded_players(session), static_cast<std::size_t>(1 + scene.climbers));
-        for (const Pose& origin_ws :
-             spread_players(scene, caches, places.front().origin_ws, count, options.seed)) {
+        for (const hh::Pose& origin_ws :
+             spread_players(scene, places.front().origin_ws, count, options.seed)) {
             const std::size_t i = starts.size();
             const std::string name = "player" + std::to_string(i);
-            starts.push_back({free_player_name(scene.world, name),
-                              i < places.size() ? places[i].origin_ws : origin_ws, 80.0});
+            starts.push_back({free_player_name(scene.world(), name),
+                              from_host(i < places.size() ? places[i].origin_ws : origin_ws),
+                              80.0});
         }
         if (starts.size() < count) {
             return FileError{options.scene, "",
@@ -158,19 +156,18 @@ RunSettings choose_settings(const RunOptions& options, const RunSession& session
     settings.seed = options.seed;
     settings.keep_frames = !options.out.empty();
     if (options.distance_grab) {
-        scene.tuning.pull.reach_m = k_pull_reach_m;
+        scene.tuning().pull.reach_m = k_pull_reach_m;
     }
-    double& jets_mps2 = scene.tuning.locomotion.thruster_mps2;
+    double& jets_mps2 = scene.tuning().locomotion.thruster_mps2;
     if (players > settings.climbers_from && jets_mps2 == 0.0) {
         jets_mps2 = k_jets_mps2;
     }
     return settings;
 }
 
-void warn_of_overlaps(const Scene& scene, FrameCaches& caches,
-                      const std::vector<PlayerEntities>& players) {
+void warn_of_overlaps(Scene& scene, const std::vector<PlayerEntities>& players) {
     constexpr std::size_t k_told = 5;
-    const std::vector<SpawnOverlap> overlaps = find_overlaps(scene, caches, players);
+    const std::vector<SpawnOverlap> overlaps = find_overlaps(scene, players);
     for (std::size_t i = 0; i < std::min(k_told, overlaps.size()); ++i) {
         std::fprintf(stderr, "warning: %s and %s begin %.0f mm inside each other\n",
                      printable(overlaps[i].a, k_max_shown_name).c_str(),

@@ -5,14 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "components/world.hpp"
 #include "engine/core/result.hpp"
-#include "engine/math/math.hpp"
 #include "game/commands/run_command.hpp"
 #include "game/run/session_run.hpp"
 #include "game/scene/scene.hpp"
 #include "game/session/recording.hpp"
-#include "systems/frame/frame.hpp"
 
 // What `handhold run` prepares before the first frame: recordings, start places and players.
 namespace handhold {
@@ -33,13 +30,12 @@ std::optional<FileError> check_length(const RunOptions& options, const std::stri
 
 // A start of the play space. The name is for the report.
 struct StartPlace {
-    Pose origin_ws;
+    hh::Pose origin_ws = hh::k_origin;
     std::string name;
 };
 
 // `spawn`: see RunOptions::spawn.
-Result<StartPlace> choose_place(const RunOptions& options, const std::string& spawn,
-                                const Scene& scene, FrameCaches& caches,
+Result<StartPlace> choose_place(const RunOptions& options, const std::string& spawn, Scene& scene,
                                 const Recording* recording);
 
 // The number of players who have recordings; the first player counts even without one.
@@ -48,13 +44,11 @@ std::size_t recorded_players(const RunSession& session);
 // Start places of players with recordings: `first`, then those of --spawn, then the scene's next
 // spawns. Returns fewer places than recordings if the scene has no more spawns.
 Result<std::vector<StartPlace>> choose_places(const RunOptions& options, const StartPlace& first,
-                                              const Scene& scene, FrameCaches& caches,
-                                              const RunSession& session);
+                                              Scene& scene, const RunSession& session);
 
 // Adds the scene's own players if there are enough of them and neither --spawn nor --players was
 // given. Otherwise adds the first players at `places` and spreads the others over the scene.
-Result<std::vector<PlayerEntities>> add_players(Scene& scene, FrameCaches& caches,
-                                                const std::vector<StartPlace>& places,
+Result<std::vector<PlayerEntities>> add_players(Scene& scene, const std::vector<StartPlace>& places,
                                                 const RunOptions& options,
                                                 const RunSession& session);
 
@@ -64,7 +58,6 @@ RunSettings choose_settings(const RunOptions& options, const RunSession& session
                             std::size_t players, Scene& scene);
 
 // Warns on standard error of bodies and players that penetrate at the start.
-void warn_of_overlaps(const Scene& scene, FrameCaches& caches,
-                      const std::vector<PlayerEntities>& players);
+void warn_of_overlaps(Scene& scene, const std::vector<PlayerEntities>& players);
 
 }  // namespace handhold

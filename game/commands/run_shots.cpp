@@ -50,7 +50,7 @@ int draw_shots(const RunOptions& options, ReadySession session, PlayerModels mod
     if (!shots) {
         return refuse(shots.error());
     }
-    if (const auto error = check_names(options, shots.value(), session.scene.world)) {
+    if (const auto error = check_names(options, shots.value(), session.scene.world())) {
         return refuse(*error);
     }
     ShotFilmSettings drawn;
@@ -60,8 +60,7 @@ int draw_shots(const RunOptions& options, ReadySession session, PlayerModels mod
     drawn.out = options.out;
     drawn.models = std::move(models);
     std::string why_not;
-    const auto film =
-        ShotFilm::open(session.scene, session.caches, std::move(shots.value()), drawn, why_not);
+    const auto film = ShotFilm::open(session.scene, std::move(shots.value()), drawn, why_not);
     if (film == nullptr) {
         std::fprintf(stderr, "no pictures: %s\n", why_not.c_str());
         return k_exit_bad_file;
@@ -69,7 +68,7 @@ int draw_shots(const RunOptions& options, ReadySession session, PlayerModels mod
     constexpr double k_after_s = 0.1;
     session.settings.seconds = film->length_s() + k_after_s;
     session.settings.keep_frames = false;
-    run_session(session.scene, session.caches, session.players, session.recording, session.settings,
+    run_session(session.scene, player_ids(session.players), session.recording, session.settings,
                 [&](const Scene&, const FrameLog& frame) { film->watch(frame.t_s); });
     const std::size_t saved = film->finish(why_not);
     std::printf("%s: %zu shots\n", printable(session.scene.name).c_str(), saved);

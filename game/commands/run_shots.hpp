@@ -11,7 +11,6 @@ namespace handhold {
 // A session that can be played.
 struct ReadySession {
     Scene& scene;
-    FrameCaches& caches;
     const std::vector<PlayerEntities>& players;
     const Recording* recording = nullptr;  // null: nobody plays
     RunSettings settings;

@@ -10,7 +10,7 @@ void SnapshotTaker::watch(const Scene& scene, double t_s) {
     constexpr double k_rounding_s = 1e-9;
     if (!options_.snapshot.empty() && !taken_ && t_s >= options_.snapshot_at_s - k_rounding_s) {
         taken_ = true;
-        error_ = save_snapshot_file(options_.snapshot, scene.world, assets_);
+        error_ = save_snapshot_file(options_.snapshot, scene.world(), assets_);
     }
 }
 
@@ -36,13 +36,14 @@ std::optional<FileError> resume_from_snapshot(const RunOptions& options,
     if (options.resume.empty()) {
         return std::nullopt;
     }
-    const World before = scene.world;
-    if (std::optional<FileError> error = load_snapshot_file(options.resume, assets, scene.world)) {
+    const World before = scene.world();
+    if (std::optional<FileError> error =
+            load_snapshot_file(options.resume, assets, scene.world())) {
         return error;
     }
-    bool all_there = scene.world.player.size() == players.size();
+    bool all_there = scene.world().player.size() == players.size();
     const auto find_again = [&](Entity& entity) {
-        entity = find_by_id(scene.world, before.persistent_id.at(entity));
+        entity = find_by_id(scene.world(), before.persistent_id.at(entity));
         all_there = all_there && !is_null(entity);
     };
     for (PlayerEntities& player : players) {

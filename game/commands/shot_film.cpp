@@ -19,7 +19,6 @@ constexpr double k_shot_palm_m = 0.08;  // distance of the palm from the wrist, 
 
 struct ShotFilm::Impl {
     const Scene& scene;
-    const FrameCaches& caches;
     std::vector<Shot> shots;  // sorted by start time
     ShotFilmSettings settings;
     PlayerView view;
@@ -33,22 +32,21 @@ struct ShotFilm::Impl {
     std::vector<Line> marks;
     Image image;
 
-    Impl(const Scene& of_scene, const FrameCaches& with_caches, std::vector<Shot> wanted,
-         const ShotFilmSettings& with, PlayerView drawn_by)
+    Impl(const Scene& of_scene, std::vector<Shot> wanted, const ShotFilmSettings& with,
+         PlayerView drawn_by)
         : scene(of_scene),
-          caches(with_caches),
           shots(std::move(wanted)),
           settings(with),
           view(std::move(drawn_by)),
           outside(of_scene),
           overlay(with.width_px, with.height_px) {}
 
-    const RenderPose& first() const { return scene.world.render_pose.rows()[0]; }
+    const RenderPose& first() const { return scene.world().render_pose.rows()[0]; }
 
     Vec3 looked_at(const Shot& shot) const {
-        const Entity named = find_by_id(scene.world, persistent_id_from_name(shot.body));
-        const RenderPose* const other = scene.world.render_pose.find(named);
-        const BodyPose* const thing = scene.world.body_pose.find(named);
+        const Entity named = find_by_id(scene.world(), persistent_id_from_name(shot.body));
+        const RenderPose* const other = scene.world().render_pose.find(named);
+        const BodyPose* const thing = scene.world().body_pose.find(named);
         switch (shot.view) {
             case ShotView::hand:
                 return transform_point(first().hands[index_of(shot.side)].shown_ws,
@@ -79,7 +77,7 @@ struct ShotFilm::Impl {
             default:
                 break;
         }
-        const Quat& play_space = scene.world.player_origin.rows()[0].pose_ws.rotation;
+        const Quat& play_space = scene.world().player_origin.rows()[0].pose_ws.rotation;
         const Vec3 middle_ws = looked_at(shot);
         const Vec3 eye_ws = middle_ws + play_space * shot.from_m;
         return look_along(eye_ws, middle_ws + play_space * shot.target_m - eye_ws,
@@ -88,7 +86,7 @@ struct ShotFilm::Impl {
 
     void draw(const Shot& shot) {
         marks.clear();
-        add_gizmos(scene.world, caches, scene.tuning, shot.gizmos, marks);
+        add_gizmos(scene.world(), scene.caches(), scene.tuning(), shot.gizmos, marks);
         overlay.begin({}, 1.0 / settings.video_fps);
         if (!shot.caption.empty()) {
             show_caption(shot.caption);
@@ -174,9 +172,8 @@ struct ShotFilm::Impl {
 ShotFilm::ShotFilm(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 ShotFilm::~ShotFilm() = default;
 
-std::unique_ptr<ShotFilm> ShotFilm::open(const Scene& scene, const FrameCaches& caches,
-                                         std::vector<Shot> shots, const ShotFilmSettings& settings,
-                                         std::string& why_not) {
+std::unique_ptr<ShotFilm> ShotFilm::open(const Scene& scene, std::vector<Shot> shots,
+                                         const ShotFilmSettings& settings, std::string& why_not) {
     std::optional<PlayerView> view = PlayerView::open(
         scene, settings.models, settings.width_px, settings.height_px, why_not, settings.quality);
     if (!view) {
@@ -185,8 +182,8 @@ std::unique_ptr<ShotFilm> ShotFilm::open(const Scene& scene, const FrameCaches& 
     std::stable_sort(shots.begin(), shots.end(), [](const Shot& a, const Shot& b) {
         return std::tie(a.at_s, a.until_s) < std::tie(b.at_s, b.until_s);
     });
-    return std::unique_ptr<ShotFilm>(new ShotFilm(
-        std::make_unique<Impl>(scene, caches, std::move(shots), settings, std::move(*view))));
+    return std::unique_ptr<ShotFilm>(
+        new ShotFilm(std::make_unique<Impl>(scene, std::move(shots), settings, std::move(*view))));
 }
 
 double ShotFilm::length_s() const {

@@ -26,11 +26,10 @@ struct ShotFilmSettings {
 // Only reads the world.
 class ShotFilm {
   public:
-    // Null, with the reason in `why_not`, if nothing can be drawn on this machine. `scene` and
-    // `caches` (the source of the gizmos) must outlive the film.
-    static std::unique_ptr<ShotFilm> open(const Scene& scene, const FrameCaches& caches,
-                                          std::vector<Shot> shots, const ShotFilmSettings& settings,
-                                          std::string& why_not);
+    // Null, with the reason in `why_not`, if nothing can be drawn on this machine. `scene` must
+    // outlive the film.
+    static std::unique_ptr<ShotFilm> open(const Scene& scene, std::vector<Shot> shots,
+                                          const ShotFilmSettings& settings, std::string& why_not);
     ~ShotFilm();
 
     // End of the last shot, seconds of the session.

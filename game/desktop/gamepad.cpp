@@ -32,12 +32,12 @@ DesktopInput read_gamepad(const GamepadState& state, const PlaySettings& setting
     DesktopInput input;
     const std::array<double, 2> move = beyond_dead_zone(state.left_stick);
     const std::array<double, 2> look = beyond_dead_zone(state.right_stick);
-    input.move = Vec3(move[0], difference(state.shoulders[1], state.shoulders[0]), move[1]);
+    input.move = {move[0], difference(state.shoulders[1], state.shoulders[0]), move[1]};
     // The speed is quadratic in the deflection: small deflections aim, large ones turn around.
     const double look_radps = settings.stick_look_radps * std::hypot(look[0], look[1]);
     input.turn_left_rad = -look_radps * dt_s * look[0];
     input.look_up_rad = -look_radps * dt_s * look[1];
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
+    for (std::size_t side = 0; side < 2; ++side) {
         const double threshold = memory.grips[side] ? k_opens_at : k_closes_at;
         memory.grips[side] = state.triggers[side] >= threshold;
         input.grip[side] = memory.grips[side];
@@ -60,10 +60,12 @@ DesktopInput combine(const DesktopInput& a, const DesktopInput& b) {
     both.turn_left_rad += b.turn_left_rad;
     both.look_up_rad += b.look_up_rad;
     both.farther_m += b.farther_m;
-    both.move = (a.move + b.move).cwiseMax(-1.0).cwiseMin(1.0);
+    both.move = {std::clamp(a.move.x + b.move.x, -1.0, 1.0),
+                 std::clamp(a.move.y + b.move.y, -1.0, 1.0),
+                 std::clamp(a.move.z + b.move.z, -1.0, 1.0)};
     both.smooth_turn = std::clamp(a.smooth_turn + b.smooth_turn, -1.0, 1.0);
     both.snap_turns += b.snap_turns;
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
+    for (std::size_t side = 0; side < 2; ++side) {
         both.grip[side] = a.grip[side] || b.grip[side];
         both.opened[side] = (a.opened[side] || b.opened[side]) && !(a.grip[side] && b.grip[side]);
     }

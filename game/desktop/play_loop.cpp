@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/profile.hpp"
 #include "game/devices/comfort.hpp"
 #include "game/ui/hud.hpp"
 #include "game/ui/inspector.hpp"
@@ -20,14 +19,19 @@ namespace {
 constexpr double k_max_behind_s = 0.1;
 constexpr double k_status_s = 0.1;
 
-double us_since(std::int64_t begin_ns) { return 1e-3 * static_cast<double>(now_ns() - begin_ns); }
+std::int64_t clock_ns() {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+double us_since(std::int64_t begin_ns) { return 1e-3 * static_cast<double>(clock_ns() - begin_ns); }
 
 // Converts real time to a number of simulation steps.
 class Clock {
   public:
     // The number of steps that have become due since the last call.
     int advance() {
-        const std::int64_t now = now_ns();
+        const std::int64_t now = clock_ns();
         behind_s_ += last_ns_ != 0 ? 1e-9 * static_cast<double>(now - last_ns_) : 0.0;
         behind_s_ = std::min(behind_s_, k_max_behind_s);
         last_ns_ = now;
@@ -55,7 +59,7 @@ void accumulate_input(const DesktopInput& now, DesktopInput& input) {
     input.look_up_rad += before.look_up_rad;
     input.farther_m += before.farther_m;
     input.snap_turns += before.snap_turns;
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
+    for (std::size_t side = 0; side < 2; ++side) {
         input.opened[side] = input.opened[side] || before.opened[side];
     }
 }
@@ -63,10 +67,7 @@ void accumulate_input(const DesktopInput& now, DesktopInput& input) {
 class Loop {
   public:
     explicit Loop(PlayStage& stage)
-        : stage_(stage),
-          history_(stage.session),
-          outside_(stage.session.scene()),
-          viewpoint_(stage.viewpoint) {
+        : stage_(stage), outside_(stage.session.scene()), viewpoint_(stage.viewpoint) {
         inspector_.gizmos = stage.gizmos;
         inspector_.turn_to = stage.page;
         hold_mouse(!stage.panels.inspector && !stage.panels.menu);
@@ -87,7 +88,9 @@ class Loop {
     }
 
   private:
-    const World& world() const { return stage_.session.scene().world; }
+    const Scene& scene() const { return stage_.session.scene(); }
+    const hh::World& world() const { return scene().host; }
+    Entity player() const { return entity_of(stage_.session.player()); }
 
     void take_key(PlayKey key) {
         PlayPanels& panels = stage_.panels;
@@ -138,7 +141,7 @@ class Loop {
 
     // Not const: outside cameras update the walls they avoid.
     Pose camera_ws() {
-        const RenderPose& render = world().render_pose.at(stage_.session.player().player);
+        const RenderPose& render = scene().world().render_pose.at(player());
         switch (viewpoint_) {
             case PlayerViewpoint::mirror:
                 return outside_.before(render);
@@ -171,7 +174,7 @@ class Loop {
         rewinds_ = events.rewinds && !types;
         DesktopInput now = types ? DesktopInput{} : events.input;
         if (events.gamepad) {
-            const double now_s = 1e-9 * static_cast<double>(now_ns());
+            const double now_s = 1e-9 * static_cast<double>(clock_ns());
             const double dt_s = gamepad_s_ > 0.0 ? std::min(now_s - gamepad_s_, 0.1) : 0.0;
             gamepad_s_ = now_s;
             now = combine(now, read_gamepad(*events.gamepad, stage_.settings, dt_s, gamepad_));
@@ -181,13 +184,13 @@ class Loop {
     }
 
     void step() {
-        const std::int64_t begin_ns = now_ns();
+        const std::int64_t begin_ns = clock_ns();
         history_.step(stage_.session, input_);
         clear_momentary_input(input_);
-        stage_.tally.add_frame(world(), stage_.session.player(), stage_.session.stats(),
-                               us_since(begin_ns), DesktopSession::k_dt_s);
-        if (stage_.status != nullptr && world().clock.t_s >= next_status_s_) {
-            next_status_s_ = world().clock.t_s + k_status_s;
+        stage_.tally.add_frame(world(), stage_.session.player(), us_since(begin_ns),
+                               DesktopSession::k_dt_s);
+        if (stage_.status != nullptr && world().time_s() >= next_status_s_) {
+            next_status_s_ = world().time_s() + k_status_s;
             const std::string line =
                 status_line(world(), stage_.session.player(), stage_.tally.figures(),
                             stage_.session.body().can_reach());
@@ -211,7 +214,7 @@ class Loop {
         for (int i = 0; i < steps && !ends_; ++i) {
             step();
             rewound_ = rewound_ > 0 ? rewound_ - 1 : 0;
-            ends_ = stage_.end_s > 0.0 && world().clock.t_s >= stage_.end_s;
+            ends_ = stage_.end_s > 0.0 && world().time_s() >= stage_.end_s;
         }
         if (paused_) {
             clear_momentary_input(input_);
@@ -228,18 +231,16 @@ class Loop {
         stage_.overlay.begin(ui_, dt_s);
         show_panels();
         const UiPicture& ui = stage_.overlay.end();
-        const Entity player = stage_.session.player().player;
-        const std::int64_t begin_ns = now_ns();
+        const std::int64_t begin_ns = clock_ns();
         marks_.clear();
-        add_gizmos(world(), stage_.session.caches(), stage_.session.scene().tuning,
-                   inspector_.gizmos, marks_);
+        add_gizmos(scene().world(), scene().caches(), scene().tuning(), inspector_.gizmos, marks_);
         const bool own_eyes = viewpoint_ == PlayerViewpoint::eyes;
         stage_.view.draw(
             camera_ws(), stage_.settings.fov_rad,
-            own_eyes ? std::optional(world().render_pose.find_row(player)) : std::nullopt,
+            own_eyes ? std::optional(scene().world().render_pose.find_row(player())) : std::nullopt,
             stage_.picture, marks_, &ui);
         const double draw_us = us_since(begin_ns);
-        const std::int64_t shown_ns = now_ns();
+        const std::int64_t shown_ns = clock_ns();
         stage_.window.show(stage_.picture);
         stage_.tally.add_picture(draw_us, us_since(shown_ns));
     }
@@ -251,8 +252,7 @@ class Loop {
         hud.shows_help = stage_.panels.help && !stage_.panels.inspector && !stage_.panels.menu;
         hud.paused = paused_;
         hud.rewound_s = static_cast<double>(rewound_) * DesktopSession::k_dt_s;
-        hud.vignette =
-            vignette_of(world(), stage_.session.player().player, stage_.settings.vignette);
+        hud.vignette = vignette_of(world(), stage_.session.player(), stage_.settings.vignette);
         hud.footer = stage_.panels.inspector ? cost_line() : "";
         show_hud(hud);
         if (stage_.panels.inspector) {
@@ -273,9 +273,8 @@ class Loop {
     void obey(const MenuChoice& choice) {
         if (choice.quality) {
             std::string why_not;
-            auto view =
-                PlayerView::open(stage_.session.scene(), stage_.models, stage_.picture_size[0],
-                                 stage_.picture_size[1], why_not, stage_.settings.quality);
+            auto view = PlayerView::open(scene(), stage_.models, stage_.picture_size[0],
+                                         stage_.picture_size[1], why_not, stage_.settings.quality);
             if (view) {
                 stage_.view = std::move(*view);
             }

@@ -13,22 +13,22 @@ double& value_of(ControlValues& values, Control control) {
 }
 
 // The sibling of `node` with that name.
-const GltfNode* find_beside(std::span<const GltfNode> nodes, const GltfNode& node,
-                            const std::string& name) {
-    const auto found = std::ranges::find_if(nodes, [&](const GltfNode& other) {
+const ModelNode* find_beside(std::span<const ModelNode> nodes, const ModelNode& node,
+                             const std::string& name) {
+    const auto found = std::ranges::find_if(nodes, [&](const ModelNode& other) {
         return other.name == name && other.parent == node.parent;
     });
     return found != nodes.end() ? &*found : nullptr;
 }
 
-std::optional<ControlMove> find_move(const GltfNode& node, std::span<const GltfNode> nodes,
+std::optional<ControlMove> find_move(const ModelNode& node, std::span<const ModelNode> nodes,
                                      std::span<const ControlledNode> controlled) {
     const auto it = std::ranges::find(controlled, node.name, &ControlledNode::node);
     if (it == controlled.end()) {
         return std::nullopt;
     }
-    const GltfNode* const from = find_beside(nodes, node, it->from);
-    const GltfNode* const to = find_beside(nodes, node, it->to);
+    const ModelNode* const from = find_beside(nodes, node, it->from);
+    const ModelNode* const to = find_beside(nodes, node, it->to);
     if (from == nullptr || to == nullptr || !node.pose_ms || !from->pose_ms || !to->pose_ms) {
         return std::nullopt;
     }
@@ -57,10 +57,10 @@ ControlValues closing_values(bool closes) {
     return values;
 }
 
-std::vector<ControlMove> moves_of(const std::string& pointer, std::span<const GltfNode> nodes,
+std::vector<ControlMove> moves_of(const std::string& pointer, std::span<const ModelNode> nodes,
                                   std::span<const ControlledNode> controlled) {
     std::vector<ControlMove> moves;
-    const auto leaf = std::ranges::find(nodes, pointer, &GltfNode::pointer);
+    const auto leaf = std::ranges::find(nodes, pointer, &ModelNode::pointer);
     std::optional<std::size_t> at;
     if (leaf != nodes.end()) {
         at = static_cast<std::size_t>(std::distance(nodes.begin(), leaf));
@@ -74,13 +74,14 @@ std::vector<ControlMove> moves_of(const std::string& pointer, std::span<const Gl
     return moves;
 }
 
-// Poses of a move assume that its ancestors are at rest. Ancestors' moves are applied last and
-// carry it along.
-Pose moved_by(std::span<const ControlMove> moves, const ControlValues& values) {
-    Pose moved;
+// The poses of a move assume that the node's ancestors are at rest. The ancestors' moves are
+// applied last and move the node along.
+hh::Pose moved_by(std::span<const ControlMove> moves, const ControlValues& values) {
+    hh::Pose moved = hh::k_origin;
     for (const ControlMove& move : moves) {
         const double share = std::clamp(values[static_cast<std::size_t>(move.control)], 0.0, 1.0);
-        moved = moved * interpolate(move.from_ms, move.to_ms, share) * inverse(move.rest_ms);
+        moved =
+            moved * hh::interpolate(move.from_ms, move.to_ms, share) * hh::inverse(move.rest_ms);
     }
     return moved;
 }

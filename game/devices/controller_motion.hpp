@@ -3,12 +3,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "engine/io/gltf_nodes.hpp"
-#include "engine/math/math.hpp"
+#include <handhold/handhold.hpp>
+#include <handhold/math.hpp>
+
 #include "game/devices/headset_reading.hpp"
 
 // Moving parts of a drawn controller: buttons, triggers, sticks. As in WebXR's input profiles, a
@@ -39,16 +41,27 @@ struct ControlledNode {
     std::string node, from, to;
 };
 
-// The same, resolved in the model. Suffix _ms: in the model's frame, all other parts at rest.
+// A node of a controller's model.
+struct ModelNode {
+    std::string name;
+    std::string pointer;                // JSON pointer in the file
+    std::optional<std::size_t> parent;  // index; nullopt: a root
+    std::optional<hh::Pose> pose_ms;    // nullopt: it is scaled
+};
+
+// A ControlledNode with the poses that its model's nodes have. Suffix _ms: in the model's frame,
+// all other parts at rest.
 struct ControlMove {
     Control control = Control::trigger;
-    Pose rest_ms, from_ms, to_ms;
+    hh::Pose rest_ms = hh::k_origin;
+    hh::Pose from_ms = hh::k_origin;
+    hh::Pose to_ms = hh::k_origin;
 };
 // Moves of the node with this pointer and of its ancestors, the outermost first. Left out: nodes
 // that the model lacks, that are scaled, or that are no siblings of their end poses.
-std::vector<ControlMove> moves_of(const std::string& pointer, std::span<const GltfNode> nodes,
+std::vector<ControlMove> moves_of(const std::string& pointer, std::span<const ModelNode> nodes,
                                   std::span<const ControlledNode> controlled);
 // Transform of a part from its rest pose to the given values, in the model's frame.
-Pose moved_by(std::span<const ControlMove> moves, const ControlValues& values);
+hh::Pose moved_by(std::span<const ControlMove> moves, const ControlValues& values);
 
 }  // namespace handhold

@@ -2,43 +2,36 @@
 
 #include <algorithm>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
-#include "components/hand_rig.hpp"
-#include "engine/io/json.hpp"
-#include "systems/input/read_tracking.hpp"
-#include "systems/rigs/hand_kinematics.hpp"
+#include "game/session/hand_pose.hpp"
 
 namespace handhold {
 namespace {
 
-constexpr std::array<const char*, k_hand_count> k_controller_sides = {"left", "right"};
+constexpr std::array<const char*, 2> k_controller_sides = {"left", "right"};
 
-Pose read_controller_pose(const JsonValue& value) {
-    constexpr NumberRange k_near_m = {-1.0, 1.0, false};
-    if (!value.exists()) {
-        return {};
-    }
-    value.allow_only({"position_m", "rotation_xyzw"});
-    return {value["position_m"].vector_or(Vec3::Zero(), k_near_m),
-            value["rotation_xyzw"].rotation_or(Quat::Identity())};
-}
+constexpr double k_near_m = 1.0;
 
-Pose read_joint(const JsonValue& value, HandSide side) {
+// The palm's centre by the default tuning.
+hh::Vec3 default_palm_center_m() { return hand_shape(hh::World()).palm_center_m; }
+
+hh::Pose read_joint(const JsonValue& value, hh::Side side) {
     const JsonValue hand = value["hand"];
     const JsonValue handle = value["handle"];
     if (hand.exists() == handle.exists()) {
         value.refuse("either \"hand\" or \"handle\"");
     }
     if (hand.exists()) {
-        return read_controller_pose(hand);
+        return read_pose(hand, k_near_m);
     }
     handle.allow_only({"radius_m", "slant_rad", "along_m"});
     HandleGrip grip;
     grip.radius_m = handle["radius_m"].number_or(grip.radius_m, {0.0, 0.1, false});
     grip.slant_rad = handle["slant_rad"].number_or(grip.slant_rad, {-1.6, 1.6, false});
     grip.along_m = handle["along_m"].number_or(grip.along_m, {-0.2, 0.2, false});
-    return inverse(handle_in_hand(side, grip, HandTuning{}));
+    return hh::inverse(handle_in_hand(side, grip, default_palm_center_m()));
 }
 
 constexpr std::array<const char*, k_control_count> k_control_names = {
@@ -56,13 +49,13 @@ ControlledNode read_control(const JsonValue& value) {
             value["from"].text(), value["to"].text()};
 }
 
-ControllerSide read_own_side(const JsonValue& value, HandSide side,
+ControllerSide read_own_side(const JsonValue& value, hh::Side side,
                              const std::filesystem::path& folder) {
     value.allow_only({"model", "grip", "aim", "hand", "handle", "controls"});
     ControllerSide made;
     made.model = folder / value["model"].text();
-    made.fit.grip_ms = read_controller_pose(value["grip"]);
-    made.fit.aim_ms = value["aim"].exists() ? read_controller_pose(value["aim"]) : made.fit.grip_ms;
+    made.fit.grip_ms = read_pose(value["grip"], k_near_m);
+    made.fit.aim_ms = value["aim"].exists() ? read_pose(value["aim"], k_near_m) : made.fit.grip_ms;
     made.fit.hand_in_grip = read_joint(value, side);
     for (const JsonValue& control : value["controls"].optional_items()) {
         made.controls.push_back(read_control(control));
@@ -133,13 +126,13 @@ std::vector<ControlledNode> read_webxr_controls(const JsonValue& components) {
     return controls;
 }
 
-ControllerSide read_webxr_side(const JsonValue& layouts, HandSide side,
+ControllerSide read_webxr_side(const JsonValue& layouts, hh::Side side,
                                const std::filesystem::path& folder) {
     constexpr std::array<const char*, 5> k_keys = {"left", "right", "left-right", "right-left",
                                                    "left-right-none"};
-    const char* const name = k_controller_sides[index_of(side)];
+    const char* const name = k_controller_sides[side];
     ControllerSide made;
-    made.fit.hand_in_grip = inverse(handle_in_hand(side, {}, HandTuning{}));
+    made.fit.hand_in_grip = hh::inverse(handle_in_hand(side, {}, default_palm_center_m()));
     for (const char* key : k_keys) {
         if (is_layout_of(key, name) && layouts[key].exists()) {
             made.model = folder / layouts[key]["assetPath"].text();
@@ -153,24 +146,24 @@ ControllerSide read_webxr_side(const JsonValue& layouts, HandSide side,
 
 }  // namespace
 
-Pose controller_in_hand(const ControllerFit& fit) {
-    return inverse(fit.grip_ms * fit.hand_in_grip);
+hh::Pose controller_in_hand(const ControllerFit& fit) {
+    return hh::inverse(fit.grip_ms * fit.hand_in_grip);
 }
 
-Pose handle_in_hand(HandSide side, const HandleGrip& handle, const HandTuning& tuning) {
+hh::Pose handle_in_hand(hh::Side side, const HandleGrip& handle, hh::Vec3 palm_center_m) {
     // Right hand: the palm faces down, the thumb is on the left.
     double sine = 0.0;
     double cosine = 1.0;
-    sin_cos(handle.slant_rad, sine, cosine);
-    const Vec3 to_thumb = -cosine * Vec3::UnitX() - sine * Vec3::UnitZ();
-    Mat3 axes;
-    axes.col(0) = Vec3::UnitY();
-    axes.col(2) = -to_thumb;
-    axes.col(1) = axes.col(2).cross(axes.col(0));
-    const Pose right{
-        tuning.palm_center_m - handle.radius_m * Vec3::UnitY() + handle.along_m * to_thumb,
-        Quat(axes).normalized()};
-    return side == HandSide::right ? right : mirror_hand_pose(right);
+    hh_sin_cos(handle.slant_rad, &sine, &cosine);
+    const hh::Vec3 to_thumb = -cosine * hh::k_x - sine * hh::k_z;
+    const hh::Vec3 z = -to_thumb;
+    const hh::Quat rotation =
+        hh::normalized(hh::rotation_from_axes(hh::k_y, hh::cross(z, hh::k_y), z));
+    const hh::Vec3 at = palm_center_m - handle.radius_m * hh::k_y + handle.along_m * to_thumb;
+    if (side == HH_RIGHT) {
+        return {at, rotation};
+    }
+    return {{-at.x, at.y, at.z}, {rotation.x, -rotation.y, -rotation.z, rotation.w}};
 }
 
 Result<ControllerProfile> parse_controller_profile(std::string_view text,
@@ -187,10 +180,10 @@ Result<ControllerProfile> parse_controller_profile(std::string_view text,
     if (!is_webxr) {
         root.allow_only({"name", "left", "right"});
     }
-    for (const HandSide side : {HandSide::left, HandSide::right}) {
-        profile.sides[index_of(side)] =
-            is_webxr ? read_webxr_side(root["layouts"], side, folder)
-                     : read_own_side(root[k_controller_sides[index_of(side)]], side, folder);
+    for (const hh::Side side : {HH_LEFT, HH_RIGHT}) {
+        profile.sides[side] = is_webxr
+                                  ? read_webxr_side(root["layouts"], side, folder)
+                                  : read_own_side(root[k_controller_sides[side]], side, folder);
     }
     if (document.value().failed()) {
         return document.value().error();
@@ -198,19 +191,13 @@ Result<ControllerProfile> parse_controller_profile(std::string_view text,
     return profile;
 }
 
-Pose controller_joint(const World& world, Entity hand, HandSide side, const HandTuning& tuning) {
-    const ControllerToHand* const own = world.controller_to_hand.find(hand);
-    return own != nullptr ? own->hand_in_controller : default_controller_to_hand(side, tuning);
-}
-
-void set_controller_joints(const std::array<Pose, k_hand_count>& hand_in_grip, World& world) {
-    for (std::size_t row = 0; row < world.hand_owner.size(); ++row) {
-        const Entity hand = world.hand_owner.owners()[row];
-        const Pose& joint = hand_in_grip[index_of(world.hand_owner.rows()[row].side)];
-        if (world.controller_to_hand.find(hand) == nullptr) {
-            world.controller_to_hand.add(hand);
+void set_controller_joints(const std::array<hh::Pose, 2>& hand_in_grip, hh::World& world) {
+    for (const hh::Player player : world.players()) {
+        for (const hh::Side side : {HH_LEFT, HH_RIGHT}) {
+            if (!world.set_hand_in_controller(player, side, hand_in_grip[side])) {
+                throw std::invalid_argument("a controller's joint is no pose near it");
+            }
         }
-        world.controller_to_hand.at(hand).hand_in_controller = joint;
     }
 }
 

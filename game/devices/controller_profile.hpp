@@ -6,12 +6,11 @@
 #include <string_view>
 #include <vector>
 
-#include "components/tracking.hpp"
-#include "components/tuning.hpp"
-#include "components/world.hpp"
-#include "engine/core/result.hpp"
-#include "engine/math/math.hpp"
+#include <handhold/handhold.hpp>
+#include <handhold/math.hpp>
+
 #include "game/devices/controller_motion.hpp"
+#include "game/files/file_tools.hpp"
 
 // Controller profiles: how a hand holds its controller. Format: docs/reference/controllers.md. Talk
 // row 9.
@@ -22,12 +21,13 @@ namespace handhold {
 
 // One side. Suffix _ms: in the frame of the controller's model.
 struct ControllerFit {
-    Pose grip_ms;
-    Pose aim_ms;        // origin and -Z of the pointing ray
-    Pose hand_in_grip;  // the controller-to-hand joint: the wrist (OpenXR's axes) in the grip pose
+    hh::Pose grip_ms = hh::k_origin;
+    hh::Pose aim_ms = hh::k_origin;  // origin and -Z of the pointing ray
+    // Controller-to-hand pose: the wrist (OpenXR's axes) in the grip pose.
+    hh::Pose hand_in_grip = hh::k_origin;
 };
 // Pose of the model's frame in hand space.
-Pose controller_in_hand(const ControllerFit& fit);
+hh::Pose controller_in_hand(const ControllerFit& fit);
 
 // A handle that lies across the palm.
 struct HandleGrip {
@@ -35,8 +35,9 @@ struct HandleGrip {
     double slant_rad = 0.55;  // tilt of the thumb end towards the fingers; 0: perpendicular
     double along_m = 0.018;   // grip pose from the palm's centre along the handle, to the thumb
 };
-// Grip pose in hand space. The left hand's is the mirror image of the right hand's.
-Pose handle_in_hand(HandSide side, const HandleGrip& handle, const HandTuning& tuning);
+// Grip pose in hand space. The left hand's is the mirror image of the right hand's, whose palm's
+// centre is given.
+hh::Pose handle_in_hand(hh::Side side, const HandleGrip& handle, hh::Vec3 palm_center_m);
 
 // The contents of a profile, before its models are read.
 struct ControllerSide {
@@ -46,7 +47,7 @@ struct ControllerSide {
 };
 struct ControllerProfile {
     std::string name;
-    std::array<ControllerSide, k_hand_count> sides;  // indexed by HandSide
+    std::array<ControllerSide, 2> sides;  // indexed by hh::Side
 };
 
 // Reads a profile of our own format, or the profile.json of a WebXR input profile. WebXR models are
@@ -55,9 +56,7 @@ struct ControllerProfile {
 Result<ControllerProfile> parse_controller_profile(std::string_view text,
                                                    const std::filesystem::path& file);
 
-// The controller-to-hand joint of a hand: its own, else Tuning's.
-Pose controller_joint(const World& world, Entity hand, HandSide side, const HandTuning& tuning);
-// Gives all hands of the world these joints. Call between frames.
-void set_controller_joints(const std::array<Pose, k_hand_count>& hand_in_grip, World& world);
+// Sets the controller-to-hand poses of all hands in the world, by hh::Side. Call between frames.
+void set_controller_joints(const std::array<hh::Pose, 2>& hand_in_grip, hh::World& world);
 
 }  // namespace handhold

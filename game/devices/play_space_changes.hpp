@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/math/math.hpp"
+#include <handhold/handhold.hpp>
 
 namespace handhold {
 
@@ -11,16 +11,17 @@ namespace handhold {
 // session began in, so that the game never notices one.
 class PlaySpaceChanges {
   public:
-    // From `time_ns` on, readings are given in a space whose origin lies at `new_in_old` in the
-    // space before. Ignored if the pose is not valid.
-    void add(std::int64_t time_ns, const Pose& new_in_old);
-    // The space of readings for that time, in the first one: first = space_at(time) * reading.
-    Pose space_at(std::int64_t time_ns) const;
+    // From `time_ns` on, the runtime gives readings in a new space, whose pose in the previous
+    // space is `new_in_old`. Ignored if the pose is not valid.
+    void add(std::int64_t time_ns, const hh::Pose& new_in_old);
+    // Pose of the space of readings at that time, in the session's first space: first =
+    // space_at(time) * reading.
+    hh::Pose space_at(std::int64_t time_ns) const;
 
   private:
     struct Change {
         std::int64_t time_ns = 0;
-        Pose space;  // play space from then on, in the frame of the first
+        hh::Pose space = hh::k_origin;  // play space from then on, in the frame of the first
     };
     std::vector<Change> changes_;  // changes in the order of their times
 };

@@ -8,9 +8,10 @@ namespace handhold {
 // are late. A recorded session therefore replays at `hz` bit for bit.
 class HeadsetClock {
   public:
-    // Number of frames due for a picture that is shown at display_ns; 0 if that refresh had its
-    // frame, on the first call, and on the first one after pause(). The first period_ns > 0 decides
-    // the frame length. At most k_max_frames: beyond that, simulated time lags behind.
+    // Number of frames to simulate before a picture that is shown at display_ns. 0 if that refresh
+    // already had its frame, in the first call, and in the first call after pause(). The first
+    // period_ns > 0 determines the frame length. At most k_max_frames; if more are due, simulated
+    // time lags behind.
     int advance(std::int64_t display_ns, std::int64_t period_ns);
 
     // No time passes until the next advance(): the runtime was gone, or has another clock.
@@ -18,7 +19,7 @@ class HeadsetClock {
 
     double hz() const { return hz_; }
     double dt_s() const { return 1.0 / hz_; }
-    // Display time of the n-th last frame of the last advance(); 0: the last one.
+    // Display time of a frame of the last advance(), counted from its end; 0: its last frame.
     std::int64_t frame_ns(int before_last) const;
 
     static constexpr int k_max_frames = 9;

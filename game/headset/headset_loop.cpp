@@ -5,7 +5,6 @@
 #include <thread>
 #include <utility>
 
-#include "engine/core/profile.hpp"
 #include "game/devices/comfort.hpp"
 #include "game/devices/headset_hands.hpp"
 #include "game/headset/headset_panel.hpp"
@@ -20,8 +19,13 @@ constexpr double k_between_lines_s = 0.1;
 constexpr auto k_retry_interval = std::chrono::milliseconds(500);
 constexpr int k_max_find_attempts = 60;
 
+std::int64_t clock_ns() {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
 double microseconds_since(std::int64_t begin_ns) {
-    return 1e-3 * static_cast<double>(now_ns() - begin_ns);
+    return 1e-3 * static_cast<double>(clock_ns() - begin_ns);
 }
 
 // Copies an eye's picture into its half of `both`: left, right.
@@ -73,7 +77,9 @@ class HeadsetLoop {
     }
 
   private:
-    const World& world() const { return stage_.session.scene().world; }
+    const hh::World& world() const { return stage_.session.world(); }
+    // For pictures.
+    const World& columns() const { return stage_.session.scene().world(); }
 
     bool begin(std::string& why_not) {
         const GlContext* const gl = stage_.view != nullptr ? &stage_.view->context() : nullptr;
@@ -136,14 +142,14 @@ class HeadsetLoop {
             step(clock_.frame_ns(i));
         }
         if (frame.is_seen && frames_ > 0) {
-            const std::int64_t begin_ns = now_ns();
+            const std::int64_t begin_ns = clock_ns();
             lay_out_panel();
             const UiPicture& ui = darken_edges(due * clock_.dt_s());
             if (!headset_->end_frame(frame, [&](const EyePicture& eye) { draw(eye, ui); })) {
                 return;
             }
             const double draw_us = microseconds_since(begin_ns);
-            const std::int64_t shown_ns = now_ns();
+            const std::int64_t shown_ns = clock_ns();
             show_mirror();
             ++figures_.pictures;
             stage_.tally.add_picture(draw_us, microseconds_since(shown_ns));
@@ -157,31 +163,31 @@ class HeadsetLoop {
         panel_.follow(figures_.reading);
         figures_.shows_panel = panel_.shows();
         HeadsetSession& session = stage_.session;
-        const std::int64_t begin_ns = now_ns();
-        const TrackingSample sample =
-            read_headset(figures_.reading, session.t_s(), session.scene().tuning.hand, memory_,
+        const std::int64_t begin_ns = clock_ns();
+        const hh::Sample sample =
+            read_headset(figures_.reading, session.t_s(), hand_shape(session.world()), memory_,
                          session.controller_joints());
         session.step(sample,
                      read_headset_commands(figures_.reading, stage_.options.settings.turn, memory_),
                      clock_.dt_s());
         ++frames_;
-        stage_.tally.add_frame(world(), session.player(), session.stats(),
-                               microseconds_since(begin_ns), clock_.dt_s());
-        const std::array<HapticPulse, k_hand_count> pulses = session.pulses();
-        for (std::size_t side = 0; side < k_hand_count; ++side) {
-            const bool shook = headset_->shake(static_cast<HandSide>(side), pulses[side]);
+        stage_.tally.add_frame(world(), session.player(), microseconds_since(begin_ns),
+                               clock_.dt_s());
+        const std::array<HapticPulse, 2> pulses = session.pulses();
+        for (std::size_t side = 0; side < 2; ++side) {
+            const bool shook = headset_->shake(static_cast<hh::Side>(side), pulses[side]);
             figures_.shakes[side] += shook ? 1U : 0U;
         }
         write_status();
         ends_ =
-            ends_ || (stage_.options.seconds > 0.0 && world().clock.t_s >= stage_.options.seconds);
+            ends_ || (stage_.options.seconds > 0.0 && world().time_s() >= stage_.options.seconds);
     }
 
     void write_status() {
-        if (stage_.status == nullptr || world().clock.t_s < next_status_s_) {
+        if (stage_.status == nullptr || world().time_s() < next_status_s_) {
             return;
         }
-        next_status_s_ = world().clock.t_s + k_between_lines_s;
+        next_status_s_ = world().time_s() + k_between_lines_s;
         const std::string line =
             status_line(world(), stage_.session.player(), stage_.tally.figures(), false, &figures_);
         std::fputs(line.c_str(), stage_.status);
@@ -190,14 +196,15 @@ class HeadsetLoop {
 
     // A line about the player's own tracking and calibration.
     std::string notice() const {
-        const Calibration& calibration = world().calibration.at(stage_.session.player().player);
+        const PlayerEntities player = player_entities(columns(), stage_.session.player());
         for (const HandSide side : {HandSide::left, HandSide::right}) {
-            const Entity hand = stage_.session.player().hands[index_of(side)];
-            if (world().hand_tracking.at(hand).state == TrackingState::lost) {
+            if (columns().hand_tracking.at(player.hands[index_of(side)]).state ==
+                TrackingState::lost) {
                 return side == HandSide::left ? "The left hand is out of sight."
                                               : "The right hand is out of sight.";
             }
         }
+        const Calibration& calibration = columns().calibration.at(player.player);
         return calibration.held_s > 0.0 ? "Hold still: you are being measured."
                : calibration.done       ? "You are measured."
                                         : "";
@@ -207,7 +214,7 @@ class HeadsetLoop {
         if (!panel_.shows()) {
             return;
         }
-        const Tuning& tuning = stage_.session.scene().tuning;
+        const Tuning& tuning = stage_.session.scene().tuning();
         overlay_->resize(k_headset_help_px[0], k_headset_help_px[1]);
         overlay_->begin({}, clock_.dt_s());
         show_headset_help({stage_.options.settings.turn, tuning.locomotion.thruster_mps2 > 0.0,
@@ -221,14 +228,15 @@ class HeadsetLoop {
             return std::nullopt;
         }
         return Sheet{&sheet_ui_, k_headset_help_px,
-                     head_ws * (inverse(head_ps_) * panel_.pose_ps()), HeadsetPanel::k_width_m};
+                     head_ws * from_host(hh::inverse(head_ps_) * panel_.pose_ps()),
+                     HeadsetPanel::k_width_m};
     }
 
     const UiPicture& darken_edges(double dt_s) {
         Hud hud;
         hud.shows_mark = hud.shows_help = false;
         hud.vignette =
-            vignette_of(world(), stage_.session.player().player, stage_.options.settings.vignette);
+            vignette_of(world(), stage_.session.player(), stage_.options.settings.vignette);
         overlay_->resize(stage_.eye_size.width_px, stage_.eye_size.height_px);
         overlay_->begin({}, dt_s);
         show_hud(hud);
@@ -237,21 +245,21 @@ class HeadsetLoop {
 
     // The eye has the same pose relative to the head in the world as in the room.
     void draw(const EyePicture& eye, const UiPicture& ui) {
-        const Entity player = stage_.session.player().player;
-        const RenderPose& render = world().render_pose.at(player);
+        const Entity player = entity_of(stage_.session.player());
+        const RenderPose& render = columns().render_pose.at(player);
         if (figures_.reading.head_ps) {
             head_ps_ = *figures_.reading.head_ps;
         }
         Camera camera;
-        camera.pose_ws = render.head_ws * (inverse(head_ps_) * eye.eye_ps);
+        camera.pose_ws = render.head_ws * from_host(hh::inverse(head_ps_) * eye.eye_ps);
         camera.frustum = eye.frustum;
         stage_.view->show_sheet(sheet_before(render.head_ws));
         const auto& hands = figures_.reading.hands;
-        stage_.view->show_controls(world().render_pose.find_row(player),
+        stage_.view->show_controls(columns().render_pose.find_row(player),
                                    {control_values(hands[0]), control_values(hands[1])});
         const bool keeps = !stage_.options.picture.empty();
         const bool mirrors = stage_.mirror != nullptr && eye.eye == 0;
-        stage_.view->draw_eye(camera, world().render_pose.find_row(player), eye.texture,
+        stage_.view->draw_eye(camera, columns().render_pose.find_row(player), eye.texture,
                               keeps || mirrors ? &eye_image_ : nullptr, &ui);
         if (keeps) {
             put_beside(eye_image_, eye.eye, stage_.picture);
@@ -274,10 +282,10 @@ class HeadsetLoop {
     HeadsetFigures figures_;
     std::optional<Overlay> overlay_;  // overlay for both eyes and the panel; none: headless
     HeadsetPanel panel_;
-    UiPicture sheet_ui_;  // while it is shown
-    Pose head_ps_;        // head in the last reading
-    Image eye_image_;     // reused
-    Image mirror_image_;  // the left eye's
+    UiPicture sheet_ui_;               // panel content; used only while the panel is shown
+    hh::Pose head_ps_ = hh::k_origin;  // head in the last reading
+    Image eye_image_;                  // reused
+    Image mirror_image_;               // the left eye's
     std::uint64_t frames_ = 0;
     double next_status_s_ = 0.0;
     bool ends_ = false;

@@ -19,17 +19,17 @@ class HeadsetPanel {
 
     bool shows() const { return shows_; }
     // Centre in the space of the readings; +Z towards the reader, +Y up. Valid while shown.
-    const Pose& pose_ps() const { return pose_ps_; }
+    const hh::Pose& pose_ps() const { return pose_ps_; }
 
   private:
     bool shows_ = false;
     bool is_down_ = false;
     bool was_both_ = false;  // both buttons, while the left one was down
-    std::optional<Pose> head_ps_;
-    Pose pose_ps_;
+    std::optional<hh::Pose> head_ps_;
+    hh::Pose pose_ps_ = hh::k_origin;
 };
 
 // Pose of a panel before a head, upright and facing it, for any look direction.
-Pose panel_before(const Pose& head_ps);
+hh::Pose panel_before(const hh::Pose& head_ps);
 
 }  // namespace handhold

@@ -40,12 +40,12 @@ void add_free_body(Scene& scene, const CrowdBodyKind& kind, const std::string& n
     BodyDescription body;
     body.name = name;
     body.shape =
-        ball ? scene.shapes->add_sphere(kind.half_m.x()) : scene.shapes->add_box(kind.half_m);
+        ball ? scene.shapes().add_sphere(kind.half_m.x()) : scene.shapes().add_box(kind.half_m);
     body.body = {BodyKind::free, kind.mass_kg,
-                 solid_inertia(scene.shapes->at(body.shape), kind.mass_kg), 0.3};
+                 solid_inertia(scene.shapes().at(body.shape), kind.mass_kg), 0.3};
     body.pose_ws = pose_ws;
     body.velocity = velocity;
-    const Entity entity = add_body(scene.world, body, *scene.shapes);
+    const Entity entity = add_body(scene.world(), body, scene.shapes());
     scene.body_names.push_back(name);
     Mesh mesh = ball ? make_sphere(kind.half_m.x()) : make_box(kind.half_m);
     scene.visuals.push_back(
@@ -56,27 +56,23 @@ void add_free_body(Scene& scene, const CrowdBodyKind& kind, const std::string& n
 
 void fill_with_crowd(Scene& scene) {
     scene.climbers = k_climbers;
-    scene.tuning.locomotion.thruster_mps2 =
-        std::max(scene.tuning.locomotion.thruster_mps2, k_jets_mps2);
-    const Pose first_ws = scene.spawns.front().pose_ws;
-    std::vector<Pose> places;
-    {
-        FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
-        places = spread_players(scene, caches, first_ws, 4 * k_body_count, k_seed);
-    }
+    scene.tuning().locomotion.thruster_mps2 =
+        std::max(scene.tuning().locomotion.thruster_mps2, k_jets_mps2);
+    const hh::Pose first_ws = scene.spawns.front().pose_ws;
+    const std::vector<hh::Pose> places = spread_players(scene, first_ws, 4 * k_body_count, k_seed);
     Random random(k_seed);
     std::size_t made = 0;
-    for (const Pose& place : places) {
-        const Vec3 center_ws = head_over(place);
-        const Vec3 drift = 0.05 * random.direction();
-        const Vec3 spin = 0.3 * random.direction();
+    for (const hh::Pose& place : places) {
+        const hh::Vec3 center_ws = head_over(place);
+        const hh::Vec3 drift = 0.05 * random.direction();
+        const hh::Vec3 spin = 0.3 * random.direction();
         if (made == k_body_count ||
-            (center_ws - head_over(first_ws)).norm() < k_session_clearance_m) {
+            hh::length(center_ws - head_over(first_ws)) < k_session_clearance_m) {
             continue;
         }
         const CrowdBodyKind kind = kinds()[made % k_body_kinds];
         add_free_body(scene, kind, std::string(kind.name) + std::to_string(made),
-                      {center_ws, place.rotation}, {drift, spin});
+                      from_host({center_ws, place.rotation}), {from_host(drift), from_host(spin)});
         ++made;
     }
 }

@@ -10,36 +10,36 @@
 namespace handhold {
 namespace {
 
-const Vec3 k_rail(0.0, 0.98, 0.16);  // point on the rail's axis, which is along x
+const hh::Vec3 k_rail{0.0, 0.98, 0.16};  // point on the rail's axis, which is along x
 constexpr double k_eyes_y_m = 1.48;
 constexpr double k_eyes_z_m = 0.62;
 constexpr double k_crawl_mps = 0.55;
 constexpr const char* k_gun_model = "gun.glb";  // built in code, not loaded
 
 // The gun's pose: to the right of the session's start, with the muzzle to the left.
-Pose gun_place() { return {Vec3(-3.02, 1.31, 0.45), rotation_about(Vec3::UnitY(), 1.05)}; }
+hh::Pose gun_place() { return {hh::Vec3{-3.02, 1.31, 0.45}, hh::rotation_about(hh::k_y, 1.05)}; }
 
-Vec3 eyes_before(double x_m, double z_m = k_eyes_z_m) { return {x_m, k_eyes_y_m, z_m}; }
+hh::Vec3 eyes_before(double x_m, double z_m = k_eyes_z_m) { return {x_m, k_eyes_y_m, z_m}; }
 
 // The left hand holds the rail while the right hand works.
 void stay(double from_s, double until_s, double x_m, SessionScript& script) {
-    script.holds.push_back({HandSide::left, from_s, until_s, k_rail + Vec3(x_m, 0.0, 0.02),
-                            Vec3::UnitZ(), Vec3::UnitY()});
+    script.holds.push_back(
+        {HH_LEFT, from_s, until_s, k_rail + hh::Vec3{x_m, 0.0, 0.02}, hh::k_z, hh::k_y});
 }
 
 // Moves hand over hand along the rail to the next contraption.
 void crawl(double from_s, double from_x_m, double to_x_m, SessionScript& script) {
     const double until_s = from_s + (to_x_m - from_x_m) / k_crawl_mps;
-    const Vec3 along = Vec3::UnitX();
-    script.body.push_back({from_s, eyes_before(from_x_m), Vec3::Zero()});
+    const hh::Vec3 along = hh::k_x;
+    script.body.push_back({from_s, eyes_before(from_x_m), hh::Vec3{}});
     script.body.push_back({from_s + 0.4, eyes_before(from_x_m + 0.2), k_crawl_mps * along});
     script.body.push_back({until_s - 0.4, eyes_before(to_x_m - 0.2), k_crawl_mps * along});
-    script.body.push_back({until_s, eyes_before(to_x_m), Vec3::Zero()});
+    script.body.push_back({until_s, eyes_before(to_x_m), hh::Vec3{}});
     ScriptedCrawl hands;
     hands.bar_start = k_rail;
     hands.along = along;
-    hands.away = Vec3::UnitZ();
-    hands.fingers = Vec3::UnitY();
+    hands.away = hh::k_z;
+    hands.fingers = hh::k_y;
     hands.from_s = from_s;
     hands.until_s = until_s;
     add_crawl(hands, script);
@@ -49,133 +49,130 @@ void crawl(double from_s, double from_x_m, double to_x_m, SessionScript& script)
 struct Work {
     SessionScript& script;
     double from_s;
-    Vec3 palm;
-    Vec3 away;
-    Vec3 fingers;
+    hh::Vec3 palm{};
+    hh::Vec3 away{};
+    hh::Vec3 fingers{};
 
     void hold(double until_s) const {
-        script.holds.push_back({HandSide::right, from_s, until_s, palm, away, fingers});
+        script.holds.push_back({HH_RIGHT, from_s, until_s, palm, away, fingers});
     }
-    void move(double t_s, const Vec3& by) const {
-        script.reaches.push_back({HandSide::right, t_s, palm + by, away, fingers});
+    void move(double t_s, const hh::Vec3& by) const {
+        script.reaches.push_back({HH_RIGHT, t_s, palm + by, away, fingers});
     }
     // Turns the hand about `pivot`, as a part of a rotating body would move it.
-    void turn(double t_s, const Vec3& pivot, const Vec3& axis, double angle_rad) const {
-        const Quat turned = rotation_about(axis, angle_rad);
-        script.reaches.push_back({HandSide::right, t_s, pivot + turned * (palm - pivot),
-                                  turned * away, turned * fingers});
+    void turn(double t_s, const hh::Vec3& pivot, const hh::Vec3& axis, double angle_rad) const {
+        const hh::Quat turned = hh::rotation_about(axis, angle_rad);
+        script.reaches.push_back(
+            {HH_RIGHT, t_s, pivot + turned * (palm - pivot), turned * away, turned * fingers});
     }
 };
 
 void work_lever(double t_s, SessionScript& script) {
-    const Work lever{script, t_s, Vec3(-3.4, 1.674, 0.13), Vec3::UnitY(), -Vec3::UnitZ()};
-    const Vec3 pivot(-3.4, 1.36, 0.13);
+    const Work lever{script, t_s, hh::Vec3{-3.4, 1.674, 0.13}, hh::k_y, -hh::k_z};
+    const hh::Vec3 pivot{-3.4, 1.36, 0.13};
     lever.hold(t_s + 2.4);
-    lever.turn(t_s + 0.3, pivot, Vec3::UnitX(), 0.0);
-    lever.turn(t_s + 1.1, pivot, Vec3::UnitX(), 1.0);
-    lever.turn(t_s + 1.4, pivot, Vec3::UnitX(), 1.0);
-    lever.turn(t_s + 2.2, pivot, Vec3::UnitX(), 0.2);
+    lever.turn(t_s + 0.3, pivot, hh::k_x, 0.0);
+    lever.turn(t_s + 1.1, pivot, hh::k_x, 1.0);
+    lever.turn(t_s + 1.4, pivot, hh::k_x, 1.0);
+    lever.turn(t_s + 2.2, pivot, hh::k_x, 0.2);
 }
 
 void work_drawer(double t_s, SessionScript& script) {
-    const Work drawer{script, t_s, Vec3(-1.75, 1.5, 0.414), Vec3::UnitZ(), Vec3::UnitY()};
+    const Work drawer{script, t_s, hh::Vec3{-1.75, 1.5, 0.414}, hh::k_z, hh::k_y};
     drawer.hold(t_s + 2.6);
-    drawer.move(t_s + 0.3, Vec3::Zero());
-    drawer.move(t_s + 1.2, Vec3(0.0, 0.0, 0.20));
-    drawer.move(t_s + 1.6, Vec3(0.0, 0.0, 0.20));
-    drawer.move(t_s + 2.4, Vec3(0.0, 0.0, 0.06));
+    drawer.move(t_s + 0.3, hh::Vec3{});
+    drawer.move(t_s + 1.2, hh::Vec3{0.0, 0.0, 0.20});
+    drawer.move(t_s + 1.6, hh::Vec3{0.0, 0.0, 0.20});
+    drawer.move(t_s + 2.4, hh::Vec3{0.0, 0.0, 0.06});
 }
 
 // The right hand turns the door's handle down, pulls the door open, and lets the handle return.
 void work_door(double t_s, SessionScript& script) {
-    const Work handle{script, t_s, Vec3(-0.06, 1.5, 0.345), Vec3::UnitZ(), -Vec3::UnitY()};
-    const Vec3 pivot(0.02, 1.5, 0.345);
-    const Vec3 hinge(-0.485, 1.5, 0.272);
+    const Work handle{script, t_s, hh::Vec3{-0.06, 1.5, 0.345}, hh::k_z, -hh::k_y};
+    const hh::Vec3 pivot{0.02, 1.5, 0.345};
+    const hh::Vec3 hinge{-0.485, 1.5, 0.272};
     handle.hold(t_s + 3.4);
-    handle.turn(t_s + 0.3, pivot, Vec3::UnitZ(), 0.0);
+    handle.turn(t_s + 0.3, pivot, hh::k_z, 0.0);
     // A positive angle about +z lowers the handle's free end, which is on its -x side.
-    handle.turn(t_s + 0.9, pivot, Vec3::UnitZ(), 0.7);
-    const Quat down = rotation_about(Vec3::UnitZ(), 0.7);
-    const Vec3 palm = pivot + down * (handle.palm - pivot);
+    handle.turn(t_s + 0.9, pivot, hh::k_z, 0.7);
+    const hh::Quat down = hh::rotation_about(hh::k_z, 0.7);
+    const hh::Vec3 palm = pivot + down * (handle.palm - pivot);
     for (int i = 1; i <= 4; ++i) {
-        const Quat open = rotation_about(Vec3::UnitY(), -0.3 * i);
-        script.reaches.push_back({HandSide::right, t_s + 0.9 + 0.5 * i,
-                                  hinge + open * (palm - hinge), open * down * handle.away,
-                                  open * down * handle.fingers});
+        const hh::Quat open = hh::rotation_about(hh::k_y, -0.3 * i);
+        script.reaches.push_back({HH_RIGHT, t_s + 0.9 + 0.5 * i, hinge + open * (palm - hinge),
+                                  open * down * handle.away, open * down * handle.fingers});
     }
 }
 
 void work_valve(double t_s, SessionScript& script) {
-    const Vec3 hub(1.3, 1.5, 0.23);
-    const Work rim{script, t_s, hub + Vec3(0.17, 0.0, 0.018), Vec3::UnitZ(), -Vec3::UnitX()};
+    const hh::Vec3 hub{1.3, 1.5, 0.23};
+    const Work rim{script, t_s, hub + hh::Vec3{0.17, 0.0, 0.018}, hh::k_z, -hh::k_x};
     rim.hold(t_s + 2.6);
     for (int i = 0; i <= 6; ++i) {
-        rim.turn(t_s + 0.3 + 0.35 * i, hub, Vec3::UnitZ(), 0.3 * i);
+        rim.turn(t_s + 0.3 + 0.35 * i, hub, hh::k_z, 0.3 * i);
     }
 }
 
 void work_cable(double t_s, SessionScript& script) {
-    const Work link{script, t_s, Vec3(2.75, 1.25, 0.317), Vec3::UnitZ(), Vec3::UnitX()};
+    const Work link{script, t_s, hh::Vec3{2.75, 1.25, 0.317}, hh::k_z, hh::k_x};
     link.hold(t_s + 3.4);
-    link.move(t_s + 0.3, Vec3::Zero());
-    link.move(t_s + 1.1, Vec3(0.25, 0.10, -0.03));
-    link.move(t_s + 1.9, Vec3(-0.30, 0.10, -0.03));
-    link.move(t_s + 2.6, Vec3(0.20, 0.15, -0.03));
-    link.move(t_s + 3.2, Vec3(0.05, 0.05, -0.03));
+    link.move(t_s + 0.3, hh::Vec3{});
+    link.move(t_s + 1.1, hh::Vec3{0.25, 0.10, -0.03});
+    link.move(t_s + 1.9, hh::Vec3{-0.30, 0.10, -0.03});
+    link.move(t_s + 2.6, hh::Vec3{0.20, 0.15, -0.03});
+    link.move(t_s + 3.2, hh::Vec3{0.05, 0.05, -0.03});
 }
 
 // The right hand pushes a rock into a narrower gap, which pushes the player back.
 void work_rock(double t_s, SessionScript& script) {
-    const Work rock{script, t_s, Vec3(3.42, 1.62, 0.505), Vec3::UnitZ(), Vec3::UnitY()};
+    const Work rock{script, t_s, hh::Vec3{3.42, 1.62, 0.505}, hh::k_z, hh::k_y};
     rock.hold(t_s + 3.6);
-    rock.move(t_s + 0.4, Vec3::Zero());
-    rock.move(t_s + 1.2, Vec3(0.33, -0.12, 0.12));
-    rock.move(t_s + 2.0, Vec3(0.33, -0.12, -0.12));
-    rock.move(t_s + 2.6, Vec3(0.33, -0.12, -0.12));
-    rock.move(t_s + 3.4, Vec3(0.0, 0.05, 0.20));
+    rock.move(t_s + 0.4, hh::Vec3{});
+    rock.move(t_s + 1.2, hh::Vec3{0.33, -0.12, 0.12});
+    rock.move(t_s + 2.0, hh::Vec3{0.33, -0.12, -0.12});
+    rock.move(t_s + 2.6, hh::Vec3{0.33, -0.12, -0.12});
+    rock.move(t_s + 3.4, hh::Vec3{0.0, 0.05, 0.20});
 }
 
 // A wrist pose in the form that scripts use.
 struct ScriptedWrist {
-    Vec3 palm, away, fingers;
+    hh::Vec3 palm, away, fingers;
 };
-ScriptedWrist scripted_wrist(const Pose& wrist) {
-    return {transform_point(wrist, HandTuning().palm_center_m), wrist.rotation * Vec3::UnitY(),
-            wrist.rotation * -Vec3::UnitZ()};
+ScriptedWrist scripted_wrist(const hh::Pose& wrist) {
+    return {hh::transform_point(wrist, to_host(HandTuning().palm_center_m)),
+            wrist.rotation * hh::k_y, wrist.rotation * -hh::k_z};
 }
 
 // The right hand takes the gun by its handle, aims, returns the gun, and takes it again by its
 // back, where no authored grip is near.
 void work_gun(double t_s, SessionScript& script) {
     const GunModel gun = make_gun();
-    const Pose wrist_in_gun = gun.grips.front().grip.hands[index_of(HandSide::right)].wrist_bs;
-    const Pose beside{Vec3(0.020, -0.012, 0.015), rotation_about(Vec3::UnitZ(), 0.25)};
-    const Pose back = gun_place() * wrist_in_gun * beside;
+    const hh::Pose wrist_in_gun = to_host(gun.grips.front().grip.hands[HH_RIGHT].wrist_bs);
+    const hh::Pose beside{hh::Vec3{0.020, -0.012, 0.015}, hh::rotation_about(hh::k_z, 0.25)};
+    const hh::Pose back = gun_place() * wrist_in_gun * beside;
     const ScriptedWrist closed = scripted_wrist(back);
-    script.holds.push_back(
-        {HandSide::right, t_s, t_s + 5.0, closed.palm, closed.away, closed.fingers});
-    const auto aim = [&](double at_s, const Vec3& place, double yaw_rad, double pitch_rad) {
-        const Pose gun_ws{place, rotation_about(Vec3::UnitY(), yaw_rad) *
-                                     rotation_about(Vec3::UnitX(), pitch_rad)};
+    script.holds.push_back({HH_RIGHT, t_s, t_s + 5.0, closed.palm, closed.away, closed.fingers});
+    const auto aim = [&](double at_s, const hh::Vec3& place, double yaw_rad, double pitch_rad) {
+        const hh::Pose gun_ws{
+            place, hh::rotation_about(hh::k_y, yaw_rad) * hh::rotation_about(hh::k_x, pitch_rad)};
         const ScriptedWrist wrist = scripted_wrist(gun_ws * wrist_in_gun);
-        script.reaches.push_back({HandSide::right, at_s, wrist.palm, wrist.away, wrist.fingers});
+        script.reaches.push_back({HH_RIGHT, at_s, wrist.palm, wrist.away, wrist.fingers});
     };
-    script.reaches.push_back(
-        {HandSide::right, t_s + 0.4, closed.palm, closed.away, closed.fingers});
-    aim(t_s + 1.3, Vec3(-3.25, 1.38, 0.44), 0.9, 0.35);
-    aim(t_s + 2.1, Vec3(-3.20, 1.40, 0.46), 0.5, 0.75);
-    aim(t_s + 2.5, Vec3(-3.20, 1.40, 0.46), 0.5, 0.75);
-    aim(t_s + 3.4, Vec3(-3.10, 1.38, 0.50), -0.8, 0.2);
-    script.presses.push_back({HandSide::right, t_s + 2.0, t_s + 2.6});
+    script.reaches.push_back({HH_RIGHT, t_s + 0.4, closed.palm, closed.away, closed.fingers});
+    aim(t_s + 1.3, hh::Vec3{-3.25, 1.38, 0.44}, 0.9, 0.35);
+    aim(t_s + 2.1, hh::Vec3{-3.20, 1.40, 0.46}, 0.5, 0.75);
+    aim(t_s + 2.5, hh::Vec3{-3.20, 1.40, 0.46}, 0.5, 0.75);
+    aim(t_s + 3.4, hh::Vec3{-3.10, 1.38, 0.50}, -0.8, 0.2);
+    script.presses.push_back({HH_RIGHT, t_s + 2.0, t_s + 2.6});
     // After the release, the gun stays where the hand held it.
-    const Pose left_at = back * inverse(wrist_in_gun);
-    const Pose on_back{transform_point(left_at, Vec3(0.0, 0.076, -0.085)),
-                       left_at.rotation * rotation_about(Vec3::UnitY(), 1.2)};
-    const Vec3 up = on_back.rotation * Vec3::UnitY();
-    const Vec3 fingers = on_back.rotation * -Vec3::UnitZ();
-    script.holds.push_back({HandSide::right, t_s + 6.0, t_s + 7.2, on_back.position, up, fingers});
+    const hh::Pose left_at = back * hh::inverse(wrist_in_gun);
+    const hh::Pose on_back{hh::transform_point(left_at, hh::Vec3{0.0, 0.076, -0.085}),
+                           left_at.rotation * hh::rotation_about(hh::k_y, 1.2)};
+    const hh::Vec3 up = on_back.rotation * hh::k_y;
+    const hh::Vec3 fingers = on_back.rotation * -hh::k_z;
+    script.holds.push_back({HH_RIGHT, t_s + 6.0, t_s + 7.2, on_back.position, up, fingers});
     script.reaches.push_back(
-        {HandSide::right, t_s + 6.6, on_back.position + Vec3(0.05, 0.08, 0.05), up, fingers});
+        {HH_RIGHT, t_s + 6.6, on_back.position + hh::Vec3{0.05, 0.08, 0.05}, up, fingers});
 }
 
 }  // namespace
@@ -188,7 +185,7 @@ Scene make_playground_scene() {
     body.name = "gun";
     body.kind = BodyKind::free;
     body.shape = std::move(gun.shape);
-    body.pose = gun_place();
+    body.pose = from_host(gun_place());
     body.mass_kg = gun.mass_kg;
     body.restitution = 0.2;
     body.visual = k_gun_model;
@@ -212,7 +209,7 @@ SessionScript playground_script() {
     SessionScript script;
     // Duration of the gun's part, which comes before the other contraptions.
     constexpr double k_gun_s = 8.2;
-    script.body.push_back({0.0, eyes_before(-3.4), Vec3::Zero()});
+    script.body.push_back({0.0, eyes_before(-3.4), hh::Vec3{}});
     stay(0.4, k_gun_s + 4.4, -3.65, script);
     work_gun(1.2, script);
     work_lever(k_gun_s + 1.2, script);

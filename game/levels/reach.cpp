@@ -21,39 +21,39 @@ Scene make_reach_scene() {
 SessionScript reach_script() {
     SessionScript script;
     script.duration_s = 19.0;
-    script.body = {{0.0, Vec3(0.0, 1.45, 0.62), Vec3::Zero()},
-                   {19.0, Vec3(0.0, 1.45, 0.62), Vec3::Zero()}};
-    const Vec3 back = Vec3::UnitZ();  // direction of the backs of palms that face forward
-    const Vec3 up = Vec3::UnitY();
-    const auto hold = [&](HandSide side, double from_s, double until_s, const Vec3& palm) {
+    script.body = {{0.0, hh::Vec3{0.0, 1.45, 0.62}, hh::Vec3{}},
+                   {19.0, hh::Vec3{0.0, 1.45, 0.62}, hh::Vec3{}}};
+    const hh::Vec3 back = hh::k_z;  // direction of the backs of palms that face forward
+    const hh::Vec3 up = hh::k_y;
+    const auto hold = [&](hh::Side side, double from_s, double until_s, const hh::Vec3& palm) {
         script.holds.push_back({side, from_s, until_s, palm, back, up});
     };
-    const auto move = [&](double t_s, const Vec3& palm) {
-        script.reaches.push_back({HandSide::right, t_s, palm, back, up});
+    const auto move = [&](double t_s, const hh::Vec3& palm) {
+        script.reaches.push_back({HH_RIGHT, t_s, palm, back, up});
     };
-    const Vec3 rail(0.0, 0.98, 0.18);
-    hold(HandSide::left, 0.3, 17.8, rail - Vec3(0.25, 0.0, 0.0));
+    const hh::Vec3 rail{0.0, 0.98, 0.18};
+    hold(HH_LEFT, 0.3, 17.8, rail - hh::Vec3{0.25, 0.0, 0.0});
     // The right hand pulls the canister close, shows it from both sides, and releases it.
-    const Vec3 ahead(0.26, 1.36, 0.10);
-    hold(HandSide::right, 1.4, 4.8, ahead);
+    const hh::Vec3 ahead{0.26, 1.36, 0.10};
+    hold(HH_RIGHT, 1.4, 4.8, ahead);
     move(2.9, ahead);
-    move(3.5, ahead + Vec3(-0.16, 0.10, 0.10));
-    move(4.1, ahead + Vec3(0.14, -0.02, 0.12));
-    move(4.7, ahead + Vec3(0.16, -0.10, 0.10));
+    move(3.5, ahead + hh::Vec3{-0.16, 0.10, 0.10});
+    move(4.1, ahead + hh::Vec3{0.14, -0.02, 0.12});
+    move(4.7, ahead + hh::Vec3{0.16, -0.10, 0.10});
     // The right hand pulls at the safe, which is too heavy to move.
-    hold(HandSide::right, 6.2, 7.0, Vec3(0.12, 0.66, 0.12));
+    hold(HH_RIGHT, 6.2, 7.0, hh::Vec3{0.12, 0.66, 0.12});
     // The right hand pulls the ball but opens early, so the ball flies past to the left.
-    hold(HandSide::right, 8.4, 8.9, Vec3(-0.55, 1.72, 0.05));
+    hold(HH_RIGHT, 8.4, 8.9, hh::Vec3{-0.55, 1.72, 0.05});
     // Both hands hold the rail and are tracked farther apart than their grips allow.
-    hold(HandSide::right, 10.6, 13.4, rail + Vec3(0.12, 0.0, 0.0));
-    move(11.2, rail + Vec3(0.12, 0.0, 0.0));
-    move(12.0, rail + Vec3(0.30, 0.16, 0.02));
-    move(12.8, rail + Vec3(0.30, 0.16, 0.02));
+    hold(HH_RIGHT, 10.6, 13.4, rail + hh::Vec3{0.12, 0.0, 0.0});
+    move(11.2, rail + hh::Vec3{0.12, 0.0, 0.0});
+    move(12.0, rail + hh::Vec3{0.30, 0.16, 0.02});
+    move(12.8, rail + hh::Vec3{0.30, 0.16, 0.02});
     // The right hand is pushed into the slab and withdrawn.
-    move(14.4, Vec3(0.50, 1.46, 0.16));
-    move(15.4, Vec3(0.55, 1.50, -0.17));
-    move(16.6, Vec3(0.58, 1.53, -0.19));
-    move(17.6, Vec3(0.45, 1.40, 0.20));
+    move(14.4, hh::Vec3{0.50, 1.46, 0.16});
+    move(15.4, hh::Vec3{0.55, 1.50, -0.17});
+    move(16.6, hh::Vec3{0.58, 1.53, -0.19});
+    move(17.6, hh::Vec3{0.45, 1.40, 0.20});
     return script;
 }
 

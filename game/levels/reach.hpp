@@ -9,9 +9,9 @@ namespace handhold {
 // caller must add its grip meshes (add_grip_meshes).
 Scene make_reach_scene();
 
-// The session of that scene. A canister is pulled from two metres away and taken. A safe is too
-// heavy and stays. A ball is released on its way and flies past. Then the hands are pulled apart on
-// one rail and pushed into a slab, where ghosts show the tracked hands.
+// The session of the reach scene. A canister is pulled from two metres away and taken. A safe is
+// too heavy and stays. A ball is released on its way and flies past. Then the hands are pulled
+// apart on one rail and pushed into a slab, where ghosts show the tracked hands.
 SessionScript reach_script();
 
 }  // namespace handhold

@@ -115,7 +115,7 @@ struct RenderFrame {
     std::optional<Sheet> sheet;
     std::vector<Lamp> lamps;  // the twelve with most influence around the camera are used
     KeyLight key;
-    // ambient light blends from ground_ambient to sky_ambient along this direction
+    // Ambient light blends from ground_ambient to sky_ambient along this direction.
     Vec3 up_ws = Vec3::UnitY();
     Color sky_ambient = {0.16F, 0.175F, 0.20F};
     Color ground_ambient = {0.11F, 0.105F, 0.10F};

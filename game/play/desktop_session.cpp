@@ -1,59 +1,66 @@
 #include "game/play/desktop_session.hpp"
 
 #include <algorithm>
+#include <stdexcept>
+#include <utility>
 
-#include "engine/core/check.hpp"
 #include "game/assets/body_clips_asset.hpp"
 #include "game/devices/controller_profile.hpp"
-#include "game/scene/place_scene.hpp"
 
 namespace handhold {
-DesktopSession::DesktopSession(Scene scene, const Pose& origin_ws)
-    : scene_(std::move(scene)),
-      caches_(*scene_.shapes, scene_.grip_meshes.get()),
-      player_(
-          add_scene_player(scene_, {free_player_name(scene_.world, "player0"), origin_ws, 80.0})) {
-    caches_.body_clips = game_body_clips();
+namespace {
+
+// A session's calls of the interface fail only by a defect.
+void expect_done(const hh::Status& status) {
+    if (!status) {
+        throw std::logic_error(std::string(status.text()));
+    }
 }
 
-void DesktopSession::set_controller_joints(const std::array<Pose, k_hand_count>& hand_in_grip) {
-    handhold::set_controller_joints(hand_in_grip, scene_.world);
+}  // namespace
+
+DesktopSession::DesktopSession(Scene scene, const hh::Pose& origin_ws)
+    : scene_(std::move(scene)), player_(add_scene_player(scene_, "player0", origin_ws)) {
+    load_game_body_clips(scene_.host);
+}
+
+void DesktopSession::set_controller_joints(const std::array<hh::Pose, 2>& hand_in_grip) {
+    handhold::set_controller_joints(hand_in_grip, scene_.host);
 }
 
 void DesktopSession::step(const DesktopInput& input) {
-    place_scene(scene_, caches_);
-    const double start_s = scene_.world.clock.t_s;
+    hh::World& world = scene_.host;
+    const double start_s = world.time_s();
     samples_.clear();
-    if (scene_.world.clock.frame == 0) {  // a recording starts with a sample at the session's start
-        samples_.push_back(body_.advance(scene_, caches_.collision, player_, {}, start_s, 1e-9));
+    if (world.frame() == 0) {  // a recording starts with a sample at the session's start
+        samples_.push_back(body_.advance(world, player_, {}, start_s, 1e-9));
     }
-    samples_.push_back(
-        body_.advance(scene_, caches_.collision, player_, input, start_s + k_dt_s, k_dt_s));
+    samples_.push_back(body_.advance(world, player_, input, start_s + k_dt_s, k_dt_s));
     if (records_) {
-        for (const TrackingSample& sample : samples_) {
+        for (const hh::Sample& sample : samples_) {
             recording_.samples.push_back(recorded(sample));
         }
     }
-    PlayerCommands commands = body_.commands(input);
-    if (scene_.tuning.locomotion.thruster_mps2 == 0.0) {
+    hh_commands commands = body_.commands(input);
+    if (*world.tuning("locomotion.thruster_mps2") == 0.0) {
         // Jets are off, but commands are state and must be equal in every replay.
-        commands.thrust_ps.setZero();
+        commands.thrust = {};
     }
     used_sticks_ = used_sticks_ || input.brake || input.smooth_turn != 0.0 ||
-                   input.snap_turns != 0 || !commands.thrust_ps.isZero();
-    const PlayerInput from{player_.player, samples_, commands};
-    step_frame(scene_.world, caches_, scene_.tuning, {k_dt_s, {&from, 1}}, stats_);
+                   input.snap_turns != 0 || !(commands.thrust == hh::Vec3{});
+    expect_done(world.step(k_dt_s, hh::input(player_, samples_, commands)));
 }
 
-DesktopState DesktopSession::save(const SnapshotAssets& assets) const {
+DesktopState DesktopSession::save() {
     DesktopState state{{}, body_, recording_.samples.size(), used_sticks_};
-    save_snapshot(scene_.world, assets, state.world);
+    expect_done(scene_.host.save(state.world));
     return state;
 }
 
-void DesktopSession::restore(const DesktopState& state, const SnapshotAssets& assets) {
-    const auto error = restore_snapshot(state.world, assets, scene_.world);
-    HH_CHECK(!error, "the state belongs to another session", state.world.size());
+void DesktopSession::restore(const DesktopState& state) {
+    if (!scene_.host.restore(state.world)) {
+        throw std::invalid_argument("the state belongs to another session");
+    }
     body_ = state.body;
     recording_.samples.resize(std::min(recording_.samples.size(), state.recorded));
     used_sticks_ = state.used_sticks;

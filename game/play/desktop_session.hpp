@@ -1,15 +1,19 @@
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
+#include <handhold/handhold.hpp>
+
 #include "game/devices/desktop_body.hpp"
+#include "game/scene/scene.hpp"
 #include "game/session/recording.hpp"
-#include "systems/frame/frame.hpp"
-#include "systems/snapshot/snapshot.hpp"
 
 namespace handhold {
 
 // A session's complete state, except its scene and tuning.
 struct DesktopState {
-    std::vector<std::byte> world;  // a snapshot of the World
+    std::vector<std::byte> world;  // a snapshot
     DesktopBody body;
     std::size_t recorded = 0;  // number of samples recorded so far
     bool used_sticks = false;
@@ -18,7 +22,7 @@ struct DesktopState {
 // A scene that one person plays at a desktop, frame by frame.
 class DesktopSession {
   public:
-    DesktopSession(Scene scene, const Pose& origin_ws);
+    DesktopSession(Scene scene, const hh::Pose& origin_ws);
 
     static constexpr double k_dt_s = 1.0 / 90.0;
     // Advances one frame.
@@ -27,19 +31,19 @@ class DesktopSession {
     // Call save() and restore() between frames. A state can be restored to the session that
     // saved it, or to one with the same scene and start pose. The session then continues bit
     // for bit.
-    DesktopState save(const SnapshotAssets& assets) const;
-    void restore(const DesktopState& state, const SnapshotAssets& assets);
+    DesktopState save();
+    void restore(const DesktopState& state);
 
-    // Sets the poses of the hands in their controllers' grip frames, by HandSide, instead of
+    // Sets the poses of the hands in their controllers' grip frames, by hh::Side, instead of
     // Tuning's. Call between frames.
-    void set_controller_joints(const std::array<Pose, k_hand_count>& hand_in_grip);
+    void set_controller_joints(const std::array<hh::Pose, 2>& hand_in_grip);
 
     const Scene& scene() const { return scene_; }
-    // Change it between frames; recordings do not contain it.
-    Tuning& tuning() { return scene_.tuning; }
-    const FrameCaches& caches() const { return caches_; }
-    const StageStats& stats() const { return stats_; }  // costs and counters of the last frame
-    const PlayerEntities& player() const { return player_; }
+    // To change its tuning between frames; recordings do not contain that.
+    Scene& scene() { return scene_; }
+    const hh::World& world() const { return scene_.host; }
+    hh::World& world() { return scene_.host; }
+    hh::Player player() const { return player_; }
     const DesktopBody& body() const { return body_; }
     // Records tracking; call before the first frame. A replay from the same place at 90 Hz repeats
     // every bit, unless the player used turns, brake or jets: recordings do not contain them.
@@ -49,14 +53,12 @@ class DesktopSession {
 
   private:
     Scene scene_;
-    FrameCaches caches_;
-    PlayerEntities player_;
+    hh::Player player_;
     DesktopBody body_;
-    std::vector<TrackingSample> samples_;  // reused memory
+    std::vector<hh::Sample> samples_;  // reused memory
     Recording recording_;
     bool records_ = false;
     bool used_sticks_ = false;
-    StageStats stats_;
 };
 
 }  // namespace handhold

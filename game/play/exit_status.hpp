@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "engine/core/result.hpp"
+#include "game/files/file_tools.hpp"
 
 // Exit statuses of the commands. Besides these: 0 for success, 1 for wrong options.
 namespace handhold {

@@ -10,9 +10,8 @@
 
 #include <unistd.h>
 
-#include "engine/core/parallel.hpp"
-#include "engine/core/printable.hpp"
 #include "engine/core/work_meter.hpp"
+#include "game/files/file_tools.hpp"
 #include "game/levels/load_scene.hpp"
 #include "game/play/progress.hpp"
 
@@ -56,15 +55,15 @@ class LoadingBar {
 
 class AllThreads {
   public:
-    AllThreads() : before_(thread_count()) {
-        set_thread_count(std::max(before_, static_cast<int>(std::thread::hardware_concurrency())));
+    AllThreads() : before_(hh_thread_count()) {
+        hh_set_thread_count(std::clamp(std::thread::hardware_concurrency(), before_, 256U));
     }
-    ~AllThreads() { set_thread_count(before_); }
+    ~AllThreads() { hh_set_thread_count(before_); }
     AllThreads(const AllThreads&) = delete;
     AllThreads& operator=(const AllThreads&) = delete;
 
   private:
-    int before_;
+    std::uint32_t before_;
 };
 
 // Returns the user's cache folder, whose files may be deleted at any time. Empty if the environment

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include <handhold/math.hpp>
 #include <nlohmann/json.hpp>
 
 #include "game/report/run_summary.hpp"
@@ -19,20 +20,22 @@ Json times(const std::vector<double>& times_us) {
             {"count", times_us.size()}};
 }
 
-Json numbers(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
+Json numbers(const hh::Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
-const char* name_of_grip(GripKind kind) {
+const char* name_of_grip(hh_grip_kind kind) {
     switch (kind) {
-        case GripKind::none:
+        case HH_GRIP_NONE:
             return "none";
-        case GripKind::surface:
+        case HH_GRIP_SURFACE:
             return "surface";
-        case GripKind::held:
+        case HH_GRIP_HELD:
             return "held";
-        case GripKind::authored:
+        case HH_GRIP_AUTHORED:
             return "authored";
-        case GripKind::player:
+        case HH_GRIP_PLAYER:
             return "player";
+        case HH_GRIP_KIND_32_BITS:
+            break;
     }
     return "unknown";
 }
@@ -41,12 +44,12 @@ const char* name_of_grip(GripKind kind) {
 
 // Counts grips and hand changes. In a hand change, one hand grips while the other still holds.
 // Flying from grip to grip is not a hand change.
-void PlayTally::add_grips(const World& world, const PlayerEntities& player) {
-    const std::array<bool, k_hand_count> before = grips_;
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
-        grips_[side] = world.grab.at(player.hands[side]).kind == GripKind::surface;
+void PlayTally::add_grips(const hh::World& world, hh::Player player) {
+    const std::array<bool, 2> before = grips_;
+    for (const hh::Side side : {HH_LEFT, HH_RIGHT}) {
+        grips_[side] = world.moves_player(player, side);
     }
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
+    for (std::size_t side = 0; side < 2; ++side) {
         if (!grips_[side] || before[side]) {
             continue;
         }
@@ -58,14 +61,14 @@ void PlayTally::add_grips(const World& world, const PlayerEntities& player) {
     }
 }
 
-void PlayTally::add_frame(const World& world, const PlayerEntities& player, const StageStats& stats,
-                          double runtime_us, double dt_s) {
-    const Vec3 origin_ws = world.player_origin.at(player.player).pose_ws.position;
+void PlayTally::add_frame(const hh::World& world, hh::Player player, double runtime_us,
+                          double dt_s) {
+    const hh::Vec3 origin_ws = world.pose(player)->origin.position;
     if (!start_ws_) {
         start_ws_ = last_ws_ = origin_ws;
     }
     add_grips(world, player);
-    const double step_m = (origin_ws - last_ws_ - dt_s * world.reference_velocity_mps).norm();
+    const double step_m = hh::length(origin_ws - last_ws_ - dt_s * world.reference_velocity_mps());
     const bool is_first = figures_.frames == 0;
     figures_.path_m += is_first ? 0.0 : step_m;
     figures_.climbed_m += !is_first && (grips_[0] || grips_[1]) ? step_m : 0.0;
@@ -73,10 +76,13 @@ void PlayTally::add_frame(const World& world, const PlayerEntities& player, cons
     last_ws_ = origin_ws;
     ++figures_.frames;
     figures_.played_s += dt_s;
-    figures_.totals.grab_onsets += stats.grab_onsets;
-    figures_.totals.grabs_gripped += stats.grabs_gripped;
-    for (std::size_t i = 0; i < stats.fallbacks.size(); ++i) {
-        figures_.totals.fallbacks[i] += stats.fallbacks[i];
+    const hh_world_stats stats = *world.stats();
+    figures_.hands_closed += stats.hands_closed;
+    figures_.hands_gripped += stats.hands_gripped;
+    const std::vector<std::uint64_t> fallbacks = world.fallbacks();
+    figures_.fallbacks.resize(fallbacks.size());
+    for (std::size_t i = 0; i < fallbacks.size(); ++i) {
+        figures_.fallbacks[i] += fallbacks[i];
     }
     runtime_us_.push_back(runtime_us);
 }
@@ -96,15 +102,14 @@ std::string PlayTally::report_json(const std::string& scene, const std::string& 
     report["moved_m"] = numbers(figures_.moved_m);
     report["grips"] = figures_.grips;
     report["hand_changes"] = figures_.hand_changes;
-    report["grabs"] = {{"onsets", figures_.totals.grab_onsets},
-                       {"gripped", figures_.totals.grabs_gripped}};
+    report["grabs"] = {{"onsets", figures_.hands_closed}, {"gripped", figures_.hands_gripped}};
     report["times_us"] = {{"runtime_frame", times(runtime_us_)},
                           {"draw_picture", times(draw_us_)},
                           {"show_picture", times(show_us_)}};
     Json& fallbacks = report["fallbacks"] = Json::object();
-    for (std::size_t i = 0; i < figures_.totals.fallbacks.size(); ++i) {
-        if (const std::uint64_t count = figures_.totals.fallbacks[i]; count != 0) {
-            fallbacks[name_of(static_cast<Fallback>(i))] = count;
+    for (std::size_t i = 0; i < figures_.fallbacks.size(); ++i) {
+        if (const std::uint64_t count = figures_.fallbacks[i]; count != 0) {
+            fallbacks[hh_fallback_name(i)] = count;
         }
     }
     report["state_hash"] = state_hash;
@@ -131,7 +136,7 @@ std::string PlayTally::summary() const {
 
 namespace {
 
-void add_place(const char* name, const std::optional<Pose>& pose, Json& to) {
+void add_place(const char* name, const std::optional<hh::Pose>& pose, Json& to) {
     to[name] = pose ? numbers(pose->position) : Json();
 }
 
@@ -141,7 +146,7 @@ void add_headset(const HeadsetFigures& headset, Json& to) {
     to["losses"] = headset.losses;
     to["pictures"] = headset.pictures;
     add_place("head_m", headset.reading.head_ps, to);
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
+    for (std::size_t side = 0; side < 2; ++side) {
         const HandReading& hand = headset.reading.hands[side];
         Json& seen = to[side == 0 ? "left" : "right"];
         add_place("grip_m", hand.grip_ps, seen);
@@ -158,18 +163,18 @@ void add_headset(const HeadsetFigures& headset, Json& to) {
 
 }  // namespace
 
-std::string status_line(const World& world, const PlayerEntities& player,
-                        const PlayFigures& figures, bool can_reach, const HeadsetFigures* headset) {
-    const RenderPose& render = world.render_pose.at(player.player);
+std::string status_line(const hh::World& world, hh::Player player, const PlayFigures& figures,
+                        bool can_reach, const HeadsetFigures* headset) {
+    const hh_player_pose pose = *world.pose(player);
     Json line;
-    line["t_s"] = world.clock.t_s;
-    line["head_m"] = numbers(render.head_ws.position);
-    line["looks"] = numbers(render.head_ws.rotation * -Vec3::UnitZ());
+    line["t_s"] = world.time_s();
+    line["head_m"] = numbers(pose.head.position);
+    line["looks"] = numbers(pose.head.rotation * -hh::k_z);
     line["can_reach"] = can_reach;
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
-        const RenderPose::Hand& hand = render.hands[side];
-        line[side == 0 ? "left" : "right"] = {{"grip", name_of_grip(hand.grip)},
-                                              {"hand_m", numbers(hand.shown_ws.position)}};
+    for (const hh::Side side : {HH_LEFT, HH_RIGHT}) {
+        line[side == HH_LEFT ? "left" : "right"] = {
+            {"grip", name_of_grip(pose.hands[side].grip)},
+            {"hand_m", numbers(pose.hands[side].shown.position)}};
     }
     line["climbed_m"] = figures.climbed_m;
     line["hand_changes"] = figures.hand_changes;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "components/stats.hpp"
-#include "components/world.hpp"
+#include <handhold/handhold.hpp>
+
 #include "game/devices/headset_reading.hpp"
 
 // Statistics of an interactive session: distances that players moved by their hands, and the costs
@@ -17,22 +17,24 @@ namespace handhold {
 struct PlayFigures {
     std::uint64_t frames = 0;
     double played_s = 0.0;
-    // path of the play space, relative to the scene's reference velocity
+    // Path of the play space, relative to the scene's reference velocity.
     double path_m = 0.0;
     double climbed_m = 0.0;  // part of path_m during which a hand gripped a surface
-    // Displacement from start to end, including the reference velocity's.
-    Vec3 moved_m = Vec3::Zero();
+    // Displacement from start to end in the world, including the motion of the scene's reference
+    // velocity.
+    hh::Vec3 moved_m{};
     std::uint64_t grips = 0;  // grips of surfaces
     // Hand over hand: one hand gripped while the other, which had gripped before, still held.
     std::uint64_t hand_changes = 0;
-    StageStats totals;  // counters and fallbacks only
+    std::uint64_t hands_closed = 0;
+    std::uint64_t hands_gripped = 0;       // grabs that gripped something
+    std::vector<std::uint64_t> fallbacks;  // indexed as hh_fallback_name
 };
 
 class PlayTally {
   public:
     // Call after each frame of the world. `runtime_us`: cost of the frame.
-    void add_frame(const World& world, const PlayerEntities& player, const StageStats& stats,
-                   double runtime_us, double dt_s);
+    void add_frame(const hh::World& world, hh::Player player, double runtime_us, double dt_s);
     // Call after each picture, with the costs of drawing and of showing it.
     void add_picture(double draw_us, double show_us);
 
@@ -42,19 +44,19 @@ class PlayTally {
     double draw_us() const { return draw_us_.empty() ? 0.0 : draw_us_.back(); }
 
     // The text of report.json: figures, fallbacks by name, and times of runtime, drawing and
-    // showing (median, p99 and max in microseconds). `state_hash`: as format_hash writes it.
+    // showing (median, p99 and max in microseconds). `state_hash`: text from format_hash.
     std::string report_json(const std::string& scene, const std::string& state_hash) const;
     // Two lines for a terminal: distances climbed and frame costs.
     std::string summary() const;
 
   private:
-    void add_grips(const World& world, const PlayerEntities& player);
+    void add_grips(const hh::World& world, hh::Player player);
 
     PlayFigures figures_;
-    std::optional<Vec3> start_ws_;
-    Vec3 last_ws_ = Vec3::Zero();
-    std::array<bool, k_hand_count> grips_{};  // whether each hand gripped in the previous frame
-    std::optional<std::size_t> last_hand_;    // hand whose grip began last
+    std::optional<hh::Vec3> start_ws_;
+    hh::Vec3 last_ws_{};
+    std::array<bool, 2> grips_{};           // whether each hand gripped in the previous frame
+    std::optional<std::size_t> last_hand_;  // hand whose grip began last
     std::vector<double> runtime_us_, draw_us_, show_us_;
 };
 
@@ -65,14 +67,13 @@ struct HeadsetFigures {
     bool shows_panel = false;
     // How often the XR runtime was lost, and recovered.
     std::uint64_t losses = 0;
-    std::uint64_t pictures = 0;                        // counted once for both eyes
-    std::array<std::uint64_t, k_hand_count> shakes{};  // haptic pulses, by HandSide
+    std::uint64_t pictures = 0;             // counted once for both eyes
+    std::array<std::uint64_t, 2> shakes{};  // haptic pulses, by hh::Side
 };
 
 // One line of JSON with the current state: time, head, hands with what they hold, metres climbed.
 // It serves programs that control the game without seeing its pictures.
-std::string status_line(const World& world, const PlayerEntities& player,
-                        const PlayFigures& figures, bool can_reach,
-                        const HeadsetFigures* headset = nullptr);
+std::string status_line(const hh::World& world, hh::Player player, const PlayFigures& figures,
+                        bool can_reach, const HeadsetFigures* headset = nullptr);
 
 }  // namespace handhold

@@ -1,28 +1,10 @@
 #include "game/play/session_history.hpp"
 
 #include <algorithm>
-#include <type_traits>
+#include <stdexcept>
 #include <utility>
 
 namespace handhold {
-namespace {
-
-std::vector<double> numbers_of(const Tuning& tuning) {
-    std::vector<double> numbers;
-    visit_tuning(tuning, [&numbers](const TuningInfo&, const auto& field) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(field)>, Vec3>) {
-            numbers.insert(numbers.end(), {field.x(), field.y(), field.z()});
-        } else {
-            numbers.push_back(static_cast<double>(field));
-        }
-    });
-    return numbers;
-}
-
-}  // namespace
-
-SessionHistory::SessionHistory(const DesktopSession& session, std::size_t most_bytes)
-    : assets_(*session.scene().shapes, session.scene().name), most_bytes_(most_bytes) {}
 
 void SessionHistory::drop_oldest() {
     bytes_ -= stretches_.front().state.world.size();
@@ -31,8 +13,8 @@ void SessionHistory::drop_oldest() {
 
 void SessionHistory::step(DesktopSession& session, const DesktopInput& input) {
     if (stretches_.empty() || stretches_.back().inputs.size() >= k_frames_a_snapshot ||
-        numbers_of(stretches_.back().tuning) != numbers_of(session.tuning())) {
-        stretches_.push_back({session.save(assets_), session.tuning(), {}});
+        stretches_.back().tuning != session.world().tuning_numbers()) {
+        stretches_.push_back({session.save(), session.world().tuning_numbers(), {}});
         bytes_ += stretches_.back().state.world.size();
         while (bytes_ > most_bytes_ && stretches_.size() > 2) {
             drop_oldest();
@@ -70,13 +52,19 @@ std::size_t SessionHistory::rewind(DesktopSession& session, std::size_t frames) 
 
 // Restores the stretch's first state and replays its inputs with the tuning of that time. Keeps the
 // session's current tuning.
-void SessionHistory::play_again(DesktopSession& session, const Stretch& stretch) const {
-    const Tuning now = std::exchange(session.tuning(), stretch.tuning);
-    session.restore(stretch.state, assets_);
+void SessionHistory::play_again(DesktopSession& session, const Stretch& stretch) {
+    const std::vector<double> now = session.world().tuning_numbers();
+    const auto tune = [&session](const std::vector<double>& numbers) {
+        if (!session.world().set_tuning_numbers(numbers)) {
+            throw std::logic_error("the tuning of a session is out of range");
+        }
+    };
+    tune(stretch.tuning);
+    session.restore(stretch.state);
     for (const DesktopInput& input : stretch.inputs) {
         session.step(input);
     }
-    session.tuning() = now;
+    tune(now);
 }
 
 }  // namespace handhold

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "game/play/desktop_session.hpp"
-#include "systems/snapshot/snapshot.hpp"
 
 namespace handhold {
 
@@ -16,8 +15,8 @@ class SessionHistory {
     static constexpr std::size_t k_frames_a_snapshot = 10;
 
     // Drops the oldest snapshots beyond this many bytes; keeps at least two.
-    explicit SessionHistory(const DesktopSession& session,
-                            std::size_t most_bytes = std::size_t{64} << 20U);
+    explicit SessionHistory(std::size_t most_bytes = std::size_t{64} << 20U)
+        : most_bytes_(most_bytes) {}
 
     // Steps the session by a frame and records it.
     void step(DesktopSession& session, const DesktopInput& input);
@@ -32,14 +31,13 @@ class SessionHistory {
   private:
     // A snapshot and the inputs of the frames after it.
     struct Stretch {
-        DesktopState state;  // state before the first input
-        Tuning tuning;
+        DesktopState state;          // state before the first input
+        std::vector<double> tuning;  // hh::World::tuning_numbers
         std::vector<DesktopInput> inputs;
     };
     void drop_oldest();
-    void play_again(DesktopSession& session, const Stretch& stretch) const;
+    static void play_again(DesktopSession& session, const Stretch& stretch);
 
-    SnapshotAssets assets_;
     std::size_t most_bytes_;
     std::size_t bytes_ = 0;  // size of all snapshots
     std::deque<Stretch> stretches_;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/core/printable.hpp"
+#include "game/files/file_tools.hpp"
 
 namespace handhold {
 namespace {

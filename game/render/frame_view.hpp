@@ -16,7 +16,7 @@ struct FrameView {
     Quat from_view = Quat::Identity();  // rotation of the camera
     double half_width = 1.0;            // half the picture's width at distance 1
     double half_height = 1.0;
-    // offset of the picture's centre at distance 1; not 0 for a headset's eye
+    // Offset of the picture's centre at distance 1; not 0 for a headset's eye.
     double middle_x = 0.0;
     double middle_y = 0.0;
     double near_m = 0.03;

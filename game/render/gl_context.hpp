@@ -34,7 +34,7 @@ class GlContext {
     GlContext() = default;
     bool try_api(GlApi api);
 
-    // The display is shared by the whole process and never terminated, since other contexts may use
+    // The whole process uses one display. It is never terminated, because other contexts may use
     // it.
     void* display_ = nullptr;
     void* config_ = nullptr;

@@ -21,7 +21,7 @@ constexpr char k_bodies_header[] = "frame,t,body,mass_kg,x,y,z,qx,qy,qz,qw,vx,vy
 constexpr std::size_t k_bytes_per_player_row = 560;
 constexpr std::size_t k_bytes_per_body_row = 300;
 
-// Writes the cells of a row, separated by commas.
+// Writes the cells of a line, separated by commas.
 class RowWriter {
   public:
     explicit RowWriter(std::string& text) : text_(text) {}
@@ -36,13 +36,13 @@ class RowWriter {
         text_ += ',';
         append_number(text_, value);
     }
-    void add(const Vec3& v) {
-        for (const double value : {v.x(), v.y(), v.z()}) {
+    void add(const hh::Vec3& v) {
+        for (const double value : {v.x, v.y, v.z}) {
             add(value);
         }
     }
-    void add(const Quat& q) {
-        for (const double value : {q.x(), q.y(), q.z(), q.w()}) {
+    void add(const hh::Quat& q) {
+        for (const double value : {q.x, q.y, q.z, q.w}) {
             add(value);
         }
     }
@@ -71,12 +71,12 @@ void write_hand(RowWriter& row, const HandLog& hand, const std::vector<std::stri
     row.add(hand.shown_ws);
     row.add_count(static_cast<std::uint64_t>(hand.grip));
     row.add_text(has_body ? bodies[body] : none);
-    row.add(hand.error_m * k_mm_per_m);
+    row.add(hand.error_m * k_mm_in_m);
 }
 
 void write_player(RowWriter& row, const FrameLog& frame, const PlayerLog& player,
                   const std::vector<std::string>& bodies) {
-    const StageStats& stats = frame.stats;
+    const RunStats& stats = frame.stats;
     row.begin(frame);
     row.add_count(player.player);
     row.add(player.origin_ws);
@@ -84,8 +84,8 @@ void write_player(RowWriter& row, const FrameLog& frame, const PlayerLog& player
     for (const HandLog& hand : player.hands) {
         write_hand(row, hand, bodies);
     }
-    row.add(player.push_back_m * k_mm_per_m);
-    row.add(stats.residual_m * k_mm_per_m);
+    row.add(player.push_back_m * k_mm_in_m);
+    row.add(stats.residual_m * k_mm_in_m);
     row.add_count(stats.contacts);
     row.add(player.velocity_mps);
     for (const std::uint64_t count :

@@ -7,10 +7,10 @@
 #include "engine/core/result.hpp"
 #include "game/run/run_log.hpp"
 
-// Tables of a run: one row for each frame and player, or for each frame and body. SI units unless a
-// column's name says otherwise; numbers round-trip exactly. Stage times are left out, so equal runs
-// give equal files. Preconditions: indices of players and bodies are valid in RunLog's lists of
-// names, and body_mass_kg is as long as body_names.
+// Tables of a run: one line for each frame and player, or for each frame and body. SI units unless
+// a column's name says otherwise; numbers round-trip exactly. Stage times are left out, so equal
+// runs give equal files. Preconditions: indices of players and bodies are valid in RunLog's lists
+// of names, and body_mass_kg is as long as body_names.
 namespace handhold {
 
 // frames.csv. The columns up to `contacts`, with their names and order, are a contract with

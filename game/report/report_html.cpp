@@ -91,9 +91,9 @@ std::string make_header(const RunLog& log) {
 }
 
 std::string make_tiles(const RunLog& log, const RunSummary& summary) {
-    const auto mm = [](double value_m) { return format_figure(value_m * k_mm_per_m) + " mm"; };
+    const auto mm = [](double value_m) { return format_figure(value_m * k_mm_in_m) + " mm"; };
     const double path_m = summary.players.empty() ? 0.0 : summary.players.front().path_m;
-    const StageStats& totals = summary.totals;
+    const RunStats& totals = summary.totals;
     return "<div class=\"tiles\">\n" +
            make_tile("Played", format_figure(summary.duration_s) + " s",
                      format_figure(static_cast<double>(log.frames.size())) + " frames at " +

@@ -6,6 +6,7 @@
 
 #include "engine/core/text_file.hpp"
 #include "game/report/run_summary.hpp"
+#include "game/report/text.hpp"
 
 namespace handhold {
 namespace {
@@ -13,10 +14,10 @@ namespace {
 // Keys keep their order of insertion: people read this file too.
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<const char*, MomentumLedger::receiver_count> k_receivers = {
+constexpr std::array<const char*, HH_MOMENTUM_RECEIVERS> k_receivers = {
     "objects", "players", "virtual_player", "statics"};
 
-Json to_json(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
+Json to_json(const hh::Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
 Json to_json(const TimeFigures& figures) {
     return {{"median", figures.median_us}, {"p99", figures.p99_us}, {"max", figures.max_us}};
@@ -25,15 +26,15 @@ Json to_json(const TimeFigures& figures) {
 Json list_stages(const RunSummary& summary) {
     Json stages = Json::object();
     for (std::size_t i = 0; i < summary.stages.size(); ++i) {
-        stages[name_of(static_cast<Stage>(i))] = to_json(summary.stages[i]);
+        stages[hh_stage_name(i)] = to_json(summary.stages[i]);
     }
     return stages;
 }
 
-Json list_counters(const StageStats& totals) {
+Json list_counters(const RunStats& totals) {
     Json fallbacks = Json::object();
     for (std::size_t i = 0; i < totals.fallbacks.size(); ++i) {
-        fallbacks[name_of(static_cast<Fallback>(i))] = totals.fallbacks[i];
+        fallbacks[hh_fallback_name(i)] = totals.fallbacks[i];
     }
     return {
         {"fallbacks", std::move(fallbacks)},       {"islands", totals.islands},
@@ -60,7 +61,7 @@ Json list_players(const RunSummary& summary) {
         players.push_back({{"name", player.name},
                            {"mass_kg", player.mass_kg},
                            {"path_m", player.path_m},
-                           {"push_back_mm", player.push_back_m * k_mm_per_m}});
+                           {"push_back_mm", player.push_back_m * k_mm_in_m}});
     }
     return players;
 }
@@ -82,13 +83,13 @@ std::string format_report_json(const RunLog& log) {
     report["stage_us"] = list_stages(summary);
     report["frame_us"] = to_json(summary.frame);
     report["counters"] = list_counters(summary.totals);
-    report["residual_mm"] = summary.residual_m * k_mm_per_m;
-    report["joint_error"] = {{"mm", summary.joint_error_m * k_mm_per_m},
+    report["residual_mm"] = summary.residual_m * k_mm_in_m;
+    report["joint_error"] = {{"mm", summary.joint_error_m * k_mm_in_m},
                              {"rad", summary.joint_error_rad}};
-    report["hand_error_mm"] = {{"one_hand_free", summary.hand_error.one_hand_free_m * k_mm_per_m},
-                               {"two_hands", summary.hand_error.two_hands_m * k_mm_per_m},
-                               {"any", summary.hand_error.any_m * k_mm_per_m}};
-    report["push_back_mm"] = summary.push_back_m * k_mm_per_m;
+    report["hand_error_mm"] = {{"one_hand_free", summary.hand_error.one_hand_free_m * k_mm_in_m},
+                               {"two_hands", summary.hand_error.two_hands_m * k_mm_in_m},
+                               {"any", summary.hand_error.any_m * k_mm_in_m}};
+    report["push_back_mm"] = summary.push_back_m * k_mm_in_m;
     report["momentum_ledger"] = describe_momentum(summary.momentum);
     report["grabs"] = {{"onsets", summary.totals.grab_onsets},
                        {"gripped", summary.totals.grabs_gripped}};

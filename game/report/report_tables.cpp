@@ -27,9 +27,9 @@ std::string make_number_cell(const std::string& number) {
 
 std::string make_number_cell(double value) { return make_number_cell(format_figure(value)); }
 
-std::string make_vector_cell(const Vec3& v) {
-    return make_number_cell(format_figure(v.x()) + ", " + format_figure(v.y()) + ", " +
-                            format_figure(v.z()));
+std::string make_vector_cell(const hh::Vec3& v) {
+    return make_number_cell(format_figure(v.x) + ", " + format_figure(v.y) + ", " +
+                            format_figure(v.z));
 }
 
 std::string wrap_table(const std::string& rows) {
@@ -65,8 +65,8 @@ std::string make_stage_table(const RunSummary& summary) {
     const double all_us = summary.frame.total_us;
     for (std::size_t i = 0; i < summary.stages.size(); ++i) {
         const TimeFigures& times = summary.stages[i];
-        rows += make_time_row(name_of(static_cast<Stage>(i)), times,
-                              all_us > 0.0 ? times.total_us / all_us : 0.0, "");
+        rows += make_time_row(hh_stage_name(i), times, all_us > 0.0 ? times.total_us / all_us : 0.0,
+                              "");
     }
     rows +=
         make_time_row("whole frame", summary.frame, all_us > 0.0 ? 1.0 : 0.0, " class=\"total\"");
@@ -82,7 +82,7 @@ std::string make_work_table(const RunSummary& summary, std::size_t frames) {
                 make_fixed_cell(frames == 0 ? 0.0 : count / static_cast<double>(frames), 3) +
                 "</tr>\n";
     };
-    const StageStats& totals = summary.totals;
+    const RunStats& totals = summary.totals;
     add("grab_onsets", "hands that closed", totals.grab_onsets);
     add("grabs_gripped", "of these, hands that found something to hold", totals.grabs_gripped);
     add("contacts", "contact points given to the solver", totals.contacts);
@@ -100,14 +100,14 @@ std::string make_fallback_table(const RunSummary& summary) {
         const auto reason = static_cast<Fallback>(i);
         const std::uint64_t times = summary.totals.fallbacks[i];
         rows += std::string(times == 0 ? "<tr class=\"never\">" : "<tr>") + "<td>" +
-                name_of(reason) + "</td><td>" + meaning_of(reason) + "</td>" +
+                hh_fallback_name(i) + "</td><td>" + meaning_of(reason) + "</td>" +
                 make_number_cell(static_cast<double>(times)) + "</tr>\n";
     }
     return wrap_table(rows);
 }
 
 std::string make_momentum_table(const MomentumFigures& momentum) {
-    constexpr std::array<const char*, MomentumLedger::receiver_count> k_receivers = {
+    constexpr std::array<const char*, HH_MOMENTUM_RECEIVERS> k_receivers = {
         "objects", "players", "virtual player", "fixed and driven bodies"};
     std::string rows =
         make_head({"received by"}, {"linear x, y, z (kg m/s)", "angular x, y, z (kg m²/s)"}) +
@@ -129,8 +129,8 @@ std::string make_player_table(const RunSummary& summary) {
         "<tbody>\n";
     for (const PlayerFigures& player : summary.players) {
         rows += "<tr><td>" + escape_html(player.name) + "</td>" + make_number_cell(player.mass_kg) +
-                make_number_cell(player.path_m) +
-                make_number_cell(player.push_back_m * k_mm_per_m) + "</tr>\n";
+                make_number_cell(player.path_m) + make_number_cell(player.push_back_m * k_mm_in_m) +
+                "</tr>\n";
     }
     return wrap_table(rows);
 }

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "game/report/text.hpp"
+
 namespace handhold {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr double k_nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr char k_time_label[] = "time (s)";
 
 // Projects a head's position onto a plot.
-using PlacePoint = PlotPoint (*)(const Vec3& head_ws);
+using PlacePoint = PlotPoint (*)(const hh::Vec3& head_ws);
 
 LinePlot plot_head(const RunLog& log, PlacePoint place) {
     constexpr double k_path_width_px = 500.0;
@@ -61,7 +63,7 @@ double worst_grab_error_mm(const FrameLog& frame, std::size_t side) {
     for (const PlayerLog& player : frame.players) {
         const HandLog& hand = player.hands[side];
         if (hand.grip != 0) {
-            worst_mm = std::fmax(worst_mm, hand.error_m * k_mm_per_m);
+            worst_mm = std::fmax(worst_mm, hand.error_m * k_mm_in_m);
         }
     }
     return worst_mm;
@@ -70,7 +72,7 @@ double worst_grab_error_mm(const FrameLog& frame, std::size_t side) {
 }  // namespace
 
 LinePlot plot_head_from_above(const RunLog& log) {
-    LinePlot plot = plot_head(log, [](const Vec3& head) { return PlotPoint{head.x(), -head.z()}; });
+    LinePlot plot = plot_head(log, [](const hh::Vec3& head) { return PlotPoint{head.x, -head.z}; });
     plot.title = "Head from above";
     plot.x_label = "x, right (m)";
     plot.y_label = "−z, forward (m)";
@@ -78,7 +80,7 @@ LinePlot plot_head_from_above(const RunLog& log) {
 }
 
 LinePlot plot_head_from_side(const RunLog& log) {
-    LinePlot plot = plot_head(log, [](const Vec3& head) { return PlotPoint{-head.z(), head.y()}; });
+    LinePlot plot = plot_head(log, [](const hh::Vec3& head) { return PlotPoint{-head.z, head.y}; });
     plot.title = "Head from the side";
     plot.x_label = "−z, forward (m)";
     plot.y_label = "y, up (m)";
@@ -87,8 +89,8 @@ LinePlot plot_head_from_side(const RunLog& log) {
 
 LinePlot plot_grab_errors(const RunLog& log) {
     LinePlot plot = plot_over_time("Gripping hand against its anchor", "error (mm)");
-    constexpr std::array<const char*, k_hand_count> k_hands = {"left hand", "right hand"};
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
+    constexpr std::array<const char*, 2> k_hands = {"left hand", "right hand"};
+    for (std::size_t side = 0; side < 2; ++side) {
         plot.series.push_back(
             {k_hands[side],
              list_over_time(log, [&](const FrameLog& f) { return worst_grab_error_mm(f, side); }),
@@ -100,7 +102,7 @@ LinePlot plot_grab_errors(const RunLog& log) {
 LinePlot plot_residual(const RunLog& log) {
     LinePlot plot = plot_over_time("Contact overlap left at the end of the frame", "overlap (mm)");
     plot.series.push_back({"residual", list_over_time(log, [](const FrameLog& frame) {
-                               return frame.stats.residual_m * k_mm_per_m;
+                               return frame.stats.residual_m * k_mm_in_m;
                            })});
     return plot;
 }
@@ -112,7 +114,7 @@ LinePlot plot_push_back(const RunLog& log) {
                                for (const PlayerLog& player : frame.players) {
                                    worst_m = std::max(worst_m, player.push_back_m);
                                }
-                               return worst_m * k_mm_per_m;
+                               return worst_m * k_mm_in_m;
                            })});
     return plot;
 }
@@ -130,7 +132,7 @@ LinePlot plot_stage_times(const RunLog& log, const RunSummary& summary) {
                                               return std::accumulate(us.begin(), us.end(), 0.0);
                                           }),
                            k_plot_color_whole});
-    std::array<std::size_t, static_cast<std::size_t>(Stage::count)> order{};
+    std::vector<std::size_t> order(summary.stages.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return summary.stages[a].total_us > summary.stages[b].total_us;
@@ -138,7 +140,7 @@ LinePlot plot_stage_times(const RunLog& log, const RunSummary& summary) {
     for (std::size_t i = 0; i < k_shown_stages; ++i) {
         const std::size_t stage = order[i];
         plot.series.push_back(
-            {name_of(static_cast<Stage>(stage)),
+            {hh_stage_name(stage),
              list_over_time(log, [stage](const FrameLog& f) { return f.stats.stage_us[stage]; }),
              static_cast<int>(i)});
     }

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include <handhold/math.hpp>
+
 #include "engine/core/check.hpp"
 
 namespace handhold {
@@ -38,7 +40,7 @@ void summarize_stage_times(const RunLog& log, RunSummary& summary) {
     summary.frame = summarize_times(std::move(whole_us));
 }
 
-void add_counters(StageStats& totals, const StageStats& frame) {
+void add_counters(RunStats& totals, const RunStats& frame) {
     for (std::size_t i = 0; i < totals.fallbacks.size(); ++i) {
         totals.fallbacks[i] += frame.fallbacks[i];
     }
@@ -54,10 +56,10 @@ void add_counters(StageStats& totals, const StageStats& frame) {
 // A hand counts as gripping if it grips in this frame or did in the previous one, because a hand
 // that releases holds until the frame's end.
 void add_hand_errors(const FrameLog& frame, const PlayerLog& player,
-                     std::array<bool, k_hand_count>& gripped_before, HandErrorFigures& worst) {
+                     std::array<bool, 2>& gripped_before, HandErrorFigures& worst) {
     std::size_t gripping = 0;
     double error_m = 0.0;
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
+    for (std::size_t side = 0; side < 2; ++side) {
         const HandLog& hand = player.hands[side];
         const bool grips = hand.grip != 0;
         gripping += grips || gripped_before[side] ? 1U : 0U;
@@ -65,7 +67,7 @@ void add_hand_errors(const FrameLog& frame, const PlayerLog& player,
         gripped_before[side] = grips;
     }
     keep_worst(worst.any_m, error_m);
-    if (gripping == k_hand_count) {
+    if (gripping == 2) {
         keep_worst(worst.two_hands_m, error_m);
     } else if (player.push_back_m == 0.0 && frame.stats.contacts == 0) {
         keep_worst(worst.one_hand_free_m, error_m);
@@ -126,20 +128,20 @@ TimeFigures RunTally::Histogram::finish(std::uint64_t total) const {
     return out;
 }
 
-void RunTally::MomentumTally::add(const std::array<Vec3, MomentumLedger::receiver_count>& frame,
-                                  std::array<Vec3, MomentumLedger::receiver_count>& sum) {
-    Vec3 total = Vec3::Zero();
+void RunTally::MomentumTally::add(std::span<const hh::Vec3, 4> frame, std::span<hh::Vec3, 4> sum) {
+    hh::Vec3 total{};
     for (std::size_t i = 0; i < frame.size(); ++i) {
         sum[i] += frame[i];
         total += frame[i];
-        given += frame[i].norm();
+        given += hh::length(frame[i]);
     }
-    error += total.norm();
+    error += hh::length(total);
 }
 
 RunTally::RunTally() {
     frame_.counts.assign(k_classes, 0);
-    stages_.fill(frame_);
+    stages_.assign(sum_.totals.stage_us.size(), frame_);
+    sum_.stages.resize(stages_.size());
 }
 
 void RunTally::add(const FrameLog& frame) {
@@ -158,12 +160,12 @@ void RunTally::add_all_but_times(const FrameLog& frame) {
     keep_worst(sum_.residual_m, frame.stats.residual_m);
     keep_worst(sum_.joint_error_m, frame.stats.joint_error_m);
     keep_worst(sum_.joint_error_rad, frame.stats.joint_error_rad);
-    linear_.add(frame.stats.ledger.linear_kgmps, sum_.momentum.sum.linear_kgmps);
-    angular_.add(frame.stats.ledger.angular_kgm2ps, sum_.momentum.sum.angular_kgm2ps);
+    linear_.add(frame.stats.momentum.linear_kgmps, sum_.momentum.sum.linear_kgmps);
+    angular_.add(frame.stats.momentum.angular_kgm2ps, sum_.momentum.sum.angular_kgm2ps);
     for (const PlayerLog& player : frame.players) {
         players_.resize(std::max<std::size_t>(players_.size(), player.player + 1));
         PlayerTally& tally = players_[player.player];
-        tally.figures.path_m += tally.last_ws ? (player.origin_ws - *tally.last_ws).norm() : 0.0;
+        tally.figures.path_m += tally.last_ws ? hh::length(player.origin_ws - *tally.last_ws) : 0.0;
         tally.last_ws = player.origin_ws;
         keep_worst(tally.figures.push_back_m, player.push_back_m);
         add_hand_errors(frame, player, tally.gripped_before, sum_.hand_error);

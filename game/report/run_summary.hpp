@@ -3,13 +3,13 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "components/stats.hpp"
 #include "game/run/run_log.hpp"
 
-// Figures of a whole run, shared by report.json and report.html.
+// Figures of a whole run, for report.json and report.html.
 namespace handhold {
 
 // Statistics of a list of times. Percentiles are by nearest rank: the ceil(p n)-th smallest of n, a
@@ -22,11 +22,11 @@ struct TimeFigures {
 };
 TimeFigures summarize_times(std::vector<double> times_us);
 
-// Worst distance between a gripping hand and its anchor. The player can follow one hand, so its
-// error should vanish. With two hands, changes of the tracked distance between them remain as
-// errors.
+// Worst distance between a gripping hand and its anchor. The player can follow a single gripping
+// hand exactly, so its error should be 0. With two gripping hands, changes of the tracked distance
+// between them remain as errors.
 struct HandErrorFigures {
-    double one_hand_free_m = 0.0;  // not both hands grip; no contacts and no push-back in the frame
+    double one_hand_free_m = 0.0;  // frames in which one hand grips, without contacts and push-back
     double two_hands_m = 0.0;      // both hands grip, or did in the previous frame
     double any_m = 0.0;            // distance while at least one hand grips
 };
@@ -40,7 +40,7 @@ struct PlayerFigures {
 
 // Impulses summed over all frames.
 struct MomentumFigures {
-    MomentumLedger sum;
+    hh_momentum sum{};
     // How far momentum is from being conserved. For each frame, takes the length of the sum over
     // receivers; sums these lengths over the frames, so that frames cannot cancel each other.
     // Divides by the summed lengths of all impulses; 0 if there were none.
@@ -51,13 +51,13 @@ struct MomentumFigures {
 // The figures of a run. A worst value is NaN if any of the values is NaN, so that a broken run does
 // not look good.
 struct RunSummary {
-    std::array<TimeFigures, static_cast<std::size_t>(Stage::count)> stages;
-    TimeFigures frame;  // sum of a frame's stages
+    std::vector<TimeFigures> stages;  // indexed as hh_stage_name
+    TimeFigures frame;                // sum of a frame's stages
     std::uint64_t frames = 0;
     double duration_s = 0.0;  // simulated time
     // Frames stepped per second of wall time; 0 if no time was measured.
     double frames_per_s = 0.0;
-    StageStats totals;        // sums of counters and fallbacks; nothing else is set
+    RunStats totals;          // sums of counters and fallbacks; nothing else is set
     double residual_m = 0.0;  // worst contact overlap
     // Error of the worst joint: distance between its two points, or distance beyond a slider's
     // limit.
@@ -94,15 +94,14 @@ class RunTally {
     };
     struct PlayerTally {
         PlayerFigures figures;
-        std::optional<Vec3> last_ws;
-        std::array<bool, k_hand_count> gripped_before{};
+        std::optional<hh::Vec3> last_ws;
+        std::array<bool, 2> gripped_before{};
     };
     // The residual of linear or angular momentum.
     struct MomentumTally {
         double error = 0.0;  // sum over frames of the length of the receivers' sum
         double given = 0.0;  // sum over frames and receivers of the impulse's length
-        void add(const std::array<Vec3, MomentumLedger::receiver_count>& frame,
-                 std::array<Vec3, MomentumLedger::receiver_count>& sum);
+        void add(std::span<const hh::Vec3, 4> frame, std::span<hh::Vec3, 4> sum);
         double residual() const { return given == 0.0 ? 0.0 : error / given; }
     };
 
@@ -113,7 +112,7 @@ class RunTally {
     std::vector<PlayerTally> players_;
     MomentumTally linear_;
     MomentumTally angular_;
-    std::array<Histogram, static_cast<std::size_t>(Stage::count)> stages_;
+    std::vector<Histogram> stages_;  // indexed as hh_stage_name
     Histogram frame_;
 };
 

@@ -6,10 +6,12 @@
 // Numbers and text in reports, independent of the locale.
 namespace handhold {
 
+inline constexpr double k_mm_in_m = 1000.0;
+
 // Appends the shortest text that round-trips to the same double (at most 17 digits), so equal texts
 // mean equal bits. "nan", "inf" or "-inf" if not finite.
 void append_number(std::string& text, double value);
-// Appends a number with a fixed number of decimals; as append_number if not finite.
+// Appends a number with a fixed number of decimals. "nan", "inf" or "-inf" if not finite.
 void append_fixed(std::string& text, double value, int decimals);
 // Formats a number for people, in UTF-8: "12 346" or "0.0416" with at least four significant
 // digits, without trailing zeros; "−1.25×10⁻⁷" with three.

@@ -5,42 +5,59 @@
 #include <string>
 #include <vector>
 
-#include "components/stats.hpp"
-#include "components/tracking.hpp"
-#include "engine/math/math.hpp"
+#include <handhold/handhold.hpp>
 
 // The record of a run, from which frames.csv, bodies.csv, report.json and report.html are written.
 namespace handhold {
 
+// Statistics of a frame, as hh_world_stats, hh_world_stage_times and hh_world_fallbacks give them.
+struct RunStats {
+    RunStats();  // all 0
+
+    std::vector<double> stage_us;          // indexed as hh_stage_name
+    std::vector<std::uint64_t> fallbacks;  // indexed as hh_fallback_name
+    std::uint64_t grab_onsets = 0;
+    std::uint64_t grabs_gripped = 0;
+    std::uint64_t islands = 0;
+    std::uint64_t islands_pushed = 0;
+    std::uint64_t contacts = 0;
+    std::uint64_t contact_rounds = 0;
+    std::uint64_t newton_iterations = 0;
+    double residual_m = 0.0;
+    double joint_error_m = 0.0;
+    double joint_error_rad = 0.0;
+    hh_momentum momentum{};
+};
+
 struct HandLog {
-    Vec3 target_ws = Vec3::Zero();  // palm of the tracked hand
-    Vec3 shown_ws = Vec3::Zero();   // palm of the shown hand; on its anchor while gripping
-    int grip = 0;                   // GripKind
-    std::int32_t body = -1;         // index into RunLog::body_names; -1: none
+    hh::Vec3 target_ws{};    // palm of the tracked hand
+    hh::Vec3 shown_ws{};     // palm of the shown hand; on its anchor while gripping
+    int grip = 0;            // hh_grip_kind
+    std::int32_t body = -1;  // index into RunLog::body_names; -1: none
     double error_m = 0.0;
 };
 
 struct PlayerLog {
     std::uint32_t player = 0;  // index into RunLog::player_names
-    Vec3 origin_ws = Vec3::Zero();
-    Vec3 velocity_mps = Vec3::Zero();  // velocity of the origin
-    Vec3 head_ws = Vec3::Zero();
-    std::array<HandLog, k_hand_count> hands;  // indexed by HandSide
+    hh::Vec3 origin_ws{};
+    hh::Vec3 velocity_mps{};  // velocity of the origin
+    hh::Vec3 head_ws{};
+    std::array<HandLog, 2> hands;  // indexed by hh::Side
     double push_back_m = 0.0;
 };
 
 // A kinematic or free body at the end of a frame.
 struct BodyLog {
     std::uint32_t body = 0;  // index into RunLog::body_names
-    Pose pose_ws;
-    Vec3 velocity_mps = Vec3::Zero();
-    Vec3 spin_radps = Vec3::Zero();
+    hh::Pose pose_ws = hh::k_origin;
+    hh::Vec3 velocity_mps{};
+    hh::Vec3 spin_radps{};
 };
 
 struct FrameLog {
     std::uint64_t frame = 0;  // first frame: 1
     double t_s = 0.0;         // end of the frame
-    StageStats stats;
+    RunStats stats;
     std::vector<PlayerLog> players;
     std::vector<BodyLog> bodies;
 };

@@ -1,10 +1,10 @@
 #include "game/run/session_run.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <stdexcept>
 
-#include "engine/core/parallel.hpp"
-#include "engine/core/profile.hpp"
 #include "game/climber/crowd.hpp"
 
 namespace handhold {
@@ -13,99 +13,118 @@ namespace {
 constexpr double k_seconds_without_recording = 10.0;
 constexpr std::uint64_t k_frames_reserved = 10000;
 
-// Index of an entity in RunLog::body_names; -1: none.
-class BodyIndex {
-  public:
-    explicit BodyIndex(const World& world) {
-        for (std::size_t row = 0; row < world.body.size(); ++row) {
-            index_.add(world.body.owners()[row], static_cast<std::int32_t>(row));
+std::size_t count_names(const char* (*name_of)(std::size_t)) {
+    std::size_t count = 0;
+    while (name_of(count) != nullptr) {
+        ++count;
+    }
+    return count;
+}
+
+// The world's bodies, which stay the same during a run.
+struct LoggedBodies {
+    explicit LoggedBodies(const hh::World& world) : ids(world.bodies()) {
+        for (std::size_t i = 0; i < ids.size(); ++i) {
+            if (ids[i].index >= index_of_slot.size()) {
+                index_of_slot.resize(ids[i].index + std::size_t{1}, -1);
+            }
+            index_of_slot[ids[i].index] = static_cast<std::int32_t>(i);
+            if (*world.kind(ids[i]) != HH_STATIC) {
+                moving.push_back(static_cast<std::uint32_t>(i));
+            }
         }
     }
-    std::int32_t of(Entity body) const {
-        const std::int32_t* const found = index_.find(body);
-        return found != nullptr ? *found : -1;
+    // Index in RunLog::body_names; -1: none.
+    std::int32_t of(hh::Body body) const {
+        const std::int32_t index =
+            body.index < index_of_slot.size() ? index_of_slot[body.index] : -1;
+        return index >= 0 && ids[static_cast<std::size_t>(index)] == body ? index : -1;
     }
 
-  private:
-    Column<std::int32_t> index_;
+    std::vector<hh::Body> ids;
+    std::vector<std::uint32_t> moving;  // indices of kinematic and dynamic bodies
+    std::vector<std::int32_t> index_of_slot;
 };
 
-PlayerLog log_player(const World& world, std::uint32_t index, const PlayerEntities& player,
-                     const BodyIndex& bodies) {
-    const RenderPose& render = world.render_pose.at(player.player);
+PlayerLog log_player(const hh::World& world, std::uint32_t index, hh::Player player,
+                     const LoggedBodies& bodies) {
+    const hh_player_pose pose = *world.pose(player);
     PlayerLog log;
     log.player = index;
-    log.origin_ws = world.player_origin.at(player.player).pose_ws.position;
-    log.velocity_mps = world.player_velocity.at(player.player).linear_mps;
-    log.head_ws = render.head_ws.position;
-    log.push_back_m = render.push_back_m;
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
-        const Grab& grab = world.grab.at(player.hands[side]);
+    log.origin_ws = pose.origin.position;
+    log.velocity_mps = pose.velocity_mps;
+    log.head_ws = pose.head.position;
+    log.push_back_m = *world.push_back_m(player);
+    for (const hh::Side side : {HH_LEFT, HH_RIGHT}) {
+        const hh_hand_state& now = pose.hands[side];
         HandLog& hand = log.hands[side];
-        hand.target_ws = render.hands[side].tracked_ws.position;
-        hand.shown_ws = render.hands[side].shown_ws.position;
-        hand.grip = static_cast<int>(render.hands[side].grip);
-        hand.body = bodies.of(grab.body);
-        hand.error_m = grab.kind != GripKind::none ? grab.error_m : 0.0;
+        hand.target_ws = now.tracked.position;
+        hand.shown_ws = now.shown.position;
+        hand.grip = now.grip;
+        hand.body = bodies.of(now.body);
+        hand.error_m = now.error_m;
     }
     return log;
 }
 
+void log_stats(const hh::World& world, RunStats& log) {
+    const hh_world_stats stats = *world.stats();
+    std::size_t count = 0;
+    hh_world_stage_times(world.get(), log.stage_us.data(), log.stage_us.size(), &count);
+    hh_world_fallbacks(world.get(), log.fallbacks.data(), log.fallbacks.size(), &count);
+    log.grab_onsets = stats.hands_closed;
+    log.grabs_gripped = stats.hands_gripped;
+    log.islands = stats.islands;
+    log.islands_pushed = stats.islands_pushed;
+    log.contacts = stats.contacts;
+    log.contact_rounds = stats.contact_rounds;
+    log.newton_iterations = stats.newton_iterations;
+    log.residual_m = stats.overlap_m;
+    log.joint_error_m = stats.joint_error_m;
+    log.joint_error_rad = stats.joint_error_rad;
+    log.momentum = stats.momentum;
+}
+
 // Writes one frame to a log, which is overwritten. A log that was used before needs no allocation.
-void log_frame(const Scene& scene, const std::vector<PlayerEntities>& players,
-               const BodyIndex& bodies, const StageStats& stats, FrameLog& log) {
-    const World& world = scene.world;
+void log_frame(const hh::World& world, std::span<const hh::Player> players,
+               const LoggedBodies& bodies, FrameLog& log) {
     log.players.clear();
     log.bodies.clear();
-    log.frame = world.clock.frame;
-    log.t_s = world.clock.t_s;
-    log.stats = stats;
+    log.frame = world.frame();
+    log.t_s = world.time_s();
+    log_stats(world, log.stats);
     for (std::uint32_t i = 0; i < players.size(); ++i) {
         log.players.push_back(log_player(world, i, players[i], bodies));
     }
-    for (std::size_t row = 0; row < world.body.size(); ++row) {
-        if (world.body.rows()[row].kind == BodyKind::fixed) {
-            continue;
-        }
-        const Entity body = world.body.owners()[row];
-        const BodyVelocity& velocity = world.body_velocity.at(body);
-        log.bodies.push_back({static_cast<std::uint32_t>(row), world.body_pose.at(body).pose_ws,
-                              velocity.linear_mps, velocity.angular_radps});
+    for (const std::uint32_t index : bodies.moving) {
+        const hh::Body body = bodies.ids[index];
+        const hh::World::Motion motion = *world.motion(body);
+        log.bodies.push_back(
+            {index, *world.pose(body), motion.velocity_mps, motion.angular_velocity_radps});
     }
 }
 
-// Bytes of a player and of their hands in all columns, including owners and indices.
-std::size_t state_bytes(const World& world, const PlayerEntities& player) {
-    std::size_t bytes = 0;
-    visit_columns(world, [&](const char*, const auto& column) {
-        using Row = typename std::decay_t<decltype(column)>::Row;
-        constexpr std::size_t k_place = sizeof(Entity) + sizeof(std::uint32_t);
-        for (const Entity entity : {player.player, player.hands[0], player.hands[1]}) {
-            bytes += column.contains(entity) ? sizeof(Row) + k_place : 0;
-        }
-    });
-    return bytes;
-}
-
-RunLog begin_log(const Scene& scene, const std::vector<PlayerEntities>& players,
-                 const RunSettings& settings) {
+RunLog begin_log(const Scene& scene, std::span<const hh::Player> players,
+                 const LoggedBodies& bodies, const RunSettings& settings) {
     RunLog log;
     log.scene = scene.name;
     log.hz = settings.hz;
     log.threads = settings.threads;
     for (std::size_t i = 0; i < players.size(); ++i) {
         log.player_names.push_back("player" + std::to_string(i));
-        log.player_mass_kg.push_back(scene.world.player.at(players[i].player).mass_kg);
+        log.player_mass_kg.push_back(*scene.host.mass_kg(players[i]));
     }
-    log.bytes_per_player = players.empty() ? 0 : state_bytes(scene.world, players.front());
     log.body_names = scene.body_names;
-    for (const RigidBody& body : scene.world.body.rows()) {
-        log.body_mass_kg.push_back(body.kind == BodyKind::free ? body.mass_kg : 0.0);
+    for (const hh::Body body : bodies.ids) {
+        log.body_mass_kg.push_back(*scene.host.mass_kg(body));
     }
     return log;
 }
 
 }  // namespace
+
+RunStats::RunStats()
+    : stage_us(count_names(&hh_stage_name)), fallbacks(count_names(&hh_fallback_name)) {}
 
 double session_length_s(const Recording* recording, const RunSettings& settings) {
     if (settings.seconds > 0.0) {
@@ -124,10 +143,12 @@ double session_length_s(const Recording* recording, const RunSettings& settings)
     return longest_s;
 }
 
-RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>& players,
-                   const Recording* recording, const RunSettings& settings,
-                   const FrameObserver& observe) {
-    set_thread_count(settings.threads);
+RunLog run_session(Scene& scene, std::span<const hh::Player> players, const Recording* recording,
+                   const RunSettings& settings, const FrameObserver& observe) {
+    hh::World& world = scene.host;
+    if (hh_set_thread_count(static_cast<std::uint32_t>(settings.threads)) != HH_OK) {
+        throw std::invalid_argument(hh_last_error());
+    }
     const double dt_s = 1.0 / settings.hz;
     std::vector<Playback> playbacks;
     if (recording != nullptr) {
@@ -136,50 +157,53 @@ RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEn
             playbacks.emplace_back(*one);
         }
     }
-    const double begin_s = scene.world.clock.t_s;
+    const double begin_s = world.time_s();
     const double seconds = session_length_s(recording, settings) - begin_s;
     constexpr double k_rounding =
         1e-3;  // share of a frame; the clock is a sum with rounding errors
     const auto frames =
         static_cast<std::uint64_t>(std::max(1.0, std::floor(seconds * settings.hz + k_rounding)));
-    if (scene.world.clock.frame > 0) {
+    if (world.frame() > 0) {
         for (Playback& playback : playbacks) {
-            playback.window(begin_s);  // skip what was played before the snapshot
+            playback.window(begin_s);  // skips the samples that were played before the snapshot
         }
     }
 
-    RunLog log = begin_log(scene, players, settings);
+    const LoggedBodies bodies(world);
+    RunLog log = begin_log(scene, players, bodies, settings);
     // Enough for minutes. A file may claim any length, which must not decide how much memory is
     // reserved.
     log.frames.reserve(settings.keep_frames ? std::min<std::uint64_t>(frames, k_frames_reserved)
                                             : 1);
-    const BodyIndex bodies(scene.world);
     const std::size_t recorded = std::min(players.size(), settings.climbers_from);
-    Crowd climbers(scene, std::span(players).subspan(recorded), settings.seed);
-    std::vector<PlayerInput> inputs(players.size());
-    std::vector<std::span<const TrackingSample>> windows(playbacks.size());
-    StageStats stats;
+    Crowd climbers(world, players.subspan(recorded), settings.seed);
+    const ClimberSight sight = sight_of(scene);
+    std::vector<hh_player_input> inputs(players.size());
+    std::vector<std::span<const hh::Sample>> windows(playbacks.size());
     for (std::uint64_t frame = 0; frame < frames; ++frame) {
-        const double end_s = scene.world.clock.t_s + dt_s;
+        const double end_s = world.time_s() + dt_s;
         for (std::size_t i = 0; i < playbacks.size(); ++i) {
             windows[i] = playbacks[i].window(end_s);
         }
         for (std::size_t i = 0; i < recorded; ++i) {
-            inputs[i] = {players[i].player, {}, {}};
+            inputs[i] = hh::input(players[i], {});
             if (!playbacks.empty()) {
                 const std::size_t own = i < playbacks.size() ? i : 0;
-                inputs[i].samples = windows[own];
-                inputs[i].commands = playbacks[own].commands();
+                inputs[i] = hh::input(players[i], windows[own], playbacks[own].commands());
+                inputs[i].repeats_samples = true;
             }
         }
-        climbers.drive(scene, caches, end_s, std::span(inputs).subspan(recorded));
-        const std::int64_t begin_ns = now_ns();
-        step_frame(scene.world, caches, scene.tuning, {dt_s, inputs}, stats);
-        log.wall_s += 1e-9 * static_cast<double>(now_ns() - begin_ns);
+        climbers.drive(sight, end_s, std::span(inputs).subspan(recorded));
+        const auto begin = std::chrono::steady_clock::now();
+        if (const hh::Status stepped = world.step(dt_s, inputs); !stepped) {
+            throw std::runtime_error(std::string(stepped.text()));
+        }
+        log.wall_s +=
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         if (settings.keep_frames || log.frames.empty()) {
             log.frames.emplace_back();
         }
-        log_frame(scene, players, bodies, stats, log.frames.back());
+        log_frame(world, players, bodies, log.frames.back());
         if (observe) {
             observe(scene, log.frames.back());
         }
@@ -187,7 +211,7 @@ RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEn
             break;
         }
     }
-    log.state_hash = hash_state(scene.world);
+    log.state_hash = world.hash();
     return log;
 }
 

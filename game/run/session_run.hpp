@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,6 @@
 #include "game/scene/scene.hpp"
 #include "game/session/playback.hpp"
 #include "game/session/recording.hpp"
-#include "systems/frame/frame.hpp"
 
 namespace handhold {
 
@@ -39,8 +39,7 @@ using FrameObserver = std::function<void(const Scene&, const FrameLog&)>;
 // Plays recordings in a scene without a window, as fast as possible. The world must contain
 // `players`. Starts at the world's current time, so that a restored world continues. Leaves the
 // world at the last frame.
-RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>& players,
-                   const Recording* recording, const RunSettings& settings,
-                   const FrameObserver& observe = {});
+RunLog run_session(Scene& scene, std::span<const hh::Player> players, const Recording* recording,
+                   const RunSettings& settings, const FrameObserver& observe = {});
 
 }  // namespace handhold

@@ -3,15 +3,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
+#include <vector>
 
-#include "components/play_space.hpp"
+#include <handhold/math.hpp>
+
 #include "game/run/session_run.hpp"
-#include "game/scene/place_scene.hpp"
 #include "game/scene/random.hpp"
-#include "game/session/playback.hpp"
-#include "systems/input/read_tracking.hpp"
+#include "game/session/hand_pose.hpp"
 
 namespace handhold {
+
+using hh::cross;
+using hh::length;
+using hh::normalized;
+using hh::transform_point;
+
 namespace {
 
 constexpr int k_yaws = 12;
@@ -22,23 +29,55 @@ constexpr std::size_t k_head_checks = 12;
 constexpr double k_head_clearance_m = 0.06;  // distance from surfaces beyond the head's radius
 constexpr double k_palm_gap_m = 0.02;        // gap between the first grab's palm and the surface
 
+// The ray along which a closing hand looks for a surface, and its palm.
+struct GrabRay {
+    hh::Vec3 from{};
+    hh::Vec3 to{};
+    hh::Vec3 palm{};
+};
+
+// What the search needs of a world's tuning.
+struct SpawnTuning {
+    explicit SpawnTuning(const hh::World& world)
+        : shape(hand_shape(world)),
+          head_center_m(*world.tuning_vector("head.center_m")),
+          head_radius_m(*world.tuning("head.radius_m")),
+          ray_back_m(*world.tuning("hand.ray_back_m")),
+          ray_length_m(*world.tuning("hand.ray_length_m")),
+          reach_m(*world.tuning("hand.reach_m")) {}
+
+    GrabRay ray(const hh::Pose& hand, hh::Side side) const {
+        hh::Vec3 palm = shape.palm_center_m;
+        palm.x *= side == HH_RIGHT ? 1.0 : -1.0;
+        const hh::Vec3 outward = hand.rotation * -hh::k_y;
+        const hh::Vec3 at = transform_point(hand, palm);
+        const hh::Vec3 from = at - ray_back_m * outward;
+        return {from, from + ray_length_m * outward, at};
+    }
+
+    HandShape shape;
+    hh::Vec3 head_center_m;
+    double head_radius_m;
+    double ray_back_m;
+    double ray_length_m;
+    double reach_m;
+};
+
 // The session as it would go if every grab gripped a fixed body. Poses are in play space, relative
 // to the start origin.
 struct Rehearsal {
-    std::vector<PalmRay> grabs;  // palm rays at the starts of the grabs
-    std::vector<Vec3> heads;     // centres of the head's collider over time
+    std::vector<GrabRay> grabs;   // palm rays at the starts of the grabs
+    std::vector<hh::Vec3> heads;  // centres of the head's collider over time
     std::size_t onsets = 0;
 };
 
-Rehearsal rehearse(const Recording& recording, const Tuning& tuning) {
+Rehearsal rehearse(const Recording& recording, const SpawnTuning& tuning) {
     Rehearsal out;
-    const std::array<Pose, k_hand_count> joints = {
-        default_controller_to_hand(HandSide::left, tuning.hand),
-        default_controller_to_hand(HandSide::right, tuning.hand)};
-    Vec3 origin = Vec3::Zero();
-    Vec3 drift_mps = Vec3::Zero();
-    std::array<bool, k_hand_count> holds{};
-    std::array<Vec3, k_hand_count> last{Vec3::Zero(), Vec3::Zero()};
+    const std::array<hh::Pose, 2>& joints = tuning.shape.in_controller;
+    hh::Vec3 origin = hh::Vec3{};
+    hh::Vec3 drift_mps = hh::Vec3{};
+    std::array<bool, 2> holds{};
+    std::array<hh::Vec3, 2> last{hh::Vec3{}, hh::Vec3{}};
     double last_t_s = recording.samples.front().t_s;
     const std::size_t head_stride =
         std::max<std::size_t>(1, recording.samples.size() / k_head_checks);
@@ -46,11 +85,11 @@ Rehearsal rehearse(const Recording& recording, const Tuning& tuning) {
         const RecordedSample& sample = recording.samples[i];
         const double dt_s = sample.t_s - last_t_s;
         last_t_s = sample.t_s;
-        Vec3 pull = Vec3::Zero();
+        hh::Vec3 pull = hh::Vec3{};
         double pulling = 0.0;
-        for (std::size_t side = 0; side < k_hand_count; ++side) {
-            const Pose hand = sample.hands[side].controller * joints[side];
-            if (!is_valid(hand)) {
+        for (std::size_t side = 0; side < 2; ++side) {
+            const hh::Pose hand = sample.hands[side].controller * joints[side];
+            if (!hh::is_valid(hand)) {
                 continue;
             }
             if (holds[side]) {
@@ -59,58 +98,55 @@ Rehearsal rehearse(const Recording& recording, const Tuning& tuning) {
             }
             last[side] = hand.position;
         }
-        origin += pulling > 0.0 ? Vec3(pull / pulling) : Vec3(drift_mps * dt_s);
+        origin += pulling > 0.0 ? (pull / pulling) : (drift_mps * dt_s);
         if (pulling > 0.0 && dt_s > 0.0) {
             drift_mps = 0.8 * drift_mps + 0.2 * (pull / pulling / dt_s);
         }
-        for (std::size_t side = 0; side < k_hand_count; ++side) {
+        for (std::size_t side = 0; side < 2; ++side) {
             const bool grab = (sample.hands[side].buttons & k_grab_buttons) != 0;
-            if (grab && !holds[side] && is_valid(sample.hands[side].controller)) {
-                Pose hand = sample.hands[side].controller * joints[side];
+            if (grab && !holds[side] && hh::is_valid(sample.hands[side].controller)) {
+                hh::Pose hand = sample.hands[side].controller * joints[side];
                 hand.position += origin;
-                out.grabs.push_back(
-                    palm_ray(hand, side == 0 ? HandSide::left : HandSide::right, tuning.hand));
+                out.grabs.push_back(tuning.ray(hand, side == 0 ? HH_LEFT : HH_RIGHT));
                 ++out.onsets;
             }
             holds[side] = grab;
         }
-        if (i % head_stride == 0 && is_valid(sample.head)) {
-            out.heads.push_back(origin + transform_point(sample.head, tuning.head.center_m));
+        if (i % head_stride == 0 && hh::is_valid(sample.head)) {
+            out.heads.push_back(origin + transform_point(sample.head, tuning.head_center_m));
         }
     }
     return out;
 }
 
 struct Candidate {
-    Pose origin_ws;
+    hh::Pose origin_ws = hh::k_origin;
     double score = 0.0;
 };
 
 struct SpawnEvaluator {
-    const CollisionWorld& collision;
+    hh::World& world;
     const Rehearsal& rehearsal;
-    const HeadTuning& head;
-    const HandTuning& hand;
+    const SpawnTuning& tuning;
 
     // Rates a start origin: the number of grabs that would find a surface; negative if the head
     // starts too near to a surface. Later positions of the head near a surface cost a little.
-    double score(const Pose& origin_ws) const {
+    double score(const hh::Pose& origin_ws) const {
         double score = 0.0;
         for (std::size_t i = 0; i < rehearsal.heads.size(); ++i) {
-            const Vec3 center_ws = transform_point(origin_ws, rehearsal.heads[i]);
-            if (collision.closest_point(center_ws, head.radius_m + k_head_clearance_m)) {
+            const hh::Vec3 center_ws = transform_point(origin_ws, rehearsal.heads[i]);
+            if (world.closest_point(center_ws, tuning.head_radius_m + k_head_clearance_m)) {
                 if (i == 0) {
                     return -1.0;
                 }
                 score -= 0.3;
             }
         }
-        for (const PalmRay& ray : rehearsal.grabs) {
-            const Vec3 palm_ws = transform_point(origin_ws, ray.palm_ws);
-            const Vec3 from_ws = transform_point(origin_ws, ray.from_ws);
-            const Vec3 to_ws = transform_point(origin_ws, ray.to_ws);
-            if (collision.cast_ray(from_ws, to_ws) ||
-                collision.closest_point(palm_ws, hand.reach_m)) {
+        for (const GrabRay& ray : rehearsal.grabs) {
+            const hh::Vec3 palm_ws = transform_point(origin_ws, ray.palm);
+            const hh::Vec3 from_ws = transform_point(origin_ws, ray.from);
+            const hh::Vec3 to_ws = transform_point(origin_ws, ray.to);
+            if (world.cast_ray(from_ws, to_ws) || world.closest_point(palm_ws, tuning.reach_m)) {
                 score += 1.0;
             }
         }
@@ -122,7 +158,7 @@ struct SpawnEvaluator {
 struct SurfaceSampler {
     struct Piece {
         const Mesh* mesh = nullptr;
-        Pose pose_ws;
+        hh::Pose pose_ws = hh::k_origin;
         std::size_t triangle = 0;
         double area_until_m2 = 0.0;
     };
@@ -131,21 +167,25 @@ struct SurfaceSampler {
     explicit SurfaceSampler(const Scene& scene) {
         double area = 0.0;
         for (const SceneVisual& visual : scene.visuals) {
-            if (scene.world.body.at(visual.body).kind == BodyKind::free) {
+            const hh::Body body = body_id(visual.body);
+            if (*scene.host.kind(body) == HH_DYNAMIC) {
                 continue;
             }
-            const Pose& pose_ws = scene.world.body_pose.at(visual.body).pose_ws;
+            const hh::Pose pose_ws = *scene.host.pose(body);
             for (std::size_t i = 0; i < visual.mesh->triangles.size(); ++i) {
                 const auto& [a, b, c] = visual.mesh->triangles[i];
-                const std::vector<Vec3>& at = visual.mesh->positions;
-                area += 0.5 * (at[b] - at[a]).cross(at[c] - at[a]).norm();
+                const auto at = [&](std::uint32_t vertex) {
+                    return to_host(visual.mesh->positions[vertex]);
+                };
+                area += 0.5 * length(cross(at(b) - at(a), at(c) - at(a)));
                 pieces.push_back({visual.mesh.get(), pose_ws, i, area});
             }
         }
     }
 
     struct Sample {
-        Vec3 point_ws, normal_ws;
+        hh::Vec3 point_ws{};
+        hh::Vec3 normal_ws{};
     };
     Sample draw(Random& random) const {
         const double wanted = random.unit() * pieces.back().area_until_m2;
@@ -153,18 +193,18 @@ struct SurfaceSampler {
             std::lower_bound(pieces.begin(), pieces.end() - 1, wanted,
                              [](const Piece& p, double area) { return p.area_until_m2 < area; });
         const auto& [ia, ib, ic] = piece->mesh->triangles[piece->triangle];
-        const Vec3 a = transform_point(piece->pose_ws, piece->mesh->positions[ia]);
-        const Vec3 b = transform_point(piece->pose_ws, piece->mesh->positions[ib]);
-        const Vec3 c = transform_point(piece->pose_ws, piece->mesh->positions[ic]);
+        const hh::Vec3 a = transform_point(piece->pose_ws, to_host(piece->mesh->positions[ia]));
+        const hh::Vec3 b = transform_point(piece->pose_ws, to_host(piece->mesh->positions[ib]));
+        const hh::Vec3 c = transform_point(piece->pose_ws, to_host(piece->mesh->positions[ic]));
         double u = random.unit();
         double v = random.unit();
         if (u + v > 1.0) {
             u = 1.0 - u;
             v = 1.0 - v;
         }
-        const Vec3 normal = (b - a).cross(c - a);
+        const hh::Vec3 normal = cross(b - a, c - a);
         return {a + u * (b - a) + v * (c - a),
-                normal.norm() > 0.0 ? Vec3(normal.normalized()) : Vec3::UnitY()};
+                length(normal) > 0.0 ? (normalized(normal)) : hh::k_y};
     }
 };
 
@@ -174,11 +214,11 @@ std::vector<Candidate> propose(const Scene& scene, const SpawnEvaluator& evaluat
     if (surface.pieces.empty()) {
         return best;
     }
-    const Quat upright = rotation_between(Vec3::UnitY(), scene.up_ws);
+    const hh::Quat upright = hh::rotation_between(hh::k_y, to_host(scene.up_ws));
     Random random(20);
     for (int yaw = 0; yaw < k_yaws; ++yaw) {
         const double angle = 6.283185307179586 * yaw / k_yaws;
-        const Quat rotation = (upright * rotation_about(Vec3::UnitY(), angle)).normalized();
+        const hh::Quat rotation = normalized(upright * hh::rotation_about(hh::k_y, angle));
         for (std::size_t i = 0; i < k_surface_points; ++i) {
             const SurfaceSampler::Sample sample = surface.draw(random);
             // Chooses a side of the surface and one of the first three grabs (the head, if there
@@ -187,11 +227,11 @@ std::vector<Candidate> propose(const Scene& scene, const SpawnEvaluator& evaluat
             const std::size_t grabs = std::min<std::size_t>(evaluator.rehearsal.grabs.size(), 3);
             const auto pick = static_cast<std::size_t>(random.unit() * static_cast<double>(grabs));
             const bool lay_head = grabs == 0;
-            const Vec3 laid = lay_head ? evaluator.rehearsal.heads.front()
-                                       : evaluator.rehearsal.grabs[pick].palm_ws;
+            const hh::Vec3 laid =
+                lay_head ? evaluator.rehearsal.heads.front() : evaluator.rehearsal.grabs[pick].palm;
             const double gap = lay_head ? 0.5 : k_palm_gap_m;
-            const Pose origin_ws{sample.point_ws + side * gap * sample.normal_ws - rotation * laid,
-                                 rotation};
+            const hh::Pose origin_ws{
+                sample.point_ws + side * gap * sample.normal_ws - rotation * laid, rotation};
             const double score = evaluator.score(origin_ws);
             if (score >= 0.0) {
                 best.push_back({origin_ws, score});
@@ -209,18 +249,15 @@ struct Played {
     double path_m = 0.0;
 };
 
-// Plays the session in a copy of the world; `world` stays unchanged.
-Played play_from(Scene& trial, const World& world, FrameCaches& caches, const Recording& recording,
-                 const Pose& origin_ws, double hz) {
-    trial.world = world;
-    const PlayerEntities player =
-        add_scene_player(trial, {free_player_name(world, "player0"), origin_ws});
-    const RunLog log = run_session(trial, caches, {player}, &recording, {hz, 0.0, 1});
+// Plays the session from `origin_ws`. Leaves the scene's world at the last frame.
+Played play_from(Scene& scene, const Recording& recording, const hh::Pose& origin_ws, double hz) {
+    const hh::Player player = add_scene_player(scene, "player0", origin_ws);
+    const RunLog log = run_session(scene, {&player, 1}, &recording, {hz, 0.0, 1});
     Played played;
-    Vec3 last = origin_ws.position;
+    hh::Vec3 last = origin_ws.position;
     for (const FrameLog& frame : log.frames) {
         played.gripped += frame.stats.grabs_gripped;
-        played.path_m += (frame.players[0].origin_ws - last).norm();
+        played.path_m += length(frame.players[0].origin_ws - last);
         last = frame.players[0].origin_ws;
     }
     return played;
@@ -228,30 +265,25 @@ Played play_from(Scene& trial, const World& world, FrameCaches& caches, const Re
 
 }  // namespace
 
-FoundSpawn find_spawn(const Scene& scene, FrameCaches& caches, const Recording& recording,
-                      double hz) {
-    Scene trial;  // scene whose shapes get the same ids as those of the caches
-    *trial.shapes = *scene.shapes;
-    trial.name = scene.name;
-    trial.world = scene.world;
-    trial.tuning = scene.tuning;
-    trial.body_names = scene.body_names;
-    trial.head_shape = scene.head_shape;
-    place_scene(trial, caches);
-
-    const Rehearsal rehearsal = rehearse(recording, scene.tuning);
+FoundSpawn find_spawn(Scene& scene, const Recording& recording, double hz) {
+    const SpawnTuning tuning(scene.host);
+    const Rehearsal rehearsal = rehearse(recording, tuning);
     FoundSpawn found;
     found.onsets = rehearsal.onsets;
-    found.origin_ws = scene.spawns.empty() ? Pose{} : scene.spawns.front().pose_ws;
+    found.origin_ws = scene.spawns.empty() ? hh::k_origin : scene.spawns.front().pose_ws;
     if (rehearsal.heads.empty()) {
         return found;
     }
-    const SpawnEvaluator evaluator{caches.collision, rehearsal, scene.tuning.head,
-                                   scene.tuning.hand};
+    std::vector<std::byte> before;
+    if (const hh::Status saved = scene.host.save(before); !saved) {
+        throw std::logic_error(std::string(saved.text()));
+    }
     double best_path_m = -1.0;
-    for (const Candidate& candidate : propose(scene, evaluator)) {
-        const Played played =
-            play_from(trial, scene.world, caches, recording, candidate.origin_ws, hz);
+    for (const Candidate& candidate : propose(scene, {scene.host, rehearsal, tuning})) {
+        const Played played = play_from(scene, recording, candidate.origin_ws, hz);
+        if (const hh::Status restored = scene.host.restore(before); !restored) {
+            throw std::logic_error(std::string(restored.text()));
+        }
         if (best_path_m < 0.0 || played.gripped > found.gripped ||
             (played.gripped == found.gripped && played.path_m > best_path_m)) {
             found.origin_ws = candidate.origin_ws;

@@ -1,15 +1,16 @@
 #pragma once
 
-#include <string>
+#include <cstddef>
+
+#include <handhold/handhold.hpp>
 
 #include "game/scene/scene.hpp"
 #include "game/session/recording.hpp"
-#include "systems/frame/frame.hpp"
 
 namespace handhold {
 
 struct FoundSpawn {
-    Pose origin_ws;
+    hh::Pose origin_ws = hh::k_origin;
     std::size_t onsets = 0;   // grabs in the recording
     std::size_t gripped = 0;  // grabs that grip when the session is played from here
 };
@@ -19,8 +20,7 @@ struct FoundSpawn {
 // random point of the scene's surfaces. Candidates are rated along the path that the origin would
 // take if every grab gripped; the best candidates are played. Deterministic. The player stands
 // along the scene's up direction. Without surfaces, returns the first spawn, or the world's origin.
-// Precondition: `caches` belong to the scene.
-FoundSpawn find_spawn(const Scene& scene, FrameCaches& caches, const Recording& recording,
-                      double hz);
+// Afterwards the scene's world is as it was.
+FoundSpawn find_spawn(Scene& scene, const Recording& recording, double hz);
 
 }  // namespace handhold

@@ -6,7 +6,6 @@
 #include <unordered_map>
 #include <utility>
 
-#include "game/scene/place_scene.hpp"
 #include "game/scene/player_defaults.hpp"
 
 namespace handhold {
@@ -16,20 +15,20 @@ constexpr double k_noticed_m = 0.005;
 
 class OverlapFinder {
   public:
-    OverlapFinder(const Scene& scene, FrameCaches& caches) : scene_(scene), caches_(caches) {
-        for (std::size_t row = 0; row < scene.world.body.size(); ++row) {
+    explicit OverlapFinder(Scene& scene) : scene_(scene), collision_(scene.caches().collision) {
+        for (std::size_t row = 0; row < scene.world().body.size(); ++row) {
             const std::uint64_t id =
-                scene.world.persistent_id.at(scene.world.body.owners()[row]).value;
+                scene.world().persistent_id.at(scene.world().body.owners()[row]).value;
             name_of_id_[id] =
                 row < scene.body_names.size() ? scene.body_names[row] : std::string("a body");
         }
-        place_scene(scene, caches);
+        scene.host.closest_point({}, 0.0);  // a query places all colliders
     }
 
     void add_bodies() {
         std::vector<ContactPoint> contacts;
-        caches_.collision.set_ignored_pairs({});
-        caches_.collision.find_contacts({}, contacts);
+        collision_.set_ignored_pairs({});
+        collision_.find_contacts({}, contacts);
         // Deepest contact, by pair of ids.
         std::map<std::pair<std::uint64_t, std::uint64_t>, double> depth_m;
         for (const ContactPoint& contact : contacts) {
@@ -44,15 +43,15 @@ class OverlapFinder {
     }
 
     void add_heads(const std::vector<PlayerEntities>& players) {
-        const double radius_m = scene_.tuning.head.radius_m;
+        const double radius_m = scene_.tuning().head.radius_m;
         std::vector<Vec3> heads;
         for (const PlayerEntities& player : players) {
-            const Pose& origin_ws = scene_.world.player_origin.at(player.player).pose_ws;
+            const Pose& origin_ws = scene_.world().player_origin.at(player.player).pose_ws;
             heads.push_back(transform_point(origin_ws, Vec3(0.0, k_eye_height_m, 0.0)));
         }
         for (std::size_t i = 0; i < heads.size(); ++i) {
             const std::string name = "the head of player " + std::to_string(i);
-            if (const auto hit = caches_.collision.closest_point(heads[i], radius_m)) {
+            if (const auto hit = collision_.closest_point(heads[i], radius_m)) {
                 add(name, name_of(hit->id), radius_m - hit->distance_m);
             }
             for (std::size_t j = 0; j < i; ++j) {
@@ -78,7 +77,7 @@ class OverlapFinder {
         return found != name_of_id_.end() ? found->second : std::string("a player");
     }
     bool are_tied(std::uint64_t a, std::uint64_t b) const {
-        const World& world = scene_.world;
+        const World& world = scene_.world();
         const Entity first = find_by_id(world, PersistentId{a});
         const Entity second = find_by_id(world, PersistentId{b});
         return std::ranges::any_of(world.joints_by_body.of(first), [&](Entity entity) {
@@ -88,16 +87,15 @@ class OverlapFinder {
     }
 
     const Scene& scene_;
-    FrameCaches& caches_;
+    CollisionWorld& collision_;
     std::unordered_map<std::uint64_t, std::string> name_of_id_;
     std::vector<SpawnOverlap> found_;
 };
 
 }  // namespace
 
-std::vector<SpawnOverlap> find_overlaps(const Scene& scene, FrameCaches& caches,
-                                        const std::vector<PlayerEntities>& players) {
-    OverlapFinder finder(scene, caches);
+std::vector<SpawnOverlap> find_overlaps(Scene& scene, const std::vector<PlayerEntities>& players) {
+    OverlapFinder finder(scene);
     finder.add_bodies();
     finder.add_heads(players);
     return finder.take();

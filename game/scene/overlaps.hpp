@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "game/scene/scene.hpp"
-#include "systems/frame/frame.hpp"
 
 namespace handhold {
 
@@ -18,8 +17,6 @@ struct SpawnOverlap {
 
 // Finds the overlaps deeper than 5 mm before the first frame, between bodies and with the heads of
 // `players`, who stand upright. The deepest comes first. Ignores bodies that a joint connects.
-// Precondition: `caches` belong to the scene.
-std::vector<SpawnOverlap> find_overlaps(const Scene& scene, FrameCaches& caches,
-                                        const std::vector<PlayerEntities>& players);
+std::vector<SpawnOverlap> find_overlaps(Scene& scene, const std::vector<PlayerEntities>& players);
 
 }  // namespace handhold

@@ -2,8 +2,10 @@
 
 #include <cstdint>
 
+#include <handhold/handhold.hpp>
+#include <handhold/math.hpp>
+
 #include "engine/core/hash.hpp"
-#include "engine/math/math.hpp"
 
 namespace handhold {
 
@@ -13,6 +15,8 @@ namespace handhold {
 class Random {
   public:
     explicit Random(std::uint64_t seed = 0) : state_(seed) {}
+    // Seeds that differ by little, such as 1 and 2, give unrelated numbers.
+    static Random of(std::uint64_t seed) { return Random(mix64(seed)); }
 
     std::uint64_t bits() {
         state_ += 0x9e3779b97f4a7c15ULL;
@@ -24,17 +28,17 @@ class Random {
     double between(double low, double high) { return low + (high - low) * unit(); }
     bool chance(double probability) { return unit() < probability; }
     // Each component in [-1, 1).
-    Vec3 cube() {
+    hh::Vec3 cube() {
         const double x = between(-1.0, 1.0);
         const double y = between(-1.0, 1.0);
         const double z = between(-1.0, 1.0);
         return {x, y, z};
     }
     // A unit vector, uniform over the sphere.
-    Vec3 direction() {
+    hh::Vec3 direction() {
         for (;;) {
-            const Vec3 v = cube();
-            const double length = v.norm();
+            const hh::Vec3 v = cube();
+            const double length = hh::length(v);
             constexpr double k_too_short = 1e-3;
             if (length > k_too_short && length <= 1.0) {
                 return v / length;

@@ -1,5 +1,6 @@
 #include "game/scene/scene.hpp"
 
+#include <stdexcept>
 #include <string>
 
 #include "game/scene/scene_builder.hpp"
@@ -13,7 +14,15 @@ std::filesystem::path& grip_mesh_cache() {
     return directory;
 }
 
+hh_world_def def_of_scene() {
+    hh_world_def def = hh::world_def();
+    def.reports_touches = false;
+    return def;
+}
+
 }  // namespace
+
+Scene::Scene() : host(def_of_scene()) {}
 
 Entity add_static_mesh(Scene& scene, const std::string& name, std::shared_ptr<const Mesh> mesh,
                        const Pose& pose_ws, const Look& look) {
@@ -31,12 +40,11 @@ Result<Scene> build_scene(const SceneFile& file, const std::filesystem::path& pa
     Scene scene;
     scene.name = file.name;
     scene.description = file.description;
-    scene.tuning = tuning.value();
+    scene.tuning() = tuning.value();
     scene.session = file.session;
     scene.up_ws = file.world_transform.rotation * Vec3::UnitY();
-    scene.world.reference_velocity_mps =
+    scene.world().reference_velocity_mps =
         file.world_transform.rotation * file.reference_velocity_mps;
-    scene.head_shape = scene.shapes->add_sphere(scene.tuning.head.radius_m);
     if (std::optional<FileError> error = add_scene_parts(file, path, levels, scene)) {
         return *error;
     }
@@ -46,10 +54,11 @@ Result<Scene> build_scene(const SceneFile& file, const std::filesystem::path& pa
 
 void add_grip_meshes(Scene& scene) {
     std::vector<ShapeId> of_bodies;
-    for (const Collider& collider : scene.world.collider.rows()) {
+    for (const Collider& collider : scene.world().collider.rows()) {
         of_bodies.push_back(collider.shape);
     }
-    scene.grip_meshes->add(*scene.shapes, of_bodies, {}, grip_mesh_cache());
+    scene.grip_meshes().add(scene.shapes(), of_bodies, {}, grip_mesh_cache());
+    scene.caches().collision.update_shapes();  // here rather than in the first frame
 }
 
 void set_grip_mesh_cache(const std::filesystem::path& directory) { grip_mesh_cache() = directory; }
@@ -66,13 +75,30 @@ std::string free_player_name(const World& world, std::string wanted) {
 }
 
 PlayerEntities add_scene_player(Scene& scene, const ScenePlayerStart& start) {
-    PlayerDescription description;
-    description.name = start.name;
-    description.body.mass_kg = start.mass_kg;
-    description.origin_ws = start.origin_ws;
-    description.velocity_mps = scene.world.reference_velocity_mps;
-    description.head_shape = scene.head_shape;
-    return add_player(scene.world, description, *scene.shapes);
+    hh_player_def def = hh::player_def();
+    def.name = start.name.c_str();
+    def.mass_kg = start.mass_kg;
+    def.origin = to_host(start.origin_ws);
+    def.velocity_mps = scene.host.reference_velocity_mps();
+    const auto player = scene.host.add(def);
+    if (!player) {
+        throw std::invalid_argument(std::string(player.status().text()));
+    }
+    return player_entities(std::as_const(scene).world(), *player);
+}
+
+hh::Player add_scene_player(Scene& scene, const std::string& name, const hh::Pose& origin,
+                            double mass_kg) {
+    const std::string free_name = free_player_name(std::as_const(scene).world(), name);
+    return player_id(add_scene_player(scene, {free_name, from_host(origin), mass_kg}).player);
+}
+
+std::vector<hh::Player> player_ids(std::span<const PlayerEntities> players) {
+    std::vector<hh::Player> ids;
+    for (const PlayerEntities& player : players) {
+        ids.push_back(player_id(player.player));
+    }
+    return ids;
 }
 
 }  // namespace handhold

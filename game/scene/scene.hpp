@@ -5,21 +5,21 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "components/tuning.hpp"
-#include "components/world.hpp"
-#include "engine/core/result.hpp"
-#include "engine/geometry/grip_mesh_library.hpp"
-#include "engine/geometry/mesh.hpp"
-#include "engine/geometry/shape_library.hpp"
+#include <handhold/handhold.hpp>
+
 #include "engine/io/gltf.hpp"
 #include "game/mesh/render_frame.hpp"
 #include "game/scene/scene_file.hpp"
+#include "systems/host/host_columns.hpp"
 
-// A scene ready to play: the world without players, its shapes and tuning, and its visuals.
+// A scene ready to play: a world of the C interface, and what is drawn of it. Sessions step and
+// query `host`; levels, pictures and reports use the columns behind it.
 namespace handhold {
 
 // A mesh drawn at a body's pose. The body's collider may be simpler.
@@ -32,14 +32,14 @@ struct SceneVisual {
 
 struct SceneSpawnPoint {
     std::string name;
-    Pose pose_ws;  // pose of the play space; its position is the floor point
+    hh::Pose pose_ws = hh::k_origin;  // play space; its position is the floor point
 };
 
 // The axis of a graspable straight bar in a body's frame, for scripted climbers.
 struct SceneRail {
-    Entity body;
-    Vec3 start_bs = Vec3::Zero();
-    Vec3 end_bs = Vec3::Zero();
+    hh::Body body{};
+    hh::Vec3 start_bs{};
+    hh::Vec3 end_bs{};
 };
 
 // A player who is to be added to the world.
@@ -50,16 +50,25 @@ struct ScenePlayerStart {
 };
 
 struct Scene {
+    Scene();  // nothing in it; the world reports no touches
+
     std::string name;
     std::string description;
-    World world;
-    // The library's address is stable: caches refer to it.
-    std::unique_ptr<ShapeLibrary> shapes = std::make_unique<ShapeLibrary>();
-    // For every body's shape, the surfaces that hands are fitted to. The library's address is
-    // stable.
-    std::unique_ptr<GripMeshLibrary> grip_meshes = std::make_unique<GripMeshLibrary>();
-    Tuning tuning;
-    ShapeId head_shape;  // sphere with the tuning's head radius
+    hh::World host;  // world; has no players until they are added
+    // The columns behind `host`. Those that are not const are for changes between frames.
+    World& world() { return columns_of(host.get()).world; }
+    const World& world() const { return columns_of(host.get()).world; }
+    Tuning& tuning() { return columns_of(host.get()).tuning; }
+    const Tuning& tuning() const { return columns_of(host.get()).tuning; }
+    ShapeLibrary& shapes() { return columns_of(host.get()).shapes; }
+    const ShapeLibrary& shapes() const { return columns_of(host.get()).shapes; }
+    // For every body's shape, the surfaces that hands are fitted to.
+    GripMeshLibrary& grip_meshes() { return columns_of(host.get()).grip_meshes; }
+    const GripMeshLibrary& grip_meshes() const { return columns_of(host.get()).grip_meshes; }
+    FrameCaches& caches() { return columns_of(host.get()).caches; }
+    const FrameCaches& caches() const { return columns_of(host.get()).caches; }
+    const StageStats& stats() const { return columns_of(std::as_const(host).get()).stats; }
+
     std::vector<SceneVisual> visuals;
     std::vector<Lamp> lamps;
     Entity lamps_body = k_no_entity;  // body whose frame the lamps are in; null: the world
@@ -69,7 +78,7 @@ struct Scene {
     std::vector<SceneSpawnPoint> spawns;    // the first is the default; may be empty
     std::vector<ScenePlayerStart> players;  // the scene's own players; may be empty
     std::vector<std::string>
-        body_names;  // names when the scene was loaded, indexed by row of world.body
+        body_names;  // names when the scene was loaded, in the order of world.body
     // By the name of a body in the scene file: its authored grips in the file's frame, and the pose
     // of the body's frame in the file's frame (not the identity for hulls and compounds).
     std::map<std::string, std::vector<SceneGrip>> grips;
@@ -97,6 +106,11 @@ void set_grip_mesh_cache(const std::filesystem::path& directory);
 std::string free_player_name(const World& world, std::string wanted);
 // Adds a player to the world, at the start pose and with the scene's reference velocity.
 PlayerEntities add_scene_player(Scene& scene, const ScenePlayerStart& start);
+// The same; a name that is taken gets primes (free_player_name).
+hh::Player add_scene_player(Scene& scene, const std::string& name, const hh::Pose& origin,
+                            double mass_kg = 80.0);
+// Ids of players, for calls of the interface.
+std::vector<hh::Player> player_ids(std::span<const PlayerEntities> players);
 
 // A static body whose visual is its collision mesh.
 Entity add_static_mesh(Scene& scene, const std::string& name, std::shared_ptr<const Mesh> mesh,

@@ -18,9 +18,9 @@ Entity add_static_body(Scene& scene, const std::string& name, std::shared_ptr<co
     BodyDescription description;
     description.name = name;
     description.pose_ws = pose_ws;
-    description.shape = scene.shapes->add_mesh(std::move(mesh));
+    description.shape = scene.shapes().add_mesh(std::move(mesh));
     scene.body_names.push_back(name);
-    return add_body(scene.world, description, *scene.shapes);
+    return add_body(scene.world(), description, scene.shapes());
 }
 
 namespace {
@@ -57,7 +57,7 @@ class SceneBuilder {
             scene_.lamps.push_back(lamp);
         }
         for (const SceneSpawn& spawn : file_.spawns) {
-            scene_.spawns.push_back({spawn.name, file_.world_transform * spawn.pose});
+            scene_.spawns.push_back({spawn.name, to_host(file_.world_transform * spawn.pose)});
         }
         for (std::size_t i = 0; i < file_.players.size(); ++i) {
             place_ = "/players/" + std::to_string(i) + "/name";
@@ -174,7 +174,7 @@ class SceneBuilder {
 
     ShapeId add_hull(const SceneShape& shape) {
         if (shape.file.empty()) {
-            return scene_.shapes->add_hull(shape.hull);
+            return scene_.shapes().add_hull(shape.hull);
         }
         const std::shared_ptr<const Mesh> mesh = load_mesh(shape.file);
         if (error_) {
@@ -191,7 +191,7 @@ class SceneBuilder {
                                "them, 10 km wide at most"};
             return {};
         }
-        return scene_.shapes->add_hull(*hull);
+        return scene_.shapes().add_hull(*hull);
     }
 
     ShapeId add_compound(const SceneShape& shape) {
@@ -199,19 +199,19 @@ class SceneBuilder {
         for (const SceneShapePart& part : shape.parts) {
             children.push_back({add_shape(part.shape), part.pose, part.mass_kg});
         }
-        return error_ ? ShapeId{} : scene_.shapes->add_compound(children);
+        return error_ ? ShapeId{} : scene_.shapes().add_compound(children);
     }
 
     ShapeId add_shape(const SceneShape& shape) {
         switch (shape.kind) {
             case ShapeKind::box:
-                return scene_.shapes->add_box(shape.half_m);
+                return scene_.shapes().add_box(shape.half_m);
             case ShapeKind::sphere:
-                return scene_.shapes->add_sphere(shape.radius_m);
+                return scene_.shapes().add_sphere(shape.radius_m);
             case ShapeKind::capsule:
-                return scene_.shapes->add_capsule(shape.radius_m, shape.half_height_m);
+                return scene_.shapes().add_capsule(shape.radius_m, shape.half_height_m);
             case ShapeKind::cylinder:
-                return scene_.shapes->add_cylinder(shape.radius_m, shape.half_height_m);
+                return scene_.shapes().add_cylinder(shape.radius_m, shape.half_height_m);
             case ShapeKind::hull:
                 return add_hull(shape);
             case ShapeKind::compound:
@@ -220,7 +220,7 @@ class SceneBuilder {
                 break;
         }
         std::shared_ptr<const Mesh> mesh = load_mesh(shape.file);
-        return error_ ? ShapeId{} : scene_.shapes->add_mesh(std::move(mesh), shape.scale);
+        return error_ ? ShapeId{} : scene_.shapes().add_mesh(std::move(mesh), shape.scale);
     }
 
     void add_scene_body(const SceneBody& body) {
@@ -229,7 +229,7 @@ class SceneBuilder {
             return;
         }
         if (body.kind == BodyKind::free) {
-            shape = scene_.shapes->add_centred(shape.shape);
+            shape = scene_.shapes().add_centred(shape.shape);
         }
         BodyDescription description;
         description.name = body.name;
@@ -242,10 +242,10 @@ class SceneBuilder {
             description.body.mass_kg = body.mass_kg;
             description.body.inertia_kgm2 =
                 body.inertia_kgm2 ? *body.inertia_kgm2
-                                  : solid_inertia(scene_.shapes->at(shape.shape), body.mass_kg);
+                                  : solid_inertia(scene_.shapes().at(shape.shape), body.mass_kg);
             description.velocity = {turned(body.velocity_mps), turned(body.angular_velocity_radps)};
         }
-        const Entity entity = add_body(scene_.world, description, *scene_.shapes);
+        const Entity entity = add_body(scene_.world(), description, scene_.shapes());
         scene_.body_names.push_back(body.name);
         add_grips(body, shape.frame, entity);
         if (body.kind == BodyKind::kinematic) {
@@ -260,7 +260,7 @@ class SceneBuilder {
 
     // Equal simple shapes share a mesh: a scene may have 100,000 equal links of chains.
     std::shared_ptr<const Mesh> shape_mesh(ShapeId id) {
-        const Shape& shape = scene_.shapes->at(id);
+        const Shape& shape = scene_.shapes().at(id);
         if (shape.hull != nullptr || shape.parts != nullptr || shape.mesh != nullptr) {
             return make_shape_mesh(shape);
         }
@@ -283,7 +283,7 @@ class SceneBuilder {
         }
         scene_.body_in_file[body.name] = shape_frame;
         if (grips.count > 0) {
-            scene_.world.authored_grips.add(entity, grips);
+            scene_.world().authored_grips.add(entity, grips);
         }
     }
 
@@ -293,38 +293,38 @@ class SceneBuilder {
         }
         const auto entity_of = [this](const std::string& name) {
             return name.empty() ? k_no_entity
-                                : find_by_id(scene_.world, persistent_id_from_name(name));
+                                : find_by_id(scene_.world(), persistent_id_from_name(name));
         };
         Joint made = joint.joint;
         made.a = entity_of(joint.a);
         made.b = entity_of(joint.b);
         made.latch.handle = entity_of(joint.handle);
-        made = joint_at(scene_.world, made, file_.world_transform * joint.pose);
+        made = joint_at(scene_.world(), made, file_.world_transform * joint.pose);
         const Vec3 end_ws = transform_point(file_.world_transform, joint.end_a);
         made.frame_a_bs.position =
             is_null(made.a)
                 ? end_ws
-                : inverse_transform_point(scene_.world.body_pose.at(made.a).pose_ws, end_ws);
-        add_joint(scene_.world, {joint.name, made});
+                : inverse_transform_point(scene_.world().body_pose.at(made.a).pose_ws, end_ws);
+        add_joint(scene_.world(), {joint.name, made});
     }
 
     void set_moving(const SceneBody& body, Entity entity) {
-        BodyVelocity& velocity = scene_.world.body_velocity.at(entity);
+        BodyVelocity& velocity = scene_.world().body_velocity.at(entity);
         if (body.motion.path) {
             std::vector<Pose> poses = body.motion.path->poses;
             for (Pose& pose : poses) {
                 pose = file_.world_transform * pose;
             }
             const PathMover mover{make_pose_path(poses, body.motion.path->period_s)};
-            scene_.world.path_mover.add(entity, mover);
+            scene_.world().path_mover.add(entity, mover);
             const PosePathState state = evaluate(mover.path, 0.0);
             velocity = {state.velocity_mps, state.angular_velocity_radps};
             return;
         }
-        const Mover mover{scene_.world.body_pose.at(entity).pose_ws,
+        const Mover mover{scene_.world().body_pose.at(entity).pose_ws,
                           turned(body.motion.velocity_mps),
                           turned(body.motion.angular_velocity_radps), body.motion.turns_with_body};
-        scene_.world.mover.add(entity, mover);
+        scene_.world().mover.add(entity, mover);
         velocity = {mover.velocity_ws_mps, mover.angular_velocity_ws_radps};
     }
 
@@ -337,7 +337,7 @@ class SceneBuilder {
         const auto spawn = std::find_if(
             scene_.spawns.begin(), scene_.spawns.end(),
             [&player](const SceneSpawnPoint& point) { return point.name == player.spawn; });
-        scene_.players.push_back({player.name, spawn->pose_ws, player.mass_kg});
+        scene_.players.push_back({player.name, from_host(spawn->pose_ws), player.mass_kg});
     }
 
     const SceneFile& file_;

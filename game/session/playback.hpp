@@ -4,7 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "components/tracking.hpp"
+#include <handhold/handhold.hpp>
+
 #include "game/session/recording.hpp"
 
 namespace handhold {
@@ -18,12 +19,12 @@ class Playback {
     // The samples since the last call, up to `frame_end_s`. Unless one lies exactly at
     // `frame_end_s`, also the first sample after it, which the next call returns again.
     // Precondition: `frame_end_s` does not decrease.
-    std::span<const TrackingSample> window(double frame_end_s);
+    std::span<const hh::Sample> window(double frame_end_s);
     // The commands at the last sample of the frame: calibration while both menu buttons are down.
-    PlayerCommands commands() const;
+    hh_commands commands() const;
 
   private:
-    std::vector<TrackingSample> samples_;
+    std::vector<hh::Sample> samples_;
     std::vector<bool> calibrates_;  // indexed by index in samples_
     std::size_t next_ = 0;          // first sample not yet returned
     double duration_s_ = 0.0;

@@ -7,9 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "components/tracking.hpp"
-#include "engine/core/result.hpp"
-#include "engine/math/math.hpp"
+#include <handhold/handhold.hpp>
+
+#include "game/files/file_tools.hpp"
+#include "game/session/finger_curls.hpp"
 
 // Recorded sessions of a headset and two controllers: docs/reference/recording_format.md.
 namespace handhold {
@@ -25,32 +26,37 @@ constexpr int k_grab_buttons = k_button_trigger | k_button_grip;
 struct RecordedHand {
     // Pose of the device in tracking space: metres, floor at y = 0; all NaN while it was not
     // tracked.
-    Pose controller;
-    int buttons = 0;       // mask of k_button_*, [0, 65535]
-    double squeeze = 0.0;  // [0, 1]; ControllerSample::squeeze
-    double trigger = 0.0;  // [0, 1]; ControllerSample::trigger
+    hh::Pose controller = hh::k_origin;
+    int buttons = 0;                          // mask of k_button_*, [0, 65535]
+    double squeeze = 0.0;                     // [0, 1]; ControllerSample::squeeze
+    double trigger = 0.0;                     // [0, 1]; ControllerSample::trigger
+    bool is_inferred = false;                 // hh::Sample::hand_inferred
+    hh_finger_curls curls = k_curls_unknown;  // each in [0, 1], or k_curl_unknown
 };
 
 struct RecordedSample {
     double t_s = 0.0;  // strictly increasing; may start at any time
-    Pose head;  // point between the eyes, in tracking space; all NaN while it was not tracked
+    // Point between the eyes, in tracking space; all NaN while it was not tracked.
+    hh::Pose head = hh::k_origin;
     std::array<RecordedHand, 2> hands;  // left, right
+    bool is_head_inferred = false;      // hh::Sample::head_inferred
 };
 
 // Converts a sample to what a headset would have recorded. A hand that grabs holds k_button_grip
 // down.
-RecordedSample recorded(const TrackingSample& sample);
+RecordedSample recorded(const hh::Sample& sample);
 
 struct Recording {
     std::vector<RecordedSample> samples;  // two or more; gaps and jitter are normal
 };
 
-// Refused, with the line: a required column that is missing, a row of other length, a time that
-// does not increase, a coordinate beyond 1e6 m, a quaternion further than 1e-2 from unit length
-// (the others are made unit), a time beyond 1e12 s, buttons that are no mask, a trigger outside
-// [0, 1]; and a file with less than two samples. Columns may come in any order and others may stand
-// between them. Where one of the seven cells of a pose is NaN, or its quaternion is all zeros, the
-// device was not tracked and all become NaN.
+// Refused, with the line: a required column that is missing, a line of other length, a time that
+// does not increase, a coordinate beyond 1e6 m, a quaternion whose length differs from 1 by more
+// than 1e-2 (others are normalised), a time beyond 1e12 s, buttons that are no mask, a trigger
+// outside [0, 1], a curl outside [0, 1] other than -1, a flag other than 0 and 1; and a file with
+// less than two samples. Columns may come in any order and others may stand between them. Where one
+// of the seven cells of a pose is NaN, or its quaternion is all zeros, the device was not tracked
+// and all become NaN.
 Result<Recording> load_recording(const std::filesystem::path& path);
 // Parses text in memory. `file`: for messages.
 Result<Recording> parse_recording(std::string_view text, const std::string& file);

@@ -101,9 +101,9 @@ std::string kind_of(const World& world, Entity entity) {
 void show_list(const Scene& scene, InspectorMemory& memory) {
     const std::string wanted = memory.filter.data();
     ImGui::BeginChild("list", ImVec2(0.0F, 0.38F * ImGui::GetContentRegionAvail().y), true);
-    for (const Entity entity : scene.world.persistent_id.owners()) {
+    for (const Entity entity : scene.world().persistent_id.owners()) {
         const std::string name =
-            name_of_entity(scene, entity) + "  (" + kind_of(scene.world, entity) + ")";
+            name_of_entity(scene, entity) + "  (" + kind_of(scene.world(), entity) + ")";
         if (name.find(wanted) == std::string::npos) {
             continue;
         }
@@ -121,17 +121,17 @@ void show_list(const Scene& scene, InspectorMemory& memory) {
 void show_entities_page(const InspectorView& view) {
     const Scene& scene = view.session.scene();
     InspectorMemory& memory = view.memory;
-    if (!scene.world.entities.is_alive(memory.selected)) {
-        memory.selected = view.session.player().player;
+    if (!scene.world().entities.is_alive(memory.selected)) {
+        memory.selected = entity_of(view.session.player());
     }
     ImGui::SetNextItemWidth(14.0F * ImGui::GetFontSize());
     ImGui::InputText("find", memory.filter.data(), memory.filter.size());
     ImGui::SameLine();
-    ImGui::TextColored(k_soft, "%zu entities", scene.world.persistent_id.size());
+    ImGui::TextColored(k_soft, "%zu entities", scene.world().persistent_id.size());
     show_list(scene, memory);
     ImGui::TextColored(k_key_color, "%s", name_of_entity(scene, memory.selected).c_str());
     ImGui::BeginChild("components");
-    visit_columns(scene.world, [&](const char* name, const auto& column) {
+    visit_columns(scene.world(), [&](const char* name, const auto& column) {
         const auto* const component = column.find(memory.selected);
         if (component != nullptr && ImGui::CollapsingHeader(name, ImGuiTreeNodeFlags_DefaultOpen)) {
             ImGui::PushID(name);

@@ -29,7 +29,7 @@ void show_figure(const char* name, const char* format, double value) {
 }
 
 void show_stage_times(const InspectorView& view) {
-    const StageStats& stats = view.session.stats();
+    const StageStats& stats = view.session.scene().stats();
     InspectorMemory& memory = view.memory;
     double total_us = 0.0;
     double longest_us = 1e-6;
@@ -58,7 +58,7 @@ void show_stage_times(const InspectorView& view) {
 }
 
 void show_work(const InspectorView& view) {
-    const StageStats& stats = view.session.stats();
+    const StageStats& stats = view.session.scene().stats();
     if (!ImGui::BeginTable("work", 4, ImGuiTableFlags_SizingStretchProp)) {
         return;
     }
@@ -80,7 +80,7 @@ void show_work(const InspectorView& view) {
 // Shows the counts of fallbacks; highlights recent ones for a while.
 void show_fallbacks(const InspectorView& view) {
     InspectorMemory& memory = view.memory;
-    const auto& counts = view.tally.figures().totals.fallbacks;
+    const auto& counts = view.tally.figures().fallbacks;
     const double now_s = ImGui::GetTime();
     bool any = false;
     for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -178,8 +178,8 @@ void show_terms(std::span<const FitColumn> columns) {
 // Shows why a gripping hand is shaped as it is; nothing for other hands.
 void show_fit(const InspectorView& view, Entity hand) {
     const Scene& scene = view.session.scene();
-    const FrameCaches& caches = view.session.caches();
-    const auto terms = fit_terms_of(scene.world, caches, scene.tuning, hand);
+    const FrameCaches& caches = std::as_const(view.session).scene().caches();
+    const auto terms = fit_terms_of(scene.world(), caches, scene.tuning(), hand);
     if (!terms) {
         return;
     }
@@ -217,8 +217,8 @@ void show_fit(const InspectorView& view, Entity hand) {
 
 void show_frame_page(const InspectorView& view) {
     ImGui::TextColored(k_soft, "frame %llu, %.2f s; stage times, smoothed",
-                       static_cast<unsigned long long>(view.session.scene().world.clock.frame),
-                       view.session.scene().world.clock.t_s);
+                       static_cast<unsigned long long>(view.session.scene().world().clock.frame),
+                       view.session.scene().world().clock.t_s);
     show_stage_times(view);
     ImGui::Separator();
     show_work(view);
@@ -229,22 +229,22 @@ void show_frame_page(const InspectorView& view) {
 
 void show_hands_page(const InspectorView& view) {
     const Scene& scene = view.session.scene();
-    const CollisionWorld& collision = view.session.caches().collision;
-    const PlayerEntities& player = view.session.player();
+    const CollisionWorld& collision = std::as_const(view.session).scene().caches().collision;
+    const PlayerEntities player = player_entities(scene.world(), view.session.player());
     show_story("Left hand", explain_hand(scene, collision, player.hands[0]));
     show_fit(view, player.hands[0]);
     show_story("Right hand", explain_hand(scene, collision, player.hands[1]));
     show_fit(view, player.hands[1]);
     ImGui::Separator();
-    const Pose& head_ws = scene.world.render_pose.at(player.player).head_ws;
+    const Pose& head_ws = scene.world().render_pose.at(player.player).head_ws;
     const auto pointed =
-        hand_pointed_at(scene.world, head_ws.position, head_ws.rotation * -Vec3::UnitZ());
+        hand_pointed_at(scene.world(), head_ws.position, head_ws.rotation * -Vec3::UnitZ());
     if (pointed) {
         view.memory.pointed_hand = pointed;
     }
     const auto& hand = view.memory.pointed_hand;
-    if (hand && scene.world.hand_owner.contains(*hand)) {
-        const HandOwner& owner = scene.world.hand_owner.at(*hand);
+    if (hand && scene.world().hand_owner.contains(*hand)) {
+        const HandOwner& owner = scene.world().hand_owner.at(*hand);
         const std::string name =
             name_of_entity(scene, owner.player) + ", " + name_of_entity(scene, *hand);
         ImGui::TextColored(k_soft, "Pointed at:");

@@ -154,7 +154,7 @@ void load_tuning(Tuning& tuning, InspectorMemory& memory) {
 
 void show_tuning_page(const InspectorView& view) {
     InspectorMemory& memory = view.memory;
-    Tuning& tuning = view.session.tuning();
+    Tuning& tuning = view.session.scene().tuning();
     ImGui::SetNextItemWidth(12.0F * ImGui::GetFontSize());
     ImGui::InputText("##file", memory.tuning_file.data(), memory.tuning_file.size());
     ImGui::SameLine();

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "engine/core/text_file.hpp"
+#include "engine/io/gltf_nodes.hpp"
 #include "game/render/figures.hpp"
 #include "game/view/grip_fit.hpp"
-#include "systems/input/read_tracking.hpp"
+#include "systems/host/host_columns.hpp"
 
 namespace handhold {
 namespace {
@@ -29,11 +29,17 @@ Result<ControllerModel> load_controller(const ControllerSide& side,
     if (!nodes) {
         return nodes.error();
     }
+    std::vector<ModelNode> model_nodes;
+    for (const GltfNode& node : nodes.value()) {
+        model_nodes.push_back(
+            {node.name, node.pointer, node.parent,
+             node.pose_ms ? std::optional(to_host(*node.pose_ms)) : std::nullopt});
+    }
     notes.insert(notes.end(), level.value().notes.begin(), level.value().notes.end());
     ControllerModel model;
     model.fit = side.fit;
     for (const LevelPart& part : level.value().parts) {
-        const std::vector<ControlMove> moves = moves_of(part.pointer, nodes.value(), side.controls);
+        const std::vector<ControlMove> moves = moves_of(part.pointer, model_nodes, side.controls);
         for (LevelMesh& mesh : make_level_meshes(GltfLevel{{part}})) {
             model.meshes.push_back(std::move(mesh));
             model.moves.push_back(moves);
@@ -53,11 +59,11 @@ Result<ControllerModel> load_controller(const ControllerSide& side,
 // A control that rotates about a point of the wand, from its rest pose.
 ControlMove turn_of_wand(Control control, const Vec3& about_ms, const Vec3& from_rad,
                          const Vec3& to_rad) {
-    const Pose rest{about_ms, Quat::Identity()};
+    const hh::Pose rest = hh::pose_at(to_host(about_ms));
     return {control,
             rest,
-            {about_ms, rotation_from_vector(from_rad)},
-            {about_ms, rotation_from_vector(to_rad)}};
+            {rest.position, to_host(rotation_from_vector(from_rad))},
+            {rest.position, to_host(rotation_from_vector(to_rad))}};
 }
 
 // The trigger rotates on a pin, the squeeze button moves in, the pad tilts.
@@ -76,7 +82,7 @@ void add_wand(ControllerModel& model) {
     add(std::move(wand.trigger), {turn_of_wand(Control::trigger, k_wand_pin_m, Vec3::Zero(),
                                                -k_trigger_rad * Vec3::UnitX())});
     add(std::move(wand.squeeze),
-        {{Control::squeeze, {}, {}, {k_squeeze_m * Vec3::UnitY(), Quat::Identity()}}});
+        {{Control::squeeze, hh::k_origin, hh::k_origin, hh::pose_at({0.0, k_squeeze_m, 0.0})}});
     const Vec3 right = k_tilt_rad * Vec3::UnitZ();
     const Vec3 back = k_tilt_rad * Vec3::UnitX();
     add(std::move(wand.pad), {turn_of_wand(Control::stick_x, k_wand_pad_m, right, -right),
@@ -98,21 +104,22 @@ Mesh whole_mesh(const ControllerModel& model) {
 
 }  // namespace
 
-std::array<Pose, k_hand_count> ControllerModels::joints() const {
+std::array<hh::Pose, 2> ControllerModels::joints() const {
     return {sides[0].fit.hand_in_grip, sides[1].fit.hand_in_grip};
 }
 
-ControllerModels builtin_controllers(const HandTuning& tuning) {
+ControllerModels builtin_controllers(const HandShape& shape) {
     ControllerModels models;
     models.name = "builtin";
-    for (const HandSide side : {HandSide::left, HandSide::right}) {
-        ControllerModel& model = models.sides[index_of(side)];
+    for (const hh::Side side : {HH_LEFT, HH_RIGHT}) {
+        ControllerModel& model = models.sides[side];
         add_wand(model);
-        // The model is placed in the fist. The joint between hand and controller then gives the
-        // model's tracked pose.
-        const Pose joint = default_controller_to_hand(side, tuning);
+        // The model is placed in the fist. The controller-to-hand pose then gives the model's
+        // tracked pose.
+        const hh::Pose& joint = shape.in_controller[side];
         model.fit.hand_in_grip = joint;
-        model.fit.grip_ms = inverse(joint * handle_in_hand(side, k_wand_grip, tuning));
+        model.fit.grip_ms =
+            hh::inverse(joint * handle_in_hand(side, k_wand_grip, shape.palm_center_m));
         model.fit.aim_ms = model.fit.grip_ms;
     }
     return models;
@@ -120,7 +127,7 @@ ControllerModels builtin_controllers(const HandTuning& tuning) {
 
 Result<ControllerModels> choose_controllers(const std::string& name_or_file) {
     if (name_or_file == "builtin") {
-        return builtin_controllers(HandTuning{});
+        return builtin_controllers(hand_shape(hh::World()));
     }
     const Result<std::string> text = read_file(name_or_file);
     if (!text) {
@@ -147,7 +154,7 @@ std::array<FingerAngles, k_finger_count> fingers_around(const ControllerModel& m
                                                         const HandRig& rig) {
     AuthoredHand held;
     held.is_there = true;
-    held.wrist_bs = inverse(controller_in_hand(model.fit));
+    held.wrist_bs = from_host(hh::inverse(controller_in_hand(model.fit)));
     return fit_grip(build_grip_mesh(whole_mesh(model)), rig, held.wrist_bs, {}, &held).fingers;
 }
 
@@ -160,7 +167,7 @@ ControllerFigures::ControllerFigures(const ControllerModels& models, const HandF
             made.parts.push_back(
                 {renderer.add_mesh(model.meshes[i].mesh), model.meshes[i].look, model.moves[i]});
         }
-        made.in_hand = controller_in_hand(model.fit);
+        made.in_hand = from_host(controller_in_hand(model.fit));
         made.fingers = fingers_around(model, hands.rig(side));
     }
 }
@@ -169,9 +176,9 @@ void ControllerFigures::add(HandSide side, const Pose& wrist_ws, const ControlVa
                             RenderFrame& frame) const {
     const Side& model = sides_[index_of(side)];
     for (const Part& part : model.parts) {
-        frame.instances.push_back({part.mesh,
-                                   wrist_ws * model.in_hand * moved_by(part.moves, values),
-                                   std::nullopt, part.look});
+        frame.instances.push_back(
+            {part.mesh, wrist_ws * model.in_hand * from_host(moved_by(part.moves, values)),
+             std::nullopt, part.look});
     }
 }
 

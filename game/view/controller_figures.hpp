@@ -8,6 +8,7 @@
 #include "game/devices/controller_profile.hpp"
 #include "game/mesh/level_meshes.hpp"
 #include "game/render/hand_figures.hpp"
+#include "game/session/hand_pose.hpp"
 
 // Draws controllers in hands that hold nothing else.
 namespace handhold {
@@ -24,12 +25,12 @@ struct ControllerModels {
     bool has_own_joint = false;                       // false: Tuning's joint applies
     std::vector<std::string> notes = {};  // remarks about the loaded files; see GltfLevel::notes
 
-    std::array<Pose, k_hand_count> joints() const;
+    std::array<hh::Pose, 2> joints() const;
 };
 
 // The built-in model: a wand held in the fist. Its pose relative to the hand follows from the
 // tuning (default_controller_to_hand).
-ControllerModels builtin_controllers(const HandTuning& tuning);
+ControllerModels builtin_controllers(const HandShape& shape);
 // `name_or_file`: "builtin", or the file of a profile with its models. Errors name the file, the
 // place in it, and what was expected.
 Result<ControllerModels> choose_controllers(const std::string& name_or_file);

@@ -12,7 +12,8 @@ struct TermView {
     const char* meaning;
 };
 
-// In the order of FitTerm. Penalties are red to pink; neighbours are green.
+// Colours and texts of the terms, in the order of FitTerm. Penalties are red to pink; terms between
+// neighbours are green.
 constexpr std::array<TermView, k_fit_term_count> k_term_views = {{
     {{0.25F, 0.55F, 1.0F}, "is away from where it is tracked"},
     {{0.1F, 0.85F, 1.0F}, "is off the surface"},

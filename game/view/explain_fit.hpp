@@ -16,7 +16,8 @@ namespace handhold {
 std::optional<FitTerms> fit_terms_of(const World& world, const FrameCaches& caches,
                                      const Tuning& tuning, Entity hand);
 
-// A part whose largest term costs less looks as the fit wants: as a palm less than 1 mm off.
+// If a part's largest term costs less than this, no term shapes it. A palm that is 1 mm off costs
+// this much.
 inline constexpr double k_small_cost_m2 = 5e-7;
 
 // The term that most shapes a part; nullopt if all are small.

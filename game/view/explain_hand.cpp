@@ -25,8 +25,8 @@ constexpr double k_pointed_cos = 0.9962;
 // Explains what the palm would grip if it closed now, by the rules of update_grabs.
 void explain_reach(const Scene& scene, const CollisionWorld& collision, const HandOwner& owner,
                    const Pose& hand_ws, HandStory& story) {
-    const HandTuning& tuning = scene.tuning.hand;
-    const World& world = scene.world;
+    const HandTuning& tuning = scene.tuning().hand;
+    const World& world = scene.world();
     const std::array own_head = {world.persistent_id.at(owner.player).value};
     const PalmRay ray = palm_ray(hand_ws, owner.side, tuning);
     const auto name = [&](std::uint64_t id) {
@@ -95,12 +95,12 @@ std::string body_effect_text(const World& world, const Tuning& tuning, const Gra
 }
 
 void explain_grip(const Scene& scene, Entity hand, const Pose& hand_ws, HandStory& story) {
-    const World& world = scene.world;
+    const World& world = scene.world();
     const Grab& grab = world.grab.at(hand);
     story.headline = (grab.kind == GripKind::held ? "holds " : "grips ") +
                      name_of_entity(scene, grab.body) +
                      format_text(", for %.1f s", world.clock.t_s - grab.since_s);
-    story.reasons.push_back(body_effect_text(world, scene.tuning, grab));
+    story.reasons.push_back(body_effect_text(world, scene.tuning(), grab));
     const AuthoredHold* const hold = world.authored_hold.find(hand);
     if (hold != nullptr && hold->body == grab.body) {
         const auto grips = scene.grips.find(name_of_entity(scene, grab.body));
@@ -117,7 +117,7 @@ void explain_grip(const Scene& scene, Entity hand, const Pose& hand_ws, HandStor
     story.reasons.push_back(
         format_text("The hand is %.3f mm from its anchor; it lets go at %.0f mm "
                     "(hand.max_stretch_m).",
-                    1e3 * grab.error_m, 1e3 * scene.tuning.hand.max_stretch_m));
+                    1e3 * grab.error_m, 1e3 * scene.tuning().hand.max_stretch_m));
     if (grab.two_handed) {
         story.reasons.emplace_back(
             "Two-handed hold: the first hand sets the position; the line between the "
@@ -128,7 +128,7 @@ void explain_grip(const Scene& scene, Entity hand, const Pose& hand_ws, HandStor
 }  // namespace
 
 std::string name_of_entity(const Scene& scene, Entity entity) {
-    const World& world = scene.world;
+    const World& world = scene.world();
     const std::size_t row = world.body.find_row(entity);
     if (world.body.contains(entity) && row < scene.body_names.size()) {
         return scene.body_names[row];
@@ -148,7 +148,7 @@ std::string name_of_entity(const Scene& scene, Entity entity) {
 }
 
 HandStory explain_hand(const Scene& scene, const CollisionWorld& collision, Entity hand) {
-    const World& world = scene.world;
+    const World& world = scene.world();
     const HandOwner& owner = world.hand_owner.at(hand);
     const HandTracking& tracking = world.hand_tracking.at(hand);
     const Grab& grab = world.grab.at(hand);
@@ -162,6 +162,11 @@ HandStory explain_hand(const Scene& scene, const CollisionWorld& collision, Enti
         story.reasons.push_back(format_text(
             "Its tracking has been lost for %.2f s: it is frozen and neither grips nor releases.",
             world.clock.t_s - tracking.sample_t_s));
+    }
+    if (tracking.state == TrackingState::inferred) {
+        story.reasons.emplace_back(
+            "No camera sees it: its pose is the runtime's guess, with which it neither grips nor "
+            "moves the player.");
     }
     if (grab.kind != GripKind::none) {
         explain_grip(scene, hand, hand_ws, story);

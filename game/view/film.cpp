@@ -52,11 +52,11 @@ struct SessionFilm::Impl {
         : scene(of_scene), settings(with), session_s(0.0), outside(of_scene) {}
 
     void draw(PlayerView& stage, View view, double fov_rad) {
-        const RenderPose& first = scene.world.render_pose.rows()[0];
+        const RenderPose& first = scene.world().render_pose.rows()[0];
         if (view == View::first_person) {
             stage.draw(first.head_ws, fov_rad, 0, image);
         } else {
-            const RenderPose* const other = player_near_first(scene.world);
+            const RenderPose* const other = player_near_first(scene.world());
             stage.draw(other != nullptr ? outside.beside(first, *other) : outside.behind(first),
                        fov_rad, std::nullopt, image);
         }

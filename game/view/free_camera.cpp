@@ -38,7 +38,8 @@ void FreeCamera::fly(const DesktopInput& input, double dt_s) {
                          rotation_about(Vec3::UnitX(), raised_rad))
                             .normalized();
     const double speed_mps = input.hurry ? k_camera_hurry * k_fly_mps : k_fly_mps;
-    pose_ws_.position += pose_ws_.rotation * Vec3(speed_mps * dt_s * input.move);
+    pose_ws_.position +=
+        pose_ws_.rotation * (speed_mps * dt_s * Vec3(input.move.x, input.move.y, input.move.z));
 }
 
 DesktopInput FreeCamera::held() const {

@@ -20,7 +20,7 @@ constexpr Color k_joint = {0.1F, 0.9F, 0.8F};
 constexpr Color k_bone = {1.0F, 0.6F, 0.15F};
 constexpr Color k_pole = {0.3F, 0.6F, 1.0F};
 constexpr Color k_residual = {1.0F, 0.1F, 0.3F};
-// Residuals are drawn so many times as long: a millimetre as a metre.
+// Scale of drawn residuals: a millimetre is drawn as a metre.
 constexpr double k_residual_scale = 1000.0;
 constexpr double k_longest_residual_m = 0.5;  // maximum drawn length
 

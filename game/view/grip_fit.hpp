@@ -8,7 +8,7 @@
 
 namespace handhold {
 
-// A hand that grips one mesh, as the runtime's stages fit it.
+// Result of the runtime's hand stages for a hand that grips one mesh.
 struct FittedGrip {
     Pose wrist_bs;
     std::array<FingerAngles, k_finger_count> fingers;  // indexed by index in HandRig::fingers

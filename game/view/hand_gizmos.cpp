@@ -70,7 +70,7 @@ void add_search(const HandSurroundings& hand, const GripSurface& chosen, const T
         }
     };
     const std::size_t count = scratch.found.size();
-    for (std::size_t i = count; i-- > 0;) {  // draw earlier ones over later ones
+    for (std::size_t i = count; i-- > 0;) {  // earlier triangles are drawn over later ones
         const float share =
             static_cast<float>(i) / static_cast<float>(std::max<std::size_t>(count, 2) - 1);
         outline(scratch.found[i].triangle, blend(k_first_visited, k_last_visited, share), 1.5);

@@ -8,7 +8,7 @@ namespace handhold {
 
 void OutsideCamera::place_walls() {
     std::vector<ColliderProxy> proxies;
-    const World& world = scene_->world;
+    const World& world = scene_->world();
     for (std::size_t row = 0; row < world.body.size(); ++row) {
         const Entity body = world.body.owners()[row];
         const Collider* const collider = world.collider.find(body);
@@ -84,7 +84,7 @@ Pose OutsideCamera::beside(const RenderPose& first, const RenderPose& second) {
     const Vec3 between = second.head_ws.position - first_ws;
     Vec3 across = between.cross(up);
     const double length = across.norm();
-    if (length < 1e-3) {  // one above the other
+    if (length < 1e-3) {  // the players are one above the other
         return behind(first);
     }
     across *= (across.dot(level_ahead(first)) < 0.0 ? -1.0 : 1.0) / length;

@@ -18,7 +18,7 @@ inline constexpr int k_player_viewpoints = 4;
 class OutsideCamera {
   public:
     // `scene` must outlive the camera.
-    explicit OutsideCamera(const Scene& scene) : scene_(&scene), walls_(*scene.shapes) {}
+    explicit OutsideCamera(const Scene& scene) : scene_(&scene), walls_(scene.shapes()) {}
 
     // Behind and above the player's head.
     Pose behind(const RenderPose& render);

@@ -20,9 +20,9 @@ struct PlayerModels {
     GhostSettings ghosts;
     std::vector<std::string> notes = {};  // remarks about the loaded files; see GltfLevel::notes
 
-    // The hands' poses in the controllers' grip frames, by HandSide, if the profile defines them;
+    // The hands' poses in the controllers' grip frames, by hh::Side, if the profile defines them;
     // otherwise Tuning's apply.
-    std::optional<std::array<Pose, k_hand_count>> controller_joints() const {
+    std::optional<std::array<hh::Pose, 2>> controller_joints() const {
         return controllers && controllers->has_own_joint ? std::optional(controllers->joints())
                                                          : std::nullopt;
     }

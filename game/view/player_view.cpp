@@ -52,7 +52,7 @@ ControlValues PlayerView::controls_of(std::size_t row, HandSide side) const {
     if (controls_ && controls_->row == row) {
         return controls_->values[index_of(side)];
     }
-    const World& world = scene_->world;
+    const World& world = scene_->world();
     const Entity player = world.render_pose.owners()[row];
     for (std::size_t i = 0; i < world.hand_owner.size(); ++i) {
         const HandOwner& owner = world.hand_owner.rows()[i];
@@ -95,11 +95,12 @@ void PlayerView::add_ghost(HandSide side, const RenderPose::Hand& hand, bool is_
 
 // Shows an empty hand as it would grip the authored grip nearby.
 void PlayerView::add_snap_hint(Entity hand, RenderFrame& frame) {
-    const std::optional<SnapHint> hint = find_snap_hint(scene_->world, hand, scene_->tuning.hand);
+    const std::optional<SnapHint> hint =
+        find_snap_hint(scene_->world(), hand, scene_->tuning().hand);
     if (!hint) {
         return;
     }
-    const HandSide side = scene_->world.hand_owner.at(hand).side;
+    const HandSide side = scene_->world().hand_owner.at(hand).side;
     const HandRig& rig = hands_.rig(side);
     std::array<FingerAngles, k_finger_count> posed;
     for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
@@ -127,9 +128,9 @@ void PlayerView::add_ghost_of(HandSide side, const Pose& wrist_ws,
 
 // Adds a line from the palm of a pulling hand to the pulled body.
 void PlayerView::add_pull(Entity hand, const RenderPose::Hand& shown, RenderFrame& frame) const {
-    const HandPull* const pull = scene_->world.hand_pull.find(hand);
+    const HandPull* const pull = scene_->world().hand_pull.find(hand);
     const BodyPose* const body =
-        pull != nullptr ? scene_->world.body_pose.find(pull->body) : nullptr;
+        pull != nullptr ? scene_->world().body_pose.find(pull->body) : nullptr;
     if (body != nullptr) {
         frame.lines.push_back({shown.ray_from_ws, body->pose_ws.position, k_pull_color, 3.0});
     }
@@ -146,9 +147,9 @@ void PlayerView::add_penetrating_hands(std::size_t first, RenderFrame& frame) co
 }
 
 void PlayerView::add_player(std::size_t row, BodyFigures::Seen seen, RenderFrame& frame) {
-    // Element of the player who gets the hints, in every view.
+    // Index of the player who gets the hints, in every view.
     constexpr std::size_t k_who_plays = 0;
-    const World& world = scene_->world;
+    const World& world = scene_->world();
     const Entity player = world.render_pose.owners()[row];
     const RenderPose& render = world.render_pose.rows()[row];
     const std::size_t first_own = frame.instances.size();
@@ -188,7 +189,7 @@ RenderFrame PlayerView::make_frame(const Camera& camera, std::optional<std::size
     RenderFrame frame = make_scene_frame(*scene_, visuals_);
     hands_.begin();
     body_.begin();
-    const Column<RenderPose>& players = scene_->world.render_pose;
+    const Column<RenderPose>& players = scene_->world().render_pose;
     for (std::size_t i = 0; i < players.size(); ++i) {
         using enum BodyFigures::Seen;
         add_player(i, without_head == i ? by_himself : by_others, frame);

@@ -22,20 +22,20 @@ class PlayerView {
                                           int height_px, std::string& why_not,
                                           PictureQuality quality = PictureQuality::quick);
 
-    // Draws the current state. `without_head`: element of the player whose eyes the camera is at;
+    // Draws the current state. `without_head`: index of the player whose eyes the camera is at;
     // their head is not drawn. `marks`: extra lines. `ui`: panels, may be null.
     void draw(const Pose& camera_ws, double vertical_fov_rad,
               std::optional<std::size_t> without_head, Image& out, std::span<const Line> marks = {},
               const UiPicture* ui = nullptr);
     // Draws one eye of a headset into a texture of the XR runtime (Renderer::draw_into). `whose`:
-    // element of the player.
+    // index of the player.
     void draw_eye(const Camera& eye, std::size_t whose, std::uint32_t texture, Image* copy,
                   const UiPicture* ui = nullptr);
     // Shows palm rays and grip lines. Default: on.
     void show_hand_lines(bool shows) { shows_hand_lines_ = shows; }
     // Sets RenderFrame::hidden_lines.
     void set_hidden_lines(float strength) { hidden_lines_ = strength; }
-    // Sets the positions of the controls for the player at element `row`. Other players' controls
+    // Sets the positions of the controls for the player at index `row`. Other players' controls
     // follow how far their hands are closed.
     void show_controls(std::size_t row, const std::array<ControlValues, k_hand_count>& values) {
         controls_ = PlayerControls{row, values};

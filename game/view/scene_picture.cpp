@@ -12,7 +12,7 @@ std::vector<MeshId> add_scene_meshes(const Scene& scene, Renderer& renderer) {
 }
 
 RenderFrame make_scene_frame(const Scene& scene, const std::vector<MeshId>& meshes) {
-    const World& world = scene.world;
+    const World& world = scene.world();
     RenderFrame frame;
     frame.backdrop = Backdrop::space;
     frame.up_ws = scene.up_ws;

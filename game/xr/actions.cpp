@@ -7,8 +7,7 @@
 namespace handhold {
 namespace {
 
-constexpr std::array<const char*, k_hand_count> k_hand_paths = {"/user/hand/left",
-                                                                "/user/hand/right"};
+constexpr std::array<const char*, 2> k_hand_paths = {"/user/hand/left", "/user/hand/right"};
 constexpr double k_ns_per_s = 1e9;
 
 XrActionType type_of(ActionKind kind) {
@@ -29,21 +28,18 @@ XrActionType type_of(ActionKind kind) {
 
 bool concerns(const HeadsetBinding& binding, std::size_t side) {
     using Hands = HeadsetBinding::Hands;
-    return binding.hands == Hands::both ||
-           (binding.hands == Hands::left) == (side == index_of(HandSide::left));
+    return binding.hands == Hands::both || (binding.hands == Hands::left) == (side == HH_LEFT);
 }
 
 }  // namespace
 
-std::optional<Pose> locate(XrSpace space, XrSpace base, XrTime time) {
-    constexpr XrSpaceLocationFlags k_known =
-        XR_SPACE_LOCATION_POSITION_VALID_BIT | XR_SPACE_LOCATION_ORIENTATION_VALID_BIT;
+std::optional<LocatedPose> locate(XrSpace space, XrSpace base, XrTime time) {
     auto location = xr_struct<XrSpaceLocation>(XR_TYPE_SPACE_LOCATION);
     if (XR_FAILED(xrLocateSpace(space, base, time, &location)) ||
-        (location.locationFlags & k_known) != k_known) {
+        !is_valid_location(location.locationFlags)) {
         return std::nullopt;
     }
-    return from_xr(location.pose);
+    return LocatedPose{from_xr(location.pose), is_inferred_location(location.locationFlags)};
 }
 
 std::optional<HeadsetActions> HeadsetActions::create(const HeadsetInstance& instance,
@@ -54,7 +50,7 @@ std::optional<HeadsetActions> HeadsetActions::create(const HeadsetInstance& inst
     auto info = xr_struct<XrActionSetCreateInfo>(XR_TYPE_ACTION_SET_CREATE_INFO);
     std::strncpy(info.actionSetName, "hands", XR_MAX_ACTION_SET_NAME_SIZE - 1);
     std::strncpy(info.localizedActionSetName, "Hands", XR_MAX_LOCALIZED_ACTION_SET_NAME_SIZE - 1);
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
+    for (std::size_t side = 0; side < 2; ++side) {
         if (!xr_succeeds(xrStringToPath(xr, k_hand_paths[side], &made.hands_[side]),
                          "xrStringToPath", why_not)) {
             return std::nullopt;
@@ -85,7 +81,7 @@ bool HeadsetActions::create_actions(bool has_palms, std::string& why_not) {
         info.actionType = type_of(name.kind);
         std::strncpy(info.actionName, name.name, XR_MAX_ACTION_NAME_SIZE - 1);
         std::strncpy(info.localizedActionName, name.said, XR_MAX_LOCALIZED_ACTION_NAME_SIZE - 1);
-        info.countSubactionPaths = k_hand_count;
+        info.countSubactionPaths = 2;
         info.subactionPaths = hands_.data();
         XrAction& made = actions_[static_cast<std::size_t>(name.action)];
         if (!xr_succeeds(xrCreateAction(set_.get(), &info, &made), "xrCreateAction", why_not)) {
@@ -102,7 +98,7 @@ bool HeadsetActions::suggest(XrInstance instance, bool has_palms, std::string& w
     for (const HeadsetProfile& profile : headset_profiles()) {
         std::vector<XrActionSuggestedBinding> bindings;
         for (const HeadsetBinding& binding : profile.bindings) {
-            for (std::size_t side = 0; side < k_hand_count; ++side) {
+            for (std::size_t side = 0; side < 2; ++side) {
                 if (!concerns(binding, side) ||
                     (binding.action == HeadsetAction::palm_pose && !has_palms)) {
                     continue;
@@ -132,7 +128,7 @@ bool HeadsetActions::suggest(XrInstance instance, bool has_palms, std::string& w
 
 bool HeadsetActions::create_spaces(XrSession session, std::string& why_not) {
     for (std::size_t pose = 0; pose < spaces_.size(); ++pose) {
-        for (std::size_t side = 0; side < k_hand_count; ++side) {
+        for (std::size_t side = 0; side < 2; ++side) {
             auto info = xr_struct<XrActionSpaceCreateInfo>(XR_TYPE_ACTION_SPACE_CREATE_INFO);
             info.action = actions_[pose];
             info.subactionPath = hands_[side];
@@ -202,8 +198,8 @@ bool HeadsetActions::is_active(XrSession session, HeadsetAction which, std::size
                .isActive == XR_TRUE;
 }
 
-std::optional<Pose> HeadsetActions::pose(XrSession session, HeadsetAction which, std::size_t side,
-                                         XrSpace base, XrTime time) const {
+std::optional<LocatedPose> HeadsetActions::pose(XrSession session, HeadsetAction which,
+                                                std::size_t side, XrSpace base, XrTime time) const {
     const OwnedXrSpace& space = spaces_[static_cast<std::size_t>(which)][side];
     if (!space || !is_active(session, which, side)) {
         return std::nullopt;
@@ -212,12 +208,23 @@ std::optional<Pose> HeadsetActions::pose(XrSession session, HeadsetAction which,
 }
 
 void HeadsetActions::read(XrSession session, XrSpace base, XrTime time,
-                          std::array<HandReading, k_hand_count>& hands) const {
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
+                          std::array<HandReading, 2>& hands) const {
+    for (std::size_t side = 0; side < 2; ++side) {
         HandReading& hand = hands[side];
-        hand.grip_ps = pose(session, HeadsetAction::grip_pose, side, base, time);
-        hand.aim_ps = pose(session, HeadsetAction::aim_pose, side, base, time);
-        hand.palm_ps = pose(session, HeadsetAction::palm_pose, side, base, time);
+        // The pose, and the guess: at most one of them is known.
+        const auto read_pose = [&](HeadsetAction which, std::optional<hh::Pose>& measured,
+                                   std::optional<hh::Pose>& guess) {
+            const std::optional<LocatedPose> found = pose(session, which, side, base, time);
+            measured.reset();
+            guess.reset();
+            if (found) {
+                (found->is_inferred ? guess : measured) = found->pose;
+            }
+        };
+        std::optional<hh::Pose> aim_guess;  // unused
+        read_pose(HeadsetAction::grip_pose, hand.grip_ps, hand.guesses.grip_ps);
+        read_pose(HeadsetAction::aim_pose, hand.aim_ps, aim_guess);
+        read_pose(HeadsetAction::palm_pose, hand.palm_ps, hand.guesses.palm_ps);
         hand.squeeze = number(session, HeadsetAction::squeeze, side);
         hand.trigger = number(session, HeadsetAction::trigger, side);
         hand.stick = stick(session, side);
@@ -226,10 +233,10 @@ void HeadsetActions::read(XrSession session, XrSpace base, XrTime time,
     }
 }
 
-void HeadsetActions::shake(XrSession session, HandSide side, const HapticPulse& pulse) const {
+void HeadsetActions::shake(XrSession session, hh::Side side, const HapticPulse& pulse) const {
     auto info = xr_struct<XrHapticActionInfo>(XR_TYPE_HAPTIC_ACTION_INFO);
     info.action = action(HeadsetAction::shake);
-    info.subactionPath = hands_[index_of(side)];
+    info.subactionPath = hands_[side];
     auto vibration = xr_struct<XrHapticVibration>(XR_TYPE_HAPTIC_VIBRATION);
     vibration.amplitude = static_cast<float>(pulse.amplitude);
     vibration.duration = static_cast<XrDuration>(pulse.duration_s * k_ns_per_s);

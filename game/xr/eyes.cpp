@@ -84,7 +84,7 @@ bool Eyes::create_eye(XrSession session, Eye& eye, std::string& why_not) const {
                        "xrEnumerateSwapchainImages", why_not);
 }
 
-bool Eyes::draw_eye_picture(std::size_t which, const XrView& view, const Pose& eye_ps,
+bool Eyes::draw_eye_picture(std::size_t which, const XrView& view, const hh::Pose& eye_ps,
                             const DrawEye& draw_eye) const {
     const Eye& eye = eyes_[which];
     std::uint32_t image = 0;
@@ -116,7 +116,7 @@ bool Eyes::draw(XrSession session, const Place& place, XrTime time, const DrawEy
         return false;
     }
     for (std::size_t which = 0; which < k_eye_count; ++which) {
-        const Pose eye_ps = place.room_in_readings * from_xr(views[which].pose);
+        const hh::Pose eye_ps = place.room_in_readings * from_xr(views[which].pose);
         if (!draw_eye_picture(which, views[which], eye_ps, draw_eye)) {
             return false;
         }

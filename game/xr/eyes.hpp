@@ -20,7 +20,7 @@ class Eyes {
 
     struct Place {
         XrSpace room = XR_NULL_HANDLE;
-        Pose room_in_readings;  // room's space in that of the readings
+        hh::Pose room_in_readings = hh::k_origin;  // room's space in that of the readings
     };
     // Draws both eyes at their poses for `time` into pictures of the runtime. False if the runtime
     // gives no poses or lends no picture.
@@ -35,7 +35,7 @@ class Eyes {
     };
     Eyes() = default;
     bool create_eye(XrSession session, Eye& eye, std::string& why_not) const;
-    bool draw_eye_picture(std::size_t which, const XrView& view, const Pose& eye_ps,
+    bool draw_eye_picture(std::size_t which, const XrView& view, const hh::Pose& eye_ps,
                           const DrawEye& draw_eye) const;
 
     EyeSize size_;

@@ -19,14 +19,14 @@ class FingerTracking {
 
     // If the runtime has no finger tracking, every hand is read as not tracked.
     static FingerTracking create(const HeadsetInstance& instance, XrSession session);
-    void read(XrSpace base, XrTime time, std::array<HandReading, k_hand_count>& hands) const;
+    void read(XrSpace base, XrTime time, std::array<HandReading, 2>& hands) const;
 
   private:
     void read_hand(std::size_t side, XrSpace base, XrTime time, HandReading& hand) const;
 
     PFN_xrLocateHandJointsEXT locate_ = nullptr;
     PFN_xrDestroyHandTrackerEXT destroy_ = nullptr;
-    std::array<XrHandTrackerEXT, k_hand_count> trackers_{};
+    std::array<XrHandTrackerEXT, 2> trackers_{};
 };
 
 }  // namespace handhold

@@ -77,8 +77,8 @@ XrEnvironmentBlendMode first_blend_mode(const HeadsetInstance& instance) {
     return first;
 }
 
-void correct(const Pose& space, HeadsetReading& reading) {
-    const auto correct_pose = [&space](std::optional<Pose>& pose) {
+void correct(const hh::Pose& space, HeadsetReading& reading) {
+    const auto correct_pose = [&space](std::optional<hh::Pose>& pose) {
         if (pose) {
             *pose = space * *pose;
         }
@@ -89,13 +89,16 @@ void correct(const Pose& space, HeadsetReading& reading) {
         correct_pose(hand.aim_ps);
         correct_pose(hand.palm_ps);
         correct_pose(hand.wrist_ps);
+        correct_pose(hand.guesses.grip_ps);
+        correct_pose(hand.guesses.palm_ps);
+        correct_pose(hand.guesses.wrist_ps);
     }
 }
 
 }  // namespace
 
 struct Headset::Impl {
-    // In this order, so that objects are destroyed before those that they were made from.
+    // The order matters: objects are destroyed before those that they were made from.
     HeadsetInstance instance;
     OwnedXrSession session;
     HeadsetSpaces spaces;
@@ -297,7 +300,10 @@ HeadsetReading Headset::read(std::int64_t time_ns) const {
     const Impl& impl = *impl_;
     HeadsetReading reading;
     const XrSpace room = impl.spaces.room.get();
-    reading.head_ps = locate(impl.spaces.head.get(), room, time_ns);
+    if (const auto head = locate(impl.spaces.head.get(), room, time_ns)) {
+        reading.head_ps = head->pose;
+        reading.is_head_inferred = head->is_inferred;
+    }
     if (impl.has_focus) {
         impl.actions->read(impl.session.get(), room, time_ns, reading.hands);
         impl.fingers.read(room, time_ns, reading.hands);
@@ -326,7 +332,7 @@ bool Headset::end_frame(const HeadsetFrame& frame, const DrawEye& draw_eye) {
     return impl.obeys(xrEndFrame(impl.session.get(), &info)) && layer != nullptr;
 }
 
-bool Headset::shake(HandSide side, const HapticPulse& pulse) const {
+bool Headset::shake(hh::Side side, const HapticPulse& pulse) const {
     const bool does = impl_->has_focus && pulse.duration_s > 0.0;
     if (does) {
         impl_->actions->shake(impl_->session.get(), side, pulse);

@@ -28,8 +28,8 @@ struct EyeSizes {
 // A picture to be drawn for one eye. `texture`: OpenGL name of a texture of the runtime; rows from
 // the bottom up, bytes in sRGB.
 struct EyePicture {
-    std::size_t eye = 0;  // 0 left, 1 right
-    Pose eye_ps;          // eye in play space
+    std::size_t eye = 0;             // 0 left, 1 right
+    hh::Pose eye_ps = hh::k_origin;  // eye in play space
     EyeFrustum frustum;
     std::uint32_t texture = 0;
     EyeSize size;
@@ -88,7 +88,7 @@ class Headset {
     // eyes got a picture.
     bool end_frame(const HeadsetFrame& frame, const DrawEye& draw_eye);
     // Returns true if the controller was told to vibrate.
-    bool shake(HandSide side, const HapticPulse& pulse) const;
+    bool shake(hh::Side side, const HapticPulse& pulse) const;
     // Asks the runtime to end the session; poll() returns `leaves` once it has.
     void ask_to_leave();
 

@@ -24,7 +24,7 @@ HeadsetFrame Headset::begin_frame() { return {}; }
 void Headset::sync() {}
 HeadsetReading Headset::read(std::int64_t) const { return {}; }
 bool Headset::end_frame(const HeadsetFrame&, const DrawEye&) { return false; }
-bool Headset::shake(HandSide, const HapticPulse&) const { return false; }
+bool Headset::shake(hh::Side, const HapticPulse&) const { return false; }
 void Headset::ask_to_leave() {}
 
 }  // namespace handhold

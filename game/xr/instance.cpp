@@ -64,7 +64,7 @@ std::vector<const char*> choose_extensions(const std::vector<XrExtensionProperti
     static_cast<void>(k_local_floor);
 #endif
     features.hand_tracking = ask(true, XR_EXT_HAND_TRACKING_EXTENSION_NAME);
-    features.palm_pose = ask(true, k_palm_pose);  // needs only a path, nothing from headers
+    features.palm_pose = ask(true, k_palm_pose);  // the extension adds only a path
     return chosen;
 }
 

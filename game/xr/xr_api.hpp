@@ -13,10 +13,10 @@
 #define XR_USE_PLATFORM_EGL
 #define XR_USE_TIMESPEC
 // NOLINTEND(readability-identifier-naming)
+#include <handhold/handhold.hpp>
+#include <handhold/math.hpp>
 #include <openxr/openxr.h>
 #include <openxr/openxr_platform.h>
-
-#include "engine/math/math.hpp"
 
 namespace handhold {
 
@@ -74,12 +74,11 @@ Function xr_function(XrInstance instance, const char* name) {
     return reinterpret_cast<Function>(function);  // NOLINT: how OpenXR hands functions out
 }
 
-inline Pose from_xr(const XrPosef& pose) {
+inline hh::Pose from_xr(const XrPosef& pose) {
     const auto wide = [](float value) { return static_cast<double>(value); };
-    return {Vec3(wide(pose.position.x), wide(pose.position.y), wide(pose.position.z)),
-            Quat(wide(pose.orientation.w), wide(pose.orientation.x), wide(pose.orientation.y),
-                 wide(pose.orientation.z))
-                .normalized()};
+    return {hh::Vec3{wide(pose.position.x), wide(pose.position.y), wide(pose.position.z)},
+            hh::normalized(hh::Quat{wide(pose.orientation.x), wide(pose.orientation.y),
+                                    wide(pose.orientation.z), wide(pose.orientation.w)})};
 }
 inline constexpr XrPosef k_xr_identity = {{0.0F, 0.0F, 0.0F, 1.0F}, {0.0F, 0.0F, 0.0F}};
 

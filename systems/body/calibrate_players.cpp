@@ -13,8 +13,8 @@ constexpr double k_shoulder_share = 0.25;
 constexpr double k_span_share = 0.95;
 // Distance of the shoulder joints below the eyes / arm span.
 constexpr double k_shoulder_drop_share = 0.145;
-// If the eyes are lower than this share of the eye height that the span predicts, the player is
-// seated.
+// A player counts as seated if the eyes are lower than this share of the eye height that the arm
+// span predicts.
 constexpr double k_seated_share = 0.87;
 
 // Arm span of a player whose wrists are `level_m` apart horizontally and `below_m` below the eyes.
@@ -134,7 +134,7 @@ void calibrate_players(const CalibratePlayersIo& io, const CalibrationTuning& tu
         } else if (!calibration.done) {
             const HeadTracking& head = io.head.at(player);
             std::array<Vec3, k_hand_count> hands_ps{};
-            std::size_t known = is_known(head.state) ? 1 : 0;
+            std::size_t known = is_known(head.state) && !head.is_inferred ? 1 : 0;
             for (std::size_t hand = 0; hand < io.owner.size(); ++hand) {
                 const HandOwner& owner = io.owner.rows()[hand];
                 const HandTracking& tracking = io.hand.at(io.owner.owners()[hand]);

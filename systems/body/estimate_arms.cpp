@@ -46,11 +46,11 @@ Vec3 estimate_chest(const TrackedBody& body, const BodyAxes& axes, const Step& s
         Vec3& filtered_ps = memory.looks_ps[i];
         filtered_ps = reset ? now_ps : follow_look(filtered_ps, now_ps, step.look_shares[i]);
     }
-    const Quat lean = chest_lean(trunk.up_ps);
+    const Quat lean = chest_lean(trunk.up_ps, trunk.lying);
     const Vec3 up_ps = axes.head.col(1);
-    const Vec3 talked_ps =
-        chest_facing(memory.looks_ps[0], trunk.up_ps == up_ps ? lean : chest_lean(up_ps), body,
-                     axes, step.limit);
+    const Vec3 talked_ps = chest_facing(
+        memory.looks_ps[0], trunk.up_ps == up_ps ? lean : chest_lean(up_ps, trunk.lying), body,
+        axes, step.limit);
     ChestCorrection correction = chest_correction(talked_ps, now_ps, memory.looks_ps, body, axes);
     correction.offset.middle_m *= tuning.learned;
     correction.offset.roll *= tuning.learned;
@@ -77,7 +77,9 @@ Vec3 estimate_chest(const TrackedBody& body, const BodyAxes& axes, const Step& s
         chest.roll += step.chest_share * (correction.offset.roll - chest.roll);
     }
     out.facing_ps = memory.facing_ps;
+    out.lying = trunk.lying;
     out.chest_ps = chest_pose(out.facing_ps, lean, memory.chest, body, trunk);
+    out.from_neck_m = out.chest_ps.position - neck_pivot(body, axes);
     return now_ps;
 }
 
@@ -99,11 +101,35 @@ struct ArmStep {
     bool reset = false;  // true: ignore ArmMemory
     double upper_m = 0.0;
     double forearm_m = 0.0;
+    double floor_m = 0.0;  // height of the tracked floor above the resting shoulder
     Vec3 pole_ts = Vec3::Zero();
     const ArmLine& line;
 };
 
-void estimate_elbow(const Step& step, const ArmStep& arm, ArmMemory::Arm& memory,
+// `bend_ts`, turned about the arm's axis as little as keeps the elbow above the tracked floor.
+Vec3 bend_above_floor(const ElbowCircle& circle, const Vec3& axis_ts, const Vec3& bend_ts,
+                      double floor_m) {
+    constexpr double k_elbow_m = 0.04;  // half as thick as an arm
+    const double least_m = floor_m + k_elbow_m - circle.middle_ts.y();
+    if (circle.radius_m * bend_ts.y() >= least_m || circle.radius_m < 1e-6) {
+        return bend_ts;
+    }
+    const Vec3 up = Vec3::UnitY() - axis_ts * axis_ts.y();
+    const double length = up.norm();
+    if (length < 1e-3) {
+        return bend_ts;  // a vertical arm's elbow is as high in all directions
+    }
+    const Vec3 rising = up * (1.0 / length);
+    const double rise = std::clamp(least_m / (circle.radius_m * length), -1.0, 1.0);
+    const Vec3 aside = bend_ts - rising * rising.dot(bend_ts);
+    const double aside_length = aside.norm();
+    const Vec3 level =
+        aside_length > 1e-9 ? Vec3(aside * (1.0 / aside_length)) : Vec3(axis_ts.cross(rising));
+    return rise * rising + std::sqrt(1.0 - rise * rise) * level;
+}
+
+// Returns the bend that is shown: as ArmMemory has it, above the floor.
+Vec3 estimate_elbow(const Step& step, const ArmStep& arm, ArmMemory::Arm& memory,
                     ArmEstimate::Arm& out) {
     const ArmTuning& tuning = step.tuning;
     const double dt_s = step.dt_s;
@@ -132,6 +158,7 @@ void estimate_elbow(const Step& step, const ArmStep& arm, ArmMemory::Arm& memory
     memory.axis_ts = axis_ts;
     memory.hand_ts = hand_rest_ts;
     memory.elbow_ts = circle.middle_ts + circle.radius_m * memory.bend_ts;
+    return bend_above_floor(circle, axis_ts, memory.bend_ts, arm.floor_m);
 }
 
 void estimate_once(const TrackedBody& body, const Step& step, bool reset, ArmMemory& memory,
@@ -156,12 +183,13 @@ void estimate_once(const TrackedBody& body, const Step& step, bool reset, ArmMem
         const std::size_t i = index_of(side);
         const Vec3 pole_ts = elbow_pole(view, side) +
                              tuning.learned * elbow_correction(view, lines, turned, arm_m, side);
-        estimate_elbow(
-            step,
-            {side, reset, body.measures.upper_arm_m, body.measures.forearm_m, pole_ts, lines[i]},
-            memory.arms[i], out.arms[i]);
+        const Vec3 bend_ts =
+            estimate_elbow(step,
+                           {side, reset, body.measures.upper_arm_m, body.measures.forearm_m,
+                            body.floor_m - rest_ps[i].y(), pole_ts, lines[i]},
+                           memory.arms[i], out.arms[i]);
         out.arms[i].shoulder_ps = rest_ps[i] + from_facing(facing, lines[i].shoulder_ts);
-        out.arms[i].bend_ps = from_facing(facing, memory.arms[i].bend_ts);
+        out.arms[i].bend_ps = from_facing(facing, bend_ts);
     }
 }
 
@@ -187,8 +215,10 @@ void estimate_player(const TrackedBody& now, const Step& frame, ArmMemory& memor
     const int steps =
         reset ? 1 : static_cast<int>(std::clamp(dt_s / k_step_s + k_round_up, 1.0, k_max_steps));
     if (steps > 1) {
-        TrackedBody before{
-            memory.head_ps, {memory.arms[0].hand_ps, memory.arms[1].hand_ps}, now.measures};
+        TrackedBody before{memory.head_ps,
+                           {memory.arms[0].hand_ps, memory.arms[1].hand_ps},
+                           now.measures,
+                           now.floor_m};
         for (std::size_t side = 0; side < k_hand_count; ++side) {
             if (has_jumped(before.hands_ps[side].position, now.hands_ps[side].position, dt_s)) {
                 before.hands_ps[side] = now.hands_ps[side];
@@ -200,7 +230,8 @@ void estimate_player(const TrackedBody& now, const Step& frame, ArmMemory& memor
             const TrackedBody then{between(before.head_ps, now.head_ps, share),
                                    {between(before.hands_ps[0], now.hands_ps[0], share),
                                     between(before.hands_ps[1], now.hands_ps[1], share)},
-                                   now.measures};
+                                   now.measures,
+                                   now.floor_m};
             estimate_once(then, step, false, memory, out);
         }
         estimate_once(now, step, false, memory, out);
@@ -221,7 +252,7 @@ void take_hands(const EstimateArmsIo& io) {
     ArmEstimate* estimate = nullptr;
     for (std::size_t row = 0; row < io.owner.size(); ++row) {
         const HandOwner& owner = io.owner.rows()[row];
-        if (owner.player != player) {  // a player's hands are usually in adjacent rows
+        if (owner.player != player) {  // a player's hands are usually adjacent
             player = owner.player;
             origin_ws = &io.origin.at(player).pose_ws;
             estimate = &io.estimate.at(player);
@@ -248,9 +279,11 @@ void estimate_arms(const EstimateArmsIo& io, const ArmTuning& tuning) {
             const BodyMeasures* const measures = io.measures.find(player);
             if (memory != nullptr && head != nullptr && measures != nullptr) {
                 ArmEstimate& out = io.estimate.rows()[row];
-                estimate_player(
-                    {head->pose_ps, {out.arms[0].hand_ps, out.arms[1].hand_ps}, *measures}, step,
-                    *memory, out);
+                estimate_player({head->pose_ps,
+                                 {out.arms[0].hand_ps, out.arms[1].hand_ps},
+                                 *measures,
+                                 head->shift_m.y()},
+                                step, *memory, out);
             }
         }
     };

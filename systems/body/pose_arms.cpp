@@ -37,7 +37,7 @@ Quat in_plane(const Quat& frame, double ahead, double aside) {
             frame.y() * w + frame.z() * x, frame.z() * w - frame.y() * x};
 }
 
-// Inputs that both arms of a player share.
+// Inputs that are the same for both arms of a player.
 struct Arms {
     const PlayerOrigin* origin;
     Mat3 to_ws;  // rotation from play space to the world
@@ -93,7 +93,7 @@ void pose_arms(const PoseArmsIo& io) {
     Arms arms{};
     for (std::size_t row = 0; row < io.owner.size(); ++row) {
         const HandOwner& owner = io.owner.rows()[row];
-        if (owner.player != player) {  // a player's hands are usually in adjacent rows
+        if (owner.player != player) {  // a player's hands are usually adjacent
             player = owner.player;
             arms = arms_of(io, player);
         }

@@ -45,8 +45,15 @@ Quat between(const Quat& a, const Quat& b, double share) {
                      of_a * a.y() + of_b * b.y(), of_a * a.z() + of_b * b.z());
 }
 
-void rest_at(const Quat& chest, double scale, double t_s, SpineMemory& memory) {
-    SpineChain chain{frame_at(chest), {}};
+// The rest pose of the trunk below a chest.
+TrunkLean lean_at(const Quat& chest_ps, const Vec3& pull_ps, double lying) {
+    const Quat to_chest = chest_ps.conjugate();
+    return lean_of(to_chest * pull_ps, upright_turn(to_chest * Vec3::UnitY(), lying));
+}
+
+void rest_at(const Quat& chest, double lying, double scale, double t_s, SpineMemory& memory) {
+    const TrunkLean lean = lean_at(chest, Vec3::Zero(), lying);
+    SpineChain chain{frame_at(leaning_chest(chest, lean)), {}};
     memory.velocity_mps.fill(Vec3::Zero());
     memory.twist_rad.fill(0.0);
     memory.moved_m = Vec3::Zero();
@@ -59,10 +66,13 @@ void rest_at(const Quat& chest, double scale, double t_s, SpineMemory& memory) {
     for (std::size_t i = 0; i < k_body_links; ++i) {
         const SpineLink& link = spine_links()[i];
         const SpineFrame& above = frame_above_link(chain, link);
+        const Vec3& rest = i < k_spine_links ? lean.rest_above[i] : link.rest;
         memory.offset_m[i] = link_base(above, memory.offset_m, link, scale) +
-                             above.axes * ((scale * link.length_m) * link.rest);
-        memory.angle_rad[i] = rest_angle(link);
-        chain.links[i] = frame_at(link_frame(above.rotation, link.rest, 0.0));
+                             above.axes * ((scale * link.length_m) * rest);
+        memory.angle_rad[i] = i < k_spine_links
+                                  ? arc_tangent2(rest.cross(link.rest).norm(), rest.dot(link.rest))
+                                  : rest_angle(link);
+        chain.links[i] = frame_at(link_frame(above.rotation, rest, 0.0));
     }
     memory.before_m = memory.offset_m;
 }
@@ -95,8 +105,8 @@ TickShares tick_shares(const SpineTuning& tuning) {
              range_of(SpineLinkKind::shin, tuning)}};
 }
 
-// Upper limit of a joint. At a surface legs may tuck farther than a swing takes them, as far as a
-// person's do. Afterwards the limit returns with the joint at a limited speed.
+// Upper limit of a joint. At a surface, legs may be pushed beyond their swing limit, up to a human
+// range. Afterwards the limit follows the joint back at a limited speed.
 double reached_limit(SpineLinkKind kind, double limit_rad, bool touches, double angle_rad) {
     constexpr double k_hip_rad = 1.9;
     constexpr double k_knee_rad = 2.4;
@@ -121,8 +131,9 @@ void slow_down(double drag, double speed_max_mps, BodyLinkVectors& velocity_mps)
 
 struct Ticked {
     Quat chest;
-    Vec3 moved_m;  // chest displacement since the last tick
-    Vec3 ahead_m;  // chest displacement from this tick to the frame's end
+    double lying;  // ArmEstimate::lying
+    Vec3 moved_m;  // neck's displacement since the last tick
+    Vec3 ahead_m;  // neck's displacement from this tick to the frame's end
     double share;  // share of the frame that has passed, [0, 1]
 };
 
@@ -134,7 +145,7 @@ void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemor
     BodyPull& pull = memory.pull;
     follow_pull(pull.hands_before + now.share * (pull.hands - pull.hands_before), k_spine_tick_s,
                 tuning, pull);
-    const TrunkLean lean = lean_of(chest.conjugate() * pull.now);
+    const TrunkLean lean = lean_at(chest, pull.now, now.lying);
     SpineChain chain{frame_at(leaning_chest(chest, lean)), {}};
     const TickShares shares = tick_shares(tuning);
     constexpr double k_ticks_per_s = 1.0 / k_spine_tick_s;
@@ -172,7 +183,7 @@ void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemor
             memory.velocity_mps[i] += correction_mps;
         }
         if (link.parent != k_chest_link && outside == returned) {
-            // The pelvis has two thighs; each contributes half.
+            // The pelvis has two thighs; each contributes half of the correction.
             const double share = link.kind == SpineLinkKind::thigh ? 0.5 : 1.0;
             memory.velocity_mps[link.parent] -= (share * tuning.hand_back) * correction_mps;
         }
@@ -187,8 +198,11 @@ void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemor
 struct Motion {
     double dt_s;
     double t_s;  // world clock at the frame's end
+    double lying;
     Pose chest_ps;
-    Vec3 moved_m;  // chest displacement in this frame relative to the reference, play-space axes
+    // Displacements in this frame relative to the reference, play-space axes.
+    Vec3 moved_m;        // the neck
+    Vec3 chest_moved_m;  // the chest
 };
 
 void play(const Motion& motion, double scale, const SpineTuning& tuning, SpineMemory& memory) {
@@ -201,8 +215,8 @@ void play(const Motion& motion, double scale, const SpineTuning& tuning, SpineMe
         const Vec3 moved_m = memory.moved_m + (path.at(until_s) - path.at(played_s));
         played_s = until_s;
         const Quat chest = between(from, motion.chest_ps.rotation, played_s / span_s);
-        tick({chest, moved_m, path.at(span_s) - path.at(until_s), played_s / span_s}, scale, tuning,
-             memory);
+        tick({chest, motion.lying, moved_m, path.at(span_s) - path.at(until_s), played_s / span_s},
+             scale, tuning, memory);
         memory.moved_m = Vec3::Zero();
         memory.since_tick_s = 0.0;
     }
@@ -214,13 +228,14 @@ void play(const Motion& motion, double scale, const SpineTuning& tuning, SpineMe
     memory.rate_span_s = span_s;
 }
 
-// Looks for surfaces beside the body, if the stage has any.
+// Searches for surfaces beside the body, if io.surfaces is set.
 void touch_surfaces(const PropagateSpineIo& io, Entity player, const Motion& motion,
                     const TrackedFloor& floor, SpineMemory& memory) {
     if (!io.surfaces) {
         return;
     }
-    // The eyes are near the surface of the head's collider, which may touch other surfaces.
+    // A point inside the head, because the eyes are near the surface of the head's collider, which
+    // may touch other surfaces.
     const Vec3 in_head_m(0.0, 0.0, 0.08);
     const BodySurroundings around{io.surfaces,
                                   io.persistent_id.at(player).value,
@@ -229,7 +244,7 @@ void touch_surfaces(const PropagateSpineIo& io, Entity player, const Motion& mot
                                   motion.chest_ps.position,
                                   floor,
                                   io.pose.at(player)};
-    find_body_contacts(around, io.t_s, io.dt_s, motion.moved_m, memory);
+    find_body_contacts(around, io.t_s, io.dt_s, motion.chest_moved_m, memory);
 }
 
 // Whether another player's hand holds the trunk or a leg.
@@ -257,16 +272,20 @@ void propagate_player(const PropagateSpineIo& io, std::size_t row, const SpineTu
     const double scale = io.measures.at(player).eye_height_m / k_scale_eye_m;
     const Pose& chest_ps = io.estimate.at(player).chest_ps;
     const double floor_m = io.head.at(player).shift_m.y();
-    const TrackedFloor floor{chest_ps.position.y() - floor_m, scale};
+    const double lying = io.estimate.at(player).lying;
+    const TrackedFloor floor{chest_ps.position.y() - floor_m, scale, lying};
     const Held is_held = held(io, player);
-    // A held body's velocities are relative to its player's.
+    // While the body is held, its velocities are relative to the player's velocity.
     const Vec3 reference_ws =
         is_held.now ? io.velocity.at(player).linear_mps : io.reference.at(player).linear_mps;
-    const Vec3 own_m = chest_ps.position - memory.chest_ps.position;
+    // A neck that bends moves the chest a little. That is no motion of the body, which would swing:
+    // the chain goes along rigidly.
+    const Vec3 neck_ps = chest_ps.position - io.estimate.at(player).from_neck_m;
+    const Vec3 own_m = neck_ps - memory.neck_ps;
     const Quat to_ps = origin_ws.rotation.conjugate();
     const Vec3 relative = to_ps * (io.velocity.at(player).linear_mps - reference_ws);
     if (!memory.known || is_jump(own_m.norm(), io.dt_s)) {
-        rest_at(chest_ps.rotation, scale, io.t_s, memory);
+        rest_at(chest_ps.rotation, lying, scale, io.t_s, memory);
         memory.known = true;
         memory.rate_mps = relative;
         memory.rate_span_s = io.dt_s;
@@ -279,12 +298,16 @@ void propagate_player(const PropagateSpineIo& io, std::size_t row, const SpineTu
             velocity += shift;
         }
         memory.rate_mps += shift;
-        const Motion motion{io.dt_s, io.t_s, chest_ps, own_m + io.dt_s * relative};
+        const Vec3 travel_m = io.dt_s * relative;
+        const Motion motion{
+            io.dt_s,  io.t_s,           lying,
+            chest_ps, own_m + travel_m, chest_ps.position - memory.chest_ps.position + travel_m};
         touch_surfaces(io, player, motion, floor, memory);
         play(motion, scale, tuning, memory);
     }
     memory.reference_ws_mps = reference_ws;
     memory.chest_ps = chest_ps;
+    memory.neck_ps = neck_ps;
     pose_spine(origin_ws * chest_ps, memory, chest_ps, floor, io.pose.at(player));
 }
 

@@ -18,7 +18,7 @@ void read_input(const FrameContext& f) {
 
 // Everything before the solve.
 void prepare_solve(const FrameContext& f, Contacts contacts) {
-    // Intent: what players do.
+    // Intent: grabs, pulls and locomotion of players.
     group_joints(f);
     place_colliders(f, Stage::update_grabs);
     update_grabs(f);
@@ -58,21 +58,21 @@ void finish_solve(const FrameContext& f) {
 
 // What players see of each other.
 void show(const FrameContext& f) {
-    // Palms and fingers on what they hold.
+    // Poses palms and fingers on what the hands hold.
     gather_surroundings(f);
     search_grip(f);
     constrain_palms(f);
     sweep_fingers(f);
     fit_hands(f);
 
-    // Arms, spine and legs between head and hands.
+    // Poses arms, spine and legs so that they connect head and hands.
     estimate_arms(f);
     layer_clavicles(f);
     pose_arms(f);
     propagate_spine(f);
     layer_additives(f);
 
-    // Output.
+    // Writes the poses that hosts draw.
     publish_pose(f);
     publish_body(f);
 }

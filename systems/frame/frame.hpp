@@ -60,15 +60,16 @@ struct FrameCaches {
 void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
                 StageStats& stats);
 
-// Shows players while the world stands still, as in a menu: heads, hands and bodies follow each
-// player's last sample for dt_s, and the clock, bodies, joints, grips and players' origins stay.
-// The next step_frame goes on where the last one ended. Throws as step_frame.
+// Shows players while the world is paused, as in a menu. Heads, hands and bodies follow each
+// player's last sample for dt_s; the clock, bodies, joints, grips and players' origins do not
+// change. The next step_frame continues from the end of the last one. Throws the same errors as
+// step_frame.
 void step_pose_only(World& world, FrameCaches& caches, const Tuning& tuning,
                     const FrameInput& input, StageStats& stats);
 
 // Hash of all columns, the clock, the reference velocity and, unless it is zero, gravity.
-// Identifies rows by persistent id, so it is independent of slots, creation order, thread count,
-// build, compiler and processor. docs/guide/platforms.md lists the tested targets.
+// Identifies elements by persistent id, so it is independent of slots, creation order, thread
+// count, build, compiler and processor. docs/guide/platforms.md lists the tested targets.
 std::uint64_t hash_state(const World& world);
 
 }  // namespace handhold

@@ -1,5 +1,5 @@
-// The state hash: one hash per row, of the component's name, the owner's persistent id and every
-// field. Rows are summed, so their order does not matter.
+// The state hash: one hash per element of a column, of the component's name, the owner's persistent
+// id and every field. The hashes are summed, so their order does not matter.
 #include <array>
 #include <type_traits>
 
@@ -31,7 +31,7 @@ class FieldHasher {
         add(pose.position);
         add(pose.rotation);
     }
-    // By persistent id: a handle's slot depends on the pool's history.
+    // Hashes the persistent id, because a handle's slot depends on the pool's history.
     void add(Entity entity) const {
         const PersistentId* const id = world_.persistent_id.find(entity);
         stream_.add(id != nullptr ? id->value : std::uint64_t{0});

@@ -127,7 +127,7 @@ void fit_hands(const FrameContext& f) {
                              .offset = w.palm_offset,
                              .fingers = w.finger_pose,
                              .palm = w.palm_pose},
-                            f.tuning, slice.stats);
+                            f.tuning, slice.stats, slice.fit_rows);
     });
 }
 

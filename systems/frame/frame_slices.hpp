@@ -9,10 +9,10 @@
 
 namespace handhold::stages {
 
-// Runs a stage in parallel on slices of `count` rows of hands or players: stage(slice, first,
-// last). `slice` is scratch memory that the stages share one after the other. Neither the slices
-// nor the sums of their counters depend on the number of threads. Only fallbacks are summed: a
-// stage in slices must not count anything else.
+// Runs a stage in parallel on slices of `count` hands or players: stage(slice, first, last).
+// `slice` is scratch memory that the stages use one after the other. Neither the slices nor the
+// sums of their counters depend on the number of threads. Only fallbacks are summed: a stage in
+// slices must not count anything else.
 template <typename SliceStage>
 void for_slices(const FrameContext& f, std::size_t count, const SliceStage& stage) {
     constexpr std::size_t k_rows_per_slice = 8;

@@ -37,6 +37,8 @@ void read_tracking(const FrameContext& f) {
                             .frame_end_s = f.end_s(),
                             .owner = w.hand_owner,
                             .controller_to_hand = w.controller_to_hand,
+                            .recenter_guess = w.recenter_guess,
+                            .grab = w.grab,
                             .head = w.head_tracking,
                             .hand = w.hand_tracking,
                             .history = w.hand_history,

@@ -43,7 +43,7 @@ void animate_movers(const FrameContext& f);
 void predict_bodies(const FrameContext& f);
 void anchor_grabs(const FrameContext& f);
 void find_contacts(const FrameContext& f);
-// Leaves the frame without contacts of ours, because the host finds them.
+// Removes the frame's contacts, because the host finds its own.
 void clear_contacts(const FrameContext& f);
 void build_constraints(const FrameContext& f);
 void solve_phases(const FrameContext& f);
@@ -53,11 +53,12 @@ void book_momentum(const FrameContext& f);
 void record_valid_poses(const FrameContext& f);
 void limit_velocities(const FrameContext& f);
 void update_joints(const FrameContext& f);
-// The host's solution, and StageStats::hand_error_m. Its time belongs to no stage.
+// Takes the host's solution and writes StageStats::hand_error_m. Its time is not part of any
+// stage's time.
 void accept_solution(const FrameContext& f, std::span<const SolvedPlayer> solved);
 // Leaves the frame without constraints and push-backs, because the host has moved everything.
 void clear_solution(const FrameContext& f);
-// Its time belongs to no stage.
+// Runs keep_holds. Its time is not part of any stage's time.
 void keep_holds(const FrameContext& f);
 void discard_broken_results(const FrameContext& f);
 void gather_surroundings(const FrameContext& f);

@@ -22,7 +22,8 @@ void slip_to(const Pose& anchor_bs, Grab& grab) {
     grab.anchor_bs = anchor_bs;
 }
 
-// Anchor at the start of the frame, where all poses are exact. A resumed hand is where it is now.
+// The hand's anchor at the start of the frame, when all poses are known exactly. For a resumed
+// hand: at its present pose.
 Pose anchor_at_start_bs(const AnchorGrabsIo& io, Entity player, const HandTracking& hand,
                         const Grab& grab) {
     const GrabInstant start{io, 0.0};
@@ -34,8 +35,8 @@ void take_anchor_at_start(const AnchorGrabsIo& io, Entity player, const HandTrac
     grab.anchor_bs = anchor_at_start_bs(io, player, hand, grab);
 }
 
-// Hands that drove a body together and no longer do, for any reason: the one that stays takes a new
-// anchor.
+// If two hands drove a body together and one of them has left, for any reason, the one that stays
+// takes a new anchor.
 void end_broken_two_hand_grips(const AnchorGrabsIo& io, StageStats& stats) {
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const HandPair pair = pair_of(io, row);
@@ -55,8 +56,9 @@ double line_length_m(const HandPair& pair) {
     return std::min(apart.norm(), apart_bs.norm());
 }
 
-// Decides whether the two hands drive the body together. If they are too close, the second hand has
-// no effect; once they part, the line between them starts as it is then. Nothing jumps either way.
+// Decides whether the two hands drive the body together. While they are too close, the second hand
+// has no effect. Once they move apart, the line between them is taken as it is at that time, so
+// that nothing jumps.
 void pair_hands(const AnchorGrabsIo& io, const HandPair& first, StageStats& stats) {
     constexpr double k_begin_two_handed_m = 0.05;
     constexpr double k_end_two_handed_m = 0.04;
@@ -100,9 +102,9 @@ void set_target(const AnchorGrabsIo& io, const HandTracking& hand, Grab& grab) {
     set_target_pose(io, hand.pose_ps, hand, grab);
 }
 
-// Returns the new anchor of the hand that stays on a shared hold when the other hand lets go: the
-// staying hand's pose relative to the body it holds, at the instant of release. Uses the poses that
-// both hands together gave to the player and to a held free body.
+// Returns the new anchor of the hand that stays when the other of two hands that grip together
+// (share_hold) lets go: the staying hand's pose relative to the body it holds, at the instant of
+// release. Uses the poses that both hands together gave to the player and to a held free body.
 Pose staying_anchor_bs(const AnchorGrabsIo& io, const HandPair& leaving, bool leaving_is_first,
                        const PhaseTuning& tuning) {
     const Grab& staying = *leaving.other;
@@ -140,14 +142,16 @@ bool leaves_shared_grip(const HandPair& pair) {
            pair.other->phase == GrabPhase::holding && share_hold(pair.grab, *pair.other);
 }
 
-// Hands that let go of a shared hold leave now; the hands that stay take new anchors. All anchors
-// are found before any hand leaves, because hands of several players may drive one body.
+// If one of two hands that grip together (share_hold) lets go, it leaves now, and the other takes a
+// new anchor. All anchors are found before any hand leaves, because hands of several players may
+// drive one body.
 void leave_shared_grips(const AnchorGrabsIo& io, const PhaseTuning& tuning, StageStats& stats) {
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const HandPair pair = pair_of(io, row);
         if (leaves_shared_grip(pair)) {
             const std::size_t other = find_other_hand(io.owner, io.grab, row);
-            // Stored in the leaving hand until then; its own anchor is no longer needed.
+            // Stored in the leaving hand until all anchors are found; that hand no longer needs its
+            // own.
             pair.grab.anchor_bs =
                 staying_anchor_bs(io, pair, is_first_hand(io.owner, io.grab, row, other), tuning);
         }
@@ -163,7 +167,8 @@ void leave_shared_grips(const AnchorGrabsIo& io, const PhaseTuning& tuning, Stag
     }
 }
 
-// Hands that opened while they were not tracked: their present pose says nothing about the release.
+// Ends grips of hands that opened while they were not tracked: their present pose says nothing
+// about the release.
 void drop_lost_grabs(const AnchorGrabsIo& io, StageStats& stats) {
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const HandPair pair = pair_of(io, row);
@@ -179,10 +184,11 @@ void drop_lost_grabs(const AnchorGrabsIo& io, StageStats& stats) {
 }
 
 // Moves a free body into the hand that holds it:
-//  - into its authored grip, at the rate of shown palms. The grip was authored against hand and
-//    controller: a gun points where the controller does;
+//  - into its authored grip, at the rate of shown palms. The grip is authored relative to the
+//    controller, so a gun points where the controller points;
 //  - else back to where the hand first held it, if tracking errors moved the hand.
-// Two hands on one body define its pose together: only a slip is undone then.
+// A body in two hands gets its pose from both: then only the displacement by tracking errors is
+// undone.
 void move_into_hand(const AnchorGrabsIo& io, Entity entity, const Tuning& tuning,
                     const HandPair& pair) {
     Grab& grab = pair.grab;
@@ -205,9 +211,9 @@ void move_into_hand(const AnchorGrabsIo& io, Entity entity, const Tuning& tuning
     }
 }
 
-// The hand of another player that drives the free body which `joining` closes on or opens from.
-// None if there is none, or if hands of several players share the body: that depends on their
-// masses, which only the solver knows.
+// The hand of another player that drives the free body which `joining` grips or releases. None if
+// there is no such hand. Also none if hands of several players hold the body: its motion then
+// depends on their masses, which only the solver knows.
 std::optional<HandPair> leader_of(const AnchorGrabsIo& io, const HandPair& joining) {
     std::optional<HandPair> leader;
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
@@ -232,8 +238,8 @@ std::optional<HandPair> leader_of(const AnchorGrabsIo& io, const HandPair& joini
     return leader;
 }
 
-// A body that another player still holds is not thrown: from its edge to the end of the frame, the
-// leaving hand moves as the body does. False if nobody else holds the body.
+// A body that another player still holds is not thrown: from the instant of release to the end of
+// the frame, the leaving hand moves with the body. Returns false if nobody else holds the body.
 bool follow_leader(const AnchorGrabsIo& io, const HandPair& leaving) {
     const std::optional<HandPair> leader = leader_of(io, leaving);
     if (!leader || leader->grab.phase == GrabPhase::releasing) {
@@ -274,8 +280,8 @@ void anchor_new_grab(const AnchorGrabsIo& io, const HandPair& pair, const PhaseT
     pair.grab.phase = GrabPhase::holding;
 }
 
-// Row of the new grip whose hand closed first in this frame (edge_t_s), or the column's size if no
-// grip is new. The hand that closes first drives the body. Later hands join it, whatever their
+// Index of the new grip whose hand closed first in this frame (edge_t_s), or the column's size if
+// no grip is new. The hand that closes first drives the body. Later hands join it, whatever their
 // order in the column.
 std::size_t earliest_new_grab(const AnchorGrabsIo& io) {
     std::size_t earliest = io.grab.size();
@@ -353,7 +359,7 @@ void limit_hand_speeds(const AnchorGrabsIo& io, double max_speed_mps, StageStats
 
 void anchor_grabs(const AnchorGrabsIo& io, const Tuning& tuning, StageStats& stats) {
     end_broken_two_hand_grips(io, stats);
-    // New grips come before releases.
+    // Anchors new grips before it handles releases.
     for (std::size_t row = earliest_new_grab(io); row < io.grab.size();
          row = earliest_new_grab(io)) {
         anchor_new_grab(io, pair_of(io, row), tuning.phases);

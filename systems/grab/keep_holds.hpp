@@ -20,9 +20,9 @@ struct KeepHoldsIo {
     Column<ReferenceVelocity>& reference;       // out
 };
 
-// For hosts that decide themselves what each hand holds. Ends holds on bodies that were removed,
-// and writes each hand's distance from its anchor. Sets each player's reference velocity to that of
-// the gripped surface, or to the scene's.
+// For hosts that decide what each hand holds (hh_hand_hold). Ends holds on bodies that were
+// removed, and writes each hand's distance from its anchor. Sets each player's reference velocity
+// to that of the gripped surface, or to the scene's.
 void keep_holds(const KeepHoldsIo& io);
 
 }  // namespace handhold

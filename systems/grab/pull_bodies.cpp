@@ -92,14 +92,14 @@ Entity find_pullable_body(const PullBodiesIo& io, Entity hand, const Tuning& tun
 }
 
 // Offset from the body's nearest surface point to the palm; from its centre if it has no surface.
-// The centre would not do: a palm in the middle of a ring has nothing to grip, and that of a long
-// pole may be far away.
+// The centre is not used otherwise: a hand cannot grip the middle of a ring, and the centre of a
+// long pole may be far away.
 Vec3 offset_to_palm(const PullBodiesIo& io, Entity pulled, const Vec3& palm_ws) {
     const auto near = io.surfaces.closest_point_on(io.persistent_id.at(pulled).value, palm_ws);
     return palm_ws - (near ? near->point_ws : io.body_pose.at(pulled).pose_ws.position);
 }
 
-// False if the pull ends; counted if the hand did not end it.
+// Returns false if the pull ends. Counts a fallback unless the player opened the hand.
 bool can_continue(const PullBodiesIo& io, Entity hand, const HandPull& pull, const Tuning& tuning,
                   StageStats& stats) {
     const HandTracking& tracking = io.hand.at(hand);
@@ -119,7 +119,7 @@ bool can_continue(const PullBodiesIo& io, Entity hand, const HandPull& pull, con
     return may_go_on;
 }
 
-// One frame of the rope: an impulse on the body, and its opposite on the player.
+// Applies one frame's pull: an impulse on the body, and its opposite on the player.
 void apply_pull(const PullBodiesIo& io, Entity hand, Entity pulled, const Tuning& tuning) {
     const Entity player = io.owner.at(hand).player;
     const HandTracking& tracking = io.hand.at(hand);

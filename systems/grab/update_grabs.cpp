@@ -45,8 +45,8 @@ struct Closing {
     Entity only = k_no_entity;  // null: anything
 };
 
-// A pulled body is gripped once it touches the palm, or has passed it by a frame's travel. At
-// HandTuning::reach_m it would stay that far away.
+// True if a pulled body can be gripped: it touches the palm, or has passed it by a frame's travel.
+// If it were gripped at HandTuning::reach_m already, it would stay that far away.
 bool is_at_palm(const GrabTarget& target, const PalmRay& ray) {
     constexpr double k_touches_m = 0.02;
     const Vec3 offset = target.point_ws - ray.palm_ws;
@@ -106,9 +106,9 @@ void start_grab(const UpdateGrabsIo& io, Entity hand, const GrabTarget& target, 
     }
 }
 
-// For a body that only both hands together may grip, with the hand of `row` gripping it at `mine`.
-// True if the player's other hand already holds the body, or is closed on it; that hand then grips
-// it.
+// Tries to grip a body that needs both hands; the hand at index `row` grips it at `mine`. Returns
+// true if the player's other hand already holds the body, or is closed at it: then that hand grips
+// the body here.
 bool other_hand_joins(const UpdateGrabsIo& io, std::size_t row, const GrabTarget& mine,
                       const Tuning& tuning, StageStats& stats) {
     const std::size_t other = find_other_hand(io.owner, io.grab, row);
@@ -129,7 +129,7 @@ bool other_hand_joins(const UpdateGrabsIo& io, std::size_t row, const GrabTarget
         return false;
     }
     if (target->hold && mine.hold && target->hold->grip == mine.hold->grip) {
-        target->hold.reset();  // a hand has an authored grip for itself
+        target->hold.reset();  // two hands cannot use the same authored grip
     }
     const double since_s = closes_now ? hand.edge_t_s : io.hand.at(io.grab.owners()[row]).edge_t_s;
     start_grab(io, entity, *target, since_s, grab, tuning, stats);
@@ -169,7 +169,7 @@ void begin_grab(const UpdateGrabsIo& io, std::size_t row, const Closing& closing
     start_grab(io, entity, *target, closing.since_s, io.grab.rows()[row], tuning, stats);
 }
 
-// Row of the player's other hand, if that grips something too.
+// Index of the player's other hand, if that grips something too.
 std::optional<std::size_t> partner_of(const UpdateGrabsIo& io, std::size_t row) {
     const std::size_t other = find_other_hand(io.owner, io.grab, row);
     return other < io.grab.size() && io.grab.rows()[other].kind != GripKind::none
@@ -185,8 +185,8 @@ Pose gripped_start_ws(const UpdateGrabsIo& io, Entity gripped, const BodyHold* h
                                  (hold != nullptr ? hold->start_ps : io.head.at(gripped).start_ps);
 }
 
-// Lets go now. If the other hand shares the hold, it takes a new anchor where it is before anything
-// has moved: its own error must not move the player.
+// Ends the grip at once. If the two hands grip together (share_hold), the other hand takes a new
+// anchor where it is, before anything has moved, so that its own error does not move the player.
 void release_grab(const UpdateGrabsIo& io, std::size_t row, Fallback reason, StageStats& stats) {
     Grab& grab = io.grab.rows()[row];
     stats.note(reason, io.grab.owners()[row], grab.body);
@@ -206,8 +206,9 @@ void release_grab(const UpdateGrabsIo& io, std::size_t row, Fallback reason, Sta
     grab = {};
 }
 
-// Of a player's two stretched hands, the one with the larger error lets go; of equal ones the one
-// that closed later; of two that closed at once the left one. The other may then reach its anchor.
+// True if this hand lets go when both of a player's hands are overstretched: the one with the
+// larger error; with equal errors the one that closed later; if both closed at once, the left one.
+// The other hand may then reach its anchor.
 bool yields_to_partner(const UpdateGrabsIo& io, std::size_t row, std::size_t partner) {
     const Grab& grab = io.grab.rows()[row];
     const Grab& other = io.grab.rows()[partner];
@@ -230,7 +231,8 @@ void release_destroyed_bodies(const UpdateGrabsIo& io, StageStats& stats) {
     }
 }
 
-// Hands that grip alone first: a hand whose partner lets go here waits for the next frame.
+// Evaluates hands that grip alone first. A hand whose partner lets go in this pass is left until
+// the next frame.
 void release_overstretched_grabs(const UpdateGrabsIo& io, double max_stretch_m, StageStats& stats) {
     for (const bool alone : {true, false}) {
         for (std::size_t row = 0; row < io.grab.size(); ++row) {
@@ -246,7 +248,8 @@ void release_overstretched_grabs(const UpdateGrabsIo& io, double max_stretch_m, 
     }
 }
 
-// On a player's part, the distance is that from the surface point that was gripped.
+// True if the palm is farther than `reach_m` from the gripped surface; on a player's part, from the
+// surface point that was gripped.
 bool is_out_of_reach(const UpdateGrabsIo& io, Entity hand, const Vec3& palm_ws, double reach_m) {
     const Grab& grab = io.grab.at(hand);
     if (const BodyHold* const hold = io.body_hold.find(hand)) {
@@ -306,7 +309,7 @@ void update_authored_hold(const UpdateGrabsIo& io, Entity entity, const Grab& gr
     }
 }
 
-// One of both hands left a body that needs them, or leaves it now.
+// Ends two-handed grips that one of the hands has left or leaves now.
 void release_half_held_bodies(const UpdateGrabsIo& io, StageStats& stats) {
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const Grab& grab = io.grab.rows()[row];

@@ -7,17 +7,18 @@
 #include "systems/hand/shared/hand_fit.hpp"
 #include "systems/hand/shared/thumb_closing.hpp"
 #include "systems/rigs/authored_hand.hpp"
+#include "systems/rigs/hand_limits.hpp"
 
 namespace handhold {
 namespace {
 
 constexpr std::int32_t k_closing_rounds = 10;
-constexpr std::int32_t k_closing_again_rounds = 2;  // rounds of a hand that shows a fit meanwhile
+// Rounds for a hand that still shows its last fit.
+constexpr std::int32_t k_closing_again_rounds = 2;
 // A warm fit continues in the next frame.
 constexpr std::int32_t k_rounds = 1;
 constexpr double k_max_flex_rad = 0.15;
-constexpr double k_deep_m = 3e-3;     // a fit that penetrates deeper is counted
-constexpr double k_fist_curl = 0.85;  // share of the range from open to fully curled
+constexpr double k_deep_m = 3e-3;  // a fit that penetrates deeper is counted
 
 // How far a digit of an empty hand is closed: 0 at rest, 1 in a fist.
 double closed_share(const HandTracking& hand, FingerName digit) {
@@ -27,13 +28,22 @@ double closed_share(const HandTracking& hand, FingerName digit) {
     return digit == FingerName::index ? std::max(hand.squeeze, hand.trigger) : hand.squeeze;
 }
 
-// Angles of an empty hand's digit; `closed` as closed_share.
-FingerAngles empty_angles(const FingerRig& finger, double closed, const ThumbTuning& tuning) {
+// Curl of a straight digit's hinge, radians.
+double straight_rad(const FingerRig& finger, std::size_t link) {
+    return std::clamp(0.0, finger.lower_rad[link], finger.upper_rad[link]);
+}
+
+// Angles of an empty hand's digit: as its curl says where that is known, else between the rest pose
+// and a fist.
+FingerAngles empty_angles(const FingerRig& finger, const HandTracking& hand,
+                          const ThumbTuning& tuning) {
+    const double curl = hand.curls[static_cast<std::size_t>(finger.name)];
+    const bool is_known = curl >= 0.0;
+    const double closed = is_known ? curl : closed_share(hand, finger.name);
     FingerAngles angles;
     for (std::size_t i = 0; i < finger.link_count; ++i) {
-        const double fist_rad =
-            finger.lower_rad[i] + k_fist_curl * (finger.upper_rad[i] - finger.lower_rad[i]);
-        angles.curl_rad[i] = finger.rest_rad[i] + closed * (fist_rad - finger.rest_rad[i]);
+        const double open_rad = is_known ? straight_rad(finger, i) : finger.rest_rad[i];
+        angles.curl_rad[i] = open_rad + closed * (fist_rad(finger, i) - open_rad);
     }
     if (finger.name == FingerName::thumb) {
         angles.opposition_rad = rest_opposition_rad(finger, tuning);
@@ -47,9 +57,10 @@ void pose_unsupported_hand(const HandSurroundings& hand, const HandTracking& tra
     offset.target_turn_rad = offset.held_turn_rad;
     for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
         const FingerRig& finger = hand.rig->fingers[f];
-        const double closed = hand.is_gripping ? 0.0 : closed_share(tracking, finger.name);
         pose.target[f] =
-            pose.is_authored[f] ? pose.closed[f] : empty_angles(finger, closed, tuning);
+            pose.is_authored[f]
+                ? pose.closed[f]
+                : empty_angles(finger, hand.is_gripping ? HandTracking{} : tracking, tuning);
     }
     pose.fitted_body = k_no_entity;
     pose.is_converged = false;
@@ -67,17 +78,17 @@ HandFitGoal common_goal(const HandSurroundings& hand, const FingerPose& pose) {
 // Starts at the palm within its limits and the closed digits.
 HandFit fit_closed(const HandSurroundings& hand, const GripSurface& surface,
                    const PalmOffset& offset, const FingerPose& pose, std::int32_t rounds,
-                   const PalmTuning& tuning) {
+                   const PalmTuning& tuning, std::vector<PenaltyRow>& rows) {
     HandFitGoal goal = common_goal(hand, pose);
     goal.first = {held_wrist_bs(hand, offset), pose.closed};
     goal.is_clear = pose.is_closed_clear;
     goal.rounds = rounds;
-    return fit_hand(hand, surface, goal, tuning);
+    return fit_hand(hand, surface, goal, tuning, rows);
 }
 
 // Starts at the last fit, carried along with the tracked wrist.
 HandFit fit_last(const HandSurroundings& hand, const GripSurface& surface, const PalmOffset& offset,
-                 const FingerPose& pose, const PalmTuning& tuning) {
+                 const FingerPose& pose, const PalmTuning& tuning, std::vector<PenaltyRow>& rows) {
     HandFitGoal goal = common_goal(hand, pose);
     const Pose target{offset.target_m, rotation_from_vector(offset.target_turn_rad)};
     goal.first = {goal.is_wrist_fixed ? held_wrist_bs(hand, offset) : hand.wrist_bs * target,
@@ -90,25 +101,26 @@ HandFit fit_last(const HandSurroundings& hand, const GripSurface& surface, const
     goal.is_clear = pose.is_clear;
     goal.rounds = k_rounds;
     goal.max_flex_rad = k_max_flex_rad;
-    return fit_hand(hand, surface, goal, tuning);
+    return fit_hand(hand, surface, goal, tuning, rows);
 }
 
 HandFit best_fit(const HandSurroundings& hand, const GripSurface& surface, const Tuning& tuning,
-                 const PalmOffset& offset, const FingerPose& pose) {
+                 const PalmOffset& offset, const FingerPose& pose, std::vector<PenaltyRow>& rows) {
     if (!pose.is_newly_closed) {
-        return fit_last(hand, surface, offset, pose, tuning.palm);
+        return fit_last(hand, surface, offset, pose, tuning.palm, rows);
     }
     const bool has_last = pose.fitted_body == hand.body && hand.authored == nullptr;
-    HandFit closed = fit_closed(hand, surface, offset, pose,
-                                has_last ? k_closing_again_rounds : k_closing_rounds, tuning.palm);
+    HandFit closed =
+        fit_closed(hand, surface, offset, pose,
+                   has_last ? k_closing_again_rounds : k_closing_rounds, tuning.palm, rows);
     if (!has_last) {
         return closed;
     }
-    HandFit last = fit_last(hand, surface, offset, pose, tuning.palm);
+    HandFit last = fit_last(hand, surface, offset, pose, tuning.palm, rows);
     return closed.cost < k_change_cost_share * last.cost ? closed : last;
 }
 
-// A hand at rest is fitted until the fit has converged.
+// True if the hand keeps its last fit. A hand at rest is fitted until the fit has converged.
 bool sticks(const HandSurroundings& hand, const FingerTuning& tuning, const FingerPose& pose) {
     const double travel_m = hand_travel_m(pose.fitted_wrist_bs, hand.wrist_bs);
     return travel_m < tuning.reuse_travel_m ? pose.is_converged
@@ -116,12 +128,13 @@ bool sticks(const HandSurroundings& hand, const FingerTuning& tuning, const Fing
 }
 
 void fit_one(const HandSurroundings& hand, const GripSurface& surface, const Tuning& tuning,
-             StageStats& stats, PalmOffset& offset, FingerPose& pose) {
+             StageStats& stats, PalmOffset& offset, FingerPose& pose,
+             std::vector<PenaltyRow>& rows) {
     if (!pose.is_newly_closed && pose.fitted_signature == hand.signature &&
         sticks(hand, tuning.finger, pose)) {
         return;
     }
-    const HandFit fit = best_fit(hand, surface, tuning, offset, pose);
+    const HandFit fit = best_fit(hand, surface, tuning, offset, pose, rows);
     const Pose target = inverse(hand.wrist_bs) * fit.pose.wrist_bs;
     offset.target_m = target.position;
     offset.target_turn_rad = rotation_to_vector(target.rotation);
@@ -175,8 +188,8 @@ void follow_palm(const Pose& target_hs, double dt_s, const PalmTuning& tuning, P
     }
 }
 
-// All angles advance by the same share, the largest within their speeds: an angle that arrived
-// first would swing the digit through the surface.
+// All angles advance by the same share, the largest within their speeds: otherwise one angle would
+// reach its target first and swing the digit through the surface.
 void follow_digit(double dt_s, const FingerTuning& tuning, const FingerAngles& target,
                   FingerAngles& shown) {
     double share = 1.0;
@@ -210,6 +223,12 @@ Pose shown_wrist_ws(const HandSurroundings& hand, const PalmOffset& offset) {
 }  // namespace
 
 void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats) {
+    std::vector<PenaltyRow> rows;
+    fit_hands(io, tuning, stats, rows);
+}
+
+void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats,
+               std::vector<PenaltyRow>& rows) {
     for (const HandSurroundings& hand : io.hands) {
         const GripSurface& surface = io.surface.at(hand.hand);
         PalmOffset& offset = io.offset.at(hand.hand);
@@ -217,7 +236,7 @@ void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats) {
         if (surface.triangle == GripSurface::k_none) {
             pose_unsupported_hand(hand, io.hand.at(hand.hand), tuning.thumb, offset, pose);
         } else {
-            fit_one(hand, surface, tuning, stats, offset, pose);
+            fit_one(hand, surface, tuning, stats, offset, pose, rows);
         }
         follow_trigger(hand, io.hand.at(hand.hand).trigger, pose);
         follow_palm(target_in_hand(hand, pose, offset), io.dt_s, tuning.palm, offset);

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "components/hand.hpp"
 #include "components/hand_surroundings.hpp"
@@ -9,6 +10,7 @@
 #include "components/tracking.hpp"
 #include "components/tuning.hpp"
 #include "engine/ecs/column.hpp"
+#include "engine/math/penalty_quadratic.hpp"
 #include "systems/hand/shared/fit_terms.hpp"
 
 namespace handhold {
@@ -22,7 +24,7 @@ inline constexpr double k_stick_m = 1e-3;
 struct FitHandsIo {
     double dt_s;                              // in: length of the frame; infinity: no rate limit
     std::span<const HandSurroundings> hands;  // in: body frame (_bs)
-    const Column<HandTracking>& hand;         // in: pressed, squeeze, trigger
+    const Column<HandTracking>& hand;         // in: pressed, squeeze, trigger, curls
     const Column<GripSurface>& surface;       // in: body frame (_bs)
     Column<PalmOffset>& offset;               // in: held_*; in/out: target_*, shown_*, hand space
     Column<FingerPose>& fingers;              // in: closed, touches; in/out: target, shown, radians
@@ -43,14 +45,18 @@ struct FitHandsIo {
 // move to their pressed pose with the trigger; other digits do not depend on the trigger. Fingers
 // of an empty hand bend from the rest pose as far as the button is pressed that closes the hand,
 // the index finger at least as far as the trigger; once the button counts as pressed the hand is a
+// fist. A finger of known curl (HandTracking::curls) is bent as far as that, from straight to a
 // fist.
 //
 // The shown hand follows at PalmTuning::rate_mps, FingerTuning::close_radps (closing) and
-// open_radps (opening), all angles of a digit by the same share of their way. Only the shown hand
-// moves, never the player.
+// open_radps (opening), all angles of a digit by the same share of their remaining change. Only the
+// shown hand moves, never the player.
 //
 // Fallbacks counted: hand_penetrates, once per fit that started from a closing.
 void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats);
+// The same with scratch memory, so that warm frames do not allocate.
+void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats,
+               std::vector<PenaltyRow>& rows);
 
 // Evaluates the objective of the hand as it is shown, term by term and digit by digit, for
 // inspectors; frames do not compute this. Nullopt if the hand is on no surface.

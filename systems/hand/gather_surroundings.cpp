@@ -70,8 +70,8 @@ class Gatherer {
         return grab.kind != GripKind::held || grab.jointed || grab.two_handed;
     }
 
-    // Returns the mesh of the part that the hand holds, and moves `out` into the mesh's frame.
-    // Null: the hand is not fitted to parts.
+    // Returns the mesh of the part that the hand holds, and transforms `out` into the mesh's frame.
+    // Null if hands are not fitted to parts.
     const GripMesh* enter_part(const BodyHold& hold, Entity player, HandSurroundings& out,
                                HashStream& stream) const {
         if (io_.meshes.of_shapes == nullptr) {

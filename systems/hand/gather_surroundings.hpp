@@ -42,23 +42,24 @@ struct GatherSurroundingsIo {
     MeshesForHands meshes;                        // in
     std::span<const HandRig, k_hand_count> rigs;  // in: by HandSide
     std::span<const HandRig> more_rigs;           // in: by HandRigChoice::index
-    const Column<HandRigChoice>& rig_choice;      // in: without a row or a rig: `rigs`
-    BodiesNearHands near;                         // in: end of the frame
-    const Column<PersistentId>& persistent_id;    // in
-    const Column<HandOwner>& owner;               // in
-    const Column<HandTracking>& hand;             // in: pose_ps, end of the frame
-    const Column<Grab>& grab;                     // in: kind, body, anchor_bs
-    const Column<BodyHold>& body_hold;            // in: of hands on a player's part
-    const Column<PlayerOrigin>& origin;           // in: pose_ws, end of the frame
-    const Column<HeadTracking>& head;             // in: pose_ps, for hands on a player's head
-    const Column<RenderPose>& shown;              // in: held players, as of the last frame
-    const Column<BodyMeasures>& measures;         // in: held players
-    const Column<BodyPose>& body_pose;            // in: pose_ws, end of the frame
-    const Column<Collider>& collider;             // in: shape, the key into `meshes.of_shapes`
+    // in: hands without a choice, or without such a rig: `rigs`
+    const Column<HandRigChoice>& rig_choice;
+    BodiesNearHands near;                       // in: end of the frame
+    const Column<PersistentId>& persistent_id;  // in
+    const Column<HandOwner>& owner;             // in
+    const Column<HandTracking>& hand;           // in: pose_ps, end of the frame
+    const Column<Grab>& grab;                   // in: kind, body, anchor_bs
+    const Column<BodyHold>& body_hold;          // in: hands on a player's part
+    const Column<PlayerOrigin>& origin;         // in: pose_ws, end of the frame
+    const Column<HeadTracking>& head;           // in: pose_ps, for hands on a player's head
+    const Column<RenderPose>& shown;            // in: held players, as of the last frame
+    const Column<BodyMeasures>& measures;       // in: held players
+    const Column<BodyPose>& body_pose;          // in: pose_ws, end of the frame
+    const Column<Collider>& collider;           // in: shape, the key into `meshes.of_shapes`
     // In. HandSurroundings::authored points into this column, so it must not change before the hand
     // stages have run.
     const Column<AuthoredHold>& authored_hold;
-    std::vector<HandSurroundings>& surroundings;  // out: one per row of `owner`, in its order
+    std::vector<HandSurroundings>& surroundings;  // out: one per element of `owner`, in its order
 };
 
 // Collects each hand's wrist pose and the surfaces near the hand, in the gripped body's frame. This
@@ -73,7 +74,8 @@ struct GatherSurroundingsIo {
 //
 // Fallbacks counted: body_no_surface.
 void gather_surroundings(const GatherSurroundingsIo& io, StageStats& stats);
-// The same for the rows [first, last) of `owner`. `surroundings` must already have its full size.
+// gather_surroundings for the elements [first, last) of `owner`. `surroundings` must already have
+// its full size.
 void gather_surroundings(const GatherSurroundingsIo& io, std::size_t first, std::size_t last,
                          StageStats& stats);
 

@@ -8,7 +8,8 @@
 namespace handhold {
 namespace {
 
-constexpr double k_close_again_in_grip_m = 1e-6;  // authored poses are checked where they are
+// small: an authored pose is checked at the exact wrist
+constexpr double k_close_again_in_grip_m = 1e-6;
 
 void count_fallback(ChainFallback fallback, StageStats& stats) {
     if (fallback == ChainFallback::all_cuts) {
@@ -61,7 +62,7 @@ class FingerCloser {
         pose.closed_normal_bs = surface.normal_bs;
         pose.is_closed_in_grip = hand.authored != nullptr;
         pose.is_newly_closed = true;
-        // Thumbs last: they stop at fingers.
+        // Closes thumbs last, because they stop at fingers.
         for (const bool are_thumbs : {false, true}) {
             for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
                 if ((hand.rig->fingers[f].name == FingerName::thumb) != are_thumbs) {
@@ -89,8 +90,8 @@ class FingerCloser {
         }
     }
 
-    // Takes the digit's authored pose unless it penetrates, which is counted once per grip. Returns
-    // whether it did.
+    // Takes the digit's authored pose and returns true, unless that pose penetrates. A rejected
+    // pose is counted once per grip.
     bool take_authored_pose(const HandSurroundings& hand, const Pose& wrist_bs, std::size_t f,
                             FingerPose& pose) {
         const FingerRig& finger = hand.rig->fingers[f];

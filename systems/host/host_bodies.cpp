@@ -68,9 +68,8 @@ constexpr const char* k_gravity_text = "a gravity scale beyond 1000, or NaN";
 
 using namespace handhold;
 
-hh_body_def hh_default_body_def(void) {
+hh_result hh_default_body_def_sized(hh_body_def* filled, size_t size) {
     hh_body_def def{};
-    def.struct_size = sizeof def;
     def.pose = hh_identity_pose();
     def.mass_kg = 1.0;
     def.friction = RigidBody{}.friction;
@@ -78,7 +77,7 @@ hh_body_def hh_default_body_def(void) {
     def.layers = CollisionFilter{}.layers;
     def.mask = CollisionFilter{}.mask;
     def.grab_left = def.grab_right = true;
-    return def;
+    return write_default(filled, size, def);
 }
 
 hh_result hh_body_add(hh_world* world, const hh_body_def* wanted, hh_body* body) {
@@ -102,8 +101,9 @@ hh_result hh_body_add(hh_world* world, const hh_body_def* wanted, hh_body* body)
         const Entity entity = add_body(host.world, description, host.shapes);
         set_gravity(host, entity, gravity);
         set_layers(host, entity, def.layers, def.mask);
-        set_rule(host, entity,
-                 {def.grab_left, def.grab_right, def.grab_two_hands, def.grab_priority});
+        set_rule(
+            host, entity,
+            {def.grab_left != 0, def.grab_right != 0, def.grab_two_hands != 0, def.grab_priority});
         set_user_data(host, entity, def.user_data);
         *body = id_of<hh_body>(entity);
     });
@@ -116,7 +116,7 @@ hh_result hh_body_remove(hh_world* world, hh_body body) {
     });
 }
 
-bool hh_body_is_valid(const hh_world* world, hh_body body) {
+uint8_t hh_body_is_valid(const hh_world* world, hh_body body) {
     return world != nullptr && world->world.body.contains(entity_of(body));
 }
 
@@ -216,7 +216,7 @@ hh_result hh_body_apply_impulse(hh_world* world, hh_body body, hh_vec3 impulse_n
     return call([&] {
         hh_world& host = world_of(world);
         const Entity entity = dynamic_body_of(host, body);
-        constexpr double k_max_impulse_ns = 1e21;  // the heaviest body to the highest speed
+        constexpr double k_max_impulse_ns = 1e21;  // brings the heaviest body to the highest speed
         const Vec3 impulse =
             checked(impulse_ns, k_max_impulse_ns, "an impulse beyond 1e21 N s, or NaN");
         const Vec3 at = checked(point, world_limits::k_max_coordinate_m, "a point beyond 1e9 m");
@@ -268,11 +268,11 @@ hh_result hh_body_set_layers(hh_world* world, hh_body body, uint32_t layers, uin
     });
 }
 
-hh_result hh_body_set_grab_rule(hh_world* world, hh_body body, bool left, bool right,
-                                bool two_hands, int32_t priority) {
+hh_result hh_body_set_grab_rule(hh_world* world, hh_body body, uint8_t left, uint8_t right,
+                                uint8_t two_hands, int32_t priority) {
     return call([&] {
         hh_world& host = world_of(world);
-        set_rule(host, body_of(host, body), {left, right, two_hands, priority});
+        set_rule(host, body_of(host, body), {left != 0, right != 0, two_hands != 0, priority});
     });
 }
 

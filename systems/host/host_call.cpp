@@ -30,6 +30,13 @@ std::atomic<int>& world_count() {
     return count;
 }
 
+void log_note(const char* text) noexcept {
+    const hh_host_hooks& set = hooks();
+    if (set.log != nullptr) {
+        set.log(set.context, HH_LOG_NOTE, text);
+    }
+}
+
 hh_result report_failure(hh_result result, const char* text) noexcept {
     const std::size_t length = std::min(std::strlen(text), k_error_bytes - 1);
     std::memcpy(t_last_error.data(), text, length);
@@ -96,7 +103,7 @@ hh_pose hh_identity_pose(void) { return to_c(Pose{}); }
 void hh_sin_cos(double angle_rad, double* sine, double* cosine) {
     double s = 0.0;
     double c = 1.0;
-    sin_cos(angle_rad, s, c);
+    call([&] { sin_cos(angle_rad, s, c); });
     if (sine != nullptr) {
         *sine = s;
     }
@@ -105,13 +112,16 @@ void hh_sin_cos(double angle_rad, double* sine, double* cosine) {
     }
 }
 
-double hh_atan2(double y, double x) { return arc_tangent2(y, x); }
+double hh_atan2(double y, double x) {
+    double angle_rad = 0.0;
+    call([&] { angle_rad = arc_tangent2(y, x); });
+    return angle_rad;
+}
 
-hh_host_hooks hh_default_host_hooks(void) {
+hh_result hh_default_host_hooks_sized(hh_host_hooks* filled, size_t size) {
     hh_host_hooks set{};
-    set.struct_size = sizeof set;
     set.thread_count = 1;
-    return set;
+    return write_default(filled, size, set);
 }
 
 hh_result hh_set_host_hooks(const hh_host_hooks* wanted) {

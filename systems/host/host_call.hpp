@@ -12,6 +12,7 @@
 
 #include "components/world.hpp"
 #include "engine/core/check.hpp"
+#include "engine/core/float_environment.hpp"
 #include "engine/math/math.hpp"
 
 // What every function of the C interface does: checks, conversions, and turning exceptions into
@@ -38,14 +39,24 @@ inline void require(bool condition, hh_result result, const char* text) {
     }
 }
 
+// Tells the host's log, if it has one, something that is no failure of a call.
+void log_note(const char* text) noexcept;
 // Stores the text for hh_last_error and logs it; HH_ERROR_INTERNAL also calls the assert hook.
 hh_result report_failure(hh_result result, const char* text) noexcept;
 
-// Runs a call. `precondition`: what a PreconditionError means in it.
+// Not inlined, so that the compiler computes nothing of it outside of the FloatEnvironment.
+template <typename Work>
+[[gnu::noinline]] void run_call(Work& work) {
+    work();
+}
+
+// Runs a call in the library's floating-point environment. `precondition`: what a PreconditionError
+// means in it.
 template <typename Work>
 hh_result call(Work&& work, hh_result precondition = HH_ERROR_VALUE) noexcept {
+    const FloatEnvironment environment;
     try {
-        std::forward<Work>(work)();
+        run_call(work);
         return HH_OK;
     } catch (const HostError& error) {
         return report_failure(error.result, error.text.c_str());
@@ -58,30 +69,6 @@ hh_result call(Work&& work, hh_result precondition = HH_ERROR_VALUE) noexcept {
     } catch (...) {
         return report_failure(HH_ERROR_INTERNAL, "an unknown exception");
     }
-}
-
-// A definition of any version up to this library's: what it lacks keeps its default.
-template <typename Def>
-Def read_def(const Def* def, const Def& defaults, std::size_t first_size = sizeof(Def)) {
-    require(def != nullptr, HH_ERROR_NULL, "the definition is null");
-    const std::size_t size = def->struct_size;
-    require(
-        size >= first_size && size <= sizeof(Def), HH_ERROR_VERSION,
-        "struct_size is not of a version that this library knows: use the hh_default_ function");
-    Def read = defaults;
-    std::memcpy(&read, def, size);
-    return read;
-}
-// Writes an output of any version up to this library's.
-template <typename Out>
-void write_out(Out* out, Out value, std::size_t first_size = sizeof(Out)) {
-    require(out != nullptr, HH_ERROR_NULL, "the output is null");
-    const std::uint32_t size = out->struct_size;
-    require(
-        size >= first_size && size <= sizeof(Out), HH_ERROR_VERSION,
-        "struct_size is not of a version that this library knows: use the hh_default_ function");
-    value.struct_size = size;
-    std::memcpy(out, &value, size);
 }
 
 inline Vec3 from_c(const hh_vec3& v) { return {v.x, v.y, v.z}; }

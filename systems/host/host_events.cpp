@@ -140,7 +140,8 @@ void measure_impulses(hh_world& host) {
     }
 }
 
-// One contact for each of those that feel it: the head `a` is, the hands that hold it.
+// Adds one contact for each receiver: if `a` is a head, that head; if hands hold `a`, each of these
+// hands.
 void add_contact(hh_world& host, Entity a, Entity b, double impulse_ns, const Vec3& point_ws) {
     HostContact contact;
     contact.other = b;
@@ -171,8 +172,8 @@ bool was_in_contact(const hh_world& host, Entity a, Entity b) {
 }
 
 void gather_contacts(hh_world& host) {
-    constexpr double k_begin_m = 1e-4;  // farther apart is no contact yet,
-    constexpr double k_end_m = 2e-3;    // and this far apart none any more
+    constexpr double k_begin_m = 1e-4;  // a contact begins when bodies are closer than this
+    constexpr double k_end_m = 2e-3;    // a contact ends when bodies are farther apart than this
     constexpr double k_least_impulse_ns = 1e-9;
     const FrameGraph& frame = host.caches.graph;
     host.last_contacts.swap(host.contacts);
@@ -200,7 +201,8 @@ void gather_contacts(hh_world& host) {
         return std::tuple(c.player.slot, c.side, c.held.slot, c.other.slot);
     };
     std::ranges::stable_sort(host.contacts, {}, key);
-    // Points of one pair become one contact: the first, with the sum of the impulses.
+    // Merges the points of one pair into one contact: the first point, with the sum of the
+    // impulses.
     std::size_t kept = 0;
     for (const HostContact& contact : host.contacts) {
         if (kept > 0 && host.contacts[kept - 1].is_same(contact)) {
@@ -261,7 +263,8 @@ void add_touch_events(hh_world& host) {
     }
 }
 
-// A joint that came to its limit rests a little before it.
+// True if the joint is at its limit, with a tolerance: joints come to rest slightly before their
+// limit.
 bool is_at_limit(const Joint& joint, const JointState& state, bool was_at_limit) {
     const double near_limit = was_at_limit ? 1e-2 : 5e-3;  // rad or m
     const bool has_limits = joint.limited || joint.kind == JointKind::distance;
@@ -270,7 +273,7 @@ bool is_at_limit(const Joint& joint, const JointState& state, bool was_at_limit)
             state.coordinate >= joint.upper - near_limit);
 }
 
-// The hand that grips one of the joint's bodies, if any does.
+// Writes the hand that grips one of the joint's bodies into the event, if there is one.
 void attribute(const hh_world& host, const Joint& joint, hh_event& event) {
     for (std::size_t row = 0; row < host.world.grab.size(); ++row) {
         const Grab& grab = host.world.grab.rows()[row];
@@ -329,7 +332,7 @@ void drop_stale(Column<T>& column, const Column<Required>& required) {
 
 void begin_events(hh_world& host) {
     host.events.clear();
-    // Grips that ended between the steps: teleports.
+    // Adds events for grips that ended between the steps, by teleports.
     for (std::size_t row = 0; row < host.world.grab.size(); ++row) {
         const Entity hand = host.world.grab.owners()[row];
         HandReport& report = report_of(host, hand);
@@ -349,6 +352,7 @@ void finish_events(hh_world& host) {
     add_contact_events(host, HH_EVENT_CONTACT_BEGAN, host.contacts, host.last_contacts);
     add_contact_events(host, HH_EVENT_CONTACT_ENDED, host.last_contacts, host.contacts);
     update_joint_reports(host, true);
+    report_recentrings(host, true);
     if (host.settings.reports_touches) {
         add_touch_events(host);
     }
@@ -369,16 +373,29 @@ void forget_events(hh_world& host) {
             .since_s = grab.since_s};
     }
     update_joint_reports(host, false);
+    drop_stale(host.spaces, host.world.player);
+    report_recentrings(host, false);
 }
 
 }  // namespace handhold
 
-hh_result hh_world_events(const hh_world* world, const hh_event** events, size_t* count) {
+hh_result hh_world_events_sized(const hh_world* world, const hh_event** events, size_t* count,
+                                size_t event_size) {
     using namespace handhold;
     return call([&] {
         const hh_world& host = world_of(world);
         require(events != nullptr && count != nullptr, HH_ERROR_NULL, "an output is null");
+        // Its first version is that of 0.2.0.
+        require_size(event_size, sizeof(hh_event), sizeof(hh_event));
         *events = host.events.data();
         *count = host.events.size();
+        if (event_size < sizeof(hh_event)) {
+            host.packed_events.resize(host.events.size() * event_size);
+            hh_event* const packed = reinterpret_cast<hh_event*>(host.packed_events.data());
+            for (std::size_t i = 0; i < host.events.size(); ++i) {
+                std::memcpy(&sized_element(packed, event_size, i), &host.events[i], event_size);
+            }
+            *events = packed;
+        }
     });
 }

@@ -6,6 +6,7 @@
 #include "components/world_edit.hpp"
 #include "systems/host/host_skeleton.hpp"
 #include "systems/host/host_world.hpp"
+#include "systems/rigs/finger_curls.hpp"
 
 namespace handhold {
 namespace {
@@ -37,6 +38,7 @@ hh_hand_state hand_state(const hh_world& host, Entity player, HandSide side) {
     state.anchor = hh_identity_pose();
     state.is_tracked = tracking.state == TrackingState::tracked;
     state.is_closed = tracking.pressed;
+    state.is_inferred = tracking.state == TrackingState::inferred;
     const bool is_body = host.world.body.contains(grab.body);
     if (grab.kind == GripKind::none || (!is_body && !host.world.player.contains(grab.body))) {
         return state;
@@ -58,13 +60,31 @@ hh_hand_state hand_state(const hh_world& host, Entity player, HandSide side) {
 
 hh_player_pose player_pose(const hh_world& host, Entity player) {
     hh_player_pose pose{};
-    pose.origin = to_c(host.world.player_origin.at(player).pose_ws);
+    pose.origin = to_c(samples_space_ws(host, player));
     pose.head = to_c(host.world.render_pose.at(player).head_ws);
     pose.velocity_mps = to_c(host.world.player_velocity.at(player).linear_mps);
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         pose.hands[index_of(side)] = hand_state(host, player, side);
     }
     return pose;
+}
+
+// Sizes in version 0.2.0.
+constexpr std::size_t k_first_hand_size = sizeof(hh_hand_state);
+constexpr std::size_t k_first_pose_tail_size =
+    sizeof(hh_player_pose) - offsetof(hh_player_pose, hands) - k_hand_count * sizeof(hh_hand_state);
+
+NestedLayout pose_layout(std::size_t pose_size, std::size_t hand_size) {
+    const NestedLayout layout{.size = pose_size,
+                              .nested_size = hand_size,
+                              .nested_at = offsetof(hh_player_pose, hands),
+                              .nested_count = k_hand_count};
+    const std::size_t own_tail_size = sizeof(hh_player_pose) - offsetof(hh_player_pose, hands) -
+                                      k_hand_count * sizeof(hh_hand_state);
+    require_size(hand_size, k_first_hand_size, sizeof(hh_hand_state));
+    require_size(pose_size, layout.tail_at() + k_first_pose_tail_size,
+                 layout.tail_at() + own_tail_size);
+    return layout;
 }
 
 void order(hh_world& host, Entity hand, Entity body) {
@@ -77,32 +97,37 @@ void order(hh_world& host, Entity hand, Entity body) {
 
 using namespace handhold;
 
-hh_result hh_player_hand(const hh_world* world, hh_player player, hh_side side,
-                         hh_hand_state* hand) {
+hh_result hh_player_hand_sized(const hh_world* world, hh_player player, hh_side side,
+                               hh_hand_state* hand, size_t hand_size) {
     return call([&] {
         const hh_world& host = world_of(world);
         require(hand != nullptr, HH_ERROR_NULL, "the output is null");
-        *hand = hand_state(host, player_of(host, player), side_of(side));
+        require_size(hand_size, k_first_hand_size, sizeof(hh_hand_state));
+        const hh_hand_state state = hand_state(host, player_of(host, player), side_of(side));
+        std::memcpy(hand, &state, hand_size);
     });
 }
 
-hh_result hh_world_player_poses(const hh_world* world, const hh_player* players, size_t count,
-                                hh_player_pose* poses) {
+hh_result hh_world_player_poses_sized(const hh_world* world, const hh_player* players, size_t count,
+                                      hh_player_pose* poses, size_t pose_size, size_t hand_size) {
     return call([&] {
         const hh_world& host = world_of(world);
+        const NestedLayout theirs = pose_layout(pose_size, hand_size);
+        const NestedLayout ours = pose_layout(sizeof(hh_player_pose), sizeof(hh_hand_state));
         require(count == 0 || (players != nullptr && poses != nullptr), HH_ERROR_NULL,
                 "the ids or the buffer are null");
         for (std::size_t i = 0; i < count; ++i) {
             player_of(host, players[i]);
         }
         for (std::size_t i = 0; i < count; ++i) {
-            poses[i] = player_pose(host, entity_of(players[i]));
+            const hh_player_pose pose = player_pose(host, entity_of(players[i]));
+            copy_common_fields(&sized_element(poses, pose_size, i), theirs, &pose, ours);
         }
     });
 }
 
 hh_result hh_hand_moves_player(const hh_world* world, hh_player player, hh_side side,
-                               bool* moves_player) {
+                               uint8_t* moves_player) {
     return call([&] {
         const hh_world& host = world_of(world);
         require(moves_player != nullptr, HH_ERROR_NULL, "the output is null");
@@ -126,6 +151,20 @@ hh_result hh_hand_release(hh_world* world, hh_player player, hh_side side) {
     return call([&] {
         hh_world& host = world_of(world);
         order(host, hand_of(host.world, player_of(host, player), side_of(side)), k_no_entity);
+    });
+}
+
+hh_result hh_finger_curls_of(const hh_hand_joint* joints, hh_finger_curls* curls) {
+    return call([&] {
+        require(joints != nullptr && curls != nullptr, HH_ERROR_NULL,
+                "the joints or the output are null");
+        TrackedJoints seen;
+        for (std::size_t i = 0; i < seen.size(); ++i) {
+            if (joints[i].is_valid != 0) {
+                seen[i] = from_c(joints[i].pose.position);
+            }
+        }
+        std::ranges::copy(finger_curls(seen), curls->fingers);
     });
 }
 

@@ -8,7 +8,8 @@ namespace handhold {
 namespace {
 
 constexpr double k_no_limit = std::numeric_limits<double>::infinity();
-constexpr double k_held_lever_m = 1.0;  // lever of a hand's rotation: no held body is much longer
+// Lever arm at which a hand's rotation counts: about the longest held body.
+constexpr double k_held_lever_m = 1.0;
 
 // Greatest speed at which the island's hands move what they hold.
 double hand_speed_mps(const ConstraintGraph& graph, const Island& island) {

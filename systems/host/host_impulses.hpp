@@ -12,10 +12,11 @@ namespace handhold {
 // after a step, before reported_impulse_ns.
 //
 // A hand that moves a light body does so as if its player could not be moved. In the frame in which
-// that body meets a wall, hand and wall then press against each other without a bound, which moves
-// nothing. What they can exchange is the momentum of the bodies and players of that island: with
-// the velocities before the velocity solve, and the hands' speed on top. This is the limit for all
-// hands of the island together, and for all its contacts; other islands have none.
+// that body meets a wall, the impulses of hand and wall on it are therefore opposite and
+// arbitrarily large. The reported impulses are limited to the momentum that the bodies and players
+// of the island can exchange, at their velocities before the velocity solve plus the hands' speed.
+// The limit applies to the sum over all hands of the island, and to the sum over its contacts.
+// Impulses in other islands are reported as they are.
 void limit_impulses(hh_world& host);
 
 // The impulse on the block's first body, world axes.

@@ -37,8 +37,8 @@ Joint read_joint(const hh_world& host, const hh_joint_def& def) {
         joint.frame_b_bs.position =
             inverse_transform_point(host.world.body_pose.at(joint.b).pose_ws, point_ws);
     }
-    joint.collides = def.collides;
-    joint.limited = def.limited;
+    joint.collides = def.collides != 0;
+    joint.limited = def.limited != 0;
     joint.lower = def.lower;
     joint.upper = def.upper;
     joint.friction = def.friction;
@@ -59,11 +59,10 @@ Joint read_joint(const hh_world& host, const hh_joint_def& def) {
 
 using namespace handhold;
 
-hh_joint_def hh_default_joint_def(void) {
+hh_result hh_default_joint_def_sized(hh_joint_def* filled, size_t size) {
     hh_joint_def def{};
-    def.struct_size = sizeof def;
     def.frame = hh_identity_pose();
-    return def;
+    return write_default(filled, size, def);
 }
 
 hh_result hh_joint_add(hh_world* world, const hh_joint_def* wanted, hh_joint* joint) {
@@ -83,7 +82,7 @@ hh_result hh_joint_remove(hh_world* world, hh_joint joint) {
     });
 }
 
-bool hh_joint_is_valid(const hh_world* world, hh_joint joint) {
+uint8_t hh_joint_is_valid(const hh_world* world, hh_joint joint) {
     return world != nullptr && world->world.joint.contains(entity_of(joint));
 }
 
@@ -105,7 +104,7 @@ hh_result hh_body_joints(const hh_world* world, hh_body body, hh_joint* joints, 
 }
 
 hh_result hh_joint_state(const hh_world* world, hh_joint joint, double* coordinate, double* speed,
-                         bool* latched) {
+                         uint8_t* latched) {
     return call([&] {
         const hh_world& host = world_of(world);
         const JointState& state = host.world.joint_state.at(joint_of(host, joint));

@@ -54,10 +54,9 @@ void place(World& world, const ToldMotion& motion) {
 
 using namespace handhold;
 
-hh_surface_query hh_default_surface_query(void) {
+hh_result hh_default_surface_query_sized(hh_surface_query* filled, size_t size) {
     hh_surface_query query{};
-    query.struct_size = sizeof query;
-    return query;
+    return write_default(filled, size, query);
 }
 
 hh_result hh_world_set_surface_query(hh_world* world, const hh_surface_query* query) {
@@ -111,13 +110,14 @@ hh_result hh_player_place(hh_world* world, hh_player player, hh_pose origin, hh_
         hh_world& host = world_of(world);
         require_idle(host);
         const Entity entity = player_of(host, player);
-        const Pose origin_ws = checked(origin);
+        const Pose origin_ws = play_space_ws(host, entity, checked(origin));
         const Vec3 velocity = checked(velocity_mps, world_limits::k_max_speed_mps,
                                       "a velocity beyond 1e6 m/s, or NaN");
         host.world.player_origin.at(entity).pose_ws = origin_ws;
         host.world.player_start.at(entity).pose_ws = origin_ws;
         host.world.player_velocity.at(entity).linear_mps = velocity;
-        host.world.last_valid.at(entity).known = false;  // nothing is swept over the way
+        // No sweep over the distance from its old place.
+        host.world.last_valid.at(entity).known = false;
     });
 }
 

@@ -26,9 +26,8 @@ hh_measures write_measures(const BodyMeasures& measures) {
 
 using namespace handhold;
 
-hh_player_def hh_default_player_def(void) {
+hh_result hh_default_player_def_sized(hh_player_def* filled, size_t size) {
     hh_player_def def{};
-    def.struct_size = sizeof def;
     def.origin = hh_identity_pose();
     def.mass_kg = PlayerBody{}.mass_kg;
     def.measures = write_measures(BodyMeasures{});
@@ -37,7 +36,7 @@ hh_player_def hh_default_player_def(void) {
     def.layers = CollisionFilter{}.layers;
     def.mask = CollisionFilter{}.mask;
     def.grab_layers = GrabLayers{}.layers;
-    return def;
+    return write_default(filled, size, def);
 }
 
 hh_result hh_player_add(hh_world* world, const hh_player_def* wanted, hh_player* player) {
@@ -85,7 +84,7 @@ hh_result hh_player_remove(hh_world* world, hh_player player) {
     });
 }
 
-bool hh_player_is_valid(const hh_world* world, hh_player player) {
+uint8_t hh_player_is_valid(const hh_world* world, hh_player player) {
     return world != nullptr && world->world.player.contains(entity_of(player));
 }
 
@@ -103,7 +102,8 @@ hh_result hh_player_teleport(hh_world* world, hh_player player, hh_pose origin) 
     return call([&] {
         hh_world& host = world_of(world);
         require_idle(host);
-        teleport_player(host.world, player_of(host, player), checked(origin));
+        const Entity entity = player_of(host, player);
+        teleport_player(host.world, entity, play_space_ws(host, entity, checked(origin)));
     });
 }
 
@@ -133,8 +133,24 @@ hh_result hh_player_reference_velocity(const hh_world* world, hh_player player,
     });
 }
 
+hh_result hh_player_push_back(const hh_world* world, hh_player player, double* distance_m) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(distance_m != nullptr, HH_ERROR_NULL, "the output is null");
+        *distance_m = host.world.render_pose.at(player_of(host, player)).push_back_m;
+    });
+}
+
+hh_result hh_player_mass(const hh_world* world, hh_player player, double* mass_kg) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(mass_kg != nullptr, HH_ERROR_NULL, "the output is null");
+        *mass_kg = host.world.player.at(player_of(host, player)).mass_kg;
+    });
+}
+
 hh_result hh_player_head(const hh_world* world, hh_player player, hh_vec3* center, double* radius_m,
-                         bool* is_tracked) {
+                         uint8_t* is_tracked) {
     return call([&] {
         const hh_world& host = world_of(world);
         const Entity entity = player_of(host, player);
@@ -147,7 +163,7 @@ hh_result hh_player_head(const hh_world* world, hh_player player, hh_vec3* cente
             *radius_m = host.tuning.head.radius_m;
         }
         if (is_tracked != nullptr) {
-            *is_tracked = head.state == TrackingState::tracked;
+            *is_tracked = head.state == TrackingState::tracked && !head.is_inferred;
         }
     });
 }

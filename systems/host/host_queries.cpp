@@ -10,7 +10,7 @@ namespace {
 
 constexpr double k_farthest_query_m = 1e4;
 
-// Checks that queries are possible, and moves colliders to where their bodies and heads are now.
+// Checks that queries are possible, and moves colliders to the present poses of bodies and heads.
 hh_world& queried_world(hh_world* world) {
     world_of(static_cast<const hh_world*>(world));
     require(!world->surfaces.is_asking(), HH_ERROR_STATE,

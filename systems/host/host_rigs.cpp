@@ -11,8 +11,8 @@
 namespace handhold {
 namespace {
 
-// `name` stands for the file in messages: bytes in memory have none, and no file is read beside
-// them.
+// `name` replaces a file name in messages, because bytes in memory have none. No file beside them
+// is read.
 template <typename T>
 T value_or_throw(Result<T> result, const char* name) {
     if (!result) {
@@ -39,19 +39,19 @@ FingerAngles read_angles(const double (&curl_rad)[k_max_links], double oppositio
 
 AuthoredHand read_hand(const hh_world& host, Entity body, const hh_grip_hand& hand) {
     AuthoredHand read;
-    read.is_there = hand.is_used;
+    read.is_there = hand.is_used != 0;
     if (!hand.is_used) {
         return read;
     }
     read.wrist_bs = from_host_bs(host, body, checked(hand.wrist));
     for (std::size_t finger = 0; finger < k_finger_count; ++finger) {
         const hh_finger& from = hand.fingers[finger];
-        read.is_posed[finger] = from.is_posed;
+        read.is_posed[finger] = from.is_posed != 0;
         if (!from.is_posed) {
             continue;
         }
         read.fingers[finger] = read_angles(from.curl_rad, from.opposition_rad);
-        read.follows_trigger[finger] = from.follows_trigger;
+        read.follows_trigger[finger] = from.follows_trigger != 0;
         if (from.follows_trigger) {
             read.pressed[finger] = read_angles(from.pressed_curl_rad, from.pressed_opposition_rad);
         }
@@ -150,13 +150,12 @@ hh_result hh_player_skeleton_joint(const hh_world* world, hh_player player, size
     });
 }
 
-hh_grip_def hh_default_grip_def(void) {
+hh_result hh_default_grip_def_sized(hh_grip_def* filled, size_t size) {
     hh_grip_def def{};
-    def.struct_size = sizeof def;
     def.hands[0].wrist = def.hands[1].wrist = hh_identity_pose();
     def.snap_radius_m = AuthoredGrip{}.snap_radius_m;
     def.snap_angle_rad = AuthoredGrip{}.snap_angle_rad;
-    return def;
+    return write_default(filled, size, def);
 }
 
 hh_result hh_body_add_grip(hh_world* world, hh_body body, const hh_grip_def* wanted) {

@@ -199,11 +199,10 @@ hh_result hh_shape_add_compound(hh_world* world, const hh_compound_part* parts, 
     });
 }
 
-hh_mesh_def hh_default_mesh_def(void) {
+hh_result hh_default_mesh_def_sized(hh_mesh_def* filled, size_t size) {
     hh_mesh_def def{};
-    def.struct_size = sizeof def;
     def.fits_hands = true;
-    return def;
+    return write_default(filled, size, def);
 }
 
 hh_result hh_mesh_create(const hh_mesh_def* wanted, hh_mesh** mesh) {
@@ -255,7 +254,7 @@ hh_result hh_shape_remove(hh_world* world, hh_shape shape) {
     });
 }
 
-bool hh_shape_is_valid(const hh_world* world, hh_shape shape) {
+uint8_t hh_shape_is_valid(const hh_world* world, hh_shape shape) {
     return world != nullptr && shape.generation != 0 && world->shapes.has({shape.index}) &&
            shape.index < world->host_shapes.size() &&
            world->host_shapes[shape.index].generation == shape.generation;

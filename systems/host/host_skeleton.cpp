@@ -37,7 +37,8 @@ HandBone bone_of_link(const FingerRig& finger, std::uint32_t link) {
     return link == 0 ? HandBone::proximal : HandBone::intermediate;
 }
 
-// The place of one of the rig's named joints, in its link's frame or in hand space.
+// Position of the rig's joint with this name, in its link's frame or in hand space. None if the rig
+// has no such joint.
 std::optional<Vec3> named_place(const HandRig& rig, std::int32_t finger, FingerName name,
                                 HandBone bone) {
     for (const RigJoint& joint : rig.joints) {
@@ -98,7 +99,7 @@ PosedHandJoints pose_hand_joints(const HandRig& rig,
     PosedHandJoints out;
     const double palm_radius_m = rig.palm.empty() ? 0.0 : rig.palm.front().radius_m;
     Vec3 palm_hs = rig.palm_center_hs;
-    palm_hs.y() = 0.0;  // moves from the skin to the bones
+    palm_hs.y() = 0.0;  // moves the point from the skin to the height of the bones
     out[k_palm] = {wrist_ws * Pose{palm_hs, Quat::Identity()}, palm_radius_m, true};
     out[k_wrist] = {wrist_ws, palm_radius_m, true};
     for (std::size_t i = 0; i < rig.fingers.size(); ++i) {

@@ -88,8 +88,8 @@ void collect_begun_step(hh_world& host, double dt_s) {
     }
 }
 
-// Returns free bodies that the host did not place to their pose and velocity at the step's start.
-// Their predicted poses must not count as motion.
+// Resets free bodies that the host did not place to their pose and velocity at the step's start:
+// their predicted poses must not count as motion.
 void keep_unplaced_bodies(hh_world& host) {
     World& world = host.world;
     for (std::size_t row = 0; row < world.body.size(); ++row) {

@@ -42,6 +42,13 @@ std::string shown(double number) {
     return text.data();
 }
 
+void require_in_range(const TuningInfo& info, double value) {
+    require(value >= info.low && value <= info.high, HH_ERROR_VALUE, [&] {
+        return std::string(info.name) + " must lie in [" + shown(info.low) + ", " +
+               shown(info.high) + "]";
+    });
+}
+
 // Calls use(info, field) for the number with this name.
 template <typename TuningType, typename Use>
 void with_number(TuningType& tuning, const char* name, std::size_t count, const Use& use) {
@@ -66,10 +73,9 @@ void with_number(TuningType& tuning, const char* name, std::size_t count, const 
 
 using namespace handhold;
 
-hh_tuning_info hh_default_tuning_info(void) {
+hh_result hh_default_tuning_info_sized(hh_tuning_info* filled, size_t size) {
     hh_tuning_info info{};
-    info.struct_size = sizeof info;
-    return info;
+    return write_default(filled, size, info);
 }
 
 hh_result hh_tuning_describe(size_t index, hh_tuning_info* info) {
@@ -112,13 +118,46 @@ hh_result hh_world_set_tuning(hh_world* world, const char* name, const double* v
         Tuning changed = host.tuning;
         with_number(changed, name, count, [&](const TuningInfo& info, auto& field) {
             for (std::size_t i = 0; i < count; ++i) {
-                require(values[i] >= info.low && values[i] <= info.high, HH_ERROR_VALUE, [&] {
-                    return std::string(info.name) + " must lie in [" + shown(info.low) + ", " +
-                           shown(info.high) + "]";
-                });
+                require_in_range(info, values[i]);
             }
             write_components(field, values);
         });
+        check_tuning(changed);
+        host.tuning = changed;
+    });
+}
+
+hh_result hh_world_tuning_numbers(const hh_world* world, double* values, size_t capacity,
+                                  size_t* count) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        std::vector<double> numbers;
+        visit_tuning(host.tuning, [&](const TuningInfo&, const auto& field) {
+            numbers.resize(numbers.size() + component_count<decltype(field)>());
+            read_components(field, &numbers.back() + 1 - component_count<decltype(field)>());
+        });
+        write_list(numbers.size(), values, capacity, count,
+                   [&](std::size_t i) { return numbers[i]; });
+    });
+}
+
+hh_result hh_world_set_tuning_numbers(hh_world* world, const double* values, size_t count) {
+    return call([&] {
+        hh_world& host = world_of(world);
+        require(values != nullptr, HH_ERROR_NULL, "the values are null");
+        Tuning changed = host.tuning;
+        std::size_t at = 0;
+        visit_tuning(changed, [&](const TuningInfo& info, auto& field) {
+            constexpr std::size_t k_own = component_count<decltype(field)>();
+            require(at + k_own <= count, HH_ERROR_VALUE,
+                    "the tuning has more numbers than were given");
+            for (std::size_t i = 0; i < k_own; ++i) {
+                require_in_range(info, values[at + i]);
+            }
+            write_components(field, values + at);
+            at += k_own;
+        });
+        require(at == count, HH_ERROR_VALUE, "the tuning has fewer numbers than were given");
         check_tuning(changed);
         host.tuning = changed;
     });
@@ -137,10 +176,9 @@ hh_result hh_world_load_tuning(hh_world* world, const char* json, size_t size) {
     });
 }
 
-hh_world_stats hh_default_world_stats(void) {
+hh_result hh_default_world_stats_sized(hh_world_stats* filled, size_t size) {
     hh_world_stats stats{};
-    stats.struct_size = sizeof stats;
-    return stats;
+    return write_default(filled, size, stats);
 }
 
 hh_result hh_world_get_stats(const hh_world* world, hh_world_stats* stats) {

@@ -56,7 +56,7 @@ Pose from_host_bs(const hh_world& host, Entity body, const Pose& pose_bs) {
 }
 
 std::string new_name(const hh_world& host, const char* name, const char* kind) {
-    require_idle(host);  // called to add an entity
+    require_idle(host);  // allowed only between steps, because an entity is added
     std::string made;
     if (name != nullptr) {
         made = name;
@@ -80,6 +80,7 @@ void remove_entity(hh_world& host, Entity entity) {
         host.body_rigs.remove(gone);
         host.hands.remove(gone);
         host.joints.remove(gone);
+        host.spaces.remove(gone);
         host.caches.body_surfaces.remove(gone);
     };
     sync_index(host.world);

@@ -13,6 +13,7 @@
 #include "engine/geometry/grip_mesh_library.hpp"
 #include "systems/frame/frame_of_host.hpp"
 #include "systems/host/host_call.hpp"
+#include "systems/host/host_growth.hpp"
 #include "systems/host/host_surfaces.hpp"
 #include "systems/rigs/body_rig.hpp"
 #include "systems/snapshot/snapshot.hpp"
@@ -20,7 +21,7 @@
 // The objects behind the C interface's opaque pointers.
 namespace handhold {
 
-// What the C interface knows of a shape id beyond the library's entry.
+// Data of the C interface about a shape, in addition to the library's entry.
 struct HostShape {
     std::uint32_t generation = 0;  // generation of the id's current or last shape
     // The library's frame (centre of mass, principal axes) in the frame in which the host made the
@@ -42,10 +43,16 @@ struct BodyRigSlot {
 struct HandReport {
     GripKind grip = GripKind::none;
     Entity body = k_no_entity;
-    bool is_player = false;  // `body` is one
+    bool is_player = false;  // true: `body` is a player
     double since_s = 0.0;
     Vec3 impulse_ns = Vec3::Zero();  // impulse on the gripped entity
     Entity touched = k_no_entity;    // entity that the open palm touches
+};
+
+// How a player's samples were corrected at the end of the last step.
+struct SpaceReport {
+    Pose correction;
+    bool is_announced = false;  // hh_player_recenter announced it
 };
 
 struct JointReport {
@@ -100,26 +107,32 @@ struct hh_world {
     handhold::Column<handhold::BodyRigSlot> body_rigs;  // indexed by player
     handhold::Column<handhold::HandReport> hands;
     handhold::Column<handhold::JointReport> joints;
+    handhold::Column<handhold::SpaceReport> spaces;    // indexed by player
     std::vector<handhold::HostContact> contacts;       // contacts of the last step
     std::vector<handhold::HostContact> last_contacts;  // contacts of the step before
     std::vector<hh_event> events;
+    mutable std::vector<std::byte> packed_events;  // copies for hosts that know a shorter hh_event
 
     // Scratch of a step.
     std::vector<double> impulse_shares;  // reported share of each constraint block's impulse
     std::vector<handhold::PlayerInput> inputs;
     std::vector<std::uint8_t> repeats_samples;  // indexed by index of `inputs`
     std::vector<handhold::TrackingSample> samples;
+    std::uint64_t samples_too_far_ahead = 0;  // number in this step, until finish_step counts them
+    std::uint64_t samples_too_old = 0;
+    bool has_named_clock = false;  // the log was told of samples on another clock
     std::vector<std::byte> snapshot;
-    // Of the shapes at `assets_revision`.
+    // Assets of the shapes as of `assets_revision`.
     std::optional<handhold::SnapshotAssets> assets;
     std::uint64_t assets_revision = 0;
     bool may_recycle_shapes = false;  // shapes were removed since the last step
-    // Colliders are where bodies and heads are: no call has changed the world since a query.
+    // True if colliders are at the present poses of bodies and heads: no call has changed the world
+    // since the last query.
     bool has_placed_colliders = false;
     std::vector<std::uint64_t> near_ids;  // scratch of queries
     std::vector<hh_hit> hits;             // scratch of queries
 
-    // Of hosts with physics of their own.
+    // For hosts with their own physics.
     handhold::HostSurfaces surfaces;
     handhold::StageStats search_stats;  // counters of queries between steps: ignored
     bool is_stepping = false;           // true between hh_world_begin_step and hh_world_end_step
@@ -129,7 +142,7 @@ struct hh_world {
     std::vector<hh_velocity_change> velocity_changes;
     std::vector<handhold::Entity> held_bodies;  // free bodies that hands held in the last step
     std::vector<handhold::SolvedPlayer> solved_players;     // scratch
-    std::vector<handhold::BodyVelocity> solved_velocities;  // scratch, by row
+    std::vector<handhold::BodyVelocity> solved_velocities;  // scratch, in the order of the column
     std::vector<handhold::BodyVelocity>
         begun_velocities;  // velocities before hh_world_begin_step, indexed like the column
     std::vector<std::uint8_t> are_placed;  // 1: placed since then; indexed like the column
@@ -138,7 +151,7 @@ struct hh_world {
 
 namespace handhold {
 
-// For calls that change the world.
+// Returns the world, for calls that change it.
 inline hh_world& world_of(hh_world* world) {
     require(world != nullptr, HH_ERROR_NULL, "the world is null");
     require(!world->surfaces.is_asking(), HH_ERROR_STATE,
@@ -176,23 +189,33 @@ inline HandSide side_of(hh_side side) {
 // The shape behind an id; k_no_shape for the null id.
 ShapeId shape_of(const hh_world& host, hh_shape shape);
 
-// The sphere of heads with this radius. It has no id of its own, and stays, so that a snapshot of
-// before a player came or left fits.
+// The shape of heads with this radius. It has no id in the C interface and is never removed, so
+// that a snapshot saved before a player was added or removed can still be restored.
 ShapeId head_shape(hh_world& host, double radius_m);
 // Shapes that the host added.
 std::size_t shape_count(const hh_world& host);
 
-// Between a body's pose in the library and in the frame in which the host made its shape.
+// Needed to convert between a body's pose in the library and in the frame in which the host made
+// its shape.
 const HostShape* moved_shape_of(const hh_world& host, Entity body);  // null: the frames are equal
 Pose host_pose_of(const hh_world& host, Entity body);
 Pose library_pose(const hh_world& host, Entity body, const Pose& host_pose_ws);
-// A pose in the body's library frame, in its host frame, and back.
+// Converts a pose from the body's library frame to its host frame, and back.
 Pose to_host_bs(const hh_world& host, Entity body, const Pose& pose_bs);
 Pose from_host_bs(const hh_world& host, Entity body, const Pose& pose_bs);
 
-// The name, or one made of the id that the next entity gets, which is part of the state: so replays
-// after a restore give equal names. HH_ERROR_NAME if it is taken; HH_ERROR_STATE inside a begun
-// step.
+// From the space of a player's samples to play space (HeadTracking's shift), and that space's pose
+// in the world, which hosts call the player's origin.
+Pose samples_in_play_space(const hh_world& host, Entity player);
+Pose samples_space_ws(const hh_world& host, Entity player);
+// The play space's pose for such an origin.
+Pose play_space_ws(const hh_world& host, Entity player, const Pose& samples_space_ws);
+// Adds an event for each player whose samples are corrected in another way than in the last report.
+void report_recentrings(hh_world& host, bool makes_events);
+
+// The given name, or one made from the id of the next entity. That id is part of the state, so
+// replays after a restore give equal names. HH_ERROR_NAME if it is taken; HH_ERROR_STATE inside a
+// begun step.
 std::string new_name(const hh_world& host, const char* name, const char* kind);
 
 // Removes an entity from the world and from all that this layer knows of it.
@@ -200,10 +223,10 @@ void remove_entity(hh_world& host, Entity entity);
 void set_user_data(hh_world& host, Entity entity, std::uint64_t value);
 std::uint64_t user_data_of(const hh_world& host, Entity entity);
 
-// Around a step: events are the differences between its begin and its end.
+// Called before and after a step. Events are the differences between its begin and its end.
 void begin_events(hh_world& host);
 void finish_events(hh_world& host);
-// After a restore: nothing that is so now counts as an event.
+// Called after a restore. What the restored state contains does not count as an event.
 void forget_events(hh_world& host);
 
 }  // namespace handhold

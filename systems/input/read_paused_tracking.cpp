@@ -19,6 +19,11 @@ void place(Device& device, const Pose& pose_ps) {
     device.pose_ps = device.start_ps = device.sample_ps = pose_ps;
 }
 
+// From the devices' space to play space.
+Pose corrected(const HeadTracking& head, const Pose& pose) {
+    return {head.shift_turn * pose.position + head.shift_m, head.shift_turn * pose.rotation};
+}
+
 }  // namespace
 
 void read_paused_tracking(const ReadPausedTrackingIo& io) {
@@ -36,6 +41,7 @@ void read_paused_tracking(const ReadPausedTrackingIo& io) {
         hand.raw_pressed = reading.grab;
         hand.squeeze = pressed_share(reading.squeeze);
         hand.trigger = pressed_share(reading.trigger);
+        hand.curls = known_curls(reading.curls);
         hand.state = TrackingState::lost;
         HandHistory& history = io.history.at(entity);
         history.count = history.next = 0;
@@ -44,16 +50,15 @@ void read_paused_tracking(const ReadPausedTrackingIo& io) {
             Pose hand_ps = reading.controller_ps *
                            (joint != nullptr ? joint->hand_in_controller
                                              : io.hand_in_controller[index_of(owner.side)]);
-            hand_ps.position += io.head.at(owner.player).shift_m;
-            place(hand, hand_ps);
+            place(hand, corrected(io.head.at(owner.player), hand_ps));
         }
     }
     for (std::size_t row = 0; row < io.head.size(); ++row) {
         HeadTracking& head = io.head.rows()[row];
         const TrackingSample* const sample = last_sample(io.inputs, io.head.owners()[row]);
         if (sample != nullptr && head.state != TrackingState::never && is_valid(sample->head_ps)) {
-            place(head,
-                  {sample->head_ps.position + head.shift_m, sample->head_ps.rotation.normalized()});
+            place(head, corrected(head, {sample->head_ps.position,
+                                         sample->head_ps.rotation.normalized()}));
         }
     }
 }

@@ -16,12 +16,14 @@ struct ReadPausedTrackingIo {
     Column<HeadTracking>& head;                          // in/out
     Column<HandTracking>& hand;                          // in/out
     Column<HandHistory>& history;                        // in/out
-    std::array<Pose, k_hand_count> hand_in_controller;   // in: of hands without a joint, by side
+    // in: for hands without ControllerToHand, by side
+    std::array<Pose, k_hand_count> hand_in_controller;
 };
 
-// Head and hands while the world stands still: each player's last sample, whatever its time, is the
-// pose now. Poses that are not finite are ignored. For the next frame that runs, hands count as
-// lost until then: closed ones grip where they are by then, opened ones let go without a throw.
+// Head and hands while the world is paused. Each player's last sample, whatever its time, gives the
+// present poses. Poses that are not finite are ignored. The next frame that runs treats hands as
+// lost until then: a closed hand grips where it is at that time, an opened hand lets go without a
+// throw.
 void read_paused_tracking(const ReadPausedTrackingIo& io);
 
 }  // namespace handhold

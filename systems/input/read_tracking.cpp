@@ -16,11 +16,12 @@ namespace {
 
 constexpr double k_half_turn_rad = 3.14159265358979323846;
 
-// A sample of no time at all is not one after the frame.
+// True if the sample is later than the end of the frame; false for a time of NaN.
 bool is_later(double t_s, double end_s) { return std::isfinite(t_s) && t_s > end_s; }
 
-// Finds state and pose at the end of the frame, for the head and for hands alike.
-// `later` is the first pose after the frame's end, or null. True if a pose older than that is held.
+// Finds state and pose at the end of the frame, for the head and for hands alike. `later` is the
+// first pose after the frame's end, or null. Returns true if no later pose is usable, so that an
+// older one is held.
 template <typename Device>
 bool finish_device(Device& device, bool has_sample, const Pose* later, double later_t_s,
                    double end_s, double lost_after_s, StageStats& stats) {
@@ -32,7 +33,8 @@ bool finish_device(Device& device, bool has_sample, const Pose* later, double la
         later = nullptr;  // the motion across a gap that long is unknown
     }
     if (!has_sample) {
-        // The session begins between two samples. The later one counts in its own frame.
+        // The first frame has only a sample after its end. That sample's buttons count in its own
+        // frame.
         device.sample_ps = *later;
         device.sample_t_s = end_s;
     }
@@ -69,7 +71,7 @@ void begin_edge(HandTracking& hand, const HandHistory& history, double t_s, cons
 // True if a hand could have come to `hand_ps`:
 //  - from its last sample at tracking.max_hand_speed_mps, or from where its own velocity would have
 //    taken it (fast hands are fast for several samples);
-//  - and, after a reading that was ignored, from that one too: two readings in a row must agree.
+//  - and, after a reading that was ignored, from that one too: two consecutive readings must agree.
 // A jump by d is thus believed once d / max_hand_speed_mps has passed.
 bool is_plausible(const HandTracking& hand, const HandHistory& history, const Pose& hand_ps,
                   double t_s, double max_speed_mps) {
@@ -92,12 +94,15 @@ struct HandReader {
     const ReadTrackingIo& io;
     const Tuning& tuning;
     StageStats& stats;
+    bool freezes_guesses = false;  // the hand must not move
     bool has_sample = false;
     bool has_jumped = false;
+    bool is_inferred = false;        // the last reading used was a guess
+    std::optional<Pose> guess_ps{};  // the last guess of this frame
 
-    // Why a reading is ignored; none if it counts.
+    // Why a reading is ignored; none if it counts. `is_meant`: so is any jump of the devices.
     std::optional<Fallback> refusal(const ControllerSample& reading, const Pose& hand_ps,
-                                    double t_s) const {
+                                    double t_s, bool is_meant) const {
         if (!is_trackable(reading.controller_ps)) {
             return Fallback::sample_not_finite;
         }
@@ -107,7 +112,7 @@ struct HandReader {
         if (!space.is_in_reach(hand_ps.position, tuning.hand.max_arm_m)) {
             return Fallback::hand_out_of_reach;
         }
-        if (has_sample &&
+        if (has_sample && !is_meant && !reading.is_inferred &&
             !is_plausible(hand, history, hand_ps, t_s, tuning.tracking.max_hand_speed_mps)) {
             return Fallback::hand_implausible;
         }
@@ -130,6 +135,27 @@ struct HandReader {
         }
     }
 
+    // The runtime says where the hand may be.
+    void follow_guess(const Pose& hand_ps, double t_s) {
+        if (!has_sample) {  // there is a hand, though nobody has seen it yet
+            hand.sample_ps = hand.reading_ps = hand_ps;
+            hand.sample_t_s = hand.reading_t_s = t_s;
+            has_sample = true;
+        }
+        hand.interrupted = true;
+        hand.inferred_t_s = t_s;
+        is_inferred = true;
+        guess_ps = hand_ps;
+    }
+
+    // The devices were moved: the hand did not travel, and its velocity is unknown.
+    void jump_with_space(bool is_meant) {
+        if (is_meant) {
+            hand.interrupted = has_sample;
+            clear(history);
+        }
+    }
+
     void believe(const Pose& hand_ps, double t_s) {
         if (jumps_to(hand_ps)) {
             has_jumped = true;
@@ -145,6 +171,7 @@ struct HandReader {
         hand.sample_t_s = hand.reading_t_s = t_s;
         hand.interrupted = false;
         has_sample = true;
+        is_inferred = false;
         remember(history, hand);
     }
 
@@ -152,6 +179,7 @@ struct HandReader {
         hand.raw_pressed = reading.grab;
         hand.squeeze = pressed_share(reading.squeeze);
         hand.trigger = pressed_share(reading.trigger);
+        hand.curls = known_curls(reading.curls);
         // A hand that cannot be seen may let go, but does not close until it is seen again.
         const bool may_begin = has_sample && (is_believed || !reading.grab);
         if (may_begin && reading.grab != hand.pressed && hand.edge == GrabEdge::none) {
@@ -163,8 +191,10 @@ struct HandReader {
     void begin_frame() {
         hand.start_ps = hand.pose_ps;
         hand.edge = GrabEdge::none;
-        const bool may_begin_now = hand.state == TrackingState::tracked ||
-                                   (hand.state == TrackingState::lost && hand.pressed);
+        // As in read_button: a hand that is not seen may let go.
+        const bool may_begin_now = hand.pressed
+                                       ? hand.state != TrackingState::never
+                                       : hand.state == TrackingState::tracked && !hand.interrupted;
         if (hand.raw_pressed != hand.pressed && may_begin_now) {
             begin_edge(hand, history, io.frame_start_s, hand.start_ps, tuning.tracking);
         }
@@ -173,32 +203,58 @@ struct HandReader {
     void read(const PlayerInput& input) {
         const TrackingState before = hand.state;
         has_sample = before != TrackingState::never;
+        is_inferred = before == TrackingState::inferred;
         begin_frame();
         std::optional<Pose> later;
         double later_t_s = 0.0;
         for (const TrackingSample& sample : input.samples) {
             const ControllerSample& reading = sample.controllers[index_of(side)];
-            space.follow(sample, tuning.tracking);
+            const bool is_meant =
+                space.follow(sample, tuning.tracking) == PlaySpaceTracker::Jump::meant;
             const Pose hand_ps = space.hand_ps(reading, side);
-            const std::optional<Fallback> why_not = refusal(reading, hand_ps, sample.t_s);
+            const std::optional<Fallback> why_not = refusal(reading, hand_ps, sample.t_s, is_meant);
             if (is_later(sample.t_s, io.frame_end_s)) {
-                if (!why_not && !jumps_to(hand_ps)) {
+                if (!why_not && !is_meant && !reading.is_inferred && !jumps_to(hand_ps)) {
                     later = hand_ps;
                     later_t_s = sample.t_s;
                 }
                 break;
             }
-            if (is_stale(sample.t_s, has_sample, hand.sample_t_s)) {
-                continue;  // counted once a player, by the head
+            if (is_stale(sample.t_s, has_sample, last_t_s())) {
+                continue;  // counted once per player, for the head
             }
             if (why_not) {
                 ignore(*why_not, hand_ps, sample.t_s);
+            } else if (reading.is_inferred) {
+                follow_guess(hand_ps, sample.t_s);
             } else {
+                jump_with_space(is_meant);
                 believe(hand_ps, sample.t_s);
             }
-            read_button(reading, sample.t_s, !why_not);
+            read_button(reading, sample.t_s, !why_not && !reading.is_inferred);
         }
-        finish(before, later ? &*later : nullptr, later_t_s);
+        if (is_inferred && io.frame_end_s - hand.inferred_t_s <= tuning.tracking.lost_after_s) {
+            finish_guess(before);
+        } else {
+            finish(before, later ? &*later : nullptr, later_t_s);
+        }
+    }
+
+    double last_t_s() const {
+        return is_inferred ? std::max(hand.sample_t_s, hand.inferred_t_s) : hand.sample_t_s;
+    }
+
+    void finish_guess(TrackingState before) {
+        hand.state = TrackingState::inferred;
+        hand.resumed = false;
+        if (guess_ps && !freezes_guesses) {
+            hand.pose_ps = *guess_ps;
+        } else if (before == TrackingState::tracked && freezes_guesses) {
+            hand.pose_ps = hand.sample_ps;
+        }
+        if (before == TrackingState::never) {
+            hand.start_ps = hand.pose_ps;
+        }
     }
 
     void finish(TrackingState before, const Pose* later, double later_t_s) {
@@ -207,9 +263,9 @@ struct HandReader {
                                            tuning.tracking.lost_after_s, stats);
         hand.interrupted =
             hand.interrupted || (is_held && io.frame_end_s - hand.sample_t_s > k_longest_hold_s);
-        hand.resumed =
-            hand.state == TrackingState::tracked &&
-            (before == TrackingState::lost || (has_jumped && before != TrackingState::never));
+        hand.resumed = hand.state == TrackingState::tracked &&
+                       (before == TrackingState::lost || before == TrackingState::inferred ||
+                        (has_jumped && before != TrackingState::never));
         if (hand.resumed) {
             hand.start_ps = hand.pose_ps;
         }
@@ -219,6 +275,7 @@ struct HandReader {
 void read_head(HeadTracking& head, PlaySpaceTracker space, const PlayerInput& input,
                const ReadTrackingIo& io, const TrackingTuning& tuning, StageStats& stats) {
     bool has_sample = space.has_head();
+    bool has_jumped = false;
     head.start_ps = head.pose_ps;
     Pose later;
     const Pose* later_or_null = nullptr;
@@ -227,7 +284,8 @@ void read_head(HeadTracking& head, PlaySpaceTracker space, const PlayerInput& in
         const bool is_stale_now = is_stale(sample.t_s, has_sample, head.sample_t_s);
         const PlaySpaceTracker::Jump jump = space.follow(sample, tuning);
         if (is_later(sample.t_s, io.frame_end_s)) {
-            if (is_trackable(sample.head_ps)) {
+            if (is_trackable(sample.head_ps) && jump != PlaySpaceTracker::Jump::meant &&
+                jump != PlaySpaceTracker::Jump::guess) {
                 later = space.head_ps();
                 later_or_null = &later;
                 later_t_s = sample.t_s;
@@ -239,7 +297,10 @@ void read_head(HeadTracking& head, PlaySpaceTracker space, const PlayerInput& in
         } else if (!is_trackable(sample.head_ps)) {
             stats.count(Fallback::sample_not_finite);
         } else {
-            if (jump != PlaySpaceTracker::Jump::none) {
+            has_jumped = has_jumped || jump == PlaySpaceTracker::Jump::meant ||
+                         jump == PlaySpaceTracker::Jump::guess;
+            if (jump == PlaySpaceTracker::Jump::head ||
+                jump == PlaySpaceTracker::Jump::play_space) {
                 stats.count(jump == PlaySpaceTracker::Jump::head ? Fallback::head_recentred
                                                                  : Fallback::space_recentred);
             }
@@ -249,15 +310,19 @@ void read_head(HeadTracking& head, PlaySpaceTracker space, const PlayerInput& in
             head.before_t_s = space.before_t_s();
             head.sample_ps = space.head_ps();
             head.sample_t_s = sample.t_s;
+            head.is_inferred = space.is_head_inferred();
             has_sample = true;
         }
     }
     finish_device(head, has_sample, later_or_null, later_t_s, io.frame_end_s, tuning.lost_after_s,
                   stats);
+    if (has_jumped) {
+        head.start_ps = head.pose_ps;  // no travel
+    }
 }
 
-// No samples and no commands for a player whom nothing is known of in this frame. Inputs mostly
-// come in the order of the players: the expected place is looked at first.
+// Returns the input of a player; an empty one if this frame has none. Inputs are mostly in the
+// order of the players, so the expected index is looked at first.
 const PlayerInput& input_of(const ReadTrackingIo& io, Entity player, std::size_t expected) {
     static const PlayerInput k_silence{};
     if (expected < io.inputs.size() && io.inputs[expected].player == player) {
@@ -269,7 +334,7 @@ const PlayerInput& input_of(const ReadTrackingIo& io, Entity player, std::size_t
     return found == io.inputs.end() ? k_silence : *found;
 }
 
-// Commands within their ranges; numbers that are not finite ask for nothing.
+// Clamps commands to their ranges. Numbers that are not finite become 0.
 PlayerCommands finite_commands(PlayerCommands commands) {
     const auto bounded = [](double value, double low) {
         return std::isfinite(value) ? std::clamp(value, low, 1.0) : 0.0;
@@ -288,7 +353,7 @@ Pose hand_in_controller(const ReadTrackingIo& io, Entity hand, HandSide side,
     return own != nullptr ? own->hand_in_controller : default_controller_to_hand(side, tuning);
 }
 
-// Rows in `io.owner` of a player's hands by side; the column's size where a hand is missing.
+// Indices in `io.owner` of a player's hands by side; the column's size where a hand is missing.
 std::array<std::size_t, k_hand_count> hand_rows_of(const ReadTrackingIo& io, Entity player,
                                                    std::size_t player_row) {
     const std::size_t none = io.owner.size();
@@ -301,6 +366,15 @@ std::array<std::size_t, k_hand_count> hand_rows_of(const ReadTrackingIo& io, Ent
         rows[index_of(io.owner.rows()[row].side)] = row;
     }
     return rows;
+}
+
+// True if one of the player's hands grips what the player can pull on.
+bool is_holding_on(const ReadTrackingIo& io, const std::array<std::size_t, k_hand_count>& rows) {
+    return std::ranges::any_of(rows, [&](std::size_t row) {
+        const Grab* const grab =
+            row < io.owner.size() ? io.grab.find(io.owner.owners()[row]) : nullptr;
+        return grab != nullptr && can_push_off(*grab);
+    });
 }
 
 // Head and hands follow the same samples from the same state, so they agree on every correction.
@@ -321,13 +395,20 @@ void read_player(const ReadTrackingIo& io, std::size_t row, const Tuning& tuning
                                      hand.state != TrackingState::never};
         }
     }
-    const PlaySpaceTracker space(head, hands);
+    const RecenterGuess* const guess = io.recenter_guess.find(player);
+    const bool holds_on = is_holding_on(io, hand_rows);
+    const PlaySpaceTracker space(
+        head, hands,
+        {.corrects_jumps = guess == nullptr || guess->guesses, .freezes_guesses = holds_on});
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const std::size_t hand_row = hand_rows[index_of(side)];
         if (hand_row < io.owner.size()) {
             const Entity entity = io.owner.owners()[hand_row];
-            HandReader{io.hand.at(entity), io.history.at(entity), space, side, io, tuning, stats}
-                .read(input);
+            const Grab* const grab = io.grab.find(entity);
+            HandReader reader{
+                io.hand.at(entity), io.history.at(entity), space, side, io, tuning, stats};
+            reader.freezes_guesses = holds_on && grab != nullptr && grab->kind != GripKind::none;
+            reader.read(input);
         }
     }
     read_head(head, space, input, io, tuning.tracking, stats);

@@ -16,6 +16,8 @@ struct ReadTrackingIo {
     double frame_end_s;                   // in: > frame_start_s
     const Column<HandOwner>& owner;       // in
     const Column<ControllerToHand>& controller_to_hand;  // in: hands without it use Tuning's
+    const Column<RecenterGuess>& recenter_guess;         // in: players without it: guesses
+    const Column<Grab>& grab;                            // in: of the last frame
     Column<HeadTracking>& head;                          // in/out
     Column<HandTracking>& hand;                          // in/out
     Column<HandHistory>& history;                        // in/out
@@ -28,19 +30,26 @@ struct ReadTrackingIo {
 //
 // Ignored, and counted: samples out of order; poses that are not finite; a controller at exactly
 // (0, 0, 0); a hand farther than max_arm_m from its head; a hand that would have moved faster than
-// max_hand_speed_mps. A jump of a hand is used once two samples in a row agree and the hand could
-// have travelled that far since the last sample used. If the hand then comes back elsewhere, or
-// from any other gap in its samples, it is `resumed`: it did not travel, it takes new anchors. A
+// max_hand_speed_mps. A jump of a hand is used once two consecutive samples agree and the hand
+// could have travelled that far since the last sample used. If the hand then comes back elsewhere,
+// or from any other gap in its samples, it is `resumed`: it did not travel, it takes new anchors. A
 // device silent for longer than lost_after_s is lost and its pose frozen.
 //
 // If the head jumps by more than max_jump_m, or head and hands jump by one turn about +Y and one
 // translation (recentring), later samples are corrected by HeadTracking's shift so that the head
-// stays where it was.
+// stays where it was. For players whose RecenterGuess says no, such jumps are meant: head and hands
+// follow them, and gripping hands take new anchors.
+//
+// Inferred samples, whose poses the runtime guesses: an inferred hand is in TrackingState::inferred
+// and does not grip. It follows the guesses, but stays where it was last measured while it grips
+// what its player can pull on, or any body while the player's other hand does so too. The
+// position of an inferred head stays while a hand of the player does so. No jump to or
+// from a guess counts as a recentring, and the next measured sample of a hand is a jump: `resumed`.
 //
 // Commands hold for their own frame. Numbers in them that are not finite count as 0.
 void read_tracking(const ReadTrackingIo& io, const Tuning& tuning, StageStats& stats);
-// The same for the players of the rows [first, last) of `head`. Ranges that share no player may be
-// read in parallel.
+// read_tracking for the players at the indices [first, last) of `head`. Ranges that share no player
+// may be read in parallel.
 void read_tracking(const ReadTrackingIo& io, std::size_t first, std::size_t last,
                    const Tuning& tuning, StageStats& stats);
 

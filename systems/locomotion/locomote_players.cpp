@@ -23,8 +23,8 @@ struct Grips {
 
 bool is_on_surface(const Grips::Grip& grip) { return grip.grab->kind == GripKind::surface; }
 
-// Surface grips come first, then the hand that closed earlier, then the left hand. The order in the
-// column has no effect.
+// True if grip a comes before b: surface grips first, then the hand that closed earlier, then the
+// left hand. The order in the column has no effect.
 bool comes_first(const Grips::Grip& a, const Grips::Grip& b) {
     if (is_on_surface(a) != is_on_surface(b)) {
         return is_on_surface(a);
@@ -32,7 +32,8 @@ bool comes_first(const Grips::Grip& a, const Grips::Grip& b) {
     return a.grab->since_s != b.grab->since_s ? a.grab->since_s < b.grab->since_s : a.side < b.side;
 }
 
-// `expected_row`: row of the player's hands if all hands were created in the order of the players.
+// `expected_row`: index of the player's first hand if all hands were created in the order of the
+// players.
 Grips grips_of(const LocomotePlayersIo& io, Entity player, std::size_t expected_row) {
     Grips found;
     const std::size_t first = find_hand_row(io.owner, player, expected_row);
@@ -62,8 +63,8 @@ void turn_about(PlayerOrigin& origin, const Vec3& pivot_ps, const Quat& turn_ws)
     origin.pose_ws.position = pivot_ws - origin.pose_ws.rotation * pivot_ps;
 }
 
-// Hands on parts of a player who turns stay where they are in the world. From there they follow the
-// parts (update_grabs).
+// If a player turns whose parts are gripped, those grips stay where they are in the world. From
+// there they follow the parts (update_grabs).
 void keep_holds_in_place(const LocomotePlayersIo& io, Entity player, const Pose& before_ws,
                          const Pose& now_ws) {
     for (const Entity hand : io.body_hold.owners()) {
@@ -114,7 +115,8 @@ void update_reference(const LocomotePlayersIo& io, const Grips& grips,
         reference.linear_mps = io.scene_velocity_mps;
         return;
     }
-    // At the point last gripped, not at the player: a turning body is faster at a distant player.
+    // The velocity at the point last gripped, not at the player: a turning body would be faster
+    // there.
     const Vec3 arm = io.body_pose.at(reference.body).pose_ws.rotation * reference.point_bs;
     reference.linear_mps = support->linear_mps + support->angular_radps.cross(arm);
 }

@@ -34,7 +34,7 @@ void write_solved_bodies(const AcceptSolutionIo& io) {
             body.spin_radps = io.body_velocity.at(entity).angular_radps;
         }
         if (LastValidPose* const valid = io.last_valid.find(entity)) {
-            // A head that was never tracked has no valid pose, nor has its proxy.
+            // A head that was never tracked has no valid pose: its proxy's pose is invalid.
             *valid = {collider_pose(body), is_valid(frame.proxies[i].to_ws)};
         }
     }

@@ -11,11 +11,11 @@
 // Takes the results of a host's own solver for the frame's hand constraints. Replaces the stages
 // from solve_phases to record_valid_poses.
 //
-// A hand that lets go throws at its release velocity, as after solve_velocities, because a
-// solver's velocity also contains its position corrections. This applies to a hand that let go of a
-// surface or of a body that it alone held without joints to something immovable, and only if the
-// hand was within k_follows_m of its anchor at the end of the frame. Otherwise something stopped
-// the body, and the host's velocity is kept. Fallbacks counted: none.
+// What a hand releases gets the hand's release velocity, like after solve_velocities: a solver's
+// velocity also contains its position corrections. This applies to a hand that let go of a surface
+// or of a body that it alone held without joints to something immovable, and only if the hand was
+// within k_follows_m of its anchor at the end of the frame. Otherwise something stopped the body,
+// and the host's velocity is kept. Fallbacks counted: none.
 namespace handhold {
 
 // A hand that is farther from its anchor did not follow it.

@@ -37,7 +37,7 @@ void book_momentum(const ConstraintGraph& graph, MomentumLedger& ledger) {
         const SolverBody& a = graph.bodies[block.a];
         const SolverBody& b = graph.bodies[block.b];
         if (is_object(a) && is_object(b) && !block.is_impact) {
-            continue;  // both are objects, at one point: the sum is zero
+            continue;  // both receivers are objects: the impulses cancel
         }
         // Both sides act at one point, as in the rows: a's point for contacts, else b's. Only fast
         // impacts have two points.

@@ -41,7 +41,7 @@ void write_rigid(const BuildConstraintsIo& io, Entity entity, const RigidBody& b
 
 void write_bodies(const BuildConstraintsIo& io, const Tuning& tuning) {
     FrameGraph& frame = io.frame;
-    // Decides which bodies are heavy.
+    // heavy_body_kg decides which bodies are heavy: if it has changed, all bodies are processed.
     frame.active.all_changed |= frame.heavy_body_kg != tuning.phases.heavy_body_kg;
     frame.heavy_body_kg = tuning.phases.heavy_body_kg;
     frame.active.start_frame(frame.entities.size());
@@ -100,9 +100,9 @@ Pose target_before(const Grab& grab, double dt_s) {
                 .normalized()};
 }
 
-// Two-handed hold: the second hand controls the body's rotation, whose target and rate follow from
-// both hands. The block keeps the second hand's points, because its error is how far that hand
-// slid.
+// Two-handed hold: the second hand's block controls the body's rotation. Its target and rate follow
+// from both hands. The block keeps the second hand's points to measure how far that hand slid along
+// the line.
 void set_direction(const Grab& first, const Grab& second, const SolverBody& player,
                    const SolverBody& body, double dt_s, RowBlock& block) {
     const Quat near = player.pose_ws.rotation.conjugate() * body.pose_ws.rotation;
@@ -119,9 +119,9 @@ void set_direction(const Grab& first, const Grab& second, const SolverBody& play
         player.pose_ws.rotation * (rotation_to_vector(now * before.conjugate()) / dt_s);
 }
 
-// Splits the rows of two hands that hold one free body: the first holds its point, the second the
-// direction. If the hands are too close for that, the first has all rows. False if this hand has no
-// rows.
+// Splits the rows between two hands that hold one free body: the first holds its point, the second
+// its direction. If the hands are too close for that, the first has all rows. Returns false if this
+// hand has no rows.
 bool share_rows(const BuildConstraintsIo& io, std::size_t row, RowBlock& block) {
     const std::size_t other = find_other_hand(io.owner, io.grab, row);
     const Grab& grab = io.grab.rows()[row];
@@ -209,7 +209,7 @@ void write_joint_rows(const Joint& joint, const JointState& state, double dt_s, 
     rows.limited = joint.limited || joint.kind == JointKind::distance;
     rows.lower = joint.lower;
     rows.upper = joint.upper;
-    // Predicted, because the joint may rotate fast.
+    // Uses the predicted angle, because the joint may rotate fast.
     rows.previous = state.coordinate + state.speed * dt_s;
     rows.friction_impulse = joint.friction * dt_s;
     rows.motor_target = rows.motor_time_s = rows.motor_max_impulse = 0.0;
@@ -275,7 +275,7 @@ bool rewrite_joints(const BuildConstraintsIo& io) {
         }
         ++rewritten;
     }
-    // Sources are distinct, so all joints were rewritten.
+    // Each block has another source, so equal counts mean that all joints were rewritten.
     return rewritten == io.joint.size();
 }
 bool rewrite_hands(FrameGraph& frame) {

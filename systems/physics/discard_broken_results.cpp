@@ -22,7 +22,7 @@ void discard_broken_results(const DiscardBrokenResultsIo& io, StageStats& stats)
     for (const std::uint32_t i : io.frame.active.list) {
         const Entity body = io.frame.entities[i];
         if (!io.body_pose.contains(body)) {
-            continue;  // a player
+            continue;  // players have no body components
         }
         Pose& pose_ws = io.body_pose.at(body).pose_ws;
         BodyVelocity& velocity = io.body_velocity.at(body);

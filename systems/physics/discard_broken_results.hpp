@@ -27,11 +27,12 @@ struct DiscardBrokenResultsIo {
     FrameGraph& frame;                        // in/out: push_backs
 };
 
-// Extreme masses, moments and distances (for instance 1e-12 to 1e15 kg in one chain) may overflow a
-// solve. A body or player whose pose is then not valid or beyond k_farthest_result_m, or whose
-// velocity is not finite or beyond k_fastest_result, returns to the start of the frame, at rest,
-// and is counted as restored_last_valid_pose. Broken last valid poses become the present ones,
-// other broken numbers 0. So no frame begins with such a number, and no snapshot holds one.
+// Discards results of solves that overflowed because of extreme masses, moments or distances (for
+// instance 1e-12 to 1e15 kg in one chain). A body or player whose pose is invalid or beyond
+// k_farthest_result_m, or whose velocity is not finite or beyond k_fastest_result, returns to its
+// pose at the start of the frame, at rest, and is counted as restored_last_valid_pose. An invalid
+// last valid pose becomes the present pose; other invalid numbers become 0. So no frame begins with
+// such a number, and no snapshot contains one.
 void discard_broken_results(const DiscardBrokenResultsIo& io, StageStats& stats);
 
 }  // namespace handhold

@@ -12,9 +12,9 @@
 #include "engine/ecs/column.hpp"
 
 // Finds the contacts of all colliders at the predicted poses.
-// The result does not depend on earlier frames; the collision world's caches do not show.
-// No contacts are made between bodies connected by a joint (unless it says so), and between a
-// player's head and what that player holds, or has released and is not yet clear of.
+// The result does not depend on earlier frames or on the collision world's caches. No contacts are
+// made between bodies connected by a joint, unless Joint::collides is set, and between a player's
+// head and what that player holds, or has released and still touches.
 // Fallbacks counted: none.
 namespace handhold {
 

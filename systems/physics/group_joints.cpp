@@ -40,7 +40,7 @@ void group_joints(const GroupJointsIo& io, const PhaseTuning& tuning) {
         const std::size_t b = light_row(joint.b);
         const bool may_be_slack = joint.kind == JointKind::distance && joint.lower < joint.upper;
         if (!may_be_slack && (a == Column<RigidBody>::k_npos) != (b == Column<RigidBody>::k_npos)) {
-            groups.anchored[groups.of_body[std::min(a, b)]] = 1;  // k_npos is larger than any row
+            groups.anchored[groups.of_body[std::min(a, b)]] = 1;  // k_npos is larger than any index
         }
     }
 }

@@ -16,7 +16,7 @@ namespace handhold {
 struct GroupJointsIo {
     const Column<Joint>& joint;     // in
     const Column<RigidBody>& body;  // in: kind, kg
-    FrameGraph& frame;              // out: joint_groups, by row of `body`
+    FrameGraph& frame;              // out: joint_groups, in the order of `body`
 };
 void group_joints(const GroupJointsIo& io, const PhaseTuning& tuning);
 

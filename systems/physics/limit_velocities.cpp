@@ -22,7 +22,7 @@ bool clamp_speed(const Vec3& reference_mps, double limit_mps, Vec3& velocity_mps
 }
 
 // Highest speed, relative to the reference, of the island's kinematic and heavy bodies at their
-// constraints. Up to this speed, such a body may be the cause of another body's velocity.
+// constraints. A body that is not faster than this may have got its velocity from one of them.
 double driven_speed(const FrameGraph& frame, const Island& island, const Vec3& reference_mps) {
     double fastest = 0.0;
     for (const std::uint32_t i : frame.graph.blocks_of(island)) {
@@ -88,7 +88,7 @@ void clamp_handled_bodies(const LimitVelocitiesIo& io, const LocomotionTuning& t
             }
             Vec3& velocity_mps = io.body_velocity.at(frame.entities[i]).linear_mps;
             if (is_slower(velocity_mps - reference, tuning.object_speed_max_mps)) {
-                continue;  // the common case
+                continue;  // most bodies are slow enough
             }
             const double before = (frame.phase[i].velocity_before_mps - reference).norm();
             if (!driven) {

@@ -22,13 +22,13 @@ ColliderProxy proxy_of(const PlaceCollidersIo& io, Entity entity, const HeadTuni
         proxy.to_ws =
             origin->pose_ws * Pose{head_center_ps(io.head.at(entity), tuning), Quat::Identity()};
         const LastValidPose& valid = io.last_valid.at(entity);
-        // A head without a valid pose so far is swept from where the frame starts.
+        // A head that has no valid pose yet is swept from its pose at the start of the frame.
         const Pose start_ws = io.player_start.at(entity).pose_ws *
                               Pose{head_center_ps(io.head.at(entity), tuning), Quat::Identity()};
         proxy.from_ws = valid.known ? valid.pose_ws : start_ws;
         proxy.free = true;
         if (io.head.at(entity).state == TrackingState::never) {
-            // No pose yet: proxies with an invalid pose take no part in collision.
+            // The head has no pose yet. A proxy with an invalid pose takes no part in collision.
             proxy.to_ws.position.setConstant(std::numeric_limits<double>::quiet_NaN());
         }
         return proxy;
@@ -90,7 +90,7 @@ bool note_changes(const PlaceCollidersIo& io) {
     bool same_ids = true;
     bool same = watches.persistent_id.update(io.persistent_id,
                                              [&same_ids](Entity /*entity*/) { same_ids = false; });
-    // Compares every column, even after a difference, so that each copy is of this call.
+    // Compares every column, even after a difference was found, so that all copies are up to date.
     same = watches.collider.update(io.collider, note) && same;
     same = watches.body.update(io.body, note) && same;
     same = watches.body_pose.update(io.body_pose, note) && same;

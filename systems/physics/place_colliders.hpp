@@ -20,7 +20,7 @@ namespace handhold {
 struct PlaceCollidersIo {
     const Column<PersistentId>& persistent_id;  // in
     const Column<Collider>& collider;           // in
-    const Column<CollisionFilter>& filter;      // in: without a row: the default
+    const Column<CollisionFilter>& filter;      // in: bodies without an element: the default
     const Column<RigidBody>& body;              // in
     const Column<BodyPose>& body_pose;          // in: world, current
     const Column<BodyStart>& body_start;        // in: world, start of the frame

@@ -13,7 +13,7 @@ namespace handhold {
 struct PredictBodiesIo {
     double dt_s;                                // in: s
     Vec3 gravity_mps2;                          // in: world; free bodies gain it before they move
-    const Column<GravityScale>& gravity_scale;  // in: bodies without a row: 1
+    const Column<GravityScale>& gravity_scale;  // in: bodies without an element: 1
     const Column<RigidBody>& body;              // in: kg m^2
     const Column<PlayerVelocity>& player_velocity;  // in: world, m/s
     Column<BodyPose>& body_pose;                    // in/out, free bodies: world

@@ -10,7 +10,7 @@ namespace {
 // For each body, the other body of its deepest overlap; its own index if no overlap is too deep.
 void find_overlaps(FrameGraph& frame) {
     const ConstraintGraph& graph = frame.graph;
-    // Entries of inactive bodies are not read.
+    // Entries of inactive bodies keep old values, which are not read.
     frame.overlap_m.resize(graph.bodies.size());
     frame.overlaps_with.resize(graph.bodies.size());
     const auto clear = [&frame](std::uint32_t body) {
@@ -60,7 +60,7 @@ void record_valid_poses(const RecordValidPosesIo& io) {
             continue;
         }
         frame.active.note(i);  // the sweep of the next frame starts elsewhere
-        // Penetrating: keep the last valid pose, carried along if the obstacle moves.
+        // The body penetrates: keeps its last valid pose, carried along if the obstacle moves.
         const ColliderProxy& other = frame.proxies[frame.overlaps_with[i]];
         if (frame.graph.bodies[frame.overlaps_with[i]].role == BodyRole::fixed) {
             valid->pose_ws = other.to_ws * (inverse(other.from_ws) * valid->pose_ws);

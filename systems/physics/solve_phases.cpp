@@ -1,6 +1,7 @@
 #include "systems/physics/solve_phases.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -10,8 +11,8 @@
 namespace handhold {
 namespace {
 
-// Smallest violation that starts another phase, at least twice the solver's tolerance: below lie
-// rounding and the residual of a solved phase.
+// Smallest violation that starts another phase. At least twice the solver's tolerance, because
+// smaller ones are rounding errors or residuals of a solved phase.
 constexpr double k_violated_m = 2e-7;
 // Overlap within a heap from which the hands that press it give way.
 constexpr double k_heap_violated_m = 1e-3;
@@ -54,7 +55,7 @@ const IslandErrors& errors_of(const Solve& s, const Island& island) {
     return *errors;
 }
 void clear_errors(const Solve& s, const Island& island) { cached_errors(s, island).reset(); }
-// For all islands, after they were rebuilt.
+// Forgets the cached errors of all islands, after the islands were rebuilt.
 void clear_errors(const Solve& s) { s.io.frame.island_errors.assign(s.graph().islands.size(), {}); }
 
 // --- Rounds of solving and of searching contacts -------------------------------------------------
@@ -103,13 +104,22 @@ bool is_searched(const Solve& s, const Island& island) {
                                [&s](std::uint32_t i) { return s.graph().bodies[i].is_searched; });
 }
 
+MovingContacts moving_contacts(const Solve& s) {
+    FrameGraph& frame = s.io.frame;
+    return {.collision = s.io.collision,
+            .proxies = frame.proxies,
+            .contacts = frame.contacts,
+            .graph = frame.graph,
+            .scratch = frame.fresh_contacts,
+            .updates = frame.proxy_updates,
+            .impacts = &frame.impacts};
+}
+
 // Sweeps colliders to the solved poses. True if contacts found there overlap.
 bool refresh_contacts(const Solve& s, OldPoints old_points) {
     FrameGraph& frame = s.io.frame;
-    const FoundContacts found =
-        refresh_contacts({s.io.collision, frame.proxies, frame.contacts, frame.graph,
-                          frame.fresh_contacts, frame.proxy_updates},
-                         {s.tuning.contact.margin_m, s.tuning.contact.sweep_m}, old_points);
+    const FoundContacts found = refresh_contacts(
+        moving_contacts(s), {s.tuning.contact.margin_m, s.tuning.contact.sweep_m}, old_points);
     if (found != FoundContacts::unchanged) {
         activate_islands(frame);
         ++s.stats.contact_rounds;
@@ -149,7 +159,8 @@ void reach(const Solve& s) {
     refresh_contacts(s, OldPoints::replaced);
 }
 
-// An island that has begun to push stays one, even if what gave way has left the wall since.
+// True if the island pushes a player. Once it has begun to push it continues, even if the body that
+// gave way is no longer at the wall.
 bool pushes_player(const Solve& s, const Island& island) {
     return is_pushed(s.io.frame, island) || may_push(s.graph(), island);
 }
@@ -160,7 +171,7 @@ bool presses_player(const Solve& s, const Island& island) {
     return errors_of(s, island).heap_m > k_heap_violated_m && pushes_player(s, island);
 }
 
-// True if forward has left such a heap: relax is next.
+// True if forward left a heap that presses the player (presses_player), so that relax must run.
 bool is_stuck(const Solve& s, const Island& island) {
     return presses_player(s, island) &&
            std::ranges::any_of(s.graph().bodies_of(island),
@@ -180,8 +191,8 @@ void forward(const Solve& s) {
     });
 }
 
-// Heaps that forward could not solve with the hands where they are: lets the held bodies give way,
-// so that backward finds the heap free of overlap.
+// Solves the heaps that forward could not solve with the hands kept at their targets: the held
+// bodies give way, so that backward starts from a heap without overlap.
 void relax(const Solve& s) {
     HH_DETAIL_ZONE("relax");
     const auto wanted = [&](const Island& island) { return presses_player(s, island); };
@@ -239,6 +250,22 @@ void backward(const Solve& s) {
     }
 }
 
+// Hands decide how held bodies move, not their impacts.
+void restore_free_impacts(const Solve& s) {
+    FrameGraph& frame = s.io.frame;
+    std::erase_if(frame.impacts, [&](const ContactPoint& impact) {
+        return std::ranges::any_of(std::array{impact.id_a, impact.id_b}, [&](std::uint64_t id) {
+            const std::size_t body = find_body(frame.graph, id);
+            return frame.graph.bodies[body].in_heap || frame.phase[body].held;
+        });
+    });
+    if (!frame.impacts.empty()) {
+        restore_impacts(moving_contacts(s), frame.impacts);
+        activate_islands(frame);
+        clear_errors(s);
+    }
+}
+
 void contradiction(const Solve& s) {
     HH_DETAIL_ZONE("contradiction");
     const auto wanted = [&](const Island& island) {
@@ -266,6 +293,7 @@ void solve_phases(const SolvePhasesIo& io, const Tuning& tuning, StageStats& sta
 void solve_phases_with(PositionSolver solver, const SolvePhasesIo& io, const Tuning& tuning,
                        StageStats& stats) {
     const Solve s{solver, io, tuning, stats};
+    io.frame.impacts.clear();
     clear_errors(s);
     count_heap_visits(s);
     activate_islands(io.frame);
@@ -274,6 +302,7 @@ void solve_phases_with(PositionSolver solver, const SolvePhasesIo& io, const Tun
     relax(s);
     backward(s);
     contradiction(s);
+    restore_free_impacts(s);
     stats.islands += s.graph().islands.size();
 }
 

@@ -10,7 +10,8 @@ bool handle_is_turned(const UpdateJointsIo& io, const JointLatch& latch) {
     return handle != nullptr && std::abs(handle->coordinate) >= latch.handle_at;
 }
 
-// A latch's lock impulse is limited to its strength. At the limit the latch opens.
+// False if the latch opens: its lock impulse has reached the limit given by its strength, or its
+// handle is turned.
 bool stays_latched(const UpdateJointsIo& io, const JointLatch& latch, double lock_impulse) {
     constexpr double k_limit_ratio = 1.0 - 1e-9;
     const bool broken =
@@ -18,7 +19,8 @@ bool stays_latched(const UpdateJointsIo& io, const JointLatch& latch, double loc
     return !broken && !handle_is_turned(io, latch);
 }
 
-// A latch catches only an approaching or resting coordinate, not one that was just pulled out.
+// True if the latch closes. It catches only an approaching or resting coordinate, not one that was
+// just pulled out.
 bool catches(const UpdateJointsIo& io, const JointLatch& latch, const JointState& state) {
     constexpr double k_still = 1e-6;  // m or rad
     const double offset = state.coordinate - latch.at;

@@ -13,7 +13,7 @@ struct UpdateJointsIo {
     double dt_s;                 // in: s, > 0
     const FrameGraph& frame;     // in: solved poses, velocities and impulses
     const Column<Joint>& joint;  // in: rad or m, N or N m
-    Column<JointState>& state;   // in/out, joints with a row block: rad or m, rad/s or m/s
+    Column<JointState>& state;   // in/out, joints with a constraint block: rad or m, rad/s or m/s
 };
 void update_joints(const UpdateJointsIo& io);
 

@@ -32,7 +32,7 @@ AuthoredHand mirror_authored_hand(const AuthoredHand& hand, int body_axis) {
     AuthoredHand mirrored = hand;
     mirrored.wrist_bs.position[body_axis] = -hand.wrist_bs.position[body_axis];
     const Quat turned = half_turn(body_axis) * hand.wrist_bs.rotation * half_turn(0);
-    // Negated, so that mirroring twice returns the same quaternion.
+    // The quaternion is negated, so that mirroring twice returns the same quaternion.
     mirrored.wrist_bs.rotation = Quat(-turned.w(), -turned.x(), -turned.y(), -turned.z());
     return mirrored;
 }

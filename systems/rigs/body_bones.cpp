@@ -1,6 +1,7 @@
 #include "systems/rigs/body_bones.hpp"
 
 #include <algorithm>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -13,7 +14,7 @@ constexpr std::array k_sides = {HandSide::left, HandSide::right};
 class BoneFinder {
   public:
     BoneFinder(const SkinnedMesh& figure, const BodyMap& map)
-        : figure_(figure), map_(map), tree_(figure) {}
+        : figure_(figure), map_(map), tree_(figure), prefix_(shared_name_prefix(figure)) {}
 
     Result<BodyBones> find() {
         if (const auto error = find_mapped()) {
@@ -76,7 +77,7 @@ class BoneFinder {
                 return std::nullopt;
             }
         }
-        auto guess = parse_body_joint_name(name);
+        auto guess = parse_body_joint_name(bare_name(name, prefix_));
         return guess && !guess->is_part ? guess : std::nullopt;
     }
 
@@ -85,8 +86,9 @@ class BoneFinder {
     // many joints below them.
     using Rank = std::tuple<int, bool, bool, std::size_t, std::ptrdiff_t>;
     Rank rank_of(std::size_t joint, int doubt) const {
-        return {doubt, is_spare_name(figure_.joints[joint].name), tree_.size(joint) == 0,
-                tree_.depth(joint), -static_cast<std::ptrdiff_t>(tree_.size(joint))};
+        return {doubt, is_spare_name(bare_name(figure_.joints[joint].name, prefix_)),
+                tree_.size(joint) == 0, tree_.depth(joint),
+                -static_cast<std::ptrdiff_t>(tree_.size(joint))};
     }
 
     void find_named() {
@@ -263,10 +265,40 @@ class BoneFinder {
     const SkinnedMesh& figure_;
     const BodyMap& map_;
     JointTree tree_;
+    std::string prefix_;
     BodyBones bones_;
 };
 
 }  // namespace
+
+std::string shared_name_prefix(const SkinnedMesh& figure) {
+    constexpr std::size_t k_words = 3;
+    constexpr std::size_t k_fewest = 8;  // joints
+    std::string prefix;
+    for (std::size_t word = 0; word < k_words; ++word) {
+        std::map<std::string_view, std::size_t> counts;
+        for (const SkinJoint& joint : figure.joints) {
+            const std::string_view name = joint.name;
+            if (!name.starts_with(prefix)) {
+                continue;
+            }
+            const std::size_t end = name.find_first_of("_:|-. ", prefix.size() + 1);
+            if (end != std::string_view::npos && end + 1 < name.size()) {
+                ++counts[name.substr(0, end + 1)];
+            }
+        }
+        const auto most =
+            std::max_element(counts.begin(), counts.end(),
+                             [](const auto& a, const auto& b) { return a.second < b.second; });
+        // A convention's own first word, such as Rigify's "DEF-", is as frequent.
+        if (most == counts.end() || most->second < k_fewest ||
+            10 * most->second < 6 * figure.joints.size()) {
+            break;
+        }
+        prefix = most->first;
+    }
+    return prefix;
+}
 
 bool is_below(const SkinnedMesh& figure, std::size_t joint, std::size_t above) {
     std::int32_t at = figure.joints[joint].parent;

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/core/result.hpp"
@@ -32,8 +34,8 @@ struct BodyBones {
 };
 
 // Finds the bones: first by the map, then by the joints' names, then by shape
-// (fill_bones_by_shape). If the result is not plausible, repeats this without the names. Errors: as
-// fit_body_rig.
+// (fill_bones_by_shape). If the result is not plausible, repeats this without the names. Returns
+// the errors that fit_body_rig lists.
 Result<BodyBones> find_body_bones(const SkinnedMesh& figure, const BodyMap& map);
 
 // Finds the missing bones from the joints' hierarchy and positions: feet are lowest, hands farthest
@@ -50,6 +52,13 @@ inline const Vec3& place_of(const SkinnedMesh& figure, std::size_t joint) {
     return figure.joints[joint].bind_ms.position;
 }
 bool is_below(const SkinnedMesh& figure, std::size_t joint, std::size_t above);
+
+// What most joints' names begin with, up to a separator: "Shinobi_" of "Shinobi_Arm_L". It names
+// the figure, so it says nothing of a bone, even if it sounds like one. Empty if there is none.
+std::string shared_name_prefix(const SkinnedMesh& figure);
+inline std::string_view bare_name(std::string_view name, std::string_view prefix) {
+    return name.substr(name.starts_with(prefix) ? prefix.size() : 0);
+}
 
 // The joints of a figure as a tree.
 class JointTree {

@@ -178,7 +178,8 @@ class ShapeFinder {
                 (known && i != *known && !is_below(figure_, i, *known))) {
                 continue;
             }
-            // Legs: among joints at about the same height, prefers the deepest in the hierarchy.
+            // For legs, prefers the joint deepest in the hierarchy among those at about the same
+            // height.
             const double out =
                 kind.end == BodyBone::hand
                     ? to_side * aside(i)
@@ -263,8 +264,8 @@ class ShapeFinder {
             bones_.at({BodyBone::clavicle, side}) = path.front();
         }
     }
-    // Low if upper and lower part have equal lengths, and little of the path lies before the limb
-    // or beyond its end.
+    // Cost of taking these joints as the limb. Low if upper and lower part have equal lengths, and
+    // little of the path lies before the limb or beyond its end.
     double limb_cost(const std::array<std::size_t, 3>& limb, const JointPath& path) const {
         // Usual length of the path beyond the limb's end / limb's length.
         constexpr double k_usual_rest = 0.3;

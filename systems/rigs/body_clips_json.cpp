@@ -15,7 +15,8 @@ constexpr std::array<std::string_view, k_body_clip_count> k_clip_names = {
 constexpr double k_max_turn_deg = 90.0;
 constexpr std::size_t k_max_keys = 1000;
 
-// In a file, the keys of the first two clips are in seconds, those of the others in degrees.
+// True if the clip's keys in a file are in seconds, as for the first two clips. Those of the others
+// are in degrees.
 bool is_timed(std::size_t clip) { return clip <= static_cast<std::size_t>(BodyClipName::push_off); }
 
 ClipKey read_key(const JsonValue& value, std::size_t clip) {

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace handhold {
@@ -37,19 +39,22 @@ struct Word {
 constexpr Word sure(const char* text, BodyBone bone) { return {text, bone, 0, false, bone}; }
 constexpr Word likely(const char* text, BodyBone bone) { return {text, bone, 1, false, bone}; }
 
-// If a name contains several of these texts, the first one in the list counts.
+// Texts in names of limb joints. If a name contains several of them, the first one in the list
+// counts.
 constexpr std::array k_limb_words = {
     sure("forearm", BodyBone::forearm),
     sure("lowerarm", BodyBone::forearm),
     sure("lowarm", BodyBone::forearm),
     sure("loarm", BodyBone::forearm),
-    sure("armlower", BodyBone::forearm),
+    sure("armlow", BodyBone::forearm),
+    sure("armdown", BodyBone::forearm),
     sure("elbow", BodyBone::forearm),
     sure("upperarm", BodyBone::upper_arm),
     sure("uparm", BodyBone::upper_arm),
-    sure("armupper", BodyBone::upper_arm),
+    sure("armup", BodyBone::upper_arm),
     sure("shldr", BodyBone::upper_arm),
     sure("humerus", BodyBone::upper_arm),
+    sure("bicep", BodyBone::upper_arm),
     sure("clavicle", BodyBone::clavicle),
     sure("collar", BodyBone::clavicle),
     sure("scapula", BodyBone::clavicle),
@@ -60,13 +65,15 @@ constexpr std::array k_limb_words = {
     sure("lowerleg", BodyBone::shin),
     sure("lowleg", BodyBone::shin),
     sure("loleg", BodyBone::shin),
-    sure("leglower", BodyBone::shin),
+    sure("leglow", BodyBone::shin),
+    sure("legdown", BodyBone::shin),
+    sure("foreleg", BodyBone::shin),
     sure("calf", BodyBone::shin),
     sure("shin", BodyBone::shin),
     sure("knee", BodyBone::shin),
     sure("upleg", BodyBone::thigh),
     sure("upperleg", BodyBone::thigh),
-    sure("legupper", BodyBone::thigh),
+    sure("legup", BodyBone::thigh),
     sure("thigh", BodyBone::thigh),
     sure("femur", BodyBone::thigh),
     likely("hip", BodyBone::thigh),
@@ -192,10 +199,19 @@ std::optional<HandSide> take_side(std::string& word) {
     return std::nullopt;
 }
 
-void remove_final_digits(std::string& word) {
-    while (!word.empty() && word.back() >= '0' && word.back() <= '9') {
-        word.pop_back();
+// Returns the number at the end of a word, and removes it from the word.
+std::optional<int> take_number(std::string& word) {
+    std::size_t begin = word.size();
+    while (begin > 0 && word[begin - 1] >= '0' && word[begin - 1] <= '9') {
+        --begin;
     }
+    if (begin == word.size()) {
+        return std::nullopt;
+    }
+    int number = 0;
+    std::from_chars(word.data() + begin, word.data() + word.size(), number);
+    word.resize(begin);
+    return number;
 }
 
 BodyNameGuess guess_of(const Word& word) {
@@ -232,6 +248,7 @@ struct CutName {
     std::optional<HandSide> side;
     std::string latin;     // the words in Latin script, joined, without side, digits and k_fillers
     std::string japanese;  // the other words, joined, without side and digits
+    std::optional<int> number;  // the first one
     bool is_part = false;
     bool is_other = false;
 };
@@ -243,7 +260,8 @@ CutName cut_name(std::string_view name) {
         if (const auto side = take_side(word)) {
             cut.side = side;
         }
-        remove_final_digits(word);
+        const std::optional<int> number = take_number(word);
+        cut.number = cut.number ? cut.number : number;
         if (!is_latin_word) {
             cut.japanese += word;
             continue;
@@ -274,6 +292,18 @@ std::optional<BodyNameGuess> parse_japanese(const CutName& cut) {
     return guess;
 }
 
+// "Arm_1", "Arm_2", "Leg_1" and "Leg_2" are counted from the body. Without numbers, "Arm" is the
+// upper arm and "Leg" the shin, beside an "UpLeg".
+void count_from_body(int number, BodyNameGuess& guess) {
+    const bool is_second = number == 2;
+    if (guess.name.bone == BodyBone::upper_arm && is_second) {
+        guess.name.bone = BodyBone::forearm;
+        guess.other.bone = BodyBone::upper_arm;
+    } else if (guess.name.bone == BodyBone::shin && !is_second) {
+        std::swap(guess.name, guess.other);
+    }
+}
+
 }  // namespace
 
 bool is_digit_name(std::string_view name) {
@@ -295,6 +325,9 @@ std::optional<BodyNameGuess> parse_body_joint_name(std::string_view name) {
     } else {
         guess =
             cut.side ? find_word(k_limb_words, cut.latin) : find_word(k_middle_words, cut.latin);
+        if (guess && cut.number && cut.side && guess->doubt > 0) {
+            count_from_body(*cut.number, *guess);
+        }
     }
     if (guess) {
         guess->name.side = guess->other.side = cut.side.value_or(HandSide::left);

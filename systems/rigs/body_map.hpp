@@ -15,7 +15,7 @@ using BodyMap = std::map<std::string, std::string>;  // body_joint_text -> joint
 // Reads a file such as {"joints": {"pelvis": "Hips", "left_upper_arm": "arm_l_01"}}. Other keys,
 // and values that are not text, are errors.
 Result<BodyMap> load_body_map(const std::filesystem::path& path);
-// The same from text in memory; `file` is used in messages.
+// load_body_map for text in memory; `file` is used in messages.
 Result<BodyMap> parse_body_map(std::string_view text, const std::string& file);
 
 // Converts VRM's humanoid table (parse_vrm_humanoid). Omits bones that BodyBone does not have.

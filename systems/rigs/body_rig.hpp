@@ -87,10 +87,11 @@ double arm_twist(const Quat& parent, const Quat& child);
 
 inline constexpr double k_wholly_followed_rad = 2.0 / 3.0 * k_pi;
 
-// The part of a child's twist about the Z axis of `parent` that joints between both follow,
-// relative to the twist `rest_rad` of the figure's file, in radians. Up to k_wholly_followed_rad to
-// either side it is the whole difference. Beyond that it is less, and at half a turn nothing, so
-// that the result is continuous. Fades out if the bend exceeds k_wholly_followed_rad.
+// The twist that joints between `parent` and `child` distribute among themselves: the twist of
+// `child` about the Z axis of `parent`, minus the twist `rest_rad` in the figure's file, in
+// radians. Up to k_wholly_followed_rad to either side it is the whole difference. Beyond that it
+// decreases to 0 at half a turn, so that the result is continuous. Fades out if the bend exceeds
+// k_wholly_followed_rad.
 double followed_twist(const Quat& parent, const Quat& child, double rest_rad);
 
 // Pose of the player's trunk at `along`: 0 is the pelvis, 1 midway between the shoulders.

@@ -43,7 +43,7 @@ Quat along_y(const Vec3& along, const Vec3& back) {
 class BodyFitter {
   public:
     BodyFitter(const SkinnedMesh& figure, const BodyBones& bones)
-        : figure_(figure), bones_(bones) {}
+        : figure_(figure), bones_(bones), prefix_(shared_name_prefix(figure)) {}
 
     Result<BodyRig> fit() {
         if (const auto error = find_stance()) {
@@ -179,9 +179,9 @@ class BodyFitter {
         BodyRig::Carrier& forearm = rig_.carriers[carrier_of_[joint(BodyBone::forearm)]];
         forearm.twist_rad = arm_twist(forearm.rest_ms.rotation, turn);
         for (std::size_t i = 0; i < figure_.joints.size(); ++i) {
-            const auto guess = parse_body_joint_name(figure_.joints[i].name);
+            const auto guess = parse_body_joint_name(name_of(i));
             const bool is_hand = (guess && !guess->is_part && guess->name.bone == BodyBone::hand) ||
-                                 is_digit_name(figure_.joints[i].name);
+                                 is_digit_name(name_of(i));
             if (is_hand && is_below(figure_, i, joint(BodyBone::forearm))) {
                 carrier_of_[i] = carrier_of_[hand];
             }
@@ -225,7 +225,7 @@ class BodyFitter {
         }
     }
 
-    // Gives every joint a carrier.
+    // Assigns every joint the bone frame (BodyRig::carriers) that it follows.
     void carry_joints() {
         for (std::size_t i = 0; i < figure_.joints.size(); ++i) {
             const SkinJoint& joint = figure_.joints[i];
@@ -258,7 +258,7 @@ class BodyFitter {
     // Returns the carrier of the limb in a joint's name. Some rigs keep twist joints and duplicates
     // beside the limb instead of below it.
     std::optional<std::size_t> part_carrier(std::size_t joint) {
-        const auto guess = parse_body_joint_name(figure_.joints[joint].name);
+        const auto guess = parse_body_joint_name(name_of(joint));
         if (!guess || !is_limb(guess->name.bone)) {
             return std::nullopt;
         }
@@ -351,8 +351,13 @@ class BodyFitter {
         return is_there ? Pose() : pose;
     }
 
+    std::string_view name_of(std::size_t joint) const {
+        return bare_name(figure_.joints[joint].name, prefix_);
+    }
+
     const SkinnedMesh& figure_;
     const BodyBones& bones_;
+    std::string prefix_;
     Stance stance_;
     BodyRig rig_;
     // By joint of the figure: index into rig_.carriers of the bone frame that the joint follows.

@@ -83,7 +83,7 @@ FingerRig make_thumb() {
     double away_sine = 0.0;
     double away_cosine = 1.0;
     sin_cos(k_thumb_away_deg * k_degree, away_sine, away_cosine);
-    // Towards the thumb's side, perpendicular to the axis.
+    // Direction towards the thumb's side, perpendicular to the axis.
     const Vec3 beside = (-Vec3::UnitX() + axis * axis.x()).normalized();
     const Vec3 out = rotation_about(thumb.opposition_axis_hs, k_thumb_below_rad) * beside;
     Mat3 axes;

@@ -11,8 +11,16 @@ namespace handhold {
 // axis.
 void set_hand_limits(HandSide side, FingerRig& finger);
 
-// Direction of the thumb's first link at opposition 0: the angle about the opposition axis, from
-// the thumb's side of the hand towards the palm's side.
-inline constexpr double k_thumb_below_rad = 1.0471975511965976;  // 60 degrees
+// Direction of the thumb's first link at opposition 0, as an angle about the opposition axis: 0
+// points out of the thumb's side of the hand, positive turns it towards the palm's side. A sixth of
+// a turn.
+inline constexpr double k_thumb_below_rad = 1.0471975511965976;
+
+// Curl of a fist as a share of the range from open to fully curled.
+inline constexpr double k_fist_curl = 0.85;
+// Curl of a hinge in a fist, radians.
+inline double fist_rad(const FingerRig& finger, std::size_t link) {
+    return finger.lower_rad[link] + k_fist_curl * (finger.upper_rad[link] - finger.lower_rad[link]);
+}
 
 }  // namespace handhold

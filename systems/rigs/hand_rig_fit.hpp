@@ -47,7 +47,7 @@ inline constexpr double k_max_hand_m = 1.0;
 // of the hand (a flat hand is accepted as `side`); a hand shorter than k_min_hand_m or longer than
 // k_max_hand_m; invalid sizes in the file.
 Result<HandRigFit> fit_hand_rig(const SkinnedMesh& skin, HandSide side);
-// The same, without the bind angles.
+// fit_hand_rig without the bind angles.
 Result<HandRig> hand_rig_from_skin(const SkinnedMesh& skin, HandSide side);
 
 }  // namespace handhold

@@ -1,5 +1,6 @@
 #include "systems/snapshot/snapshot.hpp"
 
+#include <array>
 #include <cstring>
 #include <utility>
 
@@ -17,15 +18,18 @@ namespace {
 // would alter.
 constexpr char k_snapshot_magic[] = "\x89HHSNAP\n";
 constexpr std::size_t k_magic_bytes = sizeof k_snapshot_magic - 1;
-constexpr std::uint32_t k_format_version = 6;
+constexpr std::uint32_t k_format_version = 8;
 // Byte offsets of the header's fields.
 constexpr std::size_t k_version_at = k_magic_bytes;
 constexpr std::size_t k_schema_size_at = k_version_at + 4;
 constexpr std::size_t k_size_at = k_schema_size_at + 4;
 constexpr std::size_t k_assets_at = k_size_at + 8;
-// Followed by the schema, the payload and the checksum.
+// Followed by the schema, the payload, the colliders' shapes and the checksum.
 constexpr std::size_t k_snapshot_header_bytes = k_assets_at + 8;
 constexpr std::size_t k_checksum_bytes = 8;
+// Of each collider's shape, in the order of the column: digest and kind. Then their number, u32.
+constexpr std::size_t k_shape_bytes = 9;
+constexpr std::size_t k_shape_count_bytes = 4;
 
 std::uint64_t checksum_of(std::span<const std::byte> bytes) {
     HashStream stream;
@@ -40,6 +44,11 @@ std::uint64_t checksum_of(std::span<const std::byte> bytes) {
     return stream.value();
 }
 
+std::uint32_t shape_count_in(std::span<const std::byte> bytes) {
+    return load_little<std::uint32_t>(bytes.data() + bytes.size() - k_checksum_bytes -
+                                      k_shape_count_bytes);
+}
+
 FileError refusal(std::size_t byte, const std::string& expected) {
     return {"snapshot", "byte " + std::to_string(byte), "expected " + expected};
 }
@@ -47,7 +56,7 @@ FileError refusal(std::size_t byte, const std::string& expected) {
 // Checks everything but the payload: file type, version, size, checksum, schema, assets.
 std::optional<FileError> check_envelope(std::span<const std::byte> bytes,
                                         const SnapshotAssets& assets) {
-    if (bytes.size() < k_snapshot_header_bytes + k_checksum_bytes ||
+    if (bytes.size() < k_snapshot_header_bytes + k_shape_count_bytes + k_checksum_bytes ||
         std::memcmp(bytes.data(), k_snapshot_magic, k_magic_bytes) != 0) {
         return refusal(0, "a snapshot's first bytes, found something else");
     }
@@ -67,18 +76,67 @@ std::optional<FileError> check_envelope(std::span<const std::byte> bytes,
         return refusal(checksum_at, "the checksum of what is before it: the snapshot is damaged");
     }
     const auto schema_bytes = load_little<std::uint32_t>(bytes.data() + k_schema_size_at);
-    if (schema_bytes > checksum_at - k_snapshot_header_bytes) {
+    if (schema_bytes > checksum_at - k_shape_count_bytes - k_snapshot_header_bytes) {
         return refusal(k_schema_size_at, "a schema within the snapshot, found one of " +
                                              std::to_string(schema_bytes) + " bytes");
     }
-    // char may alias any object.
+    // Reading the bytes as char is allowed for any object.
     const std::string_view schema(
         reinterpret_cast<const char*>(bytes.data()) + k_snapshot_header_bytes, schema_bytes);
     if (schema != snapshot_schema()) {
         return FileError{"snapshot", "schema", schema_difference(snapshot_schema(), schema)};
     }
-    if (load_little<std::uint64_t>(bytes.data() + k_assets_at) != assets.hash()) {
-        return refusal(k_assets_at, "a snapshot of this scene and its shapes, found another's");
+    if (load_little<std::uint64_t>(bytes.data() + k_assets_at) != assets.scene_hash()) {
+        return refusal(k_assets_at, "a snapshot of this scene, found another's");
+    }
+    const std::size_t shapes = shape_count_in(bytes) * k_shape_bytes;
+    if (shapes > checksum_at - k_shape_count_bytes - k_snapshot_header_bytes - schema_bytes) {
+        return refusal(checksum_at - k_shape_count_bytes,
+                       "as many shapes as fit into the snapshot, found more");
+    }
+    return std::nullopt;
+}
+
+std::byte* write_shapes(const World& world, const SnapshotAssets& assets, std::byte* at) {
+    for (const Collider& collider : world.collider.rows()) {
+        const bool is_there = assets.shapes().has(collider.shape);
+        store_little(assets.digest(collider.shape), at);
+        at[8] = is_there ? static_cast<std::byte>(assets.shapes().at(collider.shape).kind)
+                         : std::byte{0xff};
+        at += k_shape_bytes;
+    }
+    store_little(static_cast<std::uint32_t>(world.collider.size()), at);
+    return at + k_shape_count_bytes;
+}
+
+const char* kind_text(std::byte kind) {
+    static constexpr std::array k_texts = {"box",  "sphere",   "capsule", "cylinder",
+                                           "hull", "compound", "mesh"};
+    const auto index = std::to_integer<std::size_t>(kind);
+    return index < k_texts.size() ? k_texts[index] : "shape";
+}
+
+// Gives each collider the shape with the saved content. An id that has it is kept.
+std::optional<FileError> find_shapes(std::span<const std::byte> bytes, std::size_t shapes_at,
+                                     const SnapshotAssets& assets, World& world) {
+    if (shape_count_in(bytes) != world.collider.size()) {
+        return refusal(shapes_at, "a shape for each collider");
+    }
+    for (std::size_t row = 0; row < world.collider.size(); ++row) {
+        const std::size_t at = shapes_at + row * k_shape_bytes;
+        const auto digest = load_little<std::uint64_t>(bytes.data() + at);
+        ShapeId& shape = world.collider.rows()[row].shape;
+        if (digest != 0 && assets.digest(shape) == digest) {
+            continue;
+        }
+        shape = assets.find(digest);
+        if (digest == 0 || shape == k_no_shape) {
+            return FileError{
+                "snapshot",
+                "byte " + std::to_string(at) + ": collider[" + std::to_string(row) + "].shape",
+                std::string("expected a shape of this world, found a ") + kind_text(bytes[at + 8]) +
+                    " that none of its shapes equals"};
+        }
     }
     return std::nullopt;
 }
@@ -88,15 +146,17 @@ std::optional<FileError> check_envelope(std::span<const std::byte> bytes,
 void save_snapshot(const World& world, const SnapshotAssets& assets,
                    std::vector<std::byte>& bytes) {
     const std::string& schema = snapshot_schema();
-    bytes.resize(k_snapshot_header_bytes + schema.size() + payload_bytes(world) + k_checksum_bytes);
+    bytes.resize(k_snapshot_header_bytes + schema.size() + payload_bytes(world) +
+                 world.collider.size() * k_shape_bytes + k_shape_count_bytes + k_checksum_bytes);
     std::memcpy(bytes.data(), k_snapshot_magic, k_magic_bytes);
     store_little(k_format_version, bytes.data() + k_version_at);
     store_little(static_cast<std::uint32_t>(schema.size()), bytes.data() + k_schema_size_at);
     store_little(std::uint64_t{bytes.size()}, bytes.data() + k_size_at);
-    store_little(assets.hash(), bytes.data() + k_assets_at);
+    store_little(assets.scene_hash(), bytes.data() + k_assets_at);
     std::memcpy(bytes.data() + k_snapshot_header_bytes, schema.data(), schema.size());
     const std::byte* const end =
-        write_payload(world, bytes.data() + k_snapshot_header_bytes + schema.size());
+        write_shapes(world, assets,
+                     write_payload(world, bytes.data() + k_snapshot_header_bytes + schema.size()));
     const auto written = static_cast<std::size_t>(end - bytes.data());
     HH_CHECK(written + k_checksum_bytes == bytes.size(), "bytes were counted wrong", written);
     store_little(checksum_of(std::span(bytes).first(written)), bytes.data() + written);
@@ -108,9 +168,13 @@ std::optional<FileError> restore_snapshot(std::span<const std::byte> bytes,
         return error;
     }
     World restored;
-    if (std::optional<FileError> error =
-            read_payload(bytes, k_snapshot_header_bytes + snapshot_schema().size(),
-                         bytes.size() - k_checksum_bytes, restored)) {
+    const std::size_t shapes_at = bytes.size() - k_checksum_bytes - k_shape_count_bytes -
+                                  shape_count_in(bytes) * k_shape_bytes;
+    if (std::optional<FileError> error = read_payload(
+            bytes, k_snapshot_header_bytes + snapshot_schema().size(), shapes_at, restored)) {
+        return error;
+    }
+    if (std::optional<FileError> error = find_shapes(bytes, shapes_at, assets, restored)) {
         return error;
     }
     if (const std::optional<WorldBreach> breach = find_breach(restored, assets.shapes())) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "components/world.hpp"
@@ -17,31 +18,45 @@
 // diverge. Format: docs/reference/snapshot_format.md.
 namespace handhold {
 
-// Identifies the assets that a world refers to and a snapshot omits: the shapes of its colliders.
-// Make it once per scene: it hashes every vertex of every mesh.
+// Identifies the assets that a world refers to and a snapshot omits: the shapes of its colliders,
+// by their content. Make it once per scene: it hashes every vertex of every mesh.
 class SnapshotAssets {
   public:
     // `shapes` must outlive this object and not change. `scene`: the host's name of the scene.
     explicit SnapshotAssets(const ShapeLibrary& shapes, std::string_view scene = {});
 
     const ShapeLibrary& shapes() const { return *shapes_; }
+    // Of the scene's name and all shapes.
     std::uint64_t hash() const { return hash_; }
+    // Of the scene's name alone.
+    std::uint64_t scene_hash() const { return scene_hash_; }
+    // Of a shape's content; 0: there is no shape with this id.
+    std::uint64_t digest(ShapeId shape) const {
+        return shape.index < digests_.size() ? digests_[shape.index] : 0;
+    }
+    // The shape with this content and the lowest id; k_no_shape: none.
+    ShapeId find(std::uint64_t digest) const;
 
   private:
     const ShapeLibrary* shapes_;
     std::uint64_t hash_ = 0;
+    std::uint64_t scene_hash_ = 0;
+    std::vector<std::uint64_t> digests_;                              // indexed by ShapeId::index
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> by_digest_;  // and index; sorted
 };
 
-// Call between frames only. Saves every bit of the columns, the clock and the entity pool (free
-// slots, generations, row order). Overwrites `bytes`; allocates nothing if its capacity suffices,
-// except in the first call of the process.
+// Call between frames only. Shapes are saved by their content: the library of the restored world
+// may hold other shapes too, and the same ones with other ids. Saves every bit of the columns, the
+// clock and the entity pool (free slots, generations, row order). Overwrites `bytes`; allocates
+// nothing if its capacity suffices, except in the first call of the process.
 void save_snapshot(const World& world, const SnapshotAssets& assets, std::vector<std::byte>& bytes);
 
 // The restored world continues bit for bit like the saved one, with any caches built for `assets`
 // that have the same hand rigs and body clips (not checked). Entity handles taken before the save
 // are valid again. Returns an error, with its place and what was expected, and leaves the world
 // unchanged, for: bytes that are no snapshot, truncated or damaged; another format or schema (the
-// first differing field is named); other assets; and any state that step_frame could not run on
+// first differing field is named); another scene's name; a shape of a collider that `assets` lacks;
+// and any state that step_frame could not run on
 // (docs/reference/snapshot_format.md). Memory use is at most proportional to the size of `bytes`,
 // never to a number in them.
 [[nodiscard]] std::optional<FileError> restore_snapshot(std::span<const std::byte> bytes,
@@ -62,9 +77,9 @@ struct WorldDiffSettings {
     std::span<const std::string> names;
 };
 // Lists the fields in which two worlds differ, bit for bit, by persistent id, in the order of the
-// columns and of the rows of `a`: "head_tracking[player].pose_ps.position.x: a 0.1, b 0.2",
-// "grab[0x5d...1]: only in a". As in hash_state, slots and row order are ignored; but shape ids are
-// compared.
+// columns and of the elements of `a`: "head_tracking[player].pose_ps.position.x: a 0.1, b 0.2",
+// "grab[0x5d...1]: only in a". As in hash_state, slots and the order of elements are ignored; but
+// shape ids are compared.
 std::vector<std::string> diff_worlds(const World& a, const World& b,
                                      const WorldDiffSettings& settings = {});
 

@@ -1,4 +1,5 @@
-// Asset hash: the content of every shape, in library order.
+// The content of every shape, and all of them in library order.
+#include <algorithm>
 #include <map>
 
 #include "engine/core/hash.hpp"
@@ -29,19 +30,25 @@ std::uint64_t hash_of(const Mesh& mesh) {
 
 class ShapeHasher {
   public:
-    explicit ShapeHasher(HashStream& stream) : stream_(stream) {}
+    // Never 0.
+    std::uint64_t digest_of(const Shape& shape) {
+        HashStream stream;
+        add_shape(shape, stream);
+        return std::max<std::uint64_t>(stream.value(), 1);
+    }
 
+  private:
     // A hull is identified by its corners; its faces follow from them.
-    void add_shape(const Shape& shape) {
-        stream_.add(static_cast<std::uint64_t>(shape.kind));
-        add(stream_, shape.half_m);
-        stream_.add(shape.radius_m);
-        stream_.add(shape.half_height_m);
-        add(stream_, shape.scale);
+    void add_shape(const Shape& shape, HashStream& stream) {
+        stream.add(static_cast<std::uint64_t>(shape.kind));
+        add(stream, shape.half_m);
+        stream.add(shape.radius_m);
+        stream.add(shape.half_height_m);
+        add(stream, shape.scale);
         if (shape.hull != nullptr) {
-            stream_.add(std::uint64_t{shape.hull->corners.size()});
+            stream.add(std::uint64_t{shape.hull->corners.size()});
             for (const Vec3& corner : shape.hull->corners) {
-                add(stream_, corner);
+                add(stream, corner);
             }
         }
         if (shape.mesh != nullptr) {
@@ -49,22 +56,20 @@ class ShapeHasher {
             if (is_new) {  // shapes may share a mesh: hash it once
                 known->second = hash_of(*shape.mesh);
             }
-            stream_.add(known->second);
+            stream.add(known->second);
         }
         if (shape.parts != nullptr) {
-            stream_.add(std::uint64_t{shape.parts->size()});
+            stream.add(std::uint64_t{shape.parts->size()});
             for (const PlacedShape& part : *shape.parts) {
-                add_shape(part.shape);
-                add(stream_, part.pose.position);
-                add(stream_, Vec3(part.pose.rotation.vec()));
-                stream_.add(part.pose.rotation.w());
-                stream_.add(part.mass_kg);
+                add_shape(part.shape, stream);
+                add(stream, part.pose.position);
+                add(stream, Vec3(part.pose.rotation.vec()));
+                stream.add(part.pose.rotation.w());
+                stream.add(part.mass_kg);
             }
         }
     }
 
-  private:
-    HashStream& stream_;
     std::map<const Mesh*, std::uint64_t> meshes_;
 };
 
@@ -74,15 +79,23 @@ SnapshotAssets::SnapshotAssets(const ShapeLibrary& shapes, std::string_view scen
     : shapes_(&shapes) {
     HashStream stream;
     stream.add(hash_text(scene));
-    ShapeHasher hasher(stream);
+    scene_hash_ = stream.value();
+    ShapeHasher hasher;
     for (std::uint32_t i = 0; i < shapes.size(); ++i) {
-        if (shapes.has({i})) {
-            hasher.add_shape(shapes.at({i}));
-        } else {
-            stream.add(std::uint64_t{0});  // ids stay apart
+        digests_.push_back(shapes.has({i}) ? hasher.digest_of(shapes.at({i})) : 0);
+        stream.add(digests_.back());  // 0 too: ids stay apart
+        if (digests_.back() != 0) {
+            by_digest_.emplace_back(digests_.back(), i);
         }
     }
     hash_ = stream.value();
+    std::ranges::sort(by_digest_);
+}
+
+ShapeId SnapshotAssets::find(std::uint64_t digest) const {
+    const auto found = std::ranges::lower_bound(by_digest_, std::pair{digest, std::uint32_t{0}});
+    return found != by_digest_.end() && found->first == digest ? ShapeId{found->second}
+                                                               : k_no_shape;
 }
 
 }  // namespace handhold

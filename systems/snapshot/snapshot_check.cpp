@@ -49,7 +49,7 @@ class BreachFinder {
         }
     }
 
-    // Every owner of a row in `column` must have one in `required`.
+    // Every owner of an element in `column` must have one in `required`.
     template <typename A, typename B>
     void require(const char* name, const Column<A>& column, const char* required_name,
                  const Column<B>& required) {
@@ -254,12 +254,21 @@ class BreachFinder {
         require("grab_order", w_.grab_order, "grab", w_.grab);
         require("hand_rig", w_.hand_rig, "hand_owner", w_.hand_owner);
         require("grab_layers", w_.grab_layers, "player", w_.player);
-        require("early_sample", w_.early_sample, "player", w_.player);
+        require("early_samples", w_.early_samples, "player", w_.player);
+        require("recenter_guess", w_.recenter_guess, "player", w_.player);
         for (std::size_t row = 0; row < w_.hand_tracking.size(); ++row) {
             const HandTracking& hand = w_.hand_tracking.rows()[row];
             const auto is_share = [](double share) { return share >= 0.0 && share <= 1.0; };
             check(is_share(hand.squeeze) && is_share(hand.trigger), "hand_tracking",
                   w_.hand_tracking.owners()[row], "", "squeeze and trigger in [0, 1]");
+            check(std::ranges::all_of(
+                      hand.curls,
+                      [&](double curl) { return is_share(curl) || curl == k_unknown_curl; }),
+                  "hand_tracking", w_.hand_tracking.owners()[row], ".curls", "-1 or in [0, 1]");
+        }
+        for (std::size_t row = 0; row < w_.head_tracking.size(); ++row) {
+            check(w_.head_tracking.rows()[row].state != TrackingState::inferred, "head_tracking",
+                  w_.head_tracking.owners()[row], ".state", "never, tracked or lost");
         }
         Column<std::array<std::uint8_t, k_hand_count>> has_hand;
         for (const Entity player : w_.player.owners()) {
@@ -275,6 +284,10 @@ class BreachFinder {
                 check(used == 0, "hand_owner", hand, ".side", "one hand per side");
                 used = 1;
             }
+        }
+        for (std::size_t i = 0; i < w_.early_samples.size(); ++i) {
+            check(w_.early_samples.rows()[i].count <= EarlySamples::k_capacity, "early_samples",
+                  w_.early_samples.owners()[i], ".count", "at most as many as the array has");
         }
         for (std::size_t row = 0; row < w_.hand_history.size(); ++row) {
             const HandHistory& history = w_.hand_history.rows()[row];

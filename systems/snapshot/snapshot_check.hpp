@@ -14,7 +14,7 @@ struct WorldBreach {
     std::string expected;  // e.g. "expected a player"
 };
 
-// Returns the first violation of the rules between rows (docs/reference/snapshot_format.md);
+// Returns the first violation of the rules between elements (docs/reference/snapshot_format.md);
 // nullopt if step_frame can run. Each field must have been validated by itself. Worlds made by
 // add_body, add_joint, add_player and frames have no violation.
 std::optional<WorldBreach> find_breach(const World& world, const ShapeLibrary& shapes);

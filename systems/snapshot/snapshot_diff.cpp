@@ -38,7 +38,7 @@ Leaf leaf_of(const World& world, const T& value) {
     }
 }
 
-// Collects a row's leaves in walk order.
+// Collects an element's leaf values in walk order.
 class LeafList : public FieldVisitor {
   public:
     LeafList(const World& world, std::vector<Leaf>& leaves) : world_(world), leaves_(leaves) {}

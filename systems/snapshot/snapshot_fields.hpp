@@ -10,7 +10,7 @@
 #include "components/world.hpp"
 #include "engine/core/check.hpp"
 
-// Walks components down to their leaf values, always in the same order. Shared by saving, restoring
+// Walks components down to their leaf values, always in the same order. Used by saving, restoring
 // and comparing worlds.
 namespace handhold {
 

@@ -46,7 +46,7 @@ class ByteCounter : public FieldVisitor {
     std::size_t bytes_ = 0;
 };
 
-// Bytes of one row's fields, the same for all rows.
+// Bytes of one element's fields, the same for all elements of a column.
 template <typename Component>
 std::size_t row_bytes() {
     static const std::size_t k_bytes = [] {
@@ -108,7 +108,7 @@ class ByteReader : public PathVisitor {
     }
     const std::optional<FileError>& error() const { return error_; }
 
-    // The walk passes const references, but to rows of the world under construction, which are
+    // The walk passes const references, but to elements of the world under construction, which are
     // filled here.
     template <typename T>
     void leaf(const T& place) {

@@ -20,22 +20,23 @@ void climbers(benchmark::State& state) {
     double frames = 0.0;
     for (auto _ : state) {
         Scene scene = *make_built_in_scene("station");
-        FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
-        std::vector<PlayerEntities> entities;
-        for (const Pose& origin_ws :
-             spread_players(scene, caches, scene.spawns.front().pose_ws, players, 1)) {
-            const std::string name = "player" + std::to_string(entities.size());
-            entities.push_back(add_scene_player(scene, {name, origin_ws, 80.0}));
+        std::vector<hh::Player> added;
+        for (const hh::Pose& origin_ws :
+             spread_players(scene, scene.spawns.front().pose_ws, players, 1)) {
+            const std::string name = "player" + std::to_string(added.size());
+            added.push_back(add_scene_player(scene, name, origin_ws));
         }
-        Crowd crowd(scene, entities, 1);
-        std::vector<PlayerInput> inputs(entities.size());
-        StageStats stats;
+        Crowd crowd(scene.host, added, 1);
+        std::vector<hh_player_input> inputs(added.size());
         double iteration_s = 0.0;
         for (int frame = 0; frame < k_frames; ++frame) {
             const std::int64_t begin_ns = now_ns();
-            crowd.drive(scene, caches, scene.world.clock.t_s + k_dt_s, inputs);
+            crowd.drive(sight_of(scene), scene.host.time_s() + k_dt_s, inputs);
             iteration_s += 1e-9 * static_cast<double>(now_ns() - begin_ns);
-            step_frame(scene.world, caches, scene.tuning, {k_dt_s, inputs}, stats);
+            if (!scene.host.step(k_dt_s, inputs)) {
+                state.SkipWithError(hh_last_error());
+                return;
+            }
         }
         frames += k_frames;
         climbed_s += iteration_s;

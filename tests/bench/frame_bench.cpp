@@ -16,7 +16,7 @@
 namespace handhold::frame_bench {
 namespace {
 
-double sum_us(const StageStats& stats) {
+double sum_us(const RunStats& stats) {
     return std::accumulate(stats.stage_us.begin(), stats.stage_us.end(), 0.0);
 }
 
@@ -47,20 +47,19 @@ void run_frames(benchmark::State& state, const char* name) {
     const auto players = static_cast<std::size_t>(state.range(0));
     set_stage_clock(StageClock::thread_cpu);
     double frames = 0.0;
-    StageStats sum;
+    RunStats sum;
     std::vector<double> all_us;
     std::vector<double> both_hands_us;
     for (auto _ : state) {
         Scene scene = *make_built_in_scene(name);
         const Recording recording = *make_built_in_session(name);
-        FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
         std::vector<PlayerEntities> entities;
         for (std::size_t i = 0; i < players; ++i) {
-            entities.push_back(
-                add_scene_player(scene, {"player" + std::to_string(i),
-                                         scene.spawns[i % scene.spawns.size()].pose_ws, 80.0}));
+            entities.push_back(add_scene_player(
+                scene, {"player" + std::to_string(i),
+                        from_host(scene.spawns[i % scene.spawns.size()].pose_ws), 80.0}));
         }
-        const RunLog log = run_session(scene, caches, entities, &recording, {90.0, 0.0, 1});
+        const RunLog log = run_session(scene, player_ids(entities), &recording, {90.0, 0.0, 1});
         for (const FrameLog& frame : log.frames) {
             std::transform(frame.stats.stage_us.begin(), frame.stats.stage_us.end(),
                            sum.stage_us.begin(), sum.stage_us.begin(), std::plus<>());
@@ -77,8 +76,7 @@ void run_frames(benchmark::State& state, const char* name) {
     add_percentiles("both_hands", both_hands_us, state);
     state.counters["players_per_frame"] = static_cast<double>(players);
     for (std::size_t stage = 0; stage < sum.stage_us.size(); ++stage) {
-        state.counters[std::string("us_") + name_of(static_cast<Stage>(stage))] =
-            sum.stage_us[stage] / frames;
+        state.counters[std::string("us_") + hh_stage_name(stage)] = sum.stage_us[stage] / frames;
     }
 }
 

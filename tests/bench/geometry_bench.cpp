@@ -164,8 +164,8 @@ BENCHMARK(ask_sphere)->Name("geometry/visit_in_sphere")->Arg(1000)->Arg(100000)-
 void station_library(benchmark::State& state) {
     const Scene scene = *make_built_in_scene("station");
     for (auto _ : state) {
-        const GripMeshLibrary library(*scene.shapes);
-        state.counters["shapes"] = static_cast<double>(scene.shapes->size());
+        const GripMeshLibrary library(scene.shapes());
+        state.counters["shapes"] = static_cast<double>(scene.shapes().size());
         state.counters["distinct"] = static_cast<double>(library.distinct_count());
         state.counters["MB"] = static_cast<double>(library.memory_bytes()) / 1e6;
     }

@@ -13,26 +13,27 @@ namespace {
 Scene station_with(std::int64_t players) {
     Scene scene = *make_built_in_scene("station");
     for (std::int64_t i = 0; i < players; ++i) {
-        add_scene_player(scene, {"player" + std::to_string(i), scene.spawns.front().pose_ws, 80.0});
+        add_scene_player(
+            scene, {"player" + std::to_string(i), from_host(scene.spawns.front().pose_ws), 80.0});
     }
     return scene;
 }
 
 void save(benchmark::State& state) {
     const Scene scene = station_with(state.range(0));
-    const SnapshotAssets assets(*scene.shapes, scene.name);
+    const SnapshotAssets assets(scene.shapes(), scene.name);
     std::vector<std::byte> bytes;
     for (auto _ : state) {
-        save_snapshot(scene.world, assets, bytes);
+        save_snapshot(scene.world(), assets, bytes);
     }
     state.counters["bytes"] = static_cast<double>(bytes.size());
 }
 
 void restore(benchmark::State& state) {
     const Scene scene = station_with(state.range(0));
-    const SnapshotAssets assets(*scene.shapes, scene.name);
+    const SnapshotAssets assets(scene.shapes(), scene.name);
     std::vector<std::byte> bytes;
-    save_snapshot(scene.world, assets, bytes);
+    save_snapshot(scene.world(), assets, bytes);
     World world;
     for (auto _ : state) {
         if (restore_snapshot(bytes, assets, world)) {
@@ -44,7 +45,7 @@ void restore(benchmark::State& state) {
 void hash(benchmark::State& state) {
     const Scene scene = station_with(state.range(0));
     for (auto _ : state) {
-        benchmark::DoNotOptimize(hash_state(scene.world));
+        benchmark::DoNotOptimize(hash_state(scene.world()));
     }
 }
 

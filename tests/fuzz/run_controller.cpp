@@ -11,8 +11,8 @@ void run_controller(Bytes bytes) {
         return;
     }
     for (const ControllerSide& side : profile.value().sides) {
-        promise(is_finite(side.fit.hand_in_grip.position), "a joint has finite numbers");
-        promise(is_finite(controller_in_hand(side.fit).position), "so has its inverse");
+        promise(hh::is_valid(side.fit.hand_in_grip), "a joint has finite numbers");
+        promise(hh::is_valid(controller_in_hand(side.fit)), "so has its inverse");
     }
 }
 

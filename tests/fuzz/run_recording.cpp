@@ -1,6 +1,7 @@
+#include <handhold/math.hpp>
+
 #include "game/session/playback.hpp"
 #include "game/session/recording.hpp"
-#include "systems/frame/frame.hpp"
 #include "tests/fuzz/promise.hpp"
 
 namespace handhold::fuzz {
@@ -18,22 +19,24 @@ void run_recording(Bytes bytes) {
         promise(samples[i - 1].t_s < samples[i].t_s, "times increase");
     }
 
-    ShapeLibrary shapes;
-    World world;
-    add_body(world, {"wall", {}, {}, {}, shapes.add_box(Vec3(1.0, 1.0, 0.1))});
-    RigidBody rock{BodyKind::free, 2.0, Vec3::Constant(0.01), 0.0};
-    add_body(world,
-             {"rock", rock, {Vec3(0.0, 1.5, 0.3), Quat::Identity()}, {}, shapes.add_sphere(0.1)});
-    const PlayerEntities player =
-        add_player(world, {"player", {}, {}, Vec3::Zero(), shapes.add_sphere(0.12)});
-    FrameCaches caches(shapes);
+    hh::World world;
+    hh_body_def wall = hh::body_def();
+    wall.shape = *world.add_box({1.0, 1.0, 0.1});
+    promise(static_cast<bool>(world.add(wall)), "there is a wall");
+    hh_body_def rock = hh::body_def();
+    rock.kind = HH_DYNAMIC;
+    rock.mass_kg = 2.0;
+    rock.pose.position = {0.0, 1.5, 0.3};
+    rock.shape = *world.add_sphere(0.1);
+    promise(static_cast<bool>(world.add(rock)), "there is a rock");
+    const hh::Player player = *world.add(hh::player_def());
     Playback playback(recording.value());
-    StageStats stats;
     for (int frame = 0; frame < 20; ++frame) {
         constexpr double k_frame_s = 1.0 / 30.0;
-        const PlayerInput input{player.player, playback.window(world.clock.t_s + k_frame_s), {}};
-        step_frame(world, caches, {}, {k_frame_s, {&input, 1}}, stats);
-        promise(is_valid(world.player_origin.at(player.player).pose_ws), "the player is somewhere");
+        hh_player_input input = hh::input(player, playback.window(world.time_s() + k_frame_s));
+        input.repeats_samples = true;
+        promise(static_cast<bool>(world.step(k_frame_s, input)), "any recording can be played");
+        promise(hh::is_valid(world.pose(player)->origin), "the player is somewhere");
     }
 }
 

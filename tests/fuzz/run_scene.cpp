@@ -21,12 +21,12 @@ void run_scene(Bytes bytes) {
     for (const ScenePlayerStart& start : scene.players) {
         add_scene_player(scene, start);
     }
-    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
+    FrameCaches caches(scene.shapes(), &scene.grip_meshes());
     StageStats stats;
     for (int frame = 0; frame < 3; ++frame) {
-        step_frame(scene.world, caches, scene.tuning, {1.0 / 90.0, {}}, stats);
+        step_frame(scene.world(), caches, scene.tuning(), {1.0 / 90.0, {}}, stats);
     }
-    for (const BodyPose& pose : scene.world.body_pose.rows()) {
+    for (const BodyPose& pose : scene.world().body_pose.rows()) {
         promise(is_valid(pose.pose_ws), "bodies are somewhere");
     }
 }

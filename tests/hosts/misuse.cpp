@@ -30,6 +30,8 @@ void misuse_pointers(hh_world* world, hh_body body, hh_player player, hh_joint j
     HH_GIVES(HH_ERROR_NULL, hh_tuning_describe(0, nullptr));
     HH_GIVES(HH_ERROR_NULL, hh_world_get_tuning(world, "hand.reach_m", nullptr, 1));
     HH_GIVES(HH_ERROR_NULL, hh_world_set_tuning(world, nullptr, nullptr, 1));
+    HH_GIVES(HH_ERROR_NULL, hh_world_tuning_numbers(world, nullptr, 0, nullptr));
+    HH_GIVES(HH_ERROR_NULL, hh_world_set_tuning_numbers(world, nullptr, 5));
     HH_GIVES(HH_ERROR_NULL, hh_world_load_tuning(world, nullptr, 5));
     HH_GIVES(HH_ERROR_NULL, hh_world_load_body_clips(nullptr, "{}", 2));
     HH_GIVES(HH_ERROR_NULL, hh_shape_add_box(world, {1, 1, 1}, nullptr));
@@ -83,6 +85,8 @@ void misuse_pointers(hh_world* world, hh_body body, hh_player player, hh_joint j
     HH_GIVES(HH_ERROR_NULL, hh_body_mass(world, body, nullptr));
     HH_GIVES(HH_ERROR_NULL, hh_body_joints(world, body, nullptr, 0, nullptr));
     HH_GIVES(HH_ERROR_NULL, hh_player_reference_velocity(world, player, nullptr));
+    HH_GIVES(HH_ERROR_NULL, hh_player_push_back(world, player, nullptr));
+    HH_GIVES(HH_ERROR_NULL, hh_player_mass(world, player, nullptr));
     HH_GIVES(HH_OK, hh_player_head(world, player, nullptr, nullptr, nullptr));
     HH_GIVES(HH_ERROR_NULL, hh_hand_moves_player(world, player, HH_LEFT, nullptr));
     HH_GIVES(HH_ERROR_VALUE, hh_set_thread_count(0));
@@ -123,7 +127,9 @@ void misuse_ids(hh_world* world, std::uint32_t index, std::uint32_t generation) 
     HH_GIVES(HH_ERROR_HANDLE, hh_body_joints(world, body, nullptr, 0, &joint_count));
     HH_GIVES(HH_ERROR_HANDLE, hh_player_reference_velocity(world, player, &v));
     HH_GIVES(HH_ERROR_HANDLE, hh_player_head(world, player, &v, nullptr, nullptr));
-    bool moves_player = false;
+    HH_GIVES(HH_ERROR_HANDLE, hh_player_push_back(world, player, &mass_kg));
+    HH_GIVES(HH_ERROR_HANDLE, hh_player_mass(world, player, &mass_kg));
+    std::uint8_t moves_player = 0;
     HH_GIVES(HH_ERROR_HANDLE, hh_hand_moves_player(world, player, HH_LEFT, &moves_player));
     if (generation != 0) {  // a null player: none is skipped
         hh_hit hit{};
@@ -210,6 +216,18 @@ void misuse_versions(hh_world* world) {
         HH_GIVES(HH_ERROR_VERSION, hh_tuning_describe(0, &info));
         HH_GIVES(HH_ERROR_VERSION, hh_set_host_hooks(&hooks));
         HH_GIVES(HH_ERROR_VERSION, hh_world_step(world, 0.01, &input, 1));
+        hh_tracking_sample sample = hh_default_tracking_sample();
+        hh_player_input sampled = hh_default_player_input();
+        sample.struct_size = size;
+        sampled.samples = &sample;
+        sampled.sample_count = 1;
+        HH_GIVES(HH_ERROR_VERSION, hh_world_step(world, 0.01, &sampled, 1));
+        const hh_event* events = nullptr;
+        size_t count = 0;
+        HH_GIVES(HH_ERROR_VERSION, hh_world_events_sized(world, &events, &count, size));
+        hh_hand_state hand{};
+        HH_GIVES(HH_ERROR_VERSION, hh_player_hand_sized(world, player, HH_LEFT, &hand, size));
+        HH_GIVES(HH_ERROR_VERSION, hh_default_tracking_sample_sized(&sample, size > 8 ? 0 : size));
     }
     HH_GIVES(HH_ERROR_STATE, hh_set_host_hooks(nullptr));
     HH_GIVES(HH_ERROR_HANDLE, hh_shape_remove(world, shape));
@@ -319,6 +337,7 @@ void misuse_numbers(hh_world* world, hh_body body, hh_body kinematic, hh_player 
         }
         HH_GIVES(HH_ERROR_VALUE, hh_world_set_tuning(world, info.name, old, info.count + 1));
     }
+    HH_GIVES(HH_ERROR_VALUE, hh_world_set_tuning_numbers(world, &value, 1));
     HH_GIVES(HH_ERROR_NAME, hh_world_set_tuning(world, "no.such", &value, 1));
     HH_GIVES(HH_ERROR_DATA, hh_world_load_tuning(world, "{\"hand\": 3}", 11));
     HH_GIVES(HH_ERROR_DATA, hh_world_load_body_clips(world, "{\"idle\": 3}", 11));

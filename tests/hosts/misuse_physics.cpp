@@ -36,18 +36,19 @@ hh_surface_query answers_anything(Surfaces& surfaces) {
     hh_surface_query query = hh_default_surface_query();
     query.context = &surfaces;
     query.cast_ray = [](void* context, hh_vec3, hh_vec3, const hh_body*, size_t,
-                        hh_surface_hit* hit) {
+                        hh_surface_hit* hit) -> std::uint8_t {
         return static_cast<Surfaces*>(context)->answer(hit);
     };
     query.cast_sphere = [](void* context, double, hh_vec3, hh_vec3, const hh_body*, size_t,
-                           hh_surface_hit* hit) {
+                           hh_surface_hit* hit) -> std::uint8_t {
         return static_cast<Surfaces*>(context)->answer(hit);
     };
     query.closest_point = [](void* context, hh_vec3, double, const hh_body*, size_t,
-                             hh_surface_hit* hit) {
+                             hh_surface_hit* hit) -> std::uint8_t {
         return static_cast<Surfaces*>(context)->answer(hit);
     };
-    query.closest_point_on = [](void* context, hh_body, hh_vec3, hh_surface_hit* hit) {
+    query.closest_point_on = [](void* context, hh_body, hh_vec3,
+                                hh_surface_hit* hit) -> std::uint8_t {
         return static_cast<Surfaces*>(context)->answer(hit);
     };
     return query;

@@ -77,16 +77,17 @@ hh_surface_query Engine::queries_for_hands() {
     hh_surface_query query = hh_default_surface_query();
     query.context = this;
     query.cast_ray = [](void* context, hh_vec3 from, hh_vec3 to, const hh_body* skip, size_t count,
-                        hh_surface_hit* hit) {
+                        hh_surface_hit* hit) -> std::uint8_t {
         ++static_cast<Engine*>(context)->queries_;
         return static_cast<Engine*>(context)->cast_ray(from, to, {skip, count}, *hit);
     };
     query.closest_point = [](void* context, hh_vec3 point, double max_m, const hh_body* skip,
-                             size_t count, hh_surface_hit* hit) {
+                             size_t count, hh_surface_hit* hit) -> std::uint8_t {
         ++static_cast<Engine*>(context)->queries_;
         return static_cast<Engine*>(context)->closest_point(point, max_m, {skip, count}, *hit);
     };
-    query.closest_point_on = [](void* context, hh_body body, hh_vec3 point, hh_surface_hit* hit) {
+    query.closest_point_on = [](void* context, hh_body body, hh_vec3 point,
+                                hh_surface_hit* hit) -> std::uint8_t {
         ++static_cast<Engine*>(context)->queries_;
         const Box* const box = static_cast<Engine*>(context)->find(body);
         if (box == nullptr) {

@@ -25,7 +25,7 @@ NOT_SOURCES = {"build", "out", ".git", "__pycache__"}
 
 CONSUMER = f"""cmake_minimum_required(VERSION 3.25)
 project(consumer LANGUAGES C CXX)
-find_package(handhold 0.1 REQUIRED)
+find_package(handhold 0.2 REQUIRED)
 add_executable(consumer {SAMPLES}/your_own_physics.cpp)
 target_compile_features(consumer PRIVATE cxx_std_20)
 target_link_libraries(consumer PRIVATE handhold::handhold)

@@ -43,14 +43,13 @@ T value_or_exit(Result<T> result) {
 struct Ready {
     explicit Ready(const RunOptions& options)
         : scene(value_or_exit(load_scene(options.scene))),
-          session(value_or_exit(load_session(options, scene))),
-          caches(*scene.shapes, scene.grip_meshes.get()) {
-        caches.body_clips = game_body_clips();
+          session(value_or_exit(load_session(options, scene))) {
+        load_game_body_clips(scene.host);
         const StartPlace place =
-            value_or_exit(choose_place(options, options.spawn, scene, caches, recording()));
+            value_or_exit(choose_place(options, options.spawn, scene, recording()));
         const std::vector<StartPlace> places =
-            value_or_exit(choose_places(options, place, scene, caches, session));
-        players = value_or_exit(add_players(scene, caches, places, options, session));
+            value_or_exit(choose_places(options, place, scene, session));
+        players = value_or_exit(add_players(scene, places, options, session));
         settings = choose_settings(options, session, players.size(), scene);
         settings.keep_frames = false;
     }
@@ -58,7 +57,6 @@ struct Ready {
 
     Scene scene;
     RunSession session;
-    FrameCaches caches;
     std::vector<PlayerEntities> players;
     RunSettings settings;
 };
@@ -71,7 +69,7 @@ void print_line(const std::string& name, std::uint64_t hash, double step_us) {
 // Returns false if a rollback gives another hash.
 bool play(const RunOptions& options) {
     Ready ready(options);
-    const SnapshotAssets assets(*ready.scene.shapes, ready.scene.name);
+    const SnapshotAssets assets(ready.scene.shapes(), ready.scene.name);
     const bool rolls_back = ready.settings.climbers_from >= ready.players.size();
     const double half_s = 0.5 * session_length_s(ready.recording(), ready.settings);
     std::vector<std::byte> snapshot;
@@ -80,11 +78,11 @@ bool play(const RunOptions& options) {
         const auto& stages = frame.stats.stage_us;
         steps_us.push_back(std::accumulate(stages.begin(), stages.end(), 0.0));
         if (rolls_back && snapshot.empty() && frame.t_s >= half_s) {
-            save_snapshot(scene.world, assets, snapshot);
+            save_snapshot(scene.world(), assets, snapshot);
         }
     };
     const auto run = [&] {
-        return run_session(ready.scene, ready.caches, ready.players, ready.recording(),
+        return run_session(ready.scene, player_ids(ready.players), ready.recording(),
                            ready.settings, watch)
             .state_hash;
     };
@@ -95,7 +93,7 @@ bool play(const RunOptions& options) {
     if (!rolls_back) {
         return true;
     }
-    if (const auto error = restore_snapshot(snapshot, assets, ready.scene.world)) {
+    if (const auto error = restore_snapshot(snapshot, assets, ready.scene.world())) {
         refuse(*error);
     }
     const std::uint64_t again = run();

@@ -75,11 +75,11 @@ hh_surface_query queries(const Boxes& boxes) {
     hh_surface_query query = hh_default_surface_query();
     query.context = const_cast<Boxes*>(&boxes);
     query.cast_ray = [](void* context, hh_vec3 from, hh_vec3 to, const hh_body* skip, size_t count,
-                        hh_surface_hit* hit) {
+                        hh_surface_hit* hit) -> std::uint8_t {
         return cast_ray(*static_cast<const Boxes*>(context), from, to, skip, count, *hit);
     };
     query.closest_point = [](void* context, hh_vec3 point, double max_m, const hh_body* skip,
-                             size_t count, hh_surface_hit* hit) {
+                             size_t count, hh_surface_hit* hit) -> std::uint8_t {
         hh_surface_hit here{};
         bool is_found = false;
         for (const Box& box : *static_cast<const Boxes*>(context)) {
@@ -91,7 +91,8 @@ hh_surface_query queries(const Boxes& boxes) {
         }
         return is_found;
     };
-    query.closest_point_on = [](void* context, hh_body body, hh_vec3 point, hh_surface_hit* hit) {
+    query.closest_point_on = [](void* context, hh_body body, hh_vec3 point,
+                                hh_surface_hit* hit) -> std::uint8_t {
         for (const Box& box : *static_cast<const Boxes*>(context)) {
             if (box.id == body) {
                 return closest_on(box, point, HUGE_VAL, *hit);

@@ -76,6 +76,43 @@ class CheckIncludes(unittest.TestCase):
         self.assert_breach("components/hand.hpp", "#pragma once\n" + include,
                            "components/hand.hpp:2 | components does not include systems")
 
+    def test_files_that_play_the_interface_include_no_private_header(self):
+        for file in ("game/climber/climber.cpp", "game/session/recording.cpp", "game/devices/desktop_body.cpp", "game/run/spawn.cpp",
+                     "game/play/play_tally.cpp", "game/desktop/play_loop.cpp", "game/headset/headset_loop.cpp",
+                     "game/commands/play_files.cpp"):
+            for path in ("engine/math/math.hpp", "components/tracking.hpp", "systems/frame/frame.hpp"):
+                self.assert_breach(file, f'#include "{path}"\n', f"{file}:1 | plays the interface")
+            for path in ("handhold/ecs.hpp", "handhold/files.hpp", "handhold/rigs.hpp", "handhold/tuning.hpp"):
+                self.assert_breach(file, f"#include <{path}>\n", f"{file}:1 | plays the interface")
+            self.assert_clean(file, '#include <handhold/handhold.hpp>\n#include <handhold/math.hpp>\n#include "game/files/file_tools.hpp"\n')
+        self.assert_clean("game/play/loading.cpp", '#include "engine/core/work_meter.hpp"\n')
+        self.assert_clean("game/view/gizmos.cpp", '#include "components/world.hpp"\n')
+
+    def test_files_that_play_the_interface_name_no_columns(self):
+        for file in ("game/climber/climber.cpp", "game/session/playback.cpp", "game/devices/comfort.cpp", "game/run/session_run.cpp",
+                     "game/play/desktop_session.cpp"):
+            self.assert_breach(file, "\nvoid look(const World& world);\n", f"{file}:2 | names no column")
+            self.assert_breach(file, "step_frame(a, b);\n", f"{file}:1 | names no column")
+            self.assert_breach(file, "auto& rows = scene_.world().body_pose;\n", f"{file}:1 | names no column")
+            self.assert_breach(file, "scene().tuning().hand.reach_m = 1.0;\n", f"{file}:1 | names no column")
+            self.assert_breach(file, "columns_of(scene.host.get());\n", f"{file}:1 | names no column")
+            self.assert_clean(file, "scene.host.tuning(\"hand.reach_m\");\n")
+            self.assert_clean(file, "void look(const hh::World& world);  // not a World\n")
+        self.assert_clean("game/desktop/play_loop.cpp", "const World& world();\n")
+
+    def test_private_includes_of_the_game_are_counted_with_those_behind_public_headers(self):
+        most = check_includes.MOST_PRIVATE_INCLUDES_OF_GAME
+        lines = '#include "engine/math/math.hpp"\n' * most
+        self.assert_clean("game/view/a.cpp", lines)
+        self.assert_breach("game/view/a.cpp", lines + '#include "engine/math/math.hpp"\n', "game:0 | at most")
+        ecs = {"systems/host/include/handhold/ecs.hpp": '#pragma once\n#include <handhold/rigs.hpp>\n#include "engine/a.hpp"\n#include "components/b.hpp"\n',
+               "systems/host/include/handhold/rigs.hpp": '#pragma once\n#include "systems/rigs/c.hpp"\n',
+               "game/view/a.cpp": '#include "engine/math/math.hpp"\n' * (most - 3),
+               "game/view/b.cpp": "#include <handhold/ecs.hpp>\n"}
+        self.assertEqual(breaches(ecs), [])
+        ecs["game/view/b.cpp"] += '#include "engine/math/math.hpp"\n'
+        self.assertEqual([found.split(":")[0] for found in breaches(ecs)], ["game"])
+
     def test_circles_of_folders_are_named_with_their_includes(self):
         found = breaches({"engine/math/a.cpp": '#include "engine/core/b.hpp"\n',
                           "engine/core/c.cpp": '\n#include "engine/geometry/d.hpp"\n',

@@ -6,7 +6,7 @@
 namespace handhold::lab {
 namespace {
 
-// From the eyes to the midpoint of the shoulders, in the chest's axes.
+// Offset from the eyes to the midpoint of the shoulders, in the chest's axes.
 const Vec3 k_shoulders(0.0, -0.22, 0.07);
 
 Vec3 level(const Vec3& v) {

@@ -20,7 +20,7 @@ struct BodySample {
     std::array<Pose, k_hand_count> hands_ps;
 };
 
-// Rows of 23 numbers: clip, t, then head, left and right hand as x, y, z, qx, qy, qz, qw.
+// Lines of 23 numbers: clip, t, then head, left and right hand as x, y, z, qx, qy, qz, qw.
 Result<std::vector<BodySample>> load_body_samples(const std::filesystem::path& path);
 
 // Measures by clip. The table may have text cells: only the columns clip, eye_height, upper_arm,

@@ -21,7 +21,7 @@ enum class FingerMethod : std::uint8_t {
 
 struct ClosedFinger {
     ChainAngles angle_rad = {};
-    // the last link that touches; k_none: rest pose
+    // The last link that touches; k_none: rest pose.
     std::int32_t contact_link = DiscClosure::k_none;
     std::uint32_t discs = 0;
     std::uint32_t pops = 0;  // visited triangles, as ChainFit counts them

@@ -65,7 +65,7 @@ SearchOrder search_order_of(const std::string& name) {
                              : SearchOrder::best_first;
 }
 
-// Only the talk's fingers have other searches than the runtime's.
+// A search other than the runtime's exists only for the method "talk".
 std::string fingers_of(const GripOptions& options) {
     if (!options.fingers.empty()) {
         return options.fingers;

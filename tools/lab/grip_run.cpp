@@ -147,7 +147,8 @@ class OneHand {
             close_baseline(f, tuning, variant);
         }
     }
-    // Other methods than the runtime's show the palm as held and the fingers as closed.
+    // For methods other than the runtime's, shows the held palm and the closed fingers without a
+    // fit.
     void fit(double dt_s, const Tuning& tuning, const GripVariant& variant) {
         FingerPose& pose = fingers_.rows().front();
         if (is_fitted(variant) || !has_surface()) {

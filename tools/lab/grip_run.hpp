@@ -74,9 +74,9 @@ struct WarmHand {
     std::uint32_t shown_jumps = 0;
 };
 
-// Closes a hand as pose_cold_hand does, then lets it move in frames of 1/90 s and stand still for
-// as many. `motion`: wrists of a right hand relative to `wrist`; a left hand moves mirrored. The
-// result is empty if the hand does not grip.
+// Closes a hand like pose_cold_hand, then lets it move, one wrist of `motion` per frame of 1/90 s,
+// and then stand still for as many frames. `motion`: wrists of a right hand relative to `wrist`; a
+// left hand moves mirrored. The result is empty if the hand does not grip.
 WarmHand move_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
                    const Tuning& tuning, const GripVariant& variant, std::span<const Pose> motion);
 

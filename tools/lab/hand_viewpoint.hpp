@@ -31,10 +31,10 @@ using Triangle = std::array<Vec3, 3>;
 std::vector<Triangle> triangles_near(std::span<const Mesh> meshes, const Vec3& point,
                                      double reach_m);
 
-// Of evenly spread viewing directions, chooses the one from which most of the fingers can be seen
-// at `distance_m`. Triangles and the hand itself hide fingers. Prefers views from beside the hand,
-// which show gaps and penetrating fingers. With `other`, the direction is at least 70 degrees from
-// that of `other`.
+// Chooses, among evenly spread viewing directions, the one from which most of the fingers can be
+// seen at `distance_m`. Triangles and the hand itself hide fingers. Prefers views from beside the
+// hand, which show gaps and penetrating fingers. With `other`, the direction is at least 70 degrees
+// from that of `other`.
 HandView choose_hand_view(std::span<const HandCapsule> capsules, const Quat& wrist,
                           std::span<const Triangle> around, double distance_m,
                           const HandView* other = nullptr);

@@ -24,7 +24,8 @@ struct HandsPictureOptions {
 };
 
 // Exit status: 0, or 2 with one line on standard error if a file is invalid or cannot be written,
-// or if nothing can be drawn. Prints the ids to standard output, row by row.
+// or if nothing can be drawn. Prints the ids to standard output, one line for each row of the
+// picture.
 int hands_picture_command(const HandsPictureOptions& options);
 
 }  // namespace handhold::lab

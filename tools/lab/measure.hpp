@@ -35,7 +35,7 @@ struct Series {
 
     void add(double value) { values.push_back(value); }
     double max() const;
-    // the first frame with the largest value; -1 without values
+    // The first frame with the largest value; -1 without values.
     int worst_frame() const;
     double quantile(double share) const;  // nearest rank; 0 without values
 };

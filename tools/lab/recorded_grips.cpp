@@ -25,7 +25,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double hand_stages_us(const StageStats& stats) {
+double hand_stages_us(const RunStats& stats) {
     double sum_us = 0.0;
     for (const Stage stage : {Stage::gather_surroundings, Stage::search_grip,
                               Stage::constrain_palms, Stage::sweep_fingers, Stage::fit_hands}) {
@@ -40,7 +40,7 @@ class GripWatch {
     GripWatch(const PlayerEntities& player, std::string recording)
         : player_(player), recording_(std::move(recording)) {}
 
-    void take(const World& world, const HandScratch& scratch, const StageStats& stats) {
+    void take(const World& world, const HandScratch& scratch, const RunStats& stats) {
         std::array<const HandSurroundings*, k_hand_count> gripping = {};
         double count = 0.0;
         for (const HandSurroundings& around : scratch.surroundings) {
@@ -100,17 +100,16 @@ Result<std::vector<RecordedGrip>> watch(const std::string& scene_file, const std
         return loaded.error();
     }
     Scene& scene = loaded.value();
-    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
-    caches.body_clips = game_body_clips();
-    const Pose origin_ws = find_spawn(scene, caches, recording.value(), k_recorded_hz).origin_ws;
+    load_game_body_clips(scene.host);
+    const Pose origin_ws = from_host(find_spawn(scene, recording.value(), k_recorded_hz).origin_ws);
     const PlayerEntities player = add_scene_player(scene, {"player0", origin_ws, 80.0});
     GripWatch watched(player, std::filesystem::path(input).filename().string());
     RunSettings settings;
     settings.hz = k_recorded_hz;
     settings.keep_frames = false;
-    run_session(scene, caches, {player}, &recording.value(), settings,
+    run_session(scene, player_ids({&player, 1}), &recording.value(), settings,
                 [&](const Scene& played, const FrameLog& frame) {
-                    watched.take(played.world, caches.hands, frame.stats);
+                    watched.take(played.world(), played.caches().hands, frame.stats);
                 });
     return std::move(watched.grips);
 }
@@ -184,7 +183,8 @@ int recorded_grips_command(const RecordedGripsOptions& options) {
 
 std::vector<std::vector<Pose>> wrist_motions(const std::vector<RecordedGrip>& grips,
                                              std::size_t frames, std::size_t count) {
-    std::vector<std::pair<const RecordedGrip*, std::size_t>> stretches;  // and where they begin
+    // Grip and first frame of each stretch.
+    std::vector<std::pair<const RecordedGrip*, std::size_t>> stretches;
     for (const RecordedGrip& grip : grips) {
         for (std::size_t begin = 0; begin + frames < grip.wrists.size(); begin += frames) {
             stretches.emplace_back(&grip, begin);

@@ -31,7 +31,8 @@ struct RecordedGripsOptions {
     std::filesystem::path out;
 };
 
-// Writes one grip a line and prints the distributions. Exit status as grip_command.
+// Writes one line per grip and prints the distributions. Exit status: 0, or 2 with one line on
+// standard error if a file cannot be read or written.
 int recorded_grips_command(const RecordedGripsOptions& options);
 
 // Reads the lines of `recorded-grips`. Errors name the line.

@@ -27,7 +27,7 @@ struct ResidualCurve {
 std::string scene_json(const LabScene& scene, Holder holder, const RunLabels& labels,
                        const Measure& measure, const ResidualCurve& curve);
 
-// Rows for every body, player and held hand, frame by frame.
+// Lines for every body, player and held hand, frame by frame.
 class FrameCsv {
   public:
     explicit FrameCsv(const LabScene& scene);

@@ -68,7 +68,8 @@ LabScene make_lever(const SceneOptions& options) {
             rotation_about(Vec3(1.0, 2.0, -1.0).normalized(), twist)};
     }));
     scene.players_still_until_s = pull_s;
-    // The lever cannot follow along its hinge axis, so the player must move by as much.
+    // The lever cannot follow along its hinge axis, so the player must move by the distance of the
+    // pull.
     scene.watch = [pull_s](const FrameRecord& frame, Figures& figures) {
         const Vec3 expected(0.0, 0.0, -pull_off(frame.t_s - pull_s));
         figures.take_worst("push_back_error_mm", 1e3 * (frame.poses[1].position - expected).norm());

@@ -55,9 +55,9 @@ class Walls {
         return points;
     }
 
-    // How deep a sphere is in the nearest wall; 0: outside. The centre is behind a wall if it is
-    // hidden from all viewpoints; a rail does not hide it from all. It is then as deep as the
-    // centre is behind the nearest of these surfaces, plus the radius.
+    // How deep a sphere is in the nearest wall; 0: outside. The centre counts as behind a wall if
+    // it is hidden from all viewpoints (a rail does not hide it from all). The depth is then the
+    // centre's distance behind the nearest of the hiding surfaces, plus the radius.
     double depth_m(const CollisionWorld& collision, std::span<const Vec3> viewpoints,
                    const Vec3& centre_ws, double radius_m) const {
         double behind_m = 1e9;
@@ -115,7 +115,7 @@ class ShownBody {
         take_speeds(spine);
     }
 
-    // One row for each frame.
+    // One line for each frame.
     std::string csv() const {
         std::string text = "frame,trunk_mm,pelvis_mm,thigh_mm,shin_mm,foot_mps\n";
         for (std::size_t i = 0; i < trunk_mm_.values.size(); ++i) {
@@ -221,16 +221,15 @@ int shown_body_command(const ShownBodyOptions& options) {
         return k_exit_usage;
     }
     const Recording recording = *make_built_in_session(scene->session->built_in);
-    scene->tuning.spine.hang = options.hang.value_or(scene->tuning.spine.hang);
-    FrameCaches caches(*scene->shapes, scene->grip_meshes.get());
-    caches.body_clips = game_body_clips();
+    scene->tuning().spine.hang = options.hang.value_or(scene->tuning().spine.hang);
+    load_game_body_clips(scene->host);
     const PlayerEntities player =
-        add_scene_player(*scene, {"player0", scene->spawns.front().pose_ws, 80.0});
-    ShownBody body(scene->world, player, options.hz);
+        add_scene_player(*scene, {"player0", from_host(scene->spawns.front().pose_ws), 80.0});
+    ShownBody body(scene->world(), player, options.hz);
     const auto observe = [&](const Scene& played, const FrameLog&) {
-        body.take(played.world, caches.collision);
+        body.take(played.world(), played.caches().collision);
     };
-    run_session(*scene, caches, {player}, &recording, {options.hz, 0.0, 1}, observe);
+    run_session(*scene, player_ids({&player, 1}), &recording, {options.hz, 0.0, 1}, observe);
     const Json json = {{"scene", options.scene}, {"hz", options.hz}, {"body", body.json()}};
     if (const auto error = write_file_atomically(options.json, json.dump(1) + "\n")) {
         return refuse(*error);

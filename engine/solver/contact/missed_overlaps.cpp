@@ -9,9 +9,10 @@
 namespace handhold {
 namespace {
 
-// Proxies of a heap follow their bodies only roughly (moving_contacts.cpp), two of them twice.
+// Bound on the error of the distance between two proxies in a heap, because each may lag behind its
+// body by k_heap_moved_m (moving_contacts.cpp).
 constexpr double k_heap_lag_m = 3e-3;
-// assumed distance of the collider's surface from its centre; conservative
+// Assumed distance of the collider's surface from its centre; conservative.
 constexpr double k_max_arm_m = 1.0;
 
 // True if the motion of a relative to b is so long that the collision world may have swept it.

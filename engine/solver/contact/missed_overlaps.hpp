@@ -21,7 +21,7 @@ struct MissedOverlaps {
     std::vector<Overlap> of_body;     // out
     std::vector<std::uint32_t> deep;  // out: bodies with an overlap, ascending
 
-    // Makes `count` bodies without an overlap.
+    // Resets the result to `count` bodies, none of which has an overlap.
     void clear(std::size_t count);
 };
 

@@ -14,7 +14,7 @@ namespace handhold {
 namespace {
 
 constexpr double k_moved_m = 1e-5;  // colliders that moved less keep their contacts
-// The same in a heap, whose pairs were all found within the margin before the solve.
+// k_moved_m for bodies in a heap, whose pairs were all found within the margin before the solve.
 constexpr double k_heap_moved_m = 1e-3;
 constexpr double k_max_slide_m =
     5e-3;  // A contact point whose bodies slid farther than this is dropped.
@@ -96,6 +96,23 @@ bool limited_motion(const ConstraintGraph& graph, const ContactPoint& contact) {
     return std::abs(offset_of(graph, contact).normal_m) < k_touch_m;
 }
 
+// True if the bodies' velocities before the frame's impacts meet at the contact, and the solve has
+// slid its points apart: a sweep found it where the bodies meet on their way.
+bool is_impact(const ConstraintGraph& graph, const ContactPoint& contact) {
+    constexpr double k_slid_m = 1e-3;
+    constexpr double k_slow_mps = 0.05;
+    const SolverBody& a = graph.bodies[find_body(graph, contact.id_a)];
+    const SolverBody& b = graph.bodies[find_body(graph, contact.id_b)];
+    const auto velocity_of = [](const SolverBody& body, const Vec3& point_bs) {
+        const Vec3 arm = body.pose_ws.rotation * (point_bs + body.collider_offset_bs);
+        return Vec3(body.velocity_mps + body.spin_radps.cross(arm));
+    };
+    const Vec3 normal = collider_pose(b).rotation * contact.normal_b_bs;
+    const Vec3 approach_mps =
+        velocity_of(b, contact.point_b_bs) - velocity_of(a, contact.point_a_bs);
+    return normal.dot(approach_mps) > k_slow_mps && offset_of(graph, contact).tangent_m > k_slid_m;
+}
+
 bool any_touches(std::span<const ContactPoint> points) {
     return std::ranges::any_of(
         points, [](const ContactPoint& point) { return point.separation_m < k_touch_m; });
@@ -142,6 +159,9 @@ void merge_contacts(const MovingContacts& moving, OldPoints old_points) {
         if (limited || stays) {
             old.feature = ++feature;
             merged.push_back(old);
+        } else if (moving.impacts != nullptr && !has_same_point(old, found) &&
+                   limited_motion(moving.graph, old) && is_impact(moving.graph, old)) {
+            moving.impacts->push_back(old);
         }
     }
     std::ranges::sort(merged, {}, order_of);
@@ -149,6 +169,26 @@ void merge_contacts(const MovingContacts& moving, OldPoints old_points) {
 }
 
 }  // namespace
+
+void restore_impacts(const MovingContacts& moving, std::span<const ContactPoint> impacts) {
+    if (impacts.empty()) {
+        return;
+    }
+    for (ContactPoint impact : impacts) {
+        std::uint32_t feature = 0;
+        for (const ContactPoint& contact : moving.contacts) {
+            if (contact.id_a == impact.id_a && contact.id_b == impact.id_b) {
+                feature = std::max(feature, contact.feature + 1);
+            }
+        }
+        impact.feature = feature;
+        impact.point_b_bs += offset_of(moving.graph, impact).normal_m * impact.normal_b_bs;
+        impact.separation_m = 0.0;
+        moving.contacts.push_back(impact);
+    }
+    std::ranges::sort(moving.contacts, {}, order_of);
+    replace_contact_rows(moving.contacts, moving.graph);
+}
 
 FoundContacts refresh_contacts(const MovingContacts& moving, const ContactLimits& limits,
                                OldPoints old_points) {

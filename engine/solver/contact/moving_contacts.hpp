@@ -25,6 +25,9 @@ struct MovingContacts {
     // Bodies outside all islands that may also have moved. If there are any, contacts are searched
     // again in any case.
     std::span<const std::uint32_t> also_moved = {};
+    // Out, appended: impacts that stopped a motion and whose points were then replaced. Null: not
+    // wanted.
+    std::vector<ContactPoint>* impacts = nullptr;
 };
 
 // What happens to the old contact points of a pair for which new ones are found.
@@ -43,5 +46,12 @@ enum class FoundContacts : std::uint8_t { unchanged, clear, overlapping };
 // collider moved, returns `unchanged` and does nothing.
 FoundContacts refresh_contacts(const MovingContacts& moving, const ContactLimits& limits,
                                OldPoints old_points);
+
+// Adds `impacts` to the contacts, for the velocity solve: where a body hits a round edge off its
+// centre, the solve takes it along the plane of the impact, and a sweep to where it is then meets
+// the edge later, where the normal is nearly across its velocity. The impact's normal, at the time
+// of impact, is what reverses the velocity. Each is added at the bodies' present poses, as
+// touching.
+void restore_impacts(const MovingContacts& moving, std::span<const ContactPoint> impacts);
 
 }  // namespace handhold

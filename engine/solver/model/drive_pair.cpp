@@ -16,7 +16,8 @@ Quat rotation_from_drive_pair(const DrivePair& drives, const Quat& near) {
     if (apart.norm() < k_min_line_m || apart_bs.norm() < k_min_line_m) {
         return near;
     }
-    // First the direction, then the twist: a rotation about the line keeps the direction.
+    // Aligns the direction first, then the twist: a rotation about the line does not change the
+    // direction.
     const Vec3 line = apart.normalized();
     const Quat lined = rotation_between((near * apart_bs).normalized(), line) * near;
     double sine = 0.0;
@@ -29,8 +30,9 @@ Quat rotation_from_drive_pair(const DrivePair& drives, const Quat& near) {
     };
     add(drives.first.rotation, drives.first_anchor_bs.rotation);
     add(drives.second.rotation, drives.second_anchor_bs.rotation);
-    // Each drive has added (sine, cosine) of half its twist, times the cosine of half its swing.
-    // The sum points between both, nearer to the drive with less swing.
+    // The two sums are the sine and cosine of half the twist of each drive, weighted by the cosine
+    // of half the drive's swing. Their angle is half of the mean twist: closer to the drive that
+    // swings less.
     return (rotation_about(line, 2.0 * arc_tangent2(sine, cosine)) * lined).normalized();
 }
 

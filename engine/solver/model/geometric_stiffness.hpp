@@ -59,7 +59,7 @@ HH_INLINE void add_positive_stiffness(const Wide3& force, const Wide3& arm, Wide
     out.zz += of_all;
 }
 
-// The same for one force. `sign` +1, or -1 for the positive part of the negative.
+// add_positive_stiffness for one force. `sign` +1, or -1 for the positive part of the negative.
 Mat3 positive_stiffness(const Vec3& force, const Vec3& arm, double sign);
 
 // (I + stiffness)^-1, given I^-1.

@@ -33,7 +33,8 @@ struct ConstraintGraph {
     std::vector<RowBlock> blocks;    // sorted: see sort_blocks
     // Written by build_islands.
     std::vector<Island> islands;  // ordered by their first body
-    // ascending within an island, hence sorted by persistent id
+    // Indices into `bodies`, island by island; ascending within an island, and hence sorted by
+    // persistent id.
     std::vector<std::uint32_t> island_bodies;
     std::vector<std::uint32_t> island_blocks;  // ascending within an island
     std::uint64_t revision = 0;                // incremented by every build_islands

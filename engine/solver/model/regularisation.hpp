@@ -15,7 +15,7 @@
 
 namespace handhold {
 
-// r_i by row group; > 0. Defaults of the position solve.
+// The relative regularisation r_i of each row group; > 0. Defaults of the position solve.
 struct Regularisation {
     double drive = 1e-8;
     double contact = 1e-7;

@@ -52,14 +52,14 @@ enum class RowKind : std::uint8_t {
     drive_point,  // 3 rows: a's point on b's point
     drive_weld,   // 6 rows: drive_point, and a's rotation on b's
     // 3 rows: a's rotation on b's. For the second of two drives on one body: direction of the line
-    // between the drives and twist about it, both satisfied by rotation alone. Its points take part
-    // in no row and may slide along the line. See drive_pair.hpp.
+    // between the drives and twist about it, both satisfied by rotation alone. No row uses its
+    // points, which may slide along the line. See drive_pair.hpp.
     drive_direction,
     contact,   // 1 row, >= 0: separation along b's normal
     ball,      // 3 rows: a's point on b's point
     hinge,     // 5 rows: ball, and parallel axes
     slider,    // 5 rows: b's point on a's axis, and a's rotation on b's
-    fixed,     // 6 rows: as drive_weld
+    fixed,     // 6 rows: a's point on b's, and a's rotation on b's
     distance,  // no rows except limits on the distance of the points
 };
 

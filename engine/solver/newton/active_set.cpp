@@ -9,7 +9,8 @@ namespace handhold {
 namespace {
 
 constexpr std::uint8_t k_undecided = 2;  // becomes active in the first solve if it overlaps
-// Block pivots in a row that do not reduce the number of violating rows, before descent takes over.
+// Consecutive block pivots that do not reduce the number of violating rows, before descent takes
+// over.
 constexpr int k_max_block_pivots = 4;
 constexpr int k_max_descent_steps = 60;  // limit of factorisations in the descent
 constexpr double k_overlap_m = 1e-10;
@@ -89,7 +90,7 @@ void RowSystem::solve_active() {
 }
 
 std::span<const double> RowSystem::solve(std::span<const Row> rows) {
-    // Effect of the rows with a fixed multiplier on the others.
+    // Adds the effect of rows with a fixed multiplier to the residuals of the others.
     const bool has_fixed =
         std::ranges::any_of(fixed_, [](std::uint8_t is_fixed) { return is_fixed != 0; });
     if (has_fixed) {
@@ -173,7 +174,8 @@ bool RowSystem::descend_active_set(std::span<const Row> rows) {
 // Moves the feasible point towards lambda until a row would start to pull; that row becomes
 // inactive.
 RowSystem::Approach RowSystem::step_towards_solution(std::span<const Row> rows) {
-    constexpr double k_full_step = 2.0;  // no row blocks; a pulling row blocks at 1 or less
+    // > 1: no row limits the step; a row that would pull limits it to 1 or less
+    constexpr double k_full_step = 2.0;
     const auto step_length_of = [&](std::size_t i) {
         const bool pulls = rows[i].unilateral && is_active(i) && lambda_[i] < 0.0;
         return pulls ? feasible_lambda_[i] / (feasible_lambda_[i] - lambda_[i]) : k_full_step;

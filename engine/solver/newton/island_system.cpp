@@ -1,4 +1,4 @@
-// Solver, newton: assembly shared by the position and the velocity solve, for islands that are
+// Solver, newton: assembly for both the position and the velocity solve, for islands that are
 // solved row by row.
 #include "engine/solver/newton/island_system.hpp"
 

@@ -1,4 +1,4 @@
-// Solver, newton: one island as linear equations. Shared by the position solve (newton.cpp) and the
+// Solver, newton: one island as linear equations. Used by the position solve (newton.cpp) and the
 // velocity solve (velocities.cpp).
 
 #pragma once

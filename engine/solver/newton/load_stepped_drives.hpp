@@ -22,7 +22,7 @@ class LoadSteppedDrives {
   public:
     // Records drives, errors and poses at the bodies' current poses. False if there are no drives.
     bool take(const IslandView& island);
-    // Reserves memory for such an island, so that `take` does not allocate.
+    // Reserves memory for an island of this size, so that `take` does not allocate.
     void reserve(const IslandView& island);
     // Restores the recorded poses.
     void restore_start(const IslandView& island) const { restore_poses(island, start_); }

@@ -237,8 +237,9 @@ void repeat_step(Steps& steps, StepResult& result) {
     result.is_whole = true;
 }
 
-// True if the last step reduced the error so well that its factor is worth another step. If a new
-// factor costs little more than a step (`is_factor_cheap`), only if that step would be the last.
+// True if the next step may reuse the last step's factor: the last step left at most
+// k_max_step_ratio of the error. If a new factor costs little more than a step (`is_factor_cheap`),
+// the factor is reused only for a step that is expected to be the last.
 bool is_good_step(double residual_m, double previous_m, bool is_factor_cheap,
                   const NewtonSettings& settings) {
     constexpr double k_max_step_ratio = 0.05;
@@ -284,8 +285,8 @@ NewtonResult iterate(const IslandView& island, const NewtonSettings& settings, d
                                          is_good_step(result.residual_m, previous,
                                                       Steps::k_has_cheap_factor, settings));
             if (result.iterations > 0 && !repeats) {
-                // While each step halves the error, later steps skip what the last one hardly
-                // moved.
+                // While each step halves the error, the next step skips the bodies that the last
+                // one hardly moved.
                 const bool halves = step.is_whole && result.residual_m < 0.5 * previous;
                 steps.prepare(
                     {.adds_stiffness = result.residual_m > settings.geometric_stiffness_from_m,

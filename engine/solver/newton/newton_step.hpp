@@ -20,7 +20,7 @@ struct StepErrors {
     bool keeps_factor = false;  // the factor of the last step fits these rows
 };
 
-// How the iteration goes. A step may use it to cost less or to converge better.
+// Hints from the iteration to a step, which may use them to cost less or to converge better.
 struct StepHints {
     bool adds_stiffness = false;  // add geometric stiffness, from the multipliers of the last step
     // Bodies that the last step moved by less may be skipped; none: all take part.

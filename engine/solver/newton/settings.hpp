@@ -14,13 +14,13 @@ namespace handhold {
 struct StepControl {
     double max_drive_regularisation = 1e-2;  // >= min_drive_regularisation
     double min_drive_regularisation = 1e-9;
-    // Of contacts that contradict each other; at least their initial regularisation.
+    // For contacts that contradict each other; at least their initial regularisation.
     double max_contact_regularisation = 1e-3;
     // Factor on the drives' regularisation after a step that reduced the error, and after one that
     // did not.
     double regularisation_decrease = 0.03;
     double regularisation_increase = 10.0;
-    // This many unscaled steps in a row that each leave less than `linear_decrease_ratio` of the
+    // This many consecutive unscaled steps that each leave less than `linear_decrease_ratio` of the
     // error count as one that reduced it.
     int linear_decrease_steps = 3;
     double linear_decrease_ratio = 0.95;

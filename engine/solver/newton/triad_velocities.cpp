@@ -5,8 +5,8 @@
 
 namespace handhold {
 
-// Iterative refinement with one factor until the rows are satisfied or cannot be, as
-// refine_velocities in velocities.cpp.
+// Iterative refinement with one factor until the rows are satisfied or cannot be (see
+// refine_velocities in velocities.cpp).
 void solve_triad_velocities(const IslandView& island, const VelocitySettings& settings,
                             TriadSystem& triads) {
     for (const std::uint32_t index : island.island_blocks) {

@@ -22,7 +22,7 @@ double row_velocity(const IslandView& island, const Row& row) {
            row.angular_b.dot(b.spin_radps);
 }
 
-// Only joints with one free coordinate have a motor.
+// True if the joint has a motor. Only joints with one free coordinate can have one.
 bool has_motor(const RowBlock& block) {
     return (block.kind == RowKind::hinge || block.kind == RowKind::slider) &&
            block.joint.motor_max_impulse > 0.0;
@@ -150,7 +150,8 @@ bool apply_friction_law(std::span<const double> lambda, bool may_stick, SolveScr
 // Stick-slip iteration; leaves the multipliers of the last pass in `lambda`. False if they still
 // changed after `passes`.
 bool solve_stick_slip(int passes, SolveScratch& scratch, std::span<const double>& lambda) {
-    // later passes allow no return to sticking, so the iteration cannot cycle
+    // In passes after this one, sliding contacts do not return to sticking, so that the iteration
+    // cannot cycle.
     constexpr int k_max_stick_passes = 6;
     for (SolveScratch::Friction& friction : scratch.frictions) {
         stick(scratch, friction);
@@ -187,40 +188,11 @@ void apply_impulses(const IslandView& island, std::span<const double> lambda,
             block.angular_impulse_ws_nms += lambda[i] * row.angular_a;
         }
         if (row.group == RowGroup::limit && !row.unilateral) {
-            // In the coordinate's unit: angular rows are scaled by their lever.
+            // Converts the lock's impulse to the coordinate's unit: angular rows are scaled by
+            // their lever.
             const bool is_angle = row.linear_a.isZero(0.0);
             block.joint.lock_impulse += std::abs(lambda[i]) * (is_angle ? k_angle_lever_m : 1.0);
         }
-    }
-}
-
-// Largest residual of the active rows.
-double worst_speed(std::span<const Row> rows, const RowSystem& system) {
-    double worst = 0.0;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        worst = system.is_active(i) ? std::max(worst, std::abs(rows[i].residual)) : worst;
-    }
-    return worst;
-}
-
-// Iterative refinement: reduces the error of regularisation, which long levers amplify, until the
-// rows are satisfied or cannot be. Further steps would only press contradicting rows against each
-// other.
-void refine_velocities(const IslandView& island, const VelocitySettings& settings,
-                       SolveScratch& scratch) {
-    double previous = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < settings.refinements; ++i) {
-        evaluate_velocity_rows(island, scratch);
-        const double worst = worst_speed(scratch.rows, scratch.system);
-        if (worst < settings.tolerance_mps || worst > 0.5 * previous) {
-            return;
-        }
-        previous = worst;
-        gather_residuals(scratch);
-        const std::span<const double> lambda =
-            scratch.system.solve_with_last_factor(scratch.values);
-        gather_moves(scratch.system.moves(), scratch);
-        apply_impulses(island, lambda, scratch);
     }
 }
 
@@ -236,7 +208,7 @@ class DirectMethod {
         scratch_.system.assemble(island.bodies, scratch_.inverse_inertia_ws, scratch_.rows);
         regularise(scratch_.rows, settings.regularisation, 1.0, scratch_.system);
     }
-    // False if there is no plausible answer.
+    // Returns false if there is no plausible solution.
     bool solve() {
         std::span<const double> lambda;
         is_unconverged_ = !solve_stick_slip(settings_.friction_passes, scratch_, lambda);
@@ -256,7 +228,9 @@ class DirectMethod {
                (is_unconverged_ ? k_max_unconverged_ratio : k_max_move_ratio) * largest;
     }
     bool is_unconverged() const { return is_unconverged_; }
-    // Iterative refinement of the multipliers and of the gathered moves.
+    // Iterative refinement of the multipliers and of the gathered moves: reduces the error of
+    // regularisation, which long levers amplify, until the rows are satisfied or cannot be. Further
+    // steps would only press contradicting rows against each other.
     void refine() {
         double previous = std::numeric_limits<double>::infinity();
         for (int i = 0; i < settings_.refinements; ++i) {
@@ -361,12 +335,13 @@ VelocityResult solve_island(const IslandView& island, const VelocitySettings& se
     if (!island.is_heap) {
         DirectMethod direct(island, settings, scratch);
         if (direct.solve()) {
-            const bool is_blended = limit_energy(
-                island, [&] { direct.solve(); }, [&] { direct.refine(); }, scratch);
+            direct.refine();
+            const auto solve_again = [&] {
+                direct.solve();
+                direct.refine();
+            };
+            limit_energy(island, solve_again, scratch);
             apply_impulses(island, scratch.lambda, scratch);
-            if (!is_blended) {
-                refine_velocities(island, settings, scratch);
-            }
             return {.unconverged = direct.is_unconverged(),
                     .out_of_work = scratch.system.is_out_of_work()};
         }
@@ -374,7 +349,7 @@ VelocityResult solve_island(const IslandView& island, const VelocitySettings& se
     SweepMethod sweeps(island, settings, scratch);
     sweeps.solve();
     limit_energy(
-        island, [&] { sweeps.solve(); }, [] {}, scratch);
+        island, [&] { sweeps.solve(); }, scratch);
     apply_impulses(island, scratch.lambda, scratch);
     return {
         .unconverged = !island.is_heap,

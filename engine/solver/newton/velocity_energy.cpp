@@ -68,32 +68,30 @@ void clear_restitution(SolveScratch& scratch) {
 
 }  // namespace
 
-bool limit_energy(const IslandView& island, const std::function<void()>& solve,
-                  const std::function<void()>& refine, SolveScratch& scratch) {
+void limit_energy(const IslandView& island, const std::function<void()>& solve,
+                  SolveScratch& scratch) {
     constexpr double k_rounding = 1e-10;
     if (!has_contact(scratch.rows)) {
-        return false;
+        return;
     }
     const double exchanged = kinetic_energy(island, scratch);
-    if (linear_work(scratch) + exchanged <= k_rounding * exchanged) {
-        return false;
+    const double with_restitution = linear_work(scratch) + exchanged;
+    if (with_restitution <= k_rounding * exchanged) {
+        return;
     }
-    refine();
-    const double with_restitution = linear_work(scratch) + kinetic_energy(island, scratch);
     std::swap(scratch.bouncing_lambda, scratch.lambda);
     std::swap(scratch.bouncing_moves_m, scratch.moves_m);
     std::swap(scratch.bouncing_rotations_rad, scratch.rotations_rad);
     clear_restitution(scratch);
     solve();
-    refine();
     const double linear = linear_work(scratch);
     const double quadratic = kinetic_energy(island, scratch);
     if (linear + quadratic > 0.0) {
-        // Not solved exactly: a shorter step from the velocities before.
+        // The solution is inexact: takes a shorter step from the velocities before the solve.
         scale_moves(quadratic > 0.0 ? std::clamp(-linear / quadratic, 0.0, 1.0) : 0.0, scratch);
-        return true;
+        return;
     }
-    // scratch := the difference, then back.
+    // Replaces scratch by the difference of both solutions, and restores it afterwards.
     scale_moves(-1.0, scratch);
     add_bouncing_moves(1.0, scratch);
     const double h = kinetic_energy(island, scratch);
@@ -103,7 +101,6 @@ bool limit_energy(const IslandView& island, const std::function<void()>& solve,
     const double s = h > 0.0 ? std::clamp((root - g) / (2.0 * h), 0.0, 1.0) : 0.0;
     scale_moves(s - 1.0, scratch);
     add_bouncing_moves(1.0, scratch);
-    return true;
 }
 
 }  // namespace handhold

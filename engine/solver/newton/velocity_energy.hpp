@@ -18,10 +18,9 @@ namespace handhold {
 // between. If even lambda_0 does positive work, because it was not solved exactly, it is scaled
 // down: then drives and contacts are met in part.
 //
-// `scratch` holds the solution with restitution; `solve` solves scratch.rows again after
-// restitution was removed from them. `refine` improves the last solution, since nobody does so
-// afterwards. Returns false if nothing had to be done.
-bool limit_energy(const IslandView& island, const std::function<void()>& solve,
-                  const std::function<void()>& refine, SolveScratch& scratch);
+// `scratch` holds the final solution with restitution: whatever improved it afterwards could add
+// energy again. `solve` solves scratch.rows again after restitution was removed from them.
+void limit_energy(const IslandView& island, const std::function<void()>& solve,
+                  SolveScratch& scratch);
 
 }  // namespace handhold

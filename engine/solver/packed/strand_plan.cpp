@@ -122,7 +122,7 @@ void StrandPlan::cut(std::span<const RowNode> nodes) {
         return;
     }
     const std::uint32_t length = (size - k_separators) / k_strands;
-    // remainder: links added to separators
+    // The links that remain are added to the separators.
     std::uint32_t spare = size - k_separators - k_strands * length;
     StrandPack strand_pack;
     strand_pack.length = length;
@@ -165,7 +165,7 @@ void StrandPlan::add_strand(std::span<const RowNode> nodes, std::span<const std:
         place(k, ends[k]);
     }
     place(strand_pack.length, other_side(ends.back()));
-    // nodes of the whole island; lay_out_rest converts them to indices in rest_
+    // Stores nodes of the whole island; lay_out_rest converts them to indices in rest_.
     strand_pack.before[lane] = beyond(nodes, ends.front());
     strand_pack.after[lane] = beyond(nodes, other_side(ends.back()));
 }

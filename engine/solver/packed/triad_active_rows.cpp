@@ -64,7 +64,7 @@ RowWindow TriadSystem::active_window(const TriadPlan::StrandPack& strand_pack,
 }
 
 void TriadSystem::restrict_to_active(double min_move_m) {
-    // shorter strands cost more to search than a window saves
+    // In shorter strands the search costs more than a window saves.
     constexpr std::uint32_t k_short = 48;
     const std::span<const TriadPlan::StrandPack> strand_packs = plans_.current().strand_packs();
     for (std::size_t i = 0; i < strand_packs.size(); ++i) {

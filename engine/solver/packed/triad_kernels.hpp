@@ -50,15 +50,15 @@ struct WideMat3 {
 // One step of a strand pack: one link in each of its four strands. `before` and `after` are the
 // nodes outside the strand at its ends (TriadPlan::StrandPack).
 struct Links4 {
-    Wide3 value;    // residual, as TriadArrays::values
+    Wide3 value;    // residual, see TriadArrays::values
     Wide3 unknown;  // scratch of the solve
     Wide3 impulse;  // sum of lambdas, N s
     // The step's row of the factor.
     WideSymmetric inverse;  // inverse of its own block, or the block's LDL^T
     // inverse times the block that couples the link with the next one, or with `after`
     WideMat3 next;
-    // inverse times the block that couples the link with `before`; valid up to
-    // Strands4::decoupled_step
+    // Inverse times the block that couples the link with `before`; valid up to
+    // Strands4::decoupled_step.
     WideMat3 before;
     bool has_pivots = false;
 };
@@ -67,7 +67,7 @@ struct Links4 {
 struct Strands4 {
     WideSymmetric before;  // subtracted from the block of `before`
     WideSymmetric after;
-    // rows of `after`, columns of `before`; added to the block that couples them
+    // Rows of `after`, columns of `before`; added to the block that couples them.
     WideMat3 between;
     Double4 inverse_sum;  // sum over links of 9 / (sum of its diagonal); see HarmonicMean
     std::size_t decoupled_step = 0;  // first step not coupled with `before`

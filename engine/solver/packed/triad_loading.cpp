@@ -76,7 +76,8 @@ void TriadSystem::read_bodies(const IslandView& island) {
 
 void TriadSystem::pack_bodies(const IslandView& island) {
     const TriadPlan& plan = plans_.current();
-    // bodies_ may still hold another island. Every lane that is read is written below.
+    // No need to clear bodies_, which may still hold another island: every lane that is read is
+    // written below.
     bodies_.resize(plan.group_count());
     for (std::uint32_t place = 0; place < plan.slots().size(); ++place) {
         const std::uint32_t slot = plan.slots()[place];

@@ -166,7 +166,7 @@ void TriadPlan::find_pairs() {
         const std::uint32_t row = place_in_body_[coupling.panel_end];
         const std::uint32_t column = place_in_body_[coupling.later_end];
         const Group& group = groups_[places_[slot] / k_lanes - first];
-        // the pairs form an upper triangle: each row has one pair fewer than the row before
+        // The pairs form an upper triangle: each line has one pair fewer than the line before.
         const std::uint32_t before = row * group.width - row * (row + 1) / 2;
         pairs_[group.pairs + before + column].blocks[places_[slot] % k_lanes] =
             block_at(plan_.panel_of(coupling.panel_end / 2), coupling.target);

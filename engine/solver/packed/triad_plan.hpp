@@ -43,9 +43,8 @@ class TriadPlan {
     std::span<const std::uint32_t> later(const Step& step) const {
         return std::span(later_).subspan(step.later_begin, step.later_end - step.later_begin);
     }
-    std::span<const std::uint32_t> later() const {
-        return later_;
-    }  // later nodes of all steps, concatenated
+    // The later nodes of each step, one step after another.
+    std::span<const std::uint32_t> later() const { return later_; }
     std::span<const std::uint32_t> updates() const { return updates_; }
     std::size_t block_count() const { return block_count_; }
 

@@ -18,7 +18,7 @@
 //   lane         one of the four doubles of a vector register (Double4)
 //   place        where a body is packed: 4 * group + lane
 //   link         point triad of a joint that shares each of its bodies with at most one other triad
-//   run          links in a row, each sharing a body with the next
+//   run          sequence of links, each of which has a body in common with the next
 //   separator    one or two links that cut a run
 //   strand       part of a run between two separators
 //   strand pack  four strands of equal length, one per lane

@@ -144,8 +144,8 @@ bool EliminationPlan::can_eliminate(std::uint32_t node) const {
 
 void EliminationPlan::order_nodes() {
     const std::size_t count = nodes_.size() + hubs_.size();
-    // Equal weights: oldest first. A chain is then eliminated from both ends in turn, and neither
-    // end depends on the other's results.
+    // Among equal weights, the oldest candidate comes first. A chain is then eliminated from both
+    // ends in turn, and neither end depends on the other's results.
     const auto is_later = [](const Candidate& x, const Candidate& y) {
         return x.weight != y.weight ? x.weight > y.weight : x.sequence > y.sequence;
     };

@@ -13,7 +13,7 @@
 
 namespace handhold {
 
-// maximum width of a node, in rows: four contacts with friction
+// Maximum width of a node, in rows: four contacts with friction.
 inline constexpr std::uint32_t k_widest_node = 12;
 // Smallest pivot, relative to the diagonal. A row with a smaller pivot is linearly dependent on
 // others to a degree that alpha cannot separate.
@@ -172,7 +172,7 @@ class EliminationPlan {
     std::vector<std::uint32_t> merged_;
     std::vector<std::uint32_t> order_;
     std::vector<std::uint8_t> eliminated_;
-    std::vector<Candidate> candidates_;  // a heap; entries may be stale
+    std::vector<Candidate> candidates_;  // priority queue; entries may be stale
 };
 
 }  // namespace handhold

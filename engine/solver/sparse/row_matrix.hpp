@@ -43,7 +43,7 @@ class RowMatrix {
     // Computes the bodies' moves W J^T lambda and keeps them until the next call.
     void gather_moves(std::span<const double> lambda);
     std::span<const Twist> moves() const { return moves_; }  // indexed by slot
-    // For other moves, of which row_motion then gives J times them.
+    // For callers that write other moves; row_motion then returns J times those.
     std::span<Twist> edit_moves() { return moves_; }
     // Jacobian of one row times the displacements in moves(). After gather_moves: J W J^T lambda.
     double row_motion(std::size_t row) const;

@@ -11,7 +11,7 @@ namespace handhold {
 namespace {
 
 // Limits of the condensed responses: twists stored, and twists times exact rows as a measure of the
-// work to compute them. Beyond, the exact rows are solved after every sweep instead.
+// work to compute them. Beyond these limits, the exact rows are solved after every sweep instead.
 constexpr std::size_t k_max_responses = 50'000;
 constexpr std::size_t k_max_response_work = 2'000'000;
 
@@ -225,8 +225,8 @@ void RowSweeps::factorise() {
             const std::uint64_t work = 1 + (row.responses_end - row.responses_begin) / 4;
             sweep_work_ += work;
             stiff_work_ += group.is_stiff ? work : 0;
-            // What the exact rows hold still cannot be moved: the difference of two nearly equal
-            // numbers.
+            // A row whose bodies the exact rows hold still cannot be moved: its diagonal is a
+            // difference of two nearly equal numbers, so it counts as 0.
             constexpr double k_least_share = 1e-9;
             row.inverse_diagonal =
                 diagonal > k_least_share * diagonal_[i] ? 1.0 / (diagonal + alpha_[i]) : 0.0;

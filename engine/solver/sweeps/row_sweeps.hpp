@@ -146,7 +146,7 @@ class RowSweeps {
     std::vector<std::uint32_t> cluster_slots_;
     std::vector<std::uint8_t> is_exact_body_;  // one per slot; 1: has an exact row
     std::uint64_t work_ = 0;
-    // Of one sweep: over all groups, over the stiff ones.
+    // Work of one sweep: over all groups, and over the stiff groups.
     std::uint64_t sweep_work_ = 0;
     std::uint64_t stiff_work_ = 0;
 };

@@ -73,10 +73,20 @@ const k_opens = 0.35;
 const k_dead_stick = 0.18;
 const k_snap_stick = 0.7;
 const k_fingers = ['middle', 'ring', 'pinky']; // index and thumb may point while the hand is closed
+// The joints of each finger, from the one before its first bend to the tip, and the bends' sum in a fist,
+// radians: systems/rigs/finger_curls.cpp, with the limits of systems/rigs/hand_limits.cpp.
+const k_bends = [
+    ['thumb-metacarpal', 'thumb-phalanx-proximal', 'thumb-phalanx-distal', 'thumb-tip'],
+    ...['index', 'middle', 'ring', 'pinky'].map((name) => ['metacarpal', 'phalanx-proximal', 'phalanx-intermediate', 'phalanx-distal', 'tip'].map((joint) => `${name}-finger-${joint}`)),
+];
+const k_fist = (lower, upper) => upper.reduce((sum, high, i) => sum + (lower[i] + 0.85 * (high - lower[i])) * Math.PI / 180, 0);
+const k_fist_bends = [k_fist([-10, -10], [50, 65]), ...Array(4).fill(k_fist([-10, 0, 0], [115, 105, 75]))];
+const k_unknown_curl = -1;
+const unknownCurls = () => Array(5).fill(k_unknown_curl);
 const k_open_palm_m = 0.19; // from the palm to the tips of straight fingers, as the curl has it where no knuckle is known
 
 /** What one side's devices said so far. */
-const forgotten = () => ({ grabs: false, usesWrists: false, curl: 0, isTransient: false });
+const forgotten = () => ({ grabs: false, usesWrists: false, curl: 0, fingers: unknownCurls(), isTransient: false });
 
 /** Controllers or tracked hands by WebXR. */
 export class Headset {
@@ -89,7 +99,8 @@ export class Headset {
     read(frame, space, turnsSmoothly) {
         this.#enter(frame.session);
         const viewer = frame.getViewerPose(space);
-        const sample = { head_tracked: viewer !== undefined && viewer !== null, hand_tracked: [false, false], grab: [false, false], squeeze: [0, 0], trigger: [0, 0], hands: [{}, {}] };
+        const sample = { head_tracked: viewer !== undefined && viewer !== null, head_inferred: viewer?.emulatedPosition ?? false, hand_tracked: [false, false], hand_inferred: [false, false],
+            grab: [false, false], squeeze: [0, 0], trigger: [0, 0], hands: [{}, {}], curls: [{}, {}] };
         if (sample.head_tracked) {
             sample.head = transform(viewer.transform);
         }
@@ -174,6 +185,7 @@ export class Headset {
         return {
             ...tracked(wrist), usesWrists: true, trigger: 0, squeeze: 0, stick: [0, 0], brake: false, calibrate: false,
             curl: curls.length === 0 ? undefined : curls.reduce((sum, curl) => sum + curl, 0) / curls.length,
+            fingers: k_bends.map((joints, finger) => fingerBend(joints.map(place)) / k_fist_bends[finger]),
         };
     }
 
@@ -185,17 +197,22 @@ export class Headset {
         }
         if (reading?.pose !== undefined && !reading.isInferred) {
             memory.curl = reading.usesWrists ? reading.curl ?? memory.curl : 0;
+            memory.fingers = reading.usesWrists ? reading.fingers.map((curl, i) => (curl >= 0 ? Math.min(1, curl) : memory.fingers[i])) : unknownCurls(); // as they were last, where not seen
             const closes = Math.max(reading.squeeze, reading.trigger, memory.curl);
             memory.grabs = closes > (memory.grabs ? k_opens : k_closes);
             sample.hand_tracked[side] = true;
             sample.hands[side] = reading.pose;
             sample.squeeze[side] = Math.min(1, Math.max(0, closes));
             sample.trigger[side] = reading.trigger;
+        } else if (reading?.pose !== undefined) { // a guess: shown, but it neither grips nor moves the player
+            sample.hand_inferred[side] = true;
+            sample.hands[side] = reading.pose;
         } else if (reading === undefined && memory.isTransient && hasFocus) {
             memory.grabs = false; // the pinch has ended, and with it its source
         }
         memory.isTransient = reading?.isTransient ?? (memory.isTransient && memory.grabs);
         sample.grab[side] = memory.grabs;
+        sample.curls[side] = { fingers: [...memory.fingers] };
     }
 
     #command(readings, sample, turnsSmoothly, commands) {
@@ -230,13 +247,22 @@ function fingerCurl(wrist, knuckle, tip) {
     const cosine = dot(hand, finger) / (length(hand) * length(finger));
     return length(finger) < 4 * length(hand) ? Math.min(1, Math.max(0, 0.5 * (1 - cosine))) : undefined;
 }
+// Sum of the angles between a finger's bones, radians; NaN if a joint is not seen or two lie in one place.
+function fingerBend(joints) {
+    const bones = joints.slice(1).map((joint, i) => (joint && joints[i] ? minus(joint, joints[i]) : { x: NaN, y: NaN, z: NaN }));
+    return bones.slice(1).reduce((sum, after, i) => {
+        const before = bones[i];
+        const across = { x: before.y * after.z - before.z * after.y, y: before.z * after.x - before.x * after.z, z: before.x * after.y - before.y * after.x };
+        return length(before) > 1e-4 && length(after) > 1e-4 ? sum + Math.atan2(length(across), dot(before, after)) : NaN;
+    }, 0);
+}
 function turned(q, v) {
     const cross = (a, b) => ({ x: a.y * b.z - a.z * b.y, y: a.z * b.x - a.x * b.z, z: a.x * b.y - a.y * b.x });
     const t = cross(q, v);
     const u = cross(q, { x: t.x + q.w * v.x, y: t.y + q.w * v.y, z: t.z + q.w * v.z });
     return { x: v.x + 2 * u.x, y: v.y + 2 * u.y, z: v.z + 2 * u.z };
 }
-// A pose that the runtime infers, as from the head while no camera sees the device, is not tracked.
+// A pose that the runtime infers, as from the head while no camera sees the device, is a guess.
 const tracked = (pose) => ({ pose: pose ? transform(pose.transform) : undefined, isInferred: pose?.emulatedPosition ?? false });
 function transform({ position: p, orientation: q }) {
     return { position: { x: p.x, y: p.y, z: p.z }, rotation: { x: q.x, y: q.y, z: q.z, w: q.w } };

@@ -27,6 +27,8 @@ export function parseRecording(text) {
                 head: isTracked(head) ? head : {}, head_tracked: isTracked(head),
                 hands: hands.map((hand) => (isTracked(hand) ? hand : {})), hand_tracked: hands.map(isTracked),
                 grab: [(cell.lbtn & k_grab) !== 0, (cell.rbtn & k_grab) !== 0], squeeze: [cell.ltrig, cell.rtrig], trigger: [cell.lindex ?? 0, cell.rindex ?? 0],
+                head_inferred: cell.hinferred === 1, hand_inferred: [cell.linferred === 1, cell.rinferred === 1],
+                curls: ['l', 'r'].map((side) => ({ fingers: ['thumb', 'index', 'middle', 'ring', 'little'].map((finger) => cell[`${side}curl_${finger}`] ?? -1) })),
             },
         };
     });

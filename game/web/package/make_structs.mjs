@@ -1,5 +1,5 @@
 // Writes structs.js and structs.d.ts: the C interface's structs and enums, read from its headers. So
-// the package cannot disagree with the library about a field.
+// the package cannot disagree with the library about a field. uint8_t are flags.
 //
 // usage: node make_structs.mjs INCLUDE_DIR OUT_DIR
 import { readFileSync, writeFileSync } from 'node:fs';
@@ -10,7 +10,7 @@ const headers = ['base.h', 'world.h', 'level.h', 'players.h'];
 const text = headers.map((name) => readFileSync(join(includeDir, 'handhold', name), 'utf8')).join('\n');
 const constants = new Map([...text.matchAll(/^#define (HH_\w+) (\d+)$/gm)].map((m) => [m[1], Number(m[2])]));
 
-const typeNames = { double: 'f64', float: 'f32', int32_t: 'i32', uint32_t: 'u32', uint64_t: 'u64', size_t: 'u32', bool: 'bool' };
+const typeNames = { double: 'f64', float: 'f32', int32_t: 'i32', uint32_t: 'u32', uint64_t: 'u64', size_t: 'u32', uint8_t: 'bool' };
 
 // Enums: [name, [[constant, value], ...]].
 const enums = [...text.matchAll(/typedef enum (\w+) \{([\s\S]*?)\} \1;/g)].map(([, name, body]) => {

@@ -37,14 +37,14 @@ function fingers(side, curls, seen) {
     });
     return { handedness: side, targetRayMode: 'tracked-pointer', hand: { get: (name) => ({ pose: joints[name] ?? null }) }, gripSpace: { pose: joints.wrist ?? null } };
 }
-function controller(side, { seen = true, squeeze = 0, trigger = 0, stick, touchpad, brake = false, calibrate = false }) {
+function controller(side, { seen = true, guess = false, squeeze = 0, trigger = 0, stick, touchpad, brake = false, calibrate = false }) {
     const button = (value) => ({ value, pressed: value > 0 });
     const buttons = [button(trigger), button(squeeze), button(0), button(0), button(Number(brake)), button(Number(calibrate))];
     if (touchpad !== undefined) { // as the Vive's
         buttons.splice(2, 4, button(Number(brake)));
     }
     const [x, y] = touchpad ?? stick ?? [0, 0];
-    return { handedness: side, targetRayMode: 'tracked-pointer', gripSpace: { pose: seen ? at(...wristOf(side)) : null },
+    return { handedness: side, targetRayMode: 'tracked-pointer', gripSpace: { pose: seen ? at(...wristOf(side), guess) : null },
         gamepad: { mapping: 'xr-standard', buttons, axes: touchpad !== undefined ? [x, -y] : [0, 0, x, -y] } };
 }
 function sourcesOf(side, given) {
@@ -70,9 +70,9 @@ for (const { name, steps } of JSON.parse(readFileSync(join(here, '../../../tests
         steps.forEach((step, i) => {
             const { usesWrists, sample, commands } = headset.read(frameOf(session, sides.flatMap((side) => sourcesOf(side, step[side])), step.focus), {}, false);
             sides.forEach((side, index) => {
-                const { tracked, grab, wrist, squeeze, trigger } = step.expect[side] ?? {};
-                const told = { tracked: sample.hand_tracked[index], grab: sample.grab[index], wrist: usesWrists[index], squeeze: sample.squeeze[index], trigger: sample.trigger[index] };
-                for (const [key, wanted] of Object.entries({ tracked, grab, wrist, squeeze, trigger })) {
+                const { tracked, inferred, grab, wrist, squeeze, trigger } = step.expect[side] ?? {};
+                const told = { tracked: sample.hand_tracked[index], inferred: sample.hand_inferred[index], grab: sample.grab[index], wrist: usesWrists[index], squeeze: sample.squeeze[index], trigger: sample.trigger[index] };
+                for (const [key, wanted] of Object.entries({ tracked, inferred, grab, wrist, squeeze, trigger })) {
                     assert.ok(wanted === undefined || told[key] === wanted, `step ${i}, ${side} ${key}: ${told[key]}`);
                 }
             });
@@ -122,7 +122,37 @@ test('a pose that the runtime infers is not tracked: it keeps the button and mov
     assert.equal(read(headset, session, [held]).grab[1], true);
     const inferred = { ...controller('right', { squeeze: 0 }), gripSpace: { pose: at(0.5, 1, -0.2, true) } };
     const sample = read(headset, session, [inferred]);
-    assert.deepEqual([sample.grab[1], sample.hand_tracked[1]], [true, false]);
+    assert.deepEqual([sample.grab[1], sample.hand_tracked[1], sample.hand_inferred[1]], [true, false, true]);
+    assert.equal(sample.hands[1].position.x, 0.5); // shown there
+    assert.equal(read(headset, session, [held]).hand_inferred[1], false);
+});
+
+// A hand whose fingers bend by these angles at each of their joints, radians; null: joints without a pose.
+function bent(side, bends) {
+    const joints = { wrist: at(...wristOf(side)) };
+    const chains = { thumb: ['thumb-metacarpal', 'thumb-phalanx-proximal', 'thumb-phalanx-distal', 'thumb-tip'] };
+    for (const name of ['index', 'middle', 'ring', 'pinky']) {
+        chains[name] = ['metacarpal', 'phalanx-proximal', 'phalanx-intermediate', 'phalanx-distal', 'tip'].map((joint) => `${name}-finger-${joint}`);
+    }
+    Object.values(chains).forEach((chain, finger) => {
+        let [y, z, angle] = [0, 0, 0];
+        chain.forEach((name, i) => {
+            joints[name] = bends[finger] === null && i > 1 ? undefined : at(0.02 * finger, 1.3 + y, -0.4 + z);
+            angle += i === 0 ? 0 : bends[finger] ?? 0;
+            y -= 0.03 * Math.sin(angle);
+            z -= 0.03 * Math.cos(angle);
+        });
+    });
+    return { handedness: side, targetRayMode: 'tracked-pointer', hand: { get: (name) => ({ pose: joints[name] ?? null }) } };
+}
+test('each finger has its own curl, and keeps it while it is not seen', () => {
+    const [headset, session] = [new Headset(), newSession()];
+    const curls = (bends) => read(headset, session, [bent('right', bends)]).curls[1].fingers;
+    assert.deepEqual(curls([0, 0, 0, 0, 0]).map((curl) => Math.abs(curl) < 1e-9), Array(5).fill(true));
+    const pointing = curls([0.4, 0, 1.4, 1.4, 1.4]);
+    assert.ok(pointing[0] > 0.4 && pointing[0] < 0.6 && pointing[1] < 1e-9 && pointing[2] > 0.9, `${pointing}`);
+    assert.deepEqual(curls([0.4, null, null, null, null]), pointing);
+    assert.deepEqual(read(headset, session, [controller('right', {})]).curls[1].fingers, Array(5).fill(-1));
 });
 
 test('the next session begins with open hands', () => {

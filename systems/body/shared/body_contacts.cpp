@@ -12,9 +12,10 @@
 namespace handhold {
 namespace {
 
-// For an eye height of k_scale_eye_m. Casts are wider, so that a part that rests on a surface finds
-// it again. A cast along the trunk begins in the head and is narrower than the head's sphere; one
-// along a leg begins in the pelvis and is narrower than the trunk.
+// Radii of the parts, for an eye height of k_scale_eye_m. The cast spheres are larger, so that a
+// cast finds the surface again on which a part rests. A cast along the trunk begins in the head and
+// is narrower than the head's sphere; a cast along a leg begins in the pelvis and is narrower than
+// the trunk.
 constexpr double k_trunk_radius_m = 0.09;
 constexpr double k_thigh_contact_radius_m = 0.065;
 constexpr double k_shin_contact_radius_m = 0.05;
@@ -94,7 +95,7 @@ void search_part(const BodySurroundings& around, const Vec3& from_ws, const Vec3
     search.near = near.value_or(0);
     auto hit = around.surfaces.cast_sphere(radius_m, from_ws, to_ws, skip);
     if (hit && !(hit->distance_m > 0.0)) {
-        // It begins in a surface, which hides those further along.
+        // The cast begins inside a surface, which hides the surfaces farther along.
         hit = around.surfaces.cast_ray(from_ws, to_ws, skip);
     }
     search.hits = hit.has_value();

@@ -27,9 +27,9 @@ inline constexpr double k_part_moved_m = 0.005;
 
 // Updates SpineMemory::contacts for one frame that ends at t_s. Each part is searched at most
 // k_body_searches_per_s times a second of the world's clock: a sphere is cast along it, from the
-// part's end that is nearer to the head. The last answer is used again while no surface near the
-// part has moved and both ends have moved by less than k_part_moved_m; never if
-// SurfaceQuery::hash_near has no answer. In frames between searches the plane moves with the
+// part's end that is nearer to the head. The last result is reused while no surface near the part
+// has moved and both ends have moved by less than k_part_moved_m. It is never reused if
+// SurfaceQuery::hash_near returns nullopt. In frames between searches the plane moves with the
 // reference velocity. `moved_m`: displacement of the chest relative to it.
 void find_body_contacts(const BodySurroundings& around, double t_s, double dt_s,
                         const Vec3& moved_m, SpineMemory& memory);

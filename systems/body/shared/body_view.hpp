@@ -17,6 +17,7 @@ struct TrackedBody {
     Pose head_ps;
     std::array<Pose, k_hand_count> hands_ps;
     const BodyMeasures& measures;
+    double floor_m = 0.0;  // height of the tracked floor, play space
 };
 
 inline double arm_length_m(const BodyMeasures& measures) {

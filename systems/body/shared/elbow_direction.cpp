@@ -14,7 +14,7 @@ namespace {
 // hand's distance from the shoulder in arm lengths.
 double clavicle_reach_m(double distance) {
     struct Knot {
-        // rise_m: slope from this knot to the next, per arm length
+        // A knot of the function. rise_m: slope from this knot to the next, per arm length.
         double distance, reach_m, rise_m;
     };
     constexpr std::array<Knot, 4> k_curve = {{{1.05, 0.032, (0.070 - 0.032) / (1.2 - 1.05)},
@@ -51,7 +51,7 @@ Vec3 shoulder_follow(const Vec3& hand_m, double arm_m, double shifted_m, const A
 Vec3 elbow_pole(const BodyView& view, HandSide side) {
     using namespace body_constants;
     const std::size_t own = index_of(side);
-    // Of the right hand the thumb's side is back x fingers; a mirrored hand's is the opposite.
+    // On a right hand, back x fingers points to the thumb's side; on a left hand, away from it.
     const Vec3 thumb = side == HandSide::right ? view.back[own].cross(view.fingers[own])
                                                : view.fingers[own].cross(view.back[own]);
     const Vec3 rest = mirrored_if_left(Vec3(k_pole_rest[0], k_pole_rest[1], k_pole_rest[2]), side);

@@ -58,7 +58,7 @@ Vec3 reachable_bend(const ElbowCircle& circle, const Vec3& bend_ts, HandSide sid
 // the more its elbow keeps its position (ArmTuning::elbow_inertia).
 Vec3 carry_bend(const ArmMemory::Arm& arm, const Vec3& axis_ts, const ArmTuning& tuning);
 
-// How far turn_bend turns: by this share of the angle, but by at most `most_rad`.
+// Limits of turn_bend: it turns by this share of the angle, but by at most `most_rad`.
 struct BendTurn {
     double share = 0.0;
     double most_rad = 0.0;

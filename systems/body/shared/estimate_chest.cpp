@@ -5,6 +5,7 @@
 
 #include "engine/math/scalar_rotation.hpp"
 #include "systems/body/shared/body_constants.hpp"
+#include "systems/body/shared/lie_down.hpp"
 
 namespace handhold {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 using ChestInputs = SideInputs<body_constants::k_chest_inputs>;
 using ChestAnswer = NetworkAnswer<body_constants::k_chest_outputs>;
 
-// What both sides' inputs share.
+// Inputs that are the same for both sides.
 struct ChestView {
     BodyView axes;
     std::array<Vec3, k_hand_count> hand;  // offset from the eyes in arm lengths
@@ -41,21 +42,23 @@ ChestInputs chest_inputs(const ChestView& view, HandSide side) {
     return inputs;
 }
 
-// Of turn_to_reach_across, for smoothness. Angles: of the line from shoulder to hand, from straight
-// ahead towards the other side, seen along the chest's up axis; distances in that view, in arm
-// lengths. With the excess over body_constants::k_across_rad, turn = excess^2 / (excess +
-// k_across_soft_rad); it fades in over k_across_fade from body_constants::k_across_bent.
+// Constants that make turn_to_reach_across smooth. All are measured in the view along the chest's
+// up axis: angles between straight ahead and the line from shoulder to hand, positive towards the
+// other side; distances in arm lengths. With the excess over body_constants::k_across_rad, turn =
+// excess^2 / (excess + k_across_soft_rad); it fades in over k_across_fade from
+// body_constants::k_across_bent.
 constexpr double k_across_soft_rad = 0.349;
 constexpr double k_across_fade = 0.15;
-// The turn fades out if the other hand is inside of its own shoulder by so many arm lengths: then
-// the hands are not on one side.
+// The turn fades to zero while the other hand moves from its own shoulder inwards by this many arm
+// lengths: the hands are then no longer both on one side of the body.
 constexpr double k_other_inside = 0.2;
-// Beyond these angles the hand may as well be behind the back: the turn fades to zero.
+// Angles between which the turn fades to zero, because the hand may be behind the back instead.
 constexpr double k_across_fades_rad = 1.92;
 constexpr double k_across_ends_rad = 2.618;
 
-// The turn (rad, >= 0) for an arm that reaches across. Hands from their own shoulders, in the axes
-// of the chest and arm lengths, mirrored so that `hand` is the right one.
+// Returns the turn (rad, >= 0) for a right arm that reaches across; mirror the arguments for a left
+// arm. `hand`, `other`: positions of the hands relative to their own shoulders, in the chest's axes
+// and arm lengths.
 double across_turn(const Vec3& hand, const Vec3& other) {
     const double distance = std::sqrt(hand.x() * hand.x() + hand.z() * hand.z());
     constexpr double k_bent = body_constants::k_across_bent;
@@ -78,7 +81,9 @@ double across_turn(const Vec3& hand, const Vec3& other) {
 TrunkView trunk_view(const TrackedBody& body, const BodyAxes& axes) {
     const Vec3 up = axes.head.col(1);
     const Vec3 ahead = -axes.head.col(2);
-    TrunkView view{body.head_ps.position, up};
+    const double scale = body.measures.eye_height_m / k_scale_eye_m;
+    const double eyes_m = (body.head_ps.position.y() - body.floor_m) / scale;
+    TrunkView view{body.head_ps.position, up, lying_share(eyes_m, up, ahead)};
     const double sine_pitch = ahead.y();
     if (sine_pitch <= 0.0) {
         return view;
@@ -88,8 +93,7 @@ TrunkView trunk_view(const TrackedBody& body, const BodyAxes& axes) {
     const double pitch = arc_tangent2(sine_pitch, level);
     double sine = 0.0;
     double cosine = 1.0;
-    sin_cos(pitch * pitch / (pitch + k_nod_rad), sine, cosine);
-    const double scale = body.measures.eye_height_m / k_scale_eye_m;
+    sin_cos((1.0 - view.lying) * pitch * pitch / (pitch + k_nod_rad), sine, cosine);
     view.up_ps = cosine * up + sine * ahead;
     const Vec3 ahead_then = cosine * ahead - sine * up;
     view.eyes_ps +=
@@ -97,9 +101,10 @@ TrunkView trunk_view(const TrackedBody& body, const BodyAxes& axes) {
     return view;
 }
 
-Quat chest_lean(const Vec3& up_ps) {
-    constexpr double k_share = body_constants::k_lean;
-    const Vec3 up = (1.0 - k_share) * Vec3::UnitY() + k_share * up_ps;
+Quat chest_lean(const Vec3& up_ps, double lying) {
+    constexpr double k_upright = 1.0 - body_constants::k_lean;
+    const double upright = (1.0 - lying) * k_upright;
+    const Vec3 up = upright * Vec3::UnitY() + (1.0 - upright) * up_ps;
     const double length = up.norm();
     return length > 0.1 ? rotation_between(Vec3::UnitY(), up / length) : Quat::Identity();
 }
@@ -188,8 +193,25 @@ Pose chest_pose(const Vec3& facing_ps, const Quat& lean_ps, const ChestOffset& o
     // tan(a / 2) = tan a / (1 + sqrt(1 + tan^2 a))
     const Quat rolled =
         product(level, unit_quat(1.0 + std::sqrt(1.0 + roll * roll), 0.0, 0.0, roll));
-    return {trunk.eyes_ps + scale * (level.toRotationMatrix() * from_neck - k_neck_m * trunk.up_ps),
-            rolled};
+    Pose chest{
+        trunk.eyes_ps + scale * (level.toRotationMatrix() * from_neck - k_neck_m * trunk.up_ps),
+        rolled};
+    if (trunk.lying > 0.0) {
+        constexpr double k_shoulder_m = 0.05;  // half as thick as an arm
+        const double half_m = 0.5 * body.measures.shoulder_width_m;
+        const double lowest_m = chest.position.y() - body.floor_m -
+                                half_m * std::abs((chest.rotation * Vec3::UnitX()).y());
+        chest.position.y() += trunk.lying * std::max(0.0, scale * k_shoulder_m - lowest_m);
+    }
+    return chest;
+}
+
+Vec3 neck_pivot(const TrackedBody& body, const BodyAxes& axes) {
+    using namespace body_constants;
+    const double scale = body.measures.eye_height_m / k_scale_eye_m;
+    const Vec3 ears(0.0, -k_ears_below_m, k_ears_behind_m);
+    const Vec3 base(0.0, -k_neck_m, k_shoulders_back_m);
+    return body.head_ps.position + (0.5 * scale) * (axes.head * (ears + base));
 }
 
 }  // namespace handhold

@@ -9,8 +9,9 @@
 //
 // The player's real body is above the tracked floor (y = 0 of the tracking space). When the eyes
 // come down, first hips and knees flex (squat), then the trunk leans forward; close to the floor
-// the knees come down too (kneeling). All angles are continuous functions of the head's height.
-// Lengths in this file are for a body with an eye height of k_scale_eye_m.
+// the knees come down too (kneeling). A player who lies (lie_down.hpp) is not folded. All angles
+// are continuous functions of the head's height. Lengths in this file are for a body with an eye
+// height of k_scale_eye_m.
 namespace handhold {
 
 // Bone lengths, metres. The spine's links are listed from the top down.
@@ -30,6 +31,7 @@ inline constexpr double k_toes_rest_rad = -0.6;  // relative to the shin; positi
 inline constexpr double k_pelvis_clearance_m = 0.12;
 inline constexpr double k_knee_clearance_m = 0.06;
 inline constexpr double k_ankle_clearance_m = 0.05;
+inline constexpr double k_lying_clearance_m = 0.05;  // half the thickness of a lying trunk or leg
 
 // Lowest height of the pelvis. The trunk starts to fold when the pelvis of the straight trunk is
 // less than k_seat_width_m above this height.

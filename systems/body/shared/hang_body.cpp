@@ -5,9 +5,19 @@
 namespace handhold {
 namespace {
 
-// Angle by which a trunk turns whose pull is strong, at `angle_rad` from the chest's +Y.
+// Angle by which a very strong pull at `angle_rad` from the chest's +Y turns the trunk.
 double whole_lean_rad(double angle_rad) {
     return angle_rad * (1.0 - smooth_step(angle_rad, k_whole_lean_rad, k_no_lean_rad));
+}
+
+// Minimum of x and `ceiling`. A parabola replaces the corner, `width` to either side, so that the
+// slope is continuous.
+double smooth_min(double x, double ceiling, double width) {
+    const double under = ceiling + width - x;
+    if (under <= 0.0) {
+        return ceiling;
+    }
+    return under >= 2.0 * width ? x : ceiling - under * under / (4.0 * width);
 }
 
 // -Y turned by a rotation about a horizontal axis. `turn`: rotation vector with y = 0.
@@ -37,22 +47,48 @@ void follow_pull(const Vec3& hands, double tick_s, const SpineTuning& tuning, Bo
     pull.now += tick_s * pull.rate_per_s;
 }
 
-TrunkLean lean_of(const Vec3& pull_cs) {
+TrunkLean lean_of(const Vec3& pull_cs, const Vec3& upright_rad) {
+    // Shares of the turn to upright. The shoulders' line must stay, so the chest takes none of a
+    // turn about Z.
+    constexpr double k_chest = 0.5;
+    constexpr double k_first = 0.4;
+    constexpr double k_second = 1.0 - k_chest - k_first;
     TrunkLean lean;
     lean.rest_above.fill(-Vec3::UnitY());
     const double strength = pull_cs.norm();
     const double aside = std::sqrt(pull_cs.x() * pull_cs.x() + pull_cs.z() * pull_cs.z());
-    if (!(aside > 1e-9)) {
+    Vec3 quarter = Vec3::Zero();
+    if (aside > 1e-9) {
+        // The trunk turns from -Y towards -pull, about their common normal.
+        const Vec3 axis = Vec3(pull_cs.z(), 0.0, -pull_cs.x()) * (1.0 / aside);
+        quarter = 0.25 * strength * whole_lean_rad(arc_tangent2(aside, pull_cs.y())) * axis;
+    }
+    const Vec3 upright = (1.0 - strength) * upright_rad;
+    if (quarter == Vec3::Zero() && upright == Vec3::Zero()) {
         return lean;
     }
-    // The trunk turns from -Y towards -pull, about their common normal.
-    const Vec3 axis = Vec3(pull_cs.z(), 0.0, -pull_cs.x()) * (1.0 / aside);
-    const Vec3 quarter = 0.25 * strength * whole_lean_rad(arc_tangent2(aside, pull_cs.y())) * axis;
-    lean.chest_rad = quarter.x();
-    lean.rest_above[0] = turned_down({quarter.x(), 0.0, 2.0 * quarter.z()});
-    lean.rest_above[1] = turned_down(quarter);
+    lean.chest_rad = quarter.x() + k_chest * upright.x();
+    lean.rest_above[0] = turned_down({quarter.x() + k_first * upright.x(), 0.0,
+                                      2.0 * quarter.z() + (k_chest + k_first) * upright.z()});
+    lean.rest_above[1] = turned_down(quarter + k_second * upright);
     lean.rest_above[2] = turned_down(quarter);
     return lean;
+}
+
+Vec3 upright_turn(const Vec3& up_cs, double lying) {
+    // A chest that leans by this is below a neck that bends as far as necks do; the rest of a lean
+    // is the trunk's. Rounded over the width to either side.
+    constexpr double k_neck_rad = 0.7;
+    constexpr double k_width_rad = 0.2;
+    const double aside = std::sqrt(up_cs.x() * up_cs.x() + up_cs.z() * up_cs.z());
+    if (!(aside > 1e-9) || lying >= 1.0) {
+        return Vec3::Zero();
+    }
+    const double angle = arc_tangent2(aside, up_cs.y());
+    // Below a chest that is upside down there is no upright trunk.
+    const double fade = 1.0 - smooth_step(angle, 1.2, 2.6);
+    const double turn = (1.0 - lying) * fade * smooth_min(angle, k_neck_rad, k_width_rad);
+    return Vec3(up_cs.z(), 0.0, -up_cs.x()) * (turn / aside);
 }
 
 }  // namespace handhold

@@ -7,7 +7,8 @@
 #include "engine/math/math.hpp"
 #include "engine/math/scalar_rotation.hpp"
 
-// In zero-G, the trunk of a player hangs from the gripping hands.
+// In zero-G, the trunk of a player hangs from the gripping hands. Below a head that tilts, it stays
+// upright as far as a neck bends.
 namespace handhold {
 
 // Advances BodyPull by one tick. `hands`: as BodyPull::hands, at the tick's time. Their sum times
@@ -25,11 +26,18 @@ inline constexpr double k_whole_lean_rad = 80.0 / 180.0 * k_pi;
 inline constexpr double k_no_lean_rad = 130.0 / 180.0 * k_pi;
 
 // `pull_cs`: BodyPull::now in the chest's axes, of length p < 1 at the angle a from +Y. The trunk
-// turns by a p from the chest's -Y towards the opposite of the pull: not at all without a pull, and
-// nearly all the way for a strong one. From a = k_whole_lean_rad on the bend fades, and is zero
-// from k_no_lean_rad on: hands below the chest push rather than pull, and no trunk folds onto
-// itself.
-TrunkLean lean_of(const Vec3& pull_cs);
+// turns by the angle a * p from the chest's -Y towards the opposite of the pull: not at all without
+// a pull, and nearly all the way for a strong one. From a = k_whole_lean_rad on the bend fades, and
+// is zero from k_no_lean_rad on: hands below the chest push rather than pull, and no trunk folds
+// onto itself. `upright_rad`: upright_turn; fades as the pull grows.
+TrunkLean lean_of(const Vec3& pull_cs, const Vec3& upright_rad = Vec3::Zero());
+
+// Turn of the trunk below the chest back to upright: a rotation vector in the chest's axes, y = 0.
+// The chest is estimated to lean with the head. Of this lean only what is beyond a neck's bend may
+// tilt the trunk: whether a neck bends or a trunk cannot be told from a head, and a trunk below a
+// neck that bends stays. `up_cs`: the play space's up in the chest's axes, a unit vector. `lying`:
+// ArmEstimate::lying; a trunk that lies is not turned.
+Vec3 upright_turn(const Vec3& up_cs, double lying);
 
 inline Quat leaning_chest(const Quat& chest, const TrunkLean& lean) {
     return lean.chest_rad == 0.0 ? chest

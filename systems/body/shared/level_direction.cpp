@@ -22,7 +22,7 @@ Vec3 turned_left(const Vec3& v, double cosine, double sine) {
 }
 
 Quat level_rotation(const Vec3& facing) {
-    // Half-angle formulas instead of trigonometry.
+    // Uses half-angle formulas, which need no trigonometry.
     const double cosine = -facing.z();
     const double sine = -facing.x();
     if (cosine > -0.5) {

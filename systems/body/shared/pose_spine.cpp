@@ -51,14 +51,18 @@ class BodyFolder {
     std::array<double, k_hand_count> fold() {
         const TrunkFold trunk =
             fold_trunk(floor_.chest_m / floor_.scale, in_frame(chain_.frames.chest));
-        if (trunk.lean_rad != 0.0) {
+        const double bent = 1.0 - floor_.lying;  // a body that lies is not folded
+        const double lean_rad = bent * trunk.lean_rad;
+        if (lean_rad != 0.0 || floor_.lying > 0.0) {
+            const double clearance_m =
+                bent * k_pelvis_clearance_m + floor_.lying * k_lying_clearance_m;
             for (std::size_t i = 0; i < k_spine_links; ++i) {
-                place(i, -trunk.bend_rad[i], k_pelvis_clearance_m);
+                place(i, -bent * trunk.bend_rad[i], clearance_m);
             }
         }
         std::array<double, k_hand_count> toes_rad{};
         for (std::size_t side = 0; side < k_hand_count; ++side) {
-            toes_rad[side] = fold_leg(k_spine_links + 2 * side, trunk.lean_rad);
+            toes_rad[side] = bent * fold_leg(k_spine_links + 2 * side, lean_rad);
         }
         return toes_rad;
     }
@@ -80,19 +84,24 @@ class BodyFolder {
         LegFold fold;
         for (int i = 0; i < k_corrections; ++i) {
             fold = fold_legs(pelvis_m - lower_m, in_frame(pelvis), lean_rad);
-            if (fold.thigh_rad == 0.0 && fold.knee_rad == 0.0 && lean_rad == 0.0) {
+            if (fold.thigh_rad == 0.0 && fold.knee_rad == 0.0 && lean_rad == 0.0 &&
+                floor_.lying == 0.0) {
                 return 0.0;
             }
-            place(thigh, fold.thigh_rad, knee_clearance_m);
+            const double bent = 1.0 - floor_.lying;
+            place(thigh, bent * fold.thigh_rad, knee_clearance_m);
             const Vec3& shin = chain_.towards[thigh + 1];
             const double knee_rad = arc_tangent2(shin.z(), -shin.y());
-            place(thigh + 1, -std::min(fold.knee_rad, k_knee_max_rad - knee_rad), std::nullopt);
+            place(thigh + 1, -std::min(bent * fold.knee_rad, k_knee_max_rad - knee_rad),
+                  floor_.lying > 0.0 ? std::optional(k_lying_clearance_m * floor_.lying)
+                                     : std::nullopt);
             const double missing_m = k_ankle_clearance_m - height_m(chain_.end_m[thigh + 1]);
             if (!(missing_m > 0.0)) {
                 break;
             }
             lower_m += missing_m;
-            if (i + 3 >= k_corrections) {  // the knee cannot fold further: lifts the thigh instead
+            // In the last corrections the knee cannot fold further: lifts the thigh.
+            if (i + 3 >= k_corrections) {
                 knee_clearance_m = height_m(chain_.end_m[thigh]) + missing_m;
             }
         }
@@ -129,13 +138,15 @@ class BodyFolder {
 
 void pose_spine(const Pose& chest_ws, const SpineMemory& memory, const Pose& chest_ps,
                 const TrackedFloor& floor, SpinePose& out) {
-    // From play-space axes to world axes.
+    // Rotation from play-space axes to world axes.
     const Mat3 to_ws =
         chest_ws.rotation.toRotationMatrix() * chest_ps.rotation.toRotationMatrix().transpose();
     const double share = memory.since_tick_s / k_spine_tick_s;
     const Vec3 pull_ps = memory.pull.before + share * (memory.pull.now - memory.pull.before);
-    const Quat leaning =
-        leaning_chest(chest_ws.rotation, lean_of(chest_ps.rotation.conjugate() * pull_ps));
+    const Quat to_chest = chest_ps.rotation.conjugate();
+    const Quat leaning = leaning_chest(
+        chest_ws.rotation,
+        lean_of(to_chest * pull_ps, upright_turn(to_chest * Vec3::UnitY(), floor.lying)));
     PlacedChain chain{{frame_at(leaning), {}}, {}, {}, {}};
     hang(memory, to_ws, floor.scale, chain);
     const std::array<double, k_hand_count> toes_rad =

@@ -9,6 +9,7 @@ namespace handhold {
 struct TrackedFloor {
     double chest_m = 0.0;  // height of the chest above the floor
     double scale = 1.0;    // size of the player: their eye height / k_scale_eye_m
+    double lying = 0.0;    // ArmEstimate::lying
 };
 
 // Last step of propagate_spine: writes the chain that is shown. Interpolates between the last two

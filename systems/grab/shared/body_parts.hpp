@@ -34,7 +34,7 @@ struct PartHit {
 };
 
 // The bodies of all players, as the last frame showed them, at the start of this frame. A player
-// without a row of `shown` has no body that can be gripped.
+// who is not in `shown` has no body that can be gripped.
 struct ShownBodies {
     const Column<RenderPose>& shown;
     const Column<BodyMeasures>& measures;  // every player of `shown`
@@ -46,8 +46,9 @@ struct ShownBodies {
     // teleport between the frames moves the part too.
     Pose part_ps(Entity player, BodyPart part) const;
 
-    // Of equally near parts, that of the smallest id. Players in `skip` are passed over. A ray
-    // that starts inside a part does not hit that part.
+    // The queries return the nearest part; among equally near ones, that of the player with the
+    // smallest id. Players in `skip` are ignored. A ray that starts inside a part does not hit that
+    // part.
     using Skip = std::span<const std::uint64_t>;
     std::optional<PartHit> cast_ray(const Vec3& from_ws, const Vec3& to_ws, Skip skip) const;
     std::optional<PartHit> closest_point(const Vec3& point_ws, double max_distance_m,

@@ -32,7 +32,7 @@ Pose hand_within_frame(const HandTracking& hand, const HandHistory& history, dou
     return interpolate(*before.hand_ps, *after.hand_ps, (t - before.t) / (after.t - before.t));
 }
 
-// Target pose of a free body by its hands. `first` drives it, alone or with the other hand.
+// Pose that its hands ask of a free body. `first` drives it, alone or together with the other hand.
 Pose target_body(const GrabInstant& now, const HandPair& first) {
     const Pose origin_ws = now.hand_driven_origin_ws(first.player);
     const Pose hand_ps = now.hand_ps(first.hand);
@@ -180,7 +180,7 @@ Pose origin_from_jointed_grab(const GrabInstant& now, Entity player, const Pose&
 Pose origin_at(const GrabInstant& now, Entity player, const Grab* holding,
                const HandTracking* holding_hand, const PhaseTuning& tuning) {
     Pose origin_ws = now.origin_ws(player);
-    // A resumed hand may have jumped: its grip says nothing.
+    // The grip of a resumed hand is not used, because the hand may have jumped.
     if (holding == nullptr || holding->phase != GrabPhase::holding || holding_hand->resumed) {
         return origin_ws;
     }

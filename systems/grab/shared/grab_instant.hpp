@@ -15,8 +15,8 @@
 // are in their players' play spaces (_ps).
 namespace handhold {
 
-// Everything that anchors of a frame depend on; also AnchorGrabsIo. The functions below read it;
-// only anchor_grabs writes, and only `grab`.
+// Inputs of all functions below, and of anchor_grabs (AnchorGrabsIo). Only anchor_grabs writes, and
+// only `grab`.
 struct GrabFrame {
     double start_s;                             // in: of the frame
     double end_s;                               // in: of the frame
@@ -32,7 +32,7 @@ struct GrabFrame {
     const Column<RigidBody>& body;              // in
     const Column<Joint>& joint;                 // in
     const Column<JointState>& joint_state;      // in: at the frame's start
-    const Column<BodyHold>& body_hold;          // in: of hands on a player's part
+    const Column<BodyHold>& body_hold;          // in: hands on a player's part
     Column<Grab>& grab;                         // in/out: anchor, target, phase, two_handed
 };
 
@@ -43,24 +43,24 @@ struct GrabInstant {
 
     // The predicted pose; for a player, the head's.
     Pose body_ws(Entity body) const;
-    // What the hand grips: as body_ws, but the part of a player that its BodyHold names. `grab` is
-    // a row of `io.grab`.
+    // The pose of what the hand grips: like body_ws, but for a player's part that the hand's
+    // BodyHold names, the part's pose. `grab` is an element of `io.grab`.
     Pose gripped_ws(const Grab& grab) const;
     Pose origin_ws(Entity player) const;
-    // `hand` is a row of `io.hand`.
+    // `hand` is an element of `io.hand`.
     Pose hand_ps(const HandTracking& hand) const;
     // The origin position at which a hand on a fixed body would be on its anchor.
     Vec3 held_origin_ws(Entity player, const Grab& grab, const HandTracking& hand) const;
-    // If hands of the player have gripped fixed bodies since before the frame, the origin moves by
-    // the mean of their travels; its error stays what it was at the start of the frame. Other
-    // players' origins are the predicted ones.
+    // The origin as moved by hands that have gripped fixed bodies since before the frame: by the
+    // mean of their travels. The distance of hands from their anchors stays as at the start of the
+    // frame. Other players' origins are the predicted ones.
     Pose hand_driven_origin_ws(Entity player) const;
 };
 
-// 0 to 1, of a time within the frame.
+// Fraction of the frame at the time t_s, clamped to [0, 1].
 double fraction_of(const GrabFrame& io, double t_s);
 
-// A grip and its hand, and those of the same player's other hand; null if there is none.
+// A grip and its hand, and the grip and hand on the player's other side; null if there is none.
 struct HandPair {
     Grab& grab;
     const HandTracking& hand;
@@ -74,22 +74,23 @@ HandPair swapped(const HandPair& pair);
 // True if the hand has gripped its body since before the frame, and is not `resumed`.
 bool drives_whole_frame(const Grab& grab, const HandTracking& hand);
 
-// Pose of a jointed body that hands move: along its joint by the weighted mean of the hands'
-// travels (weight_along). Its error stays what it was at the start of the frame. Any other body:
-// predicted.
+// Pose of a jointed body that hands move: it moves along its joint by the weighted mean of the
+// hands' travels (weight_along). The distance of hands from their anchors stays as at the start of
+// the frame. For any other body: the predicted pose.
 Pose hand_driven_body_ws(const GrabInstant& now, Entity body, const PhaseTuning& tuning);
 
-// Pose of a held free body: it follows its hands, not its velocity. Its error stays what it was at
-// the start of the frame; a grip that began in this frame has none. Predicted if one of these hands
-// is `resumed`. `first` drives the body, alone or with the other hand.
+// Pose of a held free body: it follows its hands, not its velocity. `first` drives the body, alone
+// or together with the other hand. The distance of hands from their anchors stays as at the start
+// of the frame; a grip that began in this frame has none. The predicted pose if one of these hands
+// is `resumed`.
 Pose held_body_ws(const GrabInstant& now, const HandPair& first);
 
-// The player's origin by a hand on a jointed body: it takes the part of the hand's travel that the
-// joint does not allow.
+// The player's origin as moved by a hand on a jointed body: the origin takes the part of the hand's
+// travel that the joint does not allow.
 Pose origin_from_jointed_grab(const GrabInstant& now, Entity player, const Pose& body_ws,
                               const Grab& grab, const HandTracking& hand);
-// The player's origin: by a hand that already grips a fixed body (exact) or a jointed one;
-// predicted otherwise, or if `holding` is null.
+// The player's origin as moved by a hand that already grips a fixed body (exact) or a jointed one.
+// The predicted origin if the hand grips anything else, or if `holding` is null.
 Pose origin_at(const GrabInstant& now, Entity player, const Grab* holding,
                const HandTracking* holding_hand, const PhaseTuning& tuning);
 

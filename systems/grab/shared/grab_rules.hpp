@@ -10,7 +10,7 @@ namespace handhold {
 struct GrabRules {
     const Column<GrabRule>& rule;           // rules of bodies
     const Column<GrabLayers>& layers;       // layers of players
-    const Column<CollisionFilter>& filter;  // layers of bodies; without a row: the default
+    const Column<CollisionFilter>& filter;  // layers of bodies; without an element: the default
 
     // The body's rule; null if it has none.
     const GrabRule* rule_of(Entity body) const;

@@ -58,7 +58,7 @@ Pose sight_frame_ws(const GrabSearch& io, Entity frame) {
     return body != nullptr ? body->pose_ws : Pose{};
 }
 
-// A hand that begins somewhere is outside there.
+// Sight lines of a hand. A hand whose past is unknown counts as outside of walls where it is.
 SightLines sight_lines(const GrabSearch& io, Entity hand, const Vec3& palm_ws,
                        const SightSkips& skips, const HeadTuning& tuning) {
     const HandSight& sight = io.sight.at(hand);
@@ -83,7 +83,7 @@ struct FoundSurface {
     std::optional<BodyPart> part;
 };
 
-// The nearer of the two.
+// Returns the nearer of the two hits.
 template <typename ColliderHit>
 std::optional<FoundSurface> nearer(const std::optional<ColliderHit>& collider,
                                    const std::optional<PartHit>& part) {
@@ -107,7 +107,7 @@ class SurfaceFinder {
         refusing_.add(own_head);
     }
 
-    // nullopt: nothing in reach, or only what refuses the hand: see refused_by.
+    // Nullopt if nothing is in reach, or only bodies that refuse the hand (refused_by).
     std::optional<GrabTarget> find(double reach_m) {
         while (offer(on_ray())) {
         }
@@ -144,7 +144,7 @@ class SurfaceFinder {
         return hit && hit->id != id;
     }
 
-    // Takes a surface or passes over it. False if the search must not go on.
+    // Accepts or rejects a found surface. Returns false if the search must stop.
     bool offer(const std::optional<FoundSurface>& found) {
         const Entity body = found ? owner_of_id(io_, found->id) : k_no_entity;
         if (is_null(body)) {
@@ -166,7 +166,7 @@ class SurfaceFinder {
     const GrabSearch& io_;
     const HandOwner& owner_;
     const PalmRay& ray_;
-    bool continues_;  // past the first surface, for one of a higher priority
+    bool continues_;  // true: searches past the first surface for one of higher priority
     Ids skipped_;     // already offered
     Ids refusing_;    // subset that refuses the hand
     std::optional<GrabTarget> best_;
@@ -174,8 +174,8 @@ class SurfaceFinder {
     Entity refused_by_ = k_no_entity;
 };
 
-// The palm's surface, if the hand can get there. A palm pushed through a surface grips that
-// surface.
+// Returns the surface at the palm if the hand can reach it without crossing a wall. If the palm was
+// pushed through a surface, returns that surface.
 GrabSearchResult find_visible_surface(const GrabSearch& io, const HandOwner& owner,
                                       const PalmRay& ray, const SightLines& sight,
                                       const HandTuning& tuning) {
@@ -321,8 +321,9 @@ class SnapFinder {
     std::optional<Snap> best_;
 };
 
-// Short steps of an open hand wait and share one ray: rays from the point before them still cross
-// every wall. An empty hand that closes or pulls needs HandSight to be exact.
+// Decides whether to cast sight rays in this frame. Short movements of an open hand are accumulated
+// and tested with one ray, which starts at the point before them and therefore still crosses every
+// wall. An empty hand that closes or pulls needs an exact HandSight.
 bool needs_rays(const HandSight& sight, const Grab& grab, const HandTracking& hand,
                 const SightLines& lines, const Vec3& palm_ws) {
     constexpr double k_step_m = 0.05;

@@ -18,7 +18,8 @@
 // What a closing hand grips.
 namespace handhold {
 
-// Also UpdateGrabsIo. The functions below write `sight` only.
+// Inputs of the functions below and of update_grabs (UpdateGrabsIo). The functions below write only
+// `sight`.
 struct GrabSearch {
     double start_s;                               // in: of the frame; for orders
     double dt_s;                                  // in: of the frame
@@ -33,15 +34,15 @@ struct GrabSearch {
     const JointGroups& joint_groups;              // in
     const Column<AuthoredGrips>& authored_grips;  // in
     GrabRules rules;                              // in
-    const Column<RenderPose>& shown;       // in: of the last frame; without a row: heads alone
-    const Column<BodyMeasures>& measures;  // in: every player of `shown`
-    const Column<HandPull>& pull;          // in: of the last frame
-    const Column<ReferenceVelocity>& reference;  // in: of the last frame
+    const Column<RenderPose>& shown;  // in: from the last frame; players not in it: heads alone
+    const Column<BodyMeasures>& measures;        // in: every player of `shown`
+    const Column<HandPull>& pull;                // in: from the last frame
+    const Column<ReferenceVelocity>& reference;  // in: from the last frame
     Column<HandSight>& sight;                    // in/out
     Column<Grab>& grab;                          // in/out
-    Column<AuthoredHold>& authored_hold;         // in/out: of hands in an authored grip
+    Column<AuthoredHold>& authored_hold;         // in/out: hands in an authored grip
     Column<HeadIgnores>& head_ignores;           // in/out: held bodies are added
-    Column<BodyHold>& body_hold;                 // in/out: of hands on a player's part
+    Column<BodyHold>& body_hold;                 // in/out: hands on a player's part
     Column<GrabOrder>& order;                    // in/out: carried out and removed
 
     ShownBodies bodies() const {
@@ -72,9 +73,9 @@ struct GrabSearchResult {
     Entity refused_by = k_no_entity;               // the body that refused the hand, if any
 };
 
-// What a hand at `hand_ws` grips if it closes. Bodies that refuse the hand by their GrabRule or its
-// player's GrabLayers are passed over, as if they were not there. `only`: authored grips of this
-// body alone; null: of all. Counts authored grips that are occupied or blocked.
+// Finds what a hand at `hand_ws` grips if it closes. Ignores bodies that refuse the hand by their
+// GrabRule or by its player's GrabLayers. `only`: considers only authored grips of this body; null:
+// of all bodies. Counts authored grips that are occupied or blocked.
 GrabSearchResult find_grab_target(const GrabSearch& io, Entity hand, const Pose& hand_ws,
                                   Entity only, const Tuning& tuning, StageStats& stats);
 

@@ -64,8 +64,8 @@ bool SightLines::sees(const Vec3& from_ws, const Vec3& point_ws, std::uint64_t b
            (needs == Needs::any_point && hit->id == body_id);
 }
 
-// Past the palm's side that is a hand's width away in four directions, straight or beside the line.
-// From there the hand may touch the body that it grips, if something else blocks the line.
+// Tests four detours around the line, each a hand's width to one side. From there the hand may
+// touch the body that it grips, if another body blocks the line.
 bool SightLines::can_go_round(const Vec3& from_ws, const Vec3& palm_ws,
                               std::uint64_t body_id) const {
     constexpr double k_width_m = 0.1;

@@ -11,8 +11,8 @@ namespace handhold {
 
 inline constexpr double k_sight_beyond_m = 0.01;
 
-// What a hand can get at without crossing a wall. `outside_ws` is where the palm was last known to
-// be outside of walls; the head always is. Bodies in `skip` are no obstacles.
+// Tests what a hand can reach without crossing a wall. `outside_ws`: where the palm was last known
+// to be outside of walls; the head is always outside. Bodies in `skip` are no obstacles.
 struct SightLines {
     SurfaceQuery surfaces;
     std::span<const std::uint64_t> skip;
@@ -20,12 +20,13 @@ struct SightLines {
     Vec3 head_ws;
 
     enum class Sight : std::uint8_t { blocked, clear, clear_beyond };
-    // `clear_beyond`: nothing stands in the way until k_sight_beyond_m past the palm.
+    // How well the palm is in sight. `clear_beyond`: also nothing within k_sight_beyond_m behind
+    // it.
     Sight sight_of_palm(const Vec3& palm_ws) const;
 
-    // True if the hand may grip `point_ws` of a body: its palm is in sight, or the point is
-    // (`any_point`: or another point of that body), or the hand can go round what blocks the view
-    // (a rail, a pipe, the rim of a recess).
+    // True if the hand may grip `point_ws` of a body: the palm or the point is in sight
+    // (`any_point`: some point of that body), or the hand can reach around what blocks the view (a
+    // rail, a pipe, the rim of a recess).
     enum class Needs : std::uint8_t { this_point, any_point };
     bool may_grip(const Vec3& palm_ws, const Vec3& point_ws, std::uint64_t body_id,
                   Needs needs) const;

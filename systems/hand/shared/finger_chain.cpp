@@ -7,7 +7,7 @@
 namespace handhold {
 namespace {
 
-// seed_under_palm and seed_near_finger return a point in the mesh's frame.
+// seed_under_palm and seed_near_finger return start points of searches, in the mesh's frame.
 GraphPoint seed_under_palm(const PlacedMesh& placed, const GripSurface& surface) {
     const SurfaceGraph& graph = placed.mesh->search;
     if (surface.triangle >= graph.triangles.size()) {

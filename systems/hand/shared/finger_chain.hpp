@@ -6,15 +6,15 @@
 #include "components/tuning.hpp"
 #include "engine/geometry/chain_fit.hpp"
 
-// Code shared by the hand stages: fingers and thumbs as chains of hinged capsules.
+// Used by several hand stages: fingers and thumbs as chains of hinged capsules.
 namespace handhold {
 
 // Returns the digit's chain in the frame in which `wrist` is given.
 HingeChain finger_chain(const FingerRig& finger, double opposition_rad, const Pose& wrist);
 
 ChainFitSettings chain_settings(const FingerTuning& tuning);
-// A digit that penetrates less deep has no surface through its axis: it is on one side, and that is
-// the outside, from where it closed. Smallest radius of the digit's links.
+// Smallest radius of the digit's links. If a digit penetrates less than this, no surface crosses
+// the axes of its links: the axes are still outside, on the side from which the digit closed.
 double clear_depth_m(const FingerRig& finger);
 
 // The wrist held within the palm's limits.

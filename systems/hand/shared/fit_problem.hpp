@@ -1,15 +1,16 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
+#include <vector>
 
 #include "engine/math/penalty_quadratic.hpp"
 #include "systems/hand/shared/fit_terms.hpp"
 
 namespace handhold {
 
-// The term that a square or a row belongs to, and its parts: `a` alone, or half `a` and half `b`.
+// The term and the parts of the hand (digits, palm) to which the cost of a square or an inequality
+// is booked: all of it to `a`, or half each to `a` and `b`.
 struct FitPart {
     FitPart(FitTerm of, std::size_t only) : term(of), a(only), b(only) {}
     FitPart(FitTerm of, std::size_t one, std::size_t other) : term(of), a(one), b(other) {}
@@ -22,11 +23,15 @@ struct FitPart {
 // Collects a fit's squares and inequalities, linearised at one pose, and their cost there.
 class FitProblem {
   public:
-    // `terms`, if not null, gets the costs added by term and part; it outlives the problem.
-    explicit FitProblem(int unknowns, FitTerms* terms) : unknowns_(unknowns), terms_(terms) {}
+    // `terms`, if not null, gets the costs added by term and part. `rows` is memory for the
+    // inequalities: 72 kB, too much for a small stack. Both outlive the problem.
+    FitProblem(int unknowns, FitTerms* terms, std::vector<PenaltyRow>& rows)
+        : unknowns_(unknowns), terms_(terms), rows_(rows) {
+        rows_.reserve(k_max_penalty_rows);
+    }
 
     void clear() {
-        row_count_ = 0;
+        rows_.clear();
         hessian_.setZero();
         gradient_.setZero();
         squares_m2_ = 0.0;
@@ -47,8 +52,8 @@ class FitProblem {
     }
     // Adds the inequality slope . x + value >= 0 as a penalty.
     void add_row(const FitPart& part, const Unknowns& slope, double value, double weight) {
-        rows_[row_count_++] = {slope, value, weight};
-        charge(part, penalty_m2(rows_[row_count_ - 1]));
+        rows_.push_back({slope, value, weight});
+        charge(part, penalty_m2(rows_.back()));
     }
     // Keeps an unknown where it is.
     void hold(int place) {
@@ -58,14 +63,13 @@ class FitProblem {
 
     double cost_m2() const {
         double sum_m2 = squares_m2_;
-        for (std::size_t i = 0; i < row_count_; ++i) {
-            sum_m2 += penalty_m2(rows_[i]);
+        for (const PenaltyRow& row : rows_) {
+            sum_m2 += penalty_m2(row);
         }
         return sum_m2;
     }
     Unknowns solve() const {
-        return minimise_penalised(hessian_, gradient_, {rows_.data(), row_count_},
-                                  static_cast<std::size_t>(unknowns_));
+        return minimise_penalised(hessian_, gradient_, rows_, static_cast<std::size_t>(unknowns_));
     }
 
   private:
@@ -86,8 +90,7 @@ class FitProblem {
     UnknownsSquare hessian_ = UnknownsSquare::Zero();
     Unknowns gradient_ = Unknowns::Zero();
     double squares_m2_ = 0.0;
-    std::array<PenaltyRow, k_max_penalty_rows> rows_;
-    std::size_t row_count_ = 0;
+    std::vector<PenaltyRow>& rows_;
 };
 
 }  // namespace handhold

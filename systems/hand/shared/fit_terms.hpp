@@ -37,16 +37,16 @@ struct FitTerms {
     static constexpr std::size_t k_part_count = k_finger_count + 1;
     using Costs = std::array<double, k_fit_term_count>;
 
-    // Costs by part: the digits by index into HandRig::fingers, and the palm. At least 0, in m^2: a
-    // palm moved by x costs x^2 / 2. Half of a cost that two digits share is each one's.
+    // Costs by part: the digits by index into HandRig::fingers, then the palm. At least 0, in m^2:
+    // a palm moved by x costs x^2 / 2. A cost that belongs to two digits is counted half for each.
     std::array<Costs, k_part_count> cost_m2 = {};
-    // By digit, as HandFit::gap_m.
+    // Smallest gap of each digit, see HandFit::gap_m.
     std::array<double, k_finger_count> gap_m = {};
 };
 
 const char* name_of(FitTerm term);
 double sum_of(const FitTerms::Costs& cost_m2);
-double sum_of(const FitTerms& terms);  // the whole objective, as HandFit::cost
+double sum_of(const FitTerms& terms);  // the whole objective, equal to HandFit::cost
 FitTerm largest_of(const FitTerms::Costs& cost_m2);
 
 }  // namespace handhold

@@ -33,7 +33,7 @@ constexpr double k_bend_limit = 0.3;
 constexpr double k_fan_limit = 2.0;
 constexpr double k_claw_limit = 4.0;
 constexpr double k_digit_contact = 500.0;  // weight of contacts between the thumb and a finger
-constexpr double k_digit_reach_m = 0.03;   // digits farther apart need no row
+constexpr double k_digit_reach_m = 0.03;   // digits farther apart need no inequality
 constexpr double k_claw_share = 0.6;
 constexpr double k_clear_m = 3e-4;  // gap that contacts aim for
 // Largest step of one round: gaps are linearised.
@@ -44,8 +44,8 @@ constexpr double k_lever2 = k_fit_lever_m * k_fit_lever_m;
 
 bool is_thumb(const FingerRig& finger) { return finger.name == FingerName::thumb; }
 
-// Rows at most: four per angle (limits and steps), two per finger (bend, claw), four per pair of
-// neighbours, gaps, the palm's limits.
+// Maximum number of inequalities: four per angle (limits and steps), two per finger (bend, claw),
+// four per pair of neighbours, gaps, the palm's limits.
 static_assert(4 * (k_max_unknowns - 6) + 2 * k_finger_count + 4 * (k_finger_count - 1) +
                   HandSpheres::k_max_count + k_max_digit_gaps + 3 <=
               k_max_penalty_rows);
@@ -53,7 +53,7 @@ static_assert(4 * (k_max_unknowns - 6) + 2 * k_finger_count + 4 * (k_finger_coun
 class Fitter {
   public:
     Fitter(const HandSurroundings& hand, const GripSurface& surface, const HandFitGoal& goal,
-           const PalmTuning& tuning, FitTerms* terms = nullptr)
+           const PalmTuning& tuning, std::vector<PenaltyRow>& rows, FitTerms* terms = nullptr)
         : hand_(hand),
           rig_(*hand.rig),
           surface_(surface),
@@ -62,12 +62,13 @@ class Fitter {
           layout_(rig_),
           pose_(goal.first),
           spheres_(hand, surface, goal.is_clear),
-          problem_(layout_.end(), terms) {}
+          problem_(layout_.end(), terms, rows) {}
 
     HandFit run() {
-        constexpr double k_gain = 1e-6;  // smallest relative gain that counts
+        constexpr double k_gain = 1e-6;  // smaller relative gains do not count
         constexpr double k_gain_m2 = 1e-12;
-        constexpr double k_worthwhile_gain = 0.01;  // relative change that gets another round
+        // Relative change of the cost that justifies a next round.
+        constexpr double k_worthwhile_gain = 0.01;
         double cost = evaluate();
         HandFit best = described(cost);
         best.is_converged = true;
@@ -155,7 +156,7 @@ class Fitter {
         }
     }
 
-    // The last hinge bends with its parent.
+    // Adds the couple term: the last hinge bends with its parent.
     void add_coupling(std::size_t f) {
         const FingerAngles& angles = pose_.fingers[f];
         const bool is_of_thumb = is_thumb(rig_.fingers[f]);
@@ -166,7 +167,7 @@ class Fitter {
                             unit(layout_.hinge(f, 2)) + unit(layout_.hinge(f, 1), -share));
     }
 
-    // How a finger bends at knuckle and middle.
+    // Adds the roll term and the bend and claw inequalities of a finger.
     void add_shape(std::size_t f) {
         const FingerAngles& angles = pose_.fingers[f];
         const Unknowns open = layout_.bend(f, -1.0);
@@ -196,7 +197,8 @@ class Fitter {
                          finger.upper_opposition_rad - angle_rad, k_joint_limit * k_lever2);
     }
 
-    // Pulls a digit's nearest sphere and its tip to the surface. Knuckles do not count.
+    // Adds the touch and tip terms, which pull a digit's nearest sphere and its tip to the surface.
+    // Spheres at knuckles are not pulled.
     void add_attraction(std::size_t f) {
         for (const HandSphere& sphere : spheres_.all()) {
             if (!sphere.is_tip || sphere.finger != static_cast<std::int32_t>(f) ||
@@ -226,7 +228,8 @@ class Fitter {
         problem_.add_constant(part, 0.5 * (pull * share - weight) * sphere.gap_m * sphere.gap_m);
     }
 
-    // Neighbours are fingers next to each other in the rig, thumbs left out.
+    // Adds the terms between neighbours: fingers next to each other in the rig, not counting
+    // thumbs.
     void add_neighbours() {
         std::size_t before = k_finger_count;
         for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
@@ -240,7 +243,7 @@ class Fitter {
         }
     }
 
-    // s of hand_fit.hpp for one finger: 0 in contact, towards 1 far off.
+    // The weight s of hand_fit.hpp for one finger: 0 in contact, towards 1 far off.
     double free_share(std::size_t f) const {
         const HandSphere* const nearest = spheres_.nearest(f);
         if (nearest == nullptr) {
@@ -250,7 +253,7 @@ class Fitter {
         return ratio * ratio / (1.0 + ratio * ratio);
     }
 
-    // A finger whose angles are kept, like a pointing one, draws no neighbour to it.
+    // A finger whose angles are kept, like a pointing one, has no terms with its neighbours.
     void add_neighbour(std::size_t a, std::size_t b) {
         const Unknowns fan = layout_.direction(b, 1.0) + layout_.direction(a, -1.0);
         const double fan_rad = along(fan);
@@ -303,7 +306,7 @@ class Fitter {
         }
     }
 
-    // Keeps the thumb out of the fingers.
+    // Adds the inequalities that keep the thumb out of the fingers.
     void add_digit_gaps() {
         std::array<DigitGap, k_max_digit_gaps> gaps;
         const std::size_t count =
@@ -339,7 +342,7 @@ class Fitter {
         }
     }
 
-    // Change of a sphere's gap per unit of every unknown.
+    // Returns the change of a sphere's gap per unit of each unknown.
     Unknowns slope_of(const HandSphere& sphere) const {
         Unknowns slope = Unknowns::Zero();
         slope.head<3>() = sphere.away;
@@ -366,7 +369,7 @@ class Fitter {
         }
     }
 
-    // Moves by the solution of the problem that evaluate() built.
+    // Solves the problem that evaluate() built, and moves the pose by the solution.
     void step() {
         const FitPart part(FitTerm::joints, FitTerms::k_palm);  // costs nothing where it starts
         for (int i = 6; i < layout_.end(); ++i) {
@@ -441,14 +444,15 @@ class Fitter {
 }  // namespace
 
 HandFit fit_hand(const HandSurroundings& hand, const GripSurface& surface, const HandFitGoal& goal,
-                 const PalmTuning& tuning) {
-    return Fitter(hand, surface, goal, tuning).run();
+                 const PalmTuning& tuning, std::vector<PenaltyRow>& rows) {
+    return Fitter(hand, surface, goal, tuning, rows).run();
 }
 
 FitTerms fit_terms(const HandSurroundings& hand, const GripSurface& surface,
                    const HandFitGoal& goal, const PalmTuning& tuning) {
     FitTerms terms;
-    Fitter fitter(hand, surface, goal, tuning, &terms);
+    std::vector<PenaltyRow> rows;
+    Fitter fitter(hand, surface, goal, tuning, rows, &terms);
     fitter.evaluate();
     for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
         terms.gap_m[f] = fitter.gap_m(f);

@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "components/hand.hpp"
 #include "components/hand_surroundings.hpp"
 #include "components/tuning.hpp"
+#include "engine/math/penalty_quadratic.hpp"
 #include "systems/hand/shared/fit_terms.hpp"
 #include "systems/hand/shared/hand_spheres.hpp"
 
@@ -35,17 +37,16 @@
 //     neighbours' total bends within k_max_apart_rad, and directions within k_max_fan_rad
 //     the palm's limits on height and tilt (PalmTuning)
 //
-// Fingers whose angles are kept have no fan and alike with their neighbours.
-// pull(x) = x^2 / (1 + x^2 / g^2) is bounded by g^2, so distant surfaces hardly attract a digit;
-// g = k_let_go_m; l = k_fit_lever_m.
-// Hinges q1, q2, q3 are numbered from the knuckle. Gaps within k_sphere_reach_m count, those of
-// tips within their own reach (hand_spheres.hpp). Costs are half of these sums. The inequalities
-// are penalties, stiffer in this order: bends, directions, claw, palm, joints, gaps; the fit shares
-// what cannot be met. Each round queries the gaps (hand_spheres.hpp), linearises and solves
-// (engine/math/penalty_quadratic.hpp). Sources: Santello, Flanders, Soechting, Postural hand
-// synergies for tool use, 1998 (fingers bend alike); Rijpkema, Girard, Computer animation of
-// knowledge-based human grasping, 1991 (2/3). The weights follow 694 labels of posed hands
-// (docs/decisions).
+// Fingers whose angles are kept have no fan and alike with their neighbours. pull(x) = x^2 / (1 +
+// x^2 / g^2) is bounded by g^2, so distant surfaces hardly attract a digit; g = k_let_go_m; l =
+// k_fit_lever_m. Hinges q1, q2, q3 are numbered from the knuckle. Only gaps within k_sphere_reach_m
+// count; tips have their own reach (hand_spheres.hpp). Costs are half of these sums. The
+// inequalities are penalties, stiffer in this order: bends, directions, claw, palm, joints, gaps;
+// where they contradict each other, the fit divides the violation among them. Each round queries
+// the gaps (hand_spheres.hpp), linearises and solves (engine/math/penalty_quadratic.hpp). Sources:
+// Santello, Flanders, Soechting, Postural hand synergies for tool use, 1998 (fingers bend alike);
+// Rijpkema, Girard, Computer animation of knowledge-based human grasping, 1991 (2/3). The weights
+// follow 694 labels of posed hands (docs/decisions).
 namespace handhold {
 
 inline constexpr double k_fit_arm_m = 0.05;
@@ -60,10 +61,11 @@ struct HandFitGoal {
     HandPose first;  // where the rounds start; from the closing, or last frame's fit
     // Angles from the closing, which stated the digits' contacts.
     std::array<FingerAngles, k_finger_count> closed;
-    std::array<bool, k_finger_count> touches = {};   // the closing found a contact
-    std::array<bool, k_finger_count> is_clear = {};  // HandSpheres: `first` is outside solids
-    std::array<bool, k_finger_count> is_fixed = {};  // the angles are kept, as in authored poses
-    bool is_wrist_fixed = false;                     // the wrist is kept
+    std::array<bool, k_finger_count> touches = {};  // the closing found a contact
+    // `first` is known to be outside solids (see HandSpheres)
+    std::array<bool, k_finger_count> is_clear = {};
+    std::array<bool, k_finger_count> is_fixed = {};  // the angles do not change (authored poses)
+    bool is_wrist_fixed = false;                     // the wrist does not move
     std::int32_t rounds = 0;                         // maximum number of rounds
     double max_flex_rad = 0.4;                       // largest step of an angle in one round
 };
@@ -77,10 +79,10 @@ struct HandFit {
     bool is_converged = false;  // the last round gained nothing
 };
 
-// Deterministic, does not allocate. Never costs more than `goal.first`. Precondition: the hand has
-// meshes, and `surface` is on the first one.
+// Deterministic. `rows` is scratch memory; it allocates once. Never costs more than `goal.first`.
+// Precondition: the hand has meshes, and `surface` is on the first one.
 HandFit fit_hand(const HandSurroundings& hand, const GripSurface& surface, const HandFitGoal& goal,
-                 const PalmTuning& tuning);
+                 const PalmTuning& tuning, std::vector<PenaltyRow>& rows);
 
 // The objective's terms at `goal.first`, whose sum is the cost of a fit without rounds. Same
 // preconditions.

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double k_spacing_m = 0.018;          // largest distance between spheres of one link
 constexpr double k_extra_gap_m = 0.005;        // links farther away need no extra sphere
-constexpr double k_max_depth_inside_m = 0.03;  // deepest centre inside a solid that is found
+constexpr double k_max_depth_inside_m = 0.03;  // centres deeper inside a solid are not found
 
 double query_radius_m(const HandSphere& sphere) {
     const double reach_m = sphere.is_tip ? k_tip_reach_m : k_sphere_reach_m;
@@ -146,7 +146,8 @@ void HandSpheres::query(const HandPose& pose, const HandLinkFrames& frames) {
     is_queried_ = true;
 }
 
-// Moves the gap of a sphere along with its centre if that is near to where it was searched.
+// If the centre is still near the place of the last search, corrects the sphere's gap by the
+// movement of its centre and returns true.
 bool HandSpheres::keeps_gap(HandSphere& sphere, const Vec3& center) {
     const Vec3 moved = center - sphere.searched_center;
     if (!sphere.has_gap || moved.norm() > k_keep_travel_m) {
@@ -182,7 +183,8 @@ void HandSpheres::query_extra(const HandSphere& nearest, HandSphere& extra, cons
     query_sphere(extra, center, &nearest, false);
 }
 
-// 1 outside, -1 inside, before the distance is known.
+// Side of the gripped mesh on which the centre is: 1 outside, -1 inside. Called before the distance
+// is known.
 double HandSpheres::side_of_gripped(const HandSphere& sphere, const Vec3& center, bool is_below,
                                     bool is_first) const {
     if (is_first) {

@@ -38,8 +38,8 @@ struct HandSphere {
     Vec3 away = Vec3::Zero();  // unit, from the nearest surface point to the centre, out of solids
     double gap_m = 0.0;        // negative: penetration depth
     bool has_gap = false;      // a surface is within reach of the sphere
-    // Of the last search: the centre, its gap (infinity: none), its signed distance to the gripped
-    // mesh, at most the query radius, and the nearest triangle there.
+    // Result of the last search: the centre, its gap (infinity: none), its signed distance to the
+    // gripped mesh (at most the query radius), and the nearest triangle there.
     Vec3 searched_center = Vec3::Zero();
     double searched_gap_m = 0.0;
     double signed_m = 0.0;
@@ -67,11 +67,12 @@ class HandSpheres {
     HandSpheres(const HandSurroundings& hand, const GripSurface& surface,
                 const std::array<bool, k_finger_count>& is_clear);
 
-    // Computes all gaps at a pose. Spheres that have moved less than k_keep_travel_m since their
-    // last search, or cannot be a digit's nearest, keep its gap, moved along `away`. At the first
-    // call, a centre is inside a solid if it is below the plane of its nearest triangle. Later a
-    // centre changes sides only if its path since the last call crosses a surface of the gripped
-    // mesh: windings of open or broken meshes cannot flip a finger through a wall.
+    // Computes all gaps at a pose. A sphere that has moved less than k_keep_travel_m since its last
+    // search, or cannot be the nearest of its digit, is not searched: its last gap is corrected by
+    // its movement along `away`. At the first call, a centre is inside a solid if it is below the
+    // plane of its nearest triangle. Later a centre changes sides only if its path since the last
+    // call crosses a surface of the gripped mesh: windings of open or broken meshes cannot flip a
+    // finger through a wall.
     void query(const HandPose& pose, const HandLinkFrames& frames);
 
     std::span<const HandSphere> all() const { return {spheres_.data(), count_}; }
@@ -82,7 +83,8 @@ class HandSpheres {
 
   private:
     void add(const HandSphere& sphere) { spheres_[count_++] = sphere; }
-    // By digit, and last for the palm: smallest gap that a sphere may have whose last gap is kept.
+    // For each digit, and last for the palm: spheres whose gap is surely larger than this keep
+    // their last gap, because they cannot be the nearest.
     std::array<double, k_finger_count + 1> keep_gaps_m(const HandPose& pose,
                                                        const HandLinkFrames& frames) const;
     // `near_sphere`: a sphere nearby, whose triangle bounds the search.

@@ -21,10 +21,11 @@ class HandUnknowns {
     std::size_t count() const { return count_; }
     int end() const { return static_cast<int>(count_); }
 
-    // `sign` for each of a finger's hinges: the total bend.
+    // Coefficients of the finger's total bend: `sign` for each of its hinges.
     Unknowns bend(std::size_t finger, double sign) const;
-    // `sign` times the share of each hinge's angle by which the direction from the knuckle to the
-    // tip of a nearly straight finger turns: the length beyond the hinge, of the whole length.
+    // Coefficients of the direction from the knuckle to the tip of a nearly straight finger: for
+    // each hinge, `sign` times the share of its angle by which that direction turns (length beyond
+    // the hinge / whole length).
     Unknowns direction(std::size_t finger, double sign) const;
 
   private:

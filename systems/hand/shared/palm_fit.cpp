@@ -254,7 +254,7 @@ class PalmSpheres {
                 (is_inside ? -near.distance_m : near.distance_m) - sphere.radius_m};
     }
 
-    // Further spheres are queried every time.
+    // Spheres beyond this number have no cached query and are queried every time.
     static constexpr std::size_t k_max_cached_queries = 96;
 
     const HandSurroundings& hand_;

@@ -47,7 +47,7 @@ class PalmFitter {
 
     // True if the triangle's outside faces away from the palm.
     bool is_backface(const Candidate& candidate) const;
-    // For a backface: true if a palm on it would be inside a solid. That is so if a ray from the
+    // For a backface: true if a palm on it would be inside a solid, that is, if a ray from the
     // triangle towards the palm first hits another triangle from inside.
     bool is_inside(const Candidate& candidate) const;
     // True if the straight path from the tracked palm to the fitted one enters the mesh more often

@@ -8,7 +8,8 @@ namespace {}  // namespace
 
 PartMeshes::Size PartMeshes::size_of(const PartCapsule& capsule) {
     constexpr double k_most_steps = 1e4;
-    // Some usual lengths lie exactly between two steps. Measured again, they differ by rounding.
+    // Slightly more than one half, because some usual lengths lie exactly between two steps: when
+    // such a length is measured again, rounding errors must not change its step.
     constexpr double k_up = 0.5 + 1e-6;
     const auto steps = [&](double length_m, double step_m) {
         const double exact = std::min(length_m / step_m, k_most_steps);

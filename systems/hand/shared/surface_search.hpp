@@ -54,8 +54,8 @@ class SurfaceSearch {
 
     // Ignores triangles that the graph does not have.
     void add_seed(std::uint32_t triangle);
-    // Continues until `max_idle_pops` pops in a row have found no cheaper triangle. Can be called
-    // again.
+    // Continues until `max_idle_pops` consecutive pops have found no cheaper triangle. Can be
+    // called again.
     void run(std::uint32_t max_idle_pops);
 
     // Returns the cheapest visited triangle that is not a duplicate place of any in `excluded`.

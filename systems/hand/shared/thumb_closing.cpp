@@ -52,8 +52,8 @@ class ThumbCloser {
                                std::span(capsules).first(closing_.thumb.link_count));
     }
 
-    // Opens a thumb that goes through fingers, all hinges alike, to where it is clear of them.
-    // Returns whether there is such a place.
+    // Opens a thumb that crosses fingers, all hinges by the same share, until it is clear of them.
+    // Returns false if it is never clear.
     bool stop_at_fingers(ClosedThumb& closed) const {
         constexpr int k_steps = 8;
         constexpr double k_clear_of_fingers_m = 1e-3;
@@ -105,7 +105,8 @@ ClosedThumb close_thumb(const ClosingThumb& closing, const ChainFitSettings& set
     const ThumbCloser closer(closing, tuning, scratch);
     const FingerRig& thumb = closing.thumb;
     const double rest_rad = rest_opposition_rad(thumb, tuning);
-    // Only the chosen opposition is worth a depenetration.
+    // Candidates are closed without depenetration, which is expensive; only the chosen opposition
+    // gets it.
     ChainFitSettings quick = settings;
     quick.depenetrates = false;
     const int steps = std::max(1, tuning.opposition_steps);

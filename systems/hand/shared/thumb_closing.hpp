@@ -24,11 +24,12 @@ struct ClosedThumb {
 };
 
 // Closes the thumb like a finger at ThumbTuning::opposition_steps angles and returns the cheapest:
-//   cost = penetration_cost * (depth + overlap with fingers) + open_cost_m (if it touches nothing)
-//   + tip_gap_cost * tip gap
+//   cost = penetration_cost * (depth + overlap with fingers)
+//        + open_cost_m, if it touches nothing
+//        + tip_gap_cost * tip gap
 //        + opposition_cost_m_per_rad * |opposition - rest_opposition_rad|
-// At each opposition, the thumb may also stop where it meets a finger. Of equal costs, the angle
-// nearest to the rest pose wins.
+// At each opposition, the thumb may also stop where it meets a finger. If costs are equal, the
+// angle nearest to the rest pose wins.
 ClosedThumb close_thumb(const ClosingThumb& closing, const ChainFitSettings& settings,
                         const ThumbTuning& tuning, ChainFitScratch& scratch);
 

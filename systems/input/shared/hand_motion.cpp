@@ -7,7 +7,7 @@
 namespace handhold {
 namespace {
 
-// The enlarged window.
+// The length of the measuring window after enlarging it (measure_release).
 double measured_window(const HandHistory& history, double t_s, double window_s) {
     for (int times = 1; times < k_longest_window; ++times) {
         double oldest_s = t_s;

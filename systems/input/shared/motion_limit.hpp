@@ -7,7 +7,8 @@
 // How far a tracked device can have moved between two readings.
 namespace handhold {
 
-// Smaller jumps go unnoticed, and are within the noise and the timing jitter of tracking.
+// Jumps up to this are not treated as jumps: they are within the noise and the timing jitter of
+// tracking.
 inline constexpr double k_unnoticed_m = 0.02;
 
 // Distance between two poses; a radian of rotation counts as k_m_per_rad.
@@ -32,9 +33,9 @@ inline bool could_move(const Pose& from, const Pose& to, double dt_s, double max
 inline constexpr double k_min_apart_s = 1e-3;
 inline constexpr double k_max_apart_s = 0.05;
 
-// The pose at `t_s` at constant velocity and spin, from two earlier ones. The last one itself if
-// the two are not k_min_apart_s to k_max_apart_s apart: noise would dominate, or the velocity be
-// out of date.
+// Extrapolates two earlier poses to `t_s` at constant velocity and spin. Returns the last pose
+// unchanged if the two are closer in time than k_min_apart_s, where noise would dominate, or
+// farther apart than k_max_apart_s, where the velocity would be out of date.
 inline Pose extrapolate(const Pose& before, double before_s, const Pose& last, double last_s,
                         double t_s) {
     const double dt_s = last_s - before_s;

@@ -26,16 +26,19 @@ bool is_stale(double t_s, bool has_sample, double last_t_s) {
 }
 
 PlaySpaceTracker::PlaySpaceTracker(const HeadTracking& head,
-                                   const std::array<Hand, k_hand_count>& hands)
+                                   const std::array<Hand, k_hand_count>& hands,
+                                   const Settings& settings)
     : shift_{head.shift_m, head.shift_turn},
       head_ps_(head.sample_ps),
       head_t_s_(head.sample_t_s),
       before_ps_(head.before_ps),
       before_t_s_(head.before_t_s),
       has_head_(head.state != TrackingState::never),
+      is_head_inferred_(head.is_inferred),
+      settings_(settings),
       hands_(hands) {}
 
-// Exact where nothing was shifted.
+// Returns the pose bit for bit if there is no shift.
 Pose PlaySpaceTracker::corrected(const Pose& pose) const {
     return {shift_.rotation * pose.position + shift_.position, shift_.rotation * pose.rotation};
 }
@@ -60,20 +63,31 @@ PlaySpaceTracker::Jump PlaySpaceTracker::follow(const TrackingSample& sample,
     Jump jump = Jump::none;
     Pose next_ps = corrected({sample.head_ps.position, sample.head_ps.rotation.normalized()});
     Pose undo;
-    if (has_head_ && find_recentring(sample, next_ps, tuning, undo)) {
-        jump = Jump::play_space;
-        shift_by(undo);
-        next_ps = undo * next_ps;
+    if (has_head_ && (sample.is_head_inferred || is_head_inferred_)) {
+        jump = Jump::guess;
+        if (sample.is_head_inferred && settings_.freezes_guesses) {
+            next_ps.position = head_ps_.position;
+        }
+    } else if (has_head_ && find_recentring(sample, next_ps, tuning, undo)) {
+        jump = settings_.corrects_jumps ? Jump::play_space : Jump::meant;
+        if (settings_.corrects_jumps) {
+            shift_by(undo);
+            next_ps = undo * next_ps;
+        }
     } else if (has_head_ && (next_ps.position - head_ps_.position).norm() > tuning.max_jump_m) {
-        jump = Jump::head;
-        shift_by({head_ps_.position - next_ps.position, Quat::Identity()});
-        next_ps.position = head_ps_.position;
+        jump = settings_.corrects_jumps ? Jump::head : Jump::meant;
+        if (settings_.corrects_jumps) {
+            shift_by({head_ps_.position - next_ps.position, Quat::Identity()});
+            next_ps.position = head_ps_.position;
+        }
     }
-    before_ps_ = has_head_ ? head_ps_ : next_ps;
-    before_t_s_ = has_head_ ? head_t_s_ : sample.t_s;
+    const bool has_velocity = has_head_ && jump != Jump::meant && jump != Jump::guess;
+    before_ps_ = has_velocity ? head_ps_ : next_ps;
+    before_t_s_ = has_velocity ? head_t_s_ : sample.t_s;
     head_ps_ = next_ps;
     head_t_s_ = sample.t_s;
     has_head_ = true;
+    is_head_inferred_ = sample.is_head_inferred;
     keep_hands(sample);
     return jump;
 }
@@ -87,7 +101,7 @@ void PlaySpaceTracker::keep_hands(const TrackingSample& sample) {
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const ControllerSample& reading = sample.controllers[index_of(side)];
         Hand& hand = hands_[index_of(side)];
-        if (is_seen(reading)) {
+        if (is_measured(reading)) {
             hand.reading_ps = hand_ps(reading, side);
             hand.reading_t_s = sample.t_s;
             hand.has_reading = true;
@@ -102,7 +116,7 @@ std::array<std::optional<double>, k_hand_count> PlaySpaceTracker::hand_ages_s(
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const Hand& hand = hands_[index_of(side)];
         const double age_s = sample.t_s - hand.reading_t_s;
-        if (hand.has_reading && is_seen(sample.controllers[index_of(side)]) &&
+        if (hand.has_reading && is_measured(sample.controllers[index_of(side)]) &&
             age_s <= lost_after_s) {
             ages_s[index_of(side)] = age_s;
         }

@@ -13,15 +13,26 @@ namespace handhold {
 inline constexpr double k_farthest_tracked_m = 1e4;
 inline constexpr double k_latest_s = 1e9;  // a snapshot refuses later times too
 
-// False for a pose that no tracking system can mean: not valid, or k_farthest_tracked_m or more
-// away along an axis.
+// False for a pose that cannot come from tracking: invalid, or k_farthest_tracked_m or more from
+// the origin along an axis.
 bool is_trackable(const Pose& pose_ps);
-// A controller that sleeps, or was never found, reports exactly (0, 0, 0).
+// True if the controller sleeps or was never found: it then reports exactly (0, 0, 0).
 inline bool is_asleep(const ControllerSample& reading) {
     return reading.controller_ps.position == Vec3::Zero();
 }
 inline bool is_seen(const ControllerSample& reading) {
     return is_trackable(reading.controller_ps) && !is_asleep(reading);
+}
+// True if the reading says where the hand is: seen, and not guessed.
+inline bool is_measured(const ControllerSample& reading) {
+    return is_seen(reading) && !reading.is_inferred;
+}
+// 0, 1 or k_unknown_curl: readings beyond [0, 1] are clamped; below 0 and NaN: unknown.
+inline FingerCurls known_curls(FingerCurls curls) {
+    for (double& curl : curls) {
+        curl = curl >= 0.0 ? std::min(1.0, curl) : k_unknown_curl;
+    }
+    return curls;
 }
 // How far a button is pressed, [0, 1]; 0 if `reading` is NaN.
 inline double pressed_share(double reading) { return reading > 0.0 ? std::min(1.0, reading) : 0.0; }
@@ -29,8 +40,7 @@ inline double pressed_share(double reading) { return reading > 0.0 ? std::min(1.
 bool is_stale(double t_s, bool has_sample, double last_t_s);
 
 // Follows one player's readings from sample to sample and corrects those that jump with the play
-// space. Started from the state at the end of the last frame, it gives the same corrections to
-// whoever follows the same samples.
+// space. Deterministic: the same start state and the same samples give the same corrections.
 class PlaySpaceTracker {
   public:
     struct Hand {
@@ -39,19 +49,29 @@ class PlaySpaceTracker {
         double reading_t_s = 0.0;
         bool has_reading = false;
     };
-    enum class Jump : std::uint8_t { none, head, play_space };
+    enum class Jump : std::uint8_t { none, head, play_space, meant, guess };
+    struct Settings {
+        bool corrects_jumps = true;    // false for players whose RecenterGuess says no
+        bool freezes_guesses = false;  // true: guesses of the runtime do not move the head
+    };
 
-    PlaySpaceTracker(const HeadTracking& head, const std::array<Hand, k_hand_count>& hands);
+    PlaySpaceTracker(const HeadTracking& head, const std::array<Hand, k_hand_count>& hands,
+                     const Settings& settings);
+    PlaySpaceTracker(const HeadTracking& head, const std::array<Hand, k_hand_count>& hands)
+        : PlaySpaceTracker(head, hands, Settings{}) {}
 
-    // Advances to `sample`. From a jump on, all readings are corrected so that the head goes on as
-    // before (play_space) or stays where it was (head):
+    // Advances to `sample`. After a jump, all later readings are corrected so that the head
+    // continues its motion (play_space) or stays where it was (head):
     //  - play_space: head and hands moved by one transform (a turn about +Y and a translation), at
     //    least one of them farther than a device can move. What remains of each hand's motion once
     //    that transform is undone must be one that a hand can make;
-    //  - head: the head moved farther than TrackingTuning::max_jump_m, and the hands did not match.
+    //  - head: the head moved farther than TrackingTuning::max_jump_m, and the hands did not match;
+    //  - meant: one of these in a tracker that does not correct jumps.
+    // `guess`: the head's position is inferred, or the first that is measured after such ones. It
+    // may be anywhere, and nothing was recentred. Inferred hands do not vote on recentrings.
     Jump follow(const TrackingSample& sample, const TrackingTuning& tuning);
 
-    // Of the sample followed last.
+    // The hand's pose in play space for `reading`, which belongs to the last sample followed.
     Pose hand_ps(const ControllerSample& reading, HandSide side) const;
     bool is_in_reach(const Vec3& hand_ps, double max_arm_m) const;
 
@@ -59,6 +79,7 @@ class PlaySpaceTracker {
     const Pose& before_ps() const { return before_ps_; }  // the valid one before that
     double before_t_s() const { return before_t_s_; }
     bool has_head() const { return has_head_; }
+    bool is_head_inferred() const { return is_head_inferred_; }
     const Vec3& shift_m() const { return shift_.position; }
     const Quat& shift_turn() const { return shift_.rotation; }
 
@@ -77,6 +98,8 @@ class PlaySpaceTracker {
     Pose before_ps_;
     double before_t_s_ = 0.0;
     bool has_head_ = false;
+    bool is_head_inferred_ = false;
+    Settings settings_;
     std::array<Hand, k_hand_count> hands_;
 };
 

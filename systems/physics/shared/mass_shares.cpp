@@ -5,9 +5,9 @@
 namespace handhold {
 namespace {
 
-// Closer contacts may support a body, and so push a player.
+// Contacts closer than this may support a body, and thus push a player.
 constexpr double k_supporting_m = 1e-5;
-// Least ratio of the masses of a player and of the light bodies in hand.
+// Largest ratio, in the solve, of a player's mass to the mass of the light bodies in hand.
 constexpr double k_max_player_ratio = 1000.0;
 
 template <typename Predicate>
@@ -106,8 +106,8 @@ double heaviest_free_kg(const ConstraintGraph& graph, const Island& island) {
     return heaviest_kg;
 }
 
-// A hand whose player counts as nearly immovable in this frame: it holds a light body, and nothing
-// has pushed the player yet.
+// True if the island has a hand whose player counts as nearly immovable in this frame: the hand
+// holds a light body, and nothing has pushed the player yet.
 bool has_unyielding_hand(const FrameGraph& frame, const Island& island) {
     return any_block(frame.graph, island, [&frame](const RowBlock& block) {
         if (!is_drive(block)) {

@@ -41,19 +41,20 @@
 //   body itself. It would get momentum that no player pays for.
 namespace handhold {
 
-// Of the position solve, in the order of a frame; solve_phases.hpp says what each is for.
+// The phases of the position solve, in the order of a frame. solve_phases.hpp says what each is
+// for.
 enum class Phase : std::uint8_t { reach, forward, relax, backward, contradiction };
 
 // --- Assembly: facts of the frame ----------------------------------------------------------------
 
 // A free body from PhaseTuning::heavy_body_kg up is heavy.
 BodyRole role_of(const RigidBody& body, const PhaseTuning& tuning);
-// Enters a grip into FrameGraph::phase: into `player`, whose hand grips, and into the gripped
+// Records a grip in FrameGraph::phase, for the `player` whose hand grips and for the gripped
 // `body`. Both are indices into FrameGraph::phase.
 void note_grip(const Grab& grab, std::size_t player, std::size_t body, const PhaseTuning& tuning,
                FrameGraph& frame);
-// From now on players of this island take part in its push with their own mass, velocities
-// included.
+// Marks the island as pushed: from now on its players have their true mass, in the velocity solve
+// too.
 void mark_pushed(const Island& island, FrameGraph& frame);
 
 // --- What the facts say about an island ----------------------------------------------------------
@@ -66,8 +67,8 @@ bool may_push(const ConstraintGraph& graph, const Island& island);
 
 // --- Inverse masses ------------------------------------------------------------------------------
 
-// Both write the inverse masses and inertias of the island's bodies, by the table above. The second
-// is for the velocity solve.
+// Write the inverse masses and inertias of the island's bodies by the table above: set_masses for a
+// phase, set_velocity_masses for the velocity solve.
 void set_masses(const Island& island, Phase phase, FrameGraph& frame);
 void set_velocity_masses(const Island& island, const PhaseTuning& tuning, FrameGraph& frame);
 
@@ -75,13 +76,13 @@ void set_velocity_masses(const Island& island, const PhaseTuning& tuning, FrameG
 // into FrameGraph::phase, or beyond its end if no stage has seen the player yet.
 double mass_for_host_kg(const FrameGraph& frame, std::size_t player, double mass_kg);
 
-// The share of a player against a body of `mass_kg`, in [0, 1]: 0 up to
-// PhaseTuning::kappa_light_kg, 1 from kappa_heavy_kg, smooth between. The talk's kappa is its
-// reciprocal.
+// The share of a player who holds a body of `mass_kg`, in [0, 1]: 0 up to
+// PhaseTuning::kappa_light_kg, 1 from kappa_heavy_kg on, smooth in between. It is 1 / kappa of the
+// talk.
 double momentum_share(double mass_kg, const PhaseTuning& tuning);
-// Least share of a player of `mass_kg` against free bodies of which the heaviest has `heaviest_kg`;
-// in (0, 1]. Light bodies must not shake the player, who counts as up to 1000 times as heavy as
-// they are. A larger ratio of masses would make the solver's regularisation visible.
+// Smallest share of a player of `mass_kg` in an island whose heaviest free body has `heaviest_kg`;
+// in (0, 1]. Light bodies must not shake the player, who therefore counts as up to 1000 times as
+// heavy as they are. A larger ratio of masses would make the solver's regularisation visible.
 double least_player_share(double heaviest_kg, double mass_kg);
 
 }  // namespace handhold

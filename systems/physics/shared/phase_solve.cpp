@@ -29,7 +29,8 @@ BlockFilter filter_of(Phase phase) {
     }
 }
 
-// The errors known from a solve: if it converged with every block, none exceeds its residual.
+// The errors that are known from a solve: if it converged and included every block, no error
+// exceeds its residual.
 std::optional<IslandErrors> errors_after(const IslandView& island, const NewtonResult& result) {
     const auto counts = [&island](std::uint32_t i) { return takes_part(island, island.blocks[i]); };
     if (!result.converged || !std::ranges::all_of(island.island_blocks, counts)) {
@@ -39,8 +40,8 @@ std::optional<IslandErrors> errors_after(const IslandView& island, const NewtonR
                         result.joints};
 }
 
-// What the island may still spend in this frame. Islands change between the phases: the body that
-// has spent most counts.
+// The work that the island may still spend in this frame. Islands merge and split between phases:
+// the body that has spent most determines it.
 std::uint64_t work_left(const FrameGraph& frame, const Island& island) {
     std::uint64_t spent = 0;
     for (const std::uint32_t i : frame.graph.bodies_of(island)) {

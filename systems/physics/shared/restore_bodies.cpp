@@ -168,8 +168,8 @@ void undo_restore(const FrameGraph::PenetratingBody& penetrating, FrameGraph& fr
     body.spin_radps = penetrating.spin_radps;
 }
 
-// Contacts found at the penetrating poses are dropped; those at the present poses are found again,
-// hidden overlaps too.
+// Drops the contacts found at the penetrating poses and searches contacts and hidden overlaps again
+// at the present poses.
 void rebuild_contacts(CollisionWorld& collision, FrameGraph& frame, const ContactTuning& tuning,
                       StageStats& stats) {
     const auto is_penetrating = [&frame](std::uint64_t id) {
@@ -278,7 +278,8 @@ bool restore_overlapped_bodies(FrameGraph& frame) {
             undo_restore(penetrating, frame);
         }
     }
-    // Kept restores first: the first body of an island says whether any of its restores was kept.
+    // Sorts kept restores first, so that the first body of an island tells whether any of its
+    // restores was kept.
     std::ranges::sort(listed, {}, [](const FrameGraph::PenetratingBody& penetrating) {
         return std::tuple(penetrating.island, !penetrating.is_restored, penetrating.body);
     });

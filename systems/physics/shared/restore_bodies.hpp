@@ -9,7 +9,8 @@
 
 namespace handhold {
 
-// About the length of an arm's jump. A body that was dragged farther while penetrating stays.
+// About the longest jump of a hand. A body that was dragged farther while penetrating is not
+// restored.
 inline constexpr double k_max_restore_distance_m = 2.0;
 // Smaller overlaps with a restored body are left to the next frames: restoring a player as well
 // costs the exactness of their hands.

@@ -127,10 +127,12 @@ const BadSkin k_bad_skins[] = {
     {"squashed joint", "/nodes/2",
      [](GltfBuilder& b) {
          b.json["nodes"][2]["scale"] = {1, 2, 1};
+         b.json["skins"][0].erase("inverseBindMatrices");
      }},
     {"joint of no size", "/nodes/2",
      [](GltfBuilder& b) {
          b.json["nodes"][2]["scale"] = {0, 0, 0};
+         b.json["skins"][0].erase("inverseBindMatrices");
      }},
     {"too few binds", "/skins/0/inverseBindMatrices",
      [](GltfBuilder& b) { b.json["accessors"][4]["count"] = 1; }},

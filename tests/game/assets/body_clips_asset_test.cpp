@@ -3,12 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include "game/assets/assets.hpp"
 #include "game/play/desktop_session.hpp"
+#include "systems/rigs/body_clips_json.hpp"
 #include "systems/snapshot/snapshot.hpp"
 #include "tests/game/climber/climber_scene.hpp"
 
 namespace handhold::body_clips_asset_test {
 namespace {
+
+BodyClips game_body_clips() {
+    return parse_body_clips(game_asset("body_clips.json"), "body_clips.json").value();
+}
 
 TEST(BodyClipsAsset, HasEveryClip) {
     const BodyClips clips = game_body_clips();
@@ -48,28 +54,28 @@ TEST(BodyClipsAsset, SnapshotsGoOnWithThem) {
     };
     Scene scene = make_void();
     const PlayerEntities player = add_scene_player(scene, {"player0", {}, 80.0});
-    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
+    FrameCaches caches(scene.shapes(), &scene.grip_meshes());
     caches.body_clips = game_body_clips();
-    drift(scene.world, caches, scene.tuning, player.player, 130);
-    const SnapshotAssets assets(*scene.shapes);
+    drift(scene.world(), caches, scene.tuning(), player.player, 130);
+    const SnapshotAssets assets(scene.shapes());
     std::vector<std::byte> bytes;
-    save_snapshot(scene.world, assets, bytes);
+    save_snapshot(scene.world(), assets, bytes);
 
     World again;
     ASSERT_FALSE(restore_snapshot(bytes, assets, again));
     World bare;
     ASSERT_FALSE(restore_snapshot(bytes, assets, bare));
-    FrameCaches fresh(*scene.shapes, scene.grip_meshes.get());
+    FrameCaches fresh(scene.shapes(), &scene.grip_meshes());
     fresh.body_clips = game_body_clips();
-    FrameCaches none(*scene.shapes, scene.grip_meshes.get());
-    drift(scene.world, caches, scene.tuning, player.player, 200);
-    drift(again, fresh, scene.tuning, player.player, 200);
-    drift(bare, none, scene.tuning, player.player, 200);
-    EXPECT_EQ(hash_state(again), hash_state(scene.world));
+    FrameCaches none(scene.shapes(), &scene.grip_meshes());
+    drift(scene.world(), caches, scene.tuning(), player.player, 200);
+    drift(again, fresh, scene.tuning(), player.player, 200);
+    drift(bare, none, scene.tuning(), player.player, 200);
+    EXPECT_EQ(hash_state(again), hash_state(scene.world()));
     const auto foot = [&](const World& world) {
         return world.render_pose.at(player.player).spine.legs[0].foot_ws.position;
     };
-    EXPECT_GT((foot(bare) - foot(scene.world)).norm(), 1e-3);
+    EXPECT_GT((foot(bare) - foot(scene.world())).norm(), 1e-3);
 }
 
 }  // namespace

@@ -10,13 +10,12 @@
 #include "game/climber/crowd.hpp"
 #include "game/levels/built_in_scenes.hpp"
 #include "game/run/session_run.hpp"
-#include "systems/input/read_tracking.hpp"
 #include "tests/game/climber/climber_scene.hpp"
 
 namespace handhold::climber_test {
 namespace {
 
-Vec3 spawn_head(const Scene& scene) { return head_over(scene.spawns.front().pose_ws); }
+Vec3 spawn_head(const Scene& scene) { return from_host(head_over(scene.spawns.front().pose_ws)); }
 
 // The limits stated in climber.hpp.
 TEST(Climber, MovesHeadAndHandsAsAPersonCan) {
@@ -29,19 +28,19 @@ TEST(Climber, MovesHeadAndHandsAsAPersonCan) {
         constexpr int k_frames = 2700;
         for (int frame = 0; frame < k_frames; ++frame) {
             solo.step();
-            ASSERT_GE(solo.state.last.t_s, sample_before_s);
-            sample_before_s = solo.state.last.t_s;
+            ASSERT_GE(solo.state.last.time_s, sample_before_s);
+            sample_before_s = solo.state.last.time_s;
             if (frame > 0) {
                 ASSERT_LE((solo.head_ws() - head_before).norm() * 90.0, 3.0);
             }
             head_before = solo.head_ws();
             pushed += solo.render().push_back_m > 1e-3 ? 1U : 0U;
-            for (const HandSide side : {HandSide::left, HandSide::right}) {
-                const Pose wrist_ps = solo.state.last.controllers[index_of(side)].controller_ps *
-                                      default_controller_to_hand(side, scene.tuning.hand);
-                ASSERT_LE((wrist_ps.position - shoulder_ps(solo.state, side)).norm(), 0.75);
-                const ClimberHand& hand = solo.state.hands[index_of(side)];
-                ASSERT_LE(hand.velocity_ps_mps.norm(), 5.0);
+            for (const hh::Side side : {HH_LEFT, HH_RIGHT}) {
+                const hh::Pose wrist_ps =
+                    solo.state.last.hands[side] * *scene.host.hand_in_controller(side);
+                ASSERT_LE(hh::length(wrist_ps.position - shoulder_ps(solo.state, side)), 0.75);
+                const ClimberHand& hand = solo.state.hands[side];
+                ASSERT_LE(hh::length(hand.velocity_ps_mps), 5.0);
                 if (hand.mode == ClimberHandMode::reaching) {
                     ASSERT_GE(hand.until_s - hand.from_s, 0.3 - 1e-9);
                     ASSERT_LE(hand.until_s - hand.from_s, 0.8 + 1e-9);
@@ -76,15 +75,14 @@ TEST(Climber, UsesBothHandsInTurn) {
 TEST(Climber, GoesByItsWaypointsAndStaysAtTheLast) {
     Scene scene = make_tunnel(6.0);
     ClimberTask task;
-    task.waypoints = {{k_no_entity, Vec3(-0.35, 0.2, 0.0)},
-                      {k_no_entity, Vec3(-0.35, 0.2, -4.5)},
-                      {k_no_entity, Vec3(-0.35, 0.2, -2.0)}};
+    task.waypoints = {{{}, {-0.35, 0.2, 0.0}}, {{}, {-0.35, 0.2, -4.5}}, {{}, {-0.35, 0.2, -2.0}}};
     Solo solo(scene, Vec3(-0.35, 0.2, 4.0), 1, task);
     std::vector<bool> passed(task.waypoints.size());
     while (solo.now_s() < 60.0 && !is_at_target(solo.task, solo.state)) {
         solo.step();
         for (std::size_t i = 0; i < passed.size(); ++i) {
-            const bool near = (solo.head_ws() - task.waypoints[i].point_bs).norm() < 0.35;
+            const bool near =
+                (solo.head_ws() - from_host(task.waypoints[i].point_bs)).norm() < 0.35;
             passed[i] = passed[i] || (near && (i == 0 || passed[i - 1]));
         }
     }
@@ -92,7 +90,7 @@ TEST(Climber, GoesByItsWaypointsAndStaysAtTheLast) {
     EXPECT_TRUE(std::ranges::all_of(passed, [](bool done) { return done; }));
     for (int frame = 0; frame < 450; ++frame) {
         solo.step();
-        EXPECT_LE((solo.head_ws() - task.waypoints.back().point_bs).norm(), 0.7);
+        EXPECT_LE((solo.head_ws() - from_host(task.waypoints.back().point_bs)).norm(), 0.7);
     }
 }
 
@@ -119,9 +117,9 @@ TEST(Climber, TurnsRoundAtDeadEnds) {
 
 TEST(Climber, ComesBackFromFarOutside) {
     Scene scene = make_tunnel(3.0);
-    scene.tuning.locomotion.thruster_mps2 = 0.5;
+    scene.tuning().locomotion.thruster_mps2 = 0.5;
     Solo solo(scene, Vec3(15.0, 0.0, 0.0), 1);
-    scene.world.player_velocity.at(solo.task.player.player).linear_mps = Vec3(1.0, 0.3, 0.0);
+    scene.world().player_velocity.at(entity_of(solo.task.player)).linear_mps = Vec3(1.0, 0.3, 0.0);
     while (solo.now_s() < 60.0 && !solo.grips(0) && !solo.grips(1)) {
         solo.step();
     }
@@ -145,14 +143,15 @@ TEST(Climber, ClimbsWhatMovesAndTurns) {
     const Entity block = add_block(scene, "block", Vec3(0.5, 0.5, 3.0), Vec3(-1.0, 1.6, 0.0));
     const Vec3 velocity(0.0, 0.0, -20.0);
     const Vec3 spin(0.0, 0.0, 0.05);
-    scene.world.body.at(block).kind = BodyKind::kinematic;
-    scene.world.body_velocity.at(block) = {velocity, spin};
-    scene.world.mover.add(block, {scene.world.body_pose.at(block).pose_ws, velocity, spin, false});
-    scene.world.reference_velocity_mps = velocity;
-    scene.tuning.locomotion.thruster_mps2 = 0.5;
+    scene.world().body.at(block).kind = BodyKind::kinematic;
+    scene.world().body_velocity.at(block) = {velocity, spin};
+    scene.world().mover.add(block,
+                            {scene.world().body_pose.at(block).pose_ws, velocity, spin, false});
+    scene.world().reference_velocity_mps = velocity;
+    scene.tuning().locomotion.thruster_mps2 = 0.5;
     Solo solo(scene, Vec3(0.0, 1.6, 1.0), 2);
     const auto on_block = [&] {
-        return inverse_transform_point(scene.world.body_pose.at(block).pose_ws, solo.head_ws());
+        return inverse_transform_point(scene.world().body_pose.at(block).pose_ws, solo.head_ws());
     };
     solo.step();
     Vec3 before = on_block();
@@ -193,25 +192,24 @@ TEST(RecordedClimb, PlaysAgainBitForBit) {
     plan.seconds = 12.0;
     const Recording recording = record_climb(scene, plan);
     Scene again = *make_built_in_scene("station");
-    FrameCaches caches(*again.shapes, again.grip_meshes.get());
-    const PlayerEntities player = add_scene_player(again, {"player0", plan.origin_ws, 80.0});
-    const double seconds = static_cast<double>(scene.world.clock.frame) / 90.0;
-    const RunLog log = run_session(again, caches, {player}, &recording, {90.0, seconds, 1});
-    EXPECT_EQ(log.state_hash, hash_state(scene.world));
-    EXPECT_EQ(again.world.clock.frame, scene.world.clock.frame);
+    const hh::Player player = add_scene_player(again, "player0", plan.origin_ws);
+    const double seconds = static_cast<double>(scene.world().clock.frame) / 90.0;
+    const RunLog log = run_session(again, {&player, 1}, &recording, {90.0, seconds, 1});
+    EXPECT_EQ(log.state_hash, hash_state(scene.world()));
+    EXPECT_EQ(again.host.frame(), scene.host.frame());
 }
 
 TEST(RecordedClimb, EndsALittleAfterTheLastWaypoint) {
     Scene scene = make_tunnel(6.0);
     ClimbPlan plan;
-    plan.origin_ws.position = Vec3(-0.35, -1.4, 4.0);
-    plan.waypoints = {{k_no_entity, Vec3(-0.35, 0.2, 2.5)}};
+    plan.origin_ws.position = {-0.35, -1.4, 4.0};
+    plan.waypoints = {{{}, {-0.35, 0.2, 2.5}}};
     plan.seconds = 60.0;
     plan.linger_s = 1.0;
     const Recording recording = record_climb(scene, plan);
     EXPECT_LE(recording.samples.back().t_s, 20.0);
-    const Vec3 head_ws = scene.world.render_pose.rows()[0].head_center_ws;
-    EXPECT_LE((head_ws - plan.waypoints[0].point_bs).norm(), 0.6);
+    const Vec3 head_ws = scene.world().render_pose.rows()[0].head_center_ws;
+    EXPECT_LE((head_ws - from_host(plan.waypoints[0].point_bs)).norm(), 0.6);
 }
 
 }  // namespace

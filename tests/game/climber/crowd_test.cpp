@@ -13,8 +13,8 @@
 #include "engine/core/parallel.hpp"
 #include "game/levels/built_in_scenes.hpp"
 #include "game/report/run_summary.hpp"
+#include "game/report/state_size.hpp"
 #include "game/run/session_run.hpp"
-#include "game/scene/place_scene.hpp"
 #include "tests/game/scene/finite_world.hpp"
 
 namespace handhold::crowd_test {
@@ -25,36 +25,34 @@ double number_from_environment(const char* name, double otherwise) {
     return text != nullptr ? std::atof(text) : otherwise;
 }
 
-std::vector<PlayerEntities> add_climbers(Scene& scene, FrameCaches& caches, std::size_t count,
-                                         std::uint64_t seed) {
+std::vector<hh::Player> add_climbers(Scene& scene, std::size_t count, std::uint64_t seed) {
     constexpr double k_jets_mps2 = 0.5;
-    scene.tuning.locomotion.thruster_mps2 = k_jets_mps2;
-    std::vector<PlayerEntities> players;
-    for (const Pose& origin_ws :
-         spread_players(scene, caches, scene.spawns.front().pose_ws, count, seed)) {
+    scene.tuning().locomotion.thruster_mps2 = k_jets_mps2;
+    std::vector<hh::Player> players;
+    for (const hh::Pose& origin_ws :
+         spread_players(scene, scene.spawns.front().pose_ws, count, seed)) {
         const std::string name = "player" + std::to_string(players.size());
-        players.push_back(add_scene_player(scene, {name, origin_ws, 80.0}));
+        players.push_back(add_scene_player(scene, name, origin_ws));
     }
     return players;
 }
 
 TEST(SpreadPlayers, LeavesEveryHeadClearOfSurfacesAndOfEachOther) {
     for (const char* const name : {"station", "ship"}) {
-        const Scene scene = *make_built_in_scene(name);
-        FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
-        const std::vector<Pose> places =
-            spread_players(scene, caches, scene.spawns.front().pose_ws, 60, 3);
+        Scene scene = *make_built_in_scene(name);
+        const std::vector<hh::Pose> places =
+            spread_players(scene, scene.spawns.front().pose_ws, 60, 3);
         ASSERT_EQ(places.size(), 60U) << name;
         for (std::size_t i = 1; i < places.size(); ++i) {
-            EXPECT_FALSE(caches.collision.closest_point(head_over(places[i]), 0.299)) << name << i;
+            EXPECT_FALSE(scene.host.closest_point(head_over(places[i]), 0.299)) << name << i;
             for (std::size_t j = 0; j < i; ++j) {
-                EXPECT_GE((head_over(places[i]) - head_over(places[j])).norm(), 0.299);
+                EXPECT_GE(hh::length(head_over(places[i]) - head_over(places[j])), 0.299);
             }
         }
-        const std::vector<Pose> again =
-            spread_players(scene, caches, scene.spawns.front().pose_ws, 60, 3);
+        const std::vector<hh::Pose> again =
+            spread_players(scene, scene.spawns.front().pose_ws, 60, 3);
         for (std::size_t i = 0; i < places.size(); ++i) {
-            EXPECT_EQ(places[i].position, again[i].position);
+            EXPECT_TRUE(places[i].position == again[i].position);
         }
     }
 }
@@ -62,25 +60,22 @@ TEST(SpreadPlayers, LeavesEveryHeadClearOfSurfacesAndOfEachOther) {
 TEST(SpreadPlayers, GivesFewerIfThereIsNoSpace) {
     Scene scene;
     scene.name = "cell";
-    scene.head_shape = scene.shapes->add_sphere(scene.tuning.head.radius_m);
     BodyDescription wall;
     wall.name = "inside";
-    wall.shape = scene.shapes->add_box(Vec3(0.45, 0.45, 0.45));
+    wall.shape = scene.shapes().add_box(Vec3(0.45, 0.45, 0.45));
     wall.pose_ws.position = Vec3(0.0, 1.6, 0.0);
-    add_body(scene.world, wall);
-    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
-    EXPECT_EQ(spread_players(scene, caches, {}, 10, 1).size(), 1U);
+    add_body(scene.world(), wall);
+    EXPECT_EQ(spread_players(scene, hh::k_origin, 10, 1).size(), 1U);
 }
 
 TEST(CrowdThreaded, HashIsEqualForOneAndTwoThreadsAndTwiceInARow) {
     const auto hash_with = [](int threads) {
         Scene scene = *make_built_in_scene("crowd");
         const Recording recording = *make_built_in_session("crowd");
-        FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
-        const std::vector<PlayerEntities> players = add_climbers(scene, caches, 13, 5);
+        const std::vector<hh::Player> players = add_climbers(scene, 13, 5);
         RunSettings settings{90.0, 4.0, threads};
         settings.climbers_from = 1;
-        return run_session(scene, caches, players, &recording, settings).state_hash;
+        return run_session(scene, players, &recording, settings).state_hash;
     };
     const std::uint64_t once = hash_with(1);
     EXPECT_EQ(hash_with(1), once);
@@ -88,30 +83,28 @@ TEST(CrowdThreaded, HashIsEqualForOneAndTwoThreadsAndTwiceInARow) {
     set_thread_count(1);
 }
 
-// The collision world is a cache: climbers act the same with a new one.
+// A scene is restored to a copy of its world: climbers act the same.
 TEST(Crowd, ContinuesEquallyFromACopyOfWorldAndStates) {
     Scene scene = *make_built_in_scene("crowd");
-    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
-    const std::vector<PlayerEntities> players = add_climbers(scene, caches, 8, 2);
-    Crowd crowd(scene, players, 2);
-    std::vector<PlayerInput> inputs(players.size());
-    const auto run = [&](FrameCaches& with, int frames) {
-        StageStats stats;
+    const std::vector<hh::Player> players = add_climbers(scene, 8, 2);
+    Crowd crowd(scene.host, players, 2);
+    std::vector<hh_player_input> inputs(players.size());
+    const auto run = [&](int frames) {
         for (int i = 0; i < frames; ++i) {
             const double dt_s = 1.0 / 90.0;
-            crowd.drive(scene, with, scene.world.clock.t_s + dt_s, inputs);
-            step_frame(scene.world, with, scene.tuning, {dt_s, inputs}, stats);
+            crowd.drive(sight_of(scene), scene.host.time_s() + dt_s, inputs);
+            EXPECT_TRUE(scene.host.step(dt_s, inputs));
         }
-        return hash_state(scene.world);
+        return scene.host.hash();
     };
-    run(caches, 300);
-    const World world = scene.world;
+    run(300);
+    std::vector<std::byte> world;
+    ASSERT_TRUE(scene.host.save(world));
     const std::vector<ClimberState> minds = crowd.states();
-    const std::uint64_t once = run(caches, 200);
-    scene.world = world;
+    const std::uint64_t once = run(200);
+    ASSERT_TRUE(scene.host.restore(world));
     crowd.states() = minds;
-    FrameCaches fresh(*scene.shapes, scene.grip_meshes.get());
-    EXPECT_EQ(run(fresh, 200), once);
+    EXPECT_EQ(run(200), once);
 }
 
 double resident_mb() {
@@ -128,8 +121,7 @@ TEST(Crowd, StaysFiniteAndNearTheStation) {
     const auto seed =
         static_cast<std::uint64_t>(number_from_environment("HANDHOLD_CROWD_SEED", 1.0));
     Scene scene = *make_built_in_scene("station");
-    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
-    const std::vector<PlayerEntities> players = add_climbers(scene, caches, count, seed);
+    const std::vector<hh::Player> players = add_climbers(scene, count, seed);
     ASSERT_EQ(players.size(), count);
     RunSettings settings{90.0, seconds, 1};
     settings.seed = seed;
@@ -137,12 +129,11 @@ TEST(Crowd, StaysFiniteAndNearTheStation) {
     settings.keep_frames = false;
     RunTally tally;
     std::uint64_t jams = 0;  // frames with a contact deeper than a millimetre
-    FrameCaches eyes(*scene.shapes, scene.grip_meshes.get());
     const RunLog log = run_session(
-        scene, caches, players, nullptr, settings, [&](const Scene& now, const FrameLog& frame) {
+        scene, players, nullptr, settings, [&](const Scene& now, const FrameLog& frame) {
             tally.add(frame);
             jams += frame.stats.residual_m > 1e-3 ? 1U : 0U;
-            ASSERT_TRUE(is_finite_world(now.world)) << frame.frame;
+            ASSERT_TRUE(is_finite_world(now.world())) << frame.frame;
             if (frame.frame % 5400 == 0) {
                 std::printf("%5.0f s: %.1f MB resident\n", frame.t_s, resident_mb());
                 std::fflush(stdout);
@@ -150,13 +141,10 @@ TEST(Crowd, StaysFiniteAndNearTheStation) {
             if (frame.frame % 450 != 0) {
                 return;
             }
-            place_scene(now, eyes);
             for (std::size_t i = 0; i < players.size(); ++i) {
-                const std::uint64_t himself = now.world.persistent_id.at(players[i].player).value;
-                EXPECT_TRUE(eyes.collision.closest_point(
-                    now.world.render_pose.at(players[i].player).head_center_ws, 30.0,
-                    {&himself, 1}))
-                    << "lost: " << i;
+                hh::Vec3 head{};
+                hh_player_head(now.host.get(), players[i], &head, nullptr, nullptr);
+                EXPECT_TRUE(scene.host.closest_point(head, 30.0, players[i])) << "lost: " << i;
             }
         });
     const RunSummary summary = tally.finish(log);
@@ -171,7 +159,8 @@ TEST(Crowd, StaysFiniteAndNearTheStation) {
         "%zu climbers, %.0f s: frame median %.0f us, p99 %.0f us, max %.0f us; %zu bytes "
         "of state each; %llu of %llu grabs; overlap %.2f mm, %llu frames above 1 mm\n",
         count, seconds, summary.frame.median_us, summary.frame.p99_us, summary.frame.max_us,
-        log.bytes_per_player, static_cast<unsigned long long>(summary.totals.grabs_gripped),
+        state_bytes(scene.host, players.front()),
+        static_cast<unsigned long long>(summary.totals.grabs_gripped),
         static_cast<unsigned long long>(summary.totals.grab_onsets), 1e3 * summary.residual_m,
         static_cast<unsigned long long>(jams));
 }

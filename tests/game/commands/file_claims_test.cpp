@@ -74,9 +74,8 @@ TEST_F(FileClaims, RecordingsOfManyYearsTakeMemoryAsTheyArePlayed) {
               }),
               k_megabyte);
     Scene scene;
-    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
     const std::size_t taken = bytes_taken([&] {
-        EXPECT_THROW(run_session(scene, caches, {}, &recording, {},
+        EXPECT_THROW(run_session(scene, {}, &recording, {},
                                  [](const Scene&, const FrameLog& frame) {
                                      if (frame.frame > 3) {
                                          throw std::runtime_error("seen enough");

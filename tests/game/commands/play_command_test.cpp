@@ -56,16 +56,16 @@ Scene make_desk_scene() {
     Scene scene = make_tunnel(6.0);
     BodyDescription box;
     box.name = "box";
-    box.shape = scene.shapes->add_box(Vec3::Constant(0.05));
+    box.shape = scene.shapes().add_box(Vec3::Constant(0.05));
     box.body = {BodyKind::free, 2.0, Vec3::Constant(0.01), 0.0};
     box.pose_ws.position = Vec3(-0.45, 0.35, 1.4);
     scene.body_names.emplace_back("box");
-    add_body(scene.world, box);
+    add_body(scene.world(), box);
     return scene;
 }
 
 TEST(DesktopSession, RecordingReplaysToTheSameHash) {
-    const Pose origin_ws{Vec3(-0.45, 0.35 - 1.6, 2.0), Quat::Identity()};
+    constexpr hh::Pose origin_ws = hh::pose_at({-0.45, 0.35 - 1.6, 2.0});
     DesktopSession session(make_desk_scene(), origin_ws);
     session.record();
     DesktopInput input;
@@ -81,7 +81,10 @@ TEST(DesktopSession, RecordingReplaysToTheSameHash) {
         }
     };
     const auto grip = [&](std::size_t side) {
-        return session.scene().world.grab.at(session.player().hands[side]).kind;
+        return session.scene()
+            .world()
+            .grab.at(player_entities(session.scene().world(), session.player()).hands[side])
+            .kind;
     };
     look(0.9, -0.2);
     input.grip[0] = true;
@@ -92,20 +95,19 @@ TEST(DesktopSession, RecordingReplaysToTheSameHash) {
     play(0.7, 0.0);
     EXPECT_EQ(grip(1), GripKind::held);  // the box
     play(0.5, -0.7);
-    input.move = Vec3(0.5, 0.2, -0.5);
+    input.move = {0.5, 0.2, -0.5};
     play(0.5, 0.4);
     input.grip = {};
     play(0.4, 0.3);
     ASSERT_FALSE(session.used_sticks());
 
     Scene again = make_desk_scene();
-    FrameCaches caches(*again.shapes, again.grip_meshes.get());
-    caches.body_clips = game_body_clips();
-    const PlayerEntities player = add_scene_player(again, {"player0", origin_ws, 80.0});
+    load_game_body_clips(again.host);
+    const hh::Player player = add_scene_player(again, "player0", origin_ws);
     RunSettings settings;
     settings.hz = 90.0;
-    const RunLog log = run_session(again, caches, {player}, &session.recording(), settings);
-    EXPECT_EQ(log.state_hash, hash_state(session.scene().world));
+    const RunLog log = run_session(again, {&player, 1}, &session.recording(), settings);
+    EXPECT_EQ(log.state_hash, session.world().hash());
 }
 
 TEST(PlayCommand, PlaysRecordsAndTakesAPicture) {

@@ -20,7 +20,7 @@ TEST(Gamepad, SticksAtRestGiveNoInput) {
     state.left_stick = {0.12, -0.12};  // offset of worn sticks at rest
     state.right_stick = {-0.1, 0.14};
     const DesktopInput input = read(state);
-    EXPECT_EQ(input.move, Vec3(Vec3::Zero()));
+    EXPECT_TRUE(input.move == hh::Vec3{});
     EXPECT_EQ(input.turn_left_rad, 0.0);
     EXPECT_EQ(input.look_up_rad, 0.0);
 }
@@ -28,15 +28,15 @@ TEST(Gamepad, SticksAtRestGiveNoInput) {
 TEST(Gamepad, LeftStickPullsInItsDirectionUpToKeySpeed) {
     GamepadState state;
     state.left_stick = {0.0, -1.0};
-    EXPECT_NEAR(read(state).move.z(), -1.0, 1e-12);  // forward, like W
+    EXPECT_NEAR(read(state).move.z, -1.0, 1e-12);  // forward, like W
     for (int i = 0; i < 24; ++i) {
         const double angle = i * 3.14159265358979323846 / 12.0;
         for (const double length : {0.3, 0.7, 1.0}) {
             state.left_stick = {length * std::cos(angle), length * std::sin(angle)};
-            const Vec3 move = read(state).move;
+            const hh::Vec3 move = read(state).move;
             // Closed form: from 0 at 0.18 to 1 at 1, along the stick.
-            EXPECT_NEAR(move.norm(), (length - 0.18) / 0.82, 1e-12);
-            EXPECT_NEAR(move.x() * std::sin(angle) - move.z() * std::cos(angle), 0.0, 1e-12);
+            EXPECT_NEAR(hh::length(move), (length - 0.18) / 0.82, 1e-12);
+            EXPECT_NEAR(move.x * std::sin(angle) - move.z * std::cos(angle), 0.0, 1e-12);
         }
     }
 }
@@ -90,14 +90,14 @@ TEST(Gamepad, HeldPadTurnsOneStepOrContinuously) {
 TEST(Gamepad, CombinesWithKeysByHoldingEither) {
     DesktopInput keys;
     keys.grip[0] = true;
-    keys.move = Vec3(0.0, 0.0, -1.0);
+    keys.move = {0.0, 0.0, -1.0};
     keys.turn_left_rad = 0.1;
     GamepadState state;
     state.triggers[1] = 1.0;
     state.left_stick = {0.0, -1.0};
     const DesktopInput both = combine(keys, read(state));
     EXPECT_TRUE(both.grip[0] && both.grip[1]);
-    EXPECT_EQ(both.move, Vec3(0.0, 0.0, -1.0));
+    EXPECT_TRUE(both.move == -hh::k_z);
     EXPECT_EQ(both.turn_left_rad, 0.1);
 }
 

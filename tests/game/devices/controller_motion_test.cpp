@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "game/view/controller_figures.hpp"
+#include "systems/host/host_columns.hpp"
 #include "tests/places.hpp"
 
 namespace handhold::controller_motion_test {
@@ -37,17 +38,21 @@ class NestedStick : public testing::Test {
     Pose mesh_at(double x, double y) const {
         return root_ * interpolate(left_, right_, x) * interpolate(ahead_, back_, y) * mesh_;
     }
-    std::vector<GltfNode> nodes() const {
+    std::vector<ModelNode> nodes() const {
         const Pose x = root_ * interpolate(left_, right_, 0.5);
         const Pose y = x * interpolate(ahead_, back_, 0.5);
-        return {{"root", root_, {}, "/nodes/0", {}},
-                {"x_value", x, {}, "/nodes/1", 0},
-                {"x_min", root_ * left_, {}, "/nodes/2", 0},
-                {"x_max", root_ * right_, {}, "/nodes/3", 0},
-                {"y_value", y, {}, "/nodes/4", 1},
-                {"y_min", x * ahead_, {}, "/nodes/5", 1},
-                {"y_max", x * back_, {}, "/nodes/6", 1},
-                {"stick", y * mesh_, {}, "/nodes/7", 4}};
+        const auto node = [](const char* name, const Pose& at, const char* pointer,
+                             std::optional<std::size_t> parent) {
+            return ModelNode{name, pointer, parent, to_host(at)};
+        };
+        return {node("root", root_, "/nodes/0", {}),
+                node("x_value", x, "/nodes/1", 0),
+                node("x_min", root_ * left_, "/nodes/2", 0),
+                node("x_max", root_ * right_, "/nodes/3", 0),
+                node("y_value", y, "/nodes/4", 1),
+                node("y_min", x * ahead_, "/nodes/5", 1),
+                node("y_max", x * back_, "/nodes/6", 1),
+                node("stick", y * mesh_, "/nodes/7", 4)};
     }
     const std::vector<ControlledNode> controls_ = {{Control::stick_y, "y_value", "y_min", "y_max"},
                                                    {Control::stick_x, "x_value", "x_min", "x_max"}};
@@ -66,16 +71,16 @@ TEST_F(NestedStick, StandsWhereTheNodesPutItsMesh) {
         for (const double y : {0.0, 0.3, 1.0}) {
             ControlValues values = with(Control::stick_x, x);
             values[static_cast<std::size_t>(Control::stick_y)] = y;
-            expect_same(moved_by(moves, values) * mesh_at(0.5, 0.5), mesh_at(x, y));
+            expect_same(from_host(moved_by(moves, values)) * mesh_at(0.5, 0.5), mesh_at(x, y));
         }
     }
 }
 
 TEST_F(NestedStick, OthersControlsAndThoseBeyondTheirEndsMoveNothingMore) {
     const std::vector<ControlMove> moves = moves_of("/nodes/7", nodes(), controls_);
-    expect_same(moved_by(moves, with(Control::trigger, 1.0)), {});
-    expect_same(moved_by(moves, with(Control::stick_x, 7.0)),
-                moved_by(moves, with(Control::stick_x, 1.0)));
+    expect_same(from_host(moved_by(moves, with(Control::trigger, 1.0))), {});
+    expect_same(from_host(moved_by(moves, with(Control::stick_x, 7.0))),
+                from_host(moved_by(moves, with(Control::stick_x, 1.0))));
     EXPECT_TRUE(moves_of("/nodes/2", nodes(), controls_).empty());
 }
 
@@ -85,10 +90,10 @@ TEST_F(NestedStick, WhatTheModelDoesNotHaveMovesNothing) {
     std::vector<ControlledNode> misnamed = controls_;
     misnamed[1].to = "nowhere";
     EXPECT_EQ(moves_of("/nodes/7", nodes(), misnamed).size(), 1U);
-    std::vector<GltfNode> elsewhere = nodes();
+    std::vector<ModelNode> elsewhere = nodes();
     elsewhere[3].parent = 1;  // an end that does not lie beside
     EXPECT_EQ(moves_of("/nodes/7", elsewhere, controls_).size(), 1U);
-    std::vector<GltfNode> squashed = nodes();
+    std::vector<ModelNode> squashed = nodes();
     squashed[4].pose_ms.reset();
     EXPECT_EQ(moves_of("/nodes/7", squashed, controls_).size(), 1U);
 }
@@ -112,7 +117,7 @@ TEST(ControlValues, AreWebXrs) {
 
 // How far a mesh's vertices go from where they are at rest.
 double farthest_m(const ControllerModel& model, std::size_t mesh, const ControlValues& values) {
-    const Pose moved = moved_by(model.moves[mesh], values);
+    const Pose moved = from_host(moved_by(model.moves[mesh], values));
     double most_m = 0.0;
     for (const Vec3& point : model.meshes[mesh].mesh.positions) {
         most_m = std::max(most_m, (transform_point(moved, point) - point).norm());
@@ -128,7 +133,7 @@ double farthest_m(const ControllerModel& model, Control control, double value) {
 }
 
 TEST(Wand, TriggerSqueezeAndPadMoveAndItsBodyDoesNot) {
-    for (const ControllerModel& model : builtin_controllers(HandTuning{}).sides) {
+    for (const ControllerModel& model : builtin_controllers(hand_shape(hh::World())).sides) {
         ASSERT_EQ(model.moves.size(), model.meshes.size());
         for (const Control control :
              {Control::trigger, Control::squeeze, Control::stick_x, Control::stick_y}) {
@@ -188,7 +193,8 @@ TEST(RealControllers, TouchTriggerTurnsAsItsFileSays) {
     for (const auto& moves : left.moves) {
         most_rad = std::max(
             most_rad,
-            rotation_to_vector(moved_by(moves, with(Control::trigger, 1.0)).rotation).norm());
+            rotation_to_vector(from_host(moved_by(moves, with(Control::trigger, 1.0))).rotation)
+                .norm());
     }
     EXPECT_NEAR(most_rad, expected_rad, 0.002);
 }

@@ -55,12 +55,13 @@ TEST(ControllerProfile, ReadsModelsAndPoses) {
     EXPECT_EQ(profile.sides[0].model, std::filesystem::path("folder/l.glb"));
     EXPECT_EQ(profile.sides[1].model, std::filesystem::path("folder/sub/r.glb"));
     const ControllerFit& right = profile.sides[1].fit;
-    EXPECT_EQ(right.grip_ms.position, Vec3(0, 0.02, 0.01));
-    EXPECT_EQ(right.aim_ms.position, Vec3(0, 0, -0.05));
-    EXPECT_EQ(right.hand_in_grip.position, Vec3(0, 0, 0.09));
+    EXPECT_EQ(from_host(right.grip_ms.position), Vec3(0, 0.02, 0.01));
+    EXPECT_EQ(from_host(right.aim_ms.position), Vec3(0, 0, -0.05));
+    EXPECT_EQ(from_host(right.hand_in_grip.position), Vec3(0, 0, 0.09));
     const ControllerFit& left = profile.sides[0].fit;
-    EXPECT_EQ(left.grip_ms.position, Vec3::Zero());
-    const Pose held = left.hand_in_grip * handle_in_hand(HandSide::left, {}, {});
+    EXPECT_EQ(from_host(left.grip_ms.position), Vec3(Vec3::Zero()));
+    const Pose held = from_host(left.hand_in_grip *
+                                handle_in_hand(HH_LEFT, {}, to_host(HandTuning{}.palm_center_m)));
     expect_near(held.position, Vec3::Zero());
     EXPECT_LT(rotation_to_vector(held.rotation).norm(), 1e-12);
 }
@@ -68,7 +69,7 @@ TEST(ControllerProfile, ReadsModelsAndPoses) {
 // The grip pose stands a quarter turn about x in the model, the wrist 9 cm behind it: in the
 // model's frame the wrist is at (0, 0.02, 0.01) + 0.09 (0, -1, 0).
 TEST(ControllerProfile, ModelStandsInTheHandAsGripAndJointSay) {
-    const Pose in_hand = controller_in_hand(parse(k_own).sides[1].fit);
+    const Pose in_hand = from_host(controller_in_hand(parse(k_own).sides[1].fit));
     expect_near(transform_point(in_hand, Vec3(0.0, -0.07, 0.01)), Vec3::Zero());
     // The model's -y is the wrist's z, its z the wrist's y.
     expect_near(in_hand.rotation * -Vec3::UnitY(), Vec3::UnitZ());
@@ -78,13 +79,13 @@ TEST(ControllerProfile, ModelStandsInTheHandAsGripAndJointSay) {
 TEST(ControllerProfile, HandleLiesOnThePalmWithOpenXrsAxes) {
     const HandTuning tuning;
     const HandleGrip handle = {0.02, 0.3, 0.01};
-    const Pose right = handle_in_hand(HandSide::right, handle, tuning);
+    const Pose right = from_host(handle_in_hand(HH_RIGHT, handle, to_host(tuning.palm_center_m)));
     const Vec3 to_thumb(-std::cos(0.3), 0.0, -std::sin(0.3));
     expect_near(right.position, tuning.palm_center_m - Vec3(0.0, 0.02, 0.0) + 0.01 * to_thumb,
                 1e-12);
     expect_near(right.rotation * -Vec3::UnitZ(), to_thumb, 1e-12);
     expect_near(right.rotation * Vec3::UnitX(), Vec3::UnitY(), 1e-12);  // into the palm
-    const Pose left = handle_in_hand(HandSide::left, handle, tuning);
+    const Pose left = from_host(handle_in_hand(HH_LEFT, handle, to_host(tuning.palm_center_m)));
     const Vec3 mirror(-1.0, 1.0, 1.0);
     expect_near(left.position, mirror.cwiseProduct(right.position), 1e-12);
     expect_near(left.rotation * -Vec3::UnitZ(), mirror.cwiseProduct(to_thumb), 1e-12);
@@ -96,7 +97,7 @@ TEST(ControllerProfile, WebXrLayoutMayServeBothHands) {
     EXPECT_EQ(profile.name, "some-pair");
     for (const ControllerSide& side : profile.sides) {
         EXPECT_EQ(side.model, std::filesystem::path("folder/both.glb"));
-        EXPECT_EQ(side.fit.grip_ms.position, Vec3::Zero());
+        EXPECT_TRUE(side.fit.grip_ms.position == hh::Vec3{});
     }
 }
 
@@ -175,12 +176,11 @@ TEST(ControllerProfile, MissingFilesAreNamed) {
 }
 
 TEST(ControllerJoints, MoveTheControllerNotTheHandOfWhoPlaysAtADesk) {
-    const Pose origin;
-    DesktopSession plain(make_void(), origin);
-    DesktopSession own(make_void(), origin);
+    DesktopSession plain(make_void(), hh::k_origin);
+    DesktopSession own(make_void(), hh::k_origin);
     const ControllerProfile profile = parse(k_own);
-    std::array<Pose, k_hand_count> joints;
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
+    std::array<hh::Pose, 2> joints{};
+    for (std::size_t side = 0; side < 2; ++side) {
         joints[side] = profile.sides[side].fit.hand_in_grip;
     }
     own.set_controller_joints(joints);
@@ -188,15 +188,15 @@ TEST(ControllerJoints, MoveTheControllerNotTheHandOfWhoPlaysAtADesk) {
         plain.step({});
         own.step({});
     }
-    for (const HandSide side : {HandSide::left, HandSide::right}) {
-        const Entity hand = own.player().hands[index_of(side)];
-        const Pose joint = controller_joint(own.scene().world, hand, side, own.scene().tuning.hand);
-        EXPECT_EQ(joint.position, joints[index_of(side)].position);
-        expect_near(own.scene().world.hand_tracking.at(hand).pose_ps.position,
-                    plain.scene()
-                        .world.hand_tracking.at(plain.player().hands[index_of(side)])
-                        .pose_ps.position,
-                    1e-9);
+    for (const hh::Side side : {HH_LEFT, HH_RIGHT}) {
+        EXPECT_TRUE(own.world().hand_in_controller(own.player(), side)->position ==
+                    joints[side].position);
+        const auto hand_ps = [&](const DesktopSession& session) {
+            const World& world = session.scene().world();
+            return world.hand_tracking.at(player_entities(world, session.player()).hands[side])
+                .pose_ps.position;
+        };
+        expect_near(hand_ps(own), hand_ps(plain), 1e-9);
     }
 }
 
@@ -207,7 +207,7 @@ struct FingerGap {
 };
 std::vector<FingerGap> finger_gaps(const ControllerModel& model, const HandRig& rig) {
     const auto fingers = fingers_around(model, rig);
-    const Pose wrist = inverse(controller_in_hand(model.fit));
+    const Pose wrist = from_host(hh::inverse(controller_in_hand(model.fit)));
     std::vector<FingerGap> gaps;
     for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
         const auto points = finger_points(rig.fingers[f], fingers[f]);
@@ -247,12 +247,14 @@ void expect_held(const ControllerModels& models) {
 
 TEST(Controllers, BuiltinIsHeldInTheFistByTheTuningsJoint) {
     const HandTuning tuning;
-    const ControllerModels models = builtin_controllers(tuning);
+    const ControllerModels models = builtin_controllers(hand_shape(hh::World()));
     EXPECT_FALSE(models.has_own_joint);
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const ControllerFit& fit = models.sides[index_of(side)].fit;
-        expect_near(fit.hand_in_grip.position, default_controller_to_hand(side, tuning).position);
-        EXPECT_LT((controller_in_hand(fit).position - tuning.palm_center_m).norm(), 0.025);
+        expect_near(from_host(fit.hand_in_grip.position),
+                    default_controller_to_hand(side, tuning).position);
+        EXPECT_LT((from_host(controller_in_hand(fit)).position - tuning.palm_center_m).norm(),
+                  0.025);
     }
     expect_held(models);
 }

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "systems/frame/frame.hpp"
 #include "tests/game/climber/climber_scene.hpp"
 
 namespace handhold::desktop_body_test {
@@ -13,26 +12,20 @@ constexpr double k_dt_s = 1.0 / 90.0;
 
 struct Desk {
     Scene scene;
-    FrameCaches caches;
-    PlayerEntities player;
+    hh::Player player;
     DesktopBody body;
     DesktopInput input;
-    StageStats stats;
 
     Desk(Scene in, const Vec3& head_ws)
         : scene(std::move(in)),
-          caches(*scene.shapes, scene.grip_meshes.get()),
-          player(add_scene_player(
-              scene, {"player0", {head_ws - Vec3(0.0, 1.6, 0.0), Quat::Identity()}, 80.0})) {}
+          player(add_scene_player(scene, "player0",
+                                  hh::pose_at(to_host(Vec3(head_ws - Vec3(0.0, 1.6, 0.0)))))) {}
 
     void step() {
-        place_scene(scene, caches);
-        const double end_s = scene.world.clock.t_s + k_dt_s;
-        const TrackingSample sample =
-            body.advance(scene, caches.collision, player, input, end_s, k_dt_s);
+        const double end_s = scene.host.time_s() + k_dt_s;
+        const hh::Sample sample = body.advance(scene.host, player, input, end_s, k_dt_s);
         input.turn_left_rad = input.look_up_rad = input.farther_m = 0.0;
-        const PlayerInput from{player.player, {&sample, 1}, body.commands(input)};
-        step_frame(scene.world, caches, scene.tuning, {k_dt_s, {&from, 1}}, stats);
+        EXPECT_TRUE(scene.host.step(k_dt_s, hh::input(player, {&sample, 1}, body.commands(input))));
     }
     void run(double seconds) {
         for (double t_s = 0.0; t_s < seconds; t_s += k_dt_s) {
@@ -40,10 +33,12 @@ struct Desk {
         }
     }
     GripKind grip(HandSide side) const {
-        return scene.world.grab.at(player.hands[index_of(side)]).kind;
+        return scene.world()
+            .grab.at(player_entities(scene.world(), player).hands[index_of(side)])
+            .kind;
     }
     const Vec3& head_ws() const {
-        return scene.world.render_pose.at(player.player).head_ws.position;
+        return scene.world().render_pose.at(entity_of(player)).head_ws.position;
     }
 };
 
@@ -78,11 +73,11 @@ TEST(DesktopBody, PullsHandOverHandAlongARail) {
     for (int stroke = 0; stroke < 16; ++stroke) {
         const auto side = static_cast<std::size_t>(stroke % 2);
         desk.input.grip[side] = true;
-        desk.input.move.setZero();
+        desk.input.move = {};
         desk.run(0.7);
         desk.input.grip[1 - side] = false;
         // Along the tunnel: ahead and to the right of the view.
-        desk.input.move = Vec3(0.78, 0.0, -0.62);
+        desk.input.move = {0.78, 0.0, -0.62};
         desk.run(0.6);
     }
     EXPECT_GT(from_m - desk.head_ws().z(), 3.0);
@@ -93,11 +88,11 @@ TEST(DesktopBody, LettingGoWhilePullingDrifts) {
     DeskAtRail desk;
     desk.input.grip[0] = true;
     desk.run(0.7);
-    desk.input.move = Vec3(0.78, 0.0, -0.62);
+    desk.input.move = {0.78, 0.0, -0.62};
     desk.run(0.3);
     desk.input.grip[0] = false;
     desk.run(0.2);
-    const Vec3 velocity = desk.scene.world.player_velocity.at(desk.player.player).linear_mps;
+    const Vec3 velocity = desk.scene.world().player_velocity.at(entity_of(desk.player)).linear_mps;
     EXPECT_NEAR(velocity.norm(), 0.9, 0.15);
     EXPECT_LT(velocity.z(), -0.7);
 }
@@ -113,19 +108,19 @@ TEST(DesktopBody, EmptyFistDoesNotStopTheOtherHand) {
     desk.run(0.8);
     ASSERT_EQ(desk.grip(HandSide::right), GripKind::none);
     const Vec3 before = desk.head_ws();
-    desk.input.move = Vec3(0.0, 0.0, -1.0);
+    desk.input.move = {0.0, 0.0, -1.0};
     desk.run(0.4);
     EXPECT_GT((desk.head_ws() - before).norm(), 0.25);
 }
 
 TEST(DesktopBody, JetsThrustInTheViewDirection) {
     Desk desk(make_void(), Vec3::Zero());
-    desk.scene.tuning.locomotion.thruster_mps2 = 1.0;
+    desk.scene.tuning().locomotion.thruster_mps2 = 1.0;
     desk.input.turn_left_rad = 1.5707963267948966;  // along -x
     desk.step();
-    desk.input.move = -Vec3::UnitZ();
+    desk.input.move = -hh::k_z;
     desk.run(0.5);
-    const Vec3 velocity = desk.scene.world.player_velocity.at(desk.player.player).linear_mps;
+    const Vec3 velocity = desk.scene.world().player_velocity.at(entity_of(desk.player)).linear_mps;
     EXPECT_NEAR(velocity.x(), -0.5, 0.05);
     EXPECT_NEAR(velocity.z(), 0.0, 1e-9);
 }
@@ -134,11 +129,11 @@ TEST(DesktopBody, CarriesALooseBodyWhileLookingAround) {
     Scene scene = make_void();
     BodyDescription box;
     box.name = "box";
-    box.shape = scene.shapes->add_box(Vec3::Constant(0.05));
+    box.shape = scene.shapes().add_box(Vec3::Constant(0.05));
     box.body = {BodyKind::free, 2.0, Vec3::Constant(0.01), 0.0};
     box.pose_ws.position = Vec3(0.0, 0.0, -0.6);
     scene.body_names.emplace_back("box");
-    const Entity body = add_body(scene.world, box);
+    const Entity body = add_body(scene.world(), box);
     Desk desk(std::move(scene), Vec3::Zero());
     desk.run(0.1);
     desk.input.grip[1] = true;
@@ -149,7 +144,7 @@ TEST(DesktopBody, CarriesALooseBodyWhileLookingAround) {
         desk.step();
     }
     desk.run(0.1);
-    const Vec3 place = desk.scene.world.body_pose.at(body).pose_ws.position;
+    const Vec3 place = desk.scene.world().body_pose.at(body).pose_ws.position;
     EXPECT_LT(place.x(), -0.4);  // the view is along -x now
     EXPECT_LT(desk.head_ws().norm(), 0.05);
 }

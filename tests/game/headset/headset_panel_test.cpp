@@ -1,7 +1,10 @@
 // The sheet of help in a headset: where it stands and what shows it.
 #include "game/headset/headset_panel.hpp"
 
+#include <numbers>
+
 #include <gtest/gtest.h>
+#include <handhold/math.hpp>
 
 namespace handhold::headset_panel_test {
 namespace {
@@ -9,11 +12,11 @@ namespace {
 constexpr double k_near = 1e-12;
 
 // Both calibrate buttons, and a head.
-HeadsetReading reading(bool left, bool right, const Pose& head = {}) {
+HeadsetReading reading(bool left, bool right, const hh::Pose& head = hh::k_origin) {
     HeadsetReading made;
     made.head_ps = head;
-    made.hands[index_of(HandSide::left)].calibrate = left;
-    made.hands[index_of(HandSide::right)].calibrate = right;
+    made.hands[HH_LEFT].calibrate = left;
+    made.hands[HH_RIGHT].calibrate = right;
     return made;
 }
 
@@ -46,17 +49,18 @@ TEST(HeadsetPanel, WhoAsksToBeMeasuredDoesNotAskForHelp) {
 
 // Level, a metre ahead of the eyes and 18 cm below them, upright; its +Z goes to them.
 TEST(HeadsetPanel, StandsBeforeTheHeadWhereverItLooks) {
-    const Vec3 eyes(0.3, 1.6, -0.2);
-    const Quat about = rotation_about(Vec3::UnitY(), 0.7);
-    const Vec3 ahead = about * -Vec3::UnitZ();
-    for (const double up_rad : {0.0, 0.6, -0.9, 1.5, -1.5, k_half_pi, -k_half_pi}) {
-        const Pose head{eyes, (about * rotation_about(Vec3::UnitX(), up_rad)).normalized()};
-        const Pose pose = panel_before(head);
-        const Vec3 expected = eyes + ahead - HeadsetPanel::k_below_m * Vec3::UnitY();
-        EXPECT_LT((pose.position - expected).norm(), 1e-9) << up_rad;
-        EXPECT_LT((pose.rotation * Vec3::UnitZ() - (eyes - expected).normalized()).norm(), 1e-9);
-        EXPECT_GT((pose.rotation * Vec3::UnitY()).y(), 0.9);
-        EXPECT_NEAR((pose.rotation * Vec3::UnitX()).y(), 0.0, k_near);
+    const hh::Vec3 eyes{0.3, 1.6, -0.2};
+    const hh::Quat about = hh::rotation_about(hh::k_y, 0.7);
+    const hh::Vec3 ahead = about * -hh::k_z;
+    for (const double up_rad :
+         {0.0, 0.6, -0.9, 1.5, -1.5, 0.5 * std::numbers::pi, -0.5 * std::numbers::pi}) {
+        const hh::Pose head{eyes, hh::normalized(about * hh::rotation_about(hh::k_x, up_rad))};
+        const hh::Pose pose = panel_before(head);
+        const hh::Vec3 expected = eyes + ahead - HeadsetPanel::k_below_m * hh::k_y;
+        EXPECT_LT(hh::length(pose.position - expected), 1e-9) << up_rad;
+        EXPECT_LT(hh::length(pose.rotation * hh::k_z - hh::normalized(eyes - expected)), 1e-9);
+        EXPECT_GT((pose.rotation * hh::k_y).y, 0.9);
+        EXPECT_NEAR((pose.rotation * hh::k_x).y, 0.0, k_near);
     }
 }
 
@@ -64,9 +68,9 @@ TEST(HeadsetPanel, StaysWhereItWasShown) {
     HeadsetPanel panel;
     panel.follow(reading(true, false));
     panel.follow(reading(false, false));
-    const Pose shown = panel.pose_ps();
-    panel.follow(reading(false, false, {Vec3(1.0, 2.0, 3.0), Quat::Identity()}));
-    EXPECT_EQ(panel.pose_ps().position, shown.position);
+    const hh::Pose shown = panel.pose_ps();
+    panel.follow(reading(false, false, {hh::Vec3{1.0, 2.0, 3.0}, hh::k_no_turn}));
+    EXPECT_TRUE(panel.pose_ps().position == shown.position);
 }
 
 // A head out of sight has none before it: it stands where the head was last; never seen, nowhere.

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "game/assets/body_clips_asset.hpp"
 #include "game/commands/headset_command.hpp"
 #include "game/devices/headset_hands.hpp"
 #include "game/run/session_run.hpp"
@@ -18,32 +19,32 @@ namespace {
 
 constexpr double k_hz = 72.0;
 constexpr double k_dt_s = 1.0 / k_hz;
-constexpr Vec3::Scalar k_wall_x_m = -1.0;  // of the tunnel's left wall
+constexpr double k_wall_x_m = -1.0;  // of the tunnel's left wall
 
 // Someone in the middle of the tunnel whose left palm faces the left wall at a distance.
 HeadsetReading facing_wall(double palm_to_wall_m, double squeeze, double z_m = -0.3) {
-    const HandTuning tuning;
+    const hh::Vec3 right_palm = hand_shape(hh::World()).palm_center_m;
     HeadsetReading reading;
-    reading.head_ps = Pose{};
+    reading.head_ps = hh::k_origin;
     // The back of the hand to the right, the fingers ahead.
-    Pose hand;
-    hand.rotation = rotation_about(Vec3::UnitZ(), -k_half_pi);
-    Vec3 palm = tuning.palm_center_m;
-    palm.x() *= -1.0;
-    hand.position = Vec3(k_wall_x_m + palm_to_wall_m, 0.0, z_m) - hand.rotation * palm;
-    reading.hands[0].grip_ps = hand * inverse(hand_in_grip(HandSide::left, tuning));
+    hh::Pose hand = hh::k_origin;
+    hand.rotation = hh::rotation_about(hh::k_z, -k_half_pi);
+    hh::Vec3 palm = right_palm;
+    palm.x *= -1.0;
+    hand.position = hh::Vec3{k_wall_x_m + palm_to_wall_m, 0.0, z_m} - hand.rotation * palm;
+    reading.hands[0].grip_ps = hand * hh::inverse(hand_in_grip(HH_LEFT, right_palm));
     reading.hands[0].squeeze = squeeze;
-    reading.hands[1].grip_ps = Pose{Vec3(0.3, -0.3, -0.2), Quat::Identity()};
+    reading.hands[1].grip_ps = hh::pose_at({0.3, -0.3, -0.2});
     return reading;
 }
 
 void step(HeadsetSession& session, const HeadsetReading& reading, HeadsetMemory& memory) {
-    session.step(read_headset(reading, session.t_s(), session.scene().tuning.hand, memory), {},
+    session.step(read_headset(reading, session.t_s(), hand_shape(session.world()), memory), {},
                  k_dt_s);
 }
 
 TEST(HeadsetSession, PalmThatComesNearShakesALittleAndAGripMoreEachOnce) {
-    HeadsetSession session(make_tunnel(4.0), {});
+    HeadsetSession session(make_tunnel(4.0), hh::k_origin);
     HeadsetMemory memory;
     const auto shakes = [&](double palm_to_wall_m, double squeeze) {
         step(session, facing_wall(palm_to_wall_m, squeeze), memory);
@@ -64,12 +65,12 @@ TEST(HeadsetSession, PalmThatComesNearShakesALittleAndAGripMoreEachOnce) {
 }
 
 TEST(HeadsetSession, HeadGoesWhereTheGrippingHandPutsIt) {
-    HeadsetSession session(make_tunnel(4.0), {});
+    HeadsetSession session(make_tunnel(4.0), hh::k_origin);
     HeadsetMemory memory;
     step(session, facing_wall(0.01, 0.0), memory);
     step(session, facing_wall(0.01, 1.0), memory);
     const auto head_ws = [&] {
-        return session.scene().world.render_pose.at(session.player().player).head_ws.position;
+        return session.scene().world().render_pose.at(entity_of(session.player())).head_ws.position;
     };
     const Vec3 begin_ws = head_ws();
     for (int i = 1; i <= 30; ++i) {
@@ -81,7 +82,7 @@ TEST(HeadsetSession, HeadGoesWhereTheGrippingHandPutsIt) {
 // Played again at the display's rate, a recording repeats every bit; a hand out of sight and a
 // calibration are in it.
 TEST(HeadsetSession, RecordingPlaysAgainBitForBitAtTheDisplaysRate) {
-    HeadsetSession session(make_tunnel(4.0), {});
+    HeadsetSession session(make_tunnel(4.0), hh::k_origin);
     session.record();
     HeadsetMemory memory;
     for (int i = 0; i < 90; ++i) {
@@ -89,9 +90,9 @@ TEST(HeadsetSession, RecordingPlaysAgainBitForBitAtTheDisplaysRate) {
         if (i > 40 && i < 50) {
             reading.hands[0] = {};
         }
-        PlayerCommands commands;
+        hh_commands commands{};
         commands.calibrate = i > 70;
-        session.step(read_headset(reading, session.t_s(), session.scene().tuning.hand, memory),
+        session.step(read_headset(reading, session.t_s(), hand_shape(session.world()), memory),
                      commands, k_dt_s);
     }
     EXPECT_FALSE(session.used_sticks());
@@ -101,14 +102,13 @@ TEST(HeadsetSession, RecordingPlaysAgainBitForBitAtTheDisplaysRate) {
     std::filesystem::remove(file);
     ASSERT_TRUE(recording);
     Scene scene = make_tunnel(4.0);
-    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
-    caches.body_clips = session.caches().body_clips;
-    const PlayerEntities player = add_scene_player(scene, {"player0", {}, 80.0});
+    load_game_body_clips(scene.host);
+    const hh::Player player = add_scene_player(scene, "player0", hh::k_origin);
     RunSettings settings;
     settings.hz = k_hz;
-    const RunLog log = run_session(scene, caches, {player}, &recording.value(), settings);
+    const RunLog log = run_session(scene, {&player, 1}, &recording.value(), settings);
     EXPECT_EQ(log.frames.size(), 90U);
-    EXPECT_EQ(log.state_hash, hash_state(session.scene().world));
+    EXPECT_EQ(log.state_hash, session.world().hash());
 }
 
 TEST(HeadsetCommand, WithoutARuntimeItSaysSoAndEndsAsWithoutAWindow) {

@@ -21,15 +21,14 @@ class Playground : public ::testing::Test {
     Playground() {
         scene.emplace(*make_built_in_scene("playground"));
         const PlayerEntities player =
-            add_scene_player(*scene, {"player", scene->spawns.front().pose_ws, 80.0});
-        FrameCaches caches(*scene->shapes, scene->grip_meshes.get());
+            add_scene_player(*scene, {"player", from_host(scene->spawns.front().pose_ws), 80.0});
         const Recording recording = *make_built_in_session("playground");
-        log = run_session(*scene, caches, {player}, &recording, {},
+        log = run_session(*scene, player_ids({&player, 1}), &recording, {},
                           [this](const Scene&, const FrameLog& frame) { watch(frame); });
     }
 
     Entity find(const std::string& name) const {
-        return find_by_id(scene->world, persistent_id_from_name(name));
+        return find_by_id(scene->world(), persistent_id_from_name(name));
     }
     Span span_of(const std::string& joint) { return spans[find(joint)]; }
 
@@ -44,7 +43,7 @@ class Playground : public ::testing::Test {
 
   private:
     void watch(const FrameLog& frame) {
-        const World& world = scene->world;
+        const World& world = scene->world();
         for (std::size_t row = 0; row < world.joint.size(); ++row) {
             Span& span = spans[world.joint.owners()[row]];
             span.low = std::min(span.low, world.joint_state.rows()[row].coordinate);
@@ -92,7 +91,7 @@ TEST_F(Playground, SessionWorksEveryContraptionAndJointsHold) {
     EXPECT_GT(pushed_off_mps, 0.4) << "the rock did not push";
     EXPECT_LE(worst_joint_m, 1e-6);
     EXPECT_LE(worst_joint_rad, 1e-5);
-    EXPECT_EQ(scene->world.joint.size(), 48U);
+    EXPECT_EQ(scene->world().joint.size(), 48U);
 }
 
 // Talk row 10: 5 s by the handle, then 1.2 s by its back, where no authored grip is near.

@@ -17,17 +17,16 @@ class Reach : public ::testing::Test {
     void play() {
         scene.emplace(*make_built_in_scene("reach"));
         const PlayerEntities player =
-            add_scene_player(*scene, {"player", scene->spawns.front().pose_ws, 80.0});
-        FrameCaches caches(*scene->shapes, scene->grip_meshes.get());
+            add_scene_player(*scene, {"player", from_host(scene->spawns.front().pose_ws), 80.0});
         const Recording recording = *make_built_in_session("reach");
-        run_session(*scene, caches, {player}, &recording, {},
+        run_session(*scene, player_ids({&player, 1}), &recording, {},
                     [&](const Scene&, const FrameLog& frame) { watch(player, frame); });
     }
     Entity find(const char* name) const {
-        return find_by_id(scene->world, persistent_id_from_name(name));
+        return find_by_id(scene->world(), persistent_id_from_name(name));
     }
     Vec3 place(const char* name) const {
-        return scene->world.body_pose.at(find(name)).pose_ws.position;
+        return scene->world().body_pose.at(find(name)).pose_ws.position;
     }
 
     std::optional<Scene> scene;
@@ -39,7 +38,7 @@ class Reach : public ::testing::Test {
 
   private:
     void watch(const PlayerEntities& player, const FrameLog& frame) {
-        const World& world = scene->world;
+        const World& world = scene->world();
         for (std::size_t i = 0; i < counted.size(); ++i) {
             counted[i] += frame.stats.fallbacks[i];
         }
@@ -76,17 +75,17 @@ class OrdinaryGrips : public ::testing::TestWithParam<const char*> {};
 TEST_P(OrdinaryGrips, HaveNoGhosts) {
     Scene scene = *make_built_in_scene(GetParam());
     const PlayerEntities player =
-        add_scene_player(scene, {"player", scene.spawns.front().pose_ws, 80.0});
-    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
+        add_scene_player(scene, {"player", from_host(scene.spawns.front().pose_ws), 80.0});
     const Recording recording = *make_built_in_session(GetParam());
     double most = 0.0;
     RunSettings settings;
     settings.keep_frames = false;
-    run_session(scene, caches, {player}, &recording, settings, [&](const Scene&, const FrameLog&) {
-        for (const auto& hand : scene.world.render_pose.at(player.player).hands) {
-            most = std::max(most, ghost_share(hand, {}));
-        }
-    });
+    run_session(scene, player_ids({&player, 1}), &recording, settings,
+                [&](const Scene&, const FrameLog&) {
+                    for (const auto& hand : scene.world().render_pose.at(player.player).hands) {
+                        most = std::max(most, ghost_share(hand, {}));
+                    }
+                });
     EXPECT_EQ(most, 0.0);
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, OrdinaryGrips, testing::Values("station", "ship", "robot"));

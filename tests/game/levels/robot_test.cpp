@@ -73,13 +73,13 @@ TEST(RobotTorso, IsAboutThreeMetresLongWithRailsOnItsBack) {
 TEST(RobotScene, BodiesFollowTheClosedFormWhateverTheFrameRate) {
     const auto pose_after = [](int frames, const char* body) {
         Scene scene = *make_built_in_scene("robot");
-        FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
+        FrameCaches caches(scene.shapes(), &scene.grip_meshes());
         StageStats stats;
         for (int frame = 0; frame < frames; ++frame) {
-            step_frame(scene.world, caches, scene.tuning, {8.0 / frames, {}}, stats);
+            step_frame(scene.world(), caches, scene.tuning(), {8.0 / frames, {}}, stats);
         }
-        const Entity entity = find_by_id(scene.world, persistent_id_from_name(body));
-        return scene.world.body_pose.at(entity).pose_ws;
+        const Entity entity = find_by_id(scene.world(), persistent_id_from_name(body));
+        return scene.world().body_pose.at(entity).pose_ws;
     };
     for (const char* const body : {"robot", "robot/leg_0_upper", "robot/leg_4_lower"}) {
         const Pose coarse = pose_after(16, body);

@@ -48,11 +48,10 @@ StationScene own_station() {
 }
 
 std::uint64_t hash_after(Scene& scene, double seconds) {
-    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
     const Recording session = *make_built_in_session("station");
     const PlayerEntities player =
-        add_scene_player(scene, {"player0", scene.spawns.front().pose_ws, 80.0});
-    return run_session(scene, caches, {player}, &session, {90.0, seconds, 1}).state_hash;
+        add_scene_player(scene, {"player0", from_host(scene.spawns.front().pose_ws), 80.0});
+    return run_session(scene, player_ids({&player, 1}), &session, {90.0, seconds, 1}).state_hash;
 }
 
 TEST(StationFiles, PlayToTheBuiltInScenesStateHash) {
@@ -62,7 +61,7 @@ TEST(StationFiles, PlayToTheBuiltInScenesStateHash) {
     Result<Scene> read = load_scene((folder.path() / "station.json").string());
     ASSERT_TRUE(read.ok()) << read.error().message();
     Scene built_in = *make_built_in_scene("station");
-    EXPECT_EQ(read.value().world.body.size(), built_in.world.body.size());
+    EXPECT_EQ(read.value().world().body.size(), built_in.world().body.size());
     EXPECT_EQ(hash_after(read.value(), 5.0), hash_after(built_in, 5.0));
 }
 
@@ -116,18 +115,18 @@ TEST(StationFiles, SceneReadBackIsTheSameText) {
 
 TEST(StationTools, FloatClearOfEverythingAtFirst) {
     Scene scene = *make_built_in_scene("station");
-    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
+    FrameCaches caches(scene.shapes(), &scene.grip_meshes());
     std::vector<ColliderProxy> proxies;
-    for (std::size_t row = 0; row < scene.world.body.size(); ++row) {
-        const Entity body = scene.world.body.owners()[row];
-        const Pose& pose = scene.world.body_pose.at(body).pose_ws;
-        proxies.push_back({scene.world.persistent_id.at(body).value,
-                           scene.world.collider.at(body).shape, pose, pose,
-                           scene.world.body.rows()[row].kind == BodyKind::free});
+    for (std::size_t row = 0; row < scene.world().body.size(); ++row) {
+        const Entity body = scene.world().body.owners()[row];
+        const Pose& pose = scene.world().body_pose.at(body).pose_ws;
+        proxies.push_back({scene.world().persistent_id.at(body).value,
+                           scene.world().collider.at(body).shape, pose, pose,
+                           scene.world().body.rows()[row].kind == BodyKind::free});
     }
     std::sort(proxies.begin(), proxies.end(),
               [](const ColliderProxy& a, const ColliderProxy& b) { return a.id < b.id; });
-    CollisionWorld world(*scene.shapes);
+    CollisionWorld world(scene.shapes());
     world.set_proxies(proxies);
     std::vector<ContactPoint> contacts;
     world.find_contacts({0.03, 0.005}, contacts);

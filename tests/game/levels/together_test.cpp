@@ -25,30 +25,29 @@ struct Together {
         for (const ScenePlayerStart& start : scene.players) {
             players.push_back(add_scene_player(scene, start));
         }
-        FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
         const Recording recording = *make_built_in_session("together");
         const std::vector<Recording> partners = make_built_in_partners("together");
         RunSettings settings;
         settings.threads = threads;
         settings.climbers_from = players.size();
         settings.more_recordings = {&partners.front()};
-        state_hash = run_session(scene, caches, players, &recording, settings,
+        state_hash = run_session(scene, player_ids(players), &recording, settings,
                                  [&](const Scene&, const FrameLog&) { watch(); })
                          .state_hash;
     }
     void watch() {
         const Entity hand = players[0].hands[index_of(HandSide::right)];
-        const Grab& grab = scene.world.grab.at(hand);
+        const Grab& grab = scene.world().grab.at(hand);
         if (grab.kind == GripKind::player) {
             EXPECT_EQ(grab.body, players[1].player);
-            gripped.insert(scene.world.body_hold.at(hand).part);
+            gripped.insert(scene.world().body_hold.at(hand).part);
             worst_error_m = std::max(worst_error_m, grab.error_m);
-            const auto& touches = scene.world.finger_pose.at(hand).touches;
+            const auto& touches = scene.world().finger_pose.at(hand).touches;
             most_touches =
                 std::max(most_touches, std::ptrdiff_t{std::ranges::count(touches, true)});
         }
-        fastest_mps = std::max(fastest_mps,
-                               scene.world.player_velocity.at(players[1].player).linear_mps.norm());
+        fastest_mps = std::max(
+            fastest_mps, scene.world().player_velocity.at(players[1].player).linear_mps.norm());
     }
 };
 

@@ -10,7 +10,7 @@
 namespace handhold::session_history_test {
 namespace {
 
-const Pose k_origin_ws{Vec3(-0.45, 0.35 - 1.6, 2.0), Quat::Identity()};
+constexpr hh::Pose k_origin_ws = hh::pose_at({-0.45, 0.35 - 1.6, 2.0});
 
 // A player who looks around, grips the rail and pulls; the input differs in every frame.
 DesktopInput input_of(int frame) {
@@ -19,16 +19,16 @@ DesktopInput input_of(int frame) {
     input.look_up_rad = frame < 30 ? -0.006 : 0.0;
     input.grip[0] = frame > 35 && frame % 90 < 70;
     input.grip[1] = frame > 80 && frame % 60 < 40;
-    input.move = Vec3(0.1 * (frame % 5), 0.0, -0.5);
+    input.move = {0.1 * (frame % 5), 0.0, -0.5};
     return input;
 }
 
-std::uint64_t hash_of(const DesktopSession& session) { return hash_state(session.scene().world); }
+std::uint64_t hash_of(const DesktopSession& session) { return session.world().hash(); }
 
 TEST(SessionHistory, RewindsToAnyFrameBitForBitAndContinuesEqually) {
     DesktopSession session(make_tunnel(6.0), k_origin_ws);
     session.record();
-    SessionHistory history(session);
+    SessionHistory history;
     std::vector<std::uint64_t> hashes = {hash_of(session)};
     for (int frame = 0; frame < 137; ++frame) {
         history.step(session, input_of(frame));
@@ -52,7 +52,7 @@ TEST(SessionHistory, RewindsToAnyFrameBitForBitAndContinuesEqually) {
 TEST(SessionHistory, RewindsNoFartherThanItsRecords) {
     DesktopSession session(make_tunnel(6.0), k_origin_ws);
     const std::uint64_t start = hash_of(session);
-    SessionHistory history(session);
+    SessionHistory history;
     for (int frame = 0; frame < 25; ++frame) {
         history.step(session, input_of(frame));
     }
@@ -64,12 +64,12 @@ TEST(SessionHistory, RewindsNoFartherThanItsRecords) {
 
 TEST(SessionHistory, StaysWithinItsMemoryAndDropsTheOldest) {
     DesktopSession session(make_tunnel(6.0), k_origin_ws);
-    SessionHistory probe(session);
+    SessionHistory probe;
     probe.step(session, input_of(0));
     const std::size_t one = probe.bytes();
     ASSERT_GT(one, 0U);
     const std::size_t most = 5 * one + one / 2;
-    SessionHistory history(session, most);
+    SessionHistory history(most);
     std::vector<std::uint64_t> hashes;
     for (int frame = 0; frame < 200; ++frame) {
         hashes.push_back(hash_of(session));
@@ -85,11 +85,11 @@ TEST(SessionHistory, StaysWithinItsMemoryAndDropsTheOldest) {
 
 TEST(SessionHistory, ReplayedFramesUseTheTuningTheyHad) {
     DesktopSession session(make_tunnel(6.0), k_origin_ws);
-    SessionHistory history(session);
+    SessionHistory history;
     std::vector<std::uint64_t> hashes = {hash_of(session)};
     for (int frame = 0; frame < 120; ++frame) {
         if (frame == 63) {
-            session.tuning().locomotion.drift_drag_per_s = 2.0;
+            session.scene().tuning().locomotion.drift_drag_per_s = 2.0;
         }
         history.step(session, input_of(frame));
         hashes.push_back(hash_of(session));
@@ -97,7 +97,8 @@ TEST(SessionHistory, ReplayedFramesUseTheTuningTheyHad) {
     for (int frame = 115; frame > 45; frame -= 5) {
         ASSERT_EQ(history.rewind(session, 5), 5U);
         EXPECT_EQ(hash_of(session), hashes[static_cast<std::size_t>(frame)]) << frame;
-        EXPECT_EQ(session.tuning().locomotion.drift_drag_per_s, 2.0);  // the present setting stays
+        EXPECT_EQ(session.scene().tuning().locomotion.drift_drag_per_s,
+                  2.0);  // the present setting stays
     }
 }
 

@@ -25,7 +25,7 @@ class BodyFiguresTest : public testing::Test {
     // A player at rest with eyes at `eyes`, looking along -Z.
     static RenderPose standing(const Vec3& eyes) {
         Scene scene = make_void();
-        FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
+        FrameCaches caches(scene.shapes(), &scene.grip_meshes());
         const PlayerEntities player = add_scene_player(
             scene, {"player0", {eyes - Vec3(0.0, 1.62, 0.0), Quat::Identity()}, 80.0});
         TrackingSample sample;
@@ -36,9 +36,9 @@ class BodyFiguresTest : public testing::Test {
         for (int i = 1; i <= 10; ++i) {
             sample.t_s = i / 90.0;
             const PlayerInput input{player.player, {&sample, 1}, {}};
-            step_frame(scene.world, caches, scene.tuning, {1.0 / 90.0, {&input, 1}}, stats);
+            step_frame(scene.world(), caches, scene.tuning(), {1.0 / 90.0, {&input, 1}}, stats);
         }
-        return scene.world.render_pose.at(player.player);
+        return scene.world().render_pose.at(player.player);
     }
 
     std::optional<Renderer> renderer_;

@@ -116,9 +116,9 @@ TEST(FramesCsv, EveryVectorComesBackBitForBit) {
     log.frames.resize(1);
     log.frames[0].players.resize(1);
     PlayerLog& player = log.frames[0].players[0];
-    HandLog& left = player.hands[index_of(HandSide::left)];
-    HandLog& right = player.hands[index_of(HandSide::right)];
-    const std::array<std::pair<const char*, Vec3*>, 7> vectors = {
+    HandLog& left = player.hands[HH_LEFT];
+    HandLog& right = player.hands[HH_RIGHT];
+    const std::array<std::pair<const char*, hh::Vec3*>, 7> vectors = {
         {{"origin_", &player.origin_ws},
          {"head_", &player.head_ws},
          {"velocity_", &player.velocity_mps},
@@ -128,16 +128,16 @@ TEST(FramesCsv, EveryVectorComesBackBitForBit) {
          {"r_shown_", &right.shown_ws}}};
     double value = 1.0 / 3.0;
     for (const auto& [name, vector] : vectors) {
-        for (double* const part : {&vector->x(), &vector->y(), &vector->z()}) {
+        for (double* const part : {&vector->x, &vector->y, &vector->z}) {
             *part = value;
             value *= -1.0 / 7.0;
         }
     }
     const std::vector<Row> rows = read_csv(format_frames_csv(log));
     for (const auto& [name, vector] : vectors) {
-        EXPECT_EQ(to_number(cell(rows, 1, std::string(name) + "x")), vector->x()) << name;
-        EXPECT_EQ(to_number(cell(rows, 1, std::string(name) + "y")), vector->y()) << name;
-        EXPECT_EQ(to_number(cell(rows, 1, std::string(name) + "z")), vector->z()) << name;
+        EXPECT_EQ(to_number(cell(rows, 1, std::string(name) + "x")), vector->x) << name;
+        EXPECT_EQ(to_number(cell(rows, 1, std::string(name) + "y")), vector->y) << name;
+        EXPECT_EQ(to_number(cell(rows, 1, std::string(name) + "z")), vector->z) << name;
     }
 }
 
@@ -154,7 +154,7 @@ TEST(FramesCsv, RefusesIndicesWithoutAName) {
     log.frames[3].players[1].player = 2;
     EXPECT_THROW(format_frames_csv(log), PreconditionError);
     log = make_small_run();
-    grip(log.frames[0], HandSide::left, 3, 0.0);
+    grip(log.frames[0], HH_LEFT, 3, 0.0);
     EXPECT_THROW(format_frames_csv(log), PreconditionError);
     log = make_small_run();
     log.frames[0].bodies[0].body = 3;
@@ -181,9 +181,9 @@ TEST(FramesCsv, FileHoldsTheFormattedText) {
 TEST(BodiesCsv, HasTheColumnsOfTheContractAndARowForEachFrameAndBody) {
     RunLog log = make_small_run();
     BodyLog& rock = log.frames[0].bodies[0];
-    rock.pose_ws.rotation = Quat(0.5, -0.5, 0.5, -0.5);  // w first
-    rock.velocity_mps = Vec3(1.0, 2.0, 3.0);
-    rock.spin_radps = Vec3(4.0, 5.0, 6.0);
+    rock.pose_ws.rotation = {-0.5, 0.5, -0.5, 0.5};
+    rock.velocity_mps = {1.0, 2.0, 3.0};
+    rock.spin_radps = {4.0, 5.0, 6.0};
     const std::vector<Row> rows = read_csv(format_bodies_csv(log));
     ASSERT_EQ(rows.size(), 1U + 4U * 2U);
     EXPECT_EQ(rows[0], (Row{"frame", "t", "body", "mass_kg", "x", "y", "z", "qx", "qy", "qz", "qw",

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "components/stats.hpp"
 #include "engine/core/text_file.hpp"
 #include "game/mesh/image.hpp"
 #include "game/report/fallback_meanings.hpp"
@@ -154,8 +155,8 @@ TEST(ReportHtml, EveryFallbackHasAMeaningOfItsOwn) {
 
 TEST(ReportHtml, FallbacksThatNeverHappenedAreGrey) {
     RunLog log = make_small_run();
-    log.frames[0].stats.count(Fallback::grip_stretched);
-    log.frames[2].stats.count(Fallback::grip_stretched);
+    ++log.frames[0].stats.fallbacks[static_cast<std::size_t>(Fallback::grip_stretched)];
+    ++log.frames[2].stats.fallbacks[static_cast<std::size_t>(Fallback::grip_stretched)];
     const std::string html = format_report_html(log);
     EXPECT_NE(html.find("<tr><td>grip_stretched</td>"), std::string::npos);
     EXPECT_NE(html.find("<tr class=\"never\"><td>grip_body_gone</td>"), std::string::npos);

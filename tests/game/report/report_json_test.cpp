@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <rapidcheck/gtest.h>
 
+#include "components/stats.hpp"
 #include "engine/core/check.hpp"
 #include "game/report/run_summary.hpp"
 #include "tests/game/report/report_log.hpp"
@@ -139,14 +140,14 @@ TEST(ReportJson, PathIsThatOfTheOrigin) {
 TEST(ReportJson, MomentumThatIsMissingInOneFrameIsNotCancelledByAnother) {
     RunLog log = make_small_run();
     const auto linear = [&](std::size_t frame) -> auto& {
-        return log.frames[frame].stats.ledger.linear_kgmps;
+        return log.frames[frame].stats.momentum.linear_kgmps;
     };
-    linear(0)[MomentumLedger::objects] = Vec3(3.0, 0.0, 0.0);
-    linear(0)[MomentumLedger::virtual_player] = Vec3(-3.0, 0.0, 0.0);
-    linear(1)[MomentumLedger::objects] = Vec3(0.0, 4.0, 0.0);
-    linear(1)[MomentumLedger::players] = Vec3(0.0, -3.0, 0.0);
-    linear(2)[MomentumLedger::objects] = Vec3(0.0, -4.0, 0.0);
-    linear(2)[MomentumLedger::statics] = Vec3(0.0, 3.0, 0.0);
+    linear(0)[HH_MOMENTUM_BODIES] = {3.0, 0.0, 0.0};
+    linear(0)[HH_MOMENTUM_DISCARDED] = {-3.0, 0.0, 0.0};
+    linear(1)[HH_MOMENTUM_BODIES] = {0.0, 4.0, 0.0};
+    linear(1)[HH_MOMENTUM_PLAYERS] = {0.0, -3.0, 0.0};
+    linear(2)[HH_MOMENTUM_BODIES] = {0.0, -4.0, 0.0};
+    linear(2)[HH_MOMENTUM_STATICS] = {0.0, 3.0, 0.0};
     const Json report = report_of(log);
     const Json& ledger = report["momentum_ledger"];
     EXPECT_EQ(ledger["linear_kgmps"]["objects"], Json({3.0, 0.0, 0.0}));

@@ -3,6 +3,8 @@
 #include <array>
 #include <cstddef>
 
+#include <handhold/math.hpp>
+
 #include "game/run/run_log.hpp"
 
 // A run made by hand: every figure of its report follows from the numbers here.
@@ -25,8 +27,8 @@ inline RunLog make_small_run() {
     log.state_hash = 0x00ab'cdef'0123'4567ULL;
 
     const std::array<double, 4> stage_us = {3.0, 1.0, 4.0, 2.0};  // of stage s: (s + 1) times this
-    const std::array<Vec3, 4> origins = {Vec3(0.0, 0.0, 0.0), Vec3(3.0, 4.0, 0.0),
-                                         Vec3(3.0, 4.0, 0.0), Vec3(3.0, 4.0, 12.0)};
+    const std::array<hh::Vec3, 4> origins = {hh::Vec3{0.0, 0.0, 0.0}, hh::Vec3{3.0, 4.0, 0.0},
+                                             hh::Vec3{3.0, 4.0, 0.0}, hh::Vec3{3.0, 4.0, 12.0}};
     for (std::size_t i = 0; i < origins.size(); ++i) {
         FrameLog frame;
         frame.frame = i + 1;
@@ -36,13 +38,13 @@ inline RunLog make_small_run() {
         }
         PlayerLog ann;
         ann.origin_ws = origins[i];
-        ann.head_ws = origins[i] + Vec3(0.0, 1.5, 0.0);
+        ann.head_ws = origins[i] + hh::Vec3{0.0, 1.5, 0.0};
         PlayerLog ben;
         ben.player = 1;
         frame.players = {ann, ben};
         BodyLog rock;
         rock.body = 1;
-        rock.pose_ws.position = Vec3(0.5, 0.25, static_cast<double>(i));
+        rock.pose_ws.position = hh::Vec3{0.5, 0.25, static_cast<double>(i)};
         BodyLog cart;
         cart.body = 2;
         frame.bodies = {rock, cart};
@@ -52,8 +54,8 @@ inline RunLog make_small_run() {
 }
 
 // A hand of the first player grips a body.
-inline void grip(FrameLog& frame, HandSide side, std::int32_t body, double error_m) {
-    HandLog& hand = frame.players[0].hands[index_of(side)];
+inline void grip(FrameLog& frame, hh::Side side, std::int32_t body, double error_m) {
+    HandLog& hand = frame.players[0].hands[side];
     hand.grip = 1;
     hand.body = body;
     hand.error_m = error_m;
@@ -63,12 +65,12 @@ inline void grip(FrameLog& frame, HandSide side, std::int32_t body, double error
 // while pushed back.
 inline RunLog make_gripping_run() {
     RunLog log = make_small_run();
-    grip(log.frames[0], HandSide::left, 0, 1.0 / 1024);
-    grip(log.frames[1], HandSide::right, 1, 1.0 / 4);
+    grip(log.frames[0], HH_LEFT, 0, 1.0 / 1024);
+    grip(log.frames[1], HH_RIGHT, 1, 1.0 / 4);
     log.frames[1].stats.contacts = 2;
-    grip(log.frames[2], HandSide::left, 0, 1.0 / 64);
-    grip(log.frames[2], HandSide::right, 2, 1.0 / 128);
-    grip(log.frames[3], HandSide::left, 0, 1.0 / 32);
+    grip(log.frames[2], HH_LEFT, 0, 1.0 / 64);
+    grip(log.frames[2], HH_RIGHT, 2, 1.0 / 128);
+    grip(log.frames[3], HH_LEFT, 0, 1.0 / 32);
     log.frames[3].players[0].push_back_m = 1.0 / 8;
     return log;
 }

@@ -12,7 +12,7 @@ TEST(RunTally, GivesTheFiguresOfTheWholeLog) {
     RunLog log = make_gripping_run();
     log.frames[1].stats.fallbacks[3] = 5;
     log.frames[2].stats.residual_m = 0.25;
-    log.frames[0].stats.ledger.linear_kgmps[MomentumLedger::objects] = Vec3(1.0, 2.0, 0.0);
+    log.frames[0].stats.momentum.linear_kgmps[HH_MOMENTUM_BODIES] = {1.0, 2.0, 0.0};
     const RunSummary expected = summarize_run(log);
     RunTally tally;
     for (const FrameLog& frame : log.frames) {

@@ -10,16 +10,16 @@ const Vec3 k_head_rest(0.0, 1.6, 0.0);
 const Vec3 k_hand_rest(0.25, 1.3, -0.3);
 
 Quat any_rotation(Random& random) {
-    const Vec3 axis = random.direction();
+    const Vec3 axis = from_host(random.direction());
     return rotation_about(axis, random.between(-3.0, 3.0));
 }
 
 }  // namespace
 
 HostilePlayer::HostilePlayer(std::uint64_t seed, double far_jump_m)
-    : random_(mix64(seed)), far_jump_m_(far_jump_m) {
+    : random_(Random::of(seed)), far_jump_m_(far_jump_m) {
     head_.at.position = head_.to = k_head_rest;
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
+    for (std::size_t side = 0; side < 2; ++side) {
         const Vec3 rest(side == 0 ? -k_hand_rest.x() : k_hand_rest.x(), k_hand_rest.y(),
                         k_hand_rest.z());
         hands_[side].at.position = hands_[side].to = rest;
@@ -30,17 +30,17 @@ void HostilePlayer::move(Device& device, double reach_m, double dt_s) {
     const double share = std::min(1.0, 12.0 * dt_s);
     device.at.position += share * (device.to - device.at.position);
     if (random_.chance(0.05)) {
-        const Vec3 about = random_.cube();
+        const Vec3 about = from_host(random_.cube());
         device.to = k_head_rest + Vec3(0.0, -0.2, 0.0) + reach_m * about;
         const Quat turn = any_rotation(random_);
         device.at.rotation = device.at.rotation.slerp(0.3, turn).normalized();
     }
     if (random_.chance(0.004)) {
-        const Vec3 by = random_.cube();
+        const Vec3 by = from_host(random_.cube());
         device.at.position += by;  // a jump
     }
     if (random_.chance(0.0005)) {
-        const Vec3 by = random_.cube();
+        const Vec3 by = from_host(random_.cube());
         device.at.position += far_jump_m_ * by;
     }
     device.lost = random_.chance(0.01) != device.lost;
@@ -68,7 +68,7 @@ Pose HostilePlayer::shown(const Device& device) {
     return pose;
 }
 
-PlayerInput HostilePlayer::play(Entity player, double start_s, double end_s) {
+hh_player_input HostilePlayer::play(hh::Player player, double start_s, double end_s) {
     const double dt_s = end_s - start_s;
     samples_.clear();
     const auto count = static_cast<int>(random_.unit() * 4.0);
@@ -77,27 +77,29 @@ PlayerInput HostilePlayer::play(Entity player, double start_s, double end_s) {
         for (Device& hand : hands_) {
             move(hand, 0.6, dt_s / count);
         }
-        TrackingSample sample;
-        sample.t_s = start_s + dt_s * (i + random_.between(0.0, 1.3)) / count;
+        hh::Sample sample = hh::sample();
+        sample.time_s = start_s + dt_s * (i + random_.between(0.0, 1.3)) / count;
         if (random_.chance(0.01)) {
-            sample.t_s = random_.chance(0.5) ? broken_number() : start_s - random_.unit();
+            sample.time_s = random_.chance(0.5) ? broken_number() : start_s - random_.unit();
         }
-        sample.head_ps = shown(head_);
-        for (std::size_t side = 0; side < k_hand_count; ++side) {
-            sample.controllers[side] = {shown(hands_[side]),
-                                        hands_[side].grab != random_.chance(0.02)};
+        sample.head = to_host(shown(head_));
+        for (std::size_t side = 0; side < 2; ++side) {
+            sample.hands[side] = to_host(shown(hands_[side]));
+            sample.grab[side] = hands_[side].grab != random_.chance(0.02);
         }
         samples_.push_back(sample);
     }
-    PlayerCommands commands;
+    hh_commands commands{};
     commands.smooth_turn = random_.chance(0.01) ? broken_number() : random_.between(-2.0, 2.0);
     commands.snap_turns = random_.chance(0.02) ? static_cast<int>(random_.between(-5.0, 6.0)) : 0;
     commands.brake = random_.chance(0.01) ? broken_number() : random_.between(-1.0, 2.0);
-    commands.thrust_ps = 2.0 * random_.cube();
+    commands.thrust = 2.0 * random_.cube();
     if (random_.chance(0.01)) {
-        commands.thrust_ps.y() = broken_number();
+        commands.thrust.y = broken_number();
     }
-    return {player, samples_, commands};
+    hh_player_input input = hh::input(player, samples_, commands);
+    input.repeats_samples = true;
+    return input;
 }
 
 }  // namespace handhold

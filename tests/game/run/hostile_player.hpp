@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "components/tracking.hpp"
 #include "game/scene/random.hpp"
+#include "systems/host/host_columns.hpp"
 
 namespace handhold {
 
@@ -16,7 +16,7 @@ class HostilePlayer {
     HostilePlayer(std::uint64_t seed, double far_jump_m);
 
     // Input of the frame from start_s to end_s. The samples stay valid until the next call.
-    PlayerInput play(Entity player, double start_s, double end_s);
+    hh_player_input play(hh::Player player, double start_s, double end_s);
 
   private:
     struct Device {
@@ -32,8 +32,8 @@ class HostilePlayer {
     Random random_;
     double far_jump_m_;
     Device head_;
-    std::array<Device, k_hand_count> hands_;
-    std::vector<TrackingSample> samples_;
+    std::array<Device, 2> hands_;
+    std::vector<hh::Sample> samples_;
 };
 
 }  // namespace handhold

@@ -8,7 +8,6 @@
 
 #include "game/climber/crowd.hpp"
 #include "game/levels/built_in_scenes.hpp"
-#include "game/scene/place_scene.hpp"
 #include "tests/game/run/hostile_player.hpp"
 #include "tests/game/scene/finite_world.hpp"
 
@@ -66,8 +65,7 @@ double fastest_loose_mps(const World& world) {
 struct Playground {
     const PlayCase& play;
     Scene scene;
-    FrameCaches caches;
-    std::vector<PlayerEntities> players;
+    std::vector<hh::Player> players;
     double fastest_player = 0.0;
     double fastest_loose = 0.0;
     double farthest_step_m = 0.0;     // of a head
@@ -76,51 +74,47 @@ struct Playground {
     std::uint64_t pulled_frames = 0;  // frames times hands that pull
 
     Playground(const PlayCase& in, std::uint64_t seed)
-        : play(in),
-          scene(*make_built_in_scene(in.scene)),
-          caches(*scene.shapes, scene.grip_meshes.get()) {
-        scene.tuning.locomotion.thruster_mps2 = 0.5;
+        : play(in), scene(*make_built_in_scene(in.scene)) {
+        scene.tuning().locomotion.thruster_mps2 = 0.5;
         if (in.pulls) {
-            scene.tuning.pull.reach_m = k_pull_reach_m;
+            scene.tuning().pull.reach_m = k_pull_reach_m;
         }
-        const Pose& first_ws = scene.spawns.front().pose_ws;
-        for (const Pose& origin_ws :
-             spread_players(scene, caches, first_ws, in.hostile + in.climbers, seed)) {
+        const hh::Pose first_ws = scene.spawns.front().pose_ws;
+        for (const hh::Pose& origin_ws :
+             spread_players(scene, first_ws, in.hostile + in.climbers, seed)) {
             const std::string name = "player" + std::to_string(players.size());
-            players.push_back(add_scene_player(scene, {name, origin_ws, 80.0}));
+            players.push_back(add_scene_player(scene, name, origin_ws));
         }
     }
+    Vec3 head_ws(std::size_t player) const {
+        return scene.world().render_pose.at(entity_of(players[player])).head_center_ws;
+    }
     bool is_lost(std::size_t player) {
-        const Entity entity = players[player].player;
-        const std::uint64_t himself = scene.world.persistent_id.at(entity).value;
-        const Vec3 head_ws = scene.world.render_pose.at(entity).head_center_ws;
         constexpr double k_near_m = 30.0;
-        return !caches.collision.closest_point(head_ws, k_near_m, {&himself, 1});
+        return !scene.host.closest_point(to_host(head_ws(player)), k_near_m, players[player]);
     }
     void watch(const StageStats& stats) {
         grabs += stats.grabs_gripped;
-        pulled_frames += scene.world.hand_pull.size();
-        fastest_player = std::max(fastest_player, fastest_player_mps(scene.world));
-        fastest_loose = std::max(fastest_loose, fastest_loose_mps(scene.world));
+        pulled_frames += scene.world().hand_pull.size();
+        fastest_player = std::max(fastest_player, fastest_player_mps(scene.world()));
+        fastest_loose = std::max(fastest_loose, fastest_loose_mps(scene.world()));
         for (std::size_t i = 0; i < players.size(); ++i) {
-            const Vec3& head_ws = scene.world.render_pose.at(players[i].player).head_center_ws;
             if (last_heads_ws.size() == players.size()) {
-                farthest_step_m = std::max(farthest_step_m, (head_ws - last_heads_ws[i]).norm());
+                farthest_step_m = std::max(farthest_step_m, (head_ws(i) - last_heads_ws[i]).norm());
             }
         }
         last_heads_ws.clear();
-        for (const PlayerEntities& player : players) {
-            last_heads_ws.push_back(scene.world.render_pose.at(player.player).head_center_ws);
+        for (std::size_t i = 0; i < players.size(); ++i) {
+            last_heads_ws.push_back(head_ws(i));
         }
-        ASSERT_TRUE(is_finite_world(scene.world)) << "frame " << scene.world.clock.frame;
-        if (scene.world.clock.frame % 500 != 0) {
+        ASSERT_TRUE(is_finite_world(scene.world())) << "frame " << scene.world().clock.frame;
+        if (scene.world().clock.frame % 500 != 0) {
             return;
         }
-        place_scene(scene, caches);
         // A hostile player may leave through the station's open end, where there is nothing to
         // hold.
         for (std::size_t i = play.hostile; i < players.size(); ++i) {
-            ASSERT_FALSE(is_lost(i)) << "player " << i << ", frame " << scene.world.clock.frame;
+            ASSERT_FALSE(is_lost(i)) << "player " << i << ", frame " << scene.world().clock.frame;
         }
     }
 };
@@ -131,28 +125,26 @@ TEST_P(HostilePlay, StaysFiniteBoundedAndLosesNobody) {
     const std::uint64_t frames =
         number_from_environment("HANDHOLD_RANDOM_PLAY_FRAMES", play.frames);
     Playground stage(play, seed);
-    World& world = stage.scene.world;
+    hh::World& world = stage.scene.host;
     std::vector<HostilePlayer> hostile;
     for (std::size_t i = 0; i < play.hostile; ++i) {
         hostile.emplace_back(seed + i, k_far_jump_m);
     }
-    Crowd crowd(stage.scene, std::span(stage.players).subspan(play.hostile), seed);
-    std::vector<PlayerInput> inputs(stage.players.size());
+    Crowd crowd(world, std::span(stage.players).subspan(play.hostile), seed);
+    std::vector<hh_player_input> inputs(stage.players.size());
     Random random(seed);
-    StageStats stats;
     for (std::uint64_t frame = 0; frame < frames; ++frame) {
         // Mostly regular frames, rarely any length from 1 to 100 ms.
         const double share = random.unit();
         const double long_s = k_shortest_frame_s + 0.099 * share * random.unit();
         const double dt_s = random.chance(0.2) ? long_s : 1.0 / 90.0;
-        const double start_s = world.clock.t_s;
+        const double start_s = world.time_s();
         for (std::size_t i = 0; i < play.hostile; ++i) {
-            inputs[i] = hostile[i].play(stage.players[i].player, start_s, start_s + dt_s);
+            inputs[i] = hostile[i].play(stage.players[i], start_s, start_s + dt_s);
         }
-        crowd.drive(stage.scene, stage.caches, start_s + dt_s,
-                    std::span(inputs).subspan(play.hostile));
-        step_frame(world, stage.caches, stage.scene.tuning, {dt_s, inputs}, stats);
-        ASSERT_NO_FATAL_FAILURE(stage.watch(stats));
+        crowd.drive(sight_of(stage.scene), start_s + dt_s, std::span(inputs).subspan(play.hostile));
+        ASSERT_TRUE(world.step(dt_s, inputs)) << hh_last_error();
+        ASSERT_NO_FATAL_FAILURE(stage.watch(stage.scene.stats()));
     }
     std::printf(
         "%s: %llu frames, %zu hostile, %zu climbers, %llu grips; fastest player %.2f m/s, "
@@ -166,8 +158,8 @@ TEST_P(HostilePlay, StaysFiniteBoundedAndLosesNobody) {
     EXPECT_GT(stage.grabs, (is_open ? std::min(frames, play.frames) : frames) / play.frames_a_grip);
     EXPECT_EQ(stage.pulled_frames > 0, play.pulls);
     // Twice the release speed: two players may push each other further.
-    EXPECT_LE(stage.fastest_player, 2.0 * stage.scene.tuning.locomotion.release_speed_max_mps);
-    EXPECT_LE(stage.fastest_loose, 2.0 * stage.scene.tuning.locomotion.object_speed_max_mps);
+    EXPECT_LE(stage.fastest_player, 2.0 * stage.scene.tuning().locomotion.release_speed_max_mps);
+    EXPECT_LE(stage.fastest_loose, 2.0 * stage.scene.tuning().locomotion.object_speed_max_mps);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, HostilePlay,

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double k_compare_hz = 6.0;  // divides every rate
 constexpr double k_seconds = 20.0;
-const Pose k_start{Vec3(-0.3, -1.4, 4.0), Quat::Identity()};
+constexpr hh::Pose k_start = hh::pose_at({-0.3, -1.4, 4.0});
 
 struct Path {
     std::vector<std::optional<Vec3>>
@@ -31,25 +31,25 @@ struct Path {
 // drop(frame) leaves that frame out; the next one is longer.
 Path play(const Recording& recording, double hz, const std::function<bool(int)>& drop) {
     Scene scene = make_tunnel(6.0);
-    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
-    const PlayerEntities player = add_scene_player(scene, {"player0", k_start, 80.0});
+    const hh::Player player = add_scene_player(scene, "player0", k_start);
     Playback playback(recording);
-    StageStats stats;
     Path path;
-    Vec3 before = k_start.position;
+    Vec3 before = from_host(k_start.position);
     double drifted_m = 0.0;
     const int stride = static_cast<int>(hz / k_compare_hz + 0.5);
     for (int frame = 1; frame <= static_cast<int>(k_seconds * hz); ++frame) {
         const bool dropped = drop(frame);
         if (!dropped) {
             const double end_s = frame / hz;
-            const double dt_s = end_s - scene.world.clock.t_s;
-            const PlayerInput input{player.player, playback.window(end_s), {}};
-            step_frame(scene.world, caches, scene.tuning, {dt_s, {&input, 1}}, stats);
+            const double dt_s = end_s - scene.host.time_s();
+            hh_player_input input = hh::input(player, playback.window(end_s));
+            input.repeats_samples = true;
+            EXPECT_TRUE(scene.host.step(dt_s, input));
+            const StageStats& stats = scene.stats();
             path.collided = path.collided || stats.contacts > 0;
         }
-        const Vec3 origin_ws = scene.world.player_origin.at(player.player).pose_ws.position;
-        const RenderPose& render = scene.world.render_pose.at(player.player);
+        const Vec3 origin_ws = scene.world().player_origin.at(entity_of(player)).pose_ws.position;
+        const RenderPose& render = scene.world().render_pose.at(entity_of(player));
         const bool grips =
             render.hands[0].grip != GripKind::none || render.hands[1].grip != GripKind::none;
         drifted_m += grips ? 0.0 : (origin_ws - before).norm();

@@ -18,11 +18,10 @@ namespace {
 
 const std::filesystem::path k_data = data_dir();
 
-RunLog play(Scene& scene, const Recording& recording, const Pose& origin_ws, int threads,
+RunLog play(Scene& scene, const Recording& recording, const hh::Pose& origin_ws, int threads,
             double hz = 90.0) {
-    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
-    const PlayerEntities player = add_scene_player(scene, {"player0", origin_ws, 80.0});
-    return run_session(scene, caches, {player}, &recording, {hz, 0.0, threads});
+    const hh::Player player = add_scene_player(scene, "player0", origin_ws);
+    return run_session(scene, {&player, 1}, &recording, {hz, 0.0, threads});
 }
 
 RunLog play_built_in(std::string_view name, int threads, double hz = 90.0) {
@@ -34,9 +33,11 @@ RunLog play_built_in(std::string_view name, int threads, double hz = 90.0) {
 bool is_finite_run(const RunLog& log) {
     return std::all_of(log.frames.begin(), log.frames.end(), [](const FrameLog& frame) {
         return std::all_of(frame.players.begin(), frame.players.end(), [](const PlayerLog& player) {
-            return player.origin_ws.allFinite() && player.head_ws.allFinite() &&
-                   player.velocity_mps.allFinite() && player.hands[0].shown_ws.allFinite() &&
-                   player.hands[1].shown_ws.allFinite();
+            return from_host(player.origin_ws).allFinite() &&
+                   from_host(player.head_ws).allFinite() &&
+                   from_host(player.velocity_mps).allFinite() &&
+                   from_host(player.hands[0].shown_ws).allFinite() &&
+                   from_host(player.hands[1].shown_ws).allFinite();
         });
     });
 }
@@ -77,8 +78,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, BuiltIn, testing::ValuesIn(climbed_scenes()),
 class BuiltInScene : public testing::TestWithParam<std::string_view> {};
 TEST_P(BuiltInScene, EveryBodyHasASurfaceForHands) {
     const Scene scene = *make_built_in_scene(GetParam());
-    for (std::size_t row = 0; row < scene.world.collider.size(); ++row) {
-        EXPECT_TRUE(scene.grip_meshes->has(scene.world.collider.rows()[row].shape)) << row;
+    for (std::size_t row = 0; row < scene.world().collider.size(); ++row) {
+        EXPECT_TRUE(scene.grip_meshes().has(scene.world().collider.rows()[row].shape)) << row;
     }
 }
 
@@ -109,7 +110,7 @@ TEST(ShipScene, WavedAndShovedRockPushesThePlayerOffTheWall) {
 // The session plans palms on the free side of the wall's rail with the wrists beside it. The hands
 // are tracked there, because the ship turns to the first grip, and shown there.
 TEST(ShipScene, HandsHoldTheRailFromThePlayersSide) {
-    const Mover ship = make_built_in_scene("ship")->world.mover.rows()[0];
+    const Mover ship = make_built_in_scene("ship")->world().mover.rows()[0];
     constexpr double k_rail_axis_x_m = -1.593;
     constexpr double k_tremor_m = 1e-3;
     constexpr double k_palm_m = 5e-3;  // the fit moves the palm for its fingers (decision 107)
@@ -123,9 +124,9 @@ TEST(ShipScene, HandsHoldTheRailFromThePlayersSide) {
                 continue;
             }
             ++holding;
-            for (const Vec3& wrist_ws : {hand.target_ws, hand.shown_ws}) {
+            for (const hh::Vec3& wrist_ws : {hand.target_ws, hand.shown_ws}) {
                 const double over_axis_m =
-                    inverse_transform_point(ship_ws, wrist_ws).x() - k_rail_axis_x_m;
+                    inverse_transform_point(ship_ws, from_host(wrist_ws)).x() - k_rail_axis_x_m;
                 EXPECT_NEAR(over_axis_m, k_wrist_over_axis_m, k_palm_m + k_tremor_m) << frame.t_s;
             }
         }
@@ -155,14 +156,13 @@ TEST(RealRecordings, CrawlThroughARealLevel) {
     Result<Scene> loaded = load_scene(level.string());
     ASSERT_TRUE(loaded.ok()) << loaded.error().message();
     Scene& scene = loaded.value();
-    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
     std::uint64_t onsets = 0;
     std::uint64_t gripped = 0;
     std::vector<double> paths_m;
     for (const std::filesystem::path& file : files) {
         const Result<Recording> recording = load_recording(file);
         ASSERT_TRUE(recording.ok()) << recording.error().message();
-        const FoundSpawn spawn = find_spawn(scene, caches, recording.value(), 90.0);
+        const FoundSpawn spawn = find_spawn(scene, recording.value(), 90.0);
         std::vector<std::uint64_t> hashes;
         RunSummary summary;
         for (const int threads : {1, 2}) {

@@ -25,9 +25,8 @@ Scene row_of_balls(double second_m, double third_m) {
 }
 
 TEST(Overlaps, DeepestPairsAreNamedAndTiedOnesLeftOut) {
-    const Scene scene = row_of_balls(0.15, 0.16);
-    FrameCaches caches(*scene.shapes);
-    const std::vector<SpawnOverlap> found = find_overlaps(scene, caches, {});
+    Scene scene = row_of_balls(0.15, 0.16);
+    const std::vector<SpawnOverlap> found = find_overlaps(scene, {});
     ASSERT_EQ(found.size(), 2U);  // a with b and c; b and c are tied
     EXPECT_EQ(found[0].a, "a");
     EXPECT_EQ(found[0].b, "b");
@@ -36,9 +35,8 @@ TEST(Overlaps, DeepestPairsAreNamedAndTiedOnesLeftOut) {
 }
 
 TEST(Overlaps, TouchingBodiesAreFine) {
-    const Scene scene = row_of_balls(0.2, 0.4);
-    FrameCaches caches(*scene.shapes);
-    EXPECT_TRUE(find_overlaps(scene, caches, {}).empty());
+    Scene scene = row_of_balls(0.2, 0.4);
+    EXPECT_TRUE(find_overlaps(scene, {}).empty());
 }
 
 TEST(Overlaps, HeadsInBodiesAndInEachOtherAreFound) {
@@ -50,8 +48,7 @@ TEST(Overlaps, HeadsInBodiesAndInEachOtherAreFound) {
         players.push_back(
             add_scene_player(scene, {"p" + std::to_string(players.size()), origin, 80.0}));
     }
-    FrameCaches caches(*scene.shapes);
-    const std::vector<SpawnOverlap> found = find_overlaps(scene, caches, players);
+    const std::vector<SpawnOverlap> found = find_overlaps(scene, players);
     ASSERT_EQ(found.size(), 3U);  // two heads in ball a, and in each other
     for (const SpawnOverlap& overlap : found) {
         EXPECT_NE(overlap.a.find("the head of player"), std::string::npos);

@@ -106,7 +106,7 @@ TEST(SceneJoint, BodiesStandAtTimeZeroAsTheJointsWantThem) {
     const Result<SceneFile> file = parse(scene_with({hinge(), slider(), rope()}));
     const Result<Scene> built = build_scene(file.value(), "a.json");
     ASSERT_TRUE(built.ok()) << built.error().message();
-    const World& world = built.value().world;
+    const World& world = built.value().world();
     ASSERT_EQ(world.joint.size(), 3U);
     for (const Joint& joint : world.joint.rows()) {
         const auto frame_ws = [&](Entity body, const Pose& frame_bs) {

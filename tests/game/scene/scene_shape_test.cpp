@@ -134,8 +134,8 @@ TEST(SceneShape, FreeCompoundMovesToItsCentreOfMassAndStaysWhereItIs) {
     const Result<Scene> scene = build(scene_with(compound(), "free"));
     ASSERT_TRUE(scene.ok()) << scene.error().message();
     const double cylinder_m3 = 0.04 * 3.14159265358979 * 0.6;
-    const Entity body = scene.value().world.body_pose.owners()[0];
-    const Pose& pose = scene.value().world.body_pose.at(body).pose_ws;
+    const Entity body = scene.value().world().body_pose.owners()[0];
+    const Pose& pose = scene.value().world().body_pose.at(body).pose_ws;
     EXPECT_LT((pose.position - cylinder_m3 / (1.0 + cylinder_m3) * Vec3::UnitX()).norm(), 1e-12);
     // The visual's bounds in the world are those of the parts.
     const auto& visual = scene.value().visuals.front();
@@ -147,8 +147,8 @@ TEST(SceneShape, FreeCompoundMovesToItsCentreOfMassAndStaysWhereItIs) {
     }
     EXPECT_LT((low - Vec3::Constant(-0.5)).norm(), 1e-9);
     EXPECT_LT((high - Vec3(1.2, 0.5, 0.5)).norm(), 1e-9);
-    const Shape& shape = scene.value().shapes->at(scene.value().world.collider.at(body).shape);
-    EXPECT_LT((scene.value().world.body.at(body).inertia_kgm2 - solid_inertia(shape, 2.0)).norm(),
+    const Shape& shape = scene.value().shapes().at(scene.value().world().collider.at(body).shape);
+    EXPECT_LT((scene.value().world().body.at(body).inertia_kgm2 - solid_inertia(shape, 2.0)).norm(),
               1e-12);
 }
 
@@ -169,7 +169,7 @@ TEST(SceneShape, HullsAndScaledMeshesOfOneFileShareIt) {
     scene["bodies"].push_back(held);
     const Result<Scene> built = build(scene);
     ASSERT_TRUE(built.ok()) << built.error().message();
-    const ShapeLibrary& shapes = *built.value().shapes;
+    const ShapeLibrary& shapes = built.value().shapes();
     const Mesh* mesh = nullptr;
     int meshes = 0;
     int hulls = 0;

@@ -29,18 +29,18 @@ const char* const k_lift = R"({
 // Half a turn about Y: x and z change sign.
 TEST(BuildScene, PathIsFollowedInTheWorldAndBeginsAtItsFirstPose) {
     Scene scene = build(k_lift);
-    const Entity lift = find_by_id(scene.world, persistent_id_from_name("lift"));
-    EXPECT_LT((scene.world.body_pose.at(lift).pose_ws.position - Vec3(9.0, 20.0, 30.0)).norm(),
+    const Entity lift = find_by_id(scene.world(), persistent_id_from_name("lift"));
+    EXPECT_LT((scene.world().body_pose.at(lift).pose_ws.position - Vec3(9.0, 20.0, 30.0)).norm(),
               1e-12);
     // The spline through four points of a unit circle passes each at 3 / (2 step) of the chord
     // between its neighbours: 1.5 * 2 / (2 * 2 s) here.
-    EXPECT_NEAR(scene.world.body_velocity.at(lift).linear_mps.norm(), 0.75, 1e-12);
-    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
+    EXPECT_NEAR(scene.world().body_velocity.at(lift).linear_mps.norm(), 0.75, 1e-12);
+    FrameCaches caches(scene.shapes(), &scene.grip_meshes());
     StageStats stats;
     for (int frame = 0; frame < 4; ++frame) {
-        step_frame(scene.world, caches, scene.tuning, {0.5, {}}, stats);
+        step_frame(scene.world(), caches, scene.tuning(), {0.5, {}}, stats);
     }
-    EXPECT_LT((scene.world.body_pose.at(lift).pose_ws.position - Vec3(10.0, 20.0, 31.0)).norm(),
+    EXPECT_LT((scene.world().body_pose.at(lift).pose_ws.position - Vec3(10.0, 20.0, 31.0)).norm(),
               1e-12);
 }
 
@@ -74,7 +74,7 @@ TEST(BuildScene, BodyIsDrawnByItsVisual) {
     EXPECT_EQ(visual.mesh->color, (Color{0.5F, 0.25F, 0.125F}));
     EXPECT_EQ(visual.look.emissive, 2.0F);
     EXPECT_EQ(visual.look.opacity, 0.5F);
-    EXPECT_EQ(scene.value().shapes->at(scene.value().world.collider.rows()[0].shape).kind,
+    EXPECT_EQ(scene.value().shapes().at(scene.value().world().collider.rows()[0].shape).kind,
               ShapeKind::sphere);
 }
 

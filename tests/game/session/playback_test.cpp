@@ -18,10 +18,10 @@ Recording t_pose(bool with_left, bool with_right) {
     for (int i = 0; i < 180; ++i) {
         RecordedSample sample;
         sample.t_s = 100.0 + i / 90.0;
-        sample.head.position = Vec3(0.0, 1.75, 0.0);
+        sample.head.position = {0.0, 1.75, 0.0};
         for (const double x : {-0.8, 0.8}) {
             RecordedHand& hand = sample.hands[x < 0.0 ? 0 : 1];
-            hand.controller.position = Vec3(x, 1.5, 0.0);
+            hand.controller.position = {x, 1.5, 0.0};
             const bool holds = (x < 0.0 ? with_left : with_right) && sample.t_s > 100.5;
             hand.buttons = holds ? k_button_menu : 0;
         }
@@ -32,10 +32,9 @@ Recording t_pose(bool with_left, bool with_right) {
 
 BodyMeasures play(const Recording& recording) {
     Scene scene = make_void();
-    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
-    const PlayerEntities player = add_scene_player(scene, {"player0", {}, 80.0});
-    run_session(scene, caches, {player}, &recording, {90.0, 0.0, 1});
-    return scene.world.body_measures.at(player.player);
+    const hh::Player player = add_scene_player(scene, "player0", hh::k_origin);
+    run_session(scene, {&player, 1}, &recording, {90.0, 0.0, 1});
+    return scene.world().body_measures.at(entity_of(player));
 }
 
 TEST(Playback, BothMenuButtonsCalibrate) {

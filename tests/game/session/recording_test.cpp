@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <handhold/math.hpp>
 #include <rapidcheck/gtest.h>
 
 #include "engine/core/text_file.hpp"
@@ -57,25 +59,30 @@ std::string example_of(const fs::path& document) {
     return text.substr(begin, text.find("```", begin) - begin);
 }
 
-bool are_same_bits(const Pose& a, const Pose& b) {
+bool are_same_bits(const hh::Pose& a, const hh::Pose& b) {
     const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
-    bool result = true;
-    for (int i = 0; i < 3; ++i) {
-        result = result && same(a.position[i], b.position[i]);
-    }
-    for (int i = 0; i < 4; ++i) {
-        result = result && same(a.rotation.coeffs()[i], b.rotation.coeffs()[i]);
-    }
-    return result;
+    const hh::Vec3& p = a.position;
+    const hh::Quat& q = a.rotation;
+    return same(p.x, b.position.x) && same(p.y, b.position.y) && same(p.z, b.position.z) &&
+           same(q.x, b.rotation.x) && same(q.y, b.rotation.y) && same(q.z, b.rotation.z) &&
+           same(q.w, b.rotation.w);
+}
+
+bool is_lost(const hh::Pose& pose) {
+    constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
+    return are_same_bits(pose, {{k_nan, k_nan, k_nan}, {k_nan, k_nan, k_nan, k_nan}});
 }
 
 bool are_same_bits(const RecordedSample& a, const RecordedSample& b) {
-    bool result = a.t_s == b.t_s && are_same_bits(a.head, b.head);
+    bool result =
+        a.t_s == b.t_s && are_same_bits(a.head, b.head) && a.is_head_inferred == b.is_head_inferred;
     for (std::size_t hand = 0; hand < 2; ++hand) {
         result = result && are_same_bits(a.hands[hand].controller, b.hands[hand].controller) &&
                  a.hands[hand].buttons == b.hands[hand].buttons &&
                  a.hands[hand].squeeze == b.hands[hand].squeeze &&
-                 a.hands[hand].trigger == b.hands[hand].trigger;
+                 a.hands[hand].trigger == b.hands[hand].trigger &&
+                 a.hands[hand].is_inferred == b.hands[hand].is_inferred &&
+                 std::ranges::equal(a.hands[hand].curls.fingers, b.hands[hand].curls.fingers);
     }
     return result;
 }
@@ -87,12 +94,12 @@ TEST(Recording, ReadsEveryColumnWhereItBelongs) {
     ASSERT_EQ(recording.value().samples.size(), 2U);
     const RecordedSample& sample = recording.value().samples[1];
     EXPECT_EQ(sample.t_s, 0.011);
-    EXPECT_EQ(sample.head.position, Vec3(1.0, 2.0, 3.0));
-    EXPECT_EQ(sample.hands[0].controller.position, Vec3(4.0, 5.0, 6.0));
+    EXPECT_TRUE(sample.head.position == (hh::Vec3{1.0, 2.0, 3.0}));
+    EXPECT_TRUE(sample.hands[0].controller.position == (hh::Vec3{4.0, 5.0, 6.0}));
     EXPECT_EQ(sample.hands[0].buttons, k_button_trigger);
     EXPECT_EQ(sample.hands[0].squeeze, 0.5);
     EXPECT_EQ(sample.hands[0].trigger, 0.0);  // no column
-    EXPECT_EQ(sample.hands[1].controller.position, Vec3(7.0, 8.0, 9.0));
+    EXPECT_TRUE(sample.hands[1].controller.position == (hh::Vec3{7.0, 8.0, 9.0}));
     EXPECT_EQ(sample.hands[1].buttons, k_button_grip);
     EXPECT_NE(sample.hands[0].buttons & k_grab_buttons, 0);
     EXPECT_EQ(k_grab_buttons, 6);  // the file format says so
@@ -145,17 +152,51 @@ TEST(Recording, TriggersOutsideTheirRangeAreRefused) {
     }
 }
 
+// Optional columns: guesses and curls. Recordings without them say nothing of either.
+TEST(Recording, GuessesAndCurlsAreReadAndPlayed) {
+    const auto text_of = [](const std::string& columns, const std::string& cells) {
+        std::string text = k_header + columns + "\n";
+        for (const char* t_s : {"0", "1"}) {
+            for (const std::string& cell : row_at(t_s)) {
+                text += (text.back() == '\n' ? "" : ",") + cell;
+            }
+            text += cells + "\n";
+        }
+        return text;
+    };
+    const Result<Recording> said =
+        parse_recording(text_of(",rinferred,lcurl_index,hinferred", ",1,0.5,1"), "f.csv");
+    ASSERT_TRUE(said.ok()) << said.error().message();
+    const std::vector<RecordedSample>& samples = said.value().samples;
+    EXPECT_TRUE(samples[0].is_head_inferred && samples[0].hands[1].is_inferred);
+    EXPECT_FALSE(samples[0].hands[0].is_inferred);
+    EXPECT_EQ(samples[0].hands[0].curls.fingers[1], 0.5);
+    EXPECT_EQ(samples[0].hands[0].curls.fingers[0], k_curl_unknown);
+    EXPECT_EQ(samples[0].hands[1].curls.fingers[4], k_curl_unknown);
+    Playback playback(said.value());
+    const hh::Sample played = playback.window(0.5).front();
+    EXPECT_TRUE(played.head_inferred && played.hand_inferred[1]);
+    EXPECT_EQ(played.curls[0].fingers[1], 0.5);
+    for (const char* cell : {",2", ",0.5", ",-1"}) {
+        EXPECT_NE(error_of(text_of(",linferred", cell)).expected.find("linferred"),
+                  std::string::npos);
+    }
+    for (const char* cell : {",1.5", ",-0.5"}) {
+        EXPECT_NE(error_of(text_of(",rcurl_thumb", cell)).expected.find("rcurl_thumb"),
+                  std::string::npos);
+    }
+}
+
 TEST(Recording, OneNanCellLosesItsPoseOnly) {
     Row lost = row_at("0.011");
     lost[12] = "nan";  // lqy
     const Result<Recording> recording = parse_recording(write({row_at("0"), lost}), "f.csv");
     ASSERT_TRUE(recording.ok()) << recording.error().message();
     const RecordedSample& sample = recording.value().samples[1];
-    EXPECT_TRUE(sample.hands[0].controller.position.array().isNaN().all());
-    EXPECT_TRUE(sample.hands[0].controller.rotation.coeffs().array().isNaN().all());
+    EXPECT_TRUE(is_lost(sample.hands[0].controller));
     EXPECT_EQ(sample.hands[0].buttons, 2);
-    EXPECT_TRUE(is_valid(sample.head));
-    EXPECT_TRUE(is_valid(sample.hands[1].controller));
+    EXPECT_TRUE(hh::is_valid(sample.head));
+    EXPECT_TRUE(hh::is_valid(sample.hands[1].controller));
 }
 
 // Times of clocks that count from any epoch: only differences matter. The steps are multiples of
@@ -185,11 +226,11 @@ RC_GTEST_PROP(Recording, PlaysAlikeFromAnyOrigin, ()) {
     Playback moved(read.value());
     Playback expected(plain);
     RC_ASSERT(moved.duration_s() == expected.duration_s());
-    const std::span<const TrackingSample> all = moved.window(1.0);
-    const std::span<const TrackingSample> wanted = expected.window(1.0);
+    const std::span<const hh::Sample> all = moved.window(1.0);
+    const std::span<const hh::Sample> wanted = expected.window(1.0);
     RC_ASSERT(all.size() == wanted.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
-        RC_ASSERT(all[i].t_s == wanted[i].t_s);
+        RC_ASSERT(all[i].time_s == wanted[i].time_s);
     }
 }
 
@@ -201,12 +242,10 @@ TEST(Recording, QuaternionOfZerosLosesItsPoseOnly) {
     const Result<Recording> recording = parse_recording(write({row_at("0"), lost}), "f.csv");
     ASSERT_TRUE(recording.ok()) << recording.error().message();
     const RecordedSample& sample = recording.value().samples[1];
-    for (const Pose& pose : {sample.head, sample.hands[1].controller}) {
-        EXPECT_TRUE(pose.position.array().isNaN().all());
-        EXPECT_TRUE(pose.rotation.coeffs().array().isNaN().all());
-    }
+    EXPECT_TRUE(is_lost(sample.head));
+    EXPECT_TRUE(is_lost(sample.hands[1].controller));
     EXPECT_EQ(sample.hands[1].buttons, k_button_grip);
-    EXPECT_TRUE(is_valid(sample.hands[0].controller));
+    EXPECT_TRUE(hh::is_valid(sample.hands[0].controller));
 }
 
 TEST(Recording, QuaternionsWithinOnePercentAreMadeUnit) {
@@ -214,7 +253,7 @@ TEST(Recording, QuaternionsWithinOnePercentAreMadeUnit) {
     nearly[7] = "1.009";
     const Result<Recording> recording = parse_recording(write({nearly, row_at("1")}), "f.csv");
     ASSERT_TRUE(recording.ok()) << recording.error().message();
-    EXPECT_EQ(recording.value().samples[0].head.rotation.w(), 1.0);
+    EXPECT_EQ(recording.value().samples[0].head.rotation.w, 1.0);
 }
 
 struct BadCell {
@@ -276,24 +315,31 @@ TEST(Recording, SavedOneLoadsAsTheSameBits) {
         const auto number = [](double low, double high) {
             return low + (high - low) * (*rc::gen::inRange(0, 1000001)) / 1e6 / std::sqrt(1.000003);
         };
+        const bool says_more = *rc::gen::arbitrary<bool>();
         Recording recording;
         for (int i = 0; i < 3; ++i) {
             RecordedSample sample;
             sample.t_s = i + number(0.0, 0.9);
-            for (Pose* pose :
+            for (hh::Pose* pose :
                  {&sample.head, &sample.hands[0].controller, &sample.hands[1].controller}) {
-                pose->position = Vec3(number(-3, 3), number(0, 2), number(-1e5, 1e5));
-                pose->rotation = Quat(number(0.1, 1), number(-1, 1), number(-1, 1), number(-1, 1));
-                pose->rotation.normalize();
+                pose->position = {number(-3, 3), number(0, 2), number(-1e5, 1e5)};
+                pose->rotation = hh::normalized(
+                    hh::Quat{number(-1, 1), number(-1, 1), number(-1, 1), number(0.1, 1)});
             }
             sample.hands[0].squeeze = number(0.0, 1.0);
             sample.hands[0].trigger = number(0.0, 1.0);
             sample.hands[1].trigger = number(0.0, 1.0);
             sample.hands[1].buttons = *rc::gen::inRange(0, 16);
+            if (says_more) {
+                sample.is_head_inferred = *rc::gen::arbitrary<bool>();
+                sample.hands[0].is_inferred = *rc::gen::arbitrary<bool>();
+                sample.hands[1].is_inferred = *rc::gen::arbitrary<bool>();
+                sample.hands[1].curls = {{number(0.0, 1.0), 0.0, 1.0, k_curl_unknown, 0.25}};
+            }
             recording.samples.push_back(sample);
         }
-        recording.samples[1].head = {Vec3::Constant(std::nan("")),
-                                     Quat(Eigen::Vector4d::Constant(std::nan("")))};
+        const double nan = std::nan("");
+        recording.samples[1].head = {{nan, nan, nan}, {nan, nan, nan, nan}};
         RC_ASSERT(!save_recording(path, recording));
         const Result<Recording> loaded = load_recording(path);
         RC_ASSERT(loaded.ok());
@@ -315,7 +361,7 @@ TEST(Recording, ExampleOfItsDocumentLoads) {
     ASSERT_TRUE(recording.ok()) << recording.error().message();
     ASSERT_EQ(recording.value().samples.size(), 3U);
     EXPECT_NE(recording.value().samples[1].hands[0].buttons & k_grab_buttons, 0);
-    EXPECT_FALSE(is_valid(recording.value().samples[1].hands[1].controller));
+    EXPECT_FALSE(hh::is_valid(recording.value().samples[1].hands[1].controller));
 }
 
 // MANIFEST and SOURCE.md of vr_input/: 20 recordings, 312 s in all, near 89 Hz, heads 0.5 to 1.8 m
@@ -336,9 +382,9 @@ TEST(RealRecordings, AllTwentyLoad) {
         const std::vector<RecordedSample>& samples = recording.value().samples;
         seconds += samples.back().t_s - samples.front().t_s;
         for (const RecordedSample& sample : samples) {
-            ASSERT_GT(sample.head.position.y(), 0.5) << entry.path();
-            ASSERT_LT(sample.head.position.y(), 1.85) << entry.path();
-            ASSERT_TRUE(is_valid(sample.hands[0].controller)) << entry.path();
+            ASSERT_GT(sample.head.position.y, 0.5) << entry.path();
+            ASSERT_LT(sample.head.position.y, 1.85) << entry.path();
+            ASSERT_TRUE(hh::is_valid(sample.hands[0].controller)) << entry.path();
         }
         ++count;
     }

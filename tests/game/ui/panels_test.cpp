@@ -61,8 +61,8 @@ TEST(UiPainter, DrawsFromTheUpperLeftCornerAndClips) {
 }
 
 struct Panels : testing::Test {
-    DesktopSession session{make_tunnel(6.0), {Vec3(-0.45, 0.35 - 1.6, 2.0), Quat::Identity()}};
-    SessionHistory history{session};
+    DesktopSession session{make_tunnel(6.0), hh::pose_at({-0.45, 0.35 - 1.6, 2.0})};
+    SessionHistory history;
     PlayTally tally;
     InspectorMemory memory;
     Overlay overlay{640, 360};
@@ -72,8 +72,7 @@ struct Panels : testing::Test {
         input.turn_left_rad = 0.02;
         for (int i = 0; i < frames; ++i) {
             history.step(session, input);
-            tally.add_frame(session.scene().world, session.player(), session.stats(), 50.0,
-                            DesktopSession::k_dt_s);
+            tally.add_frame(session.world(), session.player(), 50.0, DesktopSession::k_dt_s);
         }
     }
     InspectorView view() { return {session, history, tally, memory}; }
@@ -81,7 +80,7 @@ struct Panels : testing::Test {
 
 TEST_F(Panels, InspectorPagesDrawWithoutChangingState) {
     play(30);
-    const std::uint64_t hash = hash_state(session.scene().world);
+    const std::uint64_t hash = session.world().hash();
     for (const char* const page : {"Frame", "Hands", "Tuning", "Entities", "Gizmos"}) {
         memory.turn_to = page;
         std::size_t triangles = 0;
@@ -92,7 +91,7 @@ TEST_F(Panels, InspectorPagesDrawWithoutChangingState) {
         }
         EXPECT_GT(triangles, 400U) << page;
     }
-    EXPECT_EQ(hash_state(session.scene().world), hash);
+    EXPECT_EQ(session.world().hash(), hash);
 }
 
 // Vertices of panels lie inside the picture, so drawing them needs no scissor.

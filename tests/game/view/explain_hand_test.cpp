@@ -23,8 +23,7 @@ Scene make_fitted_tunnel() {
 
 // Beside the tunnel's rail, looking at it; the left hand rests in front of the player.
 struct AtRail : DesktopSession {
-    AtRail()
-        : DesktopSession(make_fitted_tunnel(), {Vec3(-0.45, 0.35 - 1.6, 2.0), Quat::Identity()}) {
+    AtRail() : DesktopSession(make_fitted_tunnel(), hh::pose_at({-0.45, 0.35 - 1.6, 2.0})) {
         DesktopInput look;
         look.turn_left_rad = 0.9;
         look.look_up_rad = -0.2;
@@ -37,7 +36,10 @@ struct AtRail : DesktopSession {
         }
     }
     HandStory story(HandSide side) const {
-        return explain_hand(scene(), caches().collision, player().hands[index_of(side)]);
+        return explain_hand(scene(), scene().caches().collision, entities().hands[index_of(side)]);
+    }
+    PlayerEntities entities() const {
+        return player_entities(scene().world(), DesktopSession::player());
     }
 };
 
@@ -62,11 +64,11 @@ TEST(ExplainHand, GrippingHandNamesTheBodyAndItsError) {
     DesktopInput grip;
     grip.grip[0] = true;
     desk.run(grip, 0.7);
-    const Grab& grab = desk.scene().world.grab.at(desk.player().hands[0]);
+    const Grab& grab = desk.scene().world().grab.at(desk.entities().hands[0]);
     ASSERT_EQ(grab.kind, GripKind::surface);
     const HandStory story = desk.story(HandSide::left);
     const std::string name = name_of_entity(desk.scene(), grab.body);
-    EXPECT_EQ(find_by_id(desk.scene().world, persistent_id_from_name(name)), grab.body);
+    EXPECT_EQ(find_by_id(desk.scene().world(), persistent_id_from_name(name)), grab.body);
     EXPECT_TRUE(says(story, "grips " + name));
     EXPECT_TRUE(says(story, "It is fixed"));
     EXPECT_TRUE(says(story, "hand.max_stretch_m"));
@@ -80,7 +82,7 @@ TEST(ExplainHand, HandClosedOnNothingMustOpenFirst) {
     DesktopInput grip;
     grip.grip[1] = true;
     desk.run(grip, 1.0);
-    ASSERT_EQ(desk.scene().world.grab.at(desk.player().hands[1]).kind, GripKind::none);
+    ASSERT_EQ(desk.scene().world().grab.at(desk.entities().hands[1]).kind, GripKind::none);
     const HandStory story = desk.story(HandSide::right);
     EXPECT_TRUE(says(story, "closed on nothing"));
     EXPECT_TRUE(says(story, "Open it first"));
@@ -88,13 +90,13 @@ TEST(ExplainHand, HandClosedOnNothingMustOpenFirst) {
 
 TEST(ExplainHand, HandInTheLineOfSightIsPointedAt) {
     AtRail desk;
-    const RenderPose& render = desk.scene().world.render_pose.at(desk.player().player);
+    const RenderPose& render = desk.scene().world().render_pose.at(desk.entities().player);
     for (std::size_t side = 0; side < k_hand_count; ++side) {
         const Vec3 to = render.hands[side].shown_ws.position - render.head_ws.position;
-        EXPECT_EQ(hand_pointed_at(desk.scene().world, render.head_ws.position, to.normalized()),
-                  desk.player().hands[side]);
+        EXPECT_EQ(hand_pointed_at(desk.scene().world(), render.head_ws.position, to.normalized()),
+                  desk.entities().hands[side]);
     }
-    EXPECT_FALSE(hand_pointed_at(desk.scene().world, render.head_ws.position, Vec3::UnitY()));
+    EXPECT_FALSE(hand_pointed_at(desk.scene().world(), render.head_ws.position, Vec3::UnitY()));
 }
 
 TEST(Gizmos, EachGizmoDrawsLinesAndNoneDrawsNothing) {
@@ -103,14 +105,15 @@ TEST(Gizmos, EachGizmoDrawsLinesAndNoneDrawsNothing) {
     grip.grip[0] = true;
     desk.run(grip, 0.7);
     std::vector<Line> lines;
-    add_gizmos(desk.scene().world, desk.caches(), desk.scene().tuning, k_no_gizmos, lines);
+    add_gizmos(desk.scene().world(), desk.scene().caches(), desk.scene().tuning(), k_no_gizmos,
+               lines);
     EXPECT_TRUE(lines.empty());
     for (const Gizmo gizmo : {Gizmo::tracked_hands, Gizmo::palm_rays, Gizmo::grips, Gizmo::islands,
                               Gizmo::search, Gizmo::palm_limits, Gizmo::fingers, Gizmo::fit}) {
         GizmoSet on = k_no_gizmos;
         on[static_cast<std::size_t>(gizmo)] = true;
         lines.clear();
-        add_gizmos(desk.scene().world, desk.caches(), desk.scene().tuning, on, lines);
+        add_gizmos(desk.scene().world(), desk.scene().caches(), desk.scene().tuning(), on, lines);
         EXPECT_FALSE(lines.empty()) << info_of(gizmo).name;
         for (const Line& line : lines) {
             EXPECT_TRUE(line.a_ws.allFinite() && line.b_ws.allFinite());
@@ -127,10 +130,10 @@ TEST(Gizmos, GripIsDrawnOnTheHeldSurface) {
     GizmoSet on = k_no_gizmos;
     on[static_cast<std::size_t>(Gizmo::grips)] = true;
     std::vector<Line> lines;
-    add_gizmos(desk.scene().world, desk.caches(), desk.scene().tuning, on, lines);
+    add_gizmos(desk.scene().world(), desk.scene().caches(), desk.scene().tuning(), on, lines);
     ASSERT_FALSE(lines.empty());
     const Line& normal = lines.back();
-    const auto nearest = desk.caches().collision.closest_point(normal.a_ws, 0.1);
+    const auto nearest = desk.scene().caches().collision.closest_point(normal.a_ws, 0.1);
     ASSERT_TRUE(nearest);
     EXPECT_LT(nearest->distance_m, 1e-6);
     EXPECT_NEAR((normal.b_ws - normal.a_ws).norm(), 0.08, 1e-9);
@@ -145,10 +148,10 @@ TEST(Gizmos, FingerContactsLieOnTheSurface) {
     GizmoSet on = k_no_gizmos;
     on[static_cast<std::size_t>(Gizmo::fingers)] = true;
     std::vector<Line> lines;
-    add_gizmos(desk.scene().world, desk.caches(), desk.scene().tuning, on, lines);
+    add_gizmos(desk.scene().world(), desk.scene().caches(), desk.scene().tuning(), on, lines);
     int touches = 0;
     for (const Line& line : lines) {
-        const auto nearest = desk.caches().collision.closest_point(line.b_ws, 1e-3);
+        const auto nearest = desk.scene().caches().collision.closest_point(line.b_ws, 1e-3);
         const bool is_short = (line.b_ws - line.a_ws).norm() < 0.02;
         touches += nearest && nearest->distance_m < 1e-4 && is_short ? 1 : 0;
     }
@@ -161,11 +164,11 @@ TEST(Gizmos, FitColoursAreThoseOfTheCostliestTerms) {
     DesktopInput grip;
     grip.grip[0] = true;
     desk.run(grip, 0.7);
-    const World& world = desk.scene().world;
+    const World& world = desk.scene().world();
     const std::uint64_t hash = hash_state(world);
     const auto terms_of = [&](HandSide side) {
-        return fit_terms_of(world, desk.caches(), desk.scene().tuning,
-                            desk.player().hands[index_of(side)]);
+        return fit_terms_of(world, desk.scene().caches(), desk.scene().tuning(),
+                            desk.entities().hands[index_of(side)]);
     };
     EXPECT_FALSE(terms_of(HandSide::right));
     const auto terms = terms_of(HandSide::left);
@@ -173,7 +176,7 @@ TEST(Gizmos, FitColoursAreThoseOfTheCostliestTerms) {
     GizmoSet on = k_no_gizmos;
     on[static_cast<std::size_t>(Gizmo::fit)] = true;
     std::vector<Line> lines;
-    add_gizmos(world, desk.caches(), desk.scene().tuning, on, lines);
+    add_gizmos(world, desk.scene().caches(), desk.scene().tuning(), on, lines);
     std::vector<Color> wanted = {color_of(FitTerm::sync)};  // of the palm's line
     for (const FitTerms::Costs& costs : terms->cost_m2) {
         const auto term = shaping_term(costs);
@@ -194,15 +197,14 @@ TEST(PlayTally, ClimbedDistanceExcludesDrifting) {
     const auto play = [&](const DesktopInput& input, double seconds) {
         for (double t_s = 0.0; t_s < seconds; t_s += DesktopSession::k_dt_s) {
             desk.step(input);
-            tally.add_frame(desk.scene().world, desk.player(), desk.stats(), 100.0,
-                            DesktopSession::k_dt_s);
+            tally.add_frame(desk.world(), desk.player(), 100.0, DesktopSession::k_dt_s);
         }
     };
     DesktopInput input;
     input.grip[0] = true;
     play(input, 0.6);
     const double before_m = tally.figures().climbed_m;
-    input.move = Vec3(0.0, 0.0, -1.0);
+    input.move = {0.0, 0.0, -1.0};
     play(input, 0.3);
     EXPECT_NEAR(tally.figures().climbed_m - before_m, 0.9 * 0.3, 0.03);  // a pull of 0.9 m/s
     play({}, 0.5);                                                       // the player glides on

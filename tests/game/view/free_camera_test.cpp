@@ -17,7 +17,7 @@ TEST(FreeCamera, FliesInItsViewDirection) {
     left.turn_left_rad = k_half_pi;
     camera.fly(left, 0.01);
     DesktopInput ahead;
-    ahead.move = -Vec3::UnitZ();
+    ahead.move = -hh::k_z;
     camera.fly(ahead, 1.0);
     EXPECT_NEAR((camera.pose_ws().position - Vec3(-0.5, 2.0, 3.0)).norm(), 0.0, 1e-12);
     ahead.hurry = true;
@@ -43,7 +43,7 @@ TEST(FreeCamera, StaysUpright) {
 TEST(FreeCamera, PlayerKeepsGripsAndDoesNothingElse) {
     DesktopInput input;
     input.grip = {true, false};
-    input.move = Vec3::UnitX();
+    input.move = hh::k_x;
     input.brake = true;
     FreeCamera camera;
     camera.begin({}, Vec3::UnitY(), input);
@@ -52,7 +52,7 @@ TEST(FreeCamera, PlayerKeepsGripsAndDoesNothingElse) {
     const DesktopInput held = camera.held();
     EXPECT_TRUE(held.grip[0]);
     EXPECT_FALSE(held.grip[1]);
-    EXPECT_EQ(held.move, Vec3::Zero());
+    EXPECT_TRUE(held.move == hh::Vec3{});
     EXPECT_FALSE(held.brake);
 }
 

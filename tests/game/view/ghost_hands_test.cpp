@@ -42,7 +42,7 @@ TEST(GhostShare, GrowsWithDistanceBetweenItsLimits) {
 TEST(SnapHint, HintsAtTheGripThatAClosingHandSnapsTo) {
     Scene scene = *make_built_in_scene("playground");
     const PlayerEntities player = add_scene_player(scene, {"player", {}, 80.0});
-    World& world = scene.world;
+    World& world = scene.world();
     const Entity gun = find_by_id(world, persistent_id_from_name("gun"));
     const AuthoredGrip& grip = world.authored_grips.at(gun).grips[0];
     const Pose wrist_ws =
@@ -51,7 +51,7 @@ TEST(SnapHint, HintsAtTheGripThatAClosingHandSnapsTo) {
     const auto hint_at = [&](double share_of_radius) {
         hand.tracked_ws = wrist_ws;
         hand.tracked_ws.position += share_of_radius * grip.snap_radius_m * Vec3::UnitY();
-        return find_snap_hint(world, player.hands[1], scene.tuning.hand);
+        return find_snap_hint(world, player.hands[1], scene.tuning().hand);
     };
     ASSERT_TRUE(hint_at(0.0));
     EXPECT_NEAR(hint_at(0.0)->nearness, 1.0, 1e-9);
@@ -61,16 +61,15 @@ TEST(SnapHint, HintsAtTheGripThatAClosingHandSnapsTo) {
     EXPECT_FALSE(hint_at(2.01));
     hand.tracked_ws = wrist_ws;
     world.grab.at(player.hands[1]).kind = GripKind::held;
-    EXPECT_FALSE(find_snap_hint(world, player.hands[1], scene.tuning.hand));
+    EXPECT_FALSE(find_snap_hint(world, player.hands[1], scene.tuning().hand));
 }
 
 // One player who looks along -Z, with the right hand in front of the eyes.
 class GhostPicture : public testing::Test {
   protected:
     void SetUp() override {
-        scene_.head_shape = scene_.shapes->add_sphere(scene_.tuning.head.radius_m);
         player_ = add_scene_player(scene_, {"player", {}, 80.0});
-        RenderPose& render = scene_.world.render_pose.at(player_.player);
+        RenderPose& render = scene_.world().render_pose.at(player_.player);
         lay_body_behind(render);
         for (RenderPose::Hand& hand : render.hands) {
             put(hand, Vec3(0.0, 0.0, 5.0));  // behind the player
@@ -78,7 +77,7 @@ class GhostPicture : public testing::Test {
         put(right(), Vec3(0.0, -0.05, -0.6));
     }
     RenderPose::Hand& right() {
-        return scene_.world.render_pose.at(player_.player).hands[index_of(HandSide::right)];
+        return scene_.world().render_pose.at(player_.player).hands[index_of(HandSide::right)];
     }
     static void put(RenderPose::Hand& hand, const Vec3& place) {
         hand.tracked_ws = hand.shown_ws = {place, Quat::Identity()};
@@ -206,7 +205,6 @@ TEST_F(GhostPicture, EmptyHandDeepInAWallShinesThroughInItsPlayersViewOnly) {
 // Only the player is in the scene: drawing hands' ghosts must not change the picture.
 TEST(GhostOfOwnHand, DoesNotShineThroughOwnArmOrOtherHand) {
     Scene scene;
-    scene.head_shape = scene.shapes->add_sphere(scene.tuning.head.radius_m);
     const PlayerEntities player = add_scene_player(scene, {"player", {}, 80.0});
     PlayerModels without;
     without.ghosts.penetrating = 0.0F;
@@ -216,7 +214,7 @@ TEST(GhostOfOwnHand, DoesNotShineThroughOwnArmOrOtherHand) {
     if (!view || !bare) {
         GTEST_SKIP() << "no picture can be drawn here";
     }
-    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
+    FrameCaches caches(scene.shapes(), &scene.grip_meshes());
     StageStats stats;
     Image image;
     Image expected;
@@ -229,16 +227,16 @@ TEST(GhostOfOwnHand, DoesNotShineThroughOwnArmOrOtherHand) {
         sample.head_ps.position = Vec3(0.0, 1.6, 0.0);
         const auto put = [&](HandSide side, const Pose& hand_ps) {
             sample.controllers[index_of(side)].controller_ps =
-                hand_ps * inverse(default_controller_to_hand(side, scene.tuning.hand));
+                hand_ps * inverse(default_controller_to_hand(side, scene.tuning().hand));
         };
         put(HandSide::right, {Vec3(0.06, 1.40 + 0.2 * reach, -0.3 - 0.35 * reach), points_up});
         put(HandSide::left, {Vec3(0.02, 1.42 + 0.1 * reach, -0.25 - 0.1 * reach), points_up});
         for (int frame = 0; frame < 10; ++frame) {
-            sample.t_s = scene.world.clock.t_s + 0.02;
+            sample.t_s = scene.world().clock.t_s + 0.02;
             const PlayerInput input{player.player, {&sample, 1}, {}};
-            step_frame(scene.world, caches, scene.tuning, {0.02, {&input, 1}}, stats);
+            step_frame(scene.world(), caches, scene.tuning(), {0.02, {&input, 1}}, stats);
         }
-        const Pose eyes_ws = scene.world.render_pose.at(player.player).head_ws;
+        const Pose eyes_ws = scene.world().render_pose.at(player.player).head_ws;
         view->draw(eyes_ws, 1.3, 0, image);
         bare->draw(eyes_ws, 1.3, 0, expected);
         EXPECT_EQ(compare(image, expected, Vec3(0.0, 0.0, -1.0), 0.0).all, 0) << pose;

@@ -48,7 +48,7 @@ TEST(OutsideCamera, IsBehindOrInFrontWithoutWalls) {
 TEST(OutsideCamera, IsValidForAnyLookAndForBodiesWithoutColliders) {
     Scene scene = make_tunnel(4.0);
     const Entity ghost = add_block(scene, "ghost", Vec3(0.1, 0.1, 0.1), Vec3::Zero());
-    ASSERT_TRUE(scene.world.collider.remove(ghost));
+    ASSERT_TRUE(scene.world().collider.remove(ghost));
     OutsideCamera outside(scene);
     RenderPose player = head_at(Vec3::Zero());
     for (const double pitch : {k_half_pi, -k_half_pi}) {

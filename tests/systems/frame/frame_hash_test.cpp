@@ -57,7 +57,8 @@ World full_world() {
     world.gravity_scale.add(other);
     world.filter.add(other);
     world.grab_rule.add(other);
-    world.early_sample.add(made.player);
+    world.early_samples.add(made.player);
+    world.recenter_guess.add(made.player);
     world.grab_layers.add(made.player);
     world.grab_order.add(made.hands[0]);
     world.hand_rig.add(made.hands[0]);

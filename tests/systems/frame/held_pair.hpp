@@ -23,6 +23,7 @@ constexpr std::size_t k_holder = 0;
 constexpr std::size_t k_held = 1;
 constexpr std::size_t k_left = index_of(HandSide::left);
 constexpr std::size_t k_right = index_of(HandSide::right);
+constexpr double k_half_turn_rad = 3.14159265358979323846;
 inline const Vec3 k_held_head(0.0, 1.6, 0.0);
 
 // A hand whose palm's centre is at `palm` and looks along `palm_way`.
@@ -92,9 +93,12 @@ struct Pair {
         const Vec3 head = on_axis + 0.8 * out + Vec3(0.0, 0.15, 0.0);
         const Vec3 far = touch.position + 0.2 * out;
         const Vec3 start_head = scripts[k_holder].head(0.0).position;
+        // Around the other: a head that meets legs on its way leaves them swinging.
+        const Vec3 aside = std::copysign(1.5, head.x()) * Vec3::UnitX();
         scripts[k_holder].head = [=](double t) {
             const double share = ease(t, k_reach_from_s, 1.5);
-            return Pose{start_head + share * (head - start_head), Quat::Identity()};
+            const Vec3 arc = std::sin(k_half_turn_rad * share) * aside;
+            return Pose{start_head + share * (head - start_head) + arc, Quat::Identity()};
         };
         const Vec3 start_hand = scripts[k_holder].hands[k_right](0.0).position;
         scripts[k_holder].hands[k_right] = [=, this](double t) {

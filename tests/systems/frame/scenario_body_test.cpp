@@ -34,7 +34,8 @@ bool holds(double t_s) {
 // Where the left foot of a player at rest is, relative to the chest. `pull`: what the gripping
 // hands pull in the end. Both in world axes; the player's origin is not turned.
 Vec3 foot_at_rest(const Quat& chest, const Vec3& pull, double scale) {
-    const TrunkLean lean = lean_of(chest.conjugate() * pull);
+    const Quat to_chest = chest.conjugate();
+    const TrunkLean lean = lean_of(to_chest * pull, upright_turn(to_chest * Vec3::UnitY(), 0.0));
     SpineChain chain{frame_at(leaning_chest(chest, lean)), {}};
     BodyLinkVectors end_m = zero_vectors();
     constexpr std::size_t k_left_shin = k_spine_links + 1;

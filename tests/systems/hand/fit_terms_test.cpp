@@ -66,6 +66,7 @@ struct FitTermsOfHand : testing::Test {
 
 TEST_F(FitTermsOfHand, TermsSumToTheCostOfTheFit) {
     Random random(2601);
+    std::vector<PenaltyRow> rows;
     std::array<int, k_fit_term_count> seen = {};
     for (int i = 0; i < 200; ++i) {
         FittedHand hand{random_mesh(random), random_wrist(random)};
@@ -74,10 +75,12 @@ TEST_F(FitTermsOfHand, TermsSumToTheCostOfTheFit) {
         for (const std::int32_t rounds : {0, 6}) {
             goal.rounds = rounds;
             goal.first =
-                fit_hand(hand.hands.front(), hand.surface.at(k_right), goal, hand.tuning.palm).pose;
+                fit_hand(hand.hands.front(), hand.surface.at(k_right), goal, hand.tuning.palm, rows)
+                    .pose;
             goal.rounds = 0;
             const double cost_m2 =
-                fit_hand(hand.hands.front(), hand.surface.at(k_right), goal, hand.tuning.palm).cost;
+                fit_hand(hand.hands.front(), hand.surface.at(k_right), goal, hand.tuning.palm, rows)
+                    .cost;
             const FitTerms terms = terms_of(hand, goal);
             EXPECT_GT(cost_m2, 0.0);
             EXPECT_NEAR(sum_of(terms), cost_m2, 1e-12 * cost_m2) << i;

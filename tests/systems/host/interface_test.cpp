@@ -77,7 +77,7 @@ struct CallingBack {
     hh_result read = HH_ERROR_INTERNAL;
     int calls = 0;
 };
-bool call_back(void* context, hh_vec3, hh_vec3, const hh_body*, size_t, hh_surface_hit*) {
+std::uint8_t call_back(void* context, hh_vec3, hh_vec3, const hh_body*, size_t, hh_surface_hit*) {
     auto& self = *static_cast<CallingBack*>(context);
     const hh_body_def def = hh_default_body_def();
     hh_body body{};
@@ -105,7 +105,7 @@ TEST(HostSurfaces, AQueryMayReadItsWorldButNotChangeIt) {
     EXPECT_NEAR(scene.world.time_s(), 2 * k_step_s, 1e-12);
 }
 
-bool throw_once(void* context, hh_vec3, hh_vec3, const hh_body*, size_t, hh_surface_hit*) {
+std::uint8_t throw_once(void* context, hh_vec3, hh_vec3, const hh_body*, size_t, hh_surface_hit*) {
     int& calls = *static_cast<int*>(context);
     if (calls++ == 0) {
         throw std::runtime_error("the host's ray failed");
@@ -226,15 +226,15 @@ RC_GTEST_PROP(HostSnapshots, ReplayAfterRestoreIsBitForBitEqual, ()) {
     std::vector<std::byte> saved;
     RC_ASSERT(static_cast<bool>(scene.world.save(saved)));
     run(saved_at, 40);
-    hh_body_def added = crate(scene.world, {0.0, 9.0, 0.0});
-    added.shape = {};
-    added.inertia_kgm2 = {1.0, 1.0, 1.0};
     const std::uint64_t hash = scene.world.hash();
-    RC_ASSERT(static_cast<bool>(scene.world.add(added)));
-    RC_ASSERT(scene.world.restore(saved).result() == HH_ERROR_DATA);  // the crate's shape is new
-    std::size_t count = 0;
-    RC_ASSERT(hh_world_bodies(scene.world.get(), nullptr, 0, &count) == HH_OK && count == 2);
+    RC_ASSERT(static_cast<bool>(scene.world.add(crate(scene.world, {0.0, 9.0, 0.0}))));
     RC_ASSERT(hash != scene.world.hash());
+    // Shapes are named by content, so the crate's may stay. The crate goes.
+    RC_ASSERT(static_cast<bool>(scene.world.restore(saved)));
+    std::size_t count = 0;
+    RC_ASSERT(hh_world_bodies(scene.world.get(), nullptr, 0, &count) == HH_OK && count == 1);
+    run(saved_at, 40);
+    RC_ASSERT(hash == scene.world.hash());
 }
 
 RC_GTEST_PROP(HostSnapshots, RollbackGivesTheSameHash, ()) {

@@ -89,9 +89,15 @@ RC_GTEST_PROP(HostMath, MadeRotationsEqualTheLibrarysToTheBit, ()) {
     const Quat q = rotation();
     RC_ASSERT(same(rotation_to_vector(q), hh::rotation_to_vector(to_host(q))));
     const Mat3 axes = q.toRotationMatrix();
-    RC_ASSERT(same(Quat(axes).normalized(),
-                   hh::rotation_from_axes(to_host(Vec3(axes.col(0))), to_host(Vec3(axes.col(1))),
-                                          to_host(Vec3(axes.col(2))))));
+    RC_ASSERT(same(
+        Quat(axes).normalized(),
+        hh::normalized(hh::rotation_from_axes(
+            to_host(Vec3(axes.col(0))), to_host(Vec3(axes.col(1))), to_host(Vec3(axes.col(2)))))));
+    const Vec3 other = rotation() * axis;
+    RC_ASSERT(
+        same(rotation_between(axis, other), hh::rotation_between(to_host(axis), to_host(other))));
+    RC_ASSERT(same(rotation_between(axis, -axis),
+                   hh::rotation_between(to_host(axis), to_host(Vec3(-axis)))));
     const Vec3 up = vector(1.0);
     RC_PRE(up.norm() > 1e-3 && v.norm() > 1e-3);
     RC_ASSERT(same(look_rotation(v, up), hh::look_rotation(to_host(v), to_host(up))));

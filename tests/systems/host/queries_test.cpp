@@ -59,7 +59,7 @@ TEST(HostQueries, FindHeadsExceptTheSkippedPlayers) {
     scene.step(2);
     hh::Vec3 center{};
     double radius_m = 0.0;
-    bool is_tracked = false;
+    std::uint8_t is_tracked = 0;
     ASSERT_EQ(hh_player_head(scene.world.get(), scene.player, &center, &radius_m, &is_tracked),
               HH_OK);
     EXPECT_TRUE(is_tracked);
@@ -273,6 +273,29 @@ TEST(HostPlayers, HandInControllerOfTheTuningIsThatOfPlayersWithoutTheirOwn) {
     EXPECT_FALSE(world.hand_in_controller(HH_LEFT)->position == hh::Vec3{});
 }
 
+// A player drifts head first into a wall. Without drag and contacts the origin would move by
+// velocity times time, so the push-back is the distance from there to the origin after the step.
+TEST(HostPlayers, PushBackIsHowFarContactsMovedTheOrigin) {
+    HostScene scene;
+    ASSERT_TRUE(scene.world.tune("locomotion.drift_drag_per_s", 0.0));
+    scene.add_wall();
+    scene.step(3);
+    EXPECT_EQ(*scene.world.mass_kg(scene.player), 80.0);
+    EXPECT_EQ(*scene.world.push_back_m(scene.player), 0.0);
+    ASSERT_EQ(hh_player_set_velocity(scene.world.get(), scene.player, {0.0, 0.0, -1.0}), HH_OK);
+    double most_m = 0.0;
+    for (int i = 0; i < 60; ++i) {
+        const hh_player_pose before = *scene.world.pose(scene.player);
+        scene.step();
+        const hh::Vec3 free = before.origin.position + k_step_s * before.velocity_mps;
+        const hh::Vec3 after = scene.world.pose(scene.player)->origin.position;
+        const double pushed_m = *scene.world.push_back_m(scene.player);
+        EXPECT_NEAR(pushed_m, hh::length(after - free), 1e-9) << i;
+        most_m = std::max(most_m, pushed_m);
+    }
+    EXPECT_GT(most_m, 1e-3);
+}
+
 TEST(HostThreads, MayChangeWhileAWorldExists) {
     const hh::World world;
     const std::uint32_t before = hh_thread_count();
@@ -282,6 +305,35 @@ TEST(HostThreads, MayChangeWhileAWorldExists) {
     EXPECT_EQ(hh_set_thread_count(257), HH_ERROR_VALUE);
     EXPECT_EQ(hh_thread_count(), 3U);
     ASSERT_EQ(hh_set_thread_count(before), HH_OK);
+}
+
+TEST(HostTuning, NumbersAreKeptAndRestoredAtOnce) {
+    hh::World world;
+    const std::vector<double> before = world.tuning_numbers();
+    std::size_t described = 0;
+    hh_tuning_info info = hh_default_tuning_info();
+    for (std::size_t i = 0; hh_tuning_describe(i, &info) == HH_OK; ++i) {
+        double values[3] = {};
+        ASSERT_EQ(hh_world_get_tuning(world.get(), info.name, values, info.count), HH_OK);
+        for (std::size_t j = 0; j < info.count; ++j) {
+            ASSERT_LT(described, before.size());
+            EXPECT_EQ(before[described++], values[j]) << info.name;
+        }
+    }
+    EXPECT_EQ(described, before.size());
+    ASSERT_TRUE(world.tune("hand.reach_m", 0.123));
+    EXPECT_NE(world.tuning_numbers(), before);
+    ASSERT_TRUE(world.set_tuning_numbers(before));
+    EXPECT_EQ(world.tuning_numbers(), before);
+    std::vector<double> wrong = before;
+    wrong.back() = std::nan("");
+    wrong.front() += 1e-6;
+    EXPECT_EQ(world.set_tuning_numbers(wrong).result(), HH_ERROR_VALUE);
+    EXPECT_EQ(world.set_tuning_numbers(std::span(before).first(5)).result(), HH_ERROR_VALUE);
+    wrong = before;
+    wrong.push_back(0.0);
+    EXPECT_EQ(world.set_tuning_numbers(wrong).result(), HH_ERROR_VALUE);
+    EXPECT_EQ(world.tuning_numbers(), before);
 }
 
 // What a step is given of a stream of samples: those up to its end, and one after it.
@@ -343,7 +395,7 @@ RC_GTEST_PROP(HostSamples, MayBeGivenAgain, ()) {
             made.head_ps = from_host(sample.head);
             for (std::size_t side = 0; side < 2; ++side) {
                 made.controllers[side].controller_ps = from_host(sample.hands[side]);
-                made.controllers[side].grab = sample.grab[side];
+                made.controllers[side].grab = sample.grab[side] != 0;
             }
         }
         const HostColumns c = columns_of(columns.world.get());
@@ -373,16 +425,6 @@ TEST(HostSamples, AreTakenToTheBitIfTheyAreGivenAgain) {
         ASSERT_TRUE(scene.world.step(k_step_s, input));
         EXPECT_EQ(scene.hand(HH_RIGHT).is_closed, !repeats);
     }
-}
-
-// Of a version that did not know the field.
-TEST(HostSamples, InputsOfTheFirstVersionAreRead) {
-    HostScene scene;
-    const hh::Sample sample = scene.sample();
-    hh_player_input input = hh::input(scene.player, {&sample, 1});
-    input.struct_size = offsetof(hh_player_input, repeats_samples);
-    ASSERT_TRUE(scene.world.step(k_step_s, input));
-    EXPECT_TRUE(scene.hand(HH_RIGHT).is_tracked);
 }
 
 TEST(HostStats, CountHandsAndMomentum) {

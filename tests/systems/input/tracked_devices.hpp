@@ -28,6 +28,8 @@ inline TrackingSample sample_at(double t_s, const Vec3& place = k_rest, bool gra
 struct Devices {
     Column<HandOwner> owner;
     Column<ControllerToHand> joint;
+    Column<RecenterGuess> recenter_guess;
+    Column<Grab> grab;  // of hands that grip; the others need none
     Column<HeadTracking> head;
     Column<HandTracking> hand;
     Column<HandHistory> history;
@@ -66,6 +68,8 @@ struct Devices {
                        .frame_end_s = t_s + dt_s,
                        .owner = owner,
                        .controller_to_hand = joint,
+                       .recenter_guess = recenter_guess,
+                       .grab = grab,
                        .head = head,
                        .hand = hand,
                        .history = history,

@@ -103,6 +103,114 @@ TEST_P(EveryConvention, OrderOfJointsIsIrrelevant) {
     expect_bones(humanoid);
 }
 
+// Words of figures of nobody's convention: one of each row for each limb, after the name of the
+// figure, with the side as a letter. Beside them stand joints that are no bones.
+struct LimbWords {
+    const char* clavicle;
+    const char* upper_arm;
+    const char* forearm;
+    const char* hand;
+    const char* thigh;
+    const char* shin;
+    const char* foot;
+};
+constexpr std::array<LimbWords, 11> k_limb_words = {{
+    {"Shoulder", "Arm", "ForeArm", "Hand", "Leg", "Knee", "Foot"},
+    {"Shoulder", "UpperArm", "LowerArm", "Hand", "Thigh", "Shin", "Foot"},
+    {"Clavicle", "Arm", "Elbow", "Hand", "UpLeg", "Leg", "Foot"},
+    {"", "Arm", "Elbow", "Wrist", "UpperLeg", "LowerLeg", "Ankle"},
+    {"", "Arm1", "Arm2", "Hand", "Leg1", "Leg2", "Foot"},
+    {"Shoulder", "Arm_01", "Arm_02", "Hand", "Leg_01", "Leg_02", "Foot"},
+    {"Collar", "Arm_Up", "Arm_Down", "Palm", "Leg_Up", "Leg_Down", "Foot"},
+    {"", "ArmUpper", "ArmLower", "Hand", "Leg_Upper", "Leg_Lower", "Foot"},
+    {"Clavicle", "Shoulder", "Elbow", "Wrist", "Hip", "Knee", "Ankle"},
+    {"", "Arm", "Arm_Low", "Hand", "Leg", "Leg_Low", "Foot"},
+    {"Shoulder", "Bicep", "Forearm", "Hand", "Leg", "Calf", "Foot"},
+}};
+
+TEST(BodyConventions, SidesByALetterAndAnyFiguresNameGiveTheBones) {
+    Random random(97);
+    const auto any = [&](const auto& list) {
+        return list[static_cast<std::size_t>(random.between(0.0, 1.0) *
+                                             static_cast<double>(std::size(list)))];
+    };
+    constexpr std::array<const char*, 9> k_figures = {"",          "Robot_",       "Shinobi_",
+                                                      "Handyman_", "LittleGuy_",   "Prop_",
+                                                      "Palmer-",   "Footman_Rig_", "rig:"};
+    constexpr std::array<const char*, 6> k_forms = {"%_*", "*_%", "%.*", "%_*_01", "%-*", "% *"};
+    for (int i = 0; i < 300; ++i) {
+        std::vector<std::string> texts;
+        texts.reserve(64);
+        const std::string figure = any(k_figures);
+        const std::string form = any(k_forms);
+        const bool is_capital = random.between(0.0, 1.0) < 0.5;
+        const auto middle = [&](const char* word) {
+            texts.push_back(figure + word);
+            return texts.back().c_str();
+        };
+        const auto limb = [&](const char* word) {
+            texts.push_back(figure + std::string(form).replace(form.find('%'), 1, word));
+            return texts.back().c_str();
+        };
+        HumanoidConvention convention{"letters",
+                                      is_capital ? "L" : "l",
+                                      is_capital ? "R" : "r",
+                                      test::JointAxes::y_along,
+                                      {}};
+        std::vector<test::HumanoidJoint>& joints = convention.joints;
+        constexpr std::array<const char*, 3> k_roots = {"Hips", "Root", "Body"};
+        const char* const root = middle(any(k_roots));
+        const char* const spine = middle("Spine");
+        const char* const chest = middle("Chest");
+        const char* const neck = middle("Neck");
+        const char* const head = middle("Head");
+        joints = {{root, "", "pelvis", false},
+                  {spine, root, "spine", false},
+                  {chest, spine, "chest", false},
+                  {neck, chest, "neck"},
+                  {head, neck, "head"}};
+        const LimbWords arm = any(k_limb_words);
+        const LimbWords leg = any(k_limb_words);
+        const char* above = chest;
+        for (const auto& [word, place] : {std::pair(arm.clavicle, "clavicle"),
+                                          {arm.upper_arm, "upper_arm"},
+                                          {arm.forearm, "forearm"},
+                                          {arm.hand, "hand"}}) {
+            if (*word != '\0') {
+                joints.push_back({limb(word), above, place});
+                above = joints.back().name;
+            }
+        }
+        const char* const hand = above;
+        above = root;
+        for (const auto& [word, place] :
+             {std::pair(leg.thigh, "thigh"), {leg.shin, "shin"}, {leg.foot, "foot"}}) {
+            joints.push_back({limb(word), above, place});
+            above = joints.back().name;
+        }
+        const auto kind = static_cast<int>(random.between(0.0, 5.0));
+        if (kind == 1) {
+            joints.push_back({limb("Toe"), above, "toe", false});
+            joints.push_back({limb("Finger"), hand, "index", false});
+            joints.push_back({limb("Thumb"), hand, "thumb", false});
+        } else if (kind == 2) {
+            joints.push_back({limb("IK_Hand"), "", "hand", false});
+            joints.push_back({limb("Foot_IK"), "", "foot", false});
+            joints.push_back({limb("Knee_Target"), "", "shin", false});
+        } else if (kind == 3) {
+            joints.push_back({limb("Eye"), head, "eye", false});
+            joints.push_back({limb("Skirt"), root, "thigh/0.5", false});
+        } else if (kind == 4) {
+            joints.push_back({limb("Hand_end"), hand, "finger_end", false});
+            joints.push_back({limb("Foot_end"), above, "toe_end", false});
+        }
+        SCOPED_TRACE(figure + " " + form + " " + arm.upper_arm + " " + leg.thigh);
+        expect_bones(make_humanoid(convention, {.arms_down_rad = random.between(0.0, 0.9),
+                                                .scale = std::exp(random.between(-2.0, 2.0)),
+                                                .yaw_rad = random.between(-3.0, 3.0)}));
+    }
+}
+
 // Without names, hierarchy and joint positions decide: the limbs are right, or the figure is
 // refused.
 TEST_P(EveryConvention, ShapeGivesTheLimbsOrTheFigureIsRefused) {

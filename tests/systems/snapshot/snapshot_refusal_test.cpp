@@ -78,11 +78,11 @@ TEST_F(SnapshotRefuses, AnyDamagedByte) {
 
 TEST_F(SnapshotRefuses, AnotherFormatVersion) {
     for (const std::uint32_t version :
-         {1U, 2U, 3U, 4U, 5U, 7U}) {  // earlier field names; a later build
+         {1U, 2U, 3U, 4U, 5U, 6U, 7U, 9U}) {  // earlier field names; a later build
         SnapshotBytes other(bytes_);
         other.put(8, version);
         expect_refused(other,
-                       "byte 8: expected format version 6, found " + std::to_string(version));
+                       "byte 8: expected format version 8, found " + std::to_string(version));
     }
 }
 
@@ -216,7 +216,10 @@ TEST_F(SnapshotRefuses, RowsWithoutTheirCounterparts) {
     break_world(".next", [](World& w) { w.head_ignores.rows()[0].next = 8; });
     break_world("hand_history", [](World& w) { w.hand_history.rows()[0].count = 33; });
     break_world(".phase", [](World& w) { w.grab.rows()[0].kind = GripKind::none; });
-    break_world(".shape: expected a shape that exists",
+    break_world("].count", [](World& w) {
+        w.early_samples.add(w.player.owners()[0]).count = EarlySamples::k_capacity + 1;
+    });
+    break_world(".shape: expected a shape of this world",
                 [](World& w) { w.collider.rows()[0].shape.index = 1000; });
     break_world("expected a row in last_valid of the same owner",
                 [&](World& w) { w.last_valid.remove(by_name(w, "rock")); });

@@ -181,7 +181,7 @@ constexpr O transform(R&& range, O out, F function) {
     return out;
 }
 
-// Of two ranges.
+// Algorithms on two ranges.
 template <class A, class B, class O, class F>
 requires requires(B& b) { std::begin(b); }
 constexpr O transform(A&& a, B&& b, O out, F function) {

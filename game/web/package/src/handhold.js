@@ -132,10 +132,14 @@ export class Handhold {
             this.memory.release();
         }
     }
+    /** Fills a struct with the library's defaults. */
+    fillDefault(kind, at) {
+        this.check(this.exports[`hh_default_${kind.slice(3)}_sized`](at, layoutOf(kind).size));
+    }
     /** A struct with the library's defaults and what `given` says. */
     definition(kind, given) {
         const at = this.memory.take(layoutOf(kind).size);
-        this.exports['hh_default_' + kind.slice(3)](at);
+        this.fillDefault(kind, at);
         this.memory.write(kind, at, given);
         return at;
     }
@@ -188,10 +192,10 @@ export class World {
             return m.readList(kind, at, size);
         });
     }
-    #poses(name, idKind, kind, ids) {
+    #poses(name, idKind, kind, ids, sizes = []) {
         return this.#library.scratch((m) => {
             const out = m.take(ids.length * layoutOf(kind).size);
-            this.#checked(name, [m.takeList(idKind, ids), ids.length, out]);
+            this.#checked(name, [m.takeList(idKind, ids), ids.length, out, ...sizes]);
             return m.readList(kind, out, ids.length);
         });
     }
@@ -292,7 +296,8 @@ export class World {
             hand_in_controller === null ? 0 : this.#one(m, 'hh_pose', fullPose(hand_in_controller))]);
     }
     playerPoses(players) {
-        return this.#poses('world_player_poses', 'hh_player', 'hh_player_pose', players);
+        const sizes = [layoutOf('hh_player_pose').size, layoutOf('hh_hand_state').size];
+        return this.#poses('world_player_poses_sized', 'hh_player', 'hh_player_pose', players, sizes);
     }
     playerPose(player) {
         return this.playerPoses([player])[0];
@@ -364,10 +369,10 @@ export class World {
         const sampleSize = layoutOf('hh_tracking_sample').size;
         const list = m.take(sampleSize * samples.length);
         samples.forEach((sample, i) => {
-            this.#library.exports.hh_default_tracking_sample(list + i * sampleSize);
+            this.#library.fillDefault('hh_tracking_sample', list + i * sampleSize);
             m.write('hh_tracking_sample', list + i * sampleSize, sample);
         });
-        this.#library.exports.hh_default_player_input(at);
+        this.#library.fillDefault('hh_player_input', at);
         m.write('hh_player_input', at, { player, samples: list, sample_count: samples.length, commands });
     }
     /** {time_s, frame} of the world's clock. */
@@ -382,7 +387,7 @@ export class World {
     events() {
         return this.#library.scratch((m) => {
             const out = m.take(8);
-            this.#checked('world_events', [out, out + 4]);
+            this.#checked('world_events_sized', [out, out + 4, layoutOf('hh_event').size]);
             return m.readList('hh_event', m.read('pointer', out), m.read('u32', out + 4));
         });
     }

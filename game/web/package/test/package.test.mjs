@@ -46,7 +46,7 @@ test('every struct has the size that the library expects', () => {
         handhold.scratch((m) => {
             const at = m.take(layoutOf(kind).size + 64);
             m.bytes(at, layoutOf(kind).size + 64).fill(0xa5);
-            handhold.exports['hh_default_' + kind.slice(3)](at);
+            handhold.fillDefault(kind, at);
             assert.equal(m.view.getUint32(at, true), layoutOf(kind).size, kind);
         });
     }

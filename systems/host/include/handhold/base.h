@@ -1,7 +1,6 @@
 #ifndef HANDHOLD_BASE_H
 #define HANDHOLD_BASE_H
 
-#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -16,12 +15,27 @@
  * stale id, a NaN or a number out of range. A call that fails changes nothing and writes no output;
  * hh_last_error() then says in one line what was wrong.
  *
+ * Floating point. Every call computes without exception traps, rounds to nearest and keeps denormals,
+ * on the threads that it uses too, and leaves the environment of the calling thread as it was, flags
+ * included. Hooks and queries of the host run in the library's environment.
+ *
+ * Stack. A call needs at most 96 KiB of the calling thread's stack, and as much on each thread that
+ * runs its tasks, so threads with 112 KiB and more are large enough (musl's default is 128).
+ *
  * Threads. Calls on different worlds may run at the same time. Calls on one world must not
  * overlap, not even two that only read. Functions without a world say what they allow.
  *
- * Definitions and outputs that begin with `struct_size` grow in later versions: fill them by
- * their hh_default_ function, which sets it. A library takes any struct_size from its first
- * version up to its own. */
+ * Growth. Structs that begin with `struct_size` get fields in later versions, at their end. Their
+ * hh_default_ function fills them. In an array, all elements have the struct_size of the first.
+ * hh_player_pose, hh_hand_state and hh_event grow too, without a struct_size. A library takes every
+ * size from that of version 0.2.0 up to its own; HH_ERROR_VERSION for others. All other structs keep
+ * their fields for good.
+ *
+ * Functions named ..._sized write a struct that grows: they take its size in bytes as the host was
+ * compiled with it, and never write more. In C and C++ call the inline functions of the same names
+ * without _sized, which pass it. Other languages call the ..._sized functions.
+ *
+ * Flags are uint8_t: 0 is false, anything else true. Enums have 32 bits. */
 
 #if defined(_WIN32)
 #if defined(HANDHOLD_BUILDING)
@@ -42,7 +56,7 @@ extern "C" {
 typedef enum hh_result {
     HH_OK = 0,
     HH_ERROR_NULL = 1,     /* a pointer that is needed is null */
-    HH_ERROR_VERSION = 2,  /* struct_size is 0, or of a later version than the library */
+    HH_ERROR_VERSION = 2,  /* a size of a struct is not of a version that the library knows */
     HH_ERROR_HANDLE = 3,   /* an id is null, stale or of another world */
     HH_ERROR_VALUE = 4,    /* a number is NaN or out of range, or a combination makes no sense */
     HH_ERROR_NAME = 5,     /* a name is taken, or nothing has it */
@@ -77,6 +91,12 @@ typedef struct hh_pose {
     hh_quat rotation;
 } hh_pose;
 
+/* How far each finger is bent, by thumb, index, middle, ring, little: 0 straight, 1 as in a fist. Below 0
+ * or NaN: unknown; above 1: as 1. */
+typedef struct hh_finger_curls {
+    double fingers[5];
+} hh_finger_curls;
+
 /* The pose at the origin, not rotated. Any thread. */
 HH_API hh_pose hh_identity_pose(void);
 
@@ -106,11 +126,11 @@ typedef enum hh_side { HH_LEFT = 0, HH_RIGHT = 1, HH_SIDE_32_BITS = 0x7fffffff }
 /* A simulation with its shapes, bodies and players. Several may exist. */
 typedef struct hh_world hh_world;
 
-typedef enum hh_log_level { HH_LOG_NOTE = 0, HH_LOG_ERROR = 1 } hh_log_level;
+typedef enum hh_log_level { HH_LOG_NOTE = 0, HH_LOG_ERROR = 1, HH_LOG_LEVEL_32_BITS = 0x7fffffff } hh_log_level;
 
 typedef void (*hh_task)(void* task_context, size_t index);
 
-/* What the process lends the library. Null functions: the library's own.
+/* Functions of the host that the library uses. Null functions: the library's own.
  * Memory comes from the global operator new, which a program may replace as usual; the shared
  * library and the standard library inside it then use the replacement too, once per process. Apart
  * from that a world's blocks are taken and given back by the threads that call it, and by those of
@@ -132,13 +152,18 @@ typedef struct hh_host_hooks {
     uint32_t thread_count;
 } hh_host_hooks;
 
-HH_API hh_host_hooks hh_default_host_hooks(void);
+HH_API hh_result hh_default_host_hooks_sized(hh_host_hooks* filled, size_t size);
+static inline hh_host_hooks hh_default_host_hooks(void) {
+    hh_host_hooks filled;
+    hh_default_host_hooks_sized(&filled, sizeof(filled));
+    return filled;
+}
 /* Sets the hooks of the process; null: back to the defaults. HH_ERROR_STATE while a world exists.
  * Not beside any other call of the library. */
 HH_API hh_result hh_set_host_hooks(const hh_host_hooks* hooks);
-/* Threads of the library's own pool, as hh_host_hooks.thread_count, also while worlds exist: for
- * instance all while a level loads. HH_ERROR_STATE if the host lends parallel_for. Not beside any
- * other call of the library. */
+/* Sets the number of threads of the library's own pool, [1, 256]. Allowed while worlds exist, for
+ * instance to use all cores while a level loads. HH_ERROR_STATE if the host lends parallel_for. Not
+ * beside any other call of the library. */
 HH_API hh_result hh_set_thread_count(uint32_t count);
 HH_API uint32_t hh_thread_count(void);
 

@@ -5,7 +5,7 @@
 //
 //   World, add_body, add_joint, add_player, destroy    components/world.hpp
 //   move_kinematic, teleport_body, teleport_player     components/world_edit.hpp
-//   ShapeLibrary                                       collision shapes, shared by worlds
+//   ShapeLibrary                                       collision shapes, for any number of worlds
 //   GripMeshLibrary                                    meshes that hands are fitted to
 //   step_frame, step_pose_only, hash_state             one frame; a hash of the whole state
 //   begin_host_frame, end_host_frame                   frames around a host's own solver

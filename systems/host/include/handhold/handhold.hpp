@@ -49,6 +49,7 @@ using Hit = hh_hit;
 using Side = hh_side;
 
 inline constexpr Quat k_no_turn{0.0, 0.0, 0.0, 1.0};
+inline constexpr Pose k_origin{{0.0, 0.0, 0.0}, k_no_turn};
 constexpr Pose pose_at(Vec3 position, Quat rotation = k_no_turn) { return {position, rotation}; }
 
 // The result of a call.
@@ -119,7 +120,7 @@ inline hh_player_input input(Player player, std::span<const Sample> samples,
 class Mesh {
   public:
     Mesh() = default;
-    // `xyz`: three coordinates a vertex. Fails as hh_mesh_create: then is_valid is false.
+    // `xyz`: three coordinates per vertex. If hh_mesh_create fails, is_valid is false.
     Mesh(std::span<const float> xyz, std::span<const std::uint32_t> indices,
          bool fits_hands = true) {
         hh_mesh_def def = hh_default_mesh_def();
@@ -260,7 +261,7 @@ class World {
     }
     // A body's velocity in the world.
     struct Motion {
-        // Of the centre of mass.
+        // Velocity of the centre of mass.
         Vec3 velocity_mps;
         // About the world's axes.
         Vec3 angular_velocity_radps;
@@ -351,7 +352,7 @@ class World {
         return make<hh_player_pose>(
             [&](hh_player_pose* p) { return hh_world_player_poses(world_, &player, 1, p); });
     }
-    // The same of many players; none is written if an id is stale. `poses` is at least as long as
+    // Poses of many players; none is written if an id is stale. `poses` is at least as long as
     // `players`.
     Status poses(std::span<const Player> players, std::span<hh_player_pose> poses) const {
         return poses.size() < players.size()
@@ -365,12 +366,20 @@ class World {
     }
     // True if the hand's grip moves its player.
     bool moves_player(Player player, Side side) const {
-        bool moves = false;
-        return hh_hand_moves_player(world_, player, side, &moves) == HH_OK && moves;
+        std::uint8_t moves = 0;
+        return hh_hand_moves_player(world_, player, side, &moves) == HH_OK && moves != 0;
     }
     // The velocity that counts as rest for the player.
     Maybe<Vec3> reference_velocity_mps(Player player) const {
         return make<Vec3>([&](Vec3* v) { return hh_player_reference_velocity(world_, player, v); });
+    }
+    // How far contacts moved the play space in the last step, against its hands and its velocity.
+    Maybe<double> push_back_m(Player player) const {
+        return make<double>([&](double* d) { return hh_player_push_back(world_, player, d); });
+    }
+    // The body mass that the player was added with.
+    Maybe<double> mass_kg(Player player) const {
+        return make<double>([&](double* m) { return hh_player_mass(world_, player, m); });
     }
     // The wrist in the frame of the player's samples.
     Maybe<Pose> hand_in_controller(Player player, Side side) const {
@@ -416,7 +425,7 @@ class World {
     Status step(double dt_s, std::span<const hh_player_input> inputs = {}) {
         return hh_world_step(world_, dt_s, inputs.data(), inputs.size());
     }
-    // The same for a world with one player.
+    // Steps a world with one player.
     Status step(double dt_s, const hh_player_input& input) {
         return hh_world_step(world_, dt_s, &input, 1);
     }
@@ -460,7 +469,7 @@ class World {
     Status begin_step(double dt_s, std::span<const hh_player_input> inputs) {
         return hh_world_begin_step(world_, dt_s, inputs.data(), inputs.size());
     }
-    // What each hand asks of the host's solver. Valid until end_step.
+    // Constraints of the hands for the host's solver. Valid until end_step.
     std::span<const hh_hand_constraint> hand_constraints() const {
         return list<hh_hand_constraint>(&hh_world_hand_constraints);
     }
@@ -524,7 +533,8 @@ class World {
         }
         return result;
     }
-    // Returns to a saved state. Without a change if the bytes are damaged or of other shapes.
+    // Returns to a saved state. Changes nothing if the bytes are damaged or were saved with other
+    // shapes.
     Status restore(std::span<const std::byte> bytes) {
         return hh_world_restore(world_, bytes.data(), bytes.size());
     }
@@ -537,6 +547,12 @@ class World {
     // Sets all numbers from JSON; those that it lacks get their defaults.
     Status load_tuning(std::string_view json) {
         return hh_world_load_tuning(world_, json.data(), json.size());
+    }
+    // All numbers of the tuning, in the order of hh_tuning_describe; a vector is three.
+    std::vector<double> tuning_numbers() const { return all<double>(&hh_world_tuning_numbers); }
+    // Replaces all numbers of the tuning, in that order; on an error none changes.
+    Status set_tuning_numbers(std::span<const double> numbers) {
+        return hh_world_set_tuning_numbers(world_, numbers.data(), numbers.size());
     }
     // Replaces the additive clips of all players. Empty: none.
     Status load_body_clips(std::string_view json) {

@@ -5,7 +5,6 @@
 // exactly as the library's own mathematics does, if the host is compiled without fused multiply-add
 // (-ffp-contract=off). Include it beside handhold.hpp; nothing else includes it.
 
-#include <algorithm>
 #include <cmath>
 
 #include <handhold/base.h>
@@ -127,30 +126,47 @@ inline hh_vec3 rotation_to_vector(hh_quat rotation) {
     return axis * (2.0 * hh_atan2(sine, sign * rotation.w) / sine);
 }
 // Rotation that maps the coordinate axes onto x, y and z, which are orthonormal and right-handed.
+// Not normalised.
 inline hh_quat rotation_from_axes(hh_vec3 x, hh_vec3 y, hh_vec3 z) {
     const double trace = x.x + (y.y + z.z);
     if (trace > 0.0) {
         const double root = std::sqrt(trace + 1.0);
         const double scale = 0.5 / root;
-        return normalized(
-            hh_quat{(y.z - z.y) * scale, (z.x - x.z) * scale, (x.y - y.x) * scale, 0.5 * root});
+        return {(y.z - z.y) * scale, (z.x - x.z) * scale, (x.y - y.x) * scale, 0.5 * root};
     }
     if (x.x >= y.y && x.x >= z.z) {
         const double root = std::sqrt(x.x - y.y - z.z + 1.0);
         const double scale = 0.5 / root;
-        return normalized(
-            hh_quat{0.5 * root, (x.y + y.x) * scale, (x.z + z.x) * scale, (y.z - z.y) * scale});
+        return {0.5 * root, (x.y + y.x) * scale, (x.z + z.x) * scale, (y.z - z.y) * scale};
     }
     if (y.y >= z.z) {
         const double root = std::sqrt(y.y - z.z - x.x + 1.0);
         const double scale = 0.5 / root;
-        return normalized(
-            hh_quat{(y.x + x.y) * scale, 0.5 * root, (y.z + z.y) * scale, (z.x - x.z) * scale});
+        return {(y.x + x.y) * scale, 0.5 * root, (y.z + z.y) * scale, (z.x - x.z) * scale};
     }
     const double root = std::sqrt(z.z - x.x - y.y + 1.0);
     const double scale = 0.5 / root;
-    return normalized(
-        hh_quat{(z.x + x.z) * scale, (z.y + y.z) * scale, 0.5 * root, (x.y - y.x) * scale});
+    return {(z.x + x.z) * scale, (z.y + y.z) * scale, 0.5 * root, (x.y - y.x) * scale};
+}
+// Shortest rotation from unit vector `from` to unit vector `to`; some half turn if they are
+// opposite.
+inline hh_quat rotation_between(hh_vec3 from, hh_vec3 to) {
+    const double cosine = dot(from, to);
+    hh_vec3 axis = cross(from, to);
+    if (cosine > -0.5) {
+        const double w = 1.0 + cosine;
+        const double inverse_length =
+            1.0 / std::sqrt(w * w + axis.x * axis.x + (axis.y * axis.y + axis.z * axis.z));
+        return {axis.x * inverse_length, axis.y * inverse_length, axis.z * inverse_length,
+                w * inverse_length};
+    }
+    if (length(axis) < 1e-14) {
+        axis = cross(from, std::abs(from.x) < 0.7 ? k_x : k_y);
+    }
+    axis = normalized(axis);
+    axis = normalized(axis - from * dot(from, axis));
+    const hh_vec3 v = axis * length(from - to);
+    return normalized(hh_quat{v.x, v.y, v.z, length(from + to)});
 }
 // Rotation with -Z along `forward` and +Y as near to `up` as possible. Both have any length but 0.
 // If they are parallel, the roll is arbitrary.
@@ -162,7 +178,7 @@ inline hh_quat look_rotation(hh_vec3 forward, hh_vec3 up) {
                               ? hh_vec3{-back.y, back.x, 0.0}
                               : hh_vec3{0.0, -back.z, back.y};
     const hh_vec3 right = normalized(length(across) <= k_in_line * length(up) ? other : across);
-    return rotation_from_axes(right, cross(back, right), back);
+    return normalized(rotation_from_axes(right, cross(back, right), back));
 }
 // Along the shorter arc at constant speed, t in [0, 1]; positions linearly.
 inline hh_pose interpolate(const hh_pose& a, const hh_pose& b, double t) {

@@ -23,49 +23,71 @@ typedef struct hh_measures {
 typedef struct hh_player_def {
     uint32_t struct_size;
     const char* name; /* unique in the world; null: by its id */
-    hh_pose origin;   /* the play space in the world; its origin is the tracking's */
+    hh_pose origin;   /* the space of the samples in the world */
     hh_vec3 velocity_mps;
     double mass_kg; /* default 80 */
     hh_measures measures;
     double scale;          /* of all measures, [0.001, 100]; default 1 */
-    bool head_collides;    /* the head is a sphere of head.radius_m; default true */
-    uint32_t layers, mask; /* of the head; as hh_body_def's */
+    uint8_t head_collides; /* the head is a sphere of head.radius_m; default true */
+    /* Layers of the head; it touches a body if each one's layers meet the other's mask. */
+    uint32_t layers, mask;
     uint32_t grab_layers;  /* the hands grip bodies with one of these layers; default all */
     uint64_t user_data;
 } hh_player_def;
-HH_API hh_player_def hh_default_player_def(void);
+HH_API hh_result hh_default_player_def_sized(hh_player_def* filled, size_t size);
+static inline hh_player_def hh_default_player_def(void) {
+    hh_player_def filled;
+    hh_default_player_def_sized(&filled, sizeof(filled));
+    return filled;
+}
 HH_API hh_result hh_player_add(hh_world* world, const hh_player_def* def, hh_player* player);
 HH_API hh_result hh_player_remove(hh_world* world, hh_player player);
-HH_API bool hh_player_is_valid(const hh_world* world, hh_player player);
+HH_API uint8_t hh_player_is_valid(const hh_world* world, hh_player player);
 HH_API hh_result hh_world_players(const hh_world* world, hh_player* players, size_t capacity,
                                   size_t* count);
+/* The headset's runtime, or the host, has recentred: from the next sample on, poses are given in a space
+ * that lies at `new_in_old` in the space before (OpenXR: poseInPreviousSpace). Level: it turns about +Y
+ * only, within 0.001. View, hands and grips stay where they are in the world; hh_player_pose.origin
+ * changes at once, HH_EVENT_RECENTRED follows in the next step. From now on the host announces all
+ * recentrings, as after hh_player_set_recenter_guess(world, player, 0). */
+HH_API hh_result hh_player_recenter(hh_world* world, hh_player player, hh_pose new_in_old);
+/* `guesses` 1, the default: if head and hands jump by one turn about +Y and one translation, or the head
+ * by more than tracking.max_jump_m, the runtime has recentred, and nothing in the world moves. 0: the
+ * host announces recentrings, and every other jump is meant, such as a turn that the host puts into its
+ * samples: view and hands follow it, and gripping hands take new anchors. Part of the state. */
+HH_API hh_result hh_player_set_recenter_guess(hh_world* world, hh_player player, uint8_t guesses);
 /* The play space is there at once, at rest. Dynamic bodies in the hands that no joint holds come
  * along; hands let go of everything else. */
 HH_API hh_result hh_player_teleport(hh_world* world, hh_player player, hh_pose origin);
 HH_API hh_result hh_player_velocity(const hh_world* world, hh_player player, hh_vec3* velocity_mps);
 HH_API hh_result hh_player_set_velocity(hh_world* world, hh_player player, hh_vec3 velocity_mps);
-/* The velocity that counts as rest for the player: of what the player gripped last, where it was
- * gripped, else the scene's. Speed against it is what a player feels: for vignettes and wind. */
+/* The velocity that counts as rest for the player: that of the body last gripped, at the gripped
+ * point, else the scene's. A player feels the speed relative to it: for vignettes and wind. */
 HH_API hh_result hh_player_reference_velocity(const hh_world* world, hh_player player,
                                               hh_vec3* velocity_mps);
-/* The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked: false
- * before the head's first sample and while it is lost. */
+/* How far contacts moved the play space in the last step, against its hands and its velocity. */
+HH_API hh_result hh_player_push_back(const hh_world* world, hh_player player, double* distance_m);
+/* The body mass that the player was added with. */
+HH_API hh_result hh_player_mass(const hh_world* world, hh_player player, double* mass_kg);
+/* The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked:
+ * false before the head's first sample, and while it is lost or inferred. */
 HH_API hh_result hh_player_head(const hh_world* world, hh_player player, hh_vec3* center,
-                                double* radius_m, bool* is_tracked);
+                                double* radius_m, uint8_t* is_tracked);
 HH_API hh_result hh_player_measures(const hh_world* world, hh_player player, hh_measures* measures);
 HH_API hh_result hh_player_set_measures(hh_world* world, hh_player player,
                                         const hh_measures* measures);
 HH_API hh_result hh_player_set_user_data(hh_world* world, hh_player player, uint64_t user_data);
 HH_API hh_result hh_player_user_data(const hh_world* world, hh_player player, uint64_t* user_data);
-/* The hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists with
- * OpenXR's axes (-Z to the fingers, +Y the back of the hand). Null: a controller's grip pose, by the
- * tuning's hand.controller_ numbers, which is the default. */
+/* The hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists
+ * with OpenXR's axes (-Z to the fingers, +Y the back of the hand). Null: a controller's grip pose,
+ * by the tuning's hand.controller_ numbers, which is the default. */
 HH_API hh_result hh_player_set_hand_in_controller(hh_world* world, hh_player player, hh_side side,
                                                   const hh_pose* hand_in_controller);
-/* The same numbers, for hosts that have wrists and need controllers. */
+/* Returns the pose set by hh_player_set_hand_in_controller, for hosts that have wrists and need
+ * controllers. */
 HH_API hh_result hh_player_hand_in_controller(const hh_world* world, hh_player player, hh_side side,
                                               hh_pose* hand_in_controller);
-/* The same numbers for a player who has none of their own, by the tuning alone. */
+/* Returns the tuning's pose of the wrist in a controller, for players without one of their own. */
 HH_API hh_result hh_world_hand_in_controller(const hh_world* world, hh_side side,
                                              hh_pose* hand_in_controller);
 
@@ -76,9 +98,11 @@ typedef enum hh_grip_kind {
     HH_GRIP_SURFACE = 1,  /* something static, kinematic or heavy: the player moves */
     HH_GRIP_HELD = 2,     /* a dynamic body: it moves with the hand */
     HH_GRIP_AUTHORED = 3, /* in one of the body's authored grips */
-    HH_GRIP_PLAYER = 4    /* another player: head, arm, trunk or leg */
+    HH_GRIP_PLAYER = 4,   /* another player: head, arm, trunk or leg */
+    HH_GRIP_KIND_32_BITS = 0x7fffffff
 } hh_grip_kind;
 
+/* Grows: see base.h. */
 typedef struct hh_hand_state {
     hh_grip_kind grip;
     hh_body body;     /* gripped; null: none */
@@ -87,35 +111,57 @@ typedef struct hh_hand_state {
     /* The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres
      * from it, so that palm and fingers touch. */
     hh_pose shown;
-    /* The wrist in the frame of what it grips, fixed when it closed; of a player: of the part. */
+    /* The wrist in the frame of what it grips (of a gripped player: the gripped part), fixed when
+     * the hand closed. */
     hh_pose anchor;
-    double error_m;   /* distance of the tracked wrist and the anchor: 0 unless hindered */
-    /* By the hand on what it grips, in the last step: for haptics. 0 if the host's solver moved the
-     * player (hh_world_end_step): that solver knows it. While hands move only light bodies, hands
-     * and contacts report at most the momentum that the players and bodies involved have, with the
-     * hands' speed on top. */
+    /* Distance of the tracked wrist from the anchor: 0 unless something blocks it. */
+    double error_m;
+    /* Impulse of the hand on what it grips in the last step, for haptics. 0 if the host's solver
+     * moved the player (hh_world_end_step): read it there. While hands move only light bodies,
+     * hands and contacts report at most the momentum that the players and bodies involved have,
+     * with the hands' speed on top. */
     hh_vec3 force_impulse_ns;
-    bool is_tracked;
-    bool is_closed; /* the button is down */
+    uint8_t is_tracked;  /* false while the hand is lost or inferred */
+    uint8_t is_closed;   /* the button is down */
+    /* The runtime guesses where the hand is (hh_tracking_sample.hand_inferred). `tracked` is the guess
+     * for an empty hand, and for a body in it while no hand of the player moves the player; else the
+     * last pose that was measured. */
+    uint8_t is_inferred;
 } hh_hand_state;
 
+/* Grows: see base.h. Later fields come behind `hands`. */
 typedef struct hh_player_pose {
-    hh_pose origin;      /* the play space in the world: put the camera rig here */
+    /* The space of the samples in the world: put the camera rig here. Controllers at origin * sample
+     * are where the hands are, also after a recentring, which changes it so that nothing in the world
+     * moves. */
+    hh_pose origin;
     hh_pose head;        /* between the eyes, in the world */
     hh_vec3 velocity_mps; /* of the play space */
     hh_hand_state hands[2]; /* by hh_side */
 } hh_player_pose;
 
-HH_API hh_result hh_player_hand(const hh_world* world, hh_player player, hh_side side,
-                                hh_hand_state* hand);
+/* One hand. `hand_size`: bytes of hh_hand_state as the host knows it. */
+HH_API hh_result hh_player_hand_sized(const hh_world* world, hh_player player, hh_side side,
+                                      hh_hand_state* hand, size_t hand_size);
+static inline hh_result hh_player_hand(const hh_world* world, hh_player player, hh_side side,
+                                       hh_hand_state* hand) {
+    return hh_player_hand_sized(world, player, side, hand, sizeof(hh_hand_state));
+}
 /* True if the player can pull on what the hand grips: something static, kinematic or heavy, another
  * player, or a body that joints connect to something fixed, such as a lever. False if the hand is
  * empty, or what it holds comes along. */
 HH_API hh_result hh_hand_moves_player(const hh_world* world, hh_player player, hh_side side,
-                                      bool* moves_player);
-/* Poses of many players in one call; HH_ERROR_HANDLE, and nothing written, if one is stale. */
-HH_API hh_result hh_world_player_poses(const hh_world* world, const hh_player* players,
-                                       size_t count, hh_player_pose* poses);
+                                      uint8_t* moves_player);
+/* Poses of many players in one call; HH_ERROR_HANDLE, and nothing written, if one is stale.
+ * `pose_size`, `hand_size`: bytes of hh_player_pose and hh_hand_state as the host knows them. */
+HH_API hh_result hh_world_player_poses_sized(const hh_world* world, const hh_player* players,
+                                             size_t count, hh_player_pose* poses, size_t pose_size,
+                                             size_t hand_size);
+static inline hh_result hh_world_player_poses(const hh_world* world, const hh_player* players,
+                                              size_t count, hh_player_pose* poses) {
+    return hh_world_player_poses_sized(world, players, count, poses, sizeof(hh_player_pose),
+                                       sizeof(hh_hand_state));
+}
 /* In the next step the hand grips `body` where both are, at any distance, whatever the grab rules
  * say; only a body for two hands needs an order for both. No grip begins while the player opens the
  * hand. It holds until hh_hand_release or until the player opens the hand. If the player closes the
@@ -129,7 +175,8 @@ HH_API hh_result hh_hand_release(hh_world* world, hh_player player, hh_side side
 /* ---- Events --------------------------------------------------------------------------------- */
 
 typedef enum hh_event_kind {
-    HH_EVENT_TOUCHED = 0,        /* the palm of an empty hand came within 2 cm of a body or player */
+    /* The palm of an empty hand came within 2 cm of a body or player. */
+    HH_EVENT_TOUCHED = 0,
     HH_EVENT_GRABBED = 1,        /* a hand grips */
     HH_EVENT_RELEASED = 2,       /* the player opened the hand, or `reason` says who did */
     HH_EVENT_REFUSED = 3,        /* a hand closed and grips nothing: `reason` */
@@ -138,22 +185,28 @@ typedef enum hh_event_kind {
     HH_EVENT_CONTACT_ENDED = 6,
     HH_EVENT_LATCH_CLOSED = 7,   /* of `joint` */
     HH_EVENT_LATCH_OPENED = 8,
-    HH_EVENT_LIMIT_REACHED = 9   /* a joint came to its lower or upper limit */
+    HH_EVENT_LIMIT_REACHED = 9,  /* a joint came to its lower or upper limit */
+    /* hh_player_pose.origin was changed so that a recentring moves nothing. HH_REASON_BY_HOST: by
+     * hh_player_recenter; HH_REASON_NONE: the samples jumped. `position`: the head. */
+    HH_EVENT_RECENTRED = 10,
+    HH_EVENT_KIND_32_BITS = 0x7fffffff
 } hh_event_kind;
 
 typedef enum hh_reason {
     HH_REASON_NONE = 0,
     HH_REASON_OPENED = 1,          /* the player opened the hand */
     HH_REASON_NO_SURFACE = 2,      /* nothing in reach, or only behind a wall */
-    HH_REASON_NOT_ALLOWED = 3,     /* by a grab rule or layers */
+    HH_REASON_NOT_ALLOWED = 3,     /* a grab rule or layers refuse the hand */
     HH_REASON_NEEDS_TWO_HANDS = 4, /* the other hand is not there, or left */
     HH_REASON_STRETCHED = 5,       /* farther from its anchor than hand.max_stretch_m */
     HH_REASON_TRACKING_LOST = 6,   /* it opened unseen, or came back too far away */
     HH_REASON_BODY_GONE = 7,       /* the body was removed */
     HH_REASON_BY_HOST = 8,         /* hh_hand_release, hh_hand_grip or a teleport */
-    HH_REASON_OTHER_HAND = 9       /* one of two hands on a body left */
+    HH_REASON_OTHER_HAND = 9,      /* the other of two hands on a body let go */
+    HH_REASON_32_BITS = 0x7fffffff
 } hh_reason;
 
+/* Grows: see base.h. Later versions also have more kinds and reasons: ignore those you do not know. */
 typedef struct hh_event {
     hh_event_kind kind;
     hh_reason reason;
@@ -167,8 +220,15 @@ typedef struct hh_event {
     double impulse_ns; /* of a contact that began: >= 0, for haptics and sound */
 } hh_event;
 
-/* The events of the last step, in a fixed order. Valid until the next step, restore or destroy. */
-HH_API hh_result hh_world_events(const hh_world* world, const hh_event** events, size_t* count);
+/* The events of the last step, in a fixed order. Valid until the next step, restore, destroy or call
+ * of this function. `event_size`: bytes of hh_event as the host knows it; the list's elements lie so
+ * far apart. */
+HH_API hh_result hh_world_events_sized(const hh_world* world, const hh_event** events,
+                                       size_t* count, size_t event_size);
+static inline hh_result hh_world_events(const hh_world* world, const hh_event** events,
+                                        size_t* count) {
+    return hh_world_events_sized(world, events, count, sizeof(hh_event));
+}
 
 /* ---- Joints of hands and bodies ------------------------------------------------------------- */
 
@@ -188,14 +248,20 @@ typedef enum hh_hand_joint_name {
     HH_MIDDLE_TIP,
     HH_RING_METACARPAL, HH_RING_PROXIMAL, HH_RING_INTERMEDIATE, HH_RING_DISTAL, HH_RING_TIP,
     HH_LITTLE_METACARPAL, HH_LITTLE_PROXIMAL, HH_LITTLE_INTERMEDIATE, HH_LITTLE_DISTAL,
-    HH_LITTLE_TIP
+    HH_LITTLE_TIP,
+    HH_HAND_JOINT_NAME_32_BITS = 0x7fffffff
 } hh_hand_joint_name;
 #define HH_HAND_JOINT_COUNT 26
 typedef struct hh_hand_joint {
     hh_pose pose;
     double radius_m;
-    bool is_valid; /* false: the hand's rig has no such joint */
+    uint8_t is_valid; /* false: the hand's rig has no such joint */
 } hh_hand_joint;
+/* How far the fingers of a tracked hand are bent, for hh_tracking_sample.curls. `joints`:
+ * HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name, in any one space; only positions are read. Curl
+ * is the sum of a finger's bends over that of a fist; -1 if a joint of the finger is not valid. Any
+ * thread. */
+HH_API hh_result hh_finger_curls_of(const hh_hand_joint* joints, hh_finger_curls* curls);
 /* The shown hand's joints: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name. */
 HH_API hh_result hh_player_hand_joints(const hh_world* world, hh_player player, hh_side side,
                                        hh_space space, hh_hand_joint* joints);
@@ -208,7 +274,8 @@ typedef enum hh_body_joint {
     HH_RIGHT_SHOULDER, HH_RIGHT_UPPER_ARM, HH_RIGHT_LOWER_ARM, HH_RIGHT_HAND,
     HH_LEFT_UPPER_LEG, HH_LEFT_LOWER_LEG, HH_LEFT_FOOT,
     HH_RIGHT_UPPER_LEG, HH_RIGHT_LOWER_LEG, HH_RIGHT_FOOT,
-    HH_BODY_JOINT_COUNT
+    HH_BODY_JOINT_COUNT,
+    HH_BODY_JOINT_32_BITS = 0x7fffffff
 } hh_body_joint;
 /* "leftUpperArm"; null beyond the last. Any thread. */
 HH_API const char* hh_body_joint_name(size_t joint);
@@ -236,17 +303,17 @@ HH_API hh_result hh_player_skeleton_joint(const hh_world* world, hh_player playe
                                           const char** name, int32_t* parent);
 
 typedef struct hh_finger {
-    bool is_posed;  /* false: the finger closes on the surface as usual */
+    uint8_t is_posed;  /* false: the finger closes on the surface as usual */
     double curl_rad[3]; /* of its hinges, from the palm */
     double opposition_rad; /* thumb */
     /* The finger moves from these angles to the pressed ones as far as the sample's `trigger` is
      * pressed. The pressed angles may reach into the body: a trigger gives way. */
-    bool follows_trigger;
+    uint8_t follows_trigger;
     double pressed_curl_rad[3];
     double pressed_opposition_rad;
 } hh_finger;
 typedef struct hh_grip_hand {
-    bool is_used;  /* false: this hand cannot take the grip */
+    uint8_t is_used;  /* false: this hand cannot take the grip */
     hh_pose wrist; /* in the body's frame */
     hh_finger fingers[5]; /* thumb, index, middle, ring, little */
 } hh_grip_hand;
@@ -257,7 +324,12 @@ typedef struct hh_grip_def {
     double snap_radius_m;  /* of the palm, [0, 10]; default 0.08 */
     double snap_angle_rad; /* [0, pi]; default pi / 3 */
 } hh_grip_def;
-HH_API hh_grip_def hh_default_grip_def(void);
+HH_API hh_result hh_default_grip_def_sized(hh_grip_def* filled, size_t size);
+static inline hh_grip_def hh_default_grip_def(void) {
+    hh_grip_def filled;
+    hh_default_grip_def_sized(&filled, sizeof(filled));
+    return filled;
+}
 /* Adds an authored grip to a body, at most 4: hands that close near it take it. */
 HH_API hh_result hh_body_add_grip(hh_world* world, hh_body body, const hh_grip_def* def);
 

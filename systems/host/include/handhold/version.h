@@ -3,9 +3,9 @@
 
 /* The library's semantic version. CMake reads it from here. */
 #define HANDHOLD_VERSION_MAJOR 0
-#define HANDHOLD_VERSION_MINOR 1
+#define HANDHOLD_VERSION_MINOR 2
 #define HANDHOLD_VERSION_PATCH 0
 
-#define HANDHOLD_VERSION_TEXT "0.1.0"
+#define HANDHOLD_VERSION_TEXT "0.2.0"
 
 #endif

@@ -13,14 +13,19 @@ typedef struct hh_world_def {
     uint32_t struct_size;
     /* Fingers and palms close on what they grip. Default true. Without it no shape needs a grip
      * mesh, hands are shown as tracked, and meshes are added faster: for servers. */
-    bool fits_hands;
+    uint8_t fits_hands;
     /* HH_EVENT_TOUCHED is reported: one query a hand and step. Default true. */
-    bool reports_touches;
+    uint8_t reports_touches;
     hh_vec3 gravity_mps2;           /* of dynamic bodies; default 0. Each axis within 1e4 */
     hh_vec3 reference_velocity_mps; /* of the scene: what counts as rest. Each axis within 1e6 */
 } hh_world_def;
 
-HH_API hh_world_def hh_default_world_def(void);
+HH_API hh_result hh_default_world_def_sized(hh_world_def* filled, size_t size);
+static inline hh_world_def hh_default_world_def(void) {
+    hh_world_def filled;
+    hh_default_world_def_sized(&filled, sizeof(filled));
+    return filled;
+}
 /* Makes an empty world. A null `def`: the default. Any thread, at any time. Cost: 0.1 ms. */
 HH_API hh_result hh_world_create(const hh_world_def* def, hh_world** world);
 /* Destroys a world and everything in it. Null, or inside the world's own surface query: nothing
@@ -30,51 +35,80 @@ HH_API void hh_world_destroy(hh_world* world);
 /* One reading of the headset and both controllers. A pose at exactly (0, 0, 0) counts as not
  * tracked, since runtimes report devices that sleep so. */
 typedef struct hh_tracking_sample {
+    uint32_t struct_size;
     /* On the world's clock: hh_world_time plus the step for a sample at the step's end. Later than
-     * the sample before, else it is ignored and counted as sample_out_of_order. */
+     * the sample before, else it is ignored and counted as sample_out_of_order. More than 0.5 s
+     * after the step's end: dropped and counted as sample_too_far_ahead; more than 0.5 s before its
+     * start: counted as sample_too_old. If all of a step's samples are so far off, the log is told
+     * once that they are on another clock. */
     double time_s;
     hh_pose head;  /* between the eyes, in play space: the frame that the tracking is given in */
     hh_pose hands[2];     /* controllers, by hh_side; see hh_player_set_hand_in_controller */
-    bool head_tracked;    /* false: `head` is ignored */
-    bool hand_tracked[2]; /* false: the pose is ignored, `grab` counts */
-    bool grab[2];         /* a button that closes the hand is down */
+    uint8_t head_tracked;    /* false: `head` is ignored */
+    uint8_t hand_tracked[2]; /* false: the pose is ignored, `grab` counts */
+    uint8_t grab[2];         /* a button that closes the hand is down */
     double squeeze[2];    /* how far it is pressed, [0, 1]: bends fingers until `grab` closes them */
     /* How far the index finger's trigger is pressed, [0, 1]: bends the index finger of an empty hand,
      * and the fingers of authored grips that follow the trigger. */
     double trigger[2];
+    /* True if the runtime only guesses the head's position: OpenXR's POSITION_VALID without
+     * POSITION_TRACKED, WebXR's emulatedPosition, a low confidence. Default false; true counts before
+     * head_tracked. The head follows the guess, but while a hand grips what the player can pull on, only
+     * its rotation does. */
+    uint8_t head_inferred;
+    /* The same of the hands, before hand_tracked. An inferred hand does not grip, and never moves a player who grips: it
+     * stays where it was last measured. Opening `grab` lets go, without a throw. The shown empty hand
+     * follows the guess. Once measured again, the hand may be elsewhere: it did not travel. */
+    uint8_t hand_inferred[2];
+    /* Bends the fingers of an empty hand, before squeeze and trigger; default unknown. By gloves, or
+     * from joints by hh_finger_curls_of. */
+    hh_finger_curls curls[2];
 } hh_tracking_sample;
 
 /* Everything tracked, hands open, at time 0. The poses are for you to fill: at the origin they count
  * as not tracked. Any thread. */
-HH_API hh_tracking_sample hh_default_tracking_sample(void);
+HH_API hh_result hh_default_tracking_sample_sized(hh_tracking_sample* filled, size_t size);
+static inline hh_tracking_sample hh_default_tracking_sample(void) {
+    hh_tracking_sample filled;
+    hh_default_tracking_sample_sized(&filled, sizeof(filled));
+    return filled;
+}
 
-/* What a player asks for in one step. */
+/* What a player asks for in one step. All zero: nothing. Grows with hh_player_input, of which it is
+ * the last field: later versions add fields whose 0 means nothing, too. */
 typedef struct hh_commands {
     double smooth_turn; /* [-1, 1], positive turns left */
     int32_t snap_turns; /* turns to the left begun in this step; negative: to the right */
     double brake;       /* [0, 1] */
     hh_vec3 thrust;     /* play space, each in [-1, 1]; needs locomotion.thruster_mps2 above 0 */
-    bool calibrate;     /* held while the player holds a T-pose: measures the body */
+    uint8_t calibrate;     /* held while the player holds a T-pose: measures the body */
 } hh_commands;
 
 /* One player's input of one step. Fill by hh_default_player_input. */
 typedef struct hh_player_input {
     uint32_t struct_size;
     hh_player player;
-    /* Sorted by time: those since the last step. The last one may be later than this step's end:
-     * the poses at the end are then interpolated, and the sample is kept for the next step. None:
-     * the devices are silent. */
+    /* Sorted by time: those since the last step. Give each once. Up to 64 may be later than this
+     * step's end, by at most 0.5 s, as predicted poses are: the poses at the end are then
+     * interpolated, and each sample is kept for the step of its time, also if that step has no
+     * input. A sample replaces those kept of its time or later. None: the devices are silent but
+     * for samples that were kept. */
     const hh_tracking_sample* samples;
     size_t sample_count;
-    hh_commands commands;
     /* The host gives a sample that is later than the step's end again in the next step, so the world
      * keeps none; and a sample's time is taken to the bit, where otherwise a microsecond after the
      * end counts as the end. For hosts that have the whole stream: recordings, rollback. Default
-     * false. */
-    bool repeats_samples;
+     * 0. */
+    uint8_t repeats_samples;
+    hh_commands commands;
 } hh_player_input;
 
-HH_API hh_player_input hh_default_player_input(void);
+HH_API hh_result hh_default_player_input_sized(hh_player_input* filled, size_t size);
+static inline hh_player_input hh_default_player_input(void) {
+    hh_player_input filled;
+    hh_default_player_input_sized(&filled, sizeof(filled));
+    return filled;
+}
 
 /* Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players
  * without one are silent. Bad samples are ignored and counted; numbers in commands that are out of
@@ -83,7 +117,7 @@ HH_API hh_result hh_world_step(hh_world* world, double dt_s, const hh_player_inp
                                size_t input_count);
 /* While the game is paused: heads, hands and bodies of players follow their last sample, whatever
  * its time. The clock, bodies, joints, grips and play spaces stand still. The next hh_world_step
- * goes on: hands that are still closed grip where they are by then. */
+ * goes on: hands that are still closed grip where they are at that time. */
 HH_API hh_result hh_world_step_pose_only(hh_world* world, double dt_s,
                                          const hh_player_input* inputs, size_t input_count);
 /* The world's clock, seconds, and the number of steps. Null outputs are skipped. */
@@ -100,11 +134,11 @@ HH_API hh_result hh_world_reference_velocity(const hh_world* world, hh_vec3* vel
  * calls with equal names. Cost: linear in the state, about 0.1 ms for a scene of 100 bodies. */
 HH_API hh_result hh_world_hash(const hh_world* world, uint64_t* hash);
 /* Saves every bit of the state. Writes the number of bytes to `size`. A null `buffer` only asks for
- * it. HH_ERROR_CAPACITY if it is more than `capacity`. Shapes, rigs, tuning and user data are not
- * in a snapshot. */
+ * it. HH_ERROR_CAPACITY if it is more than `capacity`. Rigs, tuning and user data are not in a snapshot.
+ * Shapes are named by their content: a world that restores it needs equal ones, whatever their ids. */
 HH_API hh_result hh_world_save(hh_world* world, void* buffer, size_t capacity, size_t* size);
 /* Back to a saved state, which then goes on bit for bit. Ids taken before the save are valid again.
- * HH_ERROR_DATA, and no change, for bytes that are damaged or were saved with other shapes. Tolerates
+ * HH_ERROR_DATA, and no change, for bytes that are damaged or name a shape that this world has not. Tolerates
  * any bytes. */
 HH_API hh_result hh_world_restore(hh_world* world, const void* bytes, size_t size);
 
@@ -140,7 +174,12 @@ typedef struct hh_world_stats {
     uint64_t hands_gripped;     /* those of them that gripped something */
     hh_momentum momentum;
 } hh_world_stats;
-HH_API hh_world_stats hh_default_world_stats(void);
+HH_API hh_result hh_default_world_stats_sized(hh_world_stats* filled, size_t size);
+static inline hh_world_stats hh_default_world_stats(void) {
+    hh_world_stats filled;
+    hh_default_world_stats_sized(&filled, sizeof(filled));
+    return filled;
+}
 HH_API hh_result hh_world_get_stats(const hh_world* world, hh_world_stats* stats);
 /* Stages and fallbacks by index; null beyond the last. A fallback is counted whenever the runtime
  * does the next best instead of what was asked. Any thread. */
@@ -162,7 +201,12 @@ typedef struct hh_tuning_info {
     double low, high; /* of each component */
     size_t count;     /* 1 or 3 */
 } hh_tuning_info;
-HH_API hh_tuning_info hh_default_tuning_info(void);
+HH_API hh_result hh_default_tuning_info_sized(hh_tuning_info* filled, size_t size);
+static inline hh_tuning_info hh_default_tuning_info(void) {
+    hh_tuning_info filled;
+    hh_default_tuning_info_sized(&filled, sizeof(filled));
+    return filled;
+}
 /* The number with this index; HH_ERROR_VALUE beyond the last. Any thread. */
 HH_API hh_result hh_tuning_describe(size_t index, hh_tuning_info* info);
 /* Reads and changes one number by name, between steps. `count` must be the number's.
@@ -171,14 +215,20 @@ HH_API hh_result hh_world_get_tuning(const hh_world* world, const char* name, do
                                      size_t count);
 HH_API hh_result hh_world_set_tuning(hh_world* world, const char* name, const double* values,
                                      size_t count);
+/* All numbers of the tuning, to compare, keep and restore: in the order of hh_tuning_describe, a
+ * vector as three. `count` as for hh_world_fallbacks. Set takes exactly all of them; on an error
+ * none changes. */
+HH_API hh_result hh_world_tuning_numbers(const hh_world* world, double* values, size_t capacity,
+                                         size_t* count);
+HH_API hh_result hh_world_set_tuning_numbers(hh_world* world, const double* values, size_t count);
 /* All numbers from JSON, {"hand": {"reach_m": 0.12}}; those that it lacks get their defaults.
  * HH_ERROR_DATA, with the place, for unknown names and wrong numbers. */
 HH_API hh_result hh_world_load_tuning(hh_world* world, const char* json, size_t size);
 /* The additive body clips of all players, from JSON in the format of docs/reference/body_clips.md:
- * idling, pushing off, looking round, raising the arms. They rotate spine, legs and clavicles, never
- * hands. They replace the clips before. Null: none, which is the default. HH_ERROR_DATA, with the
- * place and no change, for anything else. Clips are not in a snapshot: load the same ones before
- * you restore. */
+ * idling, pushing off, looking round, raising the arms. They rotate spine, legs and clavicles,
+ * never hands. They replace the clips before. Null: none, which is the default. HH_ERROR_DATA, with
+ * the place and no change, for anything else. Clips are not in a snapshot: load the same ones
+ * before you restore. */
 HH_API hh_result hh_world_load_body_clips(hh_world* world, const char* json, size_t size);
 
 #ifdef __cplusplus

