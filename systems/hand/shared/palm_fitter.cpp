@@ -6,6 +6,7 @@
 
 #include "components/authored_grip.hpp"
 #include "systems/rigs/authored_hand.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold {
 namespace {
@@ -118,19 +119,37 @@ bool PalmFitter::enters_solid(const FittedPalm& held) const {
 
 double PalmFitter::crossing_depth_m(const FittedPalm& held) const {
     double deepest_m = 0.0;
+    for (const PalmCapsule& capsule : hand_.rig->palm) {
+        deepest_m = std::max(deepest_m, crossing_depth_of(capsule, held.surface.fitted_wrist_bs));
+    }
+    return deepest_m;
+}
+
+double PalmFitter::finger_crossing_depth_m(const FittedPalm& held) const {
+    double deepest_m = 0.0;
+    for (const FingerRig& finger : hand_.rig->fingers) {
+        const auto points = finger_points(finger, coupled_angles(finger, 0.0));
+        for (std::size_t i = 0; finger.name != FingerName::thumb && i < finger.link_count; ++i) {
+            const PalmCapsule link = {points[i], points[i + 1], finger.radius_m[i]};
+            deepest_m = std::max(deepest_m, crossing_depth_of(link, held.surface.fitted_wrist_bs));
+        }
+    }
+    return deepest_m;
+}
+
+double PalmFitter::crossing_depth_of(const PalmCapsule& capsule, const Pose& wrist_bs) const {
+    double deepest_m = 0.0;
     for (const PlacedMesh& placed : hand_.meshes) {
         const TriangleBvh& bvh = placed.mesh->contact_bvh;
-        const Pose wrist = inverse(placed.pose) * held.surface.fitted_wrist_bs;
-        for (const PalmCapsule& capsule : hand_.rig->palm) {
-            const Vec3 a = transform_point(wrist, capsule.a_hs);
-            const Vec3 b = transform_point(wrist, capsule.b_hs);
-            const auto from_a = bvh.cast_ray(a, b);
-            const auto from_b = from_a ? bvh.cast_ray(b, a) : std::nullopt;
-            for (const auto& hit : {from_a, from_b}) {
-                if (hit) {
-                    const double end_m = std::min((hit->point - a).norm(), (hit->point - b).norm());
-                    deepest_m = std::max(deepest_m, capsule.radius_m + end_m);
-                }
+        const Pose wrist = inverse(placed.pose) * wrist_bs;
+        const Vec3 a = transform_point(wrist, capsule.a_hs);
+        const Vec3 b = transform_point(wrist, capsule.b_hs);
+        const auto from_a = bvh.cast_ray(a, b);
+        const auto from_b = from_a ? bvh.cast_ray(b, a) : std::nullopt;
+        for (const auto& hit : {from_a, from_b}) {
+            if (hit) {
+                const double end_m = std::min((hit->point - a).norm(), (hit->point - b).norm());
+                deepest_m = std::max(deepest_m, capsule.radius_m + end_m);
             }
         }
     }

@@ -58,6 +58,8 @@ class PalmFitter {
     // crossing to the axis' nearer end. Tests the first crossing from either end, in all of the
     // hand's meshes.
     double crossing_depth_m(const FittedPalm& held) const;
+    // The same for the open fingers.
+    double finger_crossing_depth_m(const FittedPalm& held) const;
 
     // Returns the cheapest visited triangle that is a duplicate place (is_duplicate_place) of
     // `last`; none if there is none. Precondition: last.triangle is k_none or a triangle of this
@@ -66,6 +68,9 @@ class PalmFitter {
                                                  const GripSurface& last) const;
 
   private:
+    // Depth of surfaces that cross one capsule's axis.
+    double crossing_depth_of(const PalmCapsule& capsule, const Pose& wrist_bs) const;
+
     const HandSurroundings& hand_;
     const PlacedMesh& placed_;
     PalmFrame palm_;

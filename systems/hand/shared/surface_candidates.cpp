@@ -89,12 +89,14 @@ FittedPalm SurfaceCandidates::fit(const Candidate& candidate) const {
                      : fitter_.fit(candidate);
 }
 
-// Raises held.penetration_m to the depth of surfaces that cross the palm's capsules. The spheres
-// that fit_palm uses miss thin walls, rods and rims between them. Skipped if the candidate already
-// costs more than the best one.
+// Raises the penetrations of `held` to the depth of surfaces that cross the capsules of the palm
+// and the open fingers. The spheres that fit_palm uses miss thin walls, rods and rims between them.
+// Skipped if the candidate already costs more than the best one.
 void SurfaceCandidates::add_crossing_depth(double placement_m, FittedPalm& held) const {
     if (is_cheaper(scored(held, placement_m).cost_m)) {
         held.penetration_m = std::max(held.penetration_m, fitter_.crossing_depth_m(held));
+        held.finger_penetration_m =
+            std::max(held.finger_penetration_m, fitter_.finger_crossing_depth_m(held));
     }
 }
 

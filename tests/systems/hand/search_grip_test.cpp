@@ -110,8 +110,9 @@ TEST(SearchGrip, SurfaceStaysUntilTheHandOrItsSurroundingsHaveMoved) {
     const HandRig rig = builtin_hand_rig(HandSide::right);
     Random random(2220);
     for (int i = 0; i < 60; ++i) {
-        const Pose start = wrist_with_palm_at(rig, Vec3(0.0, 0.028, 0.12) + random.vector(0.01),
-                                              (Vec3::UnitY() + random.vector(0.3)).normalized());
+        const Vec3 palm = Vec3(0.0, 0.028, 0.12) + random.vector(0.01);
+        const Vec3 up = (Vec3::UnitY() + random.vector(0.3)).normalized();
+        const Pose start = wrist_with_palm_at(rig, palm, up);
         FittedHand hand(ring, start);
         hand.search();
         const GripSurface found = hand.surface.at(k_right);
