@@ -71,7 +71,7 @@ int main() {
     glass.shape = *world.add_box({0.5, 0.5, 0.01});
     glass.pose.position = {0.0, 1.0, 3.0};
     glass.grab_left = glass.grab_right = false;  // too smooth for hands
-    glass.layers = 2;                            // touches only what has layer 2 in its mask
+    glass.layers = 2;                            // touches only what has this bit in its mask
     const hh::Body glass_id = *world.add(glass);
     // [rules]
 

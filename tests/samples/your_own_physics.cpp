@@ -126,6 +126,11 @@ hh::Vec3 way_out(const Boxes& boxes, hh::Vec3 crate, hh::Vec3 half_m) {
     return {out[0], out[1], out[2]};
 }
 
+bool is_movable(const Boxes& boxes, hh_body id) {
+    return std::any_of(boxes.begin(), boxes.end(),
+                       [&](const Box& box) { return box.id == id && box.is_movable; });
+}
+
 // [solver]
 // Your solver: hands on the wall move the player, a crate moves with its hand and stops at walls. A
 // real one gets a joint for each constraint: tests/hosts/ode_hands.cpp does it for ODE.
@@ -134,7 +139,7 @@ void solve(const hh::World& world, Boxes& boxes, std::vector<hh_solved_player>& 
     for (const hh_player_motion& motion : world.player_motions()) {
         hh::Vec3 end = motion.origin + k_dt_s * motion.velocity_mps;
         for (const hh_hand_constraint& hand : world.hand_constraints()) {
-            if (hand.player == motion.player && hand.rows == HH_ROWS_POINT) {
+            if (hand.player == motion.player && !is_movable(boxes, hand.body)) {
                 end = hand.anchor_end.position - hand.target.position;
             }
         }
@@ -144,7 +149,8 @@ void solve(const hh::World& world, Boxes& boxes, std::vector<hh_solved_player>& 
         hh_solved_player* holder = nullptr;
         hh::Vec3 end = box.position + k_dt_s * box.velocity;
         for (const hh_hand_constraint& hand : world.hand_constraints()) {
-            if (hand.body == box.id && hand.rows == HH_ROWS_WELD) {  // these boxes never turn
+            // These boxes never turn. Of two hands on one crate the first holds its point.
+            if (box.is_movable && hand.body == box.id && hand.rows != HH_ROWS_DIRECTION) {
                 holder = &players.front();
                 end = holder->origin + hand.target.position - hand.anchor.position;
             }
