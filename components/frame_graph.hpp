@@ -25,11 +25,11 @@ struct JointGroups {
     // Valid at representatives: 1 if joints connect the group to something that a hand cannot move.
     std::vector<std::uint8_t> anchored;
 
-    bool is_anchored(std::size_t body_row) const {
-        return !of_body.empty() && anchored[of_body[body_row]] != 0;
+    bool is_anchored(std::size_t body_index) const {
+        return !of_body.empty() && anchored[of_body[body_index]] != 0;
     }
-    bool share_group(std::size_t row, std::size_t other_row) const {
-        return row == other_row || (!of_body.empty() && of_body[row] == of_body[other_row]);
+    bool share_group(std::size_t index, std::size_t other_index) const {
+        return index == other_index || (!of_body.empty() && of_body[index] == of_body[other_index]);
     }
 };
 
@@ -96,7 +96,7 @@ struct FrameGraph {
     std::vector<ContactPoint> fresh_contacts;
     std::vector<ContactPoint> impacts;  // written by solve_phases
     // By element of the RigidBody column: index into graph.bodies.
-    std::vector<std::uint32_t> body_of_row;
+    std::vector<std::uint32_t> body_of_element;
     // Written by build_constraints, in the order of the Grab column.
     std::vector<RowBlock> hand_blocks;
     std::vector<std::uint32_t> island_order;  // islands, largest first

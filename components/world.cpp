@@ -12,16 +12,16 @@ namespace handhold {
 void sync_index(World& world) {
     if (world.entity_by_id.size() != world.persistent_id.size()) {
         world.entity_by_id.clear();
-        for (std::size_t row = 0; row < world.persistent_id.size(); ++row) {
-            world.entity_by_id.add(world.persistent_id.rows()[row],
-                                   world.persistent_id.owners()[row]);
+        for (std::size_t index = 0; index < world.persistent_id.size(); ++index) {
+            world.entity_by_id.add(world.persistent_id.elements()[index],
+                                   world.persistent_id.owners()[index]);
         }
     }
     if (world.joints_by_body.size() != world.joint.size()) {
         world.joints_by_body.clear();
-        for (std::size_t row = 0; row < world.joint.size(); ++row) {
-            const Joint& joint = world.joint.rows()[row];
-            world.joints_by_body.add(world.joint.owners()[row], joint.a, joint.b);
+        for (std::size_t index = 0; index < world.joint.size(); ++index) {
+            const Joint& joint = world.joint.elements()[index];
+            world.joints_by_body.add(world.joint.owners()[index], joint.a, joint.b);
         }
     }
 }
@@ -259,9 +259,9 @@ bool destroy(World& world, Entity entity) {
     }
     sync_index(world);
     if (world.player.contains(entity)) {
-        for (std::size_t row = world.hand_owner.size(); row-- > 0;) {
-            if (world.hand_owner.rows()[row].player == entity) {
-                destroy(world, world.hand_owner.owners()[row]);
+        for (std::size_t index = world.hand_owner.size(); index-- > 0;) {
+            if (world.hand_owner.elements()[index].player == entity) {
+                destroy(world, world.hand_owner.owners()[index]);
             }
         }
     }
@@ -270,7 +270,7 @@ bool destroy(World& world, Entity entity) {
     // Destroys joints from the last to the first, so that the order in which slots become free does
     // not depend on the cache.
     std::ranges::sort(joints, std::ranges::greater(),
-                      [&world](Entity joint) { return world.joint.find_row(joint); });
+                      [&world](Entity joint) { return world.joint.find_index(joint); });
     for (const Entity joint : joints) {
         destroy(world, joint);
     }
@@ -298,9 +298,9 @@ Entity find_by_id(const World& world, PersistentId id) {
     if (world.entity_by_id.size() == world.persistent_id.size()) {
         return world.entity_by_id.find(id);
     }
-    for (std::size_t row = 0; row < world.persistent_id.size(); ++row) {
-        if (world.persistent_id.rows()[row] == id) {
-            return world.persistent_id.owners()[row];
+    for (std::size_t index = 0; index < world.persistent_id.size(); ++index) {
+        if (world.persistent_id.elements()[index] == id) {
+            return world.persistent_id.owners()[index];
         }
     }
     return k_no_entity;

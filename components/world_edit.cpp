@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "components/hand_rows.hpp"
+#include "components/hand_indices.hpp"
 #include "engine/core/check.hpp"
 
 namespace handhold {
@@ -15,19 +15,19 @@ void check_place(const char* caller, const Pose& pose_ws) {
     }
 }
 
-void let_go(World& world, std::size_t row) {
-    const Entity hand = world.grab.owners()[row];
-    world.grab.rows()[row] = {};
+void let_go(World& world, std::size_t index) {
+    const Entity hand = world.grab.owners()[index];
+    world.grab.elements()[index] = {};
     world.authored_hold.remove(hand);
     world.body_hold.remove(hand);
     world.hand_pull.remove(hand);
 }
 
 void let_go_of(World& world, Entity gripped, Entity keeper) {
-    for (std::size_t row = 0; row < world.grab.size(); ++row) {
-        const Entity player = world.hand_owner.at(world.grab.owners()[row]).player;
-        if (world.grab.rows()[row].body == gripped && player != keeper) {
-            let_go(world, row);
+    for (std::size_t index = 0; index < world.grab.size(); ++index) {
+        const Entity player = world.hand_owner.at(world.grab.owners()[index]).player;
+        if (world.grab.elements()[index].body == gripped && player != keeper) {
+            let_go(world, index);
         }
     }
 }
@@ -69,7 +69,7 @@ void teleport_body(World& world, Entity body, const Pose& pose_ws) {
     HH_CHECK(world.body.contains(body), "no body with this handle", body.slot);
     check_place(__func__, pose_ws);
     let_go_of(world, body, k_no_entity);
-    for (HandSight& sight : world.hand_sight.rows()) {
+    for (HandSight& sight : world.hand_sight.elements()) {
         if (sight.frame == body) {
             sight = {};  // the hand does not move: its sight is found again
         }
@@ -84,15 +84,15 @@ void teleport_player(World& world, Entity player, const Pose& origin_ws) {
     const Pose moved = origin_ws * inverse(world.player_origin.at(player).pose_ws);
     let_go_of(world, player, k_no_entity);
     Entity carried_before = k_no_entity;
-    for (std::size_t row = 0; row < world.grab.size(); ++row) {
-        const Entity hand = world.grab.owners()[row];
+    for (std::size_t index = 0; index < world.grab.size(); ++index) {
+        const Entity hand = world.grab.owners()[index];
         if (world.hand_owner.at(hand).player != player) {
             continue;
         }
         world.hand_sight.at(hand) = {};  // the hand is repositioned: no wall test on the path
-        const Grab& grab = world.grab.rows()[row];
+        const Grab& grab = world.grab.elements()[index];
         if (!is_carried(world, grab)) {
-            let_go(world, row);
+            let_go(world, index);
             continue;
         }
         const Entity body = grab.body;
@@ -113,10 +113,10 @@ void teleport_player(World& world, Entity player, const Pose& origin_ws) {
 
 Entity hand_of(const World& world, Entity player, HandSide side) {
     HH_CHECK(world.player.contains(player), "no player with this handle", player.slot);
-    for (std::size_t row = 0; row < world.hand_owner.size(); ++row) {
-        const HandOwner& owner = world.hand_owner.rows()[row];
+    for (std::size_t index = 0; index < world.hand_owner.size(); ++index) {
+        const HandOwner& owner = world.hand_owner.elements()[index];
         if (owner.player == player && owner.side == side) {
-            return world.hand_owner.owners()[row];
+            return world.hand_owner.owners()[index];
         }
     }
     fail_precondition(__func__, "the player has no such hand", std::to_string(player.slot));

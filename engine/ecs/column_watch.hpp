@@ -16,7 +16,7 @@ namespace handhold {
 // An unchanged element costs the bandwidth of a memcmp. A difference in padding counts as a change.
 template <typename T>
 class ColumnWatch {
-    static_assert(std::is_trivially_destructible_v<T>, "rows are compared as bytes");
+    static_assert(std::is_trivially_destructible_v<T>, "elements are compared as bytes");
 
   public:
     // Calls visit(owner) for each element that differs from the last call, and updates the copy. If
@@ -24,23 +24,23 @@ class ColumnWatch {
     template <typename Visit>
     bool update(const Column<T>& column, Visit&& visit) {
         const std::size_t count = column.size();
-        const T* const rows = column.rows().data();
+        const T* const elements = column.elements().data();
         const Entity* const owners = column.owners().data();
-        if (count != rows_.size() ||
+        if (count != elements_.size() ||
             (count > 0 && std::memcmp(owners, owners_.data(), count * sizeof(Entity)) != 0)) {
-            rows_.assign(column.rows().begin(), column.rows().end());
+            elements_.assign(column.elements().begin(), column.elements().end());
             owners_.assign(column.owners().begin(), column.owners().end());
             // Copies the bytes, because assignment leaves the padding of elements unspecified.
-            copy(rows, 0, count);
+            copy(elements, 0, count);
             return false;
         }
         for (std::size_t begin = 0; begin < count; begin += k_block) {
             const std::size_t end = std::min(count, begin + k_block);
-            if (differ(rows, begin, end)) {
-                for (std::size_t row = begin; row < end; ++row) {
-                    if (differ(rows, row, row + 1)) {
-                        copy(rows, row, row + 1);
-                        visit(owners[row]);
+            if (differ(elements, begin, end)) {
+                for (std::size_t index = begin; index < end; ++index) {
+                    if (differ(elements, index, index + 1)) {
+                        copy(elements, index, index + 1);
+                        visit(owners[index]);
                     }
                 }
             }
@@ -51,19 +51,19 @@ class ColumnWatch {
   private:
     static constexpr std::size_t k_block = 32;
 
-    const void* bytes_at(std::size_t row) const { return rows_.data() + row; }
-    bool differ(const T* rows, std::size_t begin, std::size_t end) const {
-        return std::memcmp(static_cast<const void*>(rows + begin), bytes_at(begin),
+    const void* bytes_at(std::size_t index) const { return elements_.data() + index; }
+    bool differ(const T* elements, std::size_t begin, std::size_t end) const {
+        return std::memcmp(static_cast<const void*>(elements + begin), bytes_at(begin),
                            (end - begin) * sizeof(T)) != 0;
     }
-    void copy(const T* rows, std::size_t begin, std::size_t end) {
+    void copy(const T* elements, std::size_t begin, std::size_t end) {
         if (end > begin) {
-            std::memcpy(static_cast<void*>(rows_.data() + begin),
-                        static_cast<const void*>(rows + begin), (end - begin) * sizeof(T));
+            std::memcpy(static_cast<void*>(elements_.data() + begin),
+                        static_cast<const void*>(elements + begin), (end - begin) * sizeof(T));
         }
     }
 
-    std::vector<T> rows_;
+    std::vector<T> elements_;
     std::vector<Entity> owners_;
 };
 

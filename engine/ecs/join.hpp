@@ -18,17 +18,17 @@ std::size_t find_equal_block(const Driver& driver, std::size_t begin, std::size_
                              const Other& other) {
     static_assert(std::has_unique_object_representations_v<Entity>, "owners are compared as bytes");
     const Entity* const owners = driver.owners().data() + begin;
-    const std::size_t row = other.find_row(owners[0]);
-    if (row == Other::k_npos || other.size() - row < length) {
+    const std::size_t index = other.find_index(owners[0]);
+    if (index == Other::k_npos || other.size() - index < length) {
         return Other::k_npos;
     }
-    const std::size_t block = begin / Driver::k_block_rows;
-    if (row == begin && driver.is_run(block) && other.is_run(block)) {
-        return row;
+    const std::size_t block = begin / Driver::k_block_elements;
+    if (index == begin && driver.is_run(block) && other.is_run(block)) {
+        return index;
     }
     const bool equal =
-        std::memcmp(other.owners().data() + row, owners, length * sizeof(Entity)) == 0;
-    return equal ? row : Other::k_npos;
+        std::memcmp(other.owners().data() + index, owners, length * sizeof(Entity)) == 0;
+    return equal ? index : Other::k_npos;
 }
 
 // Calls visit(entity, element of the driver, elements of the others...) for every entity that is in
@@ -42,27 +42,27 @@ template <typename Driver, typename Visit, typename... Others>
 void join(Driver& driver, Visit&& visit, Others&... others) {
     const std::size_t count = driver.size();
     const Entity* const owners = driver.owners().data();
-    const auto driver_rows = driver.rows();
-    for (std::size_t begin = 0; begin < count; begin += Driver::k_block_rows) {
-        const std::size_t end = std::min(count, begin + Driver::k_block_rows);
-        const auto walk_arrays = [&](auto*... other_rows) {
-            for (std::size_t row = begin; row < end; ++row) {
-                visit(owners[row], driver_rows[row], other_rows[row - begin]...);
+    const auto driver_elements = driver.elements();
+    for (std::size_t begin = 0; begin < count; begin += Driver::k_block_elements) {
+        const std::size_t end = std::min(count, begin + Driver::k_block_elements);
+        const auto walk_arrays = [&](auto*... other_elements) {
+            for (std::size_t index = begin; index < end; ++index) {
+                visit(owners[index], driver_elements[index], other_elements[index - begin]...);
             }
         };
         const auto look_up = [&] {
-            for (std::size_t row = begin; row < end; ++row) {
+            for (std::size_t index = begin; index < end; ++index) {
                 const auto visit_if_complete = [&](auto*... found) {
                     if ((found && ...)) {
-                        visit(owners[row], driver_rows[row], *found...);
+                        visit(owners[index], driver_elements[index], *found...);
                     }
                 };
-                visit_if_complete(others.find(owners[row])...);
+                visit_if_complete(others.find(owners[index])...);
             }
         };
-        const auto walk_or_look_up = [&](auto... first_rows) {
-            if (((first_rows != Driver::k_npos) && ...)) {
-                walk_arrays((others.rows().data() + first_rows)...);
+        const auto walk_or_look_up = [&](auto... first_index) {
+            if (((first_index != Driver::k_npos) && ...)) {
+                walk_arrays((others.elements().data() + first_index)...);
             } else {
                 look_up();
             }

@@ -41,7 +41,7 @@ struct ShotFilm::Impl {
           outside(of_scene),
           overlay(with.width_px, with.height_px) {}
 
-    const RenderPose& first() const { return scene.world().render_pose.rows()[0]; }
+    const RenderPose& first() const { return scene.world().render_pose.elements()[0]; }
 
     Vec3 looked_at(const Shot& shot) const {
         const Entity named = find_by_id(scene.world(), persistent_id_from_name(shot.body));
@@ -77,7 +77,7 @@ struct ShotFilm::Impl {
             default:
                 break;
         }
-        const Quat& play_space = scene.world().player_origin.rows()[0].pose_ws.rotation;
+        const Quat& play_space = scene.world().player_origin.elements()[0].pose_ws.rotation;
         const Vec3 middle_ws = looked_at(shot);
         const Vec3 eye_ws = middle_ws + play_space * shot.from_m;
         return look_along(eye_ws, middle_ws + play_space * shot.target_m - eye_ws,

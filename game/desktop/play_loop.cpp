@@ -235,10 +235,10 @@ class Loop {
         marks_.clear();
         add_gizmos(scene().world(), scene().caches(), scene().tuning(), inspector_.gizmos, marks_);
         const bool own_eyes = viewpoint_ == PlayerViewpoint::eyes;
-        stage_.view.draw(
-            camera_ws(), stage_.settings.fov_rad,
-            own_eyes ? std::optional(scene().world().render_pose.find_row(player())) : std::nullopt,
-            stage_.picture, marks_, &ui);
+        stage_.view.draw(camera_ws(), stage_.settings.fov_rad,
+                         own_eyes ? std::optional(scene().world().render_pose.find_index(player()))
+                                  : std::nullopt,
+                         stage_.picture, marks_, &ui);
         const double draw_us = us_since(begin_ns);
         const std::int64_t shown_ns = clock_ns();
         stage_.window.show(stage_.picture);

@@ -255,11 +255,11 @@ class HeadsetLoop {
         camera.frustum = eye.frustum;
         stage_.view->show_sheet(sheet_before(render.head_ws));
         const auto& hands = figures_.reading.hands;
-        stage_.view->show_controls(columns().render_pose.find_row(player),
+        stage_.view->show_controls(columns().render_pose.find_index(player),
                                    {control_values(hands[0]), control_values(hands[1])});
         const bool keeps = !stage_.options.picture.empty();
         const bool mirrors = stage_.mirror != nullptr && eye.eye == 0;
-        stage_.view->draw_eye(camera, columns().render_pose.find_row(player), eye.texture,
+        stage_.view->draw_eye(camera, columns().render_pose.find_index(player), eye.texture,
                               keeps || mirrors ? &eye_image_ : nullptr, &ui);
         if (keeps) {
             put_beside(eye_image_, eye.eye, stage_.picture);

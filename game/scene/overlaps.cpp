@@ -16,11 +16,11 @@ constexpr double k_noticed_m = 0.005;
 class OverlapFinder {
   public:
     explicit OverlapFinder(Scene& scene) : scene_(scene), collision_(scene.caches().collision) {
-        for (std::size_t row = 0; row < scene.world().body.size(); ++row) {
+        for (std::size_t index = 0; index < scene.world().body.size(); ++index) {
             const std::uint64_t id =
-                scene.world().persistent_id.at(scene.world().body.owners()[row]).value;
+                scene.world().persistent_id.at(scene.world().body.owners()[index]).value;
             name_of_id_[id] =
-                row < scene.body_names.size() ? scene.body_names[row] : std::string("a body");
+                index < scene.body_names.size() ? scene.body_names[index] : std::string("a body");
         }
         scene.host.closest_point({}, 0.0);  // a query places all colliders
     }

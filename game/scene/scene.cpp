@@ -54,7 +54,7 @@ Result<Scene> build_scene(const SceneFile& file, const std::filesystem::path& pa
 
 void add_grip_meshes(Scene& scene) {
     std::vector<ShapeId> of_bodies;
-    for (const Collider& collider : scene.world().collider.rows()) {
+    for (const Collider& collider : scene.world().collider.elements()) {
         of_bodies.push_back(collider.shape);
     }
     scene.grip_meshes().add(scene.shapes(), of_bodies, {}, grip_mesh_cache());

@@ -129,15 +129,15 @@ void explain_grip(const Scene& scene, Entity hand, const Pose& hand_ws, HandStor
 
 std::string name_of_entity(const Scene& scene, Entity entity) {
     const World& world = scene.world();
-    const std::size_t row = world.body.find_row(entity);
-    if (world.body.contains(entity) && row < scene.body_names.size()) {
-        return scene.body_names[row];
+    const std::size_t index = world.body.find_index(entity);
+    if (world.body.contains(entity) && index < scene.body_names.size()) {
+        return scene.body_names[index];
     }
     if (const HandOwner* const owner = world.hand_owner.find(entity)) {
         return owner->side == HandSide::left ? "left hand" : "right hand";
     }
     if (world.player.contains(entity)) {
-        return format_text("player %zu", world.player.find_row(entity));
+        return format_text("player %zu", world.player.find_index(entity));
     }
     if (const Joint* const joint = world.joint.find(entity)) {
         return "joint of " + name_of_entity(scene, joint->b);
@@ -187,8 +187,8 @@ HandStory explain_hand(const Scene& scene, const CollisionWorld& collision, Enti
 std::optional<Entity> hand_pointed_at(const World& world, const Vec3& eye_ws, const Vec3& look_ws) {
     std::optional<Entity> best;
     double best_cos = k_pointed_cos;
-    for (std::size_t row = 0; row < world.hand_owner.size(); ++row) {
-        const HandOwner& owner = world.hand_owner.rows()[row];
+    for (std::size_t index = 0; index < world.hand_owner.size(); ++index) {
+        const HandOwner& owner = world.hand_owner.elements()[index];
         const RenderPose* const render = world.render_pose.find(owner.player);
         if (render == nullptr) {
             continue;
@@ -197,7 +197,7 @@ std::optional<Entity> hand_pointed_at(const World& world, const Vec3& eye_ws, co
         const double cosine = to.dot(look_ws) / std::fmax(to.norm(), 1e-9);
         if (cosine > best_cos) {
             best_cos = cosine;
-            best = world.hand_owner.owners()[row];
+            best = world.hand_owner.owners()[index];
         }
     }
     return best;

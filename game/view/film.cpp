@@ -17,15 +17,15 @@ enum class View { first_person, outside };
 // The player nearest to the first one within k_near_m; null if there is none.
 const RenderPose* player_near_first(const World& world) {
     constexpr double k_near_m = 1.8;  // least distance between heads
-    const auto& players = world.render_pose.rows();
+    const auto& players = world.render_pose.elements();
     const RenderPose* nearest = nullptr;
     double nearest_m = k_near_m;
-    for (std::size_t row = 1; row < players.size(); ++row) {
+    for (std::size_t index = 1; index < players.size(); ++index) {
         const double distance_m =
-            (players[row].head_ws.position - players[0].head_ws.position).norm();
+            (players[index].head_ws.position - players[0].head_ws.position).norm();
         if (distance_m < nearest_m) {
             nearest_m = distance_m;
-            nearest = &players[row];
+            nearest = &players[index];
         }
     }
     return nearest;
@@ -52,7 +52,7 @@ struct SessionFilm::Impl {
         : scene(of_scene), settings(with), session_s(0.0), outside(of_scene) {}
 
     void draw(PlayerView& stage, View view, double fov_rad) {
-        const RenderPose& first = scene.world().render_pose.rows()[0];
+        const RenderPose& first = scene.world().render_pose.elements()[0];
         if (view == View::first_person) {
             stage.draw(first.head_ws, fov_rad, 0, image);
         } else {

@@ -52,7 +52,7 @@ Color island_color(std::size_t island) {
 
 void add_hands(const World& world, const GizmoSet& on, std::vector<Line>& out) {
     const auto shows = [&](Gizmo gizmo) { return on[static_cast<std::size_t>(gizmo)]; };
-    for (const RenderPose& render : world.render_pose.rows()) {
+    for (const RenderPose& render : world.render_pose.elements()) {
         for (const RenderPose::Hand& hand : render.hands) {
             const bool grips = hand.grip != GripKind::none;
             if (shows(Gizmo::tracked_hands)) {
@@ -70,7 +70,7 @@ void add_hands(const World& world, const GizmoSet& on, std::vector<Line>& out) {
     if (!shows(Gizmo::grips)) {
         return;
     }
-    for (const Grab& grab : world.grab.rows()) {
+    for (const Grab& grab : world.grab.elements()) {
         if (grab.kind == GripKind::surface || grab.kind == GripKind::held) {
             const Pose& body_ws = world.body_pose.at(grab.body).pose_ws;
             const Vec3 hit_ws = transform_point(body_ws, grab.hit_bs);
@@ -117,9 +117,9 @@ void add_spine(const SpinePose& pose, std::vector<Line>& out) {
 void add_velocities(const World& world, std::vector<Line>& out) {
     constexpr double k_shown_s = 0.25;  // velocities are drawn as the path of this time
     constexpr double k_min_mps = 1e-3;
-    for (std::size_t row = 0; row < world.body_velocity.size(); ++row) {
-        const BodyVelocity& velocity = world.body_velocity.rows()[row];
-        const Entity body = world.body_velocity.owners()[row];
+    for (std::size_t index = 0; index < world.body_velocity.size(); ++index) {
+        const BodyVelocity& velocity = world.body_velocity.elements()[index];
+        const Entity body = world.body_velocity.owners()[index];
         if (velocity.linear_mps.norm() > k_min_mps) {
             const Vec3 from_ws = world.body_pose.at(body).pose_ws.position;
             out.push_back({from_ws, from_ws + k_shown_s * velocity.linear_mps, k_velocity, 2.0});
@@ -242,7 +242,7 @@ void add_gizmos(const World& world, const FrameCaches& caches, const Tuning& tun
     const auto shows = [&](Gizmo gizmo) { return on[static_cast<std::size_t>(gizmo)]; };
     add_hands(world, on, out);
     add_hand_gizmos(world, caches, tuning, on, out);
-    for (const RenderPose& render : world.render_pose.rows()) {
+    for (const RenderPose& render : world.render_pose.elements()) {
         if (shows(Gizmo::arms)) {
             add_arms(render.arms, out);
         }

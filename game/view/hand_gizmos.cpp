@@ -165,9 +165,9 @@ void add_cut(const HandSurroundings& hand, const GripSurface& surface, const Fin
 
 // Draws a sphere of the zone's radius around the palm's place in each authored grip.
 void add_snap_zones(const World& world, const Tuning& tuning, std::vector<Line>& out) {
-    for (std::size_t row = 0; row < world.authored_grips.size(); ++row) {
-        const AuthoredGrips& grips = world.authored_grips.rows()[row];
-        const Pose& body_ws = world.body_pose.at(world.authored_grips.owners()[row]).pose_ws;
+    for (std::size_t index = 0; index < world.authored_grips.size(); ++index) {
+        const AuthoredGrips& grips = world.authored_grips.elements()[index];
+        const Pose& body_ws = world.body_pose.at(world.authored_grips.owners()[index]).pose_ws;
         for (std::size_t i = 0; i < grips.count; ++i) {
             for (const HandSide side : {HandSide::left, HandSide::right}) {
                 const AuthoredHand& hand = grips.grips[i].hands[index_of(side)];

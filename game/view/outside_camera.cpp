@@ -9,10 +9,10 @@ namespace handhold {
 void OutsideCamera::place_walls() {
     std::vector<ColliderProxy> proxies;
     const World& world = scene_->world();
-    for (std::size_t row = 0; row < world.body.size(); ++row) {
-        const Entity body = world.body.owners()[row];
+    for (std::size_t index = 0; index < world.body.size(); ++index) {
+        const Entity body = world.body.owners()[index];
         const Collider* const collider = world.collider.find(body);
-        if (collider != nullptr && world.body.rows()[row].kind != BodyKind::free) {
+        if (collider != nullptr && world.body.elements()[index].kind != BodyKind::free) {
             const Pose& pose = world.body_pose.at(body).pose_ws;
             proxies.push_back(
                 {world.persistent_id.at(body).value, collider->shape, pose, pose, false});

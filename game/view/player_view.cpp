@@ -48,14 +48,14 @@ std::optional<PlayerView> PlayerView::open(const Scene& scene, PlayerModels mode
     return PlayerView(scene, std::move(models), std::move(*renderer));
 }
 
-ControlValues PlayerView::controls_of(std::size_t row, HandSide side) const {
-    if (controls_ && controls_->row == row) {
+ControlValues PlayerView::controls_of(std::size_t index, HandSide side) const {
+    if (controls_ && controls_->index == index) {
         return controls_->values[index_of(side)];
     }
     const World& world = scene_->world();
-    const Entity player = world.render_pose.owners()[row];
+    const Entity player = world.render_pose.owners()[index];
     for (std::size_t i = 0; i < world.hand_owner.size(); ++i) {
-        const HandOwner& owner = world.hand_owner.rows()[i];
+        const HandOwner& owner = world.hand_owner.elements()[i];
         if (owner.player == player && owner.side == side) {
             return closing_values(world.hand_tracking.at(world.hand_owner.owners()[i]).pressed);
         }
@@ -146,12 +146,12 @@ void PlayerView::add_penetrating_hands(std::size_t first, RenderFrame& frame) co
     }
 }
 
-void PlayerView::add_player(std::size_t row, BodyFigures::Seen seen, RenderFrame& frame) {
+void PlayerView::add_player(std::size_t index, BodyFigures::Seen seen, RenderFrame& frame) {
     // Index of the player who gets the hints, in every view.
     constexpr std::size_t k_who_plays = 0;
     const World& world = scene_->world();
-    const Entity player = world.render_pose.owners()[row];
-    const RenderPose& render = world.render_pose.rows()[row];
+    const Entity player = world.render_pose.owners()[index];
+    const RenderPose& render = world.render_pose.elements()[index];
     const std::size_t first_own = frame.instances.size();
     body_.add(world.body_measures.at(player), render, seen, renderer_, frame);
     for (const HandSide side : {HandSide::left, HandSide::right}) {
@@ -159,7 +159,7 @@ void PlayerView::add_player(std::size_t row, BodyFigures::Seen seen, RenderFrame
         const bool grips = hand.grip != GripKind::none;
         const std::size_t first = frame.instances.size();
         add_hand(side, hand, render.arms.arms[index_of(side)].forearm_ws.rotation,
-                 controls_of(row, side), frame);
+                 controls_of(index, side), frame);
         if (seen == BodyFigures::Seen::by_himself && !grips) {
             add_penetrating_hands(first, frame);
         }
@@ -171,10 +171,10 @@ void PlayerView::add_player(std::size_t row, BodyFigures::Seen seen, RenderFrame
         frame.instances[i].is_own = seen == BodyFigures::Seen::by_himself;
     }
     for (std::size_t hand = 0; hand < world.hand_owner.size(); ++hand) {
-        const HandOwner& owner = world.hand_owner.rows()[hand];
+        const HandOwner& owner = world.hand_owner.elements()[hand];
         if (owner.player == player) {
             const Entity entity = world.hand_owner.owners()[hand];
-            if (seen == BodyFigures::Seen::by_himself || row == k_who_plays) {
+            if (seen == BodyFigures::Seen::by_himself || index == k_who_plays) {
                 add_snap_hint(entity, frame);
             }
             add_pull(entity, render.hands[index_of(owner.side)], frame);

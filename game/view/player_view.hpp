@@ -35,10 +35,10 @@ class PlayerView {
     void show_hand_lines(bool shows) { shows_hand_lines_ = shows; }
     // Sets RenderFrame::hidden_lines.
     void set_hidden_lines(float strength) { hidden_lines_ = strength; }
-    // Sets the positions of the controls for the player at index `row`. Other players' controls
+    // Sets the positions of the controls for the player at `index`. Other players' controls
     // follow how far their hands are closed.
-    void show_controls(std::size_t row, const std::array<ControlValues, k_hand_count>& values) {
-        controls_ = PlayerControls{row, values};
+    void show_controls(std::size_t index, const std::array<ControlValues, k_hand_count>& values) {
+        controls_ = PlayerControls{index, values};
     }
     // Shows a sheet of panels in the world; nullopt: none.
     void show_sheet(const std::optional<Sheet>& sheet) { sheet_ = sheet; }
@@ -50,10 +50,10 @@ class PlayerView {
     PlayerView(const Scene& scene, PlayerModels models, Renderer renderer);
     RenderFrame make_frame(const Camera& camera, std::optional<std::size_t> without_head,
                            std::span<const Line> marks);
-    void add_player(std::size_t row, BodyFigures::Seen seen, RenderFrame& frame);
+    void add_player(std::size_t index, BodyFigures::Seen seen, RenderFrame& frame);
     void add_hand(HandSide side, const RenderPose::Hand& hand, const Quat& forearm_ws,
                   const ControlValues& controls, RenderFrame& frame);
-    ControlValues controls_of(std::size_t row, HandSide side) const;
+    ControlValues controls_of(std::size_t index, HandSide side) const;
     void add_pull(Entity hand, const RenderPose::Hand& shown, RenderFrame& frame) const;
     void add_ghost_of(HandSide side, const Pose& wrist_ws,
                       const std::array<FingerAngles, k_finger_count>& fingers, const Ghost& like,
@@ -63,7 +63,7 @@ class PlayerView {
     void add_ghost(HandSide side, const RenderPose::Hand& hand, bool is_lost, RenderFrame& frame);
 
     struct PlayerControls {
-        std::size_t row = 0;
+        std::size_t index = 0;
         std::array<ControlValues, k_hand_count> values{};
     };
 

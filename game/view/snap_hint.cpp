@@ -22,9 +22,9 @@ std::optional<SnapHint> find_snap_hint(const World& world, Entity hand, const Ha
         world.render_pose.at(owner.player).hands[index_of(owner.side)].tracked_ws;
     std::optional<SnapHint> best;
     std::int32_t best_priority = 0;
-    for (std::size_t row = 0; row < world.authored_grips.size(); ++row) {
-        const AuthoredGrips& grips = world.authored_grips.rows()[row];
-        const Pose& body_ws = world.body_pose.at(world.authored_grips.owners()[row]).pose_ws;
+    for (std::size_t index = 0; index < world.authored_grips.size(); ++index) {
+        const AuthoredGrips& grips = world.authored_grips.elements()[index];
+        const Pose& body_ws = world.body_pose.at(world.authored_grips.owners()[index]).pose_ws;
         for (std::size_t i = 0; i < grips.count; ++i) {
             const AuthoredGrip& grip = grips.grips[i];
             const AuthoredHand& there = grip.hands[index_of(owner.side)];

@@ -126,9 +126,9 @@ BodyMeasures measures_of_eye_height(double eye_height_m) {
 }
 
 void calibrate_players(const CalibratePlayersIo& io, const CalibrationTuning& tuning) {
-    for (std::size_t row = 0; row < io.calibration.size(); ++row) {
-        const Entity player = io.calibration.owners()[row];
-        Calibration& calibration = io.calibration.rows()[row];
+    for (std::size_t index = 0; index < io.calibration.size(); ++index) {
+        const Entity player = io.calibration.owners()[index];
+        Calibration& calibration = io.calibration.elements()[index];
         if (!io.commands.at(player).calibrate) {
             calibration = {};
         } else if (!calibration.done) {
@@ -136,7 +136,7 @@ void calibrate_players(const CalibratePlayersIo& io, const CalibrationTuning& tu
             std::array<Vec3, k_hand_count> hands_ps{};
             std::size_t known = is_known(head.state) && !head.is_inferred ? 1 : 0;
             for (std::size_t hand = 0; hand < io.owner.size(); ++hand) {
-                const HandOwner& owner = io.owner.rows()[hand];
+                const HandOwner& owner = io.owner.elements()[hand];
                 const HandTracking& tracking = io.hand.at(io.owner.owners()[hand]);
                 if (owner.player == player && is_known(tracking.state)) {
                     hands_ps[index_of(owner.side)] = tracking.pose_ps.position;

@@ -250,14 +250,14 @@ void take_hands(const EstimateArmsIo& io) {
     Entity player = k_no_entity;
     const Pose* origin_ws = nullptr;
     ArmEstimate* estimate = nullptr;
-    for (std::size_t row = 0; row < io.owner.size(); ++row) {
-        const HandOwner& owner = io.owner.rows()[row];
+    for (std::size_t index = 0; index < io.owner.size(); ++index) {
+        const HandOwner& owner = io.owner.elements()[index];
         if (owner.player != player) {  // a player's hands are usually adjacent
             player = owner.player;
             origin_ws = &io.origin.at(player).pose_ws;
             estimate = &io.estimate.at(player);
         }
-        const Pose& palm_ws = io.palm.at(io.owner.owners()[row]).pose_ws;
+        const Pose& palm_ws = io.palm.at(io.owner.owners()[index]).pose_ws;
         const Quat turn = product(origin_ws->rotation.conjugate(), palm_ws.rotation);
         estimate->arms[index_of(owner.side)].hand_ps = {
             inverse_transform_point(*origin_ws, palm_ws.position),
@@ -272,13 +272,13 @@ void estimate_arms(const EstimateArmsIo& io, const ArmTuning& tuning) {
     const Step step = step_of(io.dt_s, tuning);
     constexpr std::size_t k_players_per_slice = 16;
     const auto estimate = [&](std::size_t /*slice*/, std::size_t first, std::size_t last) {
-        for (std::size_t row = first; row < last; ++row) {
-            const Entity player = io.estimate.owners()[row];
+        for (std::size_t index = first; index < last; ++index) {
+            const Entity player = io.estimate.owners()[index];
             ArmMemory* const memory = io.memory.find(player);
             const HeadTracking* const head = io.head.find(player);
             const BodyMeasures* const measures = io.measures.find(player);
             if (memory != nullptr && head != nullptr && measures != nullptr) {
-                ArmEstimate& out = io.estimate.rows()[row];
+                ArmEstimate& out = io.estimate.elements()[index];
                 estimate_player({head->pose_ps,
                                  {out.arms[0].hand_ps, out.arms[1].hand_ps},
                                  *measures,

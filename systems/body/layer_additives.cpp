@@ -113,13 +113,13 @@ void turn_body_outside(const LayerAdditivesIo& io, Entity player, ClipTurns& tur
 }
 
 void see_hands(const LayerAdditivesIo& io) {
-    for (BodyClipState& state : io.state.rows()) {
+    for (BodyClipState& state : io.state.elements()) {
         state.was_gripping = state.gripping;
         state.gripping = false;
     }
-    for (std::size_t row = 0; row < io.owner.size(); ++row) {
-        if (can_push_off(io.grab.at(io.owner.owners()[row]))) {
-            io.state.at(io.owner.rows()[row].player).gripping = true;
+    for (std::size_t index = 0; index < io.owner.size(); ++index) {
+        if (can_push_off(io.grab.at(io.owner.owners()[index]))) {
+            io.state.at(io.owner.elements()[index].player).gripping = true;
         }
     }
 }
@@ -182,9 +182,9 @@ void turn_clavicle(const BodyClips& clips, HandSide side, double arm_m, double r
     }
 }
 
-void layer_player(const LayerAdditivesIo& io, std::size_t row, const AdditiveTuning& tuning) {
-    const Entity player = io.state.owners()[row];
-    BodyClipState& state = io.state.rows()[row];
+void layer_player(const LayerAdditivesIo& io, std::size_t index, const AdditiveTuning& tuning) {
+    const Entity player = io.state.owners()[index];
+    BodyClipState& state = io.state.elements()[index];
     const double speed_mps =
         (io.velocity.at(player).linear_mps - io.reference.at(player).linear_mps).norm();
     advance(io.clips, io.dt_s, speed_mps, tuning, state);
@@ -222,8 +222,8 @@ void layer_additives(const LayerAdditivesIo& io, const AdditiveTuning& tuning) {
     see_hands(io);
     constexpr std::size_t k_players_per_slice = 32;
     const auto layer = [&](std::size_t /*slice*/, std::size_t first, std::size_t last) {
-        for (std::size_t row = first; row < last; ++row) {
-            layer_player(io, row, tuning);
+        for (std::size_t index = first; index < last; ++index) {
+            layer_player(io, index, tuning);
         }
     };
     parallel_slices(io.state.size(), k_players_per_slice, layer);

@@ -91,14 +91,14 @@ void pose_arm(const Arms& arms, const ArmEstimate::Arm& estimate, const Pose& pa
 void pose_arms(const PoseArmsIo& io) {
     Entity player = k_no_entity;
     Arms arms{};
-    for (std::size_t row = 0; row < io.owner.size(); ++row) {
-        const HandOwner& owner = io.owner.rows()[row];
+    for (std::size_t index = 0; index < io.owner.size(); ++index) {
+        const HandOwner& owner = io.owner.elements()[index];
         if (owner.player != player) {  // a player's hands are usually adjacent
             player = owner.player;
             arms = arms_of(io, player);
         }
         const std::size_t side = index_of(owner.side);
-        pose_arm(arms, arms.estimate->arms[side], io.palm.at(io.owner.owners()[row]).pose_ws,
+        pose_arm(arms, arms.estimate->arms[side], io.palm.at(io.owner.owners()[index]).pose_ws,
                  arms.pose->arms[side]);
     }
 }

@@ -254,10 +254,10 @@ struct Held {
 };
 Held held(const PropagateSpineIo& io, Entity player) {
     Held found;
-    for (std::size_t row = 0; row < io.body_hold.size(); ++row) {
-        const Grab& grab = io.grab.at(io.body_hold.owners()[row]);
+    for (std::size_t index = 0; index < io.body_hold.size(); ++index) {
+        const Grab& grab = io.grab.at(io.body_hold.owners()[index]);
         if (grab.kind == GripKind::player && grab.body == player &&
-            swings(io.body_hold.rows()[row].part)) {
+            swings(io.body_hold.elements()[index].part)) {
             found.now = true;
             found.before = found.before || grab.since_s < io.t_s - io.dt_s;
         }
@@ -265,8 +265,8 @@ Held held(const PropagateSpineIo& io, Entity player) {
     return found;
 }
 
-void propagate_player(const PropagateSpineIo& io, std::size_t row, const SpineTuning& tuning) {
-    const Entity player = io.pose.owners()[row];
+void propagate_player(const PropagateSpineIo& io, std::size_t index, const SpineTuning& tuning) {
+    const Entity player = io.pose.owners()[index];
     SpineMemory& memory = io.memory.at(player);
     const Pose& origin_ws = io.origin.at(player).pose_ws;
     const double scale = io.measures.at(player).eye_height_m / k_scale_eye_m;
@@ -313,16 +313,16 @@ void propagate_player(const PropagateSpineIo& io, std::size_t row, const SpineTu
 
 // Writes BodyPull::hands.
 void take_pulls(const PropagateSpineIo& io) {
-    for (SpineMemory& memory : io.memory.rows()) {
+    for (SpineMemory& memory : io.memory.elements()) {
         memory.pull.hands_before = memory.pull.hands;
         memory.pull.hands = Vec3::Zero();
     }
-    for (std::size_t row = 0; row < io.owner.size(); ++row) {
-        const Grab* const grab = io.grab.find(io.owner.owners()[row]);
+    for (std::size_t index = 0; index < io.owner.size(); ++index) {
+        const Grab* const grab = io.grab.find(io.owner.owners()[index]);
         if (grab == nullptr || !can_push_off(*grab)) {
             continue;
         }
-        const HandOwner& owner = io.owner.rows()[row];
+        const HandOwner& owner = io.owner.elements()[index];
         const BodyMeasures& measures = io.measures.at(owner.player);
         const ArmEstimate& estimate = io.estimate.at(owner.player);
         const Vec3 from_chest_m =
@@ -338,8 +338,8 @@ void propagate_spine(const PropagateSpineIo& io, const SpineTuning& tuning) {
     take_pulls(io);
     constexpr std::size_t k_players_per_slice = 4;
     const auto propagate = [&](std::size_t /*slice*/, std::size_t first, std::size_t last) {
-        for (std::size_t row = first; row < last; ++row) {
-            propagate_player(io, row, tuning);
+        for (std::size_t index = first; index < last; ++index) {
+            propagate_player(io, index, tuning);
         }
     };
     if (io.surfaces.any_thread()) {

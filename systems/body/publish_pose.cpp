@@ -7,9 +7,9 @@
 namespace handhold {
 
 void publish_pose(const PublishPoseIo& io, const Tuning& tuning) {
-    for (std::size_t row = 0; row < io.render.size(); ++row) {
-        const Entity player = io.render.owners()[row];
-        RenderPose& out = io.render.rows()[row];
+    for (std::size_t index = 0; index < io.render.size(); ++index) {
+        const Entity player = io.render.owners()[index];
+        RenderPose& out = io.render.elements()[index];
         const Pose& origin_ws = io.origin.at(player).pose_ws;
         const HeadTracking& head = io.head.at(player);
         out.head_ws = origin_ws * head.pose_ps;
@@ -17,9 +17,9 @@ void publish_pose(const PublishPoseIo& io, const Tuning& tuning) {
         const auto push_back = std::ranges::find(io.push_backs, player, &PushBack::player);
         out.push_back_m = push_back != io.push_backs.end() ? push_back->distance_m : 0.0;
     }
-    for (std::size_t row = 0; row < io.owner.size(); ++row) {
-        const Entity entity = io.owner.owners()[row];
-        const HandOwner& owner = io.owner.rows()[row];
+    for (std::size_t index = 0; index < io.owner.size(); ++index) {
+        const Entity entity = io.owner.owners()[index];
+        const HandOwner& owner = io.owner.elements()[index];
         const Grab& grab = io.grab.at(entity);
         RenderPose::Hand& out = io.render.at(owner.player).hands[index_of(owner.side)];
         out.tracked_ws = io.origin.at(owner.player).pose_ws * io.hand.at(entity).pose_ps;

@@ -21,14 +21,14 @@ void check_frame(const World& world, const FrameCaches& caches, const Tuning& tu
                  "gravity_mps2 is out of range", axis_mps2);
     }
     check_tuning(tuning);
-    for (std::size_t row = 0; row < world.collider.size(); ++row) {
-        const ShapeId shape = world.collider.rows()[row].shape;
+    for (std::size_t index = 0; index < world.collider.size(); ++index) {
+        const ShapeId shape = world.collider.elements()[index].shape;
         if (shape == k_no_shape) {
             continue;
         }
         HH_CHECK(caches.shapes->has(shape), "no shape with this id", shape.index);
         if (caches.shapes->at(shape).kind == ShapeKind::mesh) {
-            const RigidBody* const body = world.body.find(world.collider.owners()[row]);
+            const RigidBody* const body = world.body.find(world.collider.owners()[index]);
             HH_CHECK(body != nullptr && body->kind != BodyKind::free, "a mesh cannot be free",
                      shape.index);
         }

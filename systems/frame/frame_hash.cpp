@@ -63,11 +63,11 @@ class FieldHasher {
 std::uint64_t hash_state(const World& world) {
     std::uint64_t sum = 0;
     visit_columns(world, [&](const char* name, const auto& column) {
-        for (std::size_t row = 0; row < column.size(); ++row) {
+        for (std::size_t index = 0; index < column.size(); ++index) {
             HashStream stream;
             stream.add(hash_text(name));
-            stream.add(world.persistent_id.at(column.owners()[row]).value);
-            visit_fields(column.rows()[row], FieldHasher(world, stream));
+            stream.add(world.persistent_id.at(column.owners()[index]).value);
+            visit_fields(column.elements()[index], FieldHasher(world, stream));
             sum += stream.value();
         }
     });

@@ -33,12 +33,12 @@ std::span<const HandSurroundings> hands_of(const FrameContext& f, std::size_t fi
 // Builds the missing meshes of held parts.
 void add_part_meshes(const FrameContext& f) {
     const World& w = f.w;
-    for (std::size_t row = 0; row < w.body_hold.size(); ++row) {
-        const Grab& grab = w.grab.at(w.body_hold.owners()[row]);
+    for (std::size_t index = 0; index < w.body_hold.size(); ++index) {
+        const Grab& grab = w.grab.at(w.body_hold.owners()[index]);
         if (grab.kind == GripKind::player && w.render_pose.contains(grab.body)) {
             f.caches.part_meshes.add(part_capsule(w.render_pose.at(grab.body),
                                                   w.body_measures.at(grab.body),
-                                                  w.body_hold.rows()[row].part));
+                                                  w.body_hold.elements()[index].part));
         }
     }
 }

@@ -15,9 +15,9 @@ namespace handhold::stages {
 // slices must not count anything else.
 template <typename SliceStage>
 void for_slices(const FrameContext& f, std::size_t count, const SliceStage& stage) {
-    constexpr std::size_t k_rows_per_slice = 8;
+    constexpr std::size_t k_elements_per_slice = 8;
     HandScratch& hands = f.hands();
-    const std::size_t slices = (count + k_rows_per_slice - 1) / k_rows_per_slice;
+    const std::size_t slices = (count + k_elements_per_slice - 1) / k_elements_per_slice;
     if (hands.slices.size() < slices) {
         hands.slices.resize(slices);
     }
@@ -25,7 +25,7 @@ void for_slices(const FrameContext& f, std::size_t count, const SliceStage& stag
         hands.slices[slice].stats.clear();
         stage(hands.slices[slice], first, last);
     };
-    parallel_slices(count, k_rows_per_slice, run);
+    parallel_slices(count, k_elements_per_slice, run);
     for (std::size_t slice = 0; slice < slices; ++slice) {
         std::ranges::transform(f.stats.fallbacks, hands.slices[slice].stats.fallbacks,
                                f.stats.fallbacks.begin(), std::plus<>());

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "components/hand_rows.hpp"
+#include "components/hand_indices.hpp"
 #include "systems/rigs/authored_hand.hpp"
 
 namespace handhold {
@@ -38,8 +38,8 @@ void take_anchor_at_start(const AnchorGrabsIo& io, Entity player, const HandTrac
 // If two hands drove a body together and one of them has left, for any reason, the one that stays
 // takes a new anchor.
 void end_broken_two_hand_grips(const AnchorGrabsIo& io, StageStats& stats) {
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        const HandPair pair = pair_of(io, row);
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        const HandPair pair = pair_of(io, index);
         const bool whole = pair.other != nullptr && pair.other->two_handed &&
                            share_free_body(pair.grab, *pair.other);
         if (pair.grab.two_handed && !whole) {
@@ -146,18 +146,18 @@ bool leaves_shared_grip(const HandPair& pair) {
 // new anchor. All anchors are found before any hand leaves, because hands of several players may
 // drive one body.
 void leave_shared_grips(const AnchorGrabsIo& io, const PhaseTuning& tuning, StageStats& stats) {
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        const HandPair pair = pair_of(io, row);
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        const HandPair pair = pair_of(io, index);
         if (leaves_shared_grip(pair)) {
-            const std::size_t other = find_other_hand(io.owner, io.grab, row);
+            const std::size_t other = find_other_hand(io.owner, io.grab, index);
             // Stored in the leaving hand until all anchors are found; that hand no longer needs its
             // own.
             pair.grab.anchor_bs =
-                staying_anchor_bs(io, pair, is_first_hand(io.owner, io.grab, row, other), tuning);
+                staying_anchor_bs(io, pair, is_first_hand(io.owner, io.grab, index, other), tuning);
         }
     }
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        const HandPair pair = pair_of(io, row);
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        const HandPair pair = pair_of(io, index);
         if (leaves_shared_grip(pair)) {
             pair.other->anchor_bs = pair.grab.anchor_bs;
             pair.other->two_handed = false;
@@ -170,8 +170,8 @@ void leave_shared_grips(const AnchorGrabsIo& io, const PhaseTuning& tuning, Stag
 // Ends grips of hands that opened while they were not tracked: their present pose says nothing
 // about the release.
 void drop_lost_grabs(const AnchorGrabsIo& io, StageStats& stats) {
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        const HandPair pair = pair_of(io, row);
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        const HandPair pair = pair_of(io, index);
         if (pair.grab.phase != GrabPhase::releasing || !pair.hand.resumed) {
             continue;
         }
@@ -216,8 +216,8 @@ void move_into_hand(const AnchorGrabsIo& io, Entity entity, const Tuning& tuning
 // depends on their masses, which only the solver knows.
 std::optional<HandPair> leader_of(const AnchorGrabsIo& io, const HandPair& joining) {
     std::optional<HandPair> leader;
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        const HandPair pair = pair_of(io, row);
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        const HandPair pair = pair_of(io, index);
         const bool at_once = joining.hand.edge == GrabEdge::onset &&
                              pair.hand.edge == GrabEdge::onset &&
                              pair.hand.edge_t_s >= joining.hand.edge_t_s;
@@ -231,7 +231,7 @@ std::optional<HandPair> leader_of(const AnchorGrabsIo& io, const HandPair& joini
         const bool in_both = pair.other != nullptr && pair.other->phase != GrabPhase::fresh &&
                              share_free_body(pair.grab, *pair.other);
         if (!in_both ||
-            is_first_hand(io.owner, io.grab, row, find_other_hand(io.owner, io.grab, row))) {
+            is_first_hand(io.owner, io.grab, index, find_other_hand(io.owner, io.grab, index))) {
             leader.emplace(pair);
         }
     }
@@ -286,11 +286,11 @@ void anchor_new_grab(const AnchorGrabsIo& io, const HandPair& pair, const PhaseT
 std::size_t earliest_new_grab(const AnchorGrabsIo& io) {
     std::size_t earliest = io.grab.size();
     double edge_t_s = 0.0;
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        const HandTracking& hand = io.hand.at(io.grab.owners()[row]);
-        if (io.grab.rows()[row].phase == GrabPhase::fresh &&
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        const HandTracking& hand = io.hand.at(io.grab.owners()[index]);
+        if (io.grab.elements()[index].phase == GrabPhase::fresh &&
             (earliest == io.grab.size() || hand.edge_t_s < edge_t_s)) {
-            earliest = row;
+            earliest = index;
             edge_t_s = hand.edge_t_s;
         }
     }
@@ -315,8 +315,8 @@ void reanchor_resumed_grab(const AnchorGrabsIo& io, const HandPair& pair, const 
 }
 
 void reanchor_resumed_grabs(const AnchorGrabsIo& io, const PhaseTuning& tuning, StageStats& stats) {
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        const HandPair pair = pair_of(io, row);
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        const HandPair pair = pair_of(io, index);
         if (pair.grab.phase == GrabPhase::holding && pair.hand.resumed &&
             pair.hand.edge != GrabEdge::onset) {
             reanchor_resumed_grab(io, pair, tuning, stats);
@@ -325,8 +325,8 @@ void reanchor_resumed_grabs(const AnchorGrabsIo& io, const PhaseTuning& tuning, 
 }
 
 void set_targets(const AnchorGrabsIo& io) {
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        const HandPair pair = pair_of(io, row);
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        const HandPair pair = pair_of(io, index);
         if (pair.grab.kind != GripKind::none &&
             (pair.grab.phase != GrabPhase::releasing || !follow_leader(io, pair))) {
             set_target(io, pair.hand, pair.grab);
@@ -337,8 +337,8 @@ void set_targets(const AnchorGrabsIo& io) {
 // A hand moves what it grips, and its player, at most at max_speed_mps: the grip slips by the rest.
 void limit_hand_speeds(const AnchorGrabsIo& io, double max_speed_mps, StageStats& stats) {
     const double max_m = max_speed_mps * (io.end_s - io.start_s);
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        const HandPair pair = pair_of(io, row);
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        const HandPair pair = pair_of(io, index);
         Grab& grab = pair.grab;
         const bool closes = pair.hand.edge == GrabEdge::onset;
         const Vec3 travel_ps =
@@ -360,23 +360,23 @@ void limit_hand_speeds(const AnchorGrabsIo& io, double max_speed_mps, StageStats
 void anchor_grabs(const AnchorGrabsIo& io, const Tuning& tuning, StageStats& stats) {
     end_broken_two_hand_grips(io, stats);
     // Anchors new grips before it handles releases.
-    for (std::size_t row = earliest_new_grab(io); row < io.grab.size();
-         row = earliest_new_grab(io)) {
-        anchor_new_grab(io, pair_of(io, row), tuning.phases);
+    for (std::size_t index = earliest_new_grab(io); index < io.grab.size();
+         index = earliest_new_grab(io)) {
+        anchor_new_grab(io, pair_of(io, index), tuning.phases);
     }
     drop_lost_grabs(io, stats);
     leave_shared_grips(io, tuning.phases, stats);
     reanchor_resumed_grabs(io, tuning.phases, stats);
     set_targets(io);
     limit_hand_speeds(io, tuning.tracking.max_hand_speed_mps, stats);
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        move_into_hand(io, io.grab.owners()[row], tuning, pair_of(io, row));
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        move_into_hand(io, io.grab.owners()[index], tuning, pair_of(io, index));
     }
     end_broken_two_hand_grips(io, stats);
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        const HandPair pair = pair_of(io, row);
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        const HandPair pair = pair_of(io, index);
         if (pair.other != nullptr && share_free_body(pair.grab, *pair.other) &&
-            is_first_hand(io.owner, io.grab, row, find_other_hand(io.owner, io.grab, row))) {
+            is_first_hand(io.owner, io.grab, index, find_other_hand(io.owner, io.grab, index))) {
             pair_hands(io, pair, stats);
         }
     }

@@ -3,11 +3,11 @@
 namespace handhold {
 
 void keep_holds(const KeepHoldsIo& io) {
-    for (std::size_t row = 0; row < io.reference.size(); ++row) {
-        io.reference.rows()[row] = {io.scene_velocity_mps, k_no_entity, Vec3::Zero()};
+    for (std::size_t index = 0; index < io.reference.size(); ++index) {
+        io.reference.elements()[index] = {io.scene_velocity_mps, k_no_entity, Vec3::Zero()};
     }
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        Grab& grab = io.grab.rows()[row];
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        Grab& grab = io.grab.elements()[index];
         if (grab.kind == GripKind::none) {
             continue;
         }
@@ -15,7 +15,7 @@ void keep_holds(const KeepHoldsIo& io) {
             grab = {};
             continue;
         }
-        const Entity hand = io.grab.owners()[row];
+        const Entity hand = io.grab.owners()[index];
         const Entity player = io.owner.at(hand).player;
         const Pose& body_ws = io.body_pose.at(grab.body).pose_ws;
         const Vec3 anchor_ws = transform_point(body_ws, grab.anchor_bs.position);

@@ -19,26 +19,26 @@ PalmRay ray_of(const PullBodiesIo& io, Entity hand, const Pose& hand_ps, const H
 
 // True if any hand grips the body, or another hand pulls it.
 bool is_taken(const PullBodiesIo& io, Entity hand, Entity body) {
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        const Grab& grab = io.grab.rows()[row];
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        const Grab& grab = io.grab.elements()[index];
         if (grab.kind != GripKind::none && grab.body == body) {
             return true;
         }
     }
-    for (std::size_t row = 0; row < io.pull.size(); ++row) {
-        if (io.pull.owners()[row] != hand && io.pull.rows()[row].body == body) {
+    for (std::size_t index = 0; index < io.pull.size(); ++index) {
+        if (io.pull.owners()[index] != hand && io.pull.elements()[index].body == body) {
             return true;
         }
     }
     return false;
 }
 
-bool is_jointed(const PullBodiesIo& io, std::size_t body_row) {
-    if (io.joint_groups.is_anchored(body_row)) {
+bool is_jointed(const PullBodiesIo& io, std::size_t body_index) {
+    if (io.joint_groups.is_anchored(body_index)) {
         return true;
     }
-    for (std::size_t row = 0; row < io.body.size(); ++row) {
-        if (row != body_row && io.joint_groups.share_group(row, body_row)) {
+    for (std::size_t index = 0; index < io.body.size(); ++index) {
+        if (index != body_index && io.joint_groups.share_group(index, body_index)) {
             return true;
         }
     }
@@ -49,7 +49,7 @@ bool is_jointed(const PullBodiesIo& io, std::size_t body_row) {
 std::optional<Fallback> refusal_reason(const PullBodiesIo& io, Entity hand, Entity pulled,
                                        const PullTuning& tuning) {
     const RigidBody& body = io.body.at(pulled);
-    if (body.kind != BodyKind::free || is_jointed(io, io.body.find_row(pulled))) {
+    if (body.kind != BodyKind::free || is_jointed(io, io.body.find_index(pulled))) {
         return Fallback::pull_refused_fixed;
     }
     if (body.mass_kg > tuning.max_mass_kg) {
@@ -152,15 +152,15 @@ void pull_bodies(const PullBodiesIo& io, const Tuning& tuning, StageStats& stats
         io.pull.clear();
         return;
     }
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        const Entity hand = io.grab.owners()[row];
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        const Entity hand = io.grab.owners()[index];
         const HandTracking& tracking = io.hand.at(hand);
         const HandPull* const pull = io.pull.find(hand);
         if (pull != nullptr &&
             (tracking.edge != GrabEdge::none || !can_continue(io, hand, *pull, tuning, stats))) {
             io.pull.remove(hand);
         }
-        if (tracking.edge == GrabEdge::onset && io.grab.rows()[row].kind == GripKind::none &&
+        if (tracking.edge == GrabEdge::onset && io.grab.elements()[index].kind == GripKind::none &&
             io.sight.at(hand).is_clear) {
             const Entity loose = find_pullable_body(io, hand, tuning, stats);
             if (!is_null(loose)) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "components/hand_rows.hpp"
+#include "components/hand_indices.hpp"
 #include "components/play_space.hpp"
 #include "systems/grab/shared/grip_kind.hpp"
 
@@ -95,7 +95,7 @@ void start_grab(const UpdateGrabsIo& io, Entity hand, const GrabTarget& target, 
     grab = {};
     grab.kind = grip_kind(io, target.body, tuning.phases);
     grab.jointed =
-        grab.kind == GripKind::held && io.joint_groups.is_anchored(io.body.find_row(target.body));
+        grab.kind == GripKind::held && io.joint_groups.is_anchored(io.body.find_index(target.body));
     grab.phase = GrabPhase::fresh;
     grab.body = target.body;
     grab.since_s = since_s;
@@ -106,18 +106,18 @@ void start_grab(const UpdateGrabsIo& io, Entity hand, const GrabTarget& target, 
     }
 }
 
-// Tries to grip a body that needs both hands; the hand at index `row` grips it at `mine`. Returns
+// Tries to grip a body that needs both hands; the hand at `index` grips it at `mine`. Returns
 // true if the player's other hand already holds the body, or is closed at it: then that hand grips
 // the body here.
-bool other_hand_joins(const UpdateGrabsIo& io, std::size_t row, const GrabTarget& mine,
+bool other_hand_joins(const UpdateGrabsIo& io, std::size_t index, const GrabTarget& mine,
                       const Tuning& tuning, StageStats& stats) {
-    const std::size_t other = find_other_hand(io.owner, io.grab, row);
+    const std::size_t other = find_other_hand(io.owner, io.grab, index);
     if (other >= io.grab.size()) {
         return false;
     }
     const Entity entity = io.grab.owners()[other];
     const HandTracking& hand = io.hand.at(entity);
-    Grab& grab = io.grab.rows()[other];
+    Grab& grab = io.grab.elements()[other];
     if (grab.kind != GripKind::none || !hand.pressed || hand.state != TrackingState::tracked) {
         return grab.body == mine.body && grab.phase != GrabPhase::releasing;
     }
@@ -131,7 +131,8 @@ bool other_hand_joins(const UpdateGrabsIo& io, std::size_t row, const GrabTarget
     if (target->hold && mine.hold && target->hold->grip == mine.hold->grip) {
         target->hold.reset();  // two hands cannot use the same authored grip
     }
-    const double since_s = closes_now ? hand.edge_t_s : io.hand.at(io.grab.owners()[row]).edge_t_s;
+    const double since_s =
+        closes_now ? hand.edge_t_s : io.hand.at(io.grab.owners()[index]).edge_t_s;
     start_grab(io, entity, *target, since_s, grab, tuning, stats);
     return true;
 }
@@ -143,9 +144,9 @@ bool has_joined(const UpdateGrabsIo& io, const Grab& grab, const HandTracking& h
            grab.phase == GrabPhase::fresh && grab.since_s == hand.edge_t_s;
 }
 
-void begin_grab(const UpdateGrabsIo& io, std::size_t row, const Closing& closing,
+void begin_grab(const UpdateGrabsIo& io, std::size_t index, const Closing& closing,
                 const Tuning& tuning, StageStats& stats) {
-    const Entity entity = io.grab.owners()[row];
+    const Entity entity = io.grab.owners()[index];
     const HandOwner& owner = io.owner.at(entity);
     const Pose hand_ws = io.origin.at(owner.player).pose_ws * closing.hand_ps;
     const PalmRay ray = palm_ray(hand_ws, owner.side, tuning.hand);
@@ -162,17 +163,18 @@ void begin_grab(const UpdateGrabsIo& io, std::size_t row, const Closing& closing
         return;
     }
     const GrabRule* const rule = io.rules.rule_of(target->body);
-    if (rule != nullptr && rule->two_hands && !other_hand_joins(io, row, *target, tuning, stats)) {
+    if (rule != nullptr && rule->two_hands &&
+        !other_hand_joins(io, index, *target, tuning, stats)) {
         stats.note(Fallback::grab_needs_two_hands, entity, target->body);
         return;
     }
-    start_grab(io, entity, *target, closing.since_s, io.grab.rows()[row], tuning, stats);
+    start_grab(io, entity, *target, closing.since_s, io.grab.elements()[index], tuning, stats);
 }
 
 // Index of the player's other hand, if that grips something too.
-std::optional<std::size_t> partner_of(const UpdateGrabsIo& io, std::size_t row) {
-    const std::size_t other = find_other_hand(io.owner, io.grab, row);
-    return other < io.grab.size() && io.grab.rows()[other].kind != GripKind::none
+std::optional<std::size_t> partner_of(const UpdateGrabsIo& io, std::size_t index) {
+    const std::size_t other = find_other_hand(io.owner, io.grab, index);
+    return other < io.grab.size() && io.grab.elements()[other].kind != GripKind::none
                ? std::optional(other)
                : std::nullopt;
 }
@@ -187,11 +189,11 @@ Pose gripped_start_ws(const UpdateGrabsIo& io, Entity gripped, const BodyHold* h
 
 // Ends the grip at once. If the two hands grip together (share_hold), the other hand takes a new
 // anchor where it is, before anything has moved, so that its own error does not move the player.
-void release_grab(const UpdateGrabsIo& io, std::size_t row, Fallback reason, StageStats& stats) {
-    Grab& grab = io.grab.rows()[row];
-    stats.note(reason, io.grab.owners()[row], grab.body);
-    if (const std::optional<std::size_t> partner = partner_of(io, row)) {
-        Grab& staying = io.grab.rows()[*partner];
+void release_grab(const UpdateGrabsIo& io, std::size_t index, Fallback reason, StageStats& stats) {
+    Grab& grab = io.grab.elements()[index];
+    stats.note(reason, io.grab.owners()[index], grab.body);
+    if (const std::optional<std::size_t> partner = partner_of(io, index)) {
+        Grab& staying = io.grab.elements()[*partner];
         const Entity hand = io.grab.owners()[*partner];
         // anchor_grabs does the same for two hands on one free body.
         if (share_hold(grab, staying) && !share_free_body(grab, staying) && is_there(io, staying)) {
@@ -209,9 +211,9 @@ void release_grab(const UpdateGrabsIo& io, std::size_t row, Fallback reason, Sta
 // True if this hand lets go when both of a player's hands are overstretched: the one with the
 // larger error; with equal errors the one that closed later; if both closed at once, the left one.
 // The other hand may then reach its anchor.
-bool yields_to_partner(const UpdateGrabsIo& io, std::size_t row, std::size_t partner) {
-    const Grab& grab = io.grab.rows()[row];
-    const Grab& other = io.grab.rows()[partner];
+bool yields_to_partner(const UpdateGrabsIo& io, std::size_t index, std::size_t partner) {
+    const Grab& grab = io.grab.elements()[index];
+    const Grab& other = io.grab.elements()[partner];
     constexpr double k_equal_m = 1e-6;
     const double difference = grab.error_m - other.error_m;
     if (std::abs(difference) > k_equal_m) {
@@ -219,14 +221,14 @@ bool yields_to_partner(const UpdateGrabsIo& io, std::size_t row, std::size_t par
     }
     return grab.since_s != other.since_s
                ? grab.since_s > other.since_s
-               : io.owner.at(io.grab.owners()[row]).side == HandSide::left;
+               : io.owner.at(io.grab.owners()[index]).side == HandSide::left;
 }
 
 void release_destroyed_bodies(const UpdateGrabsIo& io, StageStats& stats) {
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        const Grab& grab = io.grab.rows()[row];
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        const Grab& grab = io.grab.elements()[index];
         if (grab.kind != GripKind::none && !is_there(io, grab)) {
-            release_grab(io, row, Fallback::grip_body_gone, stats);
+            release_grab(io, index, Fallback::grip_body_gone, stats);
         }
     }
 }
@@ -235,14 +237,14 @@ void release_destroyed_bodies(const UpdateGrabsIo& io, StageStats& stats) {
 // the next frame.
 void release_overstretched_grabs(const UpdateGrabsIo& io, double max_stretch_m, StageStats& stats) {
     for (const bool alone : {true, false}) {
-        for (std::size_t row = 0; row < io.grab.size(); ++row) {
-            const Grab& grab = io.grab.rows()[row];
+        for (std::size_t index = 0; index < io.grab.size(); ++index) {
+            const Grab& grab = io.grab.elements()[index];
             if (grab.kind == GripKind::none || grab.error_m <= max_stretch_m) {
                 continue;
             }
-            const std::optional<std::size_t> partner = partner_of(io, row);
-            if (alone != partner.has_value() && (alone || yields_to_partner(io, row, *partner))) {
-                release_grab(io, row, Fallback::grip_stretched, stats);
+            const std::optional<std::size_t> partner = partner_of(io, index);
+            if (alone != partner.has_value() && (alone || yields_to_partner(io, index, *partner))) {
+                release_grab(io, index, Fallback::grip_stretched, stats);
             }
         }
     }
@@ -265,9 +267,9 @@ bool is_out_of_reach(const UpdateGrabsIo& io, Entity hand, const Vec3& palm_ws, 
 // (anchor_grabs). Any other grip ends if the palm is farther than max_stretch_m from the surface.
 void release_grabs_out_of_reach(const UpdateGrabsIo& io, const HandTuning& tuning,
                                 StageStats& stats) {
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        const Grab& grab = io.grab.rows()[row];
-        const Entity entity = io.grab.owners()[row];
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        const Grab& grab = io.grab.elements()[index];
+        const Entity entity = io.grab.owners()[index];
         const HandTracking& hand = io.hand.at(entity);
         const bool returns = grab.kind == GripKind::held && !grab.jointed;
         if (grab.kind == GripKind::none || returns || !(hand.resumed || has_slipped(grab))) {
@@ -278,7 +280,7 @@ void release_grabs_out_of_reach(const UpdateGrabsIo& io, const HandTuning& tunin
             palm_ray(io.origin.at(owner.player).pose_ws * hand.start_ps, owner.side, tuning)
                 .palm_ws;
         if (is_out_of_reach(io, entity, palm_ws, tuning.max_stretch_m)) {
-            release_grab(io, row, Fallback::grip_out_of_reach, stats);
+            release_grab(io, index, Fallback::grip_out_of_reach, stats);
         }
     }
 }
@@ -311,18 +313,18 @@ void update_authored_hold(const UpdateGrabsIo& io, Entity entity, const Grab& gr
 
 // Ends two-handed grips that one of the hands has left or leaves now.
 void release_half_held_bodies(const UpdateGrabsIo& io, StageStats& stats) {
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        const Grab& grab = io.grab.rows()[row];
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        const Grab& grab = io.grab.elements()[index];
         const GrabRule* const rule = io.rules.rule_of(grab.body);
         if (grab.kind == GripKind::none || grab.phase == GrabPhase::releasing || rule == nullptr ||
             !rule->two_hands) {
             continue;
         }
-        const std::optional<std::size_t> partner = partner_of(io, row);
-        const bool is_whole = partner && io.grab.rows()[*partner].body == grab.body &&
-                              io.grab.rows()[*partner].phase != GrabPhase::releasing;
+        const std::optional<std::size_t> partner = partner_of(io, index);
+        const bool is_whole = partner && io.grab.elements()[*partner].body == grab.body &&
+                              io.grab.elements()[*partner].phase != GrabPhase::releasing;
         if (!is_whole) {
-            release_grab(io, row, Fallback::grip_needs_two_hands, stats);
+            release_grab(io, index, Fallback::grip_needs_two_hands, stats);
         }
     }
 }
@@ -330,17 +332,17 @@ void release_half_held_bodies(const UpdateGrabsIo& io, StageStats& stats) {
 void carry_out_orders(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats) {
     while (!io.order.empty()) {
         const Entity hand = io.order.owners().front();
-        const Entity body = io.order.rows().front().body;
+        const Entity body = io.order.elements().front().body;
         io.order.remove(hand);
-        const std::size_t row = io.grab.find_row(hand);
-        if (row >= io.grab.size()) {
+        const std::size_t index = io.grab.find_index(hand);
+        if (index >= io.grab.size()) {
             continue;  // no hand
         }
         const bool has_body = io.body.contains(body) ||
                               (io.origin.contains(body) && body != io.owner.at(hand).player &&
                                io.head.at(body).state != TrackingState::never);
-        if (io.grab.rows()[row].kind != GripKind::none) {
-            release_grab(io, row, Fallback::grip_ended_by_host, stats);
+        if (io.grab.elements()[index].kind != GripKind::none) {
+            release_grab(io, index, Fallback::grip_ended_by_host, stats);
             io.authored_hold.remove(hand);
         }
         if (!has_body || io.hand.at(hand).state == TrackingState::never ||
@@ -351,7 +353,7 @@ void carry_out_orders(const UpdateGrabsIo& io, const Tuning& tuning, StageStats&
         const Pose hand_ws = io.origin.at(owner.player).pose_ws * io.hand.at(hand).start_ps;
         const PalmRay ray = palm_ray(hand_ws, owner.side, tuning.hand);
         const GrabTarget target{body, ray.palm_ws, hand_ws.rotation * Vec3::UnitY(), {}};
-        start_grab(io, hand, target, io.start_s, io.grab.rows()[row], tuning, stats);
+        start_grab(io, hand, target, io.start_s, io.grab.elements()[index], tuning, stats);
     }
 }
 
@@ -364,9 +366,9 @@ void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& sta
     release_grabs_out_of_reach(io, tuning.hand, stats);
     update_sights(io, tuning);
     carry_out_orders(io, tuning, stats);
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        Grab& grab = io.grab.rows()[row];
-        const Entity entity = io.grab.owners()[row];
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        Grab& grab = io.grab.elements()[index];
+        const Entity entity = io.grab.owners()[index];
         const HandTracking& hand = io.hand.at(entity);
         if (grab.kind != GripKind::none && hand.edge == GrabEdge::release) {
             grab.phase = GrabPhase::releasing;
@@ -376,12 +378,12 @@ void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& sta
         if (hand.edge == GrabEdge::onset) {
             ++stats.grab_onsets;
             if (!has_joined(io, grab, hand)) {
-                begin_grab(io, row, {hand.edge_ps, hand.edge_t_s, k_no_entity}, tuning, stats);
+                begin_grab(io, index, {hand.edge_ps, hand.edge_t_s, k_no_entity}, tuning, stats);
             }
         } else if (pull != nullptr && hand.edge == GrabEdge::none && hand.pressed &&
                    hand.state == TrackingState::tracked && !hand.resumed &&
                    grab.kind == GripKind::none) {
-            begin_grab(io, row, {hand.start_ps, pull->closed_s, pull->body}, tuning, stats);
+            begin_grab(io, index, {hand.start_ps, pull->closed_s, pull->body}, tuning, stats);
         }
     }
     release_half_held_bodies(io, stats);

@@ -13,9 +13,9 @@ class Gatherer {
   public:
     Gatherer(const GatherSurroundingsIo& io, StageStats& stats) : io_(io), stats_(stats) {}
 
-    void gather(std::size_t row, HandSurroundings& out) const {
-        const Entity hand = io_.owner.owners()[row];
-        const HandOwner& owner = io_.owner.rows()[row];
+    void gather(std::size_t index, HandSurroundings& out) const {
+        const Entity hand = io_.owner.owners()[index];
+        const HandOwner& owner = io_.owner.elements()[index];
         const Grab& grab = io_.grab.at(hand);
         const Pose tracked_ws = io_.origin.at(owner.player).pose_ws * io_.hand.at(hand).pose_ps;
         out.hand = hand;
@@ -171,8 +171,8 @@ class Gatherer {
 void gather_surroundings(const GatherSurroundingsIo& io, std::size_t first, std::size_t last,
                          StageStats& stats) {
     const Gatherer gatherer(io, stats);
-    for (std::size_t row = first; row < last; ++row) {
-        gatherer.gather(row, io.surroundings[row]);
+    for (std::size_t index = first; index < last; ++index) {
+        gatherer.gather(index, io.surroundings[index]);
     }
 }
 

@@ -143,8 +143,9 @@ hh_result hh_body_name(const hh_world* world, hh_body body, const char** name) {
 hh_result hh_world_bodies(const hh_world* world, hh_body* bodies, size_t capacity, size_t* count) {
     return call([&] {
         const hh_world& host = world_of(world);
-        write_list(host.world.body.size(), bodies, capacity, count,
-                   [&](std::size_t row) { return id_of<hh_body>(host.world.body.owners()[row]); });
+        write_list(host.world.body.size(), bodies, capacity, count, [&](std::size_t index) {
+            return id_of<hh_body>(host.world.body.owners()[index]);
+        });
     });
 }
 

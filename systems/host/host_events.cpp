@@ -95,9 +95,9 @@ hh_reason why_let_go(const hh_world& host, Entity hand) {
 }
 
 void add_grip_events(hh_world& host) {
-    for (std::size_t row = 0; row < host.world.grab.size(); ++row) {
-        const Entity hand = host.world.grab.owners()[row];
-        const Grab& grab = host.world.grab.rows()[row];
+    for (std::size_t index = 0; index < host.world.grab.size(); ++index) {
+        const Entity hand = host.world.grab.owners()[index];
+        const Grab& grab = host.world.grab.elements()[index];
         HandReport& before = report_of(host, hand);
         const bool is_other = grab.body != before.body || grab.since_s != before.since_s;
         if (before.grip != GripKind::none && (grab.kind == GripKind::none || is_other)) {
@@ -128,7 +128,7 @@ void add_grip_events(hh_world& host) {
 }
 
 void measure_impulses(hh_world& host) {
-    for (HandReport& report : host.hands.rows()) {
+    for (HandReport& report : host.hands.elements()) {
         report.impulse_ns.setZero();
     }
     const std::vector<RowBlock>& blocks = host.caches.graph.graph.blocks;
@@ -152,10 +152,10 @@ void add_contact(hh_world& host, Entity a, Entity b, double impulse_ns, const Ve
         host.contacts.push_back(contact);
         return;
     }
-    for (std::size_t row = 0; row < host.world.grab.size(); ++row) {
-        const Grab& grab = host.world.grab.rows()[row];
+    for (std::size_t index = 0; index < host.world.grab.size(); ++index) {
+        const Grab& grab = host.world.grab.elements()[index];
         if (grab.kind == GripKind::held && grab.body == a) {
-            const HandOwner& owner = host.world.hand_owner.at(host.world.grab.owners()[row]);
+            const HandOwner& owner = host.world.hand_owner.at(host.world.grab.owners()[index]);
             contact.player = owner.player;
             contact.side = owner.side == HandSide::left ? HH_LEFT : HH_RIGHT;
             contact.held = a;
@@ -238,9 +238,9 @@ void add_contact_events(hh_world& host, hh_event_kind kind,
 }
 
 void add_touch_events(hh_world& host) {
-    for (std::size_t row = 0; row < host.world.hand_owner.size(); ++row) {
-        const Entity hand = host.world.hand_owner.owners()[row];
-        const HandOwner& owner = host.world.hand_owner.rows()[row];
+    for (std::size_t index = 0; index < host.world.hand_owner.size(); ++index) {
+        const Entity hand = host.world.hand_owner.owners()[index];
+        const HandOwner& owner = host.world.hand_owner.elements()[index];
         HandReport& report = report_of(host, hand);
         Entity touched = k_no_entity;
         if (report.grip == GripKind::none &&
@@ -275,10 +275,10 @@ bool is_at_limit(const Joint& joint, const JointState& state, bool was_at_limit)
 
 // Writes the hand that grips one of the joint's bodies into the event, if there is one.
 void attribute(const hh_world& host, const Joint& joint, hh_event& event) {
-    for (std::size_t row = 0; row < host.world.grab.size(); ++row) {
-        const Grab& grab = host.world.grab.rows()[row];
+    for (std::size_t index = 0; index < host.world.grab.size(); ++index) {
+        const Grab& grab = host.world.grab.elements()[index];
         if (grab.kind != GripKind::none && (grab.body == joint.a || grab.body == joint.b)) {
-            const HandOwner& owner = host.world.hand_owner.at(host.world.grab.owners()[row]);
+            const HandOwner& owner = host.world.hand_owner.at(host.world.grab.owners()[index]);
             event.player = id_of<hh_player>(owner.player);
             event.side = owner.side == HandSide::left ? HH_LEFT : HH_RIGHT;
             return;
@@ -287,9 +287,9 @@ void attribute(const hh_world& host, const Joint& joint, hh_event& event) {
 }
 
 void update_joint_reports(hh_world& host, bool makes_events) {
-    for (std::size_t row = 0; row < host.world.joint.size(); ++row) {
-        const Entity entity = host.world.joint.owners()[row];
-        const Joint& joint = host.world.joint.rows()[row];
+    for (std::size_t index = 0; index < host.world.joint.size(); ++index) {
+        const Entity entity = host.world.joint.owners()[index];
+        const Joint& joint = host.world.joint.elements()[index];
         const JointState& state = host.world.joint_state.at(entity);
         JointReport* const known = host.joints.find(entity);
         const bool was_at_limit = known != nullptr && known->at_limit;
@@ -321,9 +321,9 @@ void update_joint_reports(hh_world& host, bool makes_events) {
 
 template <typename T, typename Required>
 void drop_stale(Column<T>& column, const Column<Required>& required) {
-    for (std::size_t row = column.size(); row-- > 0;) {
-        if (!required.contains(column.owners()[row])) {
-            column.remove(column.owners()[row]);
+    for (std::size_t index = column.size(); index-- > 0;) {
+        if (!required.contains(column.owners()[index])) {
+            column.remove(column.owners()[index]);
         }
     }
 }
@@ -333,10 +333,11 @@ void drop_stale(Column<T>& column, const Column<Required>& required) {
 void begin_events(hh_world& host) {
     host.events.clear();
     // Adds events for grips that ended between the steps, by teleports.
-    for (std::size_t row = 0; row < host.world.grab.size(); ++row) {
-        const Entity hand = host.world.grab.owners()[row];
+    for (std::size_t index = 0; index < host.world.grab.size(); ++index) {
+        const Entity hand = host.world.grab.owners()[index];
         HandReport& report = report_of(host, hand);
-        if (report.grip != GripKind::none && host.world.grab.rows()[row].kind == GripKind::none) {
+        if (report.grip != GripKind::none &&
+            host.world.grab.elements()[index].kind == GripKind::none) {
             host.events.push_back(hand_event(host, HH_EVENT_RELEASED, HH_REASON_BY_HOST, hand,
                                              {report.body, report.is_player}));
             report.grip = GripKind::none;
@@ -364,9 +365,9 @@ void forget_events(hh_world& host) {
     host.last_contacts.clear();
     drop_stale(host.hands, host.world.grab);
     drop_stale(host.joints, host.world.joint);
-    for (std::size_t row = 0; row < host.world.grab.size(); ++row) {
-        const Grab& grab = host.world.grab.rows()[row];
-        report_of(host, host.world.grab.owners()[row]) = {
+    for (std::size_t index = 0; index < host.world.grab.size(); ++index) {
+        const Grab& grab = host.world.grab.elements()[index];
+        report_of(host, host.world.grab.owners()[index]) = {
             .grip = grab.kind,
             .body = grab.body,
             .is_player = host.world.player.contains(grab.body),

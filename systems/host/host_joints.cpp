@@ -92,10 +92,10 @@ hh_result hh_body_joints(const hh_world* world, hh_body body, hh_joint* joints, 
         const hh_world& host = world_of(world);
         const Entity entity = body_of(host, body);
         std::vector<Entity> found;
-        for (std::size_t row = 0; row < host.world.joint.size(); ++row) {
-            const Joint& joint = host.world.joint.rows()[row];
+        for (std::size_t index = 0; index < host.world.joint.size(); ++index) {
+            const Joint& joint = host.world.joint.elements()[index];
             if (joint.a == entity || joint.b == entity) {
-                found.push_back(host.world.joint.owners()[row]);
+                found.push_back(host.world.joint.owners()[index]);
             }
         }
         write_list(found.size(), joints, capacity, count,

@@ -99,7 +99,7 @@ hh_result hh_world_place_bodies(hh_world* world, const hh_body_motion* motions, 
             const ToldMotion motion = read_motion(host, motions[i]);
             place(host.world, motion);
             if (host.is_stepping) {
-                host.are_placed[host.world.body.find_row(motion.body)] = 1;
+                host.are_placed[host.world.body.find_index(motion.body)] = 1;
             }
         }
     });

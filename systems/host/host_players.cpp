@@ -92,8 +92,8 @@ hh_result hh_world_players(const hh_world* world, hh_player* players, size_t cap
                            size_t* count) {
     return call([&] {
         const hh_world& host = world_of(world);
-        write_list(host.world.player.size(), players, capacity, count, [&](std::size_t row) {
-            return id_of<hh_player>(host.world.player.owners()[row]);
+        write_list(host.world.player.size(), players, capacity, count, [&](std::size_t index) {
+            return id_of<hh_player>(host.world.player.owners()[index]);
         });
     });
 }

@@ -245,7 +245,7 @@ hh_result hh_shape_remove(hh_world* world, hh_shape shape) {
         hh_world& host = world_of(world);
         const ShapeId id = shape_of(host, shape);
         require(id != k_no_shape, HH_ERROR_HANDLE, "no shape with this id");
-        for (const Collider& collider : host.world.collider.rows()) {
+        for (const Collider& collider : host.world.collider.elements()) {
             require(collider.shape != id, HH_ERROR_STATE, "a body or player has the shape");
         }
         host.grip_meshes.remove(host.shapes, id);

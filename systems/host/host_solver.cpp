@@ -13,7 +13,7 @@ namespace {
 hh_hand_constraint constraint_of(const hh_world& host, const RowBlock& block, double dt_s) {
     const World& world = host.world;
     const Entity hand = world.grab.owners()[block.source];
-    const Grab& grab = world.grab.rows()[block.source];
+    const Grab& grab = world.grab.elements()[block.source];
     const HandOwner& owner = world.hand_owner.at(hand);
     const Quat play_space = world.player_origin.at(owner.player).pose_ws.rotation;
     const Pose target{play_space * grab.target_ps.position,
@@ -74,14 +74,14 @@ void collect_begun_step(hh_world& host, double dt_s) {
     host.player_motions.clear();
     host.velocity_changes.clear();
     for (const RowBlock& block : host.caches.graph.hand_blocks) {
-        if (host.world.body.contains(host.world.grab.rows()[block.source].body)) {
+        if (host.world.body.contains(host.world.grab.elements()[block.source].body)) {
             host.hand_constraints.push_back(constraint_of(host, block, dt_s));
         }
     }
     for (const Entity player : host.world.player.owners()) {
         host.player_motions.push_back(motion_of(host, player));
     }
-    for (const HandPull& pull : host.world.hand_pull.rows()) {
+    for (const HandPull& pull : host.world.hand_pull.elements()) {
         if (host.world.body.contains(pull.body)) {
             host.velocity_changes.push_back(change_of(host.world, pull.body));
         }
@@ -92,11 +92,11 @@ void collect_begun_step(hh_world& host, double dt_s) {
 // their predicted poses must not count as motion.
 void keep_unplaced_bodies(hh_world& host) {
     World& world = host.world;
-    for (std::size_t row = 0; row < world.body.size(); ++row) {
-        if (world.body.rows()[row].kind == BodyKind::free && host.are_placed[row] == 0) {
-            const Entity body = world.body.owners()[row];
+    for (std::size_t index = 0; index < world.body.size(); ++index) {
+        if (world.body.elements()[index].kind == BodyKind::free && host.are_placed[index] == 0) {
+            const Entity body = world.body.owners()[index];
             world.body_pose.at(body).pose_ws = world.body_start.at(body).pose_ws;
-            world.body_velocity.at(body) = host.begun_velocities[row];
+            world.body_velocity.at(body) = host.begun_velocities[index];
         }
     }
 }
@@ -105,12 +105,12 @@ void keep_unplaced_bodies(hh_world& host) {
 void collect_velocity_changes(hh_world& host) {
     const std::vector<BodyVelocity>& solved = host.solved_velocities;
     host.velocity_changes.clear();
-    for (std::size_t row = 0; row < solved.size(); ++row) {
-        const BodyVelocity& now = host.world.body_velocity.rows()[row];
-        if (now.linear_mps != solved[row].linear_mps ||
-            now.angular_radps != solved[row].angular_radps) {
+    for (std::size_t index = 0; index < solved.size(); ++index) {
+        const BodyVelocity& now = host.world.body_velocity.elements()[index];
+        if (now.linear_mps != solved[index].linear_mps ||
+            now.angular_radps != solved[index].angular_radps) {
             host.velocity_changes.push_back(
-                change_of(host.world, host.world.body_velocity.owners()[row]));
+                change_of(host.world, host.world.body_velocity.owners()[index]));
         }
     }
 }
@@ -203,7 +203,7 @@ hh_result hh_world_end_step(hh_world* world, const hh_solved_player* players, si
             host.hand_constraints.clear();
             host.player_motions.clear();
             keep_unplaced_bodies(host);
-            const auto velocities = host.world.body_velocity.rows();
+            const auto velocities = host.world.body_velocity.elements();
             host.solved_velocities.assign(velocities.begin(), velocities.end());
             end_host_frame(host.world, host.caches, host.tuning, {host.begun_dt_s, {}},
                            host.solved_players, host.stats);

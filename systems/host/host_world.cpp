@@ -87,9 +87,9 @@ void remove_entity(hh_world& host, Entity entity) {
     for (const Entity joint : host.world.joints_by_body.of(entity)) {
         forget(joint);
     }
-    for (std::size_t row = 0; row < host.world.hand_owner.size(); ++row) {
-        if (host.world.hand_owner.rows()[row].player == entity) {
-            forget(host.world.hand_owner.owners()[row]);
+    for (std::size_t index = 0; index < host.world.hand_owner.size(); ++index) {
+        if (host.world.hand_owner.elements()[index].player == entity) {
+            forget(host.world.hand_owner.owners()[index]);
         }
     }
     forget(entity);

@@ -27,9 +27,9 @@ Pose corrected(const HeadTracking& head, const Pose& pose) {
 }  // namespace
 
 void read_paused_tracking(const ReadPausedTrackingIo& io) {
-    for (std::size_t row = 0; row < io.owner.size(); ++row) {
-        const Entity entity = io.owner.owners()[row];
-        const HandOwner& owner = io.owner.rows()[row];
+    for (std::size_t index = 0; index < io.owner.size(); ++index) {
+        const Entity entity = io.owner.owners()[index];
+        const HandOwner& owner = io.owner.elements()[index];
         HandTracking& hand = io.hand.at(entity);
         hand.edge = GrabEdge::none;
         hand.resumed = false;
@@ -53,9 +53,9 @@ void read_paused_tracking(const ReadPausedTrackingIo& io) {
             place(hand, corrected(io.head.at(owner.player), hand_ps));
         }
     }
-    for (std::size_t row = 0; row < io.head.size(); ++row) {
-        HeadTracking& head = io.head.rows()[row];
-        const TrackingSample* const sample = last_sample(io.inputs, io.head.owners()[row]);
+    for (std::size_t index = 0; index < io.head.size(); ++index) {
+        HeadTracking& head = io.head.elements()[index];
+        const TrackingSample* const sample = last_sample(io.inputs, io.head.owners()[index]);
         if (sample != nullptr && head.state != TrackingState::never && is_valid(sample->head_ps)) {
             place(head, corrected(head, {sample->head_ps.position,
                                          sample->head_ps.rotation.normalized()}));

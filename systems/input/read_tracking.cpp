@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "components/hand_rows.hpp"
+#include "components/hand_indices.hpp"
 #include "engine/core/check.hpp"
 #include "systems/input/shared/hand_motion.hpp"
 #include "systems/input/shared/motion_limit.hpp"
@@ -354,41 +354,41 @@ Pose hand_in_controller(const ReadTrackingIo& io, Entity hand, HandSide side,
 }
 
 // Indices in `io.owner` of a player's hands by side; the column's size where a hand is missing.
-std::array<std::size_t, k_hand_count> hand_rows_of(const ReadTrackingIo& io, Entity player,
-                                                   std::size_t player_row) {
+std::array<std::size_t, k_hand_count> hand_indices_of(const ReadTrackingIo& io, Entity player,
+                                                      std::size_t player_index) {
     const std::size_t none = io.owner.size();
-    std::array<std::size_t, k_hand_count> rows = {none, none};
-    const std::size_t first = find_hand_row(io.owner, player, k_hand_count * player_row);
+    std::array<std::size_t, k_hand_count> indices = {none, none};
+    const std::size_t first = find_hand_index(io.owner, player, k_hand_count * player_index);
     if (first == none) {
-        return rows;
+        return indices;
     }
-    for (const std::size_t row : {first, find_hand_row(io.owner, player, first + 1)}) {
-        rows[index_of(io.owner.rows()[row].side)] = row;
+    for (const std::size_t index : {first, find_hand_index(io.owner, player, first + 1)}) {
+        indices[index_of(io.owner.elements()[index].side)] = index;
     }
-    return rows;
+    return indices;
 }
 
 // True if one of the player's hands grips what the player can pull on.
-bool is_holding_on(const ReadTrackingIo& io, const std::array<std::size_t, k_hand_count>& rows) {
-    return std::ranges::any_of(rows, [&](std::size_t row) {
+bool is_holding_on(const ReadTrackingIo& io, const std::array<std::size_t, k_hand_count>& indices) {
+    return std::ranges::any_of(indices, [&](std::size_t index) {
         const Grab* const grab =
-            row < io.owner.size() ? io.grab.find(io.owner.owners()[row]) : nullptr;
+            index < io.owner.size() ? io.grab.find(io.owner.owners()[index]) : nullptr;
         return grab != nullptr && can_push_off(*grab);
     });
 }
 
 // Head and hands follow the same samples from the same state, so they agree on every correction.
-void read_player(const ReadTrackingIo& io, std::size_t row, const Tuning& tuning,
+void read_player(const ReadTrackingIo& io, std::size_t index, const Tuning& tuning,
                  StageStats& stats) {
-    const Entity player = io.head.owners()[row];
-    HeadTracking& head = io.head.rows()[row];
-    const PlayerInput& input = input_of(io, player, row);
-    const std::array<std::size_t, k_hand_count> hand_rows = hand_rows_of(io, player, row);
+    const Entity player = io.head.owners()[index];
+    HeadTracking& head = io.head.elements()[index];
+    const PlayerInput& input = input_of(io, player, index);
+    const std::array<std::size_t, k_hand_count> hand_indices = hand_indices_of(io, player, index);
     std::array<PlaySpaceTracker::Hand, k_hand_count> hands;
     for (const HandSide side : {HandSide::left, HandSide::right}) {
-        const std::size_t hand_row = hand_rows[index_of(side)];
-        if (hand_row < io.owner.size()) {
-            const Entity entity = io.owner.owners()[hand_row];
+        const std::size_t hand_index = hand_indices[index_of(side)];
+        if (hand_index < io.owner.size()) {
+            const Entity entity = io.owner.owners()[hand_index];
             const HandTracking& hand = io.hand.at(entity);
             hands[index_of(side)] = {hand_in_controller(io, entity, side, tuning.hand),
                                      hand.reading_ps, hand.reading_t_s,
@@ -396,14 +396,14 @@ void read_player(const ReadTrackingIo& io, std::size_t row, const Tuning& tuning
         }
     }
     const RecenterGuess* const guess = io.recenter_guess.find(player);
-    const bool holds_on = is_holding_on(io, hand_rows);
+    const bool holds_on = is_holding_on(io, hand_indices);
     const PlaySpaceTracker space(
         head, hands,
         {.corrects_jumps = guess == nullptr || guess->guesses, .freezes_guesses = holds_on});
     for (const HandSide side : {HandSide::left, HandSide::right}) {
-        const std::size_t hand_row = hand_rows[index_of(side)];
-        if (hand_row < io.owner.size()) {
-            const Entity entity = io.owner.owners()[hand_row];
+        const std::size_t hand_index = hand_indices[index_of(side)];
+        if (hand_index < io.owner.size()) {
+            const Entity entity = io.owner.owners()[hand_index];
             const Grab* const grab = io.grab.find(entity);
             HandReader reader{
                 io.hand.at(entity), io.history.at(entity), space, side, io, tuning, stats};
@@ -433,8 +433,8 @@ Pose default_controller_to_hand(HandSide side, const HandTuning& tuning) {
 
 void read_tracking(const ReadTrackingIo& io, std::size_t first, std::size_t last,
                    const Tuning& tuning, StageStats& stats) {
-    for (std::size_t row = first; row < last; ++row) {
-        read_player(io, row, tuning, stats);
+    for (std::size_t index = first; index < last; ++index) {
+        read_player(io, index, tuning, stats);
     }
 }
 

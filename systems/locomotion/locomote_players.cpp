@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "components/hand_rows.hpp"
+#include "components/hand_indices.hpp"
 
 namespace handhold {
 namespace {
@@ -32,22 +32,23 @@ bool comes_first(const Grips::Grip& a, const Grips::Grip& b) {
     return a.grab->since_s != b.grab->since_s ? a.grab->since_s < b.grab->since_s : a.side < b.side;
 }
 
-// `expected_row`: index of the player's first hand if all hands were created in the order of the
+// `expected_index`: index of the player's first hand if all hands were created in the order of the
 // players.
-Grips grips_of(const LocomotePlayersIo& io, Entity player, std::size_t expected_row) {
+Grips grips_of(const LocomotePlayersIo& io, Entity player, std::size_t expected_index) {
     Grips found;
-    const std::size_t first = find_hand_row(io.owner, player, expected_row);
+    const std::size_t first = find_hand_index(io.owner, player, expected_index);
     if (first == io.owner.size()) {
         return found;
     }
-    const std::size_t second = find_hand_row(io.owner, player, first + 1);
-    for (const std::size_t row : {std::min(first, second), std::max(first, second)}) {
-        const Entity entity = io.owner.owners()[row];
+    const std::size_t second = find_hand_index(io.owner, player, first + 1);
+    for (const std::size_t index : {std::min(first, second), std::max(first, second)}) {
+        const Entity entity = io.owner.owners()[index];
         const Grab& grab = io.grab.at(entity);
         const bool holds = grab.phase == GrabPhase::holding || grab.phase == GrabPhase::releasing;
-        const bool once = first != second || row != first || found.count == 0;
+        const bool once = first != second || index != first || found.count == 0;
         if (holds && once) {
-            found.grips[found.count++] = {&grab, &io.hand.at(entity), io.owner.rows()[row].side};
+            found.grips[found.count++] = {&grab, &io.hand.at(entity),
+                                          io.owner.elements()[index].side};
         }
     }
     if (found.count == 2 && comes_first(found.grips[1], found.grips[0])) {
@@ -134,12 +135,12 @@ void drive(const LocomotePlayersIo& io, const PlayerCommands& commands, const Qu
 }  // namespace
 
 void locomote_players(const LocomotePlayersIo& io, const LocomotionTuning& tuning) {
-    for (std::size_t row = 0; row < io.origin.size(); ++row) {
-        const Entity player = io.origin.owners()[row];
-        PlayerOrigin& origin = io.origin.rows()[row];
+    for (std::size_t index = 0; index < io.origin.size(); ++index) {
+        const Entity player = io.origin.owners()[index];
+        PlayerOrigin& origin = io.origin.elements()[index];
         const PlayerCommands& commands = io.commands.at(player);
         const HeadTracking& head = io.head.at(player);
-        const Grips grips = grips_of(io, player, k_hand_count * row);
+        const Grips grips = grips_of(io, player, k_hand_count * index);
         update_reference(io, grips, io.reference.at(player));
 
         const Vec3 pivot_ps =

@@ -62,7 +62,7 @@ void throw_released(const AcceptSolutionIo& io, const RowBlock& block, bool is_w
 
 double accept_solution(const AcceptSolutionIo& io) {
     write_solved_bodies(io);
-    for (Grab& grab : io.grab.rows()) {
+    for (Grab& grab : io.grab.elements()) {
         grab.error_m = 0.0;
     }
     double worst_m = 0.0;
@@ -72,7 +72,7 @@ double accept_solution(const AcceptSolutionIo& io) {
         }
         RowBlock point = block;
         point.kind = RowKind::drive_point;
-        Grab& grab = io.grab.rows()[block.source];
+        Grab& grab = io.grab.elements()[block.source];
         grab.error_m = block_error_m(io.frame.graph.bodies, point);
         worst_m = std::max(worst_m, grab.error_m);
         // The host's solver may have pushed or pulled the player through this grip.

@@ -54,18 +54,19 @@ void animate_movers(const AnimateMoversIo& io) {
         io.body_pose.at(body).pose_ws = pose_ws;
         io.velocity.at(body) = velocity;
     };
-    for (std::size_t row = 0; row < io.mover.size(); ++row) {
-        const Mover& mover = io.mover.rows()[row];
-        move(io.mover.owners()[row], mover_pose(mover, io.end_s), mover_velocity(mover, io.end_s));
+    for (std::size_t index = 0; index < io.mover.size(); ++index) {
+        const Mover& mover = io.mover.elements()[index];
+        move(io.mover.owners()[index], mover_pose(mover, io.end_s),
+             mover_velocity(mover, io.end_s));
     }
-    for (std::size_t row = 0; row < io.path_mover.size(); ++row) {
-        const PosePathState state = evaluate(io.path_mover.rows()[row].path, io.end_s);
-        move(io.path_mover.owners()[row], state.pose,
+    for (std::size_t index = 0; index < io.path_mover.size(); ++index) {
+        const PosePathState state = evaluate(io.path_mover.elements()[index].path, io.end_s);
+        move(io.path_mover.owners()[index], state.pose,
              {state.velocity_mps, state.angular_velocity_radps});
     }
-    for (std::size_t row = 0; row < io.leg_mover.size(); ++row) {
-        const Entity body = io.leg_mover.owners()[row];
-        const LegMover& mover = io.leg_mover.rows()[row];
+    for (std::size_t index = 0; index < io.leg_mover.size(); ++index) {
+        const Entity body = io.leg_mover.owners()[index];
+        const LegMover& mover = io.leg_mover.elements()[index];
         const PathMover* const torso = io.path_mover.find(mover.torso);
         if (torso == nullptr) {
             move(body, io.body_pose.at(body).pose_ws, {});
@@ -74,10 +75,10 @@ void animate_movers(const AnimateMoversIo& io) {
         move(body, crawler_bone_pose(torso->path, mover.gait, mover.leg, mover.bone, io.end_s),
              leg_velocity(torso->path, mover, io.end_s));
     }
-    for (std::size_t row = 0; row < io.target.size(); ++row) {
-        const Entity body = io.target.owners()[row];
+    for (std::size_t index = 0; index < io.target.size(); ++index) {
+        const Entity body = io.target.owners()[index];
         const Pose& start_ws = io.body_pose.at(body).pose_ws;
-        const Pose& end_ws = io.target.rows()[row].pose_ws;
+        const Pose& end_ws = io.target.elements()[index].pose_ws;
         const Quat turn = end_ws.rotation * start_ws.rotation.conjugate();
         move(body, end_ws,
              {(end_ws.position - start_ws.position) / io.dt_s,

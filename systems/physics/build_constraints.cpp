@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "components/hand_rows.hpp"
+#include "components/hand_indices.hpp"
 #include "components/play_space.hpp"
 #include "engine/solver/contact/contact_rows.hpp"
 #include "engine/solver/model/drive_pair.hpp"
@@ -47,18 +47,18 @@ void write_bodies(const BuildConstraintsIo& io, const Tuning& tuning) {
     frame.active.start_frame(frame.entities.size());
     frame.graph.bodies.resize(frame.entities.size());
     frame.phase.resize(frame.entities.size());
-    frame.body_of_row.resize(io.body.size());
+    frame.body_of_element.resize(io.body.size());
     for (const std::uint32_t i : frame.active.list) {
         const Entity entity = frame.entities[i];
-        const std::size_t row = io.body.find_row(entity);
+        const std::size_t index = io.body.find_index(entity);
         SolverBody& body = frame.graph.bodies[i];
         body = {};
         body.id = frame.proxies[i].id;
-        if (row == Column<RigidBody>::k_npos) {
+        if (index == Column<RigidBody>::k_npos) {
             write_player(io, entity, tuning.head, body);
         } else {
-            frame.body_of_row[row] = i;
-            write_rigid(io, entity, io.body.rows()[row], tuning.phases, body);
+            frame.body_of_element[index] = i;
+            write_rigid(io, entity, io.body.elements()[index], tuning.phases, body);
         }
         frame.phase[i] = {};
         frame.phase[i].reached_ws = body.pose_ws;
@@ -122,19 +122,19 @@ void set_direction(const Grab& first, const Grab& second, const SolverBody& play
 // Splits the rows between two hands that hold one free body: the first holds its point, the second
 // its direction. If the hands are too close for that, the first has all rows. Returns false if this
 // hand has no rows.
-bool share_rows(const BuildConstraintsIo& io, std::size_t row, RowBlock& block) {
-    const std::size_t other = find_other_hand(io.owner, io.grab, row);
-    const Grab& grab = io.grab.rows()[row];
-    if (other == io.grab.size() || !share_free_body(grab, io.grab.rows()[other])) {
+bool share_rows(const BuildConstraintsIo& io, std::size_t index, RowBlock& block) {
+    const std::size_t other = find_other_hand(io.owner, io.grab, index);
+    const Grab& grab = io.grab.elements()[index];
+    if (other == io.grab.size() || !share_free_body(grab, io.grab.elements()[other])) {
         return true;
     }
-    if (is_first_hand(io.owner, io.grab, row, other)) {
+    if (is_first_hand(io.owner, io.grab, index, other)) {
         block.kind = grab.two_handed ? RowKind::drive_point : block.kind;
         return true;
     }
     if (grab.two_handed) {
         const std::vector<SolverBody>& bodies = io.frame.graph.bodies;
-        set_direction(io.grab.rows()[other], grab, bodies[block.a], bodies[block.b], io.dt_s,
+        set_direction(io.grab.elements()[other], grab, bodies[block.a], bodies[block.b], io.dt_s,
                       block);
     }
     return grab.two_handed;
@@ -143,9 +143,9 @@ bool share_rows(const BuildConstraintsIo& io, std::size_t row, RowBlock& block) 
 void write_hands(const BuildConstraintsIo& io, const PhaseTuning& tuning) {
     FrameGraph& frame = io.frame;
     frame.hand_blocks.clear();
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        const Grab& grab = io.grab.rows()[row];
-        const Entity hand = io.grab.owners()[row];
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        const Grab& grab = io.grab.elements()[index];
+        const Entity hand = io.grab.owners()[index];
         const Entity player = io.owner.at(hand).player;
         if (grab.kind == GripKind::none) {
             continue;
@@ -159,13 +159,13 @@ void write_hands(const BuildConstraintsIo& io, const PhaseTuning& tuning) {
                                     io.persistent_id.at(hand).value);
         block.a = static_cast<std::uint32_t>(a);
         block.b = static_cast<std::uint32_t>(b);
-        block.source = static_cast<std::uint32_t>(row);
+        block.source = static_cast<std::uint32_t>(index);
         if (grab.kind == GripKind::player) {
             const BodyHold* const hold = io.body_hold.find(hand);
             hold_player(grab, io.head.at(grab.body), hold, frame.graph.bodies[b].pose_ws.rotation,
                         io.dt_s, block);
         }
-        if (!share_rows(io, row, block)) {
+        if (!share_rows(io, index, block)) {
             continue;
         }
         frame.hand_blocks.push_back(block);
@@ -229,18 +229,18 @@ void write_joint_rows(const Joint& joint, const JointState& state, double dt_s, 
 }
 
 // Writes a joint's block. False if it connects no movable body, or a body was destroyed.
-bool write_joint(const BuildConstraintsIo& io, std::size_t row, RowBlock& block) {
+bool write_joint(const BuildConstraintsIo& io, std::size_t index, RowBlock& block) {
     ConstraintGraph& graph = io.frame.graph;
     const auto body_index = [&](Entity entity) {
-        const std::size_t body = io.body.find_row(entity);
-        return body != Column<RigidBody>::k_npos ? std::size_t{io.frame.body_of_row[body]}
+        const std::size_t body = io.body.find_index(entity);
+        return body != Column<RigidBody>::k_npos ? std::size_t{io.frame.body_of_element[body]}
                                                  : graph.bodies.size();
     };
     const auto is_movable = [&](std::size_t index) {
         return graph.bodies[index].role != BodyRole::fixed;
     };
-    const Joint& joint = io.joint.rows()[row];
-    const Entity entity = io.joint.owners()[row];
+    const Joint& joint = io.joint.elements()[index];
+    const Entity entity = io.joint.owners()[index];
     const std::size_t b = body_index(joint.b);
     const std::size_t a = is_null(joint.a) ? world_body(io.frame) : body_index(joint.a);
     if (a >= graph.bodies.size() || b >= graph.bodies.size() || !(is_movable(a) || is_movable(b))) {
@@ -248,7 +248,7 @@ bool write_joint(const BuildConstraintsIo& io, std::size_t row, RowBlock& block)
     }
     block.kind = row_kind(joint.kind);
     block.key = io.persistent_id.at(entity).value;
-    block.source = static_cast<std::uint32_t>(row);
+    block.source = static_cast<std::uint32_t>(index);
     block.a = static_cast<std::uint32_t>(a);
     block.b = static_cast<std::uint32_t>(b);
     block.point_a_bs = joint.frame_a_bs.position;
@@ -302,8 +302,8 @@ void write_joints(const BuildConstraintsIo& io) {
     }
     std::vector<RowBlock>& blocks = io.frame.graph.blocks;
     blocks.clear();
-    for (std::size_t row = 0; row < io.joint.size(); ++row) {
-        if (!write_joint(io, row, blocks.emplace_back())) {
+    for (std::size_t index = 0; index < io.joint.size(); ++index) {
+        if (!write_joint(io, index, blocks.emplace_back())) {
             blocks.pop_back();
         }
     }
@@ -324,16 +324,16 @@ void propagate_held(const BuildConstraintsIo& io) {
     if (groups.of_body.empty()) {
         return;
     }
-    for (const Grab& grab : io.grab.rows()) {
-        const std::size_t held = io.body.find_row(grab.body);
+    for (const Grab& grab : io.grab.elements()) {
+        const std::size_t held = io.body.find_index(grab.body);
         if (grab.kind != GripKind::held || held == Column<RigidBody>::k_npos) {
             continue;
         }
-        for (const Joint& joint : io.joint.rows()) {
+        for (const Joint& joint : io.joint.elements()) {
             for (const Entity entity : {joint.a, joint.b}) {
-                const std::size_t row = io.body.find_row(entity);
-                if (row != Column<RigidBody>::k_npos && groups.share_group(row, held)) {
-                    io.frame.phase[io.frame.body_of_row[row]].held = true;
+                const std::size_t index = io.body.find_index(entity);
+                if (index != Column<RigidBody>::k_npos && groups.share_group(index, held)) {
+                    io.frame.phase[io.frame.body_of_element[index]].held = true;
                 }
             }
         }

@@ -34,9 +34,9 @@ void discard_broken_results(const DiscardBrokenResultsIo& io, StageStats& stats)
         velocity = {};
         stats.count(Fallback::restored_last_valid_pose);
     }
-    for (std::size_t row = 0; row < io.player_origin.size(); ++row) {
-        const Entity player = io.player_origin.owners()[row];
-        Pose& pose_ws = io.player_origin.rows()[row].pose_ws;
+    for (std::size_t index = 0; index < io.player_origin.size(); ++index) {
+        const Entity player = io.player_origin.owners()[index];
+        Pose& pose_ws = io.player_origin.elements()[index].pose_ws;
         Vec3& velocity_mps = io.player_velocity.at(player).linear_mps;
         if (is_good(pose_ws) && is_within(velocity_mps, k_fastest_result)) {
             continue;
@@ -54,11 +54,11 @@ void discard_broken_results(const DiscardBrokenResultsIo& io, StageStats& stats)
                                     : LastValidPose{{}, false};  // a head is nowhere again
         }
     }
-    for (JointState& state : io.joint_state.rows()) {
+    for (JointState& state : io.joint_state.elements()) {
         bound(state.coordinate);
         bound(state.speed);
     }
-    for (Grab& grab : io.grab.rows()) {
+    for (Grab& grab : io.grab.elements()) {
         bound(grab.error_m);
     }
     for (PushBack& push_back : io.frame.push_backs) {

@@ -7,15 +7,15 @@ namespace {
 
 // True if the player holds the body, or a body that joints connect to it.
 bool is_held_by(const FindContactsIo& io, Entity player, Entity body) {
-    const std::size_t body_row = io.body.find_row(body);
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        const Grab& grab = io.grab.rows()[row];
-        if (grab.kind != GripKind::held || io.owner.at(io.grab.owners()[row]).player != player) {
+    const std::size_t body_index = io.body.find_index(body);
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        const Grab& grab = io.grab.elements()[index];
+        if (grab.kind != GripKind::held || io.owner.at(io.grab.owners()[index]).player != player) {
             continue;
         }
-        const std::size_t held_row = io.body.find_row(grab.body);
-        if (held_row != Column<RigidBody>::k_npos && body_row != Column<RigidBody>::k_npos &&
-            io.frame.joint_groups.share_group(body_row, held_row)) {
+        const std::size_t held_index = io.body.find_index(grab.body);
+        if (held_index != Column<RigidBody>::k_npos && body_index != Column<RigidBody>::k_npos &&
+            io.frame.joint_groups.share_group(body_index, held_index)) {
             return true;
         }
     }
@@ -37,9 +37,9 @@ void ignore_group(const FindContactsIo& io, std::uint64_t player_id, Entity body
         io.frame.ignored.push_back(pair_of(player_id, io.persistent_id.at(body).value));
         return;
     }
-    const std::size_t row = io.body.find_row(body);
+    const std::size_t index = io.body.find_index(body);
     for (std::size_t other = 0; other < io.body.size(); ++other) {
-        if (groups.share_group(row, other)) {
+        if (groups.share_group(index, other)) {
             const Entity entity = io.body.owners()[other];
             io.frame.ignored.push_back(pair_of(player_id, io.persistent_id.at(entity).value));
         }
@@ -60,10 +60,10 @@ bool touches_group(const FindContactsIo& io, std::uint64_t player_id, Entity bod
 // Removes bodies that are released and clear of the head; the others' pairs are added to
 // frame.ignored.
 void update_ignores(const FindContactsIo& io) {
-    for (std::size_t row = 0; row < io.head_ignores.size(); ++row) {
-        const Entity player = io.head_ignores.owners()[row];
+    for (std::size_t index = 0; index < io.head_ignores.size(); ++index) {
+        const Entity player = io.head_ignores.owners()[index];
         const std::uint64_t player_id = io.persistent_id.at(player).value;
-        for (Entity& body : io.head_ignores.rows()[row].bodies) {
+        for (Entity& body : io.head_ignores.elements()[index].bodies) {
             if (!io.body.contains(body)) {
                 body = k_no_entity;
                 continue;
@@ -81,7 +81,7 @@ void update_ignores(const FindContactsIo& io) {
 // Jointed bodies do not touch each other, unless Joint::collides.
 void ignore_jointed(const FindContactsIo& io) {
     io.frame.ignored.clear();
-    for (const Joint& joint : io.joint.rows()) {
+    for (const Joint& joint : io.joint.elements()) {
         const PersistentId* const a = io.persistent_id.find(joint.a);
         const PersistentId* const b = io.persistent_id.find(joint.b);
         if (!joint.collides && a != nullptr && b != nullptr) {

@@ -105,7 +105,7 @@ void write_hand_error(const FinishPositionsIo& io, const RowBlock& block, StageS
     point.kind = RowKind::drive_point;
     const double error = block_error_m(io.frame.graph.bodies, point);
     stats.hand_error_m = std::max(stats.hand_error_m, error);
-    io.grab.rows()[block.source].error_m = error;
+    io.grab.elements()[block.source].error_m = error;
 }
 
 void add_worst(const JointError& error, StageStats& stats) {
@@ -141,7 +141,7 @@ void write_island_errors(const FinishPositionsIo& io, std::size_t island, StageS
 }
 
 void write_errors(const FinishPositionsIo& io, StageStats& stats) {
-    for (Grab& grab : io.grab.rows()) {
+    for (Grab& grab : io.grab.elements()) {
         grab.error_m = 0.0;
     }
     for (std::size_t island = 0; island < io.frame.graph.islands.size(); ++island) {

@@ -104,9 +104,9 @@ void clamp_handled_bodies(const LimitVelocitiesIo& io, const LocomotionTuning& t
 
 void finish_releases(const LimitVelocitiesIo& io, const LocomotionTuning& tuning,
                      StageStats& stats) {
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        Grab& grab = io.grab.rows()[row];
-        const Entity player = io.owner.at(io.grab.owners()[row]).player;
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        Grab& grab = io.grab.elements()[index];
+        const Entity player = io.owner.at(io.grab.owners()[index]).player;
         const Vec3& reference = io.reference.at(player).linear_mps;
         if (grab.phase != GrabPhase::releasing) {
             continue;

@@ -44,7 +44,7 @@ void update_joints(const UpdateJointsIo& io) {
     // Second pass: latches read the coordinates of other joints.
     for (const RowBlock& block : graph.blocks) {
         const JointLatch* const latch =
-            is_joint(block) ? &io.joint.rows()[block.source].latch : nullptr;
+            is_joint(block) ? &io.joint.elements()[block.source].latch : nullptr;
         if (latch == nullptr || latch->catch_range <= 0.0) {
             continue;
         }

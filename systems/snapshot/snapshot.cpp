@@ -98,7 +98,7 @@ std::optional<FileError> check_envelope(std::span<const std::byte> bytes,
 }
 
 std::byte* write_shapes(const World& world, const SnapshotAssets& assets, std::byte* at) {
-    for (const Collider& collider : world.collider.rows()) {
+    for (const Collider& collider : world.collider.elements()) {
         const bool is_there = assets.shapes().has(collider.shape);
         store_little(assets.digest(collider.shape), at);
         at[8] = is_there ? static_cast<std::byte>(assets.shapes().at(collider.shape).kind)
@@ -122,10 +122,10 @@ std::optional<FileError> find_shapes(std::span<const std::byte> bytes, std::size
     if (shape_count_in(bytes) != world.collider.size()) {
         return refusal(shapes_at, "a shape for each collider");
     }
-    for (std::size_t row = 0; row < world.collider.size(); ++row) {
-        const std::size_t at = shapes_at + row * k_shape_bytes;
+    for (std::size_t index = 0; index < world.collider.size(); ++index) {
+        const std::size_t at = shapes_at + index * k_shape_bytes;
         const auto digest = load_little<std::uint64_t>(bytes.data() + at);
-        ShapeId& shape = world.collider.rows()[row].shape;
+        ShapeId& shape = world.collider.elements()[index].shape;
         if (digest != 0 && assets.digest(shape) == digest) {
             continue;
         }
@@ -133,7 +133,7 @@ std::optional<FileError> find_shapes(std::span<const std::byte> bytes, std::size
         if (digest == 0 || shape == k_no_shape) {
             return FileError{
                 "snapshot",
-                "byte " + std::to_string(at) + ": collider[" + std::to_string(row) + "].shape",
+                "byte " + std::to_string(at) + ": collider[" + std::to_string(index) + "].shape",
                 std::string("expected a shape of this world, found a ") + kind_text(bytes[at + 8]) +
                     " that none of its shapes equals"};
         }

@@ -47,8 +47,8 @@ class SnapshotAssets {
 
 // Call between frames only. Shapes are saved by their content: the library of the restored world
 // may hold other shapes too, and the same ones with other ids. Saves every bit of the columns, the
-// clock and the entity pool (free slots, generations, row order). Overwrites `bytes`; allocates
-// nothing if its capacity suffices, except in the first call of the process.
+// clock and the entity pool (free slots, generations, order of elements). Overwrites `bytes`;
+// allocates nothing if its capacity suffices, except in the first call of the process.
 void save_snapshot(const World& world, const SnapshotAssets& assets, std::vector<std::byte>& bytes);
 
 // The restored world continues bit for bit like the saved one, with any caches built for `assets`

@@ -55,8 +55,9 @@ class BreachFinder {
                  const Column<B>& required) {
         for (const Entity owner : column.owners()) {
             if (!required.contains(owner)) {
-                check(false, name, owner, "",
-                      (std::string("a row in ") + required_name + " of the same owner").c_str());
+                check(
+                    false, name, owner, "",
+                    (std::string("an element in ") + required_name + " of the same owner").c_str());
             }
         }
     }
@@ -81,8 +82,8 @@ class BreachFinder {
         visit_columns(w_, [this](const char* name, const auto& column) {
             require(name, column, "persistent_id", w_.persistent_id);
         });
-        std::vector<PersistentId> ids(w_.persistent_id.rows().begin(),
-                                      w_.persistent_id.rows().end());
+        std::vector<PersistentId> ids(w_.persistent_id.elements().begin(),
+                                      w_.persistent_id.elements().end());
         std::sort(ids.begin(), ids.end());
         const auto duplicate = std::adjacent_find(ids.begin(), ids.end());
         if (!breach_ && duplicate != ids.end()) {
@@ -100,9 +101,9 @@ class BreachFinder {
         require_both("body", w_.body, "body_pose", w_.body_pose);
         require_both("body", w_.body, "body_start", w_.body_start);
         require_both("body", w_.body, "body_velocity", w_.body_velocity);
-        for (std::size_t row = 0; row < w_.body.size(); ++row) {
-            const Entity owner = w_.body.owners()[row];
-            const RigidBody& body = w_.body.rows()[row];
+        for (std::size_t index = 0; index < w_.body.size(); ++index) {
+            const Entity owner = w_.body.owners()[index];
+            const RigidBody& body = w_.body.elements()[index];
             check(!w_.player.contains(owner), "body", owner, "",
                   "an entity that is not a player too");
             check(body.restitution >= 0.0 && body.restitution <= 1.0, "body", owner, ".restitution",
@@ -123,20 +124,20 @@ class BreachFinder {
         require("move_target", w_.move_target, "body", w_.body);
         require("gravity_scale", w_.gravity_scale, "body", w_.body);
         require("grab_rule", w_.grab_rule, "body", w_.body);
-        for (std::size_t row = 0; row < w_.gravity_scale.size(); ++row) {
-            check(std::abs(w_.gravity_scale.rows()[row].scale) <= GravityScale::k_max,
-                  "gravity_scale", w_.gravity_scale.owners()[row], ".scale",
+        for (std::size_t index = 0; index < w_.gravity_scale.size(); ++index) {
+            check(std::abs(w_.gravity_scale.elements()[index].scale) <= GravityScale::k_max,
+                  "gravity_scale", w_.gravity_scale.owners()[index], ".scale",
                   "a number within 1000");
         }
-        for (std::size_t row = 0; row < w_.path_mover.size(); ++row) {
-            const PosePath& path = w_.path_mover.rows()[row].path;
+        for (std::size_t index = 0; index < w_.path_mover.size(); ++index) {
+            const PosePath& path = w_.path_mover.elements()[index].path;
             check(path.count >= 2 && path.count <= k_max_path_keys && is_duration(path.period_s),
-                  "path_mover", w_.path_mover.owners()[row], ".path",
+                  "path_mover", w_.path_mover.owners()[index], ".path",
                   "2 to 16 keys and a period of 1e-3 to 1e9 s");
         }
-        for (std::size_t row = 0; row < w_.leg_mover.size(); ++row) {
-            const LegMover& mover = w_.leg_mover.rows()[row];
-            const Entity owner = w_.leg_mover.owners()[row];
+        for (std::size_t index = 0; index < w_.leg_mover.size(); ++index) {
+            const LegMover& mover = w_.leg_mover.elements()[index];
+            const Entity owner = w_.leg_mover.owners()[index];
             check(is_duration(mover.gait.step_s) && mover.gait.standing > 0.0 &&
                       mover.gait.standing < 1.0,
                   "leg_mover", owner, ".gait", "steps of 1e-3 to 1e9 s and a share in (0, 1)");
@@ -148,9 +149,9 @@ class BreachFinder {
 
     void check_joints() {
         require_both("joint", w_.joint, "joint_state", w_.joint_state);
-        for (std::size_t row = 0; row < w_.joint.size(); ++row) {
-            const Entity owner = w_.joint.owners()[row];
-            const Joint& joint = w_.joint.rows()[row];
+        for (std::size_t index = 0; index < w_.joint.size(); ++index) {
+            const Entity owner = w_.joint.owners()[index];
+            const Joint& joint = w_.joint.elements()[index];
             const JointLatch& latch = joint.latch;
             check(joint.lower <= joint.upper, "joint", owner, ".lower", "a limit <= upper");
             check(joint.friction >= 0.0 && joint.detent_spacing >= 0.0 &&
@@ -170,13 +171,13 @@ class BreachFinder {
         require_both("player", w_.player, "head_ignores", w_.head_ignores);
         require_both("player", w_.player, "render_pose", w_.render_pose);
         check_figures();
-        for (std::size_t row = 0; row < w_.player.size(); ++row) {
-            check(w_.player.rows()[row].mass_kg > 0.0, "player", w_.player.owners()[row],
+        for (std::size_t index = 0; index < w_.player.size(); ++index) {
+            check(w_.player.elements()[index].mass_kg > 0.0, "player", w_.player.owners()[index],
                   ".mass_kg", "a mass > 0");
         }
-        for (std::size_t row = 0; row < w_.head_ignores.size(); ++row) {
-            check(w_.head_ignores.rows()[row].next < HeadIgnores::k_capacity, "head_ignores",
-                  w_.head_ignores.owners()[row], ".next", "an index into the array");
+        for (std::size_t index = 0; index < w_.head_ignores.size(); ++index) {
+            check(w_.head_ignores.elements()[index].next < HeadIgnores::k_capacity, "head_ignores",
+                  w_.head_ignores.owners()[index], ".next", "an index into the array");
         }
     }
 
@@ -189,9 +190,9 @@ class BreachFinder {
         require_both("player", w_.player, "spine_memory", w_.spine_memory);
         require_both("player", w_.player, "spine_pose", w_.spine_pose);
         require_both("player", w_.player, "body_clip_state", w_.body_clip_state);
-        for (std::size_t row = 0; row < w_.body_clip_state.size(); ++row) {
-            const BodyClipState& state = w_.body_clip_state.rows()[row];
-            const Entity owner = w_.body_clip_state.owners()[row];
+        for (std::size_t index = 0; index < w_.body_clip_state.size(); ++index) {
+            const BodyClipState& state = w_.body_clip_state.elements()[index];
+            const Entity owner = w_.body_clip_state.owners()[index];
             check(state.idle_s >= 0.0 && state.push_off_s >= 0.0, "body_clip_state", owner, "",
                   "times >= 0");
             check(state.push_off_weight >= 0.0 && state.push_off_weight <= 1.0, "body_clip_state",
@@ -199,16 +200,16 @@ class BreachFinder {
             check(state.outside >= 0.0 && state.outside <= 1.0, "body_clip_state", owner,
                   ".outside", "a number in [0, 1]");
         }
-        for (std::size_t row = 0; row < w_.body_measures.size(); ++row) {
-            const BodyMeasures& m = w_.body_measures.rows()[row];
+        for (std::size_t index = 0; index < w_.body_measures.size(); ++index) {
+            const BodyMeasures& m = w_.body_measures.elements()[index];
             const auto [shortest, longest] =
                 std::minmax({m.eye_height_m, m.shoulder_width_m, m.upper_arm_m, m.forearm_m});
             check(shortest >= BodyMeasures::k_min_m && longest <= BodyMeasures::k_max_m,
-                  "body_measures", w_.body_measures.owners()[row], "", "lengths of 0.05 to 5 m");
+                  "body_measures", w_.body_measures.owners()[index], "", "lengths of 0.05 to 5 m");
         }
-        for (std::size_t row = 0; row < w_.calibration.size(); ++row) {
-            const Calibration& c = w_.calibration.rows()[row];
-            const Entity player = w_.calibration.owners()[row];
+        for (std::size_t index = 0; index < w_.calibration.size(); ++index) {
+            const Calibration& c = w_.calibration.elements()[index];
+            const Entity player = w_.calibration.owners()[index];
             check(c.held_s >= 0.0 && c.held_s <= 10.0, "calibration", player, ".held_s",
                   "0 to 10 s");
             const auto is_sum_of = [&c](double sum_s_m, double min_m, double max_m) {
@@ -220,8 +221,8 @@ class BreachFinder {
                       is_sum_of(c.span_s_m, TPoseRange::k_min_span_m, TPoseRange::k_max_span_m),
                   "calibration", player, "", "sums that T-poses held for held_s can have");
         }
-        for (std::size_t row = 0; row < w_.arm_memory.size(); ++row) {
-            const ArmMemory& memory = w_.arm_memory.rows()[row];
+        for (std::size_t index = 0; index < w_.arm_memory.size(); ++index) {
+            const ArmMemory& memory = w_.arm_memory.elements()[index];
             const auto is_level_unit = [](const Vec3& v) {
                 constexpr double k_off = 1e-3;
                 return std::abs(v.y()) < k_off && std::abs(v.norm() - 1.0) < k_off;
@@ -229,17 +230,17 @@ class BreachFinder {
             check(!memory.known ||
                       (is_level_unit(memory.facing_ps) &&
                        std::all_of(memory.looks_ps.begin(), memory.looks_ps.end(), is_level_unit)),
-                  "arm_memory", w_.arm_memory.owners()[row], "", "horizontal unit vectors");
+                  "arm_memory", w_.arm_memory.owners()[index], "", "horizontal unit vectors");
         }
-        for (std::size_t row = 0; row < w_.spine_memory.size(); ++row) {
-            const double since_s = w_.spine_memory.rows()[row].since_tick_s;
-            check(since_s >= 0.0 && since_s <= 1.0, "spine_memory", w_.spine_memory.owners()[row],
+        for (std::size_t index = 0; index < w_.spine_memory.size(); ++index) {
+            const double since_s = w_.spine_memory.elements()[index].since_tick_s;
+            check(since_s >= 0.0 && since_s <= 1.0, "spine_memory", w_.spine_memory.owners()[index],
                   ".since_tick_s", "a time in [0, 1] s");
-            check(w_.spine_memory.rows()[row].rate_span_s >= 0.0, "spine_memory",
-                  w_.spine_memory.owners()[row], ".rate_span_s", "a time >= 0");
-            for (const BodyContact& contact : w_.spine_memory.rows()[row].contacts) {
+            check(w_.spine_memory.elements()[index].rate_span_s >= 0.0, "spine_memory",
+                  w_.spine_memory.owners()[index], ".rate_span_s", "a time >= 0");
+            for (const BodyContact& contact : w_.spine_memory.elements()[index].contacts) {
                 check(std::abs(contact.normal_ps.norm() - 1.0) < 1e-3, "spine_memory",
-                      w_.spine_memory.owners()[row], ".contacts", "unit normals");
+                      w_.spine_memory.owners()[index], ".contacts", "unit normals");
             }
         }
     }
@@ -256,27 +257,28 @@ class BreachFinder {
         require("grab_layers", w_.grab_layers, "player", w_.player);
         require("early_samples", w_.early_samples, "player", w_.player);
         require("recenter_guess", w_.recenter_guess, "player", w_.player);
-        for (std::size_t row = 0; row < w_.hand_tracking.size(); ++row) {
-            const HandTracking& hand = w_.hand_tracking.rows()[row];
+        for (std::size_t index = 0; index < w_.hand_tracking.size(); ++index) {
+            const HandTracking& hand = w_.hand_tracking.elements()[index];
             const auto is_share = [](double share) { return share >= 0.0 && share <= 1.0; };
             check(is_share(hand.squeeze) && is_share(hand.trigger), "hand_tracking",
-                  w_.hand_tracking.owners()[row], "", "squeeze and trigger in [0, 1]");
+                  w_.hand_tracking.owners()[index], "", "squeeze and trigger in [0, 1]");
             check(std::ranges::all_of(
                       hand.curls,
                       [&](double curl) { return is_share(curl) || curl == k_unknown_curl; }),
-                  "hand_tracking", w_.hand_tracking.owners()[row], ".curls", "-1 or in [0, 1]");
+                  "hand_tracking", w_.hand_tracking.owners()[index], ".curls", "-1 or in [0, 1]");
         }
-        for (std::size_t row = 0; row < w_.head_tracking.size(); ++row) {
-            check(w_.head_tracking.rows()[row].state != TrackingState::inferred, "head_tracking",
-                  w_.head_tracking.owners()[row], ".state", "never, tracked or lost");
+        for (std::size_t index = 0; index < w_.head_tracking.size(); ++index) {
+            check(w_.head_tracking.elements()[index].state != TrackingState::inferred,
+                  "head_tracking", w_.head_tracking.owners()[index], ".state",
+                  "never, tracked or lost");
         }
         Column<std::array<std::uint8_t, k_hand_count>> has_hand;
         for (const Entity player : w_.player.owners()) {
             has_hand.add(player);
         }
-        for (std::size_t row = 0; row < w_.hand_owner.size(); ++row) {
-            const Entity hand = w_.hand_owner.owners()[row];
-            const HandOwner& owner = w_.hand_owner.rows()[row];
+        for (std::size_t index = 0; index < w_.hand_owner.size(); ++index) {
+            const Entity hand = w_.hand_owner.owners()[index];
+            const HandOwner& owner = w_.hand_owner.elements()[index];
             auto* const used_sides = has_hand.find(owner.player);
             check(used_sides != nullptr, "hand_owner", hand, ".player", "a player");
             if (used_sides != nullptr) {
@@ -286,20 +288,20 @@ class BreachFinder {
             }
         }
         for (std::size_t i = 0; i < w_.early_samples.size(); ++i) {
-            check(w_.early_samples.rows()[i].count <= EarlySamples::k_capacity, "early_samples",
+            check(w_.early_samples.elements()[i].count <= EarlySamples::k_capacity, "early_samples",
                   w_.early_samples.owners()[i], ".count", "at most as many as the array has");
         }
-        for (std::size_t row = 0; row < w_.hand_history.size(); ++row) {
-            const HandHistory& history = w_.hand_history.rows()[row];
+        for (std::size_t index = 0; index < w_.hand_history.size(); ++index) {
+            const HandHistory& history = w_.hand_history.elements()[index];
             check(
                 history.next < HandHistory::k_capacity && history.count <= HandHistory::k_capacity,
-                "hand_history", w_.hand_history.owners()[row], "", "next and count in the array");
+                "hand_history", w_.hand_history.owners()[index], "", "next and count in the array");
         }
-        for (std::size_t row = 0; row < w_.grab.size(); ++row) {
-            const Grab& grab = w_.grab.rows()[row];
+        for (std::size_t index = 0; index < w_.grab.size(); ++index) {
+            const Grab& grab = w_.grab.elements()[index];
             check((grab.kind == GripKind::none) == (grab.phase == GrabPhase::none), "grab",
-                  w_.grab.owners()[row], ".phase", "a phase if and only if there is a grip");
-            check(grab.kind != GripKind::authored, "grab", w_.grab.owners()[row], ".kind",
+                  w_.grab.owners()[index], ".phase", "a phase if and only if there is a grip");
+            check(grab.kind != GripKind::authored, "grab", w_.grab.owners()[index], ".kind",
                   "a surface, a held object or a player: an authored grip is in authored_hold");
         }
         check_authored();
@@ -310,16 +312,16 @@ class BreachFinder {
         require("authored_hold", w_.authored_hold, "grab", w_.grab);
         require("body_hold", w_.body_hold, "grab", w_.grab);
         require("hand_pull", w_.hand_pull, "grab", w_.grab);
-        for (std::size_t row = 0; row < w_.authored_grips.size(); ++row) {
-            check(w_.authored_grips.rows()[row].count <= k_max_authored_grips, "authored_grips",
-                  w_.authored_grips.owners()[row], ".count", "at most 4 grips");
+        for (std::size_t index = 0; index < w_.authored_grips.size(); ++index) {
+            check(w_.authored_grips.elements()[index].count <= k_max_authored_grips,
+                  "authored_grips", w_.authored_grips.owners()[index], ".count", "at most 4 grips");
         }
     }
 
     void check_colliders() {
-        for (std::size_t row = 0; row < w_.collider.size(); ++row) {
-            const Entity owner = w_.collider.owners()[row];
-            const ShapeId shape = w_.collider.rows()[row].shape;
+        for (std::size_t index = 0; index < w_.collider.size(); ++index) {
+            const Entity owner = w_.collider.owners()[index];
+            const ShapeId shape = w_.collider.elements()[index].shape;
             const RigidBody* const body = w_.body.find(owner);
             check(body != nullptr || w_.player.contains(owner), "collider", owner, "",
                   "a body or a player");
@@ -329,7 +331,7 @@ class BreachFinder {
             }
             if (body == nullptr || body->kind == BodyKind::free) {
                 check(w_.last_valid.contains(owner), "collider", owner, "",
-                      "a row in last_valid of the same owner");
+                      "an element in last_valid of the same owner");
                 check(shapes_.at(shape).kind != ShapeKind::mesh, "collider", owner, ".shape",
                       "no mesh on a free body or player");
             }

@@ -84,8 +84,8 @@ class WorldDiff {
 
     template <typename T>
     void compare_columns(const std::string& name, const Column<T>& a, const Column<T>& b) {
-        for (std::size_t row = 0; row < a.size() && !is_full(); ++row) {
-            const PersistentId id = id_of(a_, a.owners()[row]);
+        for (std::size_t index = 0; index < a.size() && !is_full(); ++index) {
+            const PersistentId id = id_of(a_, a.owners()[index]);
             const std::string where = name + "[" + name_of(id) + "]";
             const T* const other = b.find(find_by_id(b_, id));
             if (other == nullptr) {
@@ -93,11 +93,11 @@ class WorldDiff {
                 continue;
             }
             compare(where + ".", [&](const World& world, auto& visitor) {
-                walk_component(&world == &a_ ? a.rows()[row] : *other, visitor);
+                walk_component(&world == &a_ ? a.elements()[index] : *other, visitor);
             });
         }
-        for (std::size_t row = 0; row < b.size() && !is_full(); ++row) {
-            const PersistentId id = id_of(b_, b.owners()[row]);
+        for (std::size_t index = 0; index < b.size() && !is_full(); ++index) {
+            const PersistentId id = id_of(b_, b.owners()[index]);
             if (!a.contains(find_by_id(a_, id))) {
                 add(name + "[" + name_of(id) + "]: only in b");
             }

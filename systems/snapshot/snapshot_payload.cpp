@@ -48,7 +48,7 @@ class ByteCounter : public FieldVisitor {
 
 // Bytes of one element's fields, the same for all elements of a column.
 template <typename Component>
-std::size_t row_bytes() {
+std::size_t element_bytes() {
     static const std::size_t k_bytes = [] {
         ByteCounter counter;
         walk_component(Component{}, counter);
@@ -58,7 +58,7 @@ std::size_t row_bytes() {
 }
 
 template <typename T>
-using ComponentOf = std::remove_cvref_t<decltype(std::declval<T>().rows()[0])>;
+using ComponentOf = std::remove_cvref_t<decltype(std::declval<T>().elements()[0])>;
 
 class ByteWriter : public FieldVisitor {
   public:
@@ -230,13 +230,13 @@ class ByteReader : public PathVisitor {
 
     template <typename T>
     void read_column(const EntityPool& pool, Column<T>& column) {
-        const std::uint32_t count = count_of(k_owner_bytes + row_bytes<T>(), "rows");
+        const std::uint32_t count = count_of(k_owner_bytes + element_bytes<T>(), "elements");
         column.reserve(count);
-        for (std::uint32_t row = 0; row < count && !error_; ++row) {
-            enter(std::size_t{row});
+        for (std::uint32_t index = 0; index < count && !error_; ++index) {
+            enter(std::size_t{index});
             const Entity owner = read_handle();
             if (!pool.is_alive(owner) || column.contains(owner)) {
-                refuse("an owner that is alive and has no row yet");
+                refuse("an owner that is alive and has no element yet");
             } else {
                 walk_component(column.add(owner), *this);
             }
@@ -259,7 +259,8 @@ std::size_t payload_bytes(const World& world) {
     std::size_t bytes = globals.bytes() + 4 * (2 + world.entities.generations().size() +
                                                world.entities.free_slots().size());
     visit_columns(world, [&bytes](const char*, const auto& column) {
-        bytes += 4 + column.size() * (k_owner_bytes + row_bytes<ComponentOf<decltype(column)>>());
+        bytes +=
+            4 + column.size() * (k_owner_bytes + element_bytes<ComponentOf<decltype(column)>>());
     });
     return bytes;
 }
@@ -271,9 +272,9 @@ std::byte* write_payload(const World& world, std::byte* to) {
     walk_globals(world, out);
     visit_columns(world, [&out](const char*, const auto& column) {
         out.put(static_cast<std::uint32_t>(column.size()));
-        for (std::size_t row = 0; row < column.size(); ++row) {
-            out.leaf(column.owners()[row]);
-            walk_component(column.rows()[row], out);
+        for (std::size_t index = 0; index < column.size(); ++index) {
+            out.leaf(column.owners()[index]);
+            walk_component(column.elements()[index], out);
         }
     });
     return out.at();

@@ -58,7 +58,7 @@ std::string write_schema() {
     const World world;
     walk_globals(world, writer);
     visit_columns(world, [&writer](const char* name, const auto& column) {
-        using Component = std::remove_cvref_t<decltype(column.rows()[0])>;
+        using Component = std::remove_cvref_t<decltype(column.elements()[0])>;
         writer.enter(name);
         walk_component(Component{}, writer);
         writer.leave();

@@ -67,16 +67,16 @@ struct Bodies {
         t_s += k_dt_s;
         for (std::size_t i = 0; i < head.size(); ++i) {
             const double t = t_s + 0.37 * static_cast<double>(i);
-            head.rows()[i].pose_ps = {Vec3(0.05 * std::sin(t), 1.6, 0.0),
-                                      rotation_about(Vec3::UnitY(), 0.6 * std::sin(0.7 * t))};
+            head.elements()[i].pose_ps = {Vec3(0.05 * std::sin(t), 1.6, 0.0),
+                                          rotation_about(Vec3::UnitY(), 0.6 * std::sin(0.7 * t))};
             for (std::size_t side = 0; side < k_hand_count; ++side) {
                 const double out = side == 0 ? -1.0 : 1.0;
-                palm.rows()[k_hand_count * i + side].pose_ws = {
+                palm.elements()[k_hand_count * i + side].pose_ws = {
                     Vec3(0.3 * out + 0.2 * std::sin(2.0 * t), 1.3 + 0.3 * std::sin(1.3 * t),
                          -0.25 + 0.2 * std::cos(2.0 * t)),
                     rotation_about(Vec3::UnitX(), 0.5 * std::sin(t))};
             }
-            velocity.rows()[i].linear_mps = Vec3(std::sin(t), 0.0, 2.0 * std::cos(0.9 * t));
+            velocity.elements()[i].linear_mps = Vec3(std::sin(t), 0.0, 2.0 * std::cos(0.9 * t));
         }
     }
     void run_estimate() {
@@ -145,7 +145,7 @@ void players(benchmark::State& state, Run run) {
         run(bodies);
         state.SetIterationTime((thread_s() - begin_s) / static_cast<double>(count));
     }
-    benchmark::DoNotOptimize(bodies.spine.rows().data());
+    benchmark::DoNotOptimize(bodies.spine.elements().data());
 }
 
 BENCHMARK_CAPTURE(players, estimate, [](Bodies& b) { b.run_estimate(); })
@@ -178,7 +178,7 @@ void one_player(benchmark::State& state, Run run) {
         body.move();
         run(body);
     }
-    benchmark::DoNotOptimize(body.spine.rows().data());
+    benchmark::DoNotOptimize(body.spine.elements().data());
 }
 
 BENCHMARK_CAPTURE(one_player, nothing, [](Bodies&) {})->Name("body/one_moving_him");

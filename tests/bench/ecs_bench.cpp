@@ -1,5 +1,5 @@
 // Cost of iterating columns compared with plain arrays. Compare ratios within one run:
-// ecs/column_rows to ecs/raw_array at most 1.05, ecs/join_three to ecs/raw_three_arrays at most
+// ecs/column_elements to ecs/raw_array at most 1.05, ecs/join_three to ecs/raw_three_arrays at most
 // 1.25. join_three_churned: equal orders that are no longer runs of slots, after removals and
 // additions.
 #include <algorithm>
@@ -90,10 +90,10 @@ void raw_array(benchmark::State& state, std::size_t count) {
     }
 }
 
-void column_rows(benchmark::State& state, std::size_t count) {
+void column_elements(benchmark::State& state, std::size_t count) {
     BenchColumns columns = make_columns(count, Order::equal);
     for (auto _ : state) {
-        for (BenchMotion& motion : columns.motion.rows()) {
+        for (BenchMotion& motion : columns.motion.elements()) {
             drift(motion);
         }
         benchmark::ClobberMemory();
@@ -137,7 +137,7 @@ void join_three(benchmark::State& state, std::size_t count, Order order) {
     };
     for (const std::size_t count : {1024U, 16384U, 1048576U}) {
         add("raw_array", count, raw_array);
-        add("column_rows", count, column_rows);
+        add("column_elements", count, column_elements);
         add("raw_three_arrays", count, raw_three_arrays);
         add("join_three", count,
             [](benchmark::State& state, std::size_t n) { join_three(state, n, Order::equal); });

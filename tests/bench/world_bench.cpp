@@ -67,7 +67,7 @@ void step_at_rest(benchmark::State& state, BodyKind kind) {
     ShapeLibrary shapes;
     World world;
     add_rocks(static_cast<int>(state.range(0)), shapes.add_sphere(0.1), world);
-    for (RigidBody& body : world.body.rows()) {
+    for (RigidBody& body : world.body.elements()) {
         body.kind = kind;
     }
     FrameCaches caches(shapes);

@@ -74,7 +74,7 @@ void expect_all_fields_visited(const char* name) {
 TEST(Fields, EveryMemberOfEveryComponentIsVisitedOnce) {
     World world;
     visit_columns(world, [](const char* name, auto& column) {
-        expect_all_fields_visited<std::remove_cvref_t<decltype(column.rows()[0])>>(name);
+        expect_all_fields_visited<std::remove_cvref_t<decltype(column.elements()[0])>>(name);
     });
     expect_all_fields_visited<RenderPose::Hand>("RenderPose::Hand");
     expect_all_fields_visited<FingerAngles>("FingerAngles");

@@ -27,7 +27,7 @@ TEST(WorldIndex, NamesAndJointsAreRightAfterAnyHistory) {
             EXPECT_EQ(find_by_id(world, persistent_id_from_name(name)),
                       known != bodies.end() ? known->second : k_no_entity);
         }
-        for (const Joint& joint : world.joint.rows()) {
+        for (const Joint& joint : world.joint.elements()) {
             EXPECT_TRUE(world.body.contains(joint.b));
             EXPECT_TRUE(is_null(joint.a) || world.body.contains(joint.a));
         }

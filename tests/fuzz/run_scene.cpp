@@ -26,7 +26,7 @@ void run_scene(Bytes bytes) {
     for (int frame = 0; frame < 3; ++frame) {
         step_frame(scene.world(), caches, scene.tuning(), {1.0 / 90.0, {}}, stats);
     }
-    for (const BodyPose& pose : scene.world().body_pose.rows()) {
+    for (const BodyPose& pose : scene.world().body_pose.elements()) {
         promise(is_valid(pose.pose_ws), "bodies are somewhere");
     }
 }

@@ -78,11 +78,11 @@ class OneHand {
         return us;
     }
 
-    const GripSurface& surface() const { return surface_.rows().front(); }
+    const GripSurface& surface() const { return surface_.elements().front(); }
     const Pose& tracked_wrist() const { return surroundings_.front().wrist_bs; }
-    const Pose& wrist() const { return palm_.rows().front().pose_ws; }
-    const FingerPose& fingers() const { return fingers_.rows().front(); }
-    const PalmOffset& offset() const { return offset_.rows().front(); }
+    const Pose& wrist() const { return palm_.elements().front().pose_ws; }
+    const FingerPose& fingers() const { return fingers_.elements().front(); }
+    const PalmOffset& offset() const { return offset_.elements().front(); }
     const std::array<FingerTrace, k_finger_count>& traces() const { return traces_.front(); }
 
   private:
@@ -104,7 +104,7 @@ class OneHand {
     // Keeps the surface of a hand at rest, as search_grip does.
     void choose_by_palm_ray(const Tuning& tuning) {
         const HandSurroundings& hand = surroundings_.front();
-        GripSurface& surface = surface_.rows().front();
+        GripSurface& surface = surface_.elements().front();
         if (has_surface() &&
             hand_travel_m(surface.wrist_bs, hand.wrist_bs) < tuning.finger.reuse_travel_m) {
             return;
@@ -119,16 +119,16 @@ class OneHand {
     static bool is_fitted(const GripVariant& variant) {
         return variant.fingers == FingerMethod::fit && variant.sync;
     }
-    bool has_surface() const { return surface_.rows().front().triangle != GripSurface::k_none; }
+    bool has_surface() const { return surface_.elements().front().triangle != GripSurface::k_none; }
 
     void constrain(const GripVariant& variant) {
         constrain_palms({.hands = surroundings_, .surface = surface_, .offset = offset_});
-        PalmOffset& offset = offset_.rows().front();
+        PalmOffset& offset = offset_.elements().front();
         if (!variant.sync) {
             offset.held_m = Vec3::Zero();
             offset.held_turn_rad = Vec3::Zero();
         }
-        palm_.rows().front().pose_ws = held_wrist_bs(surroundings_.front(), offset);
+        palm_.elements().front().pose_ws = held_wrist_bs(surroundings_.front(), offset);
     }
     void close(const Tuning& tuning, const GripVariant& variant) {
         const bool is_baseline =
@@ -150,7 +150,7 @@ class OneHand {
     // For methods other than the runtime's, shows the held palm and the closed fingers without a
     // fit.
     void fit(double dt_s, const Tuning& tuning, const GripVariant& variant) {
-        FingerPose& pose = fingers_.rows().front();
+        FingerPose& pose = fingers_.elements().front();
         if (is_fitted(variant) || !has_surface()) {
             fit_hands({.dt_s = dt_s,
                        .hands = surroundings_,
@@ -167,7 +167,7 @@ class OneHand {
     }
     void close_baseline(std::size_t f, const Tuning& tuning, const GripVariant& variant) {
         const FingerRig& finger = rig_.fingers[f];
-        FingerAngles& angles = fingers_.rows().front().closed[f];
+        FingerAngles& angles = fingers_.elements().front().closed[f];
         angles.opposition_rad = resting_opposition(finger, tuning.thumb);
         const HingeChain chain = finger_chain(finger, angles.opposition_rad, wrist());
         const GripSurface& seed_under_palm = surface();

@@ -35,7 +35,7 @@ class Walls {
         for (std::size_t row = 0; row < world.persistent_id.size(); ++row) {
             const RigidBody* const body = world.body.find(world.persistent_id.owners()[row]);
             if (body == nullptr || body->kind == BodyKind::free) {
-                skip_.push_back(world.persistent_id.rows()[row].value);
+                skip_.push_back(world.persistent_id.elements()[index].value);
             }
         }
     }

@@ -109,9 +109,9 @@ std::optional<PartHit> ShownBodies::nearest(const Vec3& near_ws, double within_m
                                             const Test& test) const {
     constexpr double k_reach_eyes = 2.0;  // eye heights; parts farther from the head are not found
     std::optional<PartHit> best;
-    for (std::size_t row = 0; row < shown.size(); ++row) {
-        const Entity player = shown.owners()[row];
-        const RenderPose& body = shown.rows()[row];
+    for (std::size_t index = 0; index < shown.size(); ++index) {
+        const Entity player = shown.owners()[index];
+        const RenderPose& body = shown.elements()[index];
         const std::uint64_t id = persistent_id.at(player).value;
         if (std::ranges::find(skip, id) != skip.end() || !is_shown(body)) {
             continue;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "components/hand_rows.hpp"
+#include "components/hand_indices.hpp"
 #include "engine/solver/model/drive_pair.hpp"
 #include "systems/grab/shared/joint_rail.hpp"
 
@@ -84,9 +84,9 @@ Pose GrabInstant::hand_driven_origin_ws(Entity player) const {
     Pose hand_driven_ws = origin_ws(player);
     Vec3 travel = Vec3::Zero();
     int hands = 0;
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        const Entity entity = io.grab.owners()[row];
-        const Grab& grab = io.grab.rows()[row];
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        const Entity entity = io.grab.owners()[index];
+        const Grab& grab = io.grab.elements()[index];
         const HandTracking& hand = io.hand.at(entity);
         if (io.owner.at(entity).player == player && grab.kind == GripKind::surface &&
             grab.phase == GrabPhase::holding && hand.edge != GrabEdge::onset && !hand.resumed) {
@@ -104,12 +104,13 @@ double fraction_of(const GrabFrame& io, double t_s) {
     return std::clamp((t_s - io.start_s) / (io.end_s - io.start_s), 0.0, 1.0);
 }
 
-HandPair pair_of(const GrabFrame& io, std::size_t row) {
-    const Entity entity = io.grab.owners()[row];
-    HandPair pair{io.grab.rows()[row], io.hand.at(entity), nullptr, nullptr,
+HandPair pair_of(const GrabFrame& io, std::size_t index) {
+    const Entity entity = io.grab.owners()[index];
+    HandPair pair{io.grab.elements()[index], io.hand.at(entity), nullptr, nullptr,
                   io.owner.at(entity).player};
-    if (const std::size_t other = find_other_hand(io.owner, io.grab, row); other < io.grab.size()) {
-        pair.other = &io.grab.rows()[other];
+    if (const std::size_t other = find_other_hand(io.owner, io.grab, index);
+        other < io.grab.size()) {
+        pair.other = &io.grab.elements()[other];
         pair.other_hand = &io.hand.at(io.grab.owners()[other]);
     }
     return pair;
@@ -139,10 +140,11 @@ Pose hand_driven_body_ws(const GrabInstant& now, Entity body, const PhaseTuning&
     const Pose holder_now_ws = holder_ws(now);
     double travel = 0.0;
     double weights = 0.0;
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        const Entity entity = io.grab.owners()[row];
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        const Entity entity = io.grab.owners()[index];
         const HandTracking& hand = io.hand.at(entity);
-        if (io.grab.rows()[row].body != body || !drives_whole_frame(io.grab.rows()[row], hand)) {
+        if (io.grab.elements()[index].body != body ||
+            !drives_whole_frame(io.grab.elements()[index], hand)) {
             continue;
         }
         const Entity player = io.owner.at(entity).player;

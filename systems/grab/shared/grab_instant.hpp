@@ -68,7 +68,7 @@ struct HandPair {
     const HandTracking* other_hand = nullptr;
     Entity player;
 };
-HandPair pair_of(const GrabFrame& io, std::size_t row);
+HandPair pair_of(const GrabFrame& io, std::size_t index);
 HandPair swapped(const HandPair& pair);
 
 // True if the hand has gripped its body since before the frame, and is not `resumed`.

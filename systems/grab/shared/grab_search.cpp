@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "components/hand_rows.hpp"
+#include "components/hand_indices.hpp"
 #include "components/play_space.hpp"
 #include "engine/core/parallel.hpp"
 #include "systems/grab/shared/hand_sight.hpp"
@@ -36,12 +36,12 @@ SightSkips sight_skips(const GrabSearch& io, Entity hand) {
     const Entity player = io.owner.at(hand).player;
     SightSkips skips;
     skips.ids[skips.count++] = io.persistent_id.at(player).value;
-    const std::size_t row = io.grab.find_row(hand);
-    for (const std::size_t each : {row, find_other_hand(io.owner, io.grab, row)}) {
-        if (each < io.grab.size() && io.grab.rows()[each].kind == GripKind::held &&
-            io.grab.rows()[each].phase != GrabPhase::fresh &&
-            io.body.contains(io.grab.rows()[each].body)) {
-            skips.ids[skips.count++] = io.persistent_id.at(io.grab.rows()[each].body).value;
+    const std::size_t index = io.grab.find_index(hand);
+    for (const std::size_t each : {index, find_other_hand(io.owner, io.grab, index)}) {
+        if (each < io.grab.size() && io.grab.elements()[each].kind == GripKind::held &&
+            io.grab.elements()[each].phase != GrabPhase::fresh &&
+            io.body.contains(io.grab.elements()[each].body)) {
+            skips.ids[skips.count++] = io.persistent_id.at(io.grab.elements()[each].body).value;
         }
     }
     return skips;
@@ -71,7 +71,7 @@ SightLines sight_lines(const GrabSearch& io, Entity hand, const Vec3& palm_ws,
 }
 
 bool any_priority(const GrabRules& rules) {
-    return std::ranges::any_of(rules.rule.rows(),
+    return std::ranges::any_of(rules.rule.elements(),
                                [](const GrabRule& rule) { return rule.priority != 0; });
 }
 
@@ -223,9 +223,9 @@ struct Snap {
 
 // True if another hand sits in the grip.
 bool is_taken(const GrabSearch& io, Entity own_hand, Entity body, std::uint8_t grip) {
-    for (std::size_t row = 0; row < io.authored_hold.size(); ++row) {
-        const Entity hand = io.authored_hold.owners()[row];
-        const AuthoredHold& hold = io.authored_hold.rows()[row];
+    for (std::size_t index = 0; index < io.authored_hold.size(); ++index) {
+        const Entity hand = io.authored_hold.owners()[index];
+        const AuthoredHold& hold = io.authored_hold.elements()[index];
         const Grab& grab = io.grab.at(hand);
         if (hand != own_hand && hold.body == body && hold.grip == grip && grab.body == body &&
             grab.kind != GripKind::none && grab.phase != GrabPhase::releasing) {
@@ -261,9 +261,9 @@ class SnapFinder {
 
     // `only`: grips of this body alone; null: of all.
     std::optional<Snap> find(Entity only) {
-        for (std::size_t row = 0; row < io_.authored_grips.size(); ++row) {
-            const AuthoredGrips& grips = io_.authored_grips.rows()[row];
-            const Entity body = io_.authored_grips.owners()[row];
+        for (std::size_t index = 0; index < io_.authored_grips.size(); ++index) {
+            const AuthoredGrips& grips = io_.authored_grips.elements()[index];
+            const Entity body = io_.authored_grips.owners()[index];
             if ((!is_null(only) && body != only) || !io_.rules.allow(owner_, body)) {
                 continue;
             }
@@ -372,8 +372,8 @@ void update_sight(const GrabSearch& io, Entity entity, const Tuning& tuning) {
 void update_sights(const GrabSearch& io, const Tuning& tuning) {
     constexpr std::size_t k_hands_per_slice = 8;
     const auto update = [&](std::size_t /*slice*/, std::size_t first, std::size_t last) {
-        for (std::size_t row = first; row < last; ++row) {
-            update_sight(io, io.grab.owners()[row], tuning);
+        for (std::size_t index = first; index < last; ++index) {
+            update_sight(io, io.grab.owners()[index], tuning);
         }
     };
     if (io.surfaces.any_thread()) {

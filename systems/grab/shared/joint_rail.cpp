@@ -15,8 +15,8 @@ bool is_hand_driven(const JointRailIo& io, Entity entity, const PhaseTuning& tun
 
 std::optional<JointRail> find_rail(const JointRailIo& io, Entity body, const PhaseTuning& tuning) {
     std::optional<JointRail> rail;
-    for (std::size_t row = 0; row < io.joint.size(); ++row) {
-        const Joint& joint = io.joint.rows()[row];
+    for (std::size_t index = 0; index < io.joint.size(); ++index) {
+        const Joint& joint = io.joint.elements()[index];
         const bool is_b = joint.b == body;
         const Entity holder = is_b ? joint.a : joint.b;
         if ((!is_b && joint.a != body) || is_hand_driven(io, holder, tuning)) {
@@ -28,7 +28,7 @@ std::optional<JointRail> find_rail(const JointRailIo& io, Entity body, const Pha
             return std::nullopt;
         }
         const Pose& frame_hs = is_b ? joint.frame_a_bs : joint.frame_b_bs;
-        const JointState& state = io.joint_state.at(io.joint.owners()[row]);
+        const JointState& state = io.joint_state.at(io.joint.owners()[index]);
         const bool free = !joint.limited && !state.latched;
         const double infinity = std::numeric_limits<double>::infinity();
         const double lower = state.latched ? 0.0 : joint.lower - state.coordinate;

@@ -35,7 +35,7 @@ std::vector<std::uint32_t> slots_in_order(const Column<int>& column) {
 TEST(Column, EmptyFindsNothing) {
     Column<int> column;
     EXPECT_TRUE(column.empty());
-    EXPECT_TRUE(column.rows().empty());
+    EXPECT_TRUE(column.elements().empty());
     EXPECT_EQ(column.find(entity_of(0)), nullptr);
     EXPECT_EQ(column.find(k_no_entity), nullptr);
     EXPECT_FALSE(column.remove(entity_of(0)));
@@ -92,21 +92,21 @@ TEST(Column, RemoveMovesLastRowIntoGap) {
 
 TEST(Column, AddReturnsSameRowAsFind) {
     Column<int> column = column_of({9});
-    int& row = column.add(entity_of(3));
-    EXPECT_EQ(row, 0);
-    row = 42;
-    EXPECT_EQ(&row, column.find(entity_of(3)));
-    EXPECT_EQ(column.rows()[1], 42);
-    EXPECT_EQ(&std::as_const(column).at(entity_of(3)), &row);
+    int& index = column.add(entity_of(3));
+    EXPECT_EQ(index, 0);
+    index = 42;
+    EXPECT_EQ(&index, column.find(entity_of(3)));
+    EXPECT_EQ(column.elements()[1], 42);
+    EXPECT_EQ(&std::as_const(column).at(entity_of(3)), &index);
 }
 
 TEST(Column, ReferencesSurviveValueChanges) {
     Column<int> column = column_of({0, 1, 2});
-    int& row = column.at(entity_of(1));
-    for (int& value : column.rows()) {
+    int& index = column.at(entity_of(1));
+    for (int& value : column.elements()) {
         value += 10;
     }
-    EXPECT_EQ(row, 11);
+    EXPECT_EQ(index, 11);
 }
 
 TEST(Column, EqualHistoriesGiveEqualOrders) {
@@ -159,10 +159,10 @@ TEST(Column, RunHasConsecutiveSlotsAndOneGeneration) {
 // After any operations, a block that reports a run is one.
 bool runs_are_true(const Column<int>& column) {
     const auto owners = column.owners();
-    for (std::size_t row = 0; row < owners.size(); ++row) {
-        const std::size_t in_block = row % Column<int>::k_block_rows;
-        if (in_block != 0 && column.is_run(row / Column<int>::k_block_rows) &&
-            owners[row] != Entity{owners[row - 1].slot + 1, owners[row - 1].generation}) {
+    for (std::size_t index = 0; index < owners.size(); ++index) {
+        const std::size_t in_block = index % Column<int>::k_block_elements;
+        if (in_block != 0 && column.is_run(index / Column<int>::k_block_elements) &&
+            owners[index] != Entity{owners[index - 1].slot + 1, owners[index - 1].generation}) {
             return false;
         }
     }
@@ -204,8 +204,8 @@ RC_GTEST_PROP(Column, MatchesMapUnderAnyOperations, ()) {
             RC_ASSERT(*found == expected->second);
         }
     }
-    for (std::size_t row = 0; row < column.size(); ++row) {
-        RC_ASSERT(column.find_row(column.owners()[row]) == row);
+    for (std::size_t index = 0; index < column.size(); ++index) {
+        RC_ASSERT(column.find_index(column.owners()[index]) == index);
     }
 }
 

@@ -210,7 +210,7 @@ TEST(Join, MillionEntitiesAreCreatedDestroyedAndJoined) {
     }
     visits = 0;
     join(a, add, b);
-    EXPECT_EQ(visits, k_count - k_dead) << "the new ones have no row in b";
+    EXPECT_EQ(visits, k_count - k_dead) << "the new ones have no element in b";
 }
 
 }  // namespace

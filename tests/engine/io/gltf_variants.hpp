@@ -46,13 +46,13 @@ struct RandomMesh {
 // of 4 bytes, as the specification asks of vertex attributes.
 struct EncodedRows {
     std::string bytes;
-    std::size_t row_bytes = 0;  // with padding
+    std::size_t element_bytes = 0;  // with padding
     std::size_t count = 0;
     int component_type = 5126;
     bool is_normalized = false;
 
     std::string_view row(std::size_t i) const {
-        return std::string_view(bytes).substr(i * row_bytes, row_bytes);
+        return std::string_view(bytes).substr(i * element_bytes, element_bytes);
     }
 };
 
@@ -97,7 +97,7 @@ EncodedRows encode_rows(const Rows& rows, int component_type, bool is_normalized
                              static_cast<double>(row[static_cast<decltype(row.size())>(k)]));
         }
         encoded.bytes.append((4 - encoded.bytes.size() % 4) % 4, '\0');
-        encoded.row_bytes = encoded.bytes.size() - begin;
+        encoded.element_bytes = encoded.bytes.size() - begin;
     }
     return encoded;
 }
@@ -178,15 +178,16 @@ struct VariantBuilder {
 
     std::size_t add_rows_view(const EncodedRows& rows, bool is_compressed) {
         if (!is_compressed) {
-            return add_view(rows.bytes, rows.row_bytes);
+            return add_view(rows.bytes, rows.element_bytes);
         }
-        std::string compressed(meshopt_encodeVertexBufferBound(rows.count, rows.row_bytes), '\0');
+        std::string compressed(meshopt_encodeVertexBufferBound(rows.count, rows.element_bytes),
+                               '\0');
         compressed.resize(meshopt_encodeVertexBuffer(
             reinterpret_cast<unsigned char*>(compressed.data()), compressed.size(),
-            rows.bytes.data(), rows.count, rows.row_bytes));
+            rows.bytes.data(), rows.count, rows.element_bytes));
         const std::size_t view =
-            add_compressed_view(compressed, rows.row_bytes, rows.count, "ATTRIBUTES", "NONE");
-        gltf.json["bufferViews"][view]["byteStride"] = rows.row_bytes;
+            add_compressed_view(compressed, rows.element_bytes, rows.count, "ATTRIBUTES", "NONE");
+        gltf.json["bufferViews"][view]["byteStride"] = rows.element_bytes;
         return view;
     }
 
@@ -215,7 +216,8 @@ struct VariantBuilder {
                 indices.push_back(static_cast<std::uint16_t>(i));
                 // Sparse values are tightly packed.
                 values += rows.row(i).substr(0, components * bytes_of(rows.component_type));
-                base.bytes.replace(i * rows.row_bytes, rows.row_bytes, rows.row_bytes, '\x11');
+                base.bytes.replace(i * rows.element_bytes, rows.element_bytes, rows.element_bytes,
+                                   '\x11');
             }
         }
         const int accessor = add_accessor(has_base ? add_rows_view(base, false) : 0, rows, type);

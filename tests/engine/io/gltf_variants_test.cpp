@@ -264,14 +264,14 @@ TEST(GltfVariants, FilteredAttributesAreDecoded) {
         }
         EncodedRows normal_rows;
         normal_rows.bytes.resize(4 * vertices);
-        normal_rows.row_bytes = 4;
+        normal_rows.element_bytes = 4;
         normal_rows.count = vertices;
         normal_rows.component_type = 5120;
         normal_rows.is_normalized = true;
         meshopt_encodeFilterOct(normal_rows.bytes.data(), vertices, 4, 8, directions.data());
         EncodedRows position_rows;
         position_rows.bytes.resize(12 * vertices);
-        position_rows.row_bytes = 12;
+        position_rows.element_bytes = 12;
         position_rows.count = vertices;
         meshopt_encodeFilterExp(position_rows.bytes.data(), vertices, 12, 20, numbers.data());
         VariantBuilder builder;

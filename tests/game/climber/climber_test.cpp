@@ -208,7 +208,7 @@ TEST(RecordedClimb, EndsALittleAfterTheLastWaypoint) {
     plan.linger_s = 1.0;
     const Recording recording = record_climb(scene, plan);
     EXPECT_LE(recording.samples.back().t_s, 20.0);
-    const Vec3 head_ws = scene.world().render_pose.rows()[0].head_center_ws;
+    const Vec3 head_ws = scene.world().render_pose.elements()[0].head_center_ws;
     EXPECT_LE((head_ws - from_host(plan.waypoints[0].point_bs)).norm(), 0.6);
 }
 

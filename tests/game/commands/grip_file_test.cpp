@@ -190,9 +190,9 @@ class GunGrips : public testing::Test {
         scene = std::move(build_scene(file, "gun.json").value());
     }
     const GripMesh& mesh() const {
-        return scene.grip_meshes().at(scene.world().collider.rows()[0].shape);
+        return scene.grip_meshes().at(scene.world().collider.elements()[0].shape);
     }
-    const AuthoredGrips& in_body() const { return scene.world().authored_grips.rows()[0]; }
+    const AuthoredGrips& in_body() const { return scene.world().authored_grips.elements()[0]; }
     FittedGrip fitted(std::size_t grip, HandSide side) const {
         const AuthoredHand& hand = in_body().grips[grip].hands[index_of(side)];
         return fit_grip(mesh(), rigs()[index_of(side)], hand.wrist_bs, scene.tuning(), &hand);

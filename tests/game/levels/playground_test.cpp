@@ -46,13 +46,14 @@ class Playground : public ::testing::Test {
         const World& world = scene->world();
         for (std::size_t row = 0; row < world.joint.size(); ++row) {
             Span& span = spans[world.joint.owners()[row]];
-            span.low = std::min(span.low, world.joint_state.rows()[row].coordinate);
-            span.high = std::max(span.high, world.joint_state.rows()[row].coordinate);
+            span.low = std::min(span.low, world.joint_state.elements()[index].coordinate);
+            span.high = std::max(span.high, world.joint_state.elements()[index].coordinate);
         }
         watch_gun(world);
         worst_joint_m = std::max(worst_joint_m, frame.stats.joint_error_m);
         worst_joint_rad = std::max(worst_joint_rad, frame.stats.joint_error_rad);
-        pushed_off_mps = std::max(pushed_off_mps, world.player_velocity.rows()[0].linear_mps.z());
+        pushed_off_mps =
+            std::max(pushed_off_mps, world.player_velocity.elements()[0].linear_mps.z());
     }
 
     void watch_gun(const World& world) {
@@ -60,7 +61,8 @@ class Playground : public ::testing::Test {
         for (std::size_t row = 0; row < world.hand_owner.size(); ++row) {
             const Entity hand = world.hand_owner.owners()[row];
             const Grab& grab = world.grab.at(hand);
-            if (world.hand_owner.rows()[row].side == HandSide::left || grab.body != find("gun")) {
+            if (world.hand_owner.elements()[index].side == HandSide::left ||
+                grab.body != find("gun")) {
                 continue;
             }
             const RenderPose::Hand& shown = world.render_pose.at(player).hands[1];

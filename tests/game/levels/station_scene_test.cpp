@@ -122,7 +122,7 @@ TEST(StationTools, FloatClearOfEverythingAtFirst) {
         const Pose& pose = scene.world().body_pose.at(body).pose_ws;
         proxies.push_back({scene.world().persistent_id.at(body).value,
                            scene.world().collider.at(body).shape, pose, pose,
-                           scene.world().body.rows()[row].kind == BodyKind::free});
+                           scene.world().body.elements()[index].kind == BodyKind::free});
     }
     std::sort(proxies.begin(), proxies.end(),
               [](const ColliderProxy& a, const ColliderProxy& b) { return a.id < b.id; });

@@ -41,7 +41,7 @@ class HostilePlay : public testing::TestWithParam<PlayCase> {};
 // Largest speed of any player relative to the scene's own velocity.
 double fastest_player_mps(const World& world) {
     double fastest = 0.0;
-    for (const PlayerVelocity& velocity : world.player_velocity.rows()) {
+    for (const PlayerVelocity& velocity : world.player_velocity.elements()) {
         fastest = std::max(fastest, (velocity.linear_mps - world.reference_velocity_mps).norm());
     }
     return fastest;
@@ -49,11 +49,11 @@ double fastest_player_mps(const World& world) {
 // A body in a hand is as fast as a hand that jumps; only bodies that fly freely count.
 double fastest_loose_mps(const World& world) {
     double fastest = 0.0;
-    for (std::size_t row = 0; row < world.body.size(); ++row) {
-        const Entity body = world.body.owners()[row];
+    for (std::size_t index = 0; index < world.body.size(); ++index) {
+        const Entity body = world.body.owners()[index];
         const bool held = std::ranges::any_of(
-            world.grab.rows(), [body](const Grab& grab) { return grab.body == body; });
-        if (world.body.rows()[row].kind == BodyKind::free && !held) {
+            world.grab.elements(), [body](const Grab& grab) { return grab.body == body; });
+        if (world.body.elements()[index].kind == BodyKind::free && !held) {
             const Vec3& velocity = world.body_velocity.at(body).linear_mps;
             fastest = std::max(fastest, (velocity - world.reference_velocity_mps).norm());
         }

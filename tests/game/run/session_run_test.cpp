@@ -78,8 +78,9 @@ INSTANTIATE_TEST_SUITE_P(Scenes, BuiltIn, testing::ValuesIn(climbed_scenes()),
 class BuiltInScene : public testing::TestWithParam<std::string_view> {};
 TEST_P(BuiltInScene, EveryBodyHasASurfaceForHands) {
     const Scene scene = *make_built_in_scene(GetParam());
-    for (std::size_t row = 0; row < scene.world().collider.size(); ++row) {
-        EXPECT_TRUE(scene.grip_meshes().has(scene.world().collider.rows()[row].shape)) << row;
+    for (std::size_t index = 0; index < scene.world().collider.size(); ++index) {
+        EXPECT_TRUE(scene.grip_meshes().has(scene.world().collider.elements()[index].shape))
+            << index;
     }
 }
 
@@ -110,7 +111,7 @@ TEST(ShipScene, WavedAndShovedRockPushesThePlayerOffTheWall) {
 // The session plans palms on the free side of the wall's rail with the wrists beside it. The hands
 // are tracked there, because the ship turns to the first grip, and shown there.
 TEST(ShipScene, HandsHoldTheRailFromThePlayersSide) {
-    const Mover ship = make_built_in_scene("ship")->world().mover.rows()[0];
+    const Mover ship = make_built_in_scene("ship")->world().mover.elements()[0];
     constexpr double k_rail_axis_x_m = -1.593;
     constexpr double k_tremor_m = 1e-3;
     constexpr double k_palm_m = 5e-3;  // the fit moves the palm for its fingers (decision 107)

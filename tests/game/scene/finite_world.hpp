@@ -46,8 +46,8 @@ class FiniteFields {
 inline bool is_finite_world(const World& world) {
     FiniteFields fields;
     visit_columns(world, [&fields](const char*, const auto& column) {
-        for (const auto& row : column.rows()) {
-            visit_fields(row, fields);
+        for (const auto& index : column.elements()) {
+            visit_fields(index, fields);
         }
     });
     return fields.all();

@@ -108,7 +108,7 @@ TEST(SceneJoint, BodiesStandAtTimeZeroAsTheJointsWantThem) {
     ASSERT_TRUE(built.ok()) << built.error().message();
     const World& world = built.value().world();
     ASSERT_EQ(world.joint.size(), 3U);
-    for (const Joint& joint : world.joint.rows()) {
+    for (const Joint& joint : world.joint.elements()) {
         const auto frame_ws = [&](Entity body, const Pose& frame_bs) {
             return body == k_no_entity ? frame_bs : world.body_pose.at(body).pose_ws * frame_bs;
         };

@@ -74,7 +74,7 @@ TEST(BuildScene, BodyIsDrawnByItsVisual) {
     EXPECT_EQ(visual.mesh->color, (Color{0.5F, 0.25F, 0.125F}));
     EXPECT_EQ(visual.look.emissive, 2.0F);
     EXPECT_EQ(visual.look.opacity, 0.5F);
-    EXPECT_EQ(scene.value().shapes().at(scene.value().world().collider.rows()[0].shape).kind,
+    EXPECT_EQ(scene.value().shapes().at(scene.value().world().collider.elements()[0].shape).kind,
               ShapeKind::sphere);
 }
 

@@ -94,8 +94,8 @@ double share_of(std::vector<double>& sorted, double share) {
     return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
 }
 
-Pose pose_at(const NumericTable& table, std::size_t row, std::size_t column) {
-    const auto cell = [&](std::size_t i) { return table.at(row, column + i); };
+Pose pose_at(const NumericTable& table, std::size_t index, std::size_t column) {
+    const auto cell = [&](std::size_t i) { return table.at(index, column + i); };
     return {Vec3(cell(0), cell(1), cell(2)), Quat(cell(6), cell(3), cell(4), cell(5)).normalized()};
 }
 
@@ -132,10 +132,10 @@ TEST(BodyRates, ElbowsOfRecordedPeopleAgreeAtBothRates) {
     std::vector<double> apart_m;
     std::vector<Sample> clip;
     const std::size_t count = table.value().row_count();
-    for (std::size_t row = 0; row < count; ++row) {
-        clip.push_back({pose_at(table.value(), row, 2),
-                        {pose_at(table.value(), row, 9), pose_at(table.value(), row, 16)}});
-        if (row + 1 == count || table.value().at(row + 1, 0) != table.value().at(row, 0)) {
+    for (std::size_t index = 0; index < count; ++index) {
+        clip.push_back({pose_at(table.value(), index, 2),
+                        {pose_at(table.value(), index, 9), pose_at(table.value(), index, 16)}});
+        if (index + 1 == count || table.value().at(index + 1, 0) != table.value().at(index, 0)) {
             compare_rates(clip, apart_m);
             clip.clear();
         }

@@ -55,7 +55,7 @@ struct TPosed {
                               {});
         }
     }
-    const BodyMeasures& found() const { return measures.rows()[0]; }
+    const BodyMeasures& found() const { return measures.elements()[0]; }
     bool is_default() const { return found().eye_height_m == BodyMeasures{}.eye_height_m; }
 };
 

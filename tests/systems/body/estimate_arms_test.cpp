@@ -92,7 +92,7 @@ TEST(EstimateArms, HandJointEqualsThePalmExactly) {
         const Pose left = random.pose(1.5);
         const ArmPose& pose = arms.step(head, left, random.pose(1.5));
         for (std::size_t side = 0; side < k_hand_count; ++side) {
-            const Pose& palm = arms.palm.rows()[side].pose_ws;
+            const Pose& palm = arms.palm.elements()[side].pose_ws;
             EXPECT_EQ(pose.arms[side].hand_ws.position, palm.position);
             EXPECT_EQ(pose.arms[side].hand_ws.rotation.coeffs(), palm.rotation.coeffs());
         }

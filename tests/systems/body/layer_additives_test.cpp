@@ -195,7 +195,7 @@ TEST(LayerAdditives, HandJointEqualsThePalmExactlyAndBonesKeepTheirLengths) {
         body.step();
         for (std::size_t side = 0; side < k_hand_count; ++side) {
             const ArmPose::Arm& arm = body.arm_pose().arms[side];
-            expect_same_bits(arm.hand_ws, body.palm.rows()[side].pose_ws);
+            expect_same_bits(arm.hand_ws, body.palm.elements()[side].pose_ws);
             ASSERT_TRUE(is_valid(arm.upper_ws) && is_valid(arm.forearm_ws));
             const double upper_m = (arm.forearm_ws.position - arm.upper_ws.position).norm();
             EXPECT_NEAR(upper_m, body.estimate.at(k_player).arms[side].stretch * 0.30, 1e-9);
@@ -346,7 +346,7 @@ TEST(LayerAdditives, ClavicleClipFollowsAngleAndDistanceAndIsMirrored) {
         for (Body* one : {&body, &plain}) {
             for (const HandSide side : {HandSide::left, HandSide::right}) {
                 const double out = side == HandSide::left ? -1.0 : 1.0;
-                one->palm.rows()[index_of(side)].pose_ws.position =
+                one->palm.elements()[index_of(side)].pose_ws.position =
                     Vec3(0.19 * out, 1.38 + height, -reach);
             }
             one->arm_memory.at(k_player).known = false;

@@ -109,7 +109,7 @@ TEST(Determinism, CreationOrderChangesNoFrame) {
     }
 }
 
-// Destroying and adding leaves rows in any order: hands before their players, each column
+// Destroying and adding leaves elements in any order: hands before their players, each column
 // differently.
 TEST(Determinism, RowOrderChangesNoFrame) {
     const Hashes expected = Crowd().run(Crowd::k_frames);

@@ -34,7 +34,7 @@ PlayerDescription player() {
     return description;
 }
 
-// A world with a row in every column.
+// A world with an element in every column.
 World full_world() {
     World world;
     const Entity ship = add_body(world, rock("ship", 1));
@@ -125,7 +125,7 @@ void for_every_field(Check&& check) {
         std::string changed;
         visit_columns(world, [&](const char* column_name, auto& column) {
             ASSERT_FALSE(column.empty()) << column_name;
-            visit_fields(column.rows()[0], [&](const char* field_name, const auto& field) {
+            visit_fields(column.elements()[0], [&](const char* field_name, const auto& field) {
                 if (index++ == wanted) {
                     changed = std::string(column_name) + "." + field_name;
                     FieldChanger(world).change(field);
@@ -209,7 +209,7 @@ TEST(HashState, CopiesAreEqual) {
     EXPECT_EQ(hash_state(copy), hash_state(world));
 }
 
-// --- Ownership of rows ---------------------------------------------------------------------------
+// --- Ownership of elements -----------------------------------------------------------------------
 
 // Row hashes are summed; the owner must still show.
 TEST(HashState, ChangesIfTwoBodiesSwapPoses) {

@@ -64,7 +64,7 @@ class ExactHost {
         SolvedPlayer solved{player, world.player_origin.at(player).pose_ws.position,
                             world.player_velocity.at(player).linear_mps};
         for (const RowBlock& block : frame.hand_blocks) {
-            const Grab& grab = world.grab.rows()[block.source];
+            const Grab& grab = world.grab.elements()[block.source];
             if (block.kind == RowKind::drive_point && grab.kind == GripKind::surface) {
                 const Pose& body_ws = world.body_pose.at(grab.body).pose_ws;
                 const Vec3 arm_ws = body_ws.rotation * grab.anchor_bs.position;
@@ -79,7 +79,7 @@ class ExactHost {
     }
     static void solve_body(World& world, const RowBlock& block,
                            const std::vector<SolvedPlayer>& solved) {
-        const Grab& grab = world.grab.rows()[block.source];
+        const Grab& grab = world.grab.elements()[block.source];
         const Entity player = world.hand_owner.at(world.grab.owners()[block.source]).player;
         const auto at = std::ranges::find(solved, player, &SolvedPlayer::player);
         const Pose origin_ws{at->origin_ws, world.player_origin.at(player).pose_ws.rotation};

@@ -18,7 +18,7 @@ constexpr double k_half_m = 0.1;
 
 double fastest_mps(const Scenario& s) {
     double fastest = 0.0;
-    for (const BodyVelocity& velocity : s.world.body_velocity.rows()) {
+    for (const BodyVelocity& velocity : s.world.body_velocity.elements()) {
         fastest = std::max(fastest, velocity.linear_mps.norm());
     }
     return fastest;
@@ -26,9 +26,9 @@ double fastest_mps(const Scenario& s) {
 
 double kinetic_energy(const Scenario& s) {
     double energy = 0.0;
-    for (std::size_t row = 0; row < s.world.body.size(); ++row) {
-        const RigidBody& body = s.world.body.rows()[row];
-        const Entity entity = s.world.body.owners()[row];
+    for (std::size_t index = 0; index < s.world.body.size(); ++index) {
+        const RigidBody& body = s.world.body.elements()[index];
+        const Entity entity = s.world.body.owners()[index];
         const BodyVelocity& velocity = s.world.body_velocity.at(entity);
         if (body.kind == BodyKind::free) {
             const Quat& rotation = s.world.body_pose.at(entity).pose_ws.rotation;

@@ -187,13 +187,13 @@ TEST_P(RandomPlay, StaysFiniteInsideAndBelowASpeedLimit) {
         ASSERT_TRUE(s.origin().allFinite()) << "frame " << s.world.clock.frame;
         ASSERT_LE(s.velocity().norm(), fastest_mps) << "frame " << s.world.clock.frame;
         ASSERT_LE(s.head_center().cwiseAbs().maxCoeff(), 3.5) << "frame " << s.world.clock.frame;
-        for (const BodyPose& body : s.world.body_pose.rows()) {
+        for (const BodyPose& body : s.world.body_pose.elements()) {
             ASSERT_TRUE(is_valid(body.pose_ws));
         }
     });
-    for (std::size_t row = 0; row < s.world.body.size(); ++row) {
-        EXPECT_LE(s.world.body_pose.rows()[row].pose_ws.position.norm(), 5.0)
-            << "left the room, row " << row;
+    for (std::size_t index = 0; index < s.world.body.size(); ++index) {
+        EXPECT_LE(s.world.body_pose.elements()[index].pose_ws.position.norm(), 5.0)
+            << "left the room, element " << index;
     }
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomPlay, testing::Range<std::uint64_t>(1, 9));

@@ -21,16 +21,17 @@ using test::shapeless_rock;
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
 
-std::size_t rows_of(const World& world) {
-    std::size_t rows = 0;
-    visit_columns(world, [&rows](const char*, const auto& column) { rows += column.size(); });
-    return rows;
+std::size_t elements_of(const World& world) {
+    std::size_t elements = 0;
+    visit_columns(world,
+                  [&elements](const char*, const auto& column) { elements += column.size(); });
+    return elements;
 }
 
 // The error names the function and the value, and nothing was added.
 template <typename Add>
 void expect_refused(World& world, const char* function, Add&& add) {
-    const std::size_t rows = rows_of(world);
+    const std::size_t elements = elements_of(world);
     const std::size_t alive = world.entities.alive_count();
     try {
         add();
@@ -40,7 +41,7 @@ void expect_refused(World& world, const char* function, Add&& add) {
         EXPECT_EQ(what.rfind(std::string(function) + ": ", 0), 0U) << what;
         EXPECT_NE(what.find("(value "), std::string::npos) << what;
     }
-    EXPECT_EQ(rows_of(world), rows);
+    EXPECT_EQ(elements_of(world), elements);
     EXPECT_EQ(world.entities.alive_count(), alive);
 }
 

@@ -119,14 +119,15 @@ struct Pulls {
                      .body_velocity = body_velocity,
                      .player_velocity = player_velocity},
                     tuning, stats);
-        for (HandTracking& tracking : hand.rows()) {
+        for (HandTracking& tracking : hand.elements()) {
             tracking.edge = GrabEdge::none;
         }
     }
     Vec3 momentum() const {
         Vec3 sum = player.at(k_player).mass_kg * player_velocity.at(k_player).linear_mps;
-        for (std::size_t row = 0; row < body.size(); ++row) {
-            sum += body.rows()[row].mass_kg * body_velocity.at(body.owners()[row]).linear_mps;
+        for (std::size_t index = 0; index < body.size(); ++index) {
+            sum +=
+                body.elements()[index].mass_kg * body_velocity.at(body.owners()[index]).linear_mps;
         }
         return sum;
     }

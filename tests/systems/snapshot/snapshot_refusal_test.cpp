@@ -126,25 +126,28 @@ TEST_F(SnapshotRefuses, FieldsOutOfTheirRange) {
         change(broken.world);
         expect_refused(saved(broken), part);
     };
-    break_world("body_pose[", [&](World& w) { w.body_pose.rows()[1].pose_ws.position.y() = nan; });
+    break_world("body_pose[",
+                [&](World& w) { w.body_pose.elements()[1].pose_ws.position.y() = nan; });
     break_world("body_velocity[2].linear_mps.x",
-                [&](World& w) { w.body_velocity.rows()[2].linear_mps.x() = 2e18; });
+                [&](World& w) { w.body_velocity.elements()[2].linear_mps.x() = 2e18; });
     break_world("head_tracking[0].pose_ps.rotation: expected a rotation of length 1",
-                [](World& w) { w.head_tracking.rows()[0].pose_ps.rotation.coeffs() *= 1.01; });
+                [](World& w) { w.head_tracking.elements()[0].pose_ps.rotation.coeffs() *= 1.01; });
     break_world("clock.t_s", [](World& w) { w.clock.t_s = 2e9; });
     break_world("body[0].kind: expected a value below 3, found 7",
-                [](World& w) { w.body.rows()[0].kind = static_cast<BodyKind>(7); });
+                [](World& w) { w.body.elements()[0].kind = static_cast<BodyKind>(7); });
     break_world("grab[1].body: expected a handle of an entity", [](World& w) {
-        w.grab.rows()[1].body = {9999, 1};
+        w.grab.elements()[1].body = {9999, 1};
     });
-    break_world("grab[1].body", [](World& w) { w.grab.rows()[1].body = {0, 2}; });  // never existed
-    break_world("grab[1].body", [](World& w) { w.grab.rows()[1].body = {3, 0}; });
+    break_world("grab[1].body", [](World& w) {
+        w.grab.elements()[1].body = {0, 2};
+    });  // never existed
+    break_world("grab[1].body", [](World& w) { w.grab.elements()[1].body = {3, 0}; });
 }
 
 TEST_F(SnapshotRefuses, FlagsThatAreNeitherTrueNorFalse) {
-    // `mover` is the only column with one row and a flag at its end.
+    // `mover` is the only column with one element and a flag at its end.
     SnapshotBytes snapshot(bytes_);
-    const std::size_t flag = snapshot.find_end_of(crowd_.world.mover.rows()[0].start_ws) + 48;
+    const std::size_t flag = snapshot.find_end_of(crowd_.world.mover.elements()[0].start_ws) + 48;
     ASSERT_EQ(snapshot.bytes[flag], std::byte{0});
     snapshot.put(flag, std::uint8_t{2});
     expect_refused(snapshot, "mover[0].turns_with_body: expected a value below 2, found 2");
@@ -176,52 +179,53 @@ TEST_F(SnapshotRefuses, RowsWithoutTheirCounterparts) {
     const auto by_name = [](World& w, const char* name) {
         return find_by_id(w, persistent_id_from_name(name));
     };
-    break_world("expected a row in body_pose of the same owner",
+    break_world("expected an element in body_pose of the same owner",
                 [&](World& w) { w.body_pose.remove(by_name(w, "rock")); });
-    break_world("expected a row in body of the same owner",
+    break_world("expected an element in body of the same owner",
                 [&](World& w) { w.body.remove(by_name(w, "rock")); });
-    break_world("expected a row in persistent_id of the same owner",
+    break_world("expected an element in persistent_id of the same owner",
                 [&](World& w) { w.persistent_id.remove(by_name(w, "rock")); });
     break_world("unique ids",
-                [](World& w) { w.persistent_id.rows()[1] = w.persistent_id.rows()[2]; });
-    break_world("ids above 0", [](World& w) { w.persistent_id.rows()[1].value = 0; });
-    break_world("below 2^64 - 1", [](World& w) { w.persistent_id.rows()[1].value = ~0ULL; });
+                [](World& w) { w.persistent_id.elements()[1] = w.persistent_id.elements()[2]; });
+    break_world("ids above 0", [](World& w) { w.persistent_id.elements()[1].value = 0; });
+    break_world("below 2^64 - 1", [](World& w) { w.persistent_id.elements()[1].value = ~0ULL; });
     break_world(".player: expected a player",
-                [&](World& w) { w.hand_owner.rows()[0].player = by_name(w, "rock"); });
-    break_world(".side: expected one hand per side",
-                [](World& w) { w.hand_owner.rows()[1].side = w.hand_owner.rows()[0].side; });
+                [&](World& w) { w.hand_owner.elements()[0].player = by_name(w, "rock"); });
+    break_world(".side: expected one hand per side", [](World& w) {
+        w.hand_owner.elements()[1].side = w.hand_owner.elements()[0].side;
+    });
     break_world(".mass_kg", [&](World& w) { w.body.at(by_name(w, "rock")).mass_kg = 0.0; });
     break_world(".inertia_kgm2",
                 [&](World& w) { w.body.at(by_name(w, "rock")).inertia_kgm2.y() = -1.0; });
-    break_world("path_mover[", [](World& w) { w.path_mover.rows()[0].path.count = 17; });
-    break_world("path_mover[", [](World& w) { w.path_mover.rows()[0].path.period_s = 0.0; });
-    break_world("leg_mover[", [](World& w) { w.leg_mover.rows()[0].gait.standing = 1.0; });
-    break_world("leg_mover[", [](World& w) { w.leg_mover.rows()[0].leg.upper_m = 1e-6; });
-    break_world("expected a row in joint_state of the same owner",
+    break_world("path_mover[", [](World& w) { w.path_mover.elements()[0].path.count = 17; });
+    break_world("path_mover[", [](World& w) { w.path_mover.elements()[0].path.period_s = 0.0; });
+    break_world("leg_mover[", [](World& w) { w.leg_mover.elements()[0].gait.standing = 1.0; });
+    break_world("leg_mover[", [](World& w) { w.leg_mover.elements()[0].leg.upper_m = 1e-6; });
+    break_world("expected an element in joint_state of the same owner",
                 [&](World& w) { w.joint_state.remove(by_name(w, "hinge")); });
-    break_world(".lower", [](World& w) { w.joint.rows()[0].lower = 1.0; });
-    break_world(">= 0", [](World& w) { w.joint.rows()[1].latch.strength = -1.0; });
-    break_world(".friction", [](World& w) { w.body.rows()[1].friction = -0.1; });
-    break_world(".restitution", [](World& w) { w.body.rows()[0].restitution = 1.5; });
+    break_world(".lower", [](World& w) { w.joint.elements()[0].lower = 1.0; });
+    break_world(">= 0", [](World& w) { w.joint.elements()[1].latch.strength = -1.0; });
+    break_world(".friction", [](World& w) { w.body.elements()[1].friction = -0.1; });
+    break_world(".restitution", [](World& w) { w.body.elements()[0].restitution = 1.5; });
     break_world("arm_memory[", [](World& w) {
-        w.arm_memory.rows()[0].known = true;
-        w.arm_memory.rows()[0].looks_ps[1] = Vec3::Zero();
+        w.arm_memory.elements()[0].known = true;
+        w.arm_memory.elements()[0].looks_ps[1] = Vec3::Zero();
     });
-    break_world("calibration[", [](World& w) { w.calibration.rows()[0].held_s = 0.5; });
+    break_world("calibration[", [](World& w) { w.calibration.elements()[0].held_s = 0.5; });
     break_world("squeeze and trigger in [0, 1]",
-                [](World& w) { w.hand_tracking.rows()[0].trigger = 2.0; });
+                [](World& w) { w.hand_tracking.elements()[0].trigger = 2.0; });
     break_world("].push_off_weight",
-                [](World& w) { w.body_clip_state.rows()[0].push_off_weight = 2.0; });
-    break_world(".mass_kg", [](World& w) { w.player.rows()[0].mass_kg = -1.0; });
-    break_world(".next", [](World& w) { w.head_ignores.rows()[0].next = 8; });
-    break_world("hand_history", [](World& w) { w.hand_history.rows()[0].count = 33; });
-    break_world(".phase", [](World& w) { w.grab.rows()[0].kind = GripKind::none; });
+                [](World& w) { w.body_clip_state.elements()[0].push_off_weight = 2.0; });
+    break_world(".mass_kg", [](World& w) { w.player.elements()[0].mass_kg = -1.0; });
+    break_world(".next", [](World& w) { w.head_ignores.elements()[0].next = 8; });
+    break_world("hand_history", [](World& w) { w.hand_history.elements()[0].count = 33; });
+    break_world(".phase", [](World& w) { w.grab.elements()[0].kind = GripKind::none; });
     break_world("].count", [](World& w) {
         w.early_samples.add(w.player.owners()[0]).count = EarlySamples::k_capacity + 1;
     });
     break_world(".shape: expected a shape of this world",
-                [](World& w) { w.collider.rows()[0].shape.index = 1000; });
-    break_world("expected a row in last_valid of the same owner",
+                [](World& w) { w.collider.elements()[0].shape.index = 1000; });
+    break_world("expected an element in last_valid of the same owner",
                 [&](World& w) { w.last_valid.remove(by_name(w, "rock")); });
     break_world("expected a body or a player",
                 [&](World& w) { w.collider.add(by_name(w, "crawler/left_hand")); });

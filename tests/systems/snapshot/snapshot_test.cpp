@@ -70,13 +70,13 @@ TEST(Snapshot, KeepsEveryBitOfNumbers) {
     const Entity rock = find_by_id(crowd.world, persistent_id_from_name("rock"));
     const Vec3 odd(-0.0, std::numeric_limits<double>::denorm_min(), 0.1 + 0.2);
     crowd.world.body_velocity.at(rock).linear_mps = odd;
-    crowd.world.player_commands.rows()[0].snap_turns = std::numeric_limits<std::int32_t>::min();
+    crowd.world.player_commands.elements()[0].snap_turns = std::numeric_limits<std::int32_t>::min();
     crowd.world.clock.frame = std::numeric_limits<std::uint64_t>::max();
     World restored;
     ASSERT_FALSE(restore_snapshot(saved(crowd), SnapshotAssets(crowd.shapes), restored));
     EXPECT_EQ(hash_state(restored), hash_state(crowd.world));
     EXPECT_TRUE(std::signbit(restored.body_velocity.at(rock).linear_mps.x()));
-    EXPECT_EQ(restored.player_commands.rows()[0].snap_turns,
+    EXPECT_EQ(restored.player_commands.elements()[0].snap_turns,
               std::numeric_limits<std::int32_t>::min());
 }
 

@@ -9,32 +9,33 @@ namespace handhold {
 // Returns the index of a hand of `player` in the column, or the column's size if the player has no
 // hand. Searches from index `from` and wraps around at the end. A player's hands are usually
 // adjacent, so that a good `from` needs one or two steps.
-inline std::size_t find_hand_row(const Column<HandOwner>& owner, Entity player, std::size_t from) {
+inline std::size_t find_hand_index(const Column<HandOwner>& owner, Entity player,
+                                   std::size_t from) {
     const std::size_t count = owner.size();
     for (std::size_t step = 0; step < count; ++step) {
-        const std::size_t row = (from + step) % count;
-        if (owner.rows()[row].player == player) {
-            return row;
+        const std::size_t index = (from + step) % count;
+        if (owner.elements()[index].player == player) {
+            return index;
         }
     }
     return count;
 }
 
-// `row` is the index of a hand in `grab`. Returns the index of the same player's other hand;
+// `index` is the index of a hand in `grab`. Returns the index of the same player's other hand;
 // grab.size() if there is none.
 inline std::size_t find_other_hand(const Column<HandOwner>& owner, const Column<Grab>& grab,
-                                   std::size_t row) {
-    const std::size_t own = owner.find_row(grab.owners()[row]);
-    const Entity player = owner.rows()[own].player;
+                                   std::size_t index) {
+    const std::size_t own = owner.find_index(grab.owners()[index]);
+    const Entity player = owner.elements()[own].player;
     // The left hand usually comes just before the right hand.
     const std::size_t adjacent =
-        owner.rows()[own].side == HandSide::left ? own + 1 : own + owner.size() - 1;
-    std::size_t other = find_hand_row(owner, player, adjacent);
+        owner.elements()[own].side == HandSide::left ? own + 1 : own + owner.size() - 1;
+    std::size_t other = find_hand_index(owner, player, adjacent);
     if (other == own) {
-        other = find_hand_row(owner, player, own + 1);
+        other = find_hand_index(owner, player, own + 1);
     }
     const std::size_t found =
-        other == own ? Column<Grab>::k_npos : grab.find_row(owner.owners()[other]);
+        other == own ? Column<Grab>::k_npos : grab.find_index(owner.owners()[other]);
     return found == Column<Grab>::k_npos ? grab.size() : found;
 }
 
@@ -53,13 +54,13 @@ inline bool share_hold(const Grab& a, const Grab& b) {
     return both_fixed || (a.kind != GripKind::none && a.kind == b.kind && a.body == b.body);
 }
 
-// True if the hand at index `row` is the first of two hands on one body: the hand that closed
-// earlier, or the left hand if both closed at the same time.
-inline bool is_first_hand(const Column<HandOwner>& owner, const Column<Grab>& grab, std::size_t row,
-                          std::size_t other) {
-    const double difference_s = grab.rows()[row].since_s - grab.rows()[other].since_s;
+// True if the hand at `index` is the first of two hands on one body: the hand that closed earlier,
+// or the left hand if both closed at the same time.
+inline bool is_first_hand(const Column<HandOwner>& owner, const Column<Grab>& grab,
+                          std::size_t index, std::size_t other) {
+    const double difference_s = grab.elements()[index].since_s - grab.elements()[other].since_s;
     return difference_s != 0.0 ? difference_s < 0.0
-                               : owner.at(grab.owners()[row]).side == HandSide::left;
+                               : owner.at(grab.owners()[index]).side == HandSide::left;
 }
 
 }  // namespace handhold
