@@ -125,20 +125,6 @@ void visit_fields(const GripSurface& c, V&& visit) {
     visit("wrist_bs", c.wrist_bs);
     visit("surroundings_signature", c.surroundings_signature);
     visit("fitted_wrist_bs", c.fitted_wrist_bs);
-    visit("has_fitted_wrist", c.has_fitted_wrist);
-    visit("candidate_recheck_in_m", c.candidate_recheck_in_m);
-    visit("candidates", c.candidates);
-    visit("evaluated_count", c.evaluated_count);
-    visit("candidate_count", c.candidate_count);
-    visit("cost_m", c.cost_m);
-    visit("allows_backfaces", c.allows_backfaces);
-    visit("pending_finger_samples", c.pending_finger_samples);
-    visit("clearance_recheck_in_m", c.clearance_recheck_in_m);
-    visit("finger_samples", c.finger_samples);
-    visit("full_search_in_m", c.full_search_in_m);
-    visit("is_converged", c.is_converged);
-    visit("stationary_refine_frames", c.stationary_refine_frames);
-    visit("evaluated_this_frame", c.evaluated_this_frame);
 }
 template <typename V>
 void visit_fields(const PalmOffset& c, V&& visit) {
@@ -148,9 +134,6 @@ void visit_fields(const PalmOffset& c, V&& visit) {
     visit("target_turn_rad", c.target_turn_rad);
     visit("shown_m", c.shown_m);
     visit("shown_turn_rad", c.shown_turn_rad);
-    visit("solved_wrist_bs", c.solved_wrist_bs);
-    visit("solved_signature", c.solved_signature);
-    visit("solved_triangle", c.solved_triangle);
 }
 template <typename V>
 void visit_fields(const PalmPose& c, V&& visit) {

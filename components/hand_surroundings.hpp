@@ -56,7 +56,6 @@ struct GripSearchScratch {
     std::vector<Candidate> found;
     std::vector<Candidate> remaining;  // candidates of `found` that may still be listed
     std::vector<std::uint32_t> seen;
-    ChainPatch patch;
 };
 
 // Counters of one digit's searches and fits in one frame, for measuring tools and pictures. Not

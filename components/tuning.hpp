@@ -50,7 +50,6 @@ struct PalmTuning {
     double rotation_arm_m = 0.025;
     double backface_cost_m = 0.02;
     double reach_m = 0.12;
-    std::int32_t evaluations_per_frame = 1;
     double normal_radius_m = 0.03;
     double rate_mps = 0.25;
 };
@@ -208,8 +207,6 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "palm.");
     see("palm.reach_m", t.palm.reach_m, "m", 0.0, 1.0,
         "Distance from the palm beyond which surfaces are not searched.");
-    see("palm.evaluations_per_frame", t.palm.evaluations_per_frame, "", 1.0, 14.0,
-        "Maximum number of candidate surfaces fully evaluated per hand and frame, cheapest first.");
     see("palm.normal_radius_m", t.palm.normal_radius_m, "m", 1e-3, 0.2,
         "Radius around the palm's surface point over which the surface normal is averaged.");
     see("palm.rate_mps", t.palm.rate_mps, "m/s", 0.0, 1e6,

@@ -80,7 +80,6 @@ class ChainPatch::PenetrationSearch {
         const SegmentTriangle found = nearest_between(segment_, triangle.corners, triangle.normal);
         if (found.distance_m < nearest_m_) {
             nearest_m_ = found.distance_m;
-            nearest_ = found;
             update_limits();
             drop_far_candidates();
         }
@@ -90,15 +89,7 @@ class ChainPatch::PenetrationSearch {
         }
     }
 
-    CapsulePenetration found() const {
-        CapsulePenetration penetration = {radius_m_ - nearest_m_, nearest_m_, crossed_at_};
-        penetration.nearest_ds = nearest_.on_segment.head<2>();
-        if (nearest_.distance_m > 0.0) {
-            const Vec3 offset = nearest_.on_segment - nearest_.on_triangle;
-            penetration.away_ds = offset.head<2>() / nearest_.distance_m;
-        }
-        return penetration;
-    }
+    CapsulePenetration found() const { return {radius_m_ - nearest_m_, nearest_m_, crossed_at_}; }
 
   private:
     struct Candidate {
@@ -171,7 +162,6 @@ class ChainPatch::PenetrationSearch {
     double length_m_;
     double radius_m_;
     double nearest_m_;
-    SegmentTriangle nearest_;
     double rounding_margin_m_;
     std::optional<double> crossed_at_;
     // The axis and its search limits, each number repeated in all lanes.

@@ -30,11 +30,6 @@ struct CapsulePenetration {
     double nearest_m = 0.0;  // distance of the axis to the surface, at most the radius
     // Smallest fraction of the axis at which a surface crosses it; nullopt if no surface does.
     std::optional<double> crossed_at;
-    // Point on the axis nearest to the surface; zero if a surface crosses the axis.
-    Vec2 nearest_ds = Vec2::Zero();
-    // In-plane part of the unit direction from the surface to that point; zero if a surface crosses
-    // the axis.
-    Vec2 away_ds = Vec2::Zero();
 };
 
 // Works in disc space (_ds, disc_contact.hpp): the base's -Z and -Y axes, and as third axis -X,

@@ -89,7 +89,7 @@ double half_width_m(const HingeChain& chain, double plane_offset) {
 }
 
 ChainReach chain_reach(const HingeChain& chain, const ChainAngles& min_rad,
-                       const ChainAngles& max_rad, double extra_radius_m) {
+                       const ChainAngles& max_rad) {
     ChainReach reach = {chain.base, reach_m(chain), max_radius_m(chain)};
     ReachBox hinge = {Vec2::Zero(), Vec2::Zero()};
     std::array<double, 2> turn_rad = {};
@@ -99,9 +99,8 @@ ChainReach chain_reach(const HingeChain& chain, const ChainAngles& min_rad,
         const ReachBox link = arc_box(turn_rad[0], turn_rad[1]);
         const ReachBox next = {hinge.low + chain.length_m[i] * link.low,
                                hinge.high + chain.length_m[i] * link.high};
-        const double margin_m = chain.radius_m[i] + extra_radius_m;
-        reach.boxes[i].low = hinge.low.cwiseMin(next.low).array() - margin_m;
-        reach.boxes[i].high = hinge.high.cwiseMax(next.high).array() + margin_m;
+        reach.boxes[i].low = hinge.low.cwiseMin(next.low).array() - chain.radius_m[i];
+        reach.boxes[i].high = hinge.high.cwiseMax(next.high).array() + chain.radius_m[i];
         hinge = next;
     }
     reach.box_count = chain.link_count;
@@ -146,21 +145,16 @@ ChainDepth chain_depth(const HingeChain& chain, const ChainAngles& angle_rad, Ch
     const auto points_ds = chain_points_ds(chain, angle_rad);
     const std::size_t end = std::min<std::size_t>(chain.link_count, query.end);
     for (std::size_t i = query.first; i < end; ++i) {
-        const CapsulePenetration penetration = patch.find_penetration(
-            {points_ds[i], points_ds[i + 1]}, chain.radius_m[i] + query.extra_radius_m, i);
+        const CapsulePenetration penetration =
+            patch.find_penetration({points_ds[i], points_ds[i + 1]}, chain.radius_m[i], i);
         double depth_m = penetration.depth_m;
         if (penetration.crossed_at) {
+            deepest.is_crossed = true;
             depth_m += (1.0 - *penetration.crossed_at) * chain.length_m[i];
-            deepest.beyond_m[i] = (1.0 - *penetration.crossed_at) * chain.length_m[i];
             for (std::size_t rest = i + 1; rest < chain.link_count; ++rest) {
                 depth_m += chain.length_m[rest];
-                deepest.beyond_m[i] += chain.length_m[rest];
             }
         }
-        deepest.nearest_m[i] = penetration.nearest_m;
-        deepest.nearest_ds[i] = penetration.nearest_ds;
-        deepest.away_ds[i] = penetration.away_ds;
-        deepest.end = i + 1;
         if (depth_m > deepest.depth_m) {
             deepest.depth_m = depth_m;
             deepest.link = i;
@@ -196,23 +190,7 @@ const ChainDepths::FirstLink& ChainDepths::first_link(const ChainAngles& angle_r
     }
     const ChainDepth depth = chain_depth(chain_, angle_rad, patch_, {.end = 1});
     known_count_ = std::min(known_count_ + 1, known_.size());
-    return known_[known_count_ - 1] = {angle_rad[0], depth.depth_m, depth.beyond_m[0] > 0.0};
-}
-
-ChainDepth own_depth(const HingeChain& chain, const ChainDepth& thicker, std::size_t end) {
-    ChainDepth own = thicker;
-    own.depth_m = 0.0;
-    own.link = 0;
-    own.end = std::min(thicker.end, end);
-    for (std::size_t i = 0; i < own.end; ++i) {
-        const double depth_m =
-            std::max(0.0, chain.radius_m[i] - own.nearest_m[i]) + own.beyond_m[i];
-        if (depth_m > own.depth_m) {
-            own.depth_m = depth_m;
-            own.link = i;
-        }
-    }
-    return own;
+    return known_[known_count_ - 1] = {angle_rad[0], depth.depth_m, depth.is_crossed};
 }
 
 }  // namespace handhold

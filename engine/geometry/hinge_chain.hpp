@@ -51,10 +51,9 @@ double plane_offset_m(const HingeChain& chain, double plane_offset, std::size_t 
 double half_width_m(const HingeChain& chain, double plane_offset);
 
 // Region that the chain sweeps if each hinge takes all angles in [min_rad, max_rad]: one box per
-// link, grown by `extra_radius_m`. The half width is the largest link radius. Precondition:
-// min_rad[i] <= max_rad[i].
+// link. The half width is the largest link radius. Precondition: min_rad[i] <= max_rad[i].
 ChainReach chain_reach(const HingeChain& chain, const ChainAngles& min_rad,
-                       const ChainAngles& max_rad, double extra_radius_m = 0.0);
+                       const ChainAngles& max_rad);
 // Minimum and maximum of each hinge's angle.
 ChainAngles lowest(const ChainAngles& a, const ChainAngles& b);
 ChainAngles highest(const ChainAngles& a, const ChainAngles& b);
@@ -67,20 +66,10 @@ DiscChain flat_chain(const HingeChain& chain, double plane_offset);
 // chain comes out again.
 struct ChainDepth {
     double depth_m = 0.0;
-    std::size_t link = 0;
-    // Per queried link: distance from its axis to the nearest surface, at most the queried radius.
-    std::array<double, k_max_disc_links> nearest_m = {};
-    // Per queried link: length of the chain beyond a surface that crosses the link's axis; 0 if
-    // none does.
-    std::array<double, k_max_disc_links> beyond_m = {};
-    // Per queried link: the point on its axis that is nearest to a surface, and the in-plane part
-    // of the unit direction from the surface to that point (CapsulePenetration).
-    std::array<Vec2, k_max_disc_links> nearest_ds = {Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
-    std::array<Vec2, k_max_disc_links> away_ds = {Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
-    std::size_t end = 0;  // links from this one on were not queried
+    std::size_t link = 0;     // deepest link
+    bool is_crossed = false;  // a surface crosses the axis of a queried link
 };
 struct DepthQuery {
-    double extra_radius_m = 0.0;         // added to the radii of all links
     std::size_t first = 0;               // first link queried
     std::size_t end = k_max_disc_links;  // one past the last link queried
     // The query stops at a link that is at least this deep. The depth found may then be too small.
@@ -114,9 +103,5 @@ class ChainDepths {
     std::array<FirstLink, 5> known_;
     std::size_t known_count_ = 0;
 };
-
-// Converts the result of a query with extra radius to the chain's own radii, for the links before
-// `end`.
-ChainDepth own_depth(const HingeChain& chain, const ChainDepth& thicker, std::size_t end);
 
 }  // namespace handhold

@@ -32,9 +32,8 @@ FittedGrip fit_grip(const GripMesh& mesh, const HandRig& rig, const Pose& wrist_
     GripSearchScratch search;
     ChainFitScratch fit;
     StageStats stats;
-    search_grip({.dt_s = k_at_once_s, .hands = hands, .surface = surface, .scratch = search},
-                tuning, stats);
-    constrain_palms({.hands = hands, .surface = surface, .offset = offset}, tuning);
+    search_grip({.hands = hands, .surface = surface, .scratch = search}, tuning, stats);
+    constrain_palms({.hands = hands, .surface = surface, .offset = offset});
     sweep_fingers({.hands = hands,
                    .surface = surface,
                    .offset = offset,

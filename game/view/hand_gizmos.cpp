@@ -56,11 +56,8 @@ void add_search(const HandSurroundings& hand, const GripSurface& chosen, const T
     Column<GripSurface> surface;
     surface.add(hand.hand);
     StageStats stats;
-    search_grip({.dt_s = std::numeric_limits<double>::infinity(),
-                 .hands = std::span(&hand, 1),
-                 .surface = surface,
-                 .scratch = scratch},
-                tuning, stats);
+    search_grip({.hands = std::span(&hand, 1), .surface = surface, .scratch = scratch}, tuning,
+                stats);
     const SurfaceGraph& graph = hand.meshes.front().mesh->search;
     const Pose mesh_ws = hand.body_ws * hand.meshes.front().pose;
     const auto outline = [&](std::uint32_t triangle, const Color& color, double width_px) {

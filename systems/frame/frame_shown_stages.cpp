@@ -85,8 +85,7 @@ void gather_surroundings(const FrameContext& f) {
 void search_grip(const FrameContext& f) {
     const StageTimer timer(Stage::search_grip, f.stats);
     for_hand_slices(f, [&f](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
-        handhold::search_grip({.dt_s = f.dt_s(),
-                               .hands = hands_of(f, first, last),
+        handhold::search_grip({.hands = hands_of(f, first, last),
                                .surface = f.w.grip_surface,
                                .scratch = slice.search},
                               f.tuning, slice.stats);
@@ -97,9 +96,9 @@ void constrain_palms(const FrameContext& f) {
     const StageTimer timer(Stage::constrain_palms, f.stats);
     World& w = f.w;
     for_hand_slices(f, [&](HandScratch::Slice& /*slice*/, std::size_t first, std::size_t last) {
-        handhold::constrain_palms(
-            {.hands = hands_of(f, first, last), .surface = w.grip_surface, .offset = w.palm_offset},
-            f.tuning);
+        handhold::constrain_palms({.hands = hands_of(f, first, last),
+                                   .surface = w.grip_surface,
+                                   .offset = w.palm_offset});
     });
 }
 

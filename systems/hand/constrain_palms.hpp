@@ -4,7 +4,6 @@
 
 #include "components/hand.hpp"
 #include "components/hand_surroundings.hpp"
-#include "components/tuning.hpp"
 #include "engine/ecs/column.hpp"
 
 namespace handhold {
@@ -12,15 +11,15 @@ namespace handhold {
 struct ConstrainPalmsIo {
     std::span<const HandSurroundings> hands;  // in: body frame (_bs)
     const Column<GripSurface>& surface;       // in: body frame (_bs)
-    Column<PalmOffset>& offset;               // in/out: held_*, hand space, metres and radians
+    Column<PalmOffset>& offset;               // out: held_*, hand space, metres and radians
 };
 
 // Holds each gripping palm within its limits over the surface. Talk rows 16 and 18.
 //
 // The limits are PalmTuning::min_height_m, max_height_m and max_angle_rad, and no penetration of
-// the palm's capsules. PalmOffset::held_* is the smallest wrist correction that meets them
-// (shared/palm_fit.hpp), solved again whenever the hand moves, so that a hand can roll over an edge
-// while it grips. Fingers close from there, and fit_hands starts from there.
+// the palm's capsules. PalmOffset::held_* is the smallest wrist correction that meets them, which
+// search_grip found for the surface (shared/palm_fit.hpp). It stays where it is on the body until
+// the next search. Fingers close from there, and fit_hands starts from there.
 //
 // A palm in an authored grip is held at the authored wrist. Talk row 10.
 //
@@ -28,6 +27,6 @@ struct ConstrainPalmsIo {
 // held pose moves.
 //
 // Fallbacks counted: none. search_grip counts hands without a surface, which are shown as tracked.
-void constrain_palms(const ConstrainPalmsIo& io, const Tuning& tuning);
+void constrain_palms(const ConstrainPalmsIo& io);
 
 }  // namespace handhold

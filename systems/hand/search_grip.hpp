@@ -11,8 +11,9 @@
 
 namespace handhold {
 
+inline constexpr double k_search_again_m = 0.03;  // travel after which a hand searches again
+
 struct SearchGripIo {
-    double dt_s;  // in: length of the frame; infinity: all candidates are evaluated at once
     std::span<const HandSurroundings> hands;  // in: body frame (_bs)
     // In/out: last frame's result, then this frame's; body frame (_bs).
     Column<GripSurface>& surface;
@@ -23,18 +24,14 @@ struct SearchGripIo {
 // tracked pose ("sync") to fit. Talk rows 2, 11, 17.
 //
 // 1. Search (shared/surface_search.hpp): a best-first search over neighbouring triangles within
-//    PalmTuning::reach_m. Its seeds are the palm ray's hit, the nearest triangle and last frame's
-//    triangle. A triangle's closed-form cost is the palm's translation into the height limits plus
-//    PalmTuning::tilt_cost_m_per_rad times its rotation into the tilt limit.
+//    PalmTuning::reach_m. Its seeds are the palm ray's hit, the nearest triangle and the triangle
+//    of the last search. A triangle's closed-form cost is the palm's translation into the height
+//    limits plus PalmTuning::tilt_cost_m_per_rad times its rotation into the tilt limit.
 // 2. Evaluation (shared/surface_candidates.hpp): the palm is fitted to candidates in the order of
-//    their closed-form costs, until no other candidate can be better. The full cost is the movement
-//    of the fitted, depenetrated palm plus weighted penetration of palm and fingers. If fingers
-//    have no clearance, the candidate is evaluated again with them as part of the palm's collision
-//    shape.
+//    their closed-form costs, until no other candidate can be better.
 //
-// The work is spread over frames: PalmTuning::evaluations_per_frame evaluations in every second
-// frame. A chosen surface is followed for a few millimetres of travel before the next full search.
-// If a hand's wrist and surroundings are unchanged, its result is kept.
+// A hand searches when its grip begins, when its surroundings change, and after k_search_again_m of
+// travel (hand_travel_m). In other frames its surface is kept.
 //
 // A palm in an authored grip gets the nearest triangle, without a search. Talk row 10.
 //

@@ -256,33 +256,6 @@ class BreachFinder {
         }
     }
 
-    // Back-off distances and counters must be in the range that frames produce, so that no
-    // search is suspended forever.
-    void check_retries() {
-        constexpr double k_max_m = 1.0;
-        for (std::size_t index = 0; index < w_.grip_surface.size(); ++index) {
-            const GripSurface& surface = w_.grip_surface.elements()[index];
-            check(
-                surface.candidate_recheck_in_m >= 0.0 && surface.candidate_recheck_in_m <= k_max_m,
-                "grip_surface", w_.grip_surface.owners()[index], ".candidate_recheck_in_m",
-                "a distance in [0, 1] m");
-            check(
-                surface.clearance_recheck_in_m >= 0.0 && surface.clearance_recheck_in_m <= k_max_m,
-                "grip_surface", w_.grip_surface.owners()[index], ".clearance_recheck_in_m",
-                "a distance in [0, 1] m");
-            check(surface.full_search_in_m <= k_max_m, "grip_surface",
-                  w_.grip_surface.owners()[index], ".full_search_in_m",
-                  "a distance of at most 1 m");
-            check(surface.evaluated_count <= GripSurface::k_max_candidates, "grip_surface",
-                  w_.grip_surface.owners()[index], ".evaluated_count", "at most 14");
-            check(surface.candidate_count <= GripSurface::k_max_candidates &&
-                      (surface.candidate_count == 0 ||
-                       surface.candidate_count >= surface.evaluated_count),
-                  "grip_surface", w_.grip_surface.owners()[index], ".candidate_count",
-                  "0, or at least evaluated_count and at most 14");
-        }
-    }
-
     void check_hands() {
         require_both("hand_owner", w_.hand_owner, "hand_tracking", w_.hand_tracking);
         require_both("hand_owner", w_.hand_owner, "hand_history", w_.hand_history);
@@ -295,7 +268,6 @@ class BreachFinder {
         require("grab_layers", w_.grab_layers, "player", w_.player);
         require("early_samples", w_.early_samples, "player", w_.player);
         require("recenter_guess", w_.recenter_guess, "player", w_.player);
-        check_retries();
         for (std::size_t index = 0; index < w_.hand_tracking.size(); ++index) {
             const HandTracking& hand = w_.hand_tracking.elements()[index];
             const auto is_share = [](double share) { return share >= 0.0 && share <= 1.0; };

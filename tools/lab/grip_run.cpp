@@ -58,8 +58,8 @@ class OneHand {
     OneHand& operator=(const OneHand&) = delete;
 
     void run(const Tuning& tuning, const GripVariant& variant, GripTimes& us) {
-        timed(us.search_us, [&] { search(k_at_once_s, tuning, variant); });
-        timed(us.palm_us, [&] { constrain(tuning, variant); });
+        timed(us.search_us, [&] { search(tuning, variant); });
+        timed(us.palm_us, [&] { constrain(variant); });
         timed(us.fingers_us, [&] { close(tuning, variant); });
         timed(us.fit_us, [&] { fit(k_at_once_s, tuning, variant); });
     }
@@ -70,8 +70,8 @@ class OneHand {
         traces_.front() = {};
         double us = 0.0;
         timed(us, [&] {
-            search(k_frame_s, tuning, variant);
-            constrain(tuning, variant);
+            search(tuning, variant);
+            constrain(variant);
             close(tuning, variant);
             fit(k_frame_s, tuning, variant);
         });
@@ -93,40 +93,36 @@ class OneHand {
         sum_us += 1e-3 * static_cast<double>(stage_now_ns() - begin_ns);
     }
 
-    void search(double dt_s, const Tuning& tuning, const GripVariant& variant) {
+    void search(const Tuning& tuning, const GripVariant& variant) {
         if (variant.palm == PalmChoice::ray_only) {
-            choose_by_palm_ray(dt_s, tuning);
+            choose_by_palm_ray(tuning);
         } else {
-            search_grip({.dt_s = dt_s,
-                         .hands = surroundings_,
-                         .surface = surface_,
-                         .scratch = search_scratch_},
+            search_grip({.hands = surroundings_, .surface = surface_, .scratch = search_scratch_},
                         tuning, stats_);
         }
     }
-    // Chooses the surface that the palm ray hits. Keeps the last surface if the hand is at rest,
-    // like search_grip.
-    void choose_by_palm_ray(double dt_s, const Tuning& tuning) {
+    // Keeps the surface of a hand at rest, as search_grip does.
+    void choose_by_palm_ray(const Tuning& tuning) {
         const HandSurroundings& hand = surroundings_.front();
         GripSurface& surface = surface_.elements().front();
         if (has_surface() &&
             hand_travel_m(surface.wrist_bs, hand.wrist_bs) < tuning.finger.reuse_travel_m) {
             return;
         }
-        const PalmFitter fitter(hand, hand.wrist_bs, dt_s, tuning.palm);
+        const PalmFitter fitter(hand, hand.wrist_bs, tuning.palm);
         const PalmFrame& palm = fitter.palm();
         const auto hit = mesh_.search_bvh.cast_ray(
             palm.center + tuning.hand.ray_back_m * palm.up,
             palm.center - (tuning.hand.ray_length_m - tuning.hand.ray_back_m) * palm.up);
-        surface = hit ? fitter.surface_at({hit->triangle, hit->point, 0.0}) : GripSurface{};
+        surface = hit ? fitter.fit({hit->triangle, hit->point, 0.0}).surface : GripSurface{};
     }
     static bool is_fitted(const GripVariant& variant) {
         return variant.fingers == FingerMethod::fit && variant.sync;
     }
     bool has_surface() const { return surface_.elements().front().triangle != GripSurface::k_none; }
 
-    void constrain(const Tuning& tuning, const GripVariant& variant) {
-        constrain_palms({.hands = surroundings_, .surface = surface_, .offset = offset_}, tuning);
+    void constrain(const GripVariant& variant) {
+        constrain_palms({.hands = surroundings_, .surface = surface_, .offset = offset_});
         PalmOffset& offset = offset_.elements().front();
         if (!variant.sync) {
             offset.held_m = Vec3::Zero();

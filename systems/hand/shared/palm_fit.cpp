@@ -7,20 +7,18 @@
 #include <span>
 
 #include "engine/geometry/closest_point.hpp"
-#include "systems/hand/shared/finger_chain.hpp"
-#include "systems/hand/shared/finger_clearance.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold {
 namespace {
 
+constexpr int k_max_iterations = 6;
 constexpr int k_min_iterations = 2;  // iterations before a fit can be abandoned
 // Minimum of PalmTuning::rotation_arm_m: at 0 rotation would cost nothing.
 constexpr double k_min_arm_m = 1e-3;
 // Initial value of step_m, so that the fit does not count as converged.
 constexpr double k_first_step_m = 1.0;
 constexpr double k_penetration_slop_m = 5e-5;  // smaller penetrations are not corrected
-constexpr double k_query_margin_m = 0.003;     // widest gap that a query reports
 // Query radius: a sphere's centre deeper inside a solid is not found.
 constexpr double k_max_inside_m = 0.03;
 
@@ -119,15 +117,14 @@ void add_limits(const HandSurroundings& hand, const GripSurface& surface, const 
 // sides are swapped if the palm is fitted to a backface.
 class PalmSpheres {
   public:
-    // `was_clear`: the palm was clear a moment ago, so that no sphere can be deep inside a solid,
-    // and a small query radius suffices.
-    PalmSpheres(const HandSurroundings& hand, const GripSurface& surface, bool was_clear)
-        : hand_(hand), was_clear_(was_clear) {
+    PalmSpheres(const HandSurroundings& hand, const GripSurface& surface) : hand_(hand) {
         const PlacedMesh& placed = hand.meshes.front();
         const Vec3 wound = placed.pose.rotation * placed.mesh->search.normals[surface.triangle];
         side_ = wound.dot(surface.normal_bs) < 0.0 ? -1.0 : 1.0;
-        for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
-            add_finger(hand.rig->fingers[f], surface.finger_samples[f]);
+        for (const FingerRig& finger : hand.rig->fingers) {
+            if (finger.name != FingerName::thumb) {
+                add_open_finger(finger);
+            }
         }
     }
 
@@ -148,16 +145,12 @@ class PalmSpheres {
         }
         return deepest_m;
     }
-    // Largest penetration, at the last query(), of the fingers that are part of the palm's shape.
+    // Largest penetration of the open fingers at the last query().
     double finger_penetration_m() const { return finger_penetration_m_; }
 
   private:
-    void add_finger(const FingerRig& finger, std::uint8_t sample) {
-        const auto angles = sample_pose_angles(finger, sample);
-        if (!angles) {
-            return;
-        }
-        const auto points = finger_points(finger, *angles);
+    void add_open_finger(const FingerRig& finger) {
+        const auto points = finger_points(finger, {finger.lower_rad, 0.0});
         for (std::size_t i = 0; i < finger.link_count; ++i) {
             is_first_[link_count_] = i == 0;
             links_[link_count_++] = {points[i], points[i + 1], finger.radius_m[i]};
@@ -216,8 +209,7 @@ class PalmSpheres {
             return cached.has_point ? std::optional(gap_over(placed, sphere, cached.point))
                                     : std::nullopt;
         }
-        double query_radius_m = was_clear_ ? sphere.radius_m + k_query_margin_m
-                                           : std::max(sphere.radius_m, k_max_inside_m);
+        double query_radius_m = std::max(sphere.radius_m, k_max_inside_m);
         if (cached.has_point) {
             constexpr double k_rounding_m = 1e-9;
             query_radius_m =
@@ -266,9 +258,8 @@ class PalmSpheres {
     static constexpr std::size_t k_max_cached_queries = 96;
 
     const HandSurroundings& hand_;
-    bool was_clear_;
     double side_ = 1.0;
-    // Links of the fingers in a sample pose.
+    // Links of the open fingers.
     std::array<PalmCapsule, k_finger_count * k_max_links> links_;
     // True: the first link of its finger.
     std::array<bool, k_finger_count* k_max_links> is_first_ = {};
@@ -327,29 +318,17 @@ double size_of(const PalmMove& move, double arm_m) {
     return move.translation_m.norm() + arm_m * move.turn_rad.norm();
 }
 
-// True if further iterations would not improve the fit. A penetrating palm has converged when it no
-// longer moves. A clear palm has converged when it no longer moves or started without a correction;
-// otherwise a smaller correction may suffice.
-bool is_converged(double deepest_m, double step_m, bool is_corrected) {
+// True if further iterations would not improve the fit: the palm no longer moves. A clear palm has
+// converged earlier, because a smaller correction gains little.
+bool is_converged(double deepest_m, double step_m) {
     constexpr double k_stuck_m = 2e-5;
     constexpr double k_converged_m = 2e-4;
-    return deepest_m > k_penetration_slop_m ? step_m <= k_stuck_m
-                                            : !is_corrected || step_m <= k_converged_m;
+    return step_m <= (deepest_m > k_penetration_slop_m ? k_stuck_m : k_converged_m);
 }
 
 PalmMove move_between(const Pose& from, const Pose& to, const Vec3& center_hs) {
     return {transform_point(to, center_hs) - transform_point(from, center_hs),
             rotation_to_vector((to.rotation * from.rotation.conjugate()).normalized())};
-}
-
-// True if the palm was clear at `last` and cannot penetrate deeply now: travel and lift together
-// are less than its clearance recheck distance, the surroundings are unchanged, and the same
-// fingers are part of its shape.
-bool is_still_clear(const HandSurroundings& hand, const GripSurface& surface,
-                    const GripSurface& last) {
-    return last.clearance_recheck_in_m > hand_travel_m(last.wrist_bs, hand.wrist_bs) &&
-           last.surroundings_signature == hand.signature &&
-           last.finger_samples == surface.finger_samples;
 }
 
 Pose moved_by(const PalmMove& move, const Pose& wrist, const Vec3& center_hs) {
@@ -363,29 +342,23 @@ Pose moved_by(const PalmMove& move, const Pose& wrist, const Vec3& center_hs) {
 }  // namespace
 
 PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, const PalmTuning& tuning,
-                 const PalmFitSettings& settings) {
+                 double max_penetration_m) {
     const Vec3& center_hs = hand.rig->palm_center_hs;
     const double arm_m = std::max(k_min_arm_m, tuning.rotation_arm_m);
     const Pose held = clamp_to_limits(hand, hand.wrist_bs, surface, tuning);
-    PalmMove moved;
-    const bool is_warm_started = settings.last != nullptr && settings.last->has_fitted_wrist;
-    if (is_warm_started) {
-        const GripSurface& last = *settings.last;
-        moved = move_between(clamp_to_limits(hand, last.wrist_bs, last, tuning),
-                             last.fitted_wrist_bs, center_hs);
-    }
-    PalmSpheres palm(hand, surface,
-                     is_warm_started && is_still_clear(hand, surface, *settings.last));
+    PalmSpheres palm(hand, surface);
     PalmGaps gaps;
-    Pose wrist = moved_by(moved, held, center_hs);
+    PalmMove moved;
+    Pose wrist = held;
     PalmFit best = {wrist, palm.query(wrist, gaps), palm.finger_penetration_m()};
     double deepest_m = std::max(best.penetration_m, best.finger_penetration_m);
+    if (deepest_m <= k_penetration_slop_m) {
+        return best;
+    }
     double smallest_m = deepest_m;
     double step_m = k_first_step_m;
-    const bool is_corrected = size_of(moved, arm_m) > 0.0;
-    for (int i = 0; i < settings.max_iterations && !is_converged(deepest_m, step_m, is_corrected);
-         ++i) {
-        if (i >= k_min_iterations && smallest_m > settings.max_penetration_m) {
+    for (int i = 0; i < k_max_iterations && !is_converged(deepest_m, step_m); ++i) {
+        if (i >= k_min_iterations && smallest_m > max_penetration_m) {
             break;
         }
         // The limits are added last: the solver corrects them last, so that they hold.
@@ -401,11 +374,6 @@ PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, const
         moved = move_between(held, wrist, center_hs);
         step_m = size_of(
             {moved.translation_m - before.translation_m, moved.turn_rad - before.turn_rad}, arm_m);
-        // A step this short stays within the region that the last query covered.
-        if (!settings.verifies_last_step && i + 1 == settings.max_iterations &&
-            step_m <= k_query_margin_m) {
-            return {wrist, best.penetration_m, best.finger_penetration_m, false};
-        }
         gaps.clear();
         const double penetration_m = palm.query(wrist, gaps);
         deepest_m = std::max(penetration_m, palm.finger_penetration_m());
@@ -414,7 +382,6 @@ PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, const
             best = {wrist, penetration_m, palm.finger_penetration_m()};
         }
     }
-    best.is_converged = is_converged(deepest_m, step_m, is_corrected);
     return best;
 }
 

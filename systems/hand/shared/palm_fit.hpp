@@ -7,27 +7,14 @@
 #include "components/tuning.hpp"
 
 // Fits a palm to a surface: applies its height and tilt limits and depenetrates it. search_grip
-// uses it to evaluate candidates, constrain_palms to find the target. Talk row 16.
+// evaluates candidates with it. Talk row 16.
 namespace handhold {
 
 struct PalmFit {
     Pose wrist_bs;  // fitted wrist: within the limits, and depenetrated as far as possible
     double penetration_m = 0.0;  // remaining penetration of the palm; at least 0
-    // Remaining penetration of the fingers in the palm's collision shape.
+    // Remaining penetration of the open fingers; at least 0.
     double finger_penetration_m = 0.0;
-    bool is_converged = true;  // false: more iterations would move the wrist
-};
-
-struct PalmFitSettings {
-    // Warm start: starts with the correction that was found for this surface of the same hand, from
-    // the last frame or from this frame before the lift. Null: cold start.
-    const GripSurface* last = nullptr;
-    int max_iterations = 6;
-    // A fit that penetrates deeper than this after 2 iterations is abandoned.
-    double max_penetration_m = std::numeric_limits<double>::infinity();
-    // False: does not query penetrations after the last step if that step is short. The depths in
-    // the result are then those before the step, and is_converged is false.
-    bool verifies_last_step = true;
 };
 
 // Finds the smallest correction of the tracked wrist that brings the palm within its limits over
@@ -41,9 +28,10 @@ struct PalmFitSettings {
 //    PalmTuning::rotation_arm_m. gap_i is the distance of one of the palm's spheres from a surface,
 //    or the margin to one of the limits; a_i and b_i are its derivatives by t and r.
 //
-// Fingers with a sample pose in surface.finger_samples are part of the palm's collision shape.
-// Precondition: the hand has meshes, and `surface` is on the first mesh.
+// Open fingers, without the thumb, are part of the palm's collision shape: a finger that closes
+// starts there. A fit that penetrates deeper than `max_penetration_m` after 2 iterations is
+// abandoned. Precondition: the hand has meshes, and `surface` is on the first mesh.
 PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, const PalmTuning& tuning,
-                 const PalmFitSettings& settings = {});
+                 double max_penetration_m = std::numeric_limits<double>::infinity());
 
 }  // namespace handhold

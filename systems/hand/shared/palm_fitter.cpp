@@ -6,12 +6,11 @@
 
 #include "components/authored_grip.hpp"
 #include "systems/rigs/authored_hand.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold {
 namespace {
 
-// Few, because a followed palm converges over several frames.
-constexpr int k_refine_iterations = 1;
 constexpr double k_crossing_m = 1e-6;  // surfaces closer together than this count as one crossing
 
 PalmFrame palm_in(const Pose& frame, const HandRig& rig, const Pose& wrist_bs) {
@@ -46,15 +45,11 @@ int crossing_sign(const GripMesh& mesh, const Vec3& point, const Vec3& direction
 
 }  // namespace
 
-PalmFitter::PalmFitter(const HandSurroundings& hand, const Pose& wrist_bs, double dt_s,
-                       const PalmTuning& tuning)
+PalmFitter::PalmFitter(const HandSurroundings& hand, const Pose& wrist_bs, const PalmTuning& tuning)
     : hand_(hand),
       placed_(hand.meshes.front()),
       palm_(palm_in(placed_.pose, *hand.rig, wrist_bs)),
-      dt_s_(dt_s),
       tuning_(tuning) {}
-
-bool PalmFitter::is_unbudgeted() const { return std::isinf(dt_s_); }
 
 GripSurface PalmFitter::surface_at(const Candidate& candidate) const {
     const GripMesh& mesh = *placed_.mesh;
@@ -70,70 +65,17 @@ GripSurface PalmFitter::surface_at(const Candidate& candidate) const {
     surface.surroundings_signature = hand_.signature;
     surface.triangle = candidate.triangle;
     surface.point_bs = transform_point(placed_.pose, point);
-    const Vec3 own_bs = placed_.pose.rotation * Vec3(side * winding_normal);
-    if (reused_normal_bs_ && reused_normal_bs_->dot(own_bs) > k_reused_normal_cosine) {
-        surface.normal_bs = *reused_normal_bs_;
-    } else {
-        surface.normal_bs = placed_.pose.rotation *
-                            Vec3(side * mean_normal(mesh, point, winding_normal, side * palm_.up,
-                                                    tuning_.normal_radius_m));
-    }
+    surface.normal_bs =
+        placed_.pose.rotation * Vec3(side * mean_normal(mesh, point, winding_normal,
+                                                        side * palm_.up, tuning_.normal_radius_m));
     return surface;
 }
 
-PalmFitter::Candidate PalmFitter::candidate_at(std::uint32_t triangle) const {
-    const SurfaceGraph& graph = placed_.mesh->search;
-    const auto known = std::min<std::size_t>(triangle, graph.triangles.size() - 1);
-    triangle = static_cast<std::uint32_t>(known);
-    const PalmCost cost = cost_of(graph, triangle, palm_, tuning_);
-    return {triangle, cost.point, cost.cost_m};
-}
-
-FittedPalm PalmFitter::refine_at(const Candidate& candidate, const GripSurface& last) {
-    PalmFitSettings settings{.last = &last};
-    if (!is_unbudgeted()) {
-        settings.max_iterations = k_refine_iterations;
-    }
-    return fit_at(candidate, last.finger_samples, settings);
-}
-
-GripSurface PalmFitter::refine_unchecked(const Candidate& candidate,
-                                         const GripSurface& last) const {
-    PalmFitSettings settings{.last = &last};
-    if (!is_unbudgeted()) {
-        settings.max_iterations = k_refine_iterations;
-        settings.verifies_last_step = false;
-    }
-    return fit_uncached(candidate, last.finger_samples, settings).surface;
-}
-
-FittedPalm PalmFitter::fit_at(const Candidate& candidate, const FingerSamplePoses& finger_samples,
-                              const PalmFitSettings& settings) {
-    for (std::size_t i = 0; i < cache_count_; ++i) {
-        const GripSurface& known = cache_[i].surface;
-        if (known.triangle == candidate.triangle && known.finger_samples == finger_samples &&
-            cache_[i].is_warm_started == (settings.last != nullptr)) {
-            return cache_[i];
-        }
-    }
-    FittedPalm held = fit_uncached(candidate, finger_samples, settings);
-    if (cache_count_ < cache_.size()) {
-        cache_[cache_count_++] = held;
-    }
-    return held;
-}
-
-FittedPalm PalmFitter::fit_uncached(const Candidate& candidate,
-                                    const FingerSamplePoses& finger_samples,
-                                    const PalmFitSettings& settings) const {
+FittedPalm PalmFitter::fit(const Candidate& candidate, double max_penetration_m) const {
     FittedPalm held;
-    held.is_warm_started = settings.last != nullptr;
     held.surface = surface_at(candidate);
-    held.surface.finger_samples = finger_samples;
-    const PalmFit fit = fit_palm(hand_, held.surface, tuning_, settings);
+    const PalmFit fit = fit_palm(hand_, held.surface, tuning_, max_penetration_m);
     held.surface.fitted_wrist_bs = fit.wrist_bs;
-    held.surface.has_fitted_wrist = true;
-    held.surface.is_converged = fit.is_converged;
     held.penetration_m = fit.penetration_m;
     held.finger_penetration_m = fit.finger_penetration_m;
     const GripSync sync = grip_sync(hand_.wrist_bs, fit.wrist_bs, hand_.rig->palm_center_hs);
@@ -177,30 +119,41 @@ bool PalmFitter::enters_solid(const FittedPalm& held) const {
 
 double PalmFitter::crossing_depth_m(const FittedPalm& held) const {
     double deepest_m = 0.0;
-    for (const PlacedMesh& placed : hand_.meshes) {
-        const TriangleBvh& bvh = placed.mesh->contact_bvh;
-        const Pose wrist = inverse(placed.pose) * held.surface.fitted_wrist_bs;
-        for (const PalmCapsule& capsule : hand_.rig->palm) {
-            const Vec3 a = transform_point(wrist, capsule.a_hs);
-            const Vec3 b = transform_point(wrist, capsule.b_hs);
-            const auto from_a = bvh.cast_ray(a, b);
-            const auto from_b = from_a ? bvh.cast_ray(b, a) : std::nullopt;
-            for (const auto& hit : {from_a, from_b}) {
-                if (hit) {
-                    const double end_m = std::min((hit->point - a).norm(), (hit->point - b).norm());
-                    deepest_m = std::max(deepest_m, capsule.radius_m + end_m);
-                }
-            }
+    for (const PalmCapsule& capsule : hand_.rig->palm) {
+        deepest_m = std::max(deepest_m, crossing_depth_of(capsule, held.surface.fitted_wrist_bs));
+    }
+    return deepest_m;
+}
+
+double PalmFitter::finger_crossing_depth_m(const FittedPalm& held) const {
+    double deepest_m = 0.0;
+    for (const FingerRig& finger : hand_.rig->fingers) {
+        const auto points = finger_points(finger, coupled_angles(finger, 0.0));
+        for (std::size_t i = 0; finger.name != FingerName::thumb && i < finger.link_count; ++i) {
+            const PalmCapsule link = {points[i], points[i + 1], finger.radius_m[i]};
+            deepest_m = std::max(deepest_m, crossing_depth_of(link, held.surface.fitted_wrist_bs));
         }
     }
     return deepest_m;
 }
 
-bool PalmFitter::is_near_last(const Candidate& candidate, const GripSurface& last) const {
-    const SurfaceGraph& graph = placed_.mesh->search;
-    return is_duplicate_place(candidate.point, graph.normals[candidate.triangle],
-                              inverse_transform_point(placed_.pose, last.point_bs),
-                              graph.normals[last.triangle]);
+double PalmFitter::crossing_depth_of(const PalmCapsule& capsule, const Pose& wrist_bs) const {
+    double deepest_m = 0.0;
+    for (const PlacedMesh& placed : hand_.meshes) {
+        const TriangleBvh& bvh = placed.mesh->contact_bvh;
+        const Pose wrist = inverse(placed.pose) * wrist_bs;
+        const Vec3 a = transform_point(wrist, capsule.a_hs);
+        const Vec3 b = transform_point(wrist, capsule.b_hs);
+        const auto from_a = bvh.cast_ray(a, b);
+        const auto from_b = from_a ? bvh.cast_ray(b, a) : std::nullopt;
+        for (const auto& hit : {from_a, from_b}) {
+            if (hit) {
+                const double end_m = std::min((hit->point - a).norm(), (hit->point - b).norm());
+                deepest_m = std::max(deepest_m, capsule.radius_m + end_m);
+            }
+        }
+    }
+    return deepest_m;
 }
 
 std::optional<PalmFitter::Candidate> PalmFitter::candidate_near_last(

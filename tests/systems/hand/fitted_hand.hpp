@@ -62,13 +62,12 @@ struct FittedHand {
     FittedHand(const FittedHand&) = delete;
     FittedHand& operator=(const FittedHand&) = delete;
 
-    void search(double dt_s = k_unbudgeted_s) {
-        search_grip({.dt_s = dt_s, .hands = hands, .surface = surface, .scratch = search_scratch},
-                    tuning, stats);
+    void search() {
+        search_grip({.hands = hands, .surface = surface, .scratch = search_scratch}, tuning, stats);
     }
     // Shows the palm where it is held, until fit() shows the fitted one.
     void constrain() {
-        constrain_palms({.hands = hands, .surface = surface, .offset = offset}, tuning);
+        constrain_palms({.hands = hands, .surface = surface, .offset = offset});
         palm.at(k_right).pose_ws =
             hands.front().body_ws * held_wrist_bs(hands.front(), offset.at(k_right));
     }
@@ -92,7 +91,7 @@ struct FittedHand {
                   tuning, stats);
     }
     void frame(double dt_s) {
-        search(dt_s);
+        search();
         constrain();
         sweep();
         fit(dt_s);

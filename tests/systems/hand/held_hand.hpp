@@ -4,7 +4,6 @@
 #include "engine/geometry/closest_point.hpp"
 #include "fitted_hand.hpp"
 #include "systems/hand/shared/finger_chain.hpp"
-#include "systems/hand/shared/finger_clearance.hpp"
 #include "systems/hand/shared/palm_fit.hpp"
 
 namespace handhold::search_grip_test {
@@ -14,9 +13,8 @@ using test::k_right;
 using test::Random;
 using test::wrist_with_palm_at;
 
-// Penetration of the palm fitted by search_grip. Oracle: find_penetration, which has its own tests.
-inline double palm_penetration_m(FittedHand& hand) {
-    const Pose& wrist_bs = hand.surface.at(k_right).fitted_wrist_bs;
+// Penetration of the palm. Oracle: find_penetration, which has its own tests.
+inline double palm_penetration_m(const FittedHand& hand, const Pose& wrist_bs) {
     double deepest_m = 0.0;
     for (const PalmCapsule& palm : hand.rig.palm) {
         const Capsule capsule = {
@@ -28,19 +26,36 @@ inline double palm_penetration_m(FittedHand& hand) {
     return deepest_m;
 }
 
-// True if a surface crosses the axis of a finger that is part of the palm's collision shape.
-inline bool is_finger_crossed(FittedHand& hand) {
-    const GripSurface& surface = hand.surface.at(k_right);
-    for (std::size_t f = 0; f < hand.rig.fingers.size(); ++f) {
-        const FingerRig& finger = hand.rig.fingers[f];
-        const auto bent = sample_pose_angles(finger, surface.finger_samples[f]);
-        if (!bent) {
+// Penetration of the palm fitted by search_grip.
+inline double palm_penetration_m(const FittedHand& hand) {
+    return palm_penetration_m(hand, hand.surface.at(k_right).fitted_wrist_bs);
+}
+
+// Penetration of the open fingers, without the thumb.
+inline double finger_penetration_m(const FittedHand& hand, const Pose& wrist_bs) {
+    double deepest_m = 0.0;
+    for (const FingerRig& finger : hand.rig.fingers) {
+        if (finger.name == FingerName::thumb) {
             continue;
         }
-        const HingeChain chain =
-            finger_chain(finger, bent->opposition_rad, surface.fitted_wrist_bs);
-        const auto links = chain_capsules(chain, bent->curl_rad);
-        for (std::size_t i = 0; i < chain.link_count; ++i) {
+        const auto links = chain_capsules(finger_chain(finger, 0.0, wrist_bs), finger.lower_rad);
+        for (std::size_t i = 0; i < finger.link_count; ++i) {
+            deepest_m =
+                std::max(deepest_m, find_penetration(links[i], hand.hands.front().meshes).depth_m);
+        }
+    }
+    return deepest_m;
+}
+
+// True if a surface crosses the axis of a shown digit.
+inline bool is_digit_crossed(FittedHand& hand) {
+    const Pose wrist_bs = hand.shown_bs();
+    for (std::size_t f = 0; f < hand.rig.fingers.size(); ++f) {
+        const FingerRig& finger = hand.rig.fingers[f];
+        const FingerAngles& angles = hand.pose().shown[f];
+        const auto links =
+            chain_capsules(finger_chain(finger, angles.opposition_rad, wrist_bs), angles.curl_rad);
+        for (std::size_t i = 0; i < finger.link_count; ++i) {
             if (find_penetration(links[i], hand.hands.front().meshes).crossed_at) {
                 return true;
             }

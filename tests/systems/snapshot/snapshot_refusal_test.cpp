@@ -212,22 +212,6 @@ TEST_F(SnapshotRefuses, RowsWithoutTheirCounterparts) {
         w.arm_memory.elements()[0].looks_ps[1] = Vec3::Zero();
     });
     break_world("calibration[", [](World& w) { w.calibration.elements()[0].held_s = 0.5; });
-    break_world("].candidate_recheck_in_m",
-                [](World& w) { w.grip_surface.elements()[0].candidate_recheck_in_m = 1e9; });
-    break_world("].clearance_recheck_in_m",
-                [](World& w) { w.grip_surface.elements()[0].clearance_recheck_in_m = -1.0; });
-    break_world("].full_search_in_m",
-                [](World& w) { w.grip_surface.elements()[0].full_search_in_m = 1e9; });
-    break_world("].evaluated_count", [](World& w) {
-        w.grip_surface.elements()[0].evaluated_count = GripSurface::k_max_candidates + 1;
-    });
-    break_world("].candidate_count", [](World& w) {
-        w.grip_surface.elements()[0].candidate_count = GripSurface::k_max_candidates + 1;
-    });
-    break_world("].candidate_count", [](World& w) {
-        w.grip_surface.elements()[0].evaluated_count = 3;
-        w.grip_surface.elements()[0].candidate_count = 2;
-    });
     break_world("squeeze and trigger in [0, 1]",
                 [](World& w) { w.hand_tracking.elements()[0].trigger = 2.0; });
     break_world("].push_off_weight",
