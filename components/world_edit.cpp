@@ -101,9 +101,6 @@ void forget_fits(World& world) {
     for (std::size_t index = 0; index < world.grip_surface.size(); ++index) {
         const Entity hand = world.grip_surface.owners()[index];
         world.grip_surface.elements()[index] = {};
-        PalmOffset& offset = world.palm_offset.at(hand);
-        offset.solved_signature = 0;
-        offset.solved_triangle = GripSurface::k_none;
         FingerPose& fingers = world.finger_pose.at(hand);
         fingers.closed_body = fingers.fitted_body = k_no_entity;
         fingers.fitted_signature = 0;
