@@ -89,7 +89,7 @@ namespace Handhold {
             if (dt_s > 0.0) {
                 world.Step(dt_s, inputs);
             } else {
-                world.StepPoseOnly(Time.unscaledDeltaTime, inputs);
+                world.StepPoseOnly(Math.Max(1e-3, Time.unscaledDeltaTime), inputs);
             }
             foreach (HandholdBody body in bodies) {
                 body.AfterStep();

@@ -1300,7 +1300,6 @@ class WorldCalls:
     """Every function of a world, as a method. Calls that fail raise HandholdError and change nothing."""
 
     _handle = None
-    _kept = {}  # replaced by a dictionary of each world: structs whose functions the library may call
 
     def step(self, dt_s, inputs):
         """Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players without
