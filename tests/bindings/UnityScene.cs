@@ -129,7 +129,9 @@ internal static class UnityScene {
     }
 
     private static int Main() {
-        HandsPullTheRig();
+        using (new World()) {
+            HandsPullTheRig();
+        }
         ShapesAreThoseOfTheColliders();
         return 0;
     }

@@ -101,6 +101,8 @@ test('a world is not destroyed inside its own query', () => {
     world.setSurfaceQuery({ closest_point: () => world.destroy() });
     assert.throws(() => world.step(1 / 90), (error) => error instanceof HandholdError && error.result === HH_ERROR_STATE);
     assert.equal(destroyed, 0);
+    world.setSurfaceQuery({ closest_point: () => true });
+    assert.throws(() => world.step(1 / 90), TypeError);
     world.setSurfaceQuery();
     assert.equal(query, 0);
     world.destroy();

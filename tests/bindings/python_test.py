@@ -1,6 +1,8 @@
 """What the Python binding offers beside the two scenes: errors, lists, texts, meshes, snapshots, and conversions from numpy."""
 import gc
+import os
 import unittest
+from unittest import mock
 
 import numpy as np
 
@@ -155,6 +157,11 @@ class Binding(unittest.TestCase):
         self.assertTrue(self.world.body_is_valid(self.world.body_add()))
         with self.assertRaises(TypeError):
             self.world.player_set_measures(self.world.player_add())
+
+    def test_libraries_of_another_minor_version_are_refused(self):
+        for minor in (hh.HANDHOLD_VERSION_MINOR - 1, hh.HANDHOLD_VERSION_MINOR + 1):
+            with mock.patch.object(hh._generated, "HANDHOLD_VERSION_MINOR", minor), self.assertRaises(ImportError):
+                hh.load(os.environ["HANDHOLD_LIBRARY"])
 
     def test_rows_are_structs_of_one_type_of_number_only(self):
         body = self.world.body_add()

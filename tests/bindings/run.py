@@ -111,6 +111,11 @@ def check_csharp(library: Path, work: Path) -> None:
     print(run("mono", work / "Lifetimes.exe", "without", env=dict(os.environ, LD_LIBRARY_PATH="")).strip())
     package = work / "unity"
     run(sys.executable, "-B", SOURCE / "packaging/assemble.py", "unity", package, "--library", library)
+    # Unity ignores files without a .meta file, and finds scripts by its GUID.
+    files = [path for path in package.rglob("*") if path.suffix != ".meta" and "Samples~" not in path.parts]
+    guids = {path.with_name(path.name + ".meta").read_text(encoding="utf-8").splitlines()[1] for path in files}
+    if len(guids) != len(files) or not any(package.glob("Runtime/Plugins/*/libhandhold.so")):
+        raise SystemExit("a GUID is there twice, or the library is not in the folder of its platform")
     # Scripts use Unity's and System's namespaces too: no public name may be ambiguous.
     names = {name for source in package.glob("Runtime/**/*.cs")
              for name in re.findall(r"^    public (?:\w+ )*(?:class|struct|enum|interface|delegate [\w*]+) (\w+)", source.read_text(encoding="utf-8"), re.MULTILINE)}

@@ -187,8 +187,7 @@ class Python:
         for one in (f for f in d.functions if not self_of(f) and not is_raw_only(f)):
             self.wrapper(one)
         self.lines += ["", "", "class WorldCalls:", '    """Every function of a world, as a method. Calls that fail raise HandholdError and change nothing."""',
-                       "", "    _handle = None",
-                       "    _kept = {}  # replaced by a dictionary of each world: structs whose functions the library may call"]
+                       "", "    _handle = None"]
         for one in (f for f in d.functions if self_of(f) == "hh_world" and not is_raw_only(f)):
             self.wrapper(one)
         return "\n".join(self.lines) + "\n"

@@ -300,6 +300,9 @@ class Functions {
         if (out === undefined || answer === null || answer === undefined) {
             return Number(out === undefined && returns !== 'void' ? answer : 0);
         }
+        if (typeof answer !== 'object') {
+            throw new TypeError(`a query returns ${out.kind} or null`);
+        }
         m.write(out.kind, out.at, answer);
         return 1;
     }

@@ -27,13 +27,20 @@ namespace Handhold {
 
         private World Make() {
             if (worlds == 0) {
-                Library.SetLog(Log);
+                Hear(Log);
             }
             WorldDef def = WorldDef.Default();
             def.gravity_mps2 = UnityConvert.FromUnity(gravity);
             World made = new World(def);
             ++worlds;
             return made;
+        }
+        private static void Hear(Action<LogLevel, string> log) {
+            try {
+                Library.SetLog(log);
+            } catch (HandholdException) {
+                // The script has a world of its own: hooks stay as they are.
+            }
         }
         private static void Log(LogLevel level, string text) {
             if (level == LogLevel.Error) {
@@ -48,7 +55,7 @@ namespace Handhold {
             }
             world.Dispose();
             if (--worlds == 0) {
-                Library.SetLog(null);
+                Hear(null);
             }
         }
 
@@ -89,7 +96,7 @@ namespace Handhold {
             if (dt_s > 0.0) {
                 world.Step(dt_s, inputs);
             } else {
-                world.StepPoseOnly(Time.unscaledDeltaTime, inputs);
+                world.StepPoseOnly(Math.Max(1e-3, Time.unscaledDeltaTime), inputs);
             }
             foreach (HandholdBody body in bodies) {
                 body.AfterStep();

@@ -1307,12 +1307,11 @@ class WorldCalls:
     """Every function of a world, as a method. Calls that fail raise HandholdError and change nothing."""
 
     _handle = None
-    _kept = {}  # replaced by a dictionary of each world: structs whose functions the library may call
 
     def step(self, dt_s, inputs):
         """Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players without
         one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are
-        clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs all the time, and up to 2 ms in the
+        clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs all the time, and up to 4 ms in the
         frame in which a hand closes: docs/guide/cost.md."""
         inputs, input_count_ = array(PlayerInput, inputs)
         check(lib().hh_world_step(self._handle, dt_s, inputs, input_count_))

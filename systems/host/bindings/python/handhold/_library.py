@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 
 _loaded = None
-HH_ERROR_STATE = 6
 
 
 class HandholdError(Exception):
@@ -72,8 +71,9 @@ def guarded(work):
 
 
 def refuse_in_callback(what: str) -> None:
+    from . import _generated
     if _callbacks.running:
-        raise HandholdError(HH_ERROR_STATE, f"HH_ERROR_STATE: {what} inside a callback")
+        raise HandholdError(_generated.HH_ERROR_STATE, f"HH_ERROR_STATE: {what} inside a callback")
 
 
 def check(result: int) -> None:
