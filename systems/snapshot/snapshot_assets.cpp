@@ -36,11 +36,13 @@ std::uint64_t hash_of(const Mesh& mesh) {
 
 class ShapeHasher {
   public:
-    // Hash of a shape's content and of its frame in the host's; never 0.
-    std::uint64_t digest_of(const Shape& shape, const Pose& frame) {
+    // Hash of a shape's content, of its frame in the host's, and of whether it is a head's; never
+    // 0.
+    std::uint64_t digest_of(const Shape& shape, const Pose& frame, bool is_head) {
         HashStream stream;
         add_shape(shape, stream);
         add(stream, frame);
+        stream.add(std::uint64_t{is_head ? 1U : 0U});
         return std::max<std::uint64_t>(stream.value(), 1);
     }
 
@@ -89,9 +91,11 @@ SnapshotAssets::SnapshotAssets(const ShapeLibrary& shapes, std::string_view scen
     ShapeHasher hasher;
     for (std::uint32_t i = 0; i < shapes.size(); ++i) {
         const Pose frame = i < host.frames.size() ? host.frames[i] : Pose{};
-        digests_.push_back(shapes.has({i}) ? hasher.digest_of(shapes.at({i}), frame) : 0);
+        const bool is_a_head = std::ranges::find(heads_, ShapeId{i}) != heads_.end();
+        digests_.push_back(shapes.has({i}) ? hasher.digest_of(shapes.at({i}), frame, is_a_head)
+                                           : 0);
         stream.add(digests_.back());  // 0 too: the hash depends on the ids
-        if (digests_.back() != 0 && std::ranges::find(heads_, ShapeId{i}) == heads_.end()) {
+        if (digests_.back() != 0) {
             by_digest_.emplace_back(digests_.back(), i);
         }
     }
