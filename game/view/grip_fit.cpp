@@ -30,6 +30,7 @@ FittedGrip fit_grip(const GripMesh& mesh, const HandRig& rig, const Pose& wrist_
     const std::vector<HandSurroundings> hands = {{.hand = hand,
                                                   .body = body,
                                                   .rig = &rig,
+                                                  .body_ws = {},
                                                   .wrist_bs = wrist_bs,
                                                   .meshes = {{&mesh, {}}},
                                                   .signature = 1,

@@ -55,6 +55,7 @@ class OneHand {
         surroundings_.push_back({.hand = hand,
                                  .body = body,
                                  .rig = &rig_,
+                                 .body_ws = {},
                                  .wrist_bs = wrist,
                                  .meshes = {{&mesh, {}}},
                                  .signature = 1,

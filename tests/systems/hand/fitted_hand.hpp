@@ -60,6 +60,7 @@ struct FittedHand {
         hands.push_back({.hand = k_right,
                          .body = k_wall,
                          .rig = &rig,
+                         .body_ws = {},
                          .wrist_bs = wrist_bs,
                          .meshes = {{&mesh, {}}},
                          .signature = 1,
