@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "components/tracking.hpp"
@@ -16,11 +17,28 @@ struct BodyMeasures {
     static constexpr double k_min_m = 0.05;
     static constexpr double k_max_m = 5.0;
 
-    double eye_height_m = 1.62;  // standing; all lengths are in [k_min_m, k_max_m]
+    // All lengths are in [k_min_m, k_max_m] times PlayerOrigin::scale.
+    double eye_height_m = 1.62;  // standing
     double shoulder_width_m = 0.38;
     double upper_arm_m = 0.30;
     double forearm_m = 0.28;  // distance from elbow to wrist
 };
+
+inline BodyMeasures scaled(const BodyMeasures& measures, double scale) {
+    return {scale * measures.eye_height_m, scale * measures.shoulder_width_m,
+            scale * measures.upper_arm_m, scale * measures.forearm_m};
+}
+
+// True if a player of that scale may have these measures.
+inline bool are_measures(const BodyMeasures& measures, double scale) {
+    const auto [shortest_m, longest_m] =
+        std::minmax({measures.eye_height_m, measures.shoulder_width_m, measures.upper_arm_m,
+                     measures.forearm_m});
+    // A measure at the end of the range may be rounded past it when it is scaled.
+    constexpr double k_rounding = 1e-12;
+    return shortest_m >= (1.0 - k_rounding) * scale * BodyMeasures::k_min_m &&
+           longest_m <= (1.0 + k_rounding) * scale * BodyMeasures::k_max_m;
+}
 
 // Displacement of the chest from where the head alone would place it.
 struct ChestOffset {

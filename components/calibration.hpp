@@ -5,7 +5,8 @@
 namespace handhold {
 
 // Accepted measures of a T-pose or A-pose: height of the eyes above the floor, and arm span
-// (distance between the wrists with the arms held level).
+// (distance between the wrists with the arms held level). In the player's metres, as all lengths of
+// a calibration: those of the world over PlayerOrigin::scale.
 struct TPoseRange {
     static constexpr double k_min_eyes_m = 0.3;
     static constexpr double k_max_eyes_m = 2.6;

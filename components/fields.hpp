@@ -10,7 +10,8 @@
 // visit_fields(component, visit) calls visit("name", field) for every field of a component. State
 // hashes, snapshots and the inspector use it. Components are never copied or hashed as bytes:
 // Eigen's types have padding and are not trivially copyable. A test checks that every field is
-// visited.
+// visited. An array of which only the first elements are used is visited as a span of those, after
+// their number.
 //
 // Field names are part of the snapshot schema: raise k_format_version in
 // systems/snapshot/snapshot.cpp if they change.

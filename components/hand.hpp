@@ -16,6 +16,8 @@
 //   the palm's limits     systems/hand/constrain_palms.hpp  -> PalmOffset, PalmPose
 //   where a finger stops  systems/hand/sweep_fingers.hpp    -> FingerPose::closed
 //   the fit               systems/hand/fit_hands.hpp        -> PalmOffset, PalmPose, FingerPose
+//
+// All lengths are in the hand's metres: the world's over PlayerOrigin::scale.
 namespace handhold {
 
 // The surface under one palm: the candidate with the smallest full cost

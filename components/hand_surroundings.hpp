@@ -19,14 +19,16 @@ struct BodySurface {
     std::shared_ptr<const GripMesh> mesh;  // never null
 };
 
-// Input of the hand stages: one hand and the surfaces near it, in the gripped body's frame (_bs). A
-// hand on a moving body is therefore solved exactly like a hand on a body at rest. Not state:
-// gather_surroundings rewrites it every frame.
+// Input of the hand stages: one hand and the surfaces near it, in the gripped body's frame (_bs)
+// and in the hand's metres: the world's over PlayerOrigin::scale. A hand on a moving body is
+// therefore solved exactly like a hand on a body at rest, and a hand of any size like one of a
+// player of scale 1. Not state: gather_surroundings rewrites it every frame.
 struct HandSurroundings {
     Entity hand = k_no_entity;
     Entity body = k_no_entity;  // gripped body; null: there is no surface to fit the hand to
     const HandRig* rig = nullptr;
-    Pose body_ws;
+    Pose body_ws;        // position in the world's metres
+    double scale = 1.0;  // PlayerOrigin::scale: the world's metres in one of the hand's
     // Wrist of a gripping hand: its anchor, with the tracked rotation if the hand may turn on its
     // grip. For an empty hand: the tracked wrist, in world space.
     Pose wrist_bs;
@@ -35,8 +37,13 @@ struct HandSurroundings {
     // nothing around the hand has moved. 0: no body.
     std::uint64_t signature = 0;
     bool is_gripping = false;  // also true for a grip on a head, which has no mesh
-    // The hand's pose in its authored grip; null: not in an authored grip.
+    // The hand's pose in its authored grip, in the world's metres; null: not in an authored grip.
     const AuthoredHand* authored = nullptr;
+
+    // Precondition: in an authored grip.
+    Pose authored_wrist_bs() const {
+        return {authored->wrist_bs.position / scale, authored->wrist_bs.rotation};
+    }
 };
 
 // Scratch memory of search_grip; keeps its capacity between calls.

@@ -39,9 +39,13 @@ inline Pose gripped_pose_ws(const Column<BodyPose>& body_pose, const Column<Play
            (hold != nullptr ? hold->pose_ps : head.at(gripped).pose_ps);
 }
 
-// Centre of the head's collider.
+// Centre of the head's collider. `tuning`: scaled like the player.
 inline Vec3 head_center_ps(const HeadTracking& head, const HeadTuning& tuning) {
     return transform_point(head.pose_ps, tuning.center_m);
+}
+// The same with the tuning of a scale of 1, for a player of that scale (PlayerOrigin::scale).
+inline Vec3 head_center_ps(const HeadTracking& head, double scale, const HeadTuning& tuning) {
+    return transform_point(head.pose_ps, scale * tuning.center_m);
 }
 
 }  // namespace handhold

@@ -19,7 +19,14 @@ struct PlayerBody {
 // locomote_players writes the rotation (turns, support_follow) and the position that a turn about a
 // hand or the head requires.
 struct PlayerOrigin {
+    static constexpr double k_min_scale = 0.01;
+    static constexpr double k_max_scale = 100.0;
+
     Pose pose_ws;
+    // Size of the player, [k_min_scale, k_max_scale]: hands, head, reach and every number of the
+    // tuning with TuningInfo::scales are times this. Poses in play space are not: play space has
+    // the world's metres. Written by the host that adds the player.
+    double scale = 1.0;
 };
 // Pose of the play space at the start of the frame. Written by predict_bodies.
 struct PlayerStart {

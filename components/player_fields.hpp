@@ -12,6 +12,7 @@ void visit_fields(const PlayerBody& c, V&& visit) {
 template <typename V>
 void visit_fields(const PlayerOrigin& c, V&& visit) {
     visit("pose_ws", c.pose_ws);
+    visit("scale", c.scale);
 }
 template <typename V>
 void visit_fields(const PlayerStart& c, V&& visit) {
@@ -69,7 +70,7 @@ void visit_fields(const EarlySample& c, V&& visit) {
 template <typename V>
 void visit_fields(const EarlySamples& c, V&& visit) {
     visit("count", c.count);
-    visit("samples", c.samples);
+    visit("samples", c.kept());
 }
 template <typename V>
 void visit_fields(const HeadIgnores& c, V&& visit) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -161,6 +163,11 @@ struct EarlySamples {
     static constexpr std::size_t k_capacity = 64;
     std::uint32_t count = 0;                           // number of samples, at most k_capacity
     std::array<EarlySample, k_capacity> samples = {};  // ascending times
+
+    // The samples that are there. Only these are saved, hashed and compared.
+    std::span<const EarlySample> kept() const {
+        return std::span(samples).first(std::min<std::size_t>(count, k_capacity));
+    }
 };
 
 // The hand's last samples in a ring, for velocities that do not depend on the frame rate. Written

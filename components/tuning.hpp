@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include "components/body_tuning.hpp"
 #include "engine/math/math.hpp"
@@ -144,7 +145,15 @@ struct TuningInfo {
     double low;        // inclusive
     double high;       // inclusive
     const char* what;  // meaning and effect, one sentence that stands alone
+    bool scales;       // times PlayerOrigin::scale for a player of another size
 };
+
+// True for numbers in a player's metres: all that have metres or newtons in their unit, but for
+// those of contacts and of the solver, which belong to the world.
+constexpr bool is_in_players_metres(std::string_view name, std::string_view unit) {
+    return (unit.starts_with("m") || unit == "N") && !name.starts_with("contact.") &&
+           !name.starts_with("solver.");
+}
 
 // Calls visit(info, field) for every number. A field is a double, a std::int32_t, a Vec3 (the range
 // applies to each component) or a SupportFollow.
@@ -152,7 +161,7 @@ template <typename TuningType, typename Visit>
 void visit_tuning(TuningType& t, Visit&& visit) {
     const auto see = [&visit](const char* name, auto& field, const char* unit, double low,
                               double high, const char* what) {
-        visit(TuningInfo{name, unit, low, high, what}, field);
+        visit(TuningInfo{name, unit, low, high, what, is_in_players_metres(name, unit)}, field);
     };
     see("tracking.lost_after_s", t.tracking.lost_after_s, "s", 0.02, 10.0,
         "Time without a valid sample after which a device counts as lost and its pose is frozen.");

@@ -204,12 +204,10 @@ PlayerEntities add_player(World& world, const PlayerDescription& description) {
     HH_CHECK(is_within(description.velocity_mps, world_limits::k_max_speed_mps),
              "the velocity is beyond 1e6 m/s",
              beyond(description.velocity_mps, world_limits::k_max_speed_mps));
-    const BodyMeasures& measures = description.measures;
-    for (const double length_m : {measures.eye_height_m, measures.shoulder_width_m,
-                                  measures.upper_arm_m, measures.forearm_m}) {
-        HH_CHECK(is_in(length_m, BodyMeasures::k_min_m, BodyMeasures::k_max_m),
-                 "the body's measures must lie within 0.05 to 5 m", length_m);
-    }
+    HH_CHECK(is_in(description.scale, PlayerOrigin::k_min_scale, PlayerOrigin::k_max_scale),
+             "a player's scale must lie within 0.01 to 100", description.scale);
+    HH_CHECK(are_measures(description.measures, 1.0),
+             "the body's measures must lie within 0.05 to 5 m", description.measures.eye_height_m);
     check_name_is_unique(world, description.name);
     const std::string hand_names[k_hand_count] = {std::string(description.name) + "/left_hand",
                                                   std::string(description.name) + "/right_hand"};
@@ -219,7 +217,7 @@ PlayerEntities add_player(World& world, const PlayerDescription& description) {
     PlayerEntities made;
     made.player = add_named(world, description.name);
     world.player.add(made.player, description.body);
-    world.player_origin.add(made.player, {description.origin_ws});
+    world.player_origin.add(made.player, {description.origin_ws, description.scale});
     world.player_start.add(made.player, {description.origin_ws});
     world.player_velocity.add(made.player, {description.velocity_mps});
     world.player_commands.add(made.player);
@@ -231,7 +229,7 @@ PlayerEntities add_player(World& world, const PlayerDescription& description) {
     }
     world.last_valid.add(made.player, {description.origin_ws, false});
     world.render_pose.add(made.player);
-    world.body_measures.add(made.player, description.measures);
+    world.body_measures.add(made.player, scaled(description.measures, description.scale));
     world.calibration.add(made.player);
     world.arm_memory.add(made.player);
     world.arm_estimate.add(made.player);

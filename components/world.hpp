@@ -211,7 +211,8 @@ struct PlayerDescription {
     Vec3 velocity_mps = Vec3::Zero();
     // Shape of the head's collider: a sphere; k_no_shape: the head touches nothing.
     ShapeId head_shape;
-    BodyMeasures measures = {};
+    BodyMeasures measures = {};  // measures before `scale`
+    double scale = 1.0;          // PlayerOrigin::scale
 };
 struct PlayerEntities {
     Entity player;

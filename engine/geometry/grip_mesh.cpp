@@ -66,6 +66,24 @@ GripMesh build_grip_mesh(const Shape& shape, const GripMeshSettings& settings) {
     return build_grip_mesh(shape_surface(shape, settings.shape_tolerance_m), own);
 }
 
+GripMesh resized(const GripMesh& grip, double factor) {
+    GripMesh result;
+    result.turned = grip.turned;
+    result.full_triangles = grip.full_triangles;
+    const auto resize = [factor](const SurfaceGraph& from, const TriangleBvh& from_bvh,
+                                 SurfaceGraph& to, TriangleBvh& to_bvh) {
+        to = from;
+        for (Vec3& position : to.positions) {
+            position *= factor;
+        }
+        const std::vector<std::uint32_t> order = from_bvh.leaf_order();
+        to_bvh = TriangleBvh(to.positions, to.triangles, {order, to.normals});
+    };
+    resize(grip.contact, grip.contact_bvh, result.contact, result.contact_bvh);
+    resize(grip.search, grip.search_bvh, result.search, result.search_bvh);
+    return result;
+}
+
 std::size_t memory_bytes(const GripMesh& grip) {
     return memory_bytes(grip.contact) + grip.contact_bvh.memory_bytes() +
            memory_bytes(grip.search) + grip.search_bvh.memory_bytes();

@@ -43,6 +43,10 @@ GripMesh build_grip_mesh(const Mesh& mesh, const GripMeshSettings& settings = {}
 // Spheres and capsules are built directly: round_grip_mesh.hpp.
 GripMesh build_grip_mesh(const Shape& shape, const GripMeshSettings& settings = {});
 
+// The mesh with all lengths times `factor`, > 0. Not what build_grip_mesh makes of the resized
+// source: detail and welds stay those of the original.
+GripMesh resized(const GripMesh& grip, double factor);
+
 std::size_t memory_bytes(const GripMesh& grip);
 
 }  // namespace handhold

@@ -156,9 +156,9 @@ bool GripMeshLibrary::has(ShapeId shape) const {
     return shape.index < mesh_of_shape_.size() && mesh_of_shape_[shape.index] != k_no_mesh;
 }
 
-const GripMesh& GripMeshLibrary::at(ShapeId shape) const {
+const std::shared_ptr<const GripMesh>& GripMeshLibrary::shared_at(ShapeId shape) const {
     HH_CHECK(has(shape), "no grip mesh was made for this shape", shape.index);
-    return *meshes_[mesh_of_shape_[shape.index]].mesh;
+    return meshes_[mesh_of_shape_[shape.index]].mesh;
 }
 
 std::size_t GripMeshLibrary::memory_bytes() const {

@@ -44,7 +44,8 @@ class GripMeshLibrary {
     void remove(const ShapeLibrary& shapes, ShapeId shape);
 
     // Precondition: has(shape).
-    const GripMesh& at(ShapeId shape) const;
+    const GripMesh& at(ShapeId shape) const { return *shared_at(shape); }
+    const std::shared_ptr<const GripMesh>& shared_at(ShapeId shape) const;
     bool has(ShapeId shape) const;
     std::size_t distinct_count() const { return mesh_of_surface_.size(); }
     std::size_t memory_bytes() const;

@@ -199,6 +199,17 @@ TriangleBvh::TriangleBvh(std::span<const Vec3> positions,
     BvhBuilder(*this, positions, triangles, known).build();
 }
 
+std::vector<std::uint32_t> TriangleBvh::leaf_order() const {
+    std::vector<std::uint32_t> order;
+    order.reserve(triangle_count_);
+    for (std::size_t slot = 0; slot < numbers_.size(); ++slot) {
+        if (slot % 4 == 0 || numbers_[slot] != numbers_[slot - 1]) {
+            order.push_back(numbers_[slot]);
+        }
+    }
+    return order;
+}
+
 std::size_t TriangleBvh::memory_bytes() const {
     return nodes_.capacity() * sizeof(Node) + positions_.capacity() * sizeof(Vec3) +
            slots_.capacity() * sizeof(slots_[0]) + numbers_.capacity() * sizeof(numbers_[0]) +

@@ -74,6 +74,10 @@ class TriangleBvh {
     // Upper bound on the absolute values of all corner coordinates relative to origin().
     double reach_m() const { return std::max(high_.maxCoeff(), -low_.minCoeff()); }
 
+    // Returns the triangles in the order of the leaves: Known::order of an equal tree of moved
+    // corners.
+    std::vector<std::uint32_t> leaf_order() const;
+
     // A triangle of a visited leaf: its index in the list from which the tree was built, and its
     // corners. Precondition: slot < 4 * number of leaves.
     std::uint32_t number_at(std::uint32_t slot) const { return numbers_[slot]; }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <span>
 #include <string>
 #include <type_traits>
 
@@ -63,12 +64,16 @@ class FieldShower {
     }
     template <typename T, std::size_t N>
     void show(const char* name, const std::array<T, N>& values) const {
-        for (std::size_t i = 0; i < std::min(N, k_max_listed); ++i) {
+        show(name, std::span<const T>(values));
+    }
+    template <typename T>
+    void show(const char* name, std::span<const T> values) const {
+        for (std::size_t i = 0; i < std::min(values.size(), k_max_listed); ++i) {
             show((std::string(name) + "[" + std::to_string(i) + "]").c_str(), values[i]);
         }
-        if (N > k_max_listed) {
+        if (values.size() > k_max_listed) {
             begin(name);
-            ImGui::TextColored(k_soft, "and %zu more", N - k_max_listed);
+            ImGui::TextColored(k_soft, "and %zu more", values.size() - k_max_listed);
         }
     }
     template <typename T>

@@ -27,8 +27,15 @@ FittedGrip fit_grip(const GripMesh& mesh, const HandRig& rig, const Pose& wrist_
     offset.add(hand);
     palm.add(hand);
     fingers.add(hand);
-    const std::vector<HandSurroundings> hands = {
-        {hand, body, &rig, {}, wrist_bs, {{&mesh, {}}}, 1, true, authored}};
+    const std::vector<HandSurroundings> hands = {{.hand = hand,
+                                                  .body = body,
+                                                  .rig = &rig,
+                                                  .body_ws = {},
+                                                  .wrist_bs = wrist_bs,
+                                                  .meshes = {{&mesh, {}}},
+                                                  .signature = 1,
+                                                  .is_gripping = true,
+                                                  .authored = authored}};
     GripSearchScratch search;
     ChainFitScratch fit;
     StageStats stats;

@@ -58,28 +58,38 @@ Calibration begin_at(const Vec3& left_ps, const Vec3& right_ps) {
     return begun;
 }
 
-void hold(double dt_s, const HeadTracking& head, const std::array<Vec3, k_hand_count>& hands_ps,
-          const CalibrationTuning& tuning, Calibration& calibration, BodyMeasures& measures) {
-    const Vec3 eyes_ps = head.pose_ps.position;
-    const auto pose =
-        read_t_pose(eyes_ps - head.shift_m, hands_ps[0] - head.shift_m, hands_ps[1] - head.shift_m);
+// Tracked points in the player's metres: those of play space over PlayerOrigin::scale.
+struct TrackedPoints {
+    Vec3 eyes = Vec3::Zero();
+    Vec3 shift = Vec3::Zero();  // HeadTracking::shift_m
+    std::array<Vec3, k_hand_count> hands = {};
+};
+
+// Returns the measures, in the player's metres, once the pose has been held for long enough.
+std::optional<BodyMeasures> hold(double dt_s, const TrackedPoints& points,
+                                 const CalibrationTuning& tuning, Calibration& calibration) {
+    const std::array<Vec3, k_hand_count>& hands_ps = points.hands;
+    const auto pose = read_t_pose(points.eyes - points.shift, hands_ps[0] - points.shift,
+                                  hands_ps[1] - points.shift);
     const bool is_still = (hands_ps[0] - calibration.left_ps).norm() < tuning.still_m &&
                           (hands_ps[1] - calibration.right_ps).norm() < tuning.still_m;
     if (!pose || !is_still) {
         calibration = begin_at(hands_ps[0], hands_ps[1]);
-        return;
+        return std::nullopt;
     }
     const double left_s = std::max(0.0, tuning.hold_s - calibration.held_s);
     const double share_s = std::min(dt_s, left_s);
     calibration.held_s += share_s;
     calibration.eyes_s_m += share_s * pose->eyes_m;
     calibration.span_s_m += share_s * pose->span_m;
-    if (dt_s >= left_s) {
-        measures = measures_of(
-            {calibration.eyes_s_m / calibration.held_s, calibration.span_s_m / calibration.held_s});
-        calibration = {};
-        calibration.done = true;
+    if (dt_s < left_s) {
+        return std::nullopt;
     }
+    const BodyMeasures measures = measures_of(
+        {calibration.eyes_s_m / calibration.held_s, calibration.span_s_m / calibration.held_s});
+    calibration = {};
+    calibration.done = true;
+    return measures;
 }
 
 }  // namespace
@@ -134,20 +144,21 @@ void calibrate_players(const CalibratePlayersIo& io, const CalibrationTuning& tu
             calibration = {};
         } else if (!calibration.done) {
             const HeadTracking& head = io.head.at(player);
-            std::array<Vec3, k_hand_count> hands_ps{};
+            const double scale = io.origin.at(player).scale;
+            TrackedPoints points{head.pose_ps.position / scale, head.shift_m / scale};
             std::size_t known = is_known(head.state) && !head.is_inferred ? 1 : 0;
             for (std::size_t hand = 0; hand < io.owner.size(); ++hand) {
                 const HandOwner& owner = io.owner.elements()[hand];
                 const HandTracking& tracking = io.hand.at(io.owner.owners()[hand]);
                 if (owner.player == player && is_known(tracking.state)) {
-                    hands_ps[index_of(owner.side)] = tracking.pose_ps.position;
+                    points.hands[index_of(owner.side)] = tracking.pose_ps.position / scale;
                     ++known;
                 }
             }
-            if (known == 1 + k_hand_count) {
-                hold(io.dt_s, head, hands_ps, tuning, calibration, io.measures.at(player));
-            } else {
+            if (known < 1 + k_hand_count) {
                 calibration = {};
+            } else if (const auto measures = hold(io.dt_s, points, tuning, calibration)) {
+                io.measures.at(player) = scaled(*measures, scale);
             }
         }
     }

@@ -7,6 +7,7 @@
 #include "components/calibration.hpp"
 #include "components/grab.hpp"
 #include "components/hand.hpp"
+#include "components/player.hpp"
 #include "components/tracking.hpp"
 #include "engine/ecs/column.hpp"
 
@@ -15,6 +16,7 @@ namespace handhold {
 struct CalibratePlayersIo {
     double dt_s;                             // in: > 0
     const Column<PlayerCommands>& commands;  // in
+    const Column<PlayerOrigin>& origin;      // in: scale
     const Column<HeadTracking>& head;        // in
     const Column<HandOwner>& owner;          // in
     const Column<HandTracking>& hand;        // in

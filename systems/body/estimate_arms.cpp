@@ -15,20 +15,21 @@
 namespace handhold {
 namespace {
 
-bool has_jumped(const Vec3& before, const Vec3& now, double dt_s) {
-    return is_jump((now - before).norm(), dt_s);
+bool has_jumped(const Vec3& before, const Vec3& now, double scale, double dt_s) {
+    return is_jump((now - before).norm() / scale, dt_s);
 }
 
-// Values of one time step that are the same for all players.
+// Values of one time step that are the same for all players of a scale.
 struct Step {
     double dt_s = 0.0;
     std::array<double, k_look_filters> look_shares{};  // filter gains for the look direction
     double chest_share = 0.0;                          // filter gain for the chest
     TurnLimit limit;                                   // ArmTuning::chest_limit_rad
-    const ArmTuning& tuning;
+    double scale = 1.0;                                // PlayerOrigin::scale
+    const ArmTuning& tuning;                           // numbers of a player of that scale
 };
-Step step_of(double dt_s, const ArmTuning& tuning) {
-    Step step{dt_s, {}, follow_share(dt_s, tuning.chest_lag_s), {}, tuning};
+Step step_of(double dt_s, double scale, const ArmTuning& tuning) {
+    Step step{dt_s, {}, follow_share(dt_s, tuning.chest_lag_s), {}, scale, tuning};
     for (std::size_t i = 0; i < k_look_filters; ++i) {
         step.look_shares[i] = follow_share(dt_s, body_constants::k_look_lags_s[i]);
     }
@@ -143,7 +144,7 @@ Vec3 estimate_elbow(const Step& step, const ArmStep& arm, ArmMemory::Arm& memory
                                             out.stretch * arm.forearm_m);
     const Vec3 aside = arm.pole_ts - axis_ts * axis_ts.dot(arm.pole_ts);
     const double length = aside.norm();
-    const bool fresh = arm.reset || has_jumped(memory.hand_ts, hand_rest_ts, dt_s);
+    const bool fresh = arm.reset || has_jumped(memory.hand_ts, hand_rest_ts, step.scale, dt_s);
     const Vec3 before_ts = fresh ? any_perpendicular(axis_ts) : carry_bend(memory, axis_ts, tuning);
     const Vec3 wanted_ts = reachable_bend(
         circle, length > 1e-6 ? Vec3(aside * (1.0 / length)) : before_ts, arm.side, tuning);
@@ -212,8 +213,8 @@ void estimate_player(const TrackedBody& now, const Step& frame, ArmMemory& memor
     constexpr double k_max_steps = 9.0;
     constexpr double k_round_up = 0.3;
     const double dt_s = frame.dt_s;
-    const bool reset =
-        !memory.known || has_jumped(memory.head_ps.position, now.head_ps.position, dt_s);
+    const bool reset = !memory.known ||
+                       has_jumped(memory.head_ps.position, now.head_ps.position, frame.scale, dt_s);
     const int steps =
         reset ? 1 : static_cast<int>(std::clamp(dt_s / k_step_s + k_round_up, 1.0, k_max_steps));
     if (steps > 1) {
@@ -222,11 +223,12 @@ void estimate_player(const TrackedBody& now, const Step& frame, ArmMemory& memor
                            now.measures,
                            now.floor_m};
         for (std::size_t side = 0; side < k_hand_count; ++side) {
-            if (has_jumped(before.hands_ps[side].position, now.hands_ps[side].position, dt_s)) {
+            if (has_jumped(before.hands_ps[side].position, now.hands_ps[side].position, frame.scale,
+                           dt_s)) {
                 before.hands_ps[side] = now.hands_ps[side];
             }
         }
-        const Step step = step_of(dt_s / steps, frame.tuning);
+        const Step step = step_of(dt_s / steps, frame.scale, frame.tuning);
         for (int i = 1; i < steps; ++i) {
             const double share = static_cast<double>(i) / steps;
             const TrackedBody then{between(before.head_ps, now.head_ps, share),
@@ -271,7 +273,7 @@ void take_hands(const EstimateArmsIo& io) {
 
 void estimate_arms(const EstimateArmsIo& io, const ArmTuning& tuning) {
     take_hands(io);
-    const Step step = step_of(io.dt_s, tuning);
+    const Step step = step_of(io.dt_s, 1.0, tuning);
     constexpr std::size_t k_players_per_slice = 16;
     const auto estimate = [&](std::size_t /*slice*/, std::size_t first, std::size_t last) {
         for (std::size_t index = first; index < last; ++index) {
@@ -281,11 +283,18 @@ void estimate_arms(const EstimateArmsIo& io, const ArmTuning& tuning) {
             const BodyMeasures* const measures = io.measures.find(player);
             if (memory != nullptr && head != nullptr && measures != nullptr) {
                 ArmEstimate& out = io.estimate.elements()[index];
-                estimate_player({head->pose_ps,
-                                 {out.arms[0].hand_ps, out.arms[1].hand_ps},
-                                 *measures,
-                                 head->shift_m.y()},
-                                step, *memory, out);
+                const TrackedBody body{head->pose_ps,
+                                       {out.arms[0].hand_ps, out.arms[1].hand_ps},
+                                       *measures,
+                                       head->shift_m.y()};
+                const double scale = io.origin.at(player).scale;
+                if (scale == 1.0) {
+                    estimate_player(body, step, *memory, out);
+                } else {
+                    ArmTuning own = tuning;
+                    own.shoulder_follow_m *= scale;
+                    estimate_player(body, step_of(io.dt_s, scale, own), *memory, out);
+                }
             }
         }
     };

@@ -186,7 +186,8 @@ void layer_player(const LayerAdditivesIo& io, std::size_t index, const AdditiveT
     const Entity player = io.state.owners()[index];
     BodyClipState& state = io.state.elements()[index];
     const double speed_mps =
-        (io.velocity.at(player).linear_mps - io.reference.at(player).linear_mps).norm();
+        (io.velocity.at(player).linear_mps - io.reference.at(player).linear_mps).norm() /
+        io.origin.at(player).scale;
     advance(io.clips, io.dt_s, speed_mps, tuning, state);
     ClipTurns turns = no_turns();
     add_turns(io.clips.at(BodyClipName::idle), state.idle_s, tuning.idle, ClipBlend::eased, turns);

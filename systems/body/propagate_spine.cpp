@@ -284,7 +284,7 @@ void propagate_player(const PropagateSpineIo& io, std::size_t index, const Spine
     const Vec3 own_m = neck_ps - memory.neck_ps;
     const Quat to_ps = origin_ws.rotation.conjugate();
     const Vec3 relative = to_ps * (io.velocity.at(player).linear_mps - reference_ws);
-    if (!memory.known || is_jump(own_m.norm(), io.dt_s)) {
+    if (!memory.known || is_jump(own_m.norm() / io.origin.at(player).scale, io.dt_s)) {
         rest_at(chest_ps.rotation, lying, scale, io.t_s, memory);
         memory.known = true;
         memory.rate_mps = relative;
@@ -303,7 +303,9 @@ void propagate_player(const PropagateSpineIo& io, std::size_t index, const Spine
             io.dt_s,  io.t_s,           lying,
             chest_ps, own_m + travel_m, chest_ps.position - memory.chest_ps.position + travel_m};
         touch_surfaces(io, player, motion, floor, memory);
-        play(motion, scale, tuning, memory);
+        SpineTuning own = tuning;
+        own.speed_max_mps *= io.origin.at(player).scale;
+        play(motion, scale, own, memory);
     }
     memory.reference_ws_mps = reference_ws;
     memory.chest_ps = chest_ps;

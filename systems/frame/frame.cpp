@@ -1,5 +1,6 @@
 #include "systems/frame/frame.hpp"
 
+#include "components/scaled_tuning.hpp"
 #include "systems/frame/frame_check.hpp"
 #include "systems/frame/frame_of_host.hpp"
 #include "systems/frame/frame_stages.hpp"
@@ -163,9 +164,11 @@ std::optional<GrabTarget> find_grip(World& world, FrameCaches& caches, const Tun
     group_joints(f);
     place_colliders(f, Stage::update_grabs);
     const HandTracking& tracking = world.hand_tracking.at(hand);
-    const Pose hand_ws =
-        world.player_origin.at(world.hand_owner.at(hand).player).pose_ws * tracking.pose_ps;
-    return find_grab_target(grab_search(f), hand, hand_ws, k_no_entity, tuning, stats).target;
+    const PlayerOrigin& origin = world.player_origin.at(world.hand_owner.at(hand).player);
+    const Pose hand_ws = origin.pose_ws * tracking.pose_ps;
+    TuningOfPlayers tunings(tuning);
+    return find_grab_target(grab_search(f), hand, hand_ws, k_no_entity, tunings.of(origin), stats)
+        .target;
 }
 
 }  // namespace handhold

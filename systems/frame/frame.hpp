@@ -14,6 +14,7 @@
 #include "engine/geometry/grip_mesh_library.hpp"
 #include "engine/geometry/shape_library.hpp"
 #include "systems/hand/shared/part_meshes.hpp"
+#include "systems/hand/shared/resized_meshes.hpp"
 #include "systems/rigs/body_clips.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
 
@@ -51,7 +52,8 @@ struct FrameCaches {
     BodyClips body_clips;                 // empty: no additive clips
     Column<BodySurface> body_surfaces;    // bodies with a grip mesh of their own
     HandScratch hands;
-    PartMeshes part_meshes;  // meshes of held players' parts; built when a hand grips one
+    PartMeshes part_meshes;        // meshes of held players' parts; built when a hand grips one
+    ResizedMeshes resized_meshes;  // meshes for hands of players whose scale is not 1
 };
 
 // Steps one frame: every stage in the order of the list in frame.cpp. `stats` is cleared first. No

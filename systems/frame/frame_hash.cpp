@@ -1,6 +1,7 @@
 // The state hash. Each element gets a hash of its column's name, its owner's persistent id and its
 // fields. These hashes are summed, so the order of elements does not matter.
 #include <array>
+#include <span>
 #include <type_traits>
 
 #include "components/fields.hpp"
@@ -41,6 +42,10 @@ class FieldHasher {
     void add(ShapeId /*shape*/) const {}
     template <typename T, std::size_t N>
     void add(const std::array<T, N>& values) const {
+        add(std::span<const T>(values));
+    }
+    template <typename T>
+    void add(std::span<const T> values) const {
         for (const T& value : values) {
             add(value);
         }

@@ -1,4 +1,6 @@
 // Stages of frame_stages.hpp that compute the shown hands and bodies.
+#include <algorithm>
+
 #include "systems/body/estimate_arms.hpp"
 #include "systems/body/layer_additives.hpp"
 #include "systems/body/pose_arms.hpp"
@@ -34,11 +36,13 @@ std::span<const HandSurroundings> hands_of(const FrameContext& f, std::size_t fi
 void add_part_meshes(const FrameContext& f) {
     const World& w = f.w;
     for (std::size_t index = 0; index < w.body_hold.size(); ++index) {
-        const Grab& grab = w.grab.at(w.body_hold.owners()[index]);
+        const Entity hand = w.body_hold.owners()[index];
+        const Grab& grab = w.grab.at(hand);
         if (grab.kind == GripKind::player && w.render_pose.contains(grab.body)) {
-            f.caches.part_meshes.add(part_capsule(w.render_pose.at(grab.body),
-                                                  w.body_measures.at(grab.body),
-                                                  w.body_hold.elements()[index].part));
+            f.caches.part_meshes.add(
+                resized(part_capsule(w.render_pose.at(grab.body), w.body_measures.at(grab.body),
+                                     w.body_hold.elements()[index].part),
+                        w.player_origin.at(w.hand_owner.at(hand).player).scale));
         }
     }
 }
@@ -57,7 +61,8 @@ void gather_surroundings(const FrameContext& f) {
     const GatherSurroundingsIo io{
         .meshes = {.of_shapes = f.caches.meshes_for_hands,
                    .of_bodies = f.caches.body_surfaces,
-                   .of_parts = f.caches.part_meshes},
+                   .of_parts = f.caches.part_meshes,
+                   .resized = f.caches.resized_meshes},
         .rigs = f.caches.hand_rigs,
         .more_rigs = f.caches.more_hand_rigs,
         .rig_choice = w.hand_rig,
@@ -77,6 +82,12 @@ void gather_surroundings(const FrameContext& f) {
         .collider = w.collider,
         .authored_hold = w.authored_hold,
         .surroundings = f.hands().surroundings};
+    const bool are_alike = std::ranges::all_of(
+        w.player_origin.elements(), [](const PlayerOrigin& origin) { return origin.scale == 1.0; });
+    if (!are_alike) {  // the meshes of other scales are made on the way
+        handhold::gather_surroundings(io, 0, w.hand_owner.size(), f.stats);
+        return;
+    }
     for_hand_slices(f, [&io](HandScratch::Slice& slice, std::size_t first, std::size_t last) {
         handhold::gather_surroundings(io, first, last, slice.stats);
     });

@@ -35,6 +35,7 @@ void read_tracking(const FrameContext& f) {
     const ReadTrackingIo io{.inputs = f.input.players,
                             .frame_start_s = f.start_s(),
                             .frame_end_s = f.end_s(),
+                            .origin = w.player_origin,
                             .owner = w.hand_owner,
                             .controller_to_hand = w.controller_to_hand,
                             .recenter_guess = w.recenter_guess,
@@ -54,6 +55,7 @@ void read_paused_tracking(const FrameContext& f) {
     World& w = f.w;
     handhold::read_paused_tracking(
         {.inputs = f.input.players,
+         .origin = w.player_origin,
          .owner = w.hand_owner,
          .controller_to_hand = w.controller_to_hand,
          .head = w.head_tracking,
@@ -68,6 +70,7 @@ void calibrate_players(const FrameContext& f) {
     World& w = f.w;
     handhold::calibrate_players({.dt_s = f.dt_s(),
                                  .commands = w.player_commands,
+                                 .origin = w.player_origin,
                                  .head = w.head_tracking,
                                  .owner = w.hand_owner,
                                  .hand = w.hand_tracking,
@@ -327,6 +330,7 @@ void limit_velocities(const FrameContext& f) {
     World& w = f.w;
     handhold::limit_velocities({.owner = w.hand_owner,
                                 .reference = w.reference_velocity,
+                                .origin = w.player_origin,
                                 .frame = f.graph(),
                                 .body_velocity = w.body_velocity,
                                 .player_velocity = w.player_velocity,

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "components/hand_indices.hpp"
+#include "components/scaled_tuning.hpp"
 #include "systems/rigs/authored_hand.hpp"
 
 namespace handhold {
@@ -62,12 +63,13 @@ double line_length_m(const HandPair& pair) {
 void pair_hands(const AnchorGrabsIo& io, const HandPair& first, StageStats& stats) {
     constexpr double k_begin_two_handed_m = 0.05;
     constexpr double k_end_two_handed_m = 0.04;
+    const double scale = io.origin.at(first.player).scale;
     const bool together = first.grab.two_handed;
     if (!together && first.other_hand->edge != GrabEdge::onset) {
         take_anchor_at_start(io, first.player, *first.other_hand, *first.other);
     }
     const bool are_two_handed =
-        line_length_m(first) >= (together ? k_end_two_handed_m : k_begin_two_handed_m);
+        line_length_m(first) >= scale * (together ? k_end_two_handed_m : k_begin_two_handed_m);
     if (together && !are_two_handed) {
         take_anchor_at_start(io, first.player, first.hand, first.grab);
         take_anchor_at_start(io, first.player, *first.other_hand, *first.other);
@@ -337,12 +339,13 @@ void set_targets(const AnchorGrabsIo& io) {
     }
 }
 
-// A hand moves what it grips, and its player, at most at max_speed_mps: the grip slips by the
-// excess.
+// A hand moves what it grips, and its player, at most at max_speed_mps times the player's scale:
+// the grip slips by the excess.
 void limit_hand_speeds(const AnchorGrabsIo& io, double max_speed_mps, StageStats& stats) {
-    const double max_m = max_speed_mps * (io.end_s - io.start_s);
     for (std::size_t index = 0; index < io.grab.size(); ++index) {
         const HandPair pair = pair_of(io, index);
+        const double max_m =
+            io.origin.at(pair.player).scale * max_speed_mps * (io.end_s - io.start_s);
         Grab& grab = pair.grab;
         const bool closes = pair.hand.edge == GrabEdge::onset;
         const Vec3 travel_ps =
@@ -362,6 +365,7 @@ void limit_hand_speeds(const AnchorGrabsIo& io, double max_speed_mps, StageStats
 }  // namespace
 
 void anchor_grabs(const AnchorGrabsIo& io, const Tuning& tuning, StageStats& stats) {
+    TuningOfPlayers tunings(tuning);
     end_broken_two_hand_grips(io, stats);
     // Anchors new grips before it handles releases.
     for (std::size_t index = earliest_new_grab(io); index < io.grab.size();
@@ -374,7 +378,8 @@ void anchor_grabs(const AnchorGrabsIo& io, const Tuning& tuning, StageStats& sta
     set_targets(io);
     limit_hand_speeds(io, tuning.tracking.max_hand_speed_mps, stats);
     for (std::size_t index = 0; index < io.grab.size(); ++index) {
-        move_into_hand(io, io.grab.owners()[index], tuning, pair_of(io, index));
+        const HandPair pair = pair_of(io, index);
+        move_into_hand(io, io.grab.owners()[index], tunings.of(io.origin.at(pair.player)), pair);
     }
     end_broken_two_hand_grips(io, stats);
     for (std::size_t index = 0; index < io.grab.size(); ++index) {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "components/play_space.hpp"
+#include "components/scaled_tuning.hpp"
 
 namespace handhold {
 namespace {
@@ -149,13 +150,15 @@ void apply_pull(const PullBodiesIo& io, Entity hand, Entity pulled, const Tuning
 
 }  // namespace
 
-void pull_bodies(const PullBodiesIo& io, const Tuning& tuning, StageStats& stats) {
-    if (tuning.pull.reach_m <= 0.0) {
+void pull_bodies(const PullBodiesIo& io, const Tuning& of_all, StageStats& stats) {
+    if (of_all.pull.reach_m <= 0.0) {
         io.pull.clear();
         return;
     }
+    TuningOfPlayers tunings(of_all);
     for (std::size_t index = 0; index < io.grab.size(); ++index) {
         const Entity hand = io.grab.owners()[index];
+        const Tuning& tuning = tunings.of(io.origin.at(io.owner.at(hand).player));
         const HandTracking& tracking = io.hand.at(hand);
         const HandPull* const pull = io.pull.find(hand);
         if (pull != nullptr &&

@@ -43,6 +43,6 @@ struct PullBodiesIo {
 // when it is at the palm. If the hand opens, the body flies on. The pull also ends, counted as
 // pull_lost, if the hand's tracking is lost, if the body may not be pulled any more, or if it is
 // far out of reach.
-void pull_bodies(const PullBodiesIo& io, const Tuning& tuning, StageStats& stats);
+void pull_bodies(const PullBodiesIo& io, const Tuning& of_all, StageStats& stats);
 
 }  // namespace handhold

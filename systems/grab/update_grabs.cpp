@@ -6,6 +6,7 @@
 
 #include "components/hand_indices.hpp"
 #include "components/play_space.hpp"
+#include "components/scaled_tuning.hpp"
 #include "systems/grab/shared/grip_kind.hpp"
 
 namespace handhold {
@@ -17,6 +18,11 @@ GripKind grip_kind(const UpdateGrabsIo& io, Entity gripped, const PhaseTuning& t
         return GripKind::player;
     }
     return grip_kind_of(*body, tuning.heavy_body_kg);
+}
+
+// Play space of the hand at that index of `grab`.
+const PlayerOrigin& origin_of(const UpdateGrabsIo& io, std::size_t index) {
+    return io.origin.at(io.owner.at(io.grab.owners()[index]).player);
 }
 
 // True if the gripped body or player still exists.
@@ -47,10 +53,10 @@ struct Closing {
 
 // True if a pulled body can be gripped: it touches the palm, or has passed it by a frame's travel.
 // If it were gripped at HandTuning::reach_m already, it would stay that far away.
-bool is_at_palm(const GrabTarget& target, const PalmRay& ray) {
+bool is_at_palm(const GrabTarget& target, const PalmRay& ray, double scale) {
     constexpr double k_touches_m = 0.02;
     const Vec3 offset = target.point_ws - ray.palm_ws;
-    return offset.norm() <= k_touches_m || offset.dot(ray.to_ws - ray.from_ws) <= 0.0;
+    return offset.norm() <= scale * k_touches_m || offset.dot(ray.to_ws - ray.from_ws) <= 0.0;
 }
 
 // Gives the hand a BodyHold if it grips a part of a player, and removes that of an earlier grip.
@@ -78,9 +84,9 @@ void follow_parts(const UpdateGrabsIo& io, const HandTuning& tuning) {
         }
         const double share = swings(hold->part) ? io.dt_s / (io.dt_s + tuning.swing_lag_s) : 1.0;
         hold->start_ps = hold->pose_ps;
-        hold->pose_ps =
-            follow_part(hold->start_ps, io.bodies().part_ps(grab.body, hold->part),
-                        grab.anchor_bs.position, {share, tuning.part_speed_mps * io.dt_s});
+        hold->pose_ps = follow_part(
+            hold->start_ps, io.bodies().part_ps(grab.body, hold->part), grab.anchor_bs.position,
+            {share, io.origin.at(grab.body).scale * tuning.part_speed_mps * io.dt_s});
     }
 }
 
@@ -150,13 +156,14 @@ void begin_grab(const UpdateGrabsIo& io, std::size_t index, const Closing& closi
                 const Tuning& tuning, StageStats& stats) {
     const Entity entity = io.grab.owners()[index];
     const HandOwner& owner = io.owner.at(entity);
-    const Pose hand_ws = io.origin.at(owner.player).pose_ws * closing.hand_ps;
+    const auto& [origin_ws, scale] = io.origin.at(owner.player);
+    const Pose hand_ws = origin_ws * closing.hand_ps;
     const PalmRay ray = palm_ray(hand_ws, owner.side, tuning.hand);
     const GrabSearchResult found =
         find_grab_target(io, entity, hand_ws, closing.only, tuning, stats);
     const auto& target = found.target;
-    if (!is_null(closing.only) &&
-        (!target || target->body != closing.only || !(target->hold || is_at_palm(*target, ray)))) {
+    if (!is_null(closing.only) && (!target || target->body != closing.only ||
+                                   !(target->hold || is_at_palm(*target, ray, scale)))) {
         return;  // the pulled body is not at the palm yet
     }
     io.authored_hold.remove(entity);
@@ -237,10 +244,12 @@ void release_destroyed_bodies(const UpdateGrabsIo& io, StageStats& stats) {
 
 // Evaluates hands that grip alone first. A hand whose partner lets go in this pass is left until
 // the next frame.
-void release_overstretched_grabs(const UpdateGrabsIo& io, double max_stretch_m, StageStats& stats) {
+void release_overstretched_grabs(const UpdateGrabsIo& io, const HandTuning& tuning,
+                                 StageStats& stats) {
     for (const bool alone : {true, false}) {
         for (std::size_t index = 0; index < io.grab.size(); ++index) {
             const Grab& grab = io.grab.elements()[index];
+            const double max_stretch_m = origin_of(io, index).scale * tuning.max_stretch_m;
             if (grab.kind == GripKind::none || grab.error_m <= max_stretch_m) {
                 continue;
             }
@@ -267,7 +276,7 @@ bool is_out_of_reach(const UpdateGrabsIo& io, Entity hand, const Vec3& palm_ws, 
 
 // After a tracking error the hand may be anywhere. A held free body comes back into it
 // (anchor_grabs). Any other grip ends if the palm is farther than max_stretch_m from the surface.
-void release_grabs_out_of_reach(const UpdateGrabsIo& io, const HandTuning& tuning,
+void release_grabs_out_of_reach(const UpdateGrabsIo& io, TuningOfPlayers& tunings,
                                 StageStats& stats) {
     for (std::size_t index = 0; index < io.grab.size(); ++index) {
         const Grab& grab = io.grab.elements()[index];
@@ -278,9 +287,9 @@ void release_grabs_out_of_reach(const UpdateGrabsIo& io, const HandTuning& tunin
             continue;
         }
         const HandOwner& owner = io.owner.at(entity);
-        const Vec3 palm_ws =
-            palm_ray(io.origin.at(owner.player).pose_ws * hand.start_ps, owner.side, tuning)
-                .palm_ws;
+        const PlayerOrigin& origin = io.origin.at(owner.player);
+        const HandTuning& tuning = tunings.of(origin).hand;
+        const Vec3 palm_ws = palm_ray(origin.pose_ws * hand.start_ps, owner.side, tuning).palm_ws;
         if (is_out_of_reach(io, entity, palm_ws, tuning.max_stretch_m)) {
             release_grab(io, index, Fallback::grip_out_of_reach, stats);
         }
@@ -359,7 +368,7 @@ void release_half_held_bodies(const UpdateGrabsIo& io, StageStats& stats) {
     }
 }
 
-void carry_out_orders(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats) {
+void carry_out_orders(const UpdateGrabsIo& io, TuningOfPlayers& tunings, StageStats& stats) {
     while (!io.order.empty()) {
         const Entity hand = io.order.owners().front();
         const Entity body = io.order.elements().front().body;
@@ -380,7 +389,9 @@ void carry_out_orders(const UpdateGrabsIo& io, const Tuning& tuning, StageStats&
             continue;  // a hand that opens in this frame would let go at once
         }
         const HandOwner& owner = io.owner.at(hand);
-        const Pose hand_ws = io.origin.at(owner.player).pose_ws * io.hand.at(hand).start_ps;
+        const PlayerOrigin& origin = io.origin.at(owner.player);
+        const Tuning& tuning = tunings.of(origin);
+        const Pose hand_ws = origin.pose_ws * io.hand.at(hand).start_ps;
         const PalmRay ray = palm_ray(hand_ws, owner.side, tuning.hand);
         const GrabTarget target{body, ray.palm_ws, hand_ws.rotation * Vec3::UnitY(), {}};
         start_grab(io, hand, target, io.start_s, io.grab.elements()[index], tuning, stats);
@@ -393,10 +404,11 @@ void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& sta
     release_destroyed_bodies(io, stats);
     follow_changed_bodies(io, tuning, stats);
     follow_parts(io, tuning.hand);
-    release_overstretched_grabs(io, tuning.hand.max_stretch_m, stats);
-    release_grabs_out_of_reach(io, tuning.hand, stats);
+    TuningOfPlayers tunings(tuning);
+    release_overstretched_grabs(io, tuning.hand, stats);
+    release_grabs_out_of_reach(io, tunings, stats);
     update_sights(io, tuning);
-    carry_out_orders(io, tuning, stats);
+    carry_out_orders(io, tunings, stats);
     for (std::size_t index = 0; index < io.grab.size(); ++index) {
         Grab& grab = io.grab.elements()[index];
         const Entity entity = io.grab.owners()[index];
@@ -409,12 +421,14 @@ void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& sta
         if (hand.edge == GrabEdge::onset) {
             ++stats.grab_onsets;
             if (!has_joined(io, grab, hand)) {
-                begin_grab(io, index, {hand.edge_ps, hand.edge_t_s, k_no_entity}, tuning, stats);
+                begin_grab(io, index, {hand.edge_ps, hand.edge_t_s, k_no_entity},
+                           tunings.of(origin_of(io, index)), stats);
             }
         } else if (pull != nullptr && hand.edge == GrabEdge::none && hand.pressed &&
                    hand.state == TrackingState::tracked && !hand.resumed &&
                    grab.kind == GripKind::none) {
-            begin_grab(io, index, {hand.start_ps, pull->closed_s, pull->body}, tuning, stats);
+            begin_grab(io, index, {hand.start_ps, pull->closed_s, pull->body},
+                       tunings.of(origin_of(io, index)), stats);
         }
     }
     release_half_held_bodies(io, stats);

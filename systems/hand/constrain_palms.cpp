@@ -16,7 +16,7 @@ void constrain_palms(const ConstrainPalmsIo& io) {
         const GripSurface& surface = io.surface.at(hand.hand);
         PalmOffset& offset = io.offset.at(hand.hand);
         if (hand.authored != nullptr) {
-            hold_at(hand, hand.authored->wrist_bs, offset);
+            hold_at(hand, hand.authored_wrist_bs(), offset);
         } else if (surface.triangle != GripSurface::k_none) {
             hold_at(hand, surface.fitted_wrist_bs, offset);
         } else {

@@ -213,11 +213,12 @@ void follow_digit(double dt_s, const FingerTuning& tuning, const FingerAngles& t
 }
 
 Pose shown_wrist_ws(const HandSurroundings& hand, const PalmOffset& offset) {
-    const Pose wrist_ws = hand.body_ws * hand.wrist_bs;
+    const Pose wrist_ws =
+        hand.body_ws * Pose{hand.scale * hand.wrist_bs.position, hand.wrist_bs.rotation};
     const bool is_tracked = offset.shown_m.isZero() && offset.shown_turn_rad.isZero();
-    return is_tracked
-               ? wrist_ws
-               : wrist_ws * Pose{offset.shown_m, rotation_from_vector(offset.shown_turn_rad)};
+    return is_tracked ? wrist_ws
+                      : wrist_ws * Pose{hand.scale * offset.shown_m,
+                                        rotation_from_vector(offset.shown_turn_rad)};
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ class Gatherer {
         const Entity hand = io_.owner.owners()[index];
         const HandOwner& owner = io_.owner.elements()[index];
         const Grab& grab = io_.grab.at(hand);
-        const Pose tracked_ws = io_.origin.at(owner.player).pose_ws * io_.hand.at(hand).pose_ps;
+        const auto& [origin_ws, scale] = io_.origin.at(owner.player);
+        const Pose tracked_ws = origin_ws * io_.hand.at(hand).pose_ps;
         out.hand = hand;
         const HandRigChoice* const choice = io_.rig_choice.find(hand);
         out.rig = choice != nullptr && choice->index < io_.more_rigs.size()
@@ -25,7 +26,9 @@ class Gatherer {
                       : &io_.rigs[index_of(owner.side)];
         out.body = k_no_entity;
         out.body_ws = {};
+        out.scale = scale;
         out.wrist_bs = tracked_ws;
+        out.wrist_bs.position /= scale;
         out.meshes.clear();
         out.signature = 0;
         out.authored = nullptr;
@@ -39,6 +42,7 @@ class Gatherer {
             grab.kind == GripKind::player ? io_.body_hold.find(hand) : nullptr;
         out.body_ws = gripped_pose_ws(io_.body_pose, io_.origin, io_.head, grab.body, hold_on_part);
         out.wrist_bs = grab.anchor_bs;
+        out.wrist_bs.position /= scale;
         if (may_turn_on_grip(grab)) {
             out.wrist_bs.rotation =
                 (out.body_ws.rotation.conjugate() * tracked_ws.rotation).normalized();
@@ -50,7 +54,7 @@ class Gatherer {
         HashStream stream;
         const GripMesh* const mesh = hold_on_part != nullptr
                                          ? enter_part(*hold_on_part, grab.body, out, stream)
-                                         : mesh_of(grab.body);
+                                         : mesh_of(grab.body, scale);
         if (mesh != nullptr) {
             out.body = grab.body;
             out.meshes.push_back({mesh, {}});
@@ -77,30 +81,37 @@ class Gatherer {
         if (io_.meshes.of_shapes == nullptr) {
             return nullptr;
         }
-        const PartCapsule capsule =
-            part_capsule(io_.shown.at(player), io_.measures.at(player), hold.part);
+        const PartCapsule capsule = resized(
+            part_capsule(io_.shown.at(player), io_.measures.at(player), hold.part), out.scale);
         const auto [length, radius] = PartMeshes::size_of(capsule);
         stream.add(static_cast<std::uint64_t>(hold.part));
         stream.add(length);
         stream.add(radius);
         const Pose frame = PartMeshes::frame_of_mesh(capsule);
-        out.body_ws = out.body_ws * frame;
+        out.body_ws = out.body_ws * Pose{out.scale * frame.position, frame.rotation};
         out.wrist_bs = inverse(frame) * out.wrist_bs;
         return io_.meshes.of_parts.find(capsule);
     }
 
-    const GripMesh* mesh_of(Entity body) const {
+    // The body's mesh in the metres of hands of that scale; null: it has none.
+    const GripMesh* mesh_of(Entity body, double scale) const {
+        const std::shared_ptr<const GripMesh>* const mesh = mesh_of(body);
+        return mesh == nullptr ? nullptr
+               : scale == 1.0  ? mesh->get()
+                               : &io_.meshes.resized.get(*mesh, scale);
+    }
+    const std::shared_ptr<const GripMesh>* mesh_of(Entity body) const {
         if (!io_.body_pose.contains(body)) {
             return nullptr;
         }
         if (const BodySurface* const own = io_.meshes.of_bodies.find(body)) {
-            return own->mesh.get();
+            return &own->mesh;
         }
         const Collider* const collider = io_.collider.find(body);
         const GripMeshLibrary* const of_shapes = io_.meshes.of_shapes;
         const bool is_known =
             of_shapes != nullptr && collider != nullptr && of_shapes->has(collider->shape);
-        return is_known ? &of_shapes->at(collider->shape) : nullptr;
+        return is_known ? &of_shapes->shared_at(collider->shape) : nullptr;
     }
 
     // Adds the body and its pose to the hash. The pose is rounded, so that tiny numerical
@@ -124,8 +135,8 @@ class Gatherer {
     }
 
     void add_nearby_meshes(HandSurroundings& out, HashStream& stream) const {
-        const Vec3 palm_ws =
-            transform_point(out.body_ws, transform_point(out.wrist_bs, out.rig->palm_center_hs));
+        const Vec3 palm_ws = transform_point(
+            out.body_ws, out.scale * transform_point(out.wrist_bs, out.rig->palm_center_hs));
         if (io_.near.collision == nullptr) {
             for (const Entity body : io_.near.bodies) {
                 add_if_near(body, palm_ws, out, stream);
@@ -135,7 +146,7 @@ class Gatherer {
         // Colliders are at the poses of the last contact search, up to millimetres from their
         // bodies. Grip meshes differ from their colliders by less than k_slack_m.
         constexpr double k_slack_m = 0.05;
-        const Vec3 reach_m = Vec3::Constant(k_hand_length_m + k_slack_m);
+        const Vec3 reach_m = Vec3::Constant(out.scale * k_hand_length_m + k_slack_m);
         for (const std::uint64_t id :
              io_.near.collision->find_near(palm_ws - reach_m, palm_ws + reach_m)) {
             const auto proxy =
@@ -150,14 +161,16 @@ class Gatherer {
     void add_if_near(Entity body, const Vec3& palm_ws, HandSurroundings& out,
                      HashStream& stream) const {
         const GripMesh* const mesh =
-            body == out.body || !io_.body_pose.contains(body) ? nullptr : mesh_of(body);
+            body == out.body || !io_.body_pose.contains(body) ? nullptr : mesh_of(body, out.scale);
         if (mesh == nullptr) {
             return;
         }
         const Pose& pose_ws = io_.body_pose.at(body).pose_ws;
-        const Vec3 palm_bs = inverse_transform_point(pose_ws, palm_ws);
+        const Vec3 palm_bs = inverse_transform_point(pose_ws, palm_ws) / out.scale;
         if (mesh->contact_bvh.may_be_near(palm_bs, k_hand_length_m)) {
-            out.meshes.push_back({mesh, inverse(out.body_ws) * pose_ws});
+            Pose placed = inverse(out.body_ws) * pose_ws;
+            placed.position /= out.scale;
+            out.meshes.push_back({mesh, placed});
             add_to_signature(stream, body, out.meshes.back());
         }
     }

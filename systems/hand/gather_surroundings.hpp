@@ -16,6 +16,7 @@
 #include "engine/ecs/column.hpp"
 #include "engine/geometry/grip_mesh_library.hpp"
 #include "systems/hand/shared/part_meshes.hpp"
+#include "systems/hand/shared/resized_meshes.hpp"
 
 namespace handhold {
 
@@ -27,6 +28,7 @@ struct MeshesForHands {
     const GripMeshLibrary* of_shapes = nullptr;
     const Column<BodySurface>& of_bodies;  // used instead of the mesh of the body's shape
     const PartMeshes& of_parts;            // meshes of every part that a hand holds
+    ResizedMeshes& resized;                // in/out: for hands of players of another scale
 };
 
 // Where gather_surroundings looks for bodies near a hand.
@@ -70,12 +72,13 @@ struct GatherSurroundingsIo {
 // k_hand_length_m of the palm. Heads have no grip mesh: a hand that grips a head is shown as
 // tracked. A hand on another player's part is fitted to the part's capsule; the body's frame is
 // then the capsule's.
-// Where `meshes` has no mesh for the gripped body, the hand is shown as tracked.
+// Where `meshes` has no mesh for the gripped body, the hand is shown as tracked. All lengths are
+// over the player's scale; meshes come from MeshesForHands::resized.
 //
 // Fallbacks counted: body_no_surface.
 void gather_surroundings(const GatherSurroundingsIo& io, StageStats& stats);
 // gather_surroundings for the elements [first, last) of `owner`. `surroundings` must already have
-// its full size.
+// its full size. Ranges may be gathered in parallel if all players have a scale of 1.
 void gather_surroundings(const GatherSurroundingsIo& io, std::size_t first, std::size_t last,
                          StageStats& stats);
 

@@ -12,14 +12,14 @@ namespace {
 
 // The surface nearest to a palm in an authored grip. It seeds the searches of the closing fingers.
 GripSurface authored_grip_surface(const HandSurroundings& hand, const PalmTuning& tuning) {
-    const PalmFitter fitter(hand, hand.authored->wrist_bs, tuning);
+    const PalmFitter fitter(hand, hand.authored_wrist_bs(), tuning);
     const auto near =
         fitter.placed().mesh->search_bvh.closest_point(fitter.palm().center, tuning.reach_m);
     GripSurface surface;
     if (near) {
         surface = fitter.surface_at({near->triangle, near->point, 0.0});
     }
-    surface.wrist_bs = hand.authored->wrist_bs;
+    surface.wrist_bs = hand.authored_wrist_bs();
     // Invalid key: forces a search once the hand leaves the grip.
     surface.surroundings_signature = 0;
     return surface;
@@ -65,7 +65,7 @@ void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats
         if (hand.authored != nullptr) {
             const bool is_known = surface.body == hand.body &&
                                   surface.surroundings_signature == 0 &&
-                                  hand_travel_m(surface.wrist_bs, hand.authored->wrist_bs) == 0.0;
+                                  hand_travel_m(surface.wrist_bs, hand.authored_wrist_bs()) == 0.0;
             if (!is_known) {
                 surface = authored_grip_surface(hand, tuning.palm);
             }

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "components/play_space.hpp"
+#include "components/scaled_tuning.hpp"
 #include "components/world_edit.hpp"
 #include "engine/collision/shape_query.hpp"
 #include "systems/host/host_world.hpp"
@@ -105,16 +106,17 @@ double distance_m(const Shape& shape, const Vec3& point) {
 
 // Hands on the body that would not find its new surface when they close.
 void release_far_hands(hh_world& host, Entity body, ShapeId shape) {
-    const HandTuning& tuning = host.tuning.hand;
-    const double reach_m = std::max(tuning.ray_length_m - tuning.ray_back_m, tuning.reach_m);
+    TuningOfPlayers tunings(host.tuning);
     for (std::size_t index = 0; index < host.world.grab.size(); ++index) {
         const Grab& grab = host.world.grab.elements()[index];
         if (grab.kind == GripKind::none || grab.body != body) {
             continue;
         }
         const Entity hand = host.world.grab.owners()[index];
-        const HandSide side = host.world.hand_owner.at(hand).side;
-        const Vec3 palm_bs = palm_ray(grab.anchor_bs, side, tuning).palm_ws;
+        const HandOwner& owner = host.world.hand_owner.at(hand);
+        const HandTuning& tuning = tunings.of(host.world.player_origin.at(owner.player)).hand;
+        const double reach_m = std::max(tuning.ray_length_m - tuning.ray_back_m, tuning.reach_m);
+        const Vec3 palm_bs = palm_ray(grab.anchor_bs, owner.side, tuning).palm_ws;
         if (shape == k_no_shape || distance_m(host.shapes.at(shape), palm_bs) > reach_m) {
             host.world.grab_order.remove(hand);
             host.world.grab_order.add(hand, {k_no_entity});

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "engine/core/parallel.hpp"
+#include "systems/host/host_growth.hpp"
 #include "systems/host/host_hooks.hpp"
 
 namespace handhold {

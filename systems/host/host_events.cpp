@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "components/play_space.hpp"
+#include "components/scaled_tuning.hpp"
 #include "engine/solver/newton/velocities.hpp"
 #include "systems/host/host_impulses.hpp"
 
@@ -238,6 +239,7 @@ void add_contact_events(hh_world& host, hh_event_kind kind,
 }
 
 void add_touch_events(hh_world& host) {
+    TuningOfPlayers tunings(host.tuning);
     for (std::size_t index = 0; index < host.world.hand_owner.size(); ++index) {
         const Entity hand = host.world.hand_owner.owners()[index];
         const HandOwner& owner = host.world.hand_owner.elements()[index];
@@ -247,12 +249,14 @@ void add_touch_events(hh_world& host) {
             host.world.hand_tracking.at(hand).state == TrackingState::tracked) {
             const Pose& hand_ws =
                 host.world.render_pose.at(owner.player).hands[index_of(owner.side)].tracked_ws;
-            const PalmRay ray = palm_ray(hand_ws, owner.side, host.tuning.hand);
+            const PlayerOrigin& origin = host.world.player_origin.at(owner.player);
+            const PalmRay ray = palm_ray(hand_ws, owner.side, tunings.of(origin).hand);
             const std::array own_head = {host.world.persistent_id.at(owner.player).value};
             const SurfaceQuery surfaces = host.caches.host_surfaces
                                               ? host.caches.host_surfaces
                                               : SurfaceQuery(host.caches.collision);
-            const auto found = surfaces.closest_point(ray.palm_ws, k_event_touch_m, own_head);
+            const auto found =
+                surfaces.closest_point(ray.palm_ws, origin.scale * k_event_touch_m, own_head);
             touched = found ? find_by_id(host.world, {found->id}) : k_no_entity;
         }
         if (!is_null(touched) && touched != report.touched) {

@@ -179,7 +179,8 @@ hh_result hh_player_hand_joints(const hh_world* world, hh_player player, hh_side
         const HandSide which = side_of(side);
         const HandRig& rig = hand_rig_of(host, hand_of(host.world, entity, which), which);
         const RenderPose::Hand& shown = host.world.render_pose.at(entity).hands[index_of(which)];
-        const auto posed = pose_hand_joints(rig, shown.fingers, shown.shown_ws);
+        const auto posed = pose_hand_joints(rig, host.world.player_origin.at(entity).scale,
+                                            shown.fingers, shown.shown_ws);
         for (std::size_t i = 0; i < posed.size(); ++i) {
             Pose pose = posed[i].pose_ws;
             if (const std::int32_t parent = hand_joint_parent(i);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "components/play_space.hpp"
+#include "components/scaled_tuning.hpp"
 #include "components/world_edit.hpp"
 #include "systems/grab/shared/grip_kind.hpp"
 #include "systems/host/host_step.hpp"
@@ -169,8 +170,10 @@ hh_result hh_hand_find_grip(hh_world* world, hh_player player, hh_side side, hh_
             find_grip(host.world, host.caches, host.tuning, hand, host.search_stats);
         hh_surface_hit found{};
         if (target && host.world.body.contains(target->body)) {
-            const Pose hand_ws = host.world.player_origin.at(owner).pose_ws * tracking.pose_ps;
-            const Vec3 palm_ws = palm_ray(hand_ws, which, host.tuning.hand).palm_ws;
+            const PlayerOrigin& origin = host.world.player_origin.at(owner);
+            TuningOfPlayers tunings(host.tuning);
+            const Vec3 palm_ws =
+                palm_ray(origin.pose_ws * tracking.pose_ps, which, tunings.of(origin).hand).palm_ws;
             found = {id_of<hh_body>(target->body), to_c(target->point_ws), to_c(target->normal_ws),
                      (target->point_ws - palm_ws).norm()};
         }

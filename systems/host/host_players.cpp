@@ -1,5 +1,6 @@
 // Players of the C interface (handhold/players.h).
 #include "components/play_space.hpp"
+#include "components/scaled_tuning.hpp"
 #include "components/world_edit.hpp"
 #include "systems/host/host_world.hpp"
 #include "systems/input/read_tracking.hpp"
@@ -7,13 +8,9 @@
 namespace handhold {
 namespace {
 
-BodyMeasures read_measures(const hh_measures& measures, double scale) {
-    const auto length = [scale](double length_m) {
-        return checked(length_m * scale, BodyMeasures::k_min_m, BodyMeasures::k_max_m,
-                       "the body's measures must lie within 0.05 to 5 m");
-    };
-    return {length(measures.eye_height_m), length(measures.shoulder_width_m),
-            length(measures.upper_arm_m), length(measures.forearm_m)};
+BodyMeasures read_measures(const hh_measures& measures) {
+    return {measures.eye_height_m, measures.shoulder_width_m, measures.upper_arm_m,
+            measures.forearm_m};
 }
 
 hh_measures write_measures(const BodyMeasures& measures) {
@@ -49,21 +46,23 @@ hh_result hh_player_add(hh_world* world, const hh_player_def* wanted, hh_player*
             require(is_null(find_by_name(host.world, name + hand)), HH_ERROR_NAME,
                     "the name of one of the player's hands is taken");
         }
-        constexpr double k_max_scale = 100.0;
-        const double scale =
-            checked(def.scale, 1e-3, k_max_scale, "scale must lie in [0.001, 100]");
+        const double scale = checked(def.scale, PlayerOrigin::k_min_scale,
+                                     PlayerOrigin::k_max_scale, "scale must lie in [0.01, 100]");
         PlayerDescription description;
         description.name = name;
         description.body.mass_kg = def.mass_kg;
         description.origin_ws = checked(def.origin);
         description.velocity_mps = checked(def.velocity_mps, world_limits::k_max_speed_mps,
                                            "a velocity beyond 1e6 m/s, or NaN");
-        description.measures = read_measures(def.measures, scale);
+        description.scale = scale;
+        description.measures = read_measures(def.measures);
+        require(are_measures(description.measures, 1.0), HH_ERROR_VALUE,
+                "the body's measures must lie within 0.05 to 5 m");
         checked(def.mass_kg, world_limits::k_min_mass_kg, world_limits::k_max_mass_kg,
                 "a player needs a mass within 1e-12 to 1e15 kg");
         description.head_shape = k_no_shape;
         if (def.head_collides) {
-            description.head_shape = head_shape(host, host.tuning.head.radius_m);
+            description.head_shape = head_shape(host, scale * host.tuning.head.radius_m);
         }
         const Entity entity = add_player(host.world, description, host.shapes).player;
         if (def.layers != CollisionFilter{}.layers || def.mask != CollisionFilter{}.mask) {
@@ -155,12 +154,13 @@ hh_result hh_player_head(const hh_world* world, hh_player player, hh_vec3* cente
         const hh_world& host = world_of(world);
         const Entity entity = player_of(host, player);
         const HeadTracking& head = host.world.head_tracking.at(entity);
+        const auto& [origin_ws, scale] = host.world.player_origin.at(entity);
         if (center != nullptr) {
-            *center = to_c(transform_point(host.world.player_origin.at(entity).pose_ws,
-                                           head_center_ps(head, host.tuning.head)));
+            *center =
+                to_c(transform_point(origin_ws, head_center_ps(head, scale, host.tuning.head)));
         }
         if (radius_m != nullptr) {
-            *radius_m = host.tuning.head.radius_m;
+            *radius_m = scale * host.tuning.head.radius_m;
         }
         if (is_tracked != nullptr) {
             *is_tracked = head.state == TrackingState::tracked && !head.is_inferred;
@@ -181,7 +181,10 @@ hh_result hh_player_set_measures(hh_world* world, hh_player player, const hh_mea
         hh_world& host = world_of(world);
         require(measures != nullptr, HH_ERROR_NULL, "the measures are null");
         const Entity entity = player_of(host, player);
-        host.world.body_measures.at(entity) = read_measures(*measures, 1.0);
+        const BodyMeasures given = read_measures(*measures);
+        require(are_measures(given, host.world.player_origin.at(entity).scale), HH_ERROR_VALUE,
+                "the body's measures must lie within 0.05 to 5 m times the player's scale");
+        host.world.body_measures.at(entity) = given;
     });
 }
 
@@ -226,11 +229,13 @@ hh_result hh_player_hand_in_controller(const hh_world* world, hh_player player, 
         const hh_world& host = world_of(world);
         require(hand_in_controller != nullptr, HH_ERROR_NULL, "the output is null");
         const HandSide which = side_of(side);
-        const Entity hand = hand_of(host.world, player_of(host, player), which);
-        const ControllerToHand* const own = host.world.controller_to_hand.find(hand);
-        *hand_in_controller =
-            to_c(own != nullptr ? own->hand_in_controller
-                                : default_controller_to_hand(which, host.tuning.hand));
+        const Entity entity = player_of(host, player);
+        const ControllerToHand* const own =
+            host.world.controller_to_hand.find(hand_of(host.world, entity, which));
+        TuningOfPlayers tunings(host.tuning);
+        const HandTuning& tuning = tunings.of(host.world.player_origin.at(entity)).hand;
+        *hand_in_controller = to_c(own != nullptr ? own->hand_in_controller
+                                                  : default_controller_to_hand(which, tuning));
     });
 }
 

@@ -93,9 +93,11 @@ std::int32_t hand_joint_parent(std::size_t joint) {
     return static_cast<std::int32_t>(is_first ? k_wrist : joint - 1);
 }
 
-PosedHandJoints pose_hand_joints(const HandRig& rig,
+PosedHandJoints pose_hand_joints(const HandRig& rig, double scale,
                                  const std::array<FingerAngles, k_finger_count>& angles,
-                                 const Pose& wrist_ws) {
+                                 const Pose& shown_wrist_ws) {
+    // In the hand's metres: the world's over the scale.
+    const Pose wrist_ws{shown_wrist_ws.position / scale, shown_wrist_ws.rotation};
     PosedHandJoints out;
     const double palm_radius_m = rig.palm.empty() ? 0.0 : rig.palm.front().radius_m;
     Vec3 palm_hs = rig.palm_center_hs;
@@ -109,6 +111,10 @@ PosedHandJoints pose_hand_joints(const HandRig& rig,
         if (const std::int32_t parent = hand_joint_parent(i); !out[i].is_valid && parent >= 0) {
             out[i].pose_ws = out[static_cast<std::size_t>(parent)].pose_ws;
         }
+    }
+    for (PosedHandJoint& joint : out) {
+        joint.pose_ws.position *= scale;
+        joint.radius_m *= scale;
     }
     return out;
 }

@@ -19,8 +19,9 @@ using PosedHandJoints = std::array<PosedHandJoint, HH_HAND_JOINT_COUNT>;
 // The rig that the hand is shown with.
 const HandRig& hand_rig_of(const hh_world& host, Entity hand, HandSide side);
 // In the order and with the axes of XR_EXT_hand_tracking: -Z from a joint to the next one, +Y to
-// the back of the hand. Joints that the rig lacks have the pose of their parent.
-PosedHandJoints pose_hand_joints(const HandRig& rig,
+// the back of the hand. Joints that the rig lacks have the pose of their parent. The hand has
+// `scale` times the rig's lengths.
+PosedHandJoints pose_hand_joints(const HandRig& rig, double scale,
                                  const std::array<FingerAngles, k_finger_count>& angles,
                                  const Pose& wrist_ws);
 // -1 for the wrist.

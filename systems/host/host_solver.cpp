@@ -41,13 +41,15 @@ hh_hand_constraint constraint_of(const hh_world& host, const RowBlock& block, do
     out.anchor_end = to_c(body_ws * grab.anchor_bs);
     const double driven_kg = grab.kind == GripKind::held ? world.body.at(grab.body).mass_kg
                                                          : world.player.at(owner.player).mass_kg;
-    out.max_force_n = driven_kg * host.tuning.tracking.max_hand_speed_mps / dt_s;
+    out.max_force_n = driven_kg * world.player_origin.at(owner.player).scale *
+                      host.tuning.tracking.max_hand_speed_mps / dt_s;
     out.is_releasing = grab.phase == GrabPhase::releasing;
     return out;
 }
 
 hh_player_motion motion_of(const hh_world& host, Entity player) {
     const World& world = host.world;
+    const double scale = world.player_origin.at(player).scale;
     const Quat play_space = world.player_origin.at(player).pose_ws.rotation;
     const HeadTracking& head = world.head_tracking.at(player);
     hh_player_motion out{};
@@ -58,9 +60,9 @@ hh_player_motion motion_of(const hh_world& host, Entity player) {
     out.mass_kg =
         mass_for_host_kg(frame, find_body(frame.graph, world.persistent_id.at(player).value),
                          world.player.at(player).mass_kg);
-    out.head = to_c(Pose{play_space * head_center_ps(head, host.tuning.head),
+    out.head = to_c(Pose{play_space * head_center_ps(head, scale, host.tuning.head),
                          (play_space * head.pose_ps.rotation).normalized()});
-    out.head_radius_m = host.tuning.head.radius_m;
+    out.head_radius_m = scale * host.tuning.head.radius_m;
     return out;
 }
 

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <limits>
 #include <span>
+#include <string_view>
+#include <vector>
 
 #include "systems/input/shared/play_space_tracker.hpp"
 
@@ -199,6 +201,8 @@ void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std
     const double end_s = host.world.clock.t_s + dt_s;
     if (kind == StepKind::advances) {
         add_silent_inputs(host);
+    } else {
+        host.world.early_samples.clear();  // After a pause, devices are elsewhere.
     }
     for (const PlayerInput& input : host.inputs) {
         const EarlySamples* const early = host.world.early_samples.find(input.player);
@@ -317,7 +321,12 @@ namespace {
 
 const SnapshotAssets& assets_of(hh_world& host) {
     if (!host.assets || host.assets_revision != host.shapes.revision()) {
-        host.assets.emplace(host.shapes);
+        std::vector<Pose> frames;
+        for (const HostShape& shape : host.host_shapes) {
+            frames.push_back(shape.frame);
+        }
+        host.assets.emplace(host.shapes, std::string_view{},
+                            SnapshotAssets::OfHost{frames, host.head_shapes});
         host.assets_revision = host.shapes.revision();
     }
     return *host.assets;
@@ -454,6 +463,11 @@ hh_result hh_world_restore(hh_world* world, const void* bytes, size_t size) {
         hh_world& host = world_of(world);
         require(bytes != nullptr, HH_ERROR_NULL, "the bytes are null");
         const std::span<const std::byte> read{static_cast<const std::byte*>(bytes), size};
+        for (const double radius_m : head_radii_in(read, assets_of(host))) {
+            if (radius_m >= k_smallest_head_m && radius_m <= k_largest_head_m) {
+                head_shape(host, radius_m);  // heads have the sizes of the world that was saved
+            }
+        }
         if (const auto error = restore_snapshot(read, assets_of(host), host.world)) {
             throw HostError{HH_ERROR_DATA, error->message()};
         }

@@ -92,7 +92,8 @@ hh_result hh_tuning_describe(size_t index, hh_tuning_info* info) {
                          number.what,
                          number.low,
                          number.high,
-                         component_count<decltype(field)>()};
+                         component_count<decltype(field)>(),
+                         number.scales};
             }
         });
         require(found.name != nullptr, HH_ERROR_VALUE, "no number with this index");

@@ -47,9 +47,10 @@ void read_paused_tracking(const ReadPausedTrackingIo& io) {
         history.count = history.next = 0;
         if (is_valid(reading.controller_ps)) {
             const ControllerToHand* const joint = io.controller_to_hand.find(entity);
-            Pose hand_ps = reading.controller_ps *
-                           (joint != nullptr ? joint->hand_in_controller
-                                             : io.hand_in_controller[index_of(owner.side)]);
+            Pose in_controller = io.hand_in_controller[index_of(owner.side)];
+            in_controller.position *= io.origin.at(owner.player).scale;
+            const Pose hand_ps = reading.controller_ps *
+                                 (joint != nullptr ? joint->hand_in_controller : in_controller);
             place(hand, corrected(io.head.at(owner.player), hand_ps));
         }
     }

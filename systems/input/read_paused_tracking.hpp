@@ -4,6 +4,7 @@
 #include <span>
 
 #include "components/grab.hpp"
+#include "components/player.hpp"
 #include "components/tracking.hpp"
 #include "engine/ecs/column.hpp"
 
@@ -11,12 +12,13 @@ namespace handhold {
 
 struct ReadPausedTrackingIo {
     std::span<const PlayerInput> inputs;                 // in: at most one per player
+    const Column<PlayerOrigin>& origin;                  // in: scale
     const Column<HandOwner>& owner;                      // in
     const Column<ControllerToHand>& controller_to_hand;  // in
     Column<HeadTracking>& head;                          // in/out
     Column<HandTracking>& hand;                          // in/out
     Column<HandHistory>& history;                        // in/out
-    // in: pose of hands without ControllerToHand, indexed by HandSide
+    // in: pose of hands without ControllerToHand, indexed by HandSide, for a scale of 1
     std::array<Pose, k_hand_count> hand_in_controller;
 };
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "components/hand_indices.hpp"
+#include "components/scaled_tuning.hpp"
 #include "engine/core/check.hpp"
 #include "systems/input/shared/hand_motion.hpp"
 #include "systems/input/shared/motion_limit.hpp"
@@ -74,15 +75,15 @@ void begin_edge(HandTracking& hand, const HandHistory& history, double t_s, cons
 //  - and, after a reading that was ignored, from that one too: two consecutive readings must agree.
 // A jump by d is thus believed once d / max_hand_speed_mps has passed.
 bool is_plausible(const HandTracking& hand, const HandHistory& history, const Pose& hand_ps,
-                  double t_s, double max_speed_mps) {
+                  double t_s, double max_speed_mps, double scale) {
     const double dt_s = t_s - hand.sample_t_s;
     const bool was_ignored = hand.reading_t_s > hand.sample_t_s;
-    if (could_move(hand.sample_ps, hand_ps, dt_s, max_speed_mps)) {
+    if (could_move(hand.sample_ps, hand_ps, dt_s, max_speed_mps, scale)) {
         return !was_ignored ||
-               could_move(hand.reading_ps, hand_ps, t_s - hand.reading_t_s, max_speed_mps);
+               could_move(hand.reading_ps, hand_ps, t_s - hand.reading_t_s, max_speed_mps, scale);
     }
     return !hand.interrupted &&
-           could_move(extrapolated(hand, history, t_s), hand_ps, dt_s, max_speed_mps);
+           could_move(extrapolated(hand, history, t_s), hand_ps, dt_s, max_speed_mps, scale);
 }
 
 // One hand and all that its readings are compared with.
@@ -92,7 +93,8 @@ struct HandReader {
     PlaySpaceTracker space;  // state at the end of the last frame
     HandSide side;
     const ReadTrackingIo& io;
-    const Tuning& tuning;
+    const Tuning& tuning;  // numbers of a player of that scale
+    double scale;          // PlayerOrigin::scale
     StageStats& stats;
     bool freezes_guesses = false;  // guesses do not move the hand
     bool has_sample = false;
@@ -114,7 +116,7 @@ struct HandReader {
             return Fallback::hand_out_of_reach;
         }
         if (has_sample && !is_meant && !reading.is_inferred &&
-            !is_plausible(hand, history, hand_ps, t_s, tuning.tracking.max_hand_speed_mps)) {
+            !is_plausible(hand, history, hand_ps, t_s, tuning.tracking.max_hand_speed_mps, scale)) {
             return Fallback::hand_implausible;
         }
         return std::nullopt;
@@ -124,7 +126,8 @@ struct HandReader {
     bool jumps_to(const Pose& hand_ps) const {
         const bool is_first = hand.sample_t_s < io.frame_start_s;
         return has_sample && hand.interrupted &&
-               travel_m(is_first ? hand.start_ps : hand.sample_ps, hand_ps) > k_unnoticed_m;
+               travel_m(is_first ? hand.start_ps : hand.sample_ps, hand_ps, scale) >
+                   scale * k_unnoticed_m;
     }
 
     void ignore(Fallback reason, const Pose& hand_ps, double t_s) {
@@ -382,9 +385,11 @@ bool is_holding_on(const ReadTrackingIo& io, const std::array<std::size_t, k_han
 }
 
 // Head and hands follow the same samples from the same state, so they agree on every correction.
-void read_player(const ReadTrackingIo& io, std::size_t index, const Tuning& tuning,
+void read_player(const ReadTrackingIo& io, std::size_t index, TuningOfPlayers& tunings,
                  StageStats& stats) {
     const Entity player = io.head.owners()[index];
+    const PlayerOrigin& origin = io.origin.at(player);
+    const Tuning& tuning = tunings.of(origin);
     HeadTracking& head = io.head.elements()[index];
     const PlayerInput& input = input_of(io, player, index);
     const std::array<std::size_t, k_hand_count> hand_indices = hand_indices_of(io, player, index);
@@ -401,16 +406,23 @@ void read_player(const ReadTrackingIo& io, std::size_t index, const Tuning& tuni
     }
     const RecenterGuess* const guess = io.recenter_guess.find(player);
     const bool holds_on = is_holding_on(io, hand_indices);
-    const PlaySpaceTracker space(
-        head, hands,
-        {.corrects_jumps = guess == nullptr || guess->guesses, .freezes_guesses = holds_on});
+    const PlaySpaceTracker space(head, hands,
+                                 {.corrects_jumps = guess == nullptr || guess->guesses,
+                                  .freezes_guesses = holds_on,
+                                  .scale = origin.scale});
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const std::size_t hand_index = hand_indices[index_of(side)];
         if (hand_index < io.owner.size()) {
             const Entity entity = io.owner.owners()[hand_index];
             const Grab* const grab = io.grab.find(entity);
-            HandReader reader{
-                io.hand.at(entity), io.history.at(entity), space, side, io, tuning, stats};
+            HandReader reader{io.hand.at(entity),
+                              io.history.at(entity),
+                              space,
+                              side,
+                              io,
+                              tuning,
+                              origin.scale,
+                              stats};
             reader.freezes_guesses = holds_on && grab != nullptr && grab->kind != GripKind::none;
             reader.read(input);
         }
@@ -437,8 +449,9 @@ Pose default_controller_to_hand(HandSide side, const HandTuning& tuning) {
 
 void read_tracking(const ReadTrackingIo& io, std::size_t first, std::size_t last,
                    const Tuning& tuning, StageStats& stats) {
+    TuningOfPlayers tunings(tuning);
     for (std::size_t index = first; index < last; ++index) {
-        read_player(io, index, tuning, stats);
+        read_player(io, index, tunings, stats);
     }
 }
 

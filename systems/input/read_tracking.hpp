@@ -3,6 +3,7 @@
 #include <span>
 
 #include "components/grab.hpp"
+#include "components/player.hpp"
 #include "components/stats.hpp"
 #include "components/tracking.hpp"
 #include "components/tuning.hpp"
@@ -14,6 +15,7 @@ struct ReadTrackingIo {
     std::span<const PlayerInput> inputs;  // in: at most one per player; without one, poses are held
     double frame_start_s;                 // in
     double frame_end_s;                   // in: > frame_start_s
+    const Column<PlayerOrigin>& origin;   // in: scale
     const Column<HandOwner>& owner;       // in
     // in: hands without it use default_controller_to_hand
     const Column<ControllerToHand>& controller_to_hand;

@@ -134,13 +134,14 @@ void update_reference(const LocomotePlayersIo& io, const Grips& grips,
 }
 
 void drive(const LocomotePlayersIo& io, const PlayerCommands& commands, const Quat& play_space,
-           const Vec3& reference_mps, const LocomotionTuning& tuning, Vec3& velocity_mps) {
+           double scale, const Vec3& reference_mps, const LocomotionTuning& tuning,
+           Vec3& velocity_mps) {
     const double brake = std::clamp(commands.brake, 0.0, 1.0) * tuning.brake_drag_per_s;
     const double drag = (tuning.drift_drag_per_s + brake) * io.dt_s;
     // Implicit Euler, v' = v / (1 + drag dt): stable for any drag.
     velocity_mps = reference_mps + (velocity_mps - reference_mps) / (1.0 + drag);
     const Vec3 thrust_ps = commands.thrust_ps.cwiseMax(-1.0).cwiseMin(1.0);
-    velocity_mps += (tuning.thruster_mps2 * io.dt_s) * (play_space * thrust_ps);
+    velocity_mps += (scale * tuning.thruster_mps2 * io.dt_s) * (play_space * thrust_ps);
 }
 
 }  // namespace
@@ -166,8 +167,8 @@ void locomote_players(const LocomotePlayersIo& io, const LocomotionTuning& tunin
         }
         const auto* const end = grips.grips.begin() + grips.count;
         if (std::none_of(grips.grips.begin(), end, is_on_surface)) {
-            drive(io, commands, play_space, io.reference.at(player).linear_mps, tuning,
-                  io.velocity.at(player).linear_mps);
+            drive(io, commands, play_space, origin.scale, io.reference.at(player).linear_mps,
+                  tuning, io.velocity.at(player).linear_mps);
         }
     }
 }

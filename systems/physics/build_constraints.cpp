@@ -21,7 +21,7 @@ void write_player(const BuildConstraintsIo& io, Entity player, const HeadTuning&
     out.mass_kg = io.player.at(player).mass_kg;
     out.restitution = tuning.restitution;
     out.friction = tuning.friction;
-    out.collider_offset_bs = head_center_ps(io.head.at(player), tuning);
+    out.collider_offset_bs = head_center_ps(io.head.at(player), io.origin.at(player).scale, tuning);
 }
 
 void write_rigid(const BuildConstraintsIo& io, Entity entity, const RigidBody& body,

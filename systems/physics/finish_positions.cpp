@@ -17,9 +17,10 @@ namespace {
 Vec3 head_motion_m(const FinishPositionsIo& io, std::uint32_t player, const HeadTuning& tuning) {
     const Entity entity = io.frame.entities[player];
     const HeadTracking& head = io.head.at(entity);
-    const Pose& predicted_ws = io.origin.at(entity).pose_ws;
-    const Vec3 tracked_ps = transform_point(head.pose_ps, tuning.center_m) -
-                            transform_point(head.start_ps, tuning.center_m);
+    const auto& [predicted_ws, scale] = io.origin.at(entity);
+    const Vec3 center_hs = scale * tuning.center_m;
+    const Vec3 tracked_ps =
+        transform_point(head.pose_ps, center_hs) - transform_point(head.start_ps, center_hs);
     const Vec3 gripped_m = io.frame.phase[player].reached_ws.position - predicted_ws.position;
     return predicted_ws.rotation * tracked_ps + io.dt_s * io.player_velocity.at(entity).linear_mps +
            gripped_m;
@@ -61,7 +62,7 @@ void limit_pushes(const FinishPositionsIo& io, const HeadTuning& tuning) {
         }
         const Vec3& reached_m = frame.phase[i].reached_ws.position;
         Vec3 push_m = body.pose_ws.position - reached_m;
-        if (push_m.norm() <= k_head_eject_mps * io.dt_s) {
+        if (push_m.norm() <= io.origin.at(frame.entities[i]).scale * k_head_eject_mps * io.dt_s) {
             continue;
         }
         const Vec3 motion_m = head_motion_m(io, i, tuning);

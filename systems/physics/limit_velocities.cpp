@@ -55,9 +55,10 @@ void clamp_players(const LimitVelocitiesIo& io, const LocomotionTuning& tuning, 
             }
             const Entity player = io.frame.entities[i];
             const Vec3& reference = io.reference.at(player).linear_mps;
-            const double limit = std::max({tuning.release_speed_max_mps,
-                                           (info.velocity_before_mps - reference).norm(),
-                                           driven_speed(io.frame, island, reference)});
+            const double limit =
+                std::max({io.origin.at(player).scale * tuning.release_speed_max_mps,
+                          (info.velocity_before_mps - reference).norm(),
+                          driven_speed(io.frame, island, reference)});
             if (clamp_speed(reference, limit, io.player_velocity.at(player).linear_mps) &&
                 info.pushed) {
                 stats.count(Fallback::release_speed_clamped);
@@ -81,20 +82,21 @@ void clamp_handled_bodies(const LimitVelocitiesIo& io, const LocomotionTuning& t
         }
         const Entity player = frame.entities[frame.graph.blocks[*hand].a];
         const Vec3& reference = io.reference.at(player).linear_mps;
+        const double max_mps = io.origin.at(player).scale * tuning.object_speed_max_mps;
         std::optional<double> driven;  // computed once, and only if a body is fast
         for (const std::uint32_t i : frame.graph.bodies_of(island)) {
             if (frame.graph.bodies[i].role != BodyRole::free) {
                 continue;
             }
             Vec3& velocity_mps = io.body_velocity.at(frame.entities[i]).linear_mps;
-            if (is_slower(velocity_mps - reference, tuning.object_speed_max_mps)) {
+            if (is_slower(velocity_mps - reference, max_mps)) {
                 continue;  // most bodies are slow enough
             }
             const double before = (frame.phase[i].velocity_before_mps - reference).norm();
             if (!driven) {
                 driven = driven_speed(frame, island, reference);
             }
-            const double limit = std::max({tuning.object_speed_max_mps, before, *driven});
+            const double limit = std::max({max_mps, before, *driven});
             if (clamp_speed(reference, limit, velocity_mps)) {
                 stats.count(Fallback::object_speed_clamped);
             }
@@ -108,17 +110,18 @@ void finish_releases(const LimitVelocitiesIo& io, const LocomotionTuning& tuning
         Grab& grab = io.grab.elements()[index];
         const Entity player = io.owner.at(io.grab.owners()[index]).player;
         const Vec3& reference = io.reference.at(player).linear_mps;
+        const double scale = io.origin.at(player).scale;
         if (grab.phase != GrabPhase::releasing) {
             continue;
         }
         bool clamped = false;
         if (grab.kind != GripKind::held) {
-            clamped = clamp_speed(reference, tuning.release_speed_max_mps,
+            clamped = clamp_speed(reference, scale * tuning.release_speed_max_mps,
                                   io.player_velocity.at(player).linear_mps);
         } else if (!grab.jointed) {
             // Jointed bodies may be on a moving ship. clamp_handled_bodies allows for the ship's
             // speed.
-            clamped = clamp_speed(reference, tuning.object_speed_max_mps,
+            clamped = clamp_speed(reference, scale * tuning.object_speed_max_mps,
                                   io.body_velocity.at(grab.body).linear_mps);
         }
         if (clamped) {

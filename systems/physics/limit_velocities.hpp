@@ -20,6 +20,7 @@ namespace handhold {
 struct LimitVelocitiesIo {
     const Column<HandOwner>& owner;              // in
     const Column<ReferenceVelocity>& reference;  // in: world, m/s
+    const Column<PlayerOrigin>& origin;          // in: scale
     const FrameGraph& frame;                     // in: rows, islands, phase
     Column<BodyVelocity>& body_velocity;         // in/out, free bodies: world, m/s and rad/s
     Column<PlayerVelocity>& player_velocity;     // in/out: world, m/s

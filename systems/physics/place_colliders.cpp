@@ -19,12 +19,12 @@ ColliderProxy proxy_of(const PlaceCollidersIo& io, Entity entity, const HeadTuni
         proxy.mask = filter->mask;
     }
     if (const PlayerOrigin* const origin = io.origin.find(entity)) {
-        proxy.to_ws =
-            origin->pose_ws * Pose{head_center_ps(io.head.at(entity), tuning), Quat::Identity()};
+        const Pose center_ps{head_center_ps(io.head.at(entity), origin->scale, tuning),
+                             Quat::Identity()};
+        proxy.to_ws = origin->pose_ws * center_ps;
         const LastValidPose& valid = io.last_valid.at(entity);
         // A head that has no valid pose yet is swept from its pose at the start of the frame.
-        const Pose start_ws = io.player_start.at(entity).pose_ws *
-                              Pose{head_center_ps(io.head.at(entity), tuning), Quat::Identity()};
+        const Pose start_ws = io.player_start.at(entity).pose_ws * center_ps;
         proxy.from_ws = valid.known ? valid.pose_ws : start_ws;
         proxy.free = true;
         if (io.head.at(entity).state == TrackingState::never) {

@@ -1,6 +1,7 @@
 #include "systems/snapshot/snapshot.hpp"
 
 #include <array>
+#include <bit>
 #include <cstring>
 #include <utility>
 
@@ -18,7 +19,7 @@ namespace {
 // line feed that a text-mode transfer would alter.
 constexpr char k_snapshot_magic[] = "\x89HHSNAP\n";
 constexpr std::size_t k_magic_bytes = sizeof k_snapshot_magic - 1;
-constexpr std::uint32_t k_format_version = 8;
+constexpr std::uint32_t k_format_version = 9;
 // Byte offsets of the header's fields.
 constexpr std::size_t k_version_at = k_magic_bytes;
 constexpr std::size_t k_schema_size_at = k_version_at + 4;
@@ -27,9 +28,10 @@ constexpr std::size_t k_assets_at = k_size_at + 8;
 // The header is followed by the schema, the payload, the colliders' shapes and the checksum.
 constexpr std::size_t k_snapshot_header_bytes = k_assets_at + 8;
 constexpr std::size_t k_checksum_bytes = 8;
-// Each collider's shape is saved as its digest (u64) and kind (u8), in the order of the column.
-// Then follows the number of colliders, u32.
+// Each collider's shape is saved as its digest (u64) and kind (u8), a player's head as its radius
+// (f64) and k_head_kind, in the order of the column. Then follows the number of colliders, u32.
 constexpr std::size_t k_shape_bytes = 9;
+constexpr std::byte k_head_kind{7};
 constexpr std::size_t k_shape_count_bytes = 4;
 
 std::uint64_t checksum_of(std::span<const std::byte> bytes) {
@@ -99,11 +101,16 @@ std::optional<FileError> check_envelope(std::span<const std::byte> bytes,
 }
 
 std::byte* write_shapes(const World& world, const SnapshotAssets& assets, std::byte* at) {
-    for (const Collider& collider : world.collider.elements()) {
-        const bool is_there = assets.shapes().has(collider.shape);
-        store_little(assets.digest(collider.shape), at);
-        at[8] = is_there ? static_cast<std::byte>(assets.shapes().at(collider.shape).kind)
-                         : std::byte{0xff};
+    for (std::size_t index = 0; index < world.collider.size(); ++index) {
+        const ShapeId id = world.collider.elements()[index].shape;
+        const Shape* const shape = assets.shapes().has(id) ? &assets.shapes().at(id) : nullptr;
+        if (shape != nullptr && world.player.contains(world.collider.owners()[index])) {
+            store_little(std::bit_cast<std::uint64_t>(shape->radius_m), at);
+            at[8] = k_head_kind;
+        } else {
+            store_little(assets.digest(id), at);
+            at[8] = shape != nullptr ? static_cast<std::byte>(shape->kind) : std::byte{0xff};
+        }
         at += k_shape_bytes;
     }
     store_little(static_cast<std::uint32_t>(world.collider.size()), at);
@@ -112,7 +119,7 @@ std::byte* write_shapes(const World& world, const SnapshotAssets& assets, std::b
 
 const char* kind_text(std::byte kind) {
     static constexpr std::array k_texts = {"box",  "sphere",   "capsule", "cylinder",
-                                           "hull", "compound", "mesh"};
+                                           "hull", "compound", "mesh",    "head's sphere"};
     const auto index = std::to_integer<std::size_t>(kind);
     return index < k_texts.size() ? k_texts[index] : "shape";
 }
@@ -128,10 +135,13 @@ std::optional<FileError> find_shapes(std::span<const std::byte> bytes, std::size
         const std::size_t at = shapes_at + index * k_shape_bytes;
         const auto digest = load_little<std::uint64_t>(bytes.data() + at);
         ShapeId& shape = world.collider.elements()[index].shape;
-        if (digest != 0 && assets.digest(shape) == digest) {
+        const bool is_head = bytes[at + 8] == k_head_kind;
+        const auto radius_m = std::bit_cast<double>(digest);  // meaning for a head only
+        if (is_head ? assets.is_head(shape, radius_m)
+                    : digest != 0 && assets.digest(shape) == digest) {
             continue;
         }
-        shape = assets.find(digest);
+        shape = is_head ? assets.find_head(radius_m) : assets.find(digest);
         if (digest == 0 || shape == k_no_shape) {
             return FileError{
                 "snapshot",
@@ -162,6 +172,21 @@ void save_snapshot(const World& world, const SnapshotAssets& assets,
     const auto written = static_cast<std::size_t>(end - bytes.data());
     HH_CHECK(written + k_checksum_bytes == bytes.size(), "bytes were counted wrong", written);
     store_little(checksum_of(std::span(bytes).first(written)), bytes.data() + written);
+}
+
+std::vector<double> head_radii_in(std::span<const std::byte> bytes, const SnapshotAssets& assets) {
+    std::vector<double> radii_m;
+    if (check_envelope(bytes, assets)) {
+        return radii_m;
+    }
+    std::size_t at = bytes.size() - k_checksum_bytes - k_shape_count_bytes;
+    for (std::uint32_t left = shape_count_in(bytes); left > 0; --left) {
+        at -= k_shape_bytes;
+        if (bytes[at + 8] == k_head_kind) {
+            radii_m.push_back(std::bit_cast<double>(load_little<std::uint64_t>(bytes.data() + at)));
+        }
+    }
+    return radii_m;
 }
 
 std::optional<FileError> restore_snapshot(std::span<const std::byte> bytes,

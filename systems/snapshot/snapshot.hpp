@@ -22,8 +22,18 @@ namespace handhold {
 // by their content. Make it once per scene: it hashes every vertex of every mesh.
 class SnapshotAssets {
   public:
+    // What a host knows of its shapes beyond their geometry.
+    struct OfHost {
+        // By ShapeId::index: the frame in which the host made the shape. Part of the content: poses
+        // that the host reads depend on it. Shapes without an element: the identity.
+        std::span<const Pose> frames;
+        std::span<const ShapeId> heads;  // spheres of players' heads, which are no body's shape
+    };
+
     // `shapes` must outlive this object and not change. `scene`: the host's name of the scene.
-    explicit SnapshotAssets(const ShapeLibrary& shapes, std::string_view scene = {});
+    explicit SnapshotAssets(const ShapeLibrary& shapes, std::string_view scene = {})
+        : SnapshotAssets(shapes, scene, OfHost{}) {}
+    SnapshotAssets(const ShapeLibrary& shapes, std::string_view scene, const OfHost& host);
 
     const ShapeLibrary& shapes() const { return *shapes_; }
     // Hash of the scene's name and all shapes.
@@ -36,14 +46,24 @@ class SnapshotAssets {
     }
     // The shape with this content and the lowest id; k_no_shape: none.
     ShapeId find(std::uint64_t digest) const;
+    // True if a player's head may have this shape: a sphere with this radius, and one of
+    // OfHost::heads unless that is empty.
+    bool is_head(ShapeId shape, double radius_m) const;
+    // The lowest such shape; k_no_shape: none.
+    ShapeId find_head(double radius_m) const;
 
   private:
     const ShapeLibrary* shapes_;
+    std::vector<ShapeId> heads_;
     std::uint64_t hash_ = 0;
     std::uint64_t scene_hash_ = 0;
     std::vector<std::uint64_t> digests_;                              // indexed by ShapeId::index
     std::vector<std::pair<std::uint64_t, std::uint32_t>> by_digest_;  // digest and index; sorted
 };
+
+// The radii of the players' heads in a snapshot, which the restoring library must have as spheres.
+// None for bytes that restore_snapshot refuses for another reason.
+std::vector<double> head_radii_in(std::span<const std::byte> bytes, const SnapshotAssets& assets);
 
 // Call between frames only. Shapes are saved by their content: the library of the restored world
 // may hold other shapes too, and the same ones with other ids. Saves every bit of the columns, the

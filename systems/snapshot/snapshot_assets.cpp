@@ -14,6 +14,12 @@ void add(HashStream& stream, const Vec3& v) {
     }
 }
 
+void add(HashStream& stream, const Pose& pose) {
+    add(stream, pose.position);
+    add(stream, Vec3(pose.rotation.vec()));
+    stream.add(pose.rotation.w());
+}
+
 std::uint64_t hash_of(const Mesh& mesh) {
     HashStream stream;
     stream.add(std::uint64_t{mesh.positions.size()});
@@ -30,10 +36,13 @@ std::uint64_t hash_of(const Mesh& mesh) {
 
 class ShapeHasher {
   public:
-    // Hash of a shape's content; never 0.
-    std::uint64_t digest_of(const Shape& shape) {
+    // Hash of a shape's content, of its frame in the host's, and of whether it is a head's; never
+    // 0.
+    std::uint64_t digest_of(const Shape& shape, const Pose& frame, bool is_head) {
         HashStream stream;
         add_shape(shape, stream);
+        add(stream, frame);
+        stream.add(std::uint64_t{is_head ? 1U : 0U});
         return std::max<std::uint64_t>(stream.value(), 1);
     }
 
@@ -62,9 +71,7 @@ class ShapeHasher {
             stream.add(std::uint64_t{shape.parts->size()});
             for (const PlacedShape& part : *shape.parts) {
                 add_shape(part.shape, stream);
-                add(stream, part.pose.position);
-                add(stream, Vec3(part.pose.rotation.vec()));
-                stream.add(part.pose.rotation.w());
+                add(stream, part.pose);
                 stream.add(part.mass_kg);
             }
         }
@@ -75,14 +82,18 @@ class ShapeHasher {
 
 }  // namespace
 
-SnapshotAssets::SnapshotAssets(const ShapeLibrary& shapes, std::string_view scene)
-    : shapes_(&shapes) {
+SnapshotAssets::SnapshotAssets(const ShapeLibrary& shapes, std::string_view scene,
+                               const OfHost& host)
+    : shapes_(&shapes), heads_(host.heads.begin(), host.heads.end()) {
     HashStream stream;
     stream.add(hash_text(scene));
     scene_hash_ = stream.value();
     ShapeHasher hasher;
     for (std::uint32_t i = 0; i < shapes.size(); ++i) {
-        digests_.push_back(shapes.has({i}) ? hasher.digest_of(shapes.at({i})) : 0);
+        const Pose frame = i < host.frames.size() ? host.frames[i] : Pose{};
+        const bool is_a_head = std::ranges::find(heads_, ShapeId{i}) != heads_.end();
+        digests_.push_back(shapes.has({i}) ? hasher.digest_of(shapes.at({i}), frame, is_a_head)
+                                           : 0);
         stream.add(digests_.back());  // 0 too: the hash depends on the ids
         if (digests_.back() != 0) {
             by_digest_.emplace_back(digests_.back(), i);
@@ -96,6 +107,21 @@ ShapeId SnapshotAssets::find(std::uint64_t digest) const {
     const auto found = std::ranges::lower_bound(by_digest_, std::pair{digest, std::uint32_t{0}});
     return found != by_digest_.end() && found->first == digest ? ShapeId{found->second}
                                                                : k_no_shape;
+}
+
+bool SnapshotAssets::is_head(ShapeId shape, double radius_m) const {
+    return shapes_->has(shape) && shapes_->at(shape).kind == ShapeKind::sphere &&
+           shapes_->at(shape).radius_m == radius_m &&
+           (heads_.empty() || std::ranges::find(heads_, shape) != heads_.end());
+}
+
+ShapeId SnapshotAssets::find_head(double radius_m) const {
+    for (std::uint32_t i = 0; i < shapes_->size(); ++i) {
+        if (is_head({i}, radius_m)) {
+            return {i};
+        }
+    }
+    return k_no_shape;
 }
 
 }  // namespace handhold

@@ -181,6 +181,12 @@ class BreachFinder {
         require_both("player", w_.player, "head_tracking", w_.head_tracking);
         require_both("player", w_.player, "head_ignores", w_.head_ignores);
         require_both("player", w_.player, "render_pose", w_.render_pose);
+        for (std::size_t index = 0; index < w_.player_origin.size(); ++index) {
+            const double scale = w_.player_origin.elements()[index].scale;
+            check(scale >= PlayerOrigin::k_min_scale && scale <= PlayerOrigin::k_max_scale,
+                  "player_origin", w_.player_origin.owners()[index], ".scale",
+                  "a number in [0.01, 100]");
+        }
         check_figures();
         for (std::size_t index = 0; index < w_.player.size(); ++index) {
             check(w_.player.elements()[index].mass_kg > 0.0, "player", w_.player.owners()[index],
@@ -212,11 +218,11 @@ class BreachFinder {
                   ".outside", "a number in [0, 1]");
         }
         for (std::size_t index = 0; index < w_.body_measures.size(); ++index) {
-            const BodyMeasures& m = w_.body_measures.elements()[index];
-            const auto [shortest, longest] =
-                std::minmax({m.eye_height_m, m.shoulder_width_m, m.upper_arm_m, m.forearm_m});
-            check(shortest >= BodyMeasures::k_min_m && longest <= BodyMeasures::k_max_m,
-                  "body_measures", w_.body_measures.owners()[index], "", "lengths of 0.05 to 5 m");
+            const Entity owner = w_.body_measures.owners()[index];
+            const PlayerOrigin* const origin = w_.player_origin.find(owner);
+            check(origin != nullptr &&
+                      are_measures(w_.body_measures.elements()[index], origin->scale),
+                  "body_measures", owner, "", "lengths of 0.05 to 5 m times the player's scale");
         }
         for (std::size_t index = 0; index < w_.calibration.size(); ++index) {
             const Calibration& c = w_.calibration.elements()[index];

@@ -110,6 +110,9 @@ class WorldDiff {
         FieldComparison(WorldDiff& diff, const std::string& where) : diff_(diff), where_(where) {}
         template <typename T>
         void leaf(const T& value) {
+            if (next_ == diff_.b_leaves_.size()) {
+                return;  // a longer list: its length was compared before
+            }
             const Leaf a = leaf_of(diff_.a_, value);
             const Leaf& b = diff_.b_leaves_[next_++];
             if (a != b && !diff_.is_full()) {

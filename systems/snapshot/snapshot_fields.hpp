@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <type_traits>
 
@@ -26,6 +27,10 @@ struct FieldVisitor {
     void leave() {}
     // How many elements of an array to walk.
     static std::size_t count_walked(std::size_t size) { return size; }
+    // True: the visitor wants to know the types alone, of one element of each list.
+    static constexpr bool k_walks_types = false;
+    // Called at each list whose length differs between elements of a column.
+    void note_list() {}
     // True: the visitor handles the value as a whole; its axes are not walked.
     static bool takes_whole(const Vec3& /*v*/) { return false; }
     static bool takes_whole(const Quat& /*q*/) { return false; }
@@ -120,6 +125,24 @@ void walk_field(const std::array<T, N>& values, Visitor& visitor) {
         visitor.enter(i);
         walk_field(values[i], visitor);
         visitor.leave();
+    }
+}
+
+// The used elements of a larger array. Their number was walked before them.
+template <typename T, typename Visitor>
+void walk_field(const std::span<const T>& values, Visitor& visitor) {
+    visitor.note_list();
+    if constexpr (Visitor::k_walks_types) {
+        visitor.count_walked(0);
+        visitor.enter(std::size_t{0});
+        walk_field(T{}, visitor);
+        visitor.leave();
+    } else {
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            visitor.enter(i);
+            walk_field(values[i], visitor);
+            visitor.leave();
+        }
     }
 }
 

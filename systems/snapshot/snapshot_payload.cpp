@@ -40,21 +40,37 @@ class ByteCounter : public FieldVisitor {
     void leaf(const T& value) {
         encode_leaf(value, [this](auto number) { bytes_ += sizeof number; });
     }
+    void note_list() { has_list_ = true; }
     std::size_t bytes() const { return bytes_; }
+    bool has_list() const { return has_list_; }
 
   private:
     std::size_t bytes_ = 0;
+    bool has_list_ = false;
 };
 
-// Bytes of one element's fields, the same for all elements of a column.
+// Bytes of one element's fields with empty lists. Without lists, all elements of a column have as
+// many.
 template <typename Component>
-std::size_t element_bytes() {
-    static const std::size_t k_bytes = [] {
+const ByteCounter& row_counter() {
+    static const ByteCounter k_counter = [] {
         ByteCounter counter;
         walk_component(Component{}, counter);
-        return counter.bytes();
+        return counter;
     }();
-    return k_bytes;
+    return k_counter;
+}
+
+template <typename Component>
+std::size_t rows_bytes(std::span<const Component> rows) {
+    if (!row_counter<Component>().has_list()) {
+        return rows.size() * row_counter<Component>().bytes();
+    }
+    ByteCounter counter;
+    for (const Component& index : rows) {
+        walk_component(index, counter);
+    }
+    return counter.bytes();
 }
 
 template <typename T>
@@ -230,7 +246,7 @@ class ByteReader : public PathVisitor {
 
     template <typename T>
     void read_column(const EntityPool& pool, Column<T>& column) {
-        const std::uint32_t count = count_of(k_owner_bytes + element_bytes<T>(), "elements");
+        const std::uint32_t count = count_of(k_owner_bytes + row_counter<T>().bytes(), "rows");
         column.reserve(count);
         for (std::uint32_t index = 0; index < count && !error_; ++index) {
             enter(std::size_t{index});
@@ -259,8 +275,8 @@ std::size_t payload_bytes(const World& world) {
     std::size_t bytes = globals.bytes() + 4 * (2 + world.entities.generations().size() +
                                                world.entities.free_slots().size());
     visit_columns(world, [&bytes](const char*, const auto& column) {
-        bytes +=
-            4 + column.size() * (k_owner_bytes + element_bytes<ComponentOf<decltype(column)>>());
+        bytes += 4 + column.size() * k_owner_bytes +
+                 rows_bytes<ComponentOf<decltype(column)>>(column.elements());
     });
     return bytes;
 }

@@ -12,7 +12,9 @@ class SchemaWriter : public PathVisitor {
   public:
     explicit SchemaWriter(std::string& text) : text_(text) {}
 
-    // Walks only one element of an array; its line states the array's size.
+    static constexpr bool k_walks_types = true;
+    // Walks only one element of an array; its line states the array's size. 0: as many as the
+    // number before says.
     std::size_t count_walked(std::size_t size) {
         array_size_ = size;
         return 1;

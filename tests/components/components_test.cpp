@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "components/fields.hpp"
+#include "components/scaled_tuning.hpp"
 #include "components/stats.hpp"
 #include "components/tuning.hpp"
 #include "components/world.hpp"
@@ -270,6 +271,37 @@ TEST(Tuning, NamesAreUniqueAndDescribed) {
         EXPECT_NE(std::string(info.name).find('.'), std::string::npos) << info.name;
         EXPECT_FALSE(std::string(info.what).empty()) << info.name;
     });
+}
+
+// Lengths, speeds, accelerations and forces of the player scale, the world's do not.
+TEST(Tuning, ScaledTuningHasTheNumbersInThePlayersMetresTimesTheScale) {
+    const Tuning tuning;
+    const Tuning giant = scaled(tuning, 3.0);
+    std::vector<std::vector<double>> before;
+    visit_tuning(
+        tuning, [&](const TuningInfo&, const auto& field) { before.push_back(numbers_of(field)); });
+    std::size_t at = 0;
+    std::set<std::string> scaling;
+    visit_tuning(giant, [&](const TuningInfo& info, const auto& field) {
+        const std::vector<double> now = numbers_of(field);
+        for (std::size_t i = 0; i < now.size(); ++i) {
+            EXPECT_EQ(now[i], before[at][i] * (info.scales ? 3.0 : 1.0)) << info.name;
+        }
+        ++at;
+        if (info.scales) {
+            scaling.insert(info.name);
+        }
+    });
+    for (const char* const name :
+         {"hand.max_arm_m", "hand.palm_center_m", "tracking.max_hand_speed_mps", "head.radius_m",
+          "palm.tilt_cost_m_per_rad", "locomotion.thruster_mps2", "pull.force_n"}) {
+        EXPECT_TRUE(scaling.contains(name)) << name;
+    }
+    for (const char* const name :
+         {"contact.margin_m", "solver.tolerance_m", "tracking.lost_after_s", "hand.swing_lag_s",
+          "pull.max_mass_kg", "palm.max_angle_rad", "thumb.penetration_cost"}) {
+        EXPECT_FALSE(scaling.contains(name)) << name;
+    }
 }
 
 TEST(Tuning, EveryMemberOfEveryGroupIsVisited) {

@@ -52,7 +52,14 @@ class OneHand {
         offset_.add(hand);
         palm_.add(hand);
         fingers_.add(hand);
-        surroundings_.push_back({hand, body, &rig_, {}, wrist, {{&mesh, {}}}, 1, true});
+        surroundings_.push_back({.hand = hand,
+                                 .body = body,
+                                 .rig = &rig_,
+                                 .body_ws = {},
+                                 .wrist_bs = wrist,
+                                 .meshes = {{&mesh, {}}},
+                                 .signature = 1,
+                                 .is_gripping = true});
     }
     OneHand(const OneHand&) = delete;
     OneHand& operator=(const OneHand&) = delete;

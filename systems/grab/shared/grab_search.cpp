@@ -7,6 +7,7 @@
 
 #include "components/hand_indices.hpp"
 #include "components/play_space.hpp"
+#include "components/scaled_tuning.hpp"
 #include "engine/core/parallel.hpp"
 #include "systems/grab/shared/hand_sight.hpp"
 #include "systems/rigs/authored_hand.hpp"
@@ -68,7 +69,7 @@ SightLines sight_lines(const GrabSearch& io, Entity hand, const Vec3& palm_ws,
         sight.is_known && (is_null(sight.frame) || io.body_pose.contains(sight.frame));
     return {io.surfaces, skips.view(),
             is_known ? transform_point(sight_frame_ws(io, sight.frame), sight.outside_bs) : palm_ws,
-            head_ws};
+            head_ws, io.origin.at(io.owner.at(hand).player).scale};
 }
 
 bool any_priority(const GrabRules& rules) {
@@ -331,7 +332,7 @@ bool needs_rays(const HandSight& sight, const Grab& grab, const HandTracking& ha
     if (grab.kind == GripKind::surface) {
         return false;
     }
-    const bool is_near = (palm_ws - lines.outside_ws).norm() < k_step_m;
+    const bool is_near = (palm_ws - lines.outside_ws).norm() < lines.scale * k_step_m;
     const bool is_empty_fist = hand.pressed && grab.kind == GripKind::none;
     return is_empty_fist || !is_near || !sight.is_known || !sight.is_clear;
 }
@@ -373,8 +374,10 @@ void update_sight(const GrabSearch& io, Entity entity, const Tuning& tuning) {
 void update_sights(const GrabSearch& io, const Tuning& tuning) {
     constexpr std::size_t k_hands_per_slice = 8;
     const auto update = [&](std::size_t /*slice*/, std::size_t first, std::size_t last) {
+        TuningOfPlayers tunings(tuning);
         for (std::size_t index = first; index < last; ++index) {
-            update_sight(io, io.grab.owners()[index], tuning);
+            const Entity hand = io.grab.owners()[index];
+            update_sight(io, hand, tunings.of(io.origin.at(io.owner.at(hand).player)));
         }
     };
     if (io.surfaces.any_thread()) {

@@ -76,7 +76,8 @@ struct GrabSearchResult {
 
 // Finds what a hand at `hand_ws` grips if it closes. Ignores bodies that refuse the hand by their
 // GrabRule or by its player's GrabLayers. `only`: considers only authored grips of this body; null:
-// of all bodies. Counts authored grips that are occupied or blocked.
+// of all bodies. `tuning`: of the hand's player (TuningOfPlayers). Counts authored grips that are
+// occupied or blocked.
 GrabSearchResult find_grab_target(const GrabSearch& io, Entity hand, const Pose& hand_ws,
                                   Entity only, const Tuning& tuning, StageStats& stats);
 

@@ -13,8 +13,8 @@ SightLines::Sight sight_between(const SightLines& lines, const Vec3& from_ws, co
     if (length_m < k_same_m) {
         return SightLines::Sight::clear_beyond;
     }
-    const auto hit =
-        lines.surfaces.cast_ray(from_ws, to_ws + (k_sight_beyond_m / length_m) * line, lines.skip);
+    const auto hit = lines.surfaces.cast_ray(
+        from_ws, to_ws + (lines.scale * k_sight_beyond_m / length_m) * line, lines.skip);
     if (!hit) {
         return SightLines::Sight::clear_beyond;
     }
@@ -37,7 +37,7 @@ std::optional<RayHit> SightLines::entry_from(const Vec3& from_ws, const Vec3& pa
         return std::nullopt;
     }
     const double depth_m = (first->point_ws - palm_ws).dot(first->normal_ws);
-    const Vec3 above_ws = palm_ws + (depth_m + k_above_m) * first->normal_ws;
+    const Vec3 above_ws = palm_ws + (depth_m + scale * k_above_m) * first->normal_ws;
     const auto straight = surfaces.cast_ray(above_ws, palm_ws, skip);
     return straight && is_free(from_ws, above_ws) ? straight : first;
 }
@@ -60,7 +60,7 @@ bool SightLines::sees(const Vec3& from_ws, const Vec3& point_ws, std::uint64_t b
                       Needs needs) const {
     constexpr double k_there_m = 0.01;
     const auto hit = surfaces.cast_ray(from_ws, point_ws, skip);
-    return !hit || (hit->point_ws - point_ws).norm() <= k_there_m ||
+    return !hit || (hit->point_ws - point_ws).norm() <= scale * k_there_m ||
            (needs == Needs::any_point && hit->id == body_id);
 }
 
@@ -79,7 +79,7 @@ bool SightLines::can_go_round(const Vec3& from_ws, const Vec3& palm_ws,
         const auto hit = surfaces.cast_ray(beside_ws, palm_ws, skip);
         return !hit || (may_touch && hit->id == body_id);
     };
-    const Vec3 side = k_width_m * line.unitOrthogonal();
+    const Vec3 side = (scale * k_width_m) * line.unitOrthogonal();
     const Vec3 other_side = line.normalized().cross(side);
     const Vec3 offsets[] = {side, -side, other_side, -other_side};
     return std::ranges::any_of(offsets, [&](const Vec3& offset) {

@@ -18,10 +18,12 @@ struct SightLines {
     std::span<const std::uint64_t> skip;
     Vec3 outside_ws;
     Vec3 head_ws;
+    double scale = 1.0;  // PlayerOrigin::scale
 
     enum class Sight : std::uint8_t { blocked, clear, clear_beyond };
     // Tests the lines from outside_ws and from head_ws to the palm; one clear line suffices.
-    // `clear_beyond`: also nothing is within k_sight_beyond_m behind the palm on that line.
+    // `clear_beyond`: also nothing is within k_sight_beyond_m times the scale behind the palm on
+    // that line.
     Sight sight_of_palm(const Vec3& palm_ws) const;
 
     // True if the hand may grip `point_ws` of a body: the palm or the point is in sight

@@ -12,6 +12,11 @@ namespace handhold {
 inline constexpr double k_length_step_m = 0.01;
 inline constexpr double k_radius_step_m = 0.001;
 
+// The capsule in the metres of hands of that scale (PlayerOrigin::scale).
+inline PartCapsule resized(const PartCapsule& capsule, double scale) {
+    return {capsule.frame_ws, capsule.end_bs / scale, capsule.radius_m / scale};
+}
+
 // Grip meshes of the capsules of shown bodies. Lengths are rounded to k_length_step_m and radii to
 // k_radius_step_m, so that players share meshes and a stretched arm needs few. A cache: a mesh
 // depends on the rounded sizes alone.

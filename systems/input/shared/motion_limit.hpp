@@ -4,7 +4,8 @@
 
 #include "engine/math/math.hpp"
 
-// How far a tracked device can have moved between two readings.
+// How far a tracked device can have moved between two readings. `scale`: PlayerOrigin::scale, by
+// which the constants are multiplied.
 namespace handhold {
 
 // Displacements up to this are not jumps: they are within the noise and the timing jitter of
@@ -13,21 +14,23 @@ inline constexpr double k_unnoticed_m = 0.02;
 
 // Distance between two poses; a radian of rotation counts as k_m_per_rad.
 inline constexpr double k_m_per_rad = 0.1;
-inline double travel_m(const Pose& from, const Pose& to) {
+inline double travel_m(const Pose& from, const Pose& to, double scale) {
     const Quat turn = (from.rotation.conjugate() * to.rotation).normalized();
     return std::max((to.position - from.position).norm(),
-                    k_m_per_rad * rotation_to_vector(turn).norm());
+                    scale * k_m_per_rad * rotation_to_vector(turn).norm());
 }
 
-inline bool could_move(const Pose& from, const Pose& to, double dt_s, double max_speed_mps) {
-    const double limit_m = max_speed_mps * dt_s + k_unnoticed_m;
+inline bool could_move(const Pose& from, const Pose& to, double dt_s, double max_speed_mps,
+                       double scale) {
+    const double limit_m = max_speed_mps * dt_s + scale * k_unnoticed_m;
     if ((to.position - from.position).norm() > limit_m) {
         return false;
     }
     // An angle is at most pi times the sine of its half, so small turns need no arc tangent.
     constexpr double k_over_pi = 3.2;
     const double sine = (from.rotation.conjugate() * to.rotation).vec().norm();
-    return k_m_per_rad * k_over_pi * sine <= limit_m || travel_m(from, to) <= limit_m;
+    return scale * k_m_per_rad * k_over_pi * sine <= limit_m ||
+           travel_m(from, to, scale) <= limit_m;
 }
 
 inline constexpr double k_min_apart_s = 1e-3;

@@ -142,16 +142,18 @@ bool PlaySpaceTracker::find_recentring(const TrackingSample& sample, const Pose&
             const std::size_t i = index_of(side);
             return !ages_s[i] || could_move(hands_[i].reading_ps,
                                             correction * hand_ps(sample.controllers[i], side),
-                                            *ages_s[i], max_mps);
+                                            *ages_s[i], max_mps, settings_.scale);
         });
     };
-    if (could_move(head_ps_, head_ps, head_dt_s, max_mps) && hands_could_move({})) {
+    if (could_move(head_ps_, head_ps, head_dt_s, max_mps, settings_.scale) &&
+        hands_could_move({})) {
         return false;  // nothing jumped
     }
     const Pose expected_ps = extrapolate(before_ps_, before_t_s_, head_ps_, head_t_s_, sample.t_s);
     undo.rotation = turn_about_up(expected_ps.rotation * head_ps.rotation.conjugate());
     undo.position = expected_ps.position - undo.rotation * head_ps.position;
-    return could_move(head_ps_, undo * head_ps, head_dt_s, max_mps) && hands_could_move(undo);
+    return could_move(head_ps_, undo * head_ps, head_dt_s, max_mps, settings_.scale) &&
+           hands_could_move(undo);
 }
 
 }  // namespace handhold

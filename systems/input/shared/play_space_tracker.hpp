@@ -53,6 +53,7 @@ class PlaySpaceTracker {
     struct Settings {
         bool corrects_jumps = true;    // RecenterGuess::guesses of the player
         bool freezes_guesses = false;  // true: guesses of the runtime do not move the head
+        double scale = 1.0;            // PlayerOrigin::scale
     };
 
     PlaySpaceTracker(const HeadTracking& head, const std::array<Hand, k_hand_count>& hands,

@@ -115,6 +115,32 @@ TEST(GripMesh, CompoundMatchesDistanceToItsParts) {
     }
 }
 
+// The nearest points and first hits of a resized mesh are those of the original, resized.
+TEST(GripMesh, ResizedMeshAnswersQueriesLikeTheOriginal) {
+    ShapeLibrary library;
+    const ShapeId id = library.add_cylinder(0.3, 0.5);
+    const GripMesh original = build_grip_mesh(library.at(id));
+    Random random(7);
+    for (const double factor : {0.05, 1.0, 3.0, 10.0}) {
+        const GripMesh other = resized(original, factor);
+        ASSERT_EQ(other.contact.triangles.size(), original.contact.triangles.size());
+        for (int i = 0; i < 200; ++i) {
+            const Vec3 from = random.vector(1.0);
+            const Vec3 to = random.vector(1.0);
+            const auto near = original.contact_bvh.closest_point(from, 2.0);
+            const auto near_other = other.contact_bvh.closest_point(factor * from, factor * 2.0);
+            ASSERT_TRUE(near && near_other);
+            EXPECT_NEAR(near_other->distance_m, factor * near->distance_m, 1e-12 * factor);
+            const auto hit = original.search_bvh.cast_ray(from, to);
+            const auto hit_other = other.search_bvh.cast_ray(factor * from, factor * to);
+            ASSERT_EQ(hit.has_value(), hit_other.has_value());
+            if (hit) {
+                EXPECT_NEAR(hit_other->distance_m, factor * hit->distance_m, 1e-12 * factor);
+            }
+        }
+    }
+}
+
 TEST(GripMesh, ScaledMeshEqualsMeshOfScaledPositions) {
     ShapeLibrary shapes;
     const auto ball = test::make_wavy_ball(0.5, 12, 20);

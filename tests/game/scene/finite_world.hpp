@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 #include <type_traits>
 
 #include "components/fields.hpp"
@@ -29,6 +30,10 @@ class FiniteFields {
     void look(ShapeId) {}
     template <typename T, std::size_t N>
     void look(const std::array<T, N>& values) {
+        look(std::span<const T>(values));
+    }
+    template <typename T>
+    void look(std::span<const T> values) {
         for (const T& value : values) {
             look(value);
         }

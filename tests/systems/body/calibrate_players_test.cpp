@@ -14,6 +14,7 @@ using test::k_right;
 // Columns of one player in a T-pose: eyes at 1.70 m, wrists 1.60 m apart.
 struct TPosed {
     Column<PlayerCommands> commands;
+    Column<PlayerOrigin> origin;
     Column<HeadTracking> head;
     Column<HandOwner> owner;
     Column<HandTracking> hand;
@@ -22,6 +23,7 @@ struct TPosed {
 
     TPosed() {
         commands.add(k_player).calibrate = true;
+        origin.add(k_player);
         head.add(k_player);
         measures.add(k_player);
         calibration.add(k_player);
@@ -47,6 +49,7 @@ struct TPosed {
         for (int i = 0; i < frames; ++i) {
             calibrate_players({.dt_s = dt_s,
                                .commands = commands,
+                               .origin = origin,
                                .head = head,
                                .owner = owner,
                                .hand = hand,

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <limits>
 #include <set>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -57,7 +58,7 @@ World full_world() {
     world.gravity_scale.add(other);
     world.filter.add(other);
     world.grab_rule.add(other);
-    world.early_samples.add(made.player);
+    world.early_samples.add(made.player).count = 1;
     world.recenter_guess.add(made.player);
     world.grab_layers.add(made.player);
     world.grab_order.add(made.hands[0]);
@@ -94,6 +95,10 @@ class FieldChanger {
     template <typename T, std::size_t N>
     void change_in_place(std::array<T, N>& values) {
         change_in_place(values.back());
+    }
+    template <typename T>
+    void change_in_place(std::span<const T>& values) {
+        change(values.back());
     }
     template <typename T>
     void change_in_place(T& value) {

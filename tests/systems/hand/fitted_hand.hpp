@@ -57,7 +57,14 @@ struct FittedHand {
         offset.add(k_right);
         palm.add(k_right);
         fingers.add(k_right);
-        hands.push_back({k_right, k_wall, &rig, {}, wrist_bs, {{&mesh, {}}}, 1, true});
+        hands.push_back({.hand = k_right,
+                         .body = k_wall,
+                         .rig = &rig,
+                         .body_ws = {},
+                         .wrist_bs = wrist_bs,
+                         .meshes = {{&mesh, {}}},
+                         .signature = 1,
+                         .is_gripping = true});
     }
     FittedHand(const FittedHand&) = delete;
     FittedHand& operator=(const FittedHand&) = delete;

@@ -35,6 +35,7 @@ struct OneHand {
     Column<RenderPose> shown;
     Column<BodyMeasures> measures;
     PartMeshes part_meshes;
+    ResizedMeshes resized_meshes;
     std::vector<HandSurroundings> surroundings;
     StageStats stats;
 
@@ -53,26 +54,28 @@ struct OneHand {
     }
 
     const HandSurroundings& gather(const GripMeshLibrary* meshes) {
-        gather_surroundings(
-            {.meshes = {.of_shapes = meshes, .of_bodies = own_surfaces, .of_parts = part_meshes},
-             .rigs = rigs,
-             .more_rigs = {},
-             .rig_choice = rig_choice,
-             .near = {.bodies = bodies},
-             .persistent_id = persistent_id,
-             .owner = owner,
-             .hand = hand,
-             .grab = grab,
-             .body_hold = body_hold,
-             .origin = origin,
-             .head = head,
-             .shown = shown,
-             .measures = measures,
-             .body_pose = body_pose,
-             .collider = collider,
-             .authored_hold = authored_hold,
-             .surroundings = surroundings},
-            stats);
+        gather_surroundings({.meshes = {.of_shapes = meshes,
+                                        .of_bodies = own_surfaces,
+                                        .of_parts = part_meshes,
+                                        .resized = resized_meshes},
+                             .rigs = rigs,
+                             .more_rigs = {},
+                             .rig_choice = rig_choice,
+                             .near = {.bodies = bodies},
+                             .persistent_id = persistent_id,
+                             .owner = owner,
+                             .hand = hand,
+                             .grab = grab,
+                             .body_hold = body_hold,
+                             .origin = origin,
+                             .head = head,
+                             .shown = shown,
+                             .measures = measures,
+                             .body_pose = body_pose,
+                             .collider = collider,
+                             .authored_hold = authored_hold,
+                             .surroundings = surroundings},
+                            stats);
         return surroundings.front();
     }
     std::uint64_t counted() const { return test::count_of(stats, Fallback::body_no_surface); }

@@ -1,5 +1,7 @@
 // A client that joins late knows today's shapes, not those that came and went before: it restores
 // server's snapshot, and goes on bit for bit.
+#include <cmath>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -85,6 +87,69 @@ RC_GTEST_PROP(HostLateJoiner, RestoresWithEqualShapesOfOtherIds, ()) {
             RC_ASSERT(a.x == b.x && a.y == b.y && a.z == b.z);
         }
     }
+}
+
+hh_shape add_hull(hh::World& world, double pivot_m) {
+    return *world.add_hull(std::vector<hh::Vec3>{{pivot_m, 0.0, 0.0},
+                                                 {pivot_m + 0.5, 0.0, 0.0},
+                                                 {pivot_m, 0.25, 0.0},
+                                                 {pivot_m, 0.0, 0.25},
+                                                 {pivot_m + 0.5, 0.25, 0.25}});
+}
+
+hh_body add_body(hh::World& world, hh_shape shape) {
+    hh_body_def def = hh::body_def();
+    def.name = "body";
+    def.kind = HH_DYNAMIC;
+    def.shape = shape;
+    def.pose.position = {1.0, 2.0, 3.0};
+    return *world.add(def);
+}
+
+// Hulls that differ only in where the host put their pivot are different shapes: poses that the
+// host reads are those of the pivot.
+RC_GTEST_PROP(HostLateJoiner, TellsHullsApartByTheirPivot, ()) {
+    const auto pivots = *rc::gen::unique<std::vector<int>>(3, rc::gen::inRange(-8, 8));
+    const auto pivot_m = [&pivots](std::size_t i) { return 0.25 * pivots[i]; };
+    hh::World server = make_world();
+    hh::World client = make_world();
+    const hh_body body = add_body(server, add_hull(server, pivot_m(0)));
+    std::vector<std::byte> bytes;
+    RC_ASSERT(static_cast<bool>(server.save(bytes)));
+    add_hull(client, pivot_m(1));
+    add_hull(client, pivot_m(2));
+    RC_ASSERT(client.restore(bytes).result() == HH_ERROR_DATA);
+    add_hull(client, pivot_m(0));
+    RC_ASSERT(static_cast<bool>(client.restore(bytes)));
+    const hh::Vec3 at = client.pose(body)->position;
+    RC_ASSERT(std::abs(at.x - 1.0) < 1e-12);
+    RC_ASSERT(std::abs(at.y - 2.0) < 1e-12);
+    RC_ASSERT(std::abs(at.z - 3.0) < 1e-12);
+}
+
+// A player's head and a body's ball of the same radius are different shapes: neither takes the
+// other's, and heads of any size come with the snapshot.
+RC_GTEST_PROP(HostLateJoiner, TellsHeadsFromBalls, ()) {
+    const double scale = 0.25 * *rc::gen::inRange(1, 12);
+    hh::World server = make_world();
+    hh::World client = make_world();
+    const double radius_m = *server.tuning("head.radius_m") * scale;
+    hh_player_def def = hh::player_def();
+    def.scale = scale;
+    (void)*server.add(def);
+    std::vector<std::byte> bytes;
+    RC_ASSERT(static_cast<bool>(server.save(bytes)));
+    const hh::Shape ball = *client.add_sphere(radius_m);
+    RC_ASSERT(static_cast<bool>(client.restore(bytes)));
+    RC_ASSERT(client.hash() == server.hash());
+    RC_ASSERT(static_cast<bool>(client.remove(ball)));  // no head has it
+
+    (void)add_body(server, *server.add_sphere(radius_m));
+    RC_ASSERT(static_cast<bool>(server.save(bytes)));
+    RC_ASSERT(client.restore(bytes).result() == HH_ERROR_DATA);
+    (void)*client.add_sphere(radius_m);
+    RC_ASSERT(static_cast<bool>(client.restore(bytes)));
+    RC_ASSERT(client.hash() == server.hash());
 }
 
 }  // namespace

@@ -129,6 +129,50 @@ TEST(HostSamples, NewerPredictionsReplaceKeptOnes) {
     EXPECT_EQ(count_of(scene.world, "sample_out_of_order"), 0U);
 }
 
+// During a pause devices move on: samples that waited for their step say nothing about the time
+// after it.
+TEST(HostSamples, APauseDropsKeptSamples) {
+    HostScene scene;
+    std::vector<hh::Sample> ahead;
+    for (int i = 1; i <= 20; ++i) {
+        ahead.push_back(sample_at(0.01 * i));
+    }
+    ASSERT_TRUE(scene.world.step(0.01, hh::input(scene.player, {ahead.data(), ahead.size()})));
+    hh::Sample paused = sample_at(0.0);
+    paused.head.position = {0.5, 1.6, 0.0};
+    const hh_player_input input = hh::input(scene.player, {&paused, 1});
+    ASSERT_EQ(hh_world_step_pose_only(scene.world.get(), 0.01, &input, 1), HH_OK);
+    ASSERT_EQ(hh_world_step(scene.world.get(), 0.01, nullptr, 0), HH_OK);
+    hh_player_pose pose;
+    ASSERT_EQ(hh_world_player_poses(scene.world.get(), &scene.player, 1, &pose), HH_OK);
+    EXPECT_DOUBLE_EQ(pose.head.position.x, 0.5);
+}
+
+TEST(HostSamples, SnapshotsGrowOnlyByTheSamplesThatWait) {
+    const auto bytes_with = [](int waiting) {
+        HostScene scene;
+        std::vector<hh::Sample> given = {sample_at(0.01)};
+        for (int i = 1; i <= waiting; ++i) {
+            given.push_back(sample_at(0.01 + 0.005 * i));
+        }
+        EXPECT_TRUE(scene.world.step(0.01, hh::input(scene.player, {given.data(), given.size()})));
+        std::vector<std::byte> saved;
+        EXPECT_TRUE(scene.world.save(saved));
+        EXPECT_EQ(hh_world_restore(scene.world.get(), saved.data(), saved.size()), HH_OK);
+        std::vector<std::byte> again;
+        EXPECT_TRUE(scene.world.save(again));
+        EXPECT_EQ(saved, again);
+        return saved.size();
+    };
+    const std::size_t none = bytes_with(0);
+    const std::size_t one = bytes_with(1);
+    const std::size_t two = bytes_with(2);
+    const std::size_t sample_bytes = two - one;
+    EXPECT_LT(one - none - sample_bytes, 16U);  // the owner and the count
+    EXPECT_LT(sample_bytes, 400U);
+    EXPECT_EQ(bytes_with(64), one + 63 * sample_bytes);
+}
+
 TEST(HostSamples, MoreThan64SamplesOrHalfASecondAheadAreDroppedAndCounted) {
     HostScene scene;
     std::vector<hh::Sample> many;

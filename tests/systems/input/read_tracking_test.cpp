@@ -269,6 +269,7 @@ TEST(ReadTracking, OrderOfHandsAndInputsDoesNotMatter) {
     Devices forth;
     forth.add_player(k_second, {HandSide::left, HandSide::right});
     Devices back;
+    back.origin.clear();
     back.owner.clear();
     back.joint.clear();
     back.hand.clear();

@@ -26,6 +26,7 @@ inline TrackingSample sample_at(double t_s, const Vec3& place = k_rest, bool gra
 
 // One player whose hands are where the controllers are.
 struct Devices {
+    Column<PlayerOrigin> origin;
     Column<HandOwner> owner;
     Column<ControllerToHand> joint;
     Column<RecenterGuess> recenter_guess;
@@ -44,6 +45,7 @@ struct Devices {
         add_player(k_player, {HandSide::left, HandSide::right});
     }
     void add_player(Entity player, std::initializer_list<HandSide> order) {
+        origin.add(player);
         head.add(player);
         commands.add(player);
         for (const HandSide side : order) {
@@ -66,6 +68,7 @@ struct Devices {
         read_tracking({.inputs = inputs,
                        .frame_start_s = t_s,
                        .frame_end_s = t_s + dt_s,
+                       .origin = origin,
                        .owner = owner,
                        .controller_to_hand = joint,
                        .recenter_guess = recenter_guess,

@@ -169,7 +169,8 @@ TEST(SnapshotSchema, HasALineForEveryFieldWithItsType) {
          {"clock.frame u64\n", "clock.t_s f64\n", "reference_velocity_mps vec3\n",
           "body.kind enum(3)\n", "body_pose.pose_ws.rotation quat\n", "collider.shape shape\n",
           "mover.turns_with_body bool\n", "player_commands.snap_turns i32\n",
-          "head_ignores.bodies[8] entity\n", "hand_history.entries[32].hand_ps.position vec3\n"}) {
+          "head_ignores.bodies[8] entity\n", "hand_history.entries[32].hand_ps.position vec3\n",
+          "early_samples.samples[0].t_s f64\n"}) {
         EXPECT_NE(schema.find(line), std::string::npos) << line;
     }
 }

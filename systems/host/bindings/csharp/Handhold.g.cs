@@ -538,6 +538,8 @@ namespace Handhold {
         public double high;
         /// <summary>1 or 3</summary>
         public UIntPtr count;
+        /// <summary>true: times hh_player_def.scale for that player</summary>
+        public Flag scales;
 
         /// <summary>The library's defaults.</summary>
         public static TuningInfo Default() {
@@ -683,7 +685,7 @@ namespace Handhold {
         public double distance_m;
     }
 
-    /// <summary>Sizes of a player's body, each in [0.05, 5] m.</summary>
+    /// <summary>Sizes of a player's body, each in [0.05, 5] m times hh_player_def.scale.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct Measures {
         /// <summary>standing</summary>
@@ -712,10 +714,11 @@ namespace Handhold {
         public Vec3 velocity_mps;
         /// <summary>default 80</summary>
         public double mass_kg;
+        /// <summary>before scale: each in [0.05, 5] m</summary>
         public Measures measures;
-        /// <summary>Of all measures, default 1. Each measure must lie in [0.05, 5] m after it, else HH_ERROR_VALUE: with the default measures, [0.17, 3.08]. Hands, head and the lengths of the tuning do not scale.</summary>
+        /// <summary>Size of the player, [0.01, 100], default 1; else HH_ERROR_VALUE. Body, head, hands, reach and every number with hh_tuning_info.scales are times this. Samples and all results stay in the world's metres: a host gives the tracked poses times the scale. Tested from 0.1 to 20. The first hand of another scale than 1 that grips a shape copies its surface, at about 0.2 microseconds a triangle.</summary>
         public double scale;
-        /// <summary>the head is a sphere of head.radius_m; default true</summary>
+        /// <summary>the head is a sphere of head.radius_m times scale; default true</summary>
         public Flag head_collides;
         /// <summary>Layers of the head; it touches a body if each one's layers meet the other's mask.</summary>
         public uint layers;
@@ -1703,7 +1706,7 @@ namespace Handhold {
             }
         }
 
-        /// <summary>While the game is paused: heads, hands and bodies of players follow their last sample, whatever its time. The clock, bodies, joints, grips and play spaces stand still. The next hh_world_step goes on: hands that are still closed grip where they are at that time.</summary>
+        /// <summary>While the game is paused: heads, hands and bodies of players follow their last sample, whatever its time. The clock, bodies, joints, grips and play spaces stand still. Samples that were waiting for their step are dropped. The next hh_world_step goes on: hands that are still closed grip where they are at that time.</summary>
         public unsafe void StepPoseOnly(double dt_s, PlayerInput[] inputs) {
             fixed (PlayerInput* inputs_at = inputs) {
                 Library.Check(Native.hh_world_step_pose_only(Handle, dt_s, inputs_at, Library.Count(inputs)));
@@ -2374,6 +2377,7 @@ namespace Handhold {
             GC.KeepAlive(this);
         }
 
+        /// <summary>The measures with the scale in them.</summary>
         public unsafe Measures PlayerMeasures(Player player) {
             Measures measures;
             Measures measures_at;
@@ -2403,7 +2407,7 @@ namespace Handhold {
             return user_data;
         }
 
-        /// <summary>The hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists with OpenXR's axes (-Z to the fingers, +Y the back of the hand). Null: a controller's grip pose, by the tuning's hand.controller_ numbers, which is the default.</summary>
+        /// <summary>The hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists with OpenXR's axes (-Z to the fingers, +Y the back of the hand). Null: a controller's grip pose, by the tuning's hand.controller_ numbers times the player's scale, which is the default. The given pose is used as it is.</summary>
         public unsafe void PlayerSetHandInController(Player player, Side side, HhPose? hand_in_controller) {
             HhPose hand_in_controller_at = hand_in_controller.GetValueOrDefault();
             Library.Check(Native.hh_player_set_hand_in_controller(Handle, player, side, hand_in_controller.HasValue ? &hand_in_controller_at : null));
@@ -2420,7 +2424,7 @@ namespace Handhold {
             return hand_in_controller;
         }
 
-        /// <summary>Returns the tuning's pose of the wrist in a controller, for players without one of their own.</summary>
+        /// <summary>Returns the tuning's pose of the wrist in a controller, for players of scale 1 without one of their own.</summary>
         public unsafe HhPose HandInController(Side side) {
             HhPose hand_in_controller;
             HhPose hand_in_controller_at;

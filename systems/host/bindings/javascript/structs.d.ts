@@ -340,6 +340,8 @@ export interface hh_tuning_info {
     high: number;
     /** 1 or 3 */
     count: number;
+    /** true: times hh_player_def.scale for that player */
+    scales: boolean;
 }
 
 /** A part of a compound: any shape but a mesh or a compound. */
@@ -446,7 +448,7 @@ export interface hh_hit {
     distance_m: number;
 }
 
-/** Sizes of a player's body, each in [0.05, 5] m. */
+/** Sizes of a player's body, each in [0.05, 5] m times hh_player_def.scale. */
 export interface hh_measures {
     /** standing */
     eye_height_m: number;
@@ -465,10 +467,11 @@ export interface hh_player_def {
     velocity_mps: hh_vec3;
     /** default 80 */
     mass_kg: number;
+    /** before scale: each in [0.05, 5] m */
     measures: hh_measures;
-    /** Of all measures, default 1. Each measure must lie in [0.05, 5] m after it, else HH_ERROR_VALUE: with the default measures, [0.17, 3.08]. Hands, head and the lengths of the tuning do not scale. */
+    /** Size of the player, [0.01, 100], default 1; else HH_ERROR_VALUE. Body, head, hands, reach and every number with hh_tuning_info.scales are times this. Samples and all results stay in the world's metres: a host gives the tracked poses times the scale. Tested from 0.1 to 20. The first hand of another scale than 1 that grips a shape copies its surface, at about 0.2 microseconds a triangle. */
     scale: number;
-    /** the head is a sphere of head.radius_m; default true */
+    /** the head is a sphere of head.radius_m times scale; default true */
     head_collides: boolean;
     /** Layers of the head; it touches a body if each one's layers meet the other's mask. */
     layers: number;
@@ -718,7 +721,7 @@ export declare class LibraryCalls {
 export declare class WorldCalls {
     /** Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players without one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs all the time, and up to 4 ms in the frame in which a hand closes: docs/guide/cost.md. */
     step(dt_s: number, inputs: Given<hh_player_input>[]): void;
-    /** While the game is paused: heads, hands and bodies of players follow their last sample, whatever its time. The clock, bodies, joints, grips and play spaces stand still. The next hh_world_step goes on: hands that are still closed grip where they are at that time. */
+    /** While the game is paused: heads, hands and bodies of players follow their last sample, whatever its time. The clock, bodies, joints, grips and play spaces stand still. Samples that were waiting for their step are dropped. The next hh_world_step goes on: hands that are still closed grip where they are at that time. */
     stepPoseOnly(dt_s: number, inputs: Given<hh_player_input>[]): void;
     /** The world's clock, seconds, and the number of steps. Null outputs are skipped. */
     time(): { time_s: number; frame: bigint };
@@ -844,16 +847,17 @@ export declare class WorldCalls {
     playerMass(player: Given<hh_player>): number;
     /** The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked: false before the head's first sample, and while it is lost or inferred. */
     playerHead(player: Given<hh_player>): { center: hh_vec3; radius_m: number; is_tracked: boolean };
+    /** The measures with the scale in them. */
     playerMeasures(player: Given<hh_player>): hh_measures;
     /** Replaces the measures. `measures`, not null. */
     playerSetMeasures(player: Given<hh_player>, measures: Given<hh_measures>): void;
     playerSetUserData(player: Given<hh_player>, user_data: bigint): void;
     playerUserData(player: Given<hh_player>): bigint;
-    /** The hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists with OpenXR's axes (-Z to the fingers, +Y the back of the hand). Null: a controller's grip pose, by the tuning's hand.controller_ numbers, which is the default. */
+    /** The hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists with OpenXR's axes (-Z to the fingers, +Y the back of the hand). Null: a controller's grip pose, by the tuning's hand.controller_ numbers times the player's scale, which is the default. The given pose is used as it is. */
     playerSetHandInController(player: Given<hh_player>, side: number, hand_in_controller: Given<hh_pose> | null): void;
     /** Returns the pose set by hh_player_set_hand_in_controller, for hosts that have wrists and need controllers. */
     playerHandInController(player: Given<hh_player>, side: number): hh_pose;
-    /** Returns the tuning's pose of the wrist in a controller, for players without one of their own. */
+    /** Returns the tuning's pose of the wrist in a controller, for players of scale 1 without one of their own. */
     handInController(side: number): hh_pose;
     /** One hand. `hand_size`: bytes of hh_hand_state as the host knows it. */
     playerHand(player: Given<hh_player>, side: number): hh_hand_state;

@@ -12,7 +12,7 @@ extern "C" {
 
 /* ---- Players -------------------------------------------------------------------------------- */
 
-/* Sizes of a player's body, each in [0.05, 5] m. */
+/* Sizes of a player's body, each in [0.05, 5] m times hh_player_def.scale. */
 typedef struct hh_measures {
     double eye_height_m;     /* standing */
     double shoulder_width_m; /* between the shoulder joints */
@@ -25,15 +25,18 @@ typedef struct hh_player_def {
     const char* name; /* unique in the world; null: by its id */
     hh_pose origin;   /* the space of the samples in the world */
     hh_vec3 velocity_mps;
-    double mass_kg; /* default 80 */
-    hh_measures measures;
-    /* Of all measures, default 1. Each measure must lie in [0.05, 5] m after it, else HH_ERROR_VALUE: with
-     * the default measures, [0.17, 3.08]. Hands, head and the lengths of the tuning do not scale. */
+    double mass_kg;       /* default 80 */
+    hh_measures measures; /* before scale: each in [0.05, 5] m */
+    /* Size of the player, [0.01, 100], default 1; else HH_ERROR_VALUE. Body, head, hands, reach and
+     * every number with hh_tuning_info.scales are times this. Samples and all results stay in the
+     * world's metres: a host gives the tracked poses times the scale. Tested from 0.1 to 20. The
+     * first hand of another scale than 1 that grips a shape copies its surface, at about 0.2
+     * microseconds a triangle. */
     double scale;
-    uint8_t head_collides; /* the head is a sphere of head.radius_m; default true */
+    uint8_t head_collides; /* the head is a sphere of head.radius_m times scale; default true */
     /* Layers of the head; it touches a body if each one's layers meet the other's mask. */
     uint32_t layers, mask;
-    uint32_t grab_layers;  /* the hands grip bodies with one of these layers; default all */
+    uint32_t grab_layers; /* the hands grip bodies with one of these layers; default all */
     uint64_t user_data;
 } hh_player_def;
 HH_API hh_result hh_default_player_def_sized(hh_player_def* filled, size_t size);
@@ -47,16 +50,17 @@ HH_API hh_result hh_player_remove(hh_world* world, hh_player player);
 HH_API uint8_t hh_player_is_valid(const hh_world* world, hh_player player);
 HH_API hh_result hh_world_players(const hh_world* world, hh_player* players, size_t capacity,
                                   size_t* count);
-/* The headset's runtime, or the host, has recentred: from the next sample on, poses are given in a space
- * that lies at `new_in_old` in the space before (OpenXR: poseInPreviousSpace). Level: it turns about +Y
- * only, within 0.001. View, hands and grips stay where they are in the world; hh_player_pose.origin
- * changes at once, HH_EVENT_RECENTRED follows in the next step. From now on the host announces all
- * recentrings, as after hh_player_set_recenter_guess(world, player, 0). */
+/* The headset's runtime, or the host, has recentred: from the next sample on, poses are given in a
+ * space that lies at `new_in_old` in the space before (OpenXR: poseInPreviousSpace). Level: it
+ * turns about +Y only, within 0.001. View, hands and grips stay where they are in the world;
+ * hh_player_pose.origin changes at once, HH_EVENT_RECENTRED follows in the next step. From now on
+ * the host announces all recentrings, as after hh_player_set_recenter_guess(world, player, 0). */
 HH_API hh_result hh_player_recenter(hh_world* world, hh_player player, hh_pose new_in_old);
-/* `guesses` 1, the default: if head and hands jump by one turn about +Y and one translation, or the head
- * by more than tracking.max_jump_m, the runtime has recentred, and nothing in the world moves. 0: the
- * host announces recentrings, and every other jump is meant, such as a turn that the host puts into its
- * samples: view and hands follow it, and gripping hands take new anchors. Part of the state. */
+/* `guesses` 1, the default: if head and hands jump by one turn about +Y and one translation, or the
+ * head by more than tracking.max_jump_m, the runtime has recentred, and nothing in the world moves.
+ * 0: the host announces recentrings, and every other jump is meant, such as a turn that the host
+ * puts into its samples: view and hands follow it, and gripping hands take new anchors. Part of the
+ * state. */
 HH_API hh_result hh_player_set_recenter_guess(hh_world* world, hh_player player, uint8_t guesses);
 /* The play space is there at once, at rest. Dynamic bodies in the hands that no joint holds come
  * along; hands let go of everything else. */
@@ -75,6 +79,7 @@ HH_API hh_result hh_player_mass(const hh_world* world, hh_player player, double*
  * false before the head's first sample, and while it is lost or inferred. */
 HH_API hh_result hh_player_head(const hh_world* world, hh_player player, hh_vec3* center,
                                 double* radius_m, uint8_t* is_tracked);
+/* The measures with the scale in them. */
 HH_API hh_result hh_player_measures(const hh_world* world, hh_player player, hh_measures* measures);
 /* Replaces the measures. `measures`, not null. */
 HH_API hh_result hh_player_set_measures(hh_world* world, hh_player player,
@@ -83,14 +88,16 @@ HH_API hh_result hh_player_set_user_data(hh_world* world, hh_player player, uint
 HH_API hh_result hh_player_user_data(const hh_world* world, hh_player player, uint64_t* user_data);
 /* The hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists
  * with OpenXR's axes (-Z to the fingers, +Y the back of the hand). Null: a controller's grip pose,
- * by the tuning's hand.controller_ numbers, which is the default. */
+ * by the tuning's hand.controller_ numbers times the player's scale, which is the default. The
+ * given pose is used as it is. */
 HH_API hh_result hh_player_set_hand_in_controller(hh_world* world, hh_player player, hh_side side,
                                                   const hh_pose* hand_in_controller);
 /* Returns the pose set by hh_player_set_hand_in_controller, for hosts that have wrists and need
  * controllers. */
 HH_API hh_result hh_player_hand_in_controller(const hh_world* world, hh_player player, hh_side side,
                                               hh_pose* hand_in_controller);
-/* Returns the tuning's pose of the wrist in a controller, for players without one of their own. */
+/* Returns the tuning's pose of the wrist in a controller, for players of scale 1 without one of
+ * their own. */
 HH_API hh_result hh_world_hand_in_controller(const hh_world* world, hh_side side,
                                              hh_pose* hand_in_controller);
 
@@ -108,9 +115,9 @@ typedef enum hh_grip_kind {
 /* Grows: see base.h. */
 typedef struct hh_hand_state {
     hh_grip_kind grip;
-    hh_body body;     /* gripped; null: none */
-    hh_player other;  /* gripped player; null: none */
-    hh_pose tracked;  /* the wrist in the world, as the devices say */
+    hh_body body;    /* gripped; null: none */
+    hh_player other; /* gripped player; null: none */
+    hh_pose tracked; /* the wrist in the world, as the devices say */
     /* The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres
      * from it, so that palm and fingers touch. */
     hh_pose shown;
@@ -124,22 +131,22 @@ typedef struct hh_hand_state {
      * hands and contacts report at most the momentum that the players and bodies involved have,
      * with the hands' speed on top. */
     hh_vec3 force_impulse_ns;
-    uint8_t is_tracked;  /* false while the hand is lost or inferred */
-    uint8_t is_closed;   /* the button is down */
-    /* The runtime guesses where the hand is (hh_tracking_sample.hand_inferred). `tracked` is the guess
-     * for an empty hand, and for a body in it while no hand of the player moves the player; else the
-     * last pose that was measured. */
+    uint8_t is_tracked; /* false while the hand is lost or inferred */
+    uint8_t is_closed;  /* the button is down */
+    /* The runtime guesses where the hand is (hh_tracking_sample.hand_inferred). `tracked` is the
+     * guess for an empty hand, and for a body in it while no hand of the player moves the player;
+     * else the last pose that was measured. */
     uint8_t is_inferred;
 } hh_hand_state;
 
 /* Grows: see base.h. Later fields come behind `hands`. */
 typedef struct hh_player_pose {
-    /* The space of the samples in the world: put the camera rig here. Controllers at origin * sample
-     * are where the hands are, also after a recentring, which changes it so that nothing in the world
-     * moves. */
+    /* The space of the samples in the world: put the camera rig here. Controllers at origin *
+     * sample are where the hands are, also after a recentring, which changes it so that nothing in
+     * the world moves. */
     hh_pose origin;
-    hh_pose head;        /* between the eyes, in the world */
-    hh_vec3 velocity_mps; /* of the play space */
+    hh_pose head;           /* between the eyes, in the world */
+    hh_vec3 velocity_mps;   /* of the play space */
     hh_hand_state hands[2]; /* by hh_side */
 } hh_player_pose;
 
@@ -180,15 +187,15 @@ HH_API hh_result hh_hand_release(hh_world* world, hh_player player, hh_side side
 typedef enum hh_event_kind {
     /* The palm of an empty hand came within 2 cm of a body or player. */
     HH_EVENT_TOUCHED = 0,
-    HH_EVENT_GRABBED = 1,        /* a hand grips */
-    HH_EVENT_RELEASED = 2,       /* the player opened the hand, or `reason` says who did */
-    HH_EVENT_REFUSED = 3,        /* a hand closed and grips nothing: `reason` */
-    HH_EVENT_SLIPPED = 4,        /* a hand lost its grip: `reason` */
-    HH_EVENT_CONTACT_BEGAN = 5,  /* the player's head, or what a hand holds, hits a body */
+    HH_EVENT_GRABBED = 1,       /* a hand grips */
+    HH_EVENT_RELEASED = 2,      /* the player opened the hand, or `reason` says who did */
+    HH_EVENT_REFUSED = 3,       /* a hand closed and grips nothing: `reason` */
+    HH_EVENT_SLIPPED = 4,       /* a hand lost its grip: `reason` */
+    HH_EVENT_CONTACT_BEGAN = 5, /* the player's head, or what a hand holds, hits a body */
     HH_EVENT_CONTACT_ENDED = 6,
-    HH_EVENT_LATCH_CLOSED = 7,   /* of `joint` */
+    HH_EVENT_LATCH_CLOSED = 7, /* of `joint` */
     HH_EVENT_LATCH_OPENED = 8,
-    HH_EVENT_LIMIT_REACHED = 9,  /* a joint came to its lower or upper limit */
+    HH_EVENT_LIMIT_REACHED = 9, /* a joint came to its lower or upper limit */
     /* hh_player_pose.origin was changed so that a recentring moves nothing. HH_REASON_BY_HOST: by
      * hh_player_recenter; HH_REASON_NONE: the samples jumped. `position`: the head. */
     HH_EVENT_RECENTRED = 10,
@@ -209,23 +216,24 @@ typedef enum hh_reason {
     HH_REASON_32_BITS = 0x7fffffff
 } hh_reason;
 
-/* Grows: see base.h. Later versions also have more kinds and reasons: ignore those you do not know. */
+/* Grows: see base.h. Later versions also have more kinds and reasons: ignore those you do not know.
+ */
 typedef struct hh_event {
     hh_event_kind kind;
     hh_reason reason;
-    hh_player player; /* null: a joint's event that concerns no hand */
-    int32_t side;     /* hh_side; -1: no hand: the head or a joint alone */
-    hh_body body;     /* touched, gripped, held or hit; null: a player, or nothing */
-    hh_player other;  /* gripped or hit player; null: none */
-    hh_body held;     /* contacts: what the hand holds; null: the head */
-    hh_joint joint;   /* of latches and limits */
-    hh_vec3 position; /* in the world */
+    hh_player player;  /* null: a joint's event that concerns no hand */
+    int32_t side;      /* hh_side; -1: no hand: the head or a joint alone */
+    hh_body body;      /* touched, gripped, held or hit; null: a player, or nothing */
+    hh_player other;   /* gripped or hit player; null: none */
+    hh_body held;      /* contacts: what the hand holds; null: the head */
+    hh_joint joint;    /* of latches and limits */
+    hh_vec3 position;  /* in the world */
     double impulse_ns; /* of a contact that began: >= 0, for haptics and sound */
 } hh_event;
 
-/* The events of the last step, in a fixed order. Valid until the next step, restore, destroy or call
- * of this function. `event_size`: bytes of hh_event as the host knows it; the list's elements lie so
- * far apart. */
+/* The events of the last step, in a fixed order. Valid until the next step, restore, destroy or
+ * call of this function. `event_size`: bytes of hh_event as the host knows it; the list's elements
+ * lie so far apart. */
 HH_API hh_result hh_world_events_sized(const hh_world* world, const hh_event** events,
                                        size_t* count, size_t event_size);
 static inline hh_result hh_world_events(const hh_world* world, const hh_event** events,
@@ -244,13 +252,31 @@ typedef enum hh_space {
 /* Joints as XR_EXT_hand_tracking has them, in its order and with its axes. The parent of palm and
  * metacarpals is the wrist. */
 typedef enum hh_hand_joint_name {
-    HH_HAND_PALM, HH_HAND_WRIST,
-    HH_THUMB_METACARPAL, HH_THUMB_PROXIMAL, HH_THUMB_DISTAL, HH_THUMB_TIP,
-    HH_INDEX_METACARPAL, HH_INDEX_PROXIMAL, HH_INDEX_INTERMEDIATE, HH_INDEX_DISTAL, HH_INDEX_TIP,
-    HH_MIDDLE_METACARPAL, HH_MIDDLE_PROXIMAL, HH_MIDDLE_INTERMEDIATE, HH_MIDDLE_DISTAL,
+    HH_HAND_PALM,
+    HH_HAND_WRIST,
+    HH_THUMB_METACARPAL,
+    HH_THUMB_PROXIMAL,
+    HH_THUMB_DISTAL,
+    HH_THUMB_TIP,
+    HH_INDEX_METACARPAL,
+    HH_INDEX_PROXIMAL,
+    HH_INDEX_INTERMEDIATE,
+    HH_INDEX_DISTAL,
+    HH_INDEX_TIP,
+    HH_MIDDLE_METACARPAL,
+    HH_MIDDLE_PROXIMAL,
+    HH_MIDDLE_INTERMEDIATE,
+    HH_MIDDLE_DISTAL,
     HH_MIDDLE_TIP,
-    HH_RING_METACARPAL, HH_RING_PROXIMAL, HH_RING_INTERMEDIATE, HH_RING_DISTAL, HH_RING_TIP,
-    HH_LITTLE_METACARPAL, HH_LITTLE_PROXIMAL, HH_LITTLE_INTERMEDIATE, HH_LITTLE_DISTAL,
+    HH_RING_METACARPAL,
+    HH_RING_PROXIMAL,
+    HH_RING_INTERMEDIATE,
+    HH_RING_DISTAL,
+    HH_RING_TIP,
+    HH_LITTLE_METACARPAL,
+    HH_LITTLE_PROXIMAL,
+    HH_LITTLE_INTERMEDIATE,
+    HH_LITTLE_DISTAL,
     HH_LITTLE_TIP,
     HH_HAND_JOINT_NAME_32_BITS = 0x7fffffff
 } hh_hand_joint_name;
@@ -261,9 +287,9 @@ typedef struct hh_hand_joint {
     uint8_t is_valid; /* false: the hand's rig has no such joint */
 } hh_hand_joint;
 /* How far the fingers of a tracked hand are bent, for hh_tracking_sample.curls. `joints`:
- * HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name, in any one space; only positions are read. Curl
- * is the sum of a finger's bends over that of a fist; -1 if a joint of the finger is not valid. Any
- * thread. */
+ * HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name, in any one space; only positions are read.
+ * Curl is the sum of a finger's bends over that of a fist; -1 if a joint of the finger is not
+ * valid. Any thread. */
 HH_API hh_result hh_finger_curls_of(const hh_hand_joint* joints, hh_finger_curls* curls);
 /* The shown hand's joints. `joints`: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name. */
 HH_API hh_result hh_player_hand_joints(const hh_world* world, hh_player player, hh_side side,
@@ -272,11 +298,26 @@ HH_API hh_result hh_player_hand_joints(const hh_world* world, hh_player player, 
 /* Joints of a humanoid, with VRM's names. Trunk, head and legs: +Y up along the bone, -Z to the
  * front. Arms: -Z along the bone, +Y on the elbow's side. Hands: the wrist's axes. */
 typedef enum hh_body_joint {
-    HH_HIPS, HH_SPINE, HH_CHEST, HH_UPPER_CHEST, HH_NECK, HH_HEAD,
-    HH_LEFT_SHOULDER, HH_LEFT_UPPER_ARM, HH_LEFT_LOWER_ARM, HH_LEFT_HAND,
-    HH_RIGHT_SHOULDER, HH_RIGHT_UPPER_ARM, HH_RIGHT_LOWER_ARM, HH_RIGHT_HAND,
-    HH_LEFT_UPPER_LEG, HH_LEFT_LOWER_LEG, HH_LEFT_FOOT,
-    HH_RIGHT_UPPER_LEG, HH_RIGHT_LOWER_LEG, HH_RIGHT_FOOT,
+    HH_HIPS,
+    HH_SPINE,
+    HH_CHEST,
+    HH_UPPER_CHEST,
+    HH_NECK,
+    HH_HEAD,
+    HH_LEFT_SHOULDER,
+    HH_LEFT_UPPER_ARM,
+    HH_LEFT_LOWER_ARM,
+    HH_LEFT_HAND,
+    HH_RIGHT_SHOULDER,
+    HH_RIGHT_UPPER_ARM,
+    HH_RIGHT_LOWER_ARM,
+    HH_RIGHT_HAND,
+    HH_LEFT_UPPER_LEG,
+    HH_LEFT_LOWER_LEG,
+    HH_LEFT_FOOT,
+    HH_RIGHT_UPPER_LEG,
+    HH_RIGHT_LOWER_LEG,
+    HH_RIGHT_FOOT,
     HH_BODY_JOINT_COUNT,
     HH_BODY_JOINT_32_BITS = 0x7fffffff
 } hh_body_joint;
@@ -306,8 +347,8 @@ HH_API hh_result hh_player_skeleton_joint(const hh_world* world, hh_player playe
                                           const char** name, int32_t* parent);
 
 typedef struct hh_finger {
-    uint8_t is_posed;  /* false: the finger closes on the surface as usual */
-    double curl_rad[3]; /* of its hinges, from the palm */
+    uint8_t is_posed;      /* false: the finger closes on the surface as usual */
+    double curl_rad[3];    /* of its hinges, from the palm */
     double opposition_rad; /* thumb */
     /* The finger moves from these angles to the pressed ones as far as the sample's `trigger` is
      * pressed. The pressed angles may reach into the body: a trigger gives way. */
@@ -316,8 +357,8 @@ typedef struct hh_finger {
     double pressed_opposition_rad;
 } hh_finger;
 typedef struct hh_grip_hand {
-    uint8_t is_used;  /* false: this hand cannot take the grip */
-    hh_pose wrist; /* in the body's frame */
+    uint8_t is_used;      /* false: this hand cannot take the grip */
+    hh_pose wrist;        /* in the body's frame */
     hh_finger fingers[5]; /* thumb, index, middle, ring, little */
 } hh_grip_hand;
 typedef struct hh_grip_def {

@@ -42,31 +42,32 @@ typedef struct hh_tracking_sample {
      * start: counted as sample_too_old. If all of a step's samples are so far off, the log is told
      * once that they are on another clock. */
     double time_s;
-    hh_pose head;  /* between the eyes, in play space: the frame that the tracking is given in */
-    hh_pose hands[2];     /* controllers, by hh_side; see hh_player_set_hand_in_controller */
+    hh_pose head;     /* between the eyes, in play space: the frame that the tracking is given in */
+    hh_pose hands[2]; /* controllers, by hh_side; see hh_player_set_hand_in_controller */
     uint8_t head_tracked;    /* false: `head` is ignored */
     uint8_t hand_tracked[2]; /* false: the pose is ignored, `grab` counts */
     uint8_t grab[2];         /* a button that closes the hand is down */
-    double squeeze[2];    /* how far it is pressed, [0, 1]: bends fingers until `grab` closes them */
-    /* How far the index finger's trigger is pressed, [0, 1]: bends the index finger of an empty hand,
-     * and the fingers of authored grips that follow the trigger. */
+    double squeeze[2]; /* how far it is pressed, [0, 1]: bends fingers until `grab` closes them */
+    /* How far the index finger's trigger is pressed, [0, 1]: bends the index finger of an empty
+     * hand, and the fingers of authored grips that follow the trigger. */
     double trigger[2];
     /* True if the runtime only guesses the head's position: OpenXR's POSITION_VALID without
-     * POSITION_TRACKED, WebXR's emulatedPosition, a low confidence. Default false; true counts before
-     * head_tracked. The head follows the guess, but while a hand grips what the player can pull on, only
-     * its rotation does. */
+     * POSITION_TRACKED, WebXR's emulatedPosition, a low confidence. Default false; true counts
+     * before head_tracked. The head follows the guess, but while a hand grips what the player can
+     * pull on, only its rotation does. */
     uint8_t head_inferred;
-    /* The same of the hands, before hand_tracked. An inferred hand does not grip, and never moves a player who grips: it
-     * stays where it was last measured. Opening `grab` lets go, without a throw. The shown empty hand
-     * follows the guess. Once measured again, the hand may be elsewhere: it did not travel. */
+    /* The same of the hands, before hand_tracked. An inferred hand does not grip, and never moves a
+     * player who grips: it stays where it was last measured. Opening `grab` lets go, without a
+     * throw. The shown empty hand follows the guess. Once measured again, the hand may be
+     * elsewhere: it did not travel. */
     uint8_t hand_inferred[2];
-    /* Bends the fingers of an empty hand, before squeeze and trigger; default unknown. By gloves, or
-     * from joints by hh_finger_curls_of. */
+    /* Bends the fingers of an empty hand, before squeeze and trigger; default unknown. By gloves,
+     * or from joints by hh_finger_curls_of. */
     hh_finger_curls curls[2];
 } hh_tracking_sample;
 
-/* Everything tracked, hands open, at time 0. The poses are for you to fill: at the origin they count
- * as not tracked. Any thread. */
+/* Everything tracked, hands open, at time 0. The poses are for you to fill: at the origin they
+ * count as not tracked. Any thread. */
 HH_API hh_result hh_default_tracking_sample_sized(hh_tracking_sample* filled, size_t size);
 static inline hh_tracking_sample hh_default_tracking_sample(void) {
     hh_tracking_sample filled;
@@ -81,7 +82,7 @@ typedef struct hh_commands {
     int32_t snap_turns; /* turns to the left begun in this step; negative: to the right */
     double brake;       /* [0, 1] */
     hh_vec3 thrust;     /* play space, each in [-1, 1]; needs locomotion.thruster_mps2 above 0 */
-    uint8_t calibrate;     /* held while the player holds a T-pose: measures the body */
+    uint8_t calibrate;  /* held while the player holds a T-pose: measures the body */
 } hh_commands;
 
 /* One player's input of one step. Fill by hh_default_player_input. */
@@ -95,10 +96,10 @@ typedef struct hh_player_input {
      * for samples that were kept. */
     const hh_tracking_sample* samples;
     size_t sample_count;
-    /* The host gives a sample that is later than the step's end again in the next step, so the world
-     * keeps none; and a sample's time is taken to the bit, where otherwise a microsecond after the
-     * end counts as the end. For hosts that have the whole stream: recordings, rollback. Default
-     * 0. */
+    /* The host gives a sample that is later than the step's end again in the next step, so the
+     * world keeps none; and a sample's time is taken to the bit, where otherwise a microsecond
+     * after the end counts as the end. For hosts that have the whole stream: recordings, rollback.
+     * Default 0. */
     uint8_t repeats_samples;
     hh_commands commands;
 } hh_player_input;
@@ -112,13 +113,14 @@ static inline hh_player_input hh_default_player_input(void) {
 
 /* Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players
  * without one are silent. Bad samples are ignored and counted; numbers in commands that are out of
- * range are clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs all the time, and up to
- * 4 ms in the frame in which a hand closes: docs/guide/cost.md. */
+ * range are clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs all the time, and up
+ * to 4 ms in the frame in which a hand closes: docs/guide/cost.md. */
 HH_API hh_result hh_world_step(hh_world* world, double dt_s, const hh_player_input* inputs,
                                size_t input_count);
 /* While the game is paused: heads, hands and bodies of players follow their last sample, whatever
- * its time. The clock, bodies, joints, grips and play spaces stand still. The next hh_world_step
- * goes on: hands that are still closed grip where they are at that time. */
+ * its time. The clock, bodies, joints, grips and play spaces stand still. Samples that were waiting
+ * for their step are dropped. The next hh_world_step goes on: hands that are still closed grip
+ * where they are at that time. */
 HH_API hh_result hh_world_step_pose_only(hh_world* world, double dt_s,
                                          const hh_player_input* inputs, size_t input_count);
 /* The world's clock, seconds, and the number of steps. Null outputs are skipped. */
@@ -135,12 +137,13 @@ HH_API hh_result hh_world_reference_velocity(const hh_world* world, hh_vec3* vel
  * calls with equal names. Cost: linear in the state, about 0.1 ms for a scene of 100 bodies. */
 HH_API hh_result hh_world_hash(const hh_world* world, uint64_t* hash);
 /* Saves every bit of the state. Writes the number of bytes to `size`. A null `buffer` only asks for
- * it. HH_ERROR_CAPACITY if it is more than `capacity`. Rigs, tuning and user data are not in a snapshot.
- * Shapes are named by their content: a world that restores it needs equal ones, whatever their ids. */
+ * it. HH_ERROR_CAPACITY if it is more than `capacity`. Rigs, tuning and user data are not in a
+ * snapshot. Shapes are named by their content: a world that restores it needs equal ones, whatever
+ * their ids. */
 HH_API hh_result hh_world_save(hh_world* world, void* buffer, size_t capacity, size_t* size);
 /* Back to a saved state, which then goes on bit for bit. Ids taken before the save are valid again.
- * HH_ERROR_DATA, and no change, for bytes that are damaged or name a shape that this world has not. Tolerates
- * any bytes. */
+ * HH_ERROR_DATA, and no change, for bytes that are damaged or name a shape that this world has not.
+ * Tolerates any bytes. */
 HH_API hh_result hh_world_restore(hh_world* world, const void* bytes, size_t size);
 
 /* What receives the impulses of constraints, index of hh_momentum's arrays. */
@@ -201,6 +204,7 @@ typedef struct hh_tuning_info {
     const char* what;
     double low, high; /* of each component */
     size_t count;     /* 1 or 3 */
+    uint8_t scales;   /* true: times hh_player_def.scale for that player */
 } hh_tuning_info;
 HH_API hh_result hh_default_tuning_info_sized(hh_tuning_info* filled, size_t size);
 static inline hh_tuning_info hh_default_tuning_info(void) {
