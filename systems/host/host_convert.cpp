@@ -139,7 +139,8 @@ hh_result hh_convert_mesh_from(hh_engine engine, float* coordinates, size_t coor
                           "the number of coordinates or indices is no multiple of 3");
         for (std::size_t i = 0; i < coordinate_count; i += 3) {
             float* const xyz = coordinates + i;
-            const hh_vec3 given{double{xyz[0]}, double{xyz[1]}, double{xyz[2]}};
+            const hh_vec3 given{static_cast<double>(xyz[0]), static_cast<double>(xyz[1]),
+                                static_cast<double>(xyz[2])};
             const hh_vec3 made = hh_convert_vector_from(engine, given);
             xyz[0] = static_cast<float>(made.x);
             xyz[1] = static_cast<float>(made.y);
