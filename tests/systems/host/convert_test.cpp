@@ -76,7 +76,8 @@ TEST(EngineAxes, FrontFacesPointOutwards) {
         std::vector<float>& xyz = *meshes[i];
         ASSERT_EQ(k_engines[i].mesh_from(xyz, indices), HH_OK);
         const auto corner = [&](std::size_t n) {
-            return Vec3(xyz[3 * indices[n]], xyz[3 * indices[n] + 1], xyz[3 * indices[n] + 2]);
+            const Eigen::Vector3f read = Eigen::Map<Eigen::Vector3f>(&xyz[3 * indices[n]]);
+            return Vec3(read.cast<double>());
         };
         expect_near((corner(1) - corner(0)).cross(corner(2) - corner(0)), {0.0, 0.0, 1.0});
     }
