@@ -107,7 +107,7 @@ hh_result hh_body_set_shape(hh_world* world, hh_body body, hh_shape shape) {
             require(id != k_no_shape, HH_ERROR_VALUE, "a dynamic body needs a shape");
             rigid.inertia_kgm2 = solid_inertia(host.shapes.at(id), rigid.mass_kg);
         }
-        check_rigid_body(rigid, __func__);
+        check_rigid_body(rigid, "hh_body_set_shape");
         const Pose frame = id == k_no_shape ? Pose{} : host.host_shapes[id.index].frame;
         const HostShape* const old = moved_shape_of(host, entity);
         change_shape(host.world, entity, id,
