@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "engine/anim/crawler_leg.hpp"
 #include "engine/anim/pose_path.hpp"
@@ -91,6 +93,11 @@ struct MoveTarget {
     double moved_s = 0.0;     // end of the newest move's frame, s on the world's clock
     std::uint32_t count = 0;  // k_capacity at most
     std::array<Move, k_capacity> moves = {};
+
+    // The moves that are there. Only these are saved, hashed and compared.
+    std::span<const Move> kept() const {
+        return std::span(moves).first(std::min<std::size_t>(count, k_capacity));
+    }
 };
 
 // Share of the world's gravity that a free body feels, [-1e3, 1e3]. A body without this component

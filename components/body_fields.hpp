@@ -65,7 +65,7 @@ void visit_fields(const MoveTarget& c, V&& visit) {
     visit("pose_ws", c.pose_ws);
     visit("moved_s", c.moved_s);
     visit("count", c.count);
-    visit("moves", c.moves);
+    visit("moves", c.kept());
 }
 template <typename V>
 void visit_fields(const GravityScale& c, V&& visit) {

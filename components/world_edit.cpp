@@ -96,19 +96,27 @@ void reframe_hands(World& world, Entity body, const Reframed& reframe) {
     }
 }
 
-// Surfaces, fits and their cache keys name triangles.
-void forget_fits(World& world) {
-    for (std::size_t index = 0; index < world.grip_surface.size(); ++index) {
-        const Entity hand = world.grip_surface.owners()[index];
-        world.grip_surface.elements()[index] = {};
-        FingerPose& fingers = world.finger_pose.at(hand);
-        fingers.closed_body = fingers.fitted_body = k_no_entity;
-        fingers.fitted_signature = 0;
-        fingers.is_converged = false;
-    }
+bool has_mover(const World& world, Entity body) {
+    return world.mover.contains(body) || world.path_mover.contains(body) ||
+           world.leg_mover.contains(body);
 }
 
 }  // namespace
+
+void forget_surface(World& world, Entity body) {
+    for (std::size_t index = 0; index < world.grip_surface.size(); ++index) {
+        GripSurface& surface = world.grip_surface.elements()[index];
+        FingerPose& fingers = world.finger_pose.at(world.grip_surface.owners()[index]);
+        if (surface.body == body) {
+            surface = {};
+        }
+        if (fingers.closed_body == body || fingers.fitted_body == body) {
+            fingers.closed_body = fingers.fitted_body = k_no_entity;
+            fingers.fitted_signature = 0;
+            fingers.is_converged = false;
+        }
+    }
+}
 
 void change_body(World& world, Entity entity, const RigidBody& body) {
     HH_CHECK(world.body.contains(entity), "no body with this handle", entity.slot);
@@ -140,19 +148,26 @@ void change_shape(World& world, Entity body, ShapeId shape, const Pose& frame) {
     const Pose old_ws = world.body_pose.at(body).pose_ws;
     const Pose new_ws = old_ws * frame;
     check_place(__func__, new_ws);
+    const bool is_moved = frame.position != Vec3::Zero() || frame.rotation.vec() != Vec3::Zero();
+    HH_CHECK(!is_moved || !has_mover(world, body), "the body has a mover", body.slot);
+    const Collider* const before = world.collider.find(body);
+    if (!is_moved && (before == nullptr ? k_no_shape : before->shape) == shape) {
+        return;
+    }
     world.collider.remove(body);
     if (shape != k_no_shape) {
         world.collider.add(body, {shape});
     }
-    forget_fits(world);
-    if (frame.position == Vec3::Zero() && frame.rotation.vec() == Vec3::Zero()) {
+    forget_surface(world, body);
+    if (!is_moved) {
         return;
     }
     const Reframed reframe{inverse(frame)};
     reframe_joints(world, body, reframe);
     reframe_hands(world, body, reframe);
     BodyVelocity& velocity = world.body_velocity.at(body);
-    velocity.linear_mps += velocity.angular_radps.cross(new_ws.position - old_ws.position);
+    const Vec3 offset_m = new_ws.position - old_ws.position;
+    velocity.linear_mps += velocity.angular_radps.cross(offset_m);
     world.body_pose.at(body).pose_ws = new_ws;
     Pose& start_ws = world.body_start.at(body).pose_ws;
     start_ws = start_ws * frame;
@@ -161,6 +176,9 @@ void change_shape(World& world, Entity body, ShapeId shape, const Pose& frame) {
     }
     if (MoveTarget* const target = world.move_target.find(body)) {
         target->pose_ws = target->pose_ws * frame;
+        for (MoveTarget::Move& move : target->moves) {
+            move.moved_m += move.turned_rad.cross(offset_m);
+        }
     }
 }
 
@@ -168,9 +186,7 @@ void move_kinematic(World& world, Entity body, const Pose& pose_ws) {
     HH_CHECK(world.body.contains(body), "no body with this handle", body.slot);
     HH_CHECK(world.body.at(body).kind == BodyKind::kinematic, "the body is not kinematic",
              body.slot);
-    HH_CHECK(!world.mover.contains(body) && !world.path_mover.contains(body) &&
-                 !world.leg_mover.contains(body),
-             "the body has a mover", body.slot);
+    HH_CHECK(!has_mover(world, body), "the body has a mover", body.slot);
     check_place(__func__, pose_ws);
     if (MoveTarget* const target = world.move_target.find(body)) {
         target->pose_ws = pose_ws;

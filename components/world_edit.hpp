@@ -23,8 +23,13 @@ void change_body(World& world, Entity entity, const RigidBody& body);
 
 // A body gets another shape, or none (k_no_shape). `frame`: the new shape's frame in the old one,
 // so the body's pose becomes pose * frame. Grips, joints, authored grips and velocities stay where
-// they are in the world. Palms and fingers look for the surface again.
+// they are in the world. Palms and fingers look for the surface again. A body with a mover keeps
+// its frame: `frame` is the identity.
 void change_shape(World& world, Entity body, ShapeId shape, const Pose& frame);
+
+// Hands on the body look for its surface again, because what GripSurface and FingerPose name are
+// triangles of another mesh. For hosts that give a body another surface without change_shape.
+void forget_surface(World& world, Entity body);
 
 // Places a player's play space at `origin_ws` at once, at rest relative to the scene. Free bodies
 // in the player's hands that no joint holds come along; the hands let go of everything else. Hands

@@ -136,9 +136,6 @@ class ChainFitter {
             return false;
         }
         start = {{{found.triangle, found.point}}};
-        if (plane == 0) {
-            fit_.contact_triangle = found.triangle;
-        }
         walk_contact(mesh, disc, found, contact_start);
         return true;
     }

@@ -55,9 +55,6 @@ struct ChainFit {
     // Last link that touches; after depenetration, the deepest link. k_none if nothing is touched,
     // and always for the rest pose.
     std::int32_t contact_link = DiscClosure::k_none;
-    // Where the search of plane 0 ended: a triangle of the first mesh's search detail. Seed of the
-    // next fit.
-    std::uint32_t contact_triangle = k_no_triangle;
     // Penetration of the deepest link, >= 0. If a surface crosses a link's axis, the chain beyond
     // the crossing counts as penetrating.
     double depth_m = 0.0;

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "engine/core/hash.hpp"
 #include "engine/geometry/graph_links.hpp"
 #include "engine/geometry/round_grip_mesh.hpp"
 #include "engine/geometry/shape_surface.hpp"
@@ -30,6 +31,20 @@ std::size_t memory_bytes(const SurfaceGraph& graph) {
 
 }  // namespace
 
+std::uint64_t digest_of(const SurfaceGraph& contact) {
+    HashStream stream;
+    for (const Vec3& position : contact.positions) {
+        for (int axis = 0; axis < 3; ++axis) {
+            stream.add(position[axis]);
+        }
+    }
+    for (const auto& [a, b, c] : contact.triangles) {
+        stream.add((std::uint64_t{a} << 32U) | b);
+        stream.add(std::uint64_t{c});
+    }
+    return stream.value();
+}
+
 GripMesh build_grip_mesh(const Mesh& mesh, const GripMeshSettings& settings) {
     GripMesh grip;
     SurfaceGraph full = build_surface_graph(mesh, settings.weld);
@@ -51,6 +66,7 @@ GripMesh build_grip_mesh(const Mesh& mesh, const GripMeshSettings& settings) {
     grip.contact_bvh = TriangleBvh(grip.contact.positions, grip.contact.triangles);
     grip.search = simplify_surface(grip.contact, settings.search, &grip.contact_bvh);
     grip.search_bvh = TriangleBvh(grip.search.positions, grip.search.triangles);
+    grip.digest = digest_of(grip.contact);
     return grip;
 }
 
@@ -70,6 +86,10 @@ GripMesh resized(const GripMesh& grip, double factor) {
     GripMesh result;
     result.turned = grip.turned;
     result.full_triangles = grip.full_triangles;
+    HashStream stream;
+    stream.add(grip.digest);
+    stream.add(factor);
+    result.digest = stream.value();
     const auto resize = [factor](const SurfaceGraph& from, const TriangleBvh& from_bvh,
                                  SurfaceGraph& to, TriangleBvh& to_bvh) {
         to = from;

@@ -36,7 +36,11 @@ struct GripMesh {
     TriangleBvh search_bvh;            // tree of search's triangles
     std::uint32_t turned = 0;          // triangles flipped to match their sheet or to face outwards
     std::uint32_t full_triangles = 0;  // number of triangles at full detail
+    // Hash of the contact detail, equal on every machine. Meshes with equal digests are equal.
+    std::uint64_t digest = 0;
 };
+
+std::uint64_t digest_of(const SurfaceGraph& contact);
 
 GripMesh build_grip_mesh(const Mesh& mesh, const GripMeshSettings& settings = {});
 // Round shapes are tessellated within shape_tolerance_m; their contact detail is not simplified.

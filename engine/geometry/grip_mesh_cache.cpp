@@ -214,6 +214,7 @@ std::optional<GripMesh> read_grip_mesh(std::string_view bytes, std::uint64_t key
     grip.full_triangles = high_of(counts);
     grip.contact_bvh = TriangleBvh(grip.contact.positions, grip.contact.triangles);
     grip.search_bvh = TriangleBvh(grip.search.positions, grip.search.triangles);
+    grip.digest = digest_of(grip.contact);
     return grip;
 }
 

@@ -145,6 +145,7 @@ GripMesh build_round_grip_mesh(const Shape& shape, const GripMeshSettings& setti
     grip.contact = std::move(contact.graph);
     grip.contact_bvh = std::move(contact.bvh);
     grip.full_triangles = static_cast<std::uint32_t>(grip.contact.triangles.size());
+    grip.digest = digest_of(grip.contact);
     if (coarse == fine) {
         grip.search = grip.contact;
         grip.search_bvh = grip.contact_bvh;

@@ -16,7 +16,6 @@
 namespace handhold {
 
 // Bits of RecordedHand::buttons.
-constexpr int k_button_trackpad = 1;
 constexpr int k_button_trigger = 2;
 constexpr int k_button_grip = 4;
 constexpr int k_button_menu = 8;

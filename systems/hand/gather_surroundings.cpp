@@ -83,10 +83,7 @@ class Gatherer {
         }
         const PartCapsule capsule = resized(
             part_capsule(io_.shown.at(player), io_.measures.at(player), hold.part), out.scale);
-        const auto [length, radius] = PartMeshes::size_of(capsule);
         stream.add(static_cast<std::uint64_t>(hold.part));
-        stream.add(length);
-        stream.add(radius);
         const Pose frame = PartMeshes::frame_of_mesh(capsule);
         out.body_ws = out.body_ws * Pose{out.scale * frame.position, frame.rotation};
         out.wrist_bs = inverse(frame) * out.wrist_bs;
@@ -96,9 +93,10 @@ class Gatherer {
     // The body's mesh in the metres of hands of that scale; null: it has none.
     const GripMesh* mesh_of(Entity body, double scale) const {
         const std::shared_ptr<const GripMesh>* const mesh = mesh_of(body);
-        return mesh == nullptr ? nullptr
-               : scale == 1.0  ? mesh->get()
-                               : &io_.meshes.resized.get(*mesh, scale);
+        return mesh == nullptr ? nullptr : of_scale(*mesh, scale);
+    }
+    const GripMesh* of_scale(const std::shared_ptr<const GripMesh>& mesh, double scale) const {
+        return scale == 1.0 ? mesh.get() : &io_.meshes.resized.get(mesh, scale);
     }
     const std::shared_ptr<const GripMesh>* mesh_of(Entity body) const {
         if (!io_.body_pose.contains(body)) {
@@ -124,7 +122,7 @@ class Gatherer {
                 std::floor(std::clamp(value * k_steps_per_m, -k_max_steps, k_max_steps) + 0.5));
         };
         stream.add(io_.persistent_id.at(body).value);
-        stream.add(std::uint64_t{placed.mesh->contact.triangles.size()});
+        stream.add(placed.mesh->digest);
         const Vec3 x_axis = placed.pose.rotation * Vec3::UnitX();
         const Vec3 y_axis = placed.pose.rotation * Vec3::UnitY();
         for (int axis = 0; axis < 3; ++axis) {
@@ -160,19 +158,26 @@ class Gatherer {
 
     void add_if_near(Entity body, const Vec3& palm_ws, HandSurroundings& out,
                      HashStream& stream) const {
-        const GripMesh* const mesh =
-            body == out.body || !io_.body_pose.contains(body) ? nullptr : mesh_of(body, out.scale);
+        const std::shared_ptr<const GripMesh>* const mesh =
+            body == out.body ? nullptr : mesh_of(body);
         if (mesh == nullptr) {
             return;
         }
         const Pose& pose_ws = io_.body_pose.at(body).pose_ws;
-        const Vec3 palm_bs = inverse_transform_point(pose_ws, palm_ws) / out.scale;
-        if (mesh->contact_bvh.may_be_near(palm_bs, k_hand_length_m)) {
+        if (is_in_reach(**mesh, inverse_transform_point(pose_ws, palm_ws), out.scale)) {
             Pose placed = inverse(out.body_ws) * pose_ws;
             placed.position /= out.scale;
-            out.meshes.push_back({mesh, placed});
+            out.meshes.push_back({of_scale(*mesh, out.scale), placed});
             add_to_signature(stream, body, out.meshes.back());
         }
+    }
+
+    // Whether a hand of that scale may touch the mesh. Resizing a mesh costs much more than the
+    // exact distance.
+    static bool is_in_reach(const GripMesh& mesh, const Vec3& palm_bs, double scale) {
+        const double reach_m = scale * k_hand_length_m;
+        return mesh.contact_bvh.may_be_near(palm_bs, reach_m) &&
+               (scale == 1.0 || mesh.contact_bvh.closest_point(palm_bs, reach_m));
     }
 
     const GatherSurroundingsIo& io_;

@@ -63,8 +63,7 @@ void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats
             continue;
         }
         if (hand.authored != nullptr) {
-            const bool is_known = surface.body == hand.body &&
-                                  surface.surroundings_signature == 0 &&
+            const bool is_known = is_valid(hand, surface) && surface.surroundings_signature == 0 &&
                                   hand_travel_m(surface.wrist_bs, hand.authored_wrist_bs()) == 0.0;
             if (!is_known) {
                 surface = authored_grip_surface(hand, tuning.palm);

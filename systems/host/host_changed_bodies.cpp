@@ -1,7 +1,6 @@
 // Changes of bodies of the C interface while hands hold them (handhold/level.h): mass, material,
 // kind and shape.
 #include <algorithm>
-#include <limits>
 
 #include "components/play_space.hpp"
 #include "components/scaled_tuning.hpp"
@@ -25,36 +24,41 @@ RigidBody changed_body(const hh_world& host, Entity entity, hh_body_kind kind, d
     return rigid_body_of(host, def, shape_id_of(host, entity));
 }
 
-double distance_m(const Shape& shape, const Vec3& point) {
+bool is_in_reach(const hh_world& host, ShapeId id, const Vec3& point, double reach_m) {
+    const Shape& shape = host.shapes.at(id);
     if (shape.kind != ShapeKind::mesh) {
-        return closest_on_shape(shape, point).distance_m;
+        return closest_on_shape(shape, point).distance_m <= reach_m;
     }
-    double nearest_m = std::numeric_limits<double>::infinity();
-    for (const auto& triangle : shape.mesh->triangles) {
+    if (host.grip_meshes.has(id)) {
+        return host.grip_meshes.shared_at(id)
+            ->contact_bvh.closest_point(point, reach_m)
+            .has_value();
+    }
+    return std::ranges::any_of(shape.mesh->triangles, [&](const auto& triangle) {
         Corners corners;
         for (std::size_t i = 0; i < corners.size(); ++i) {
             corners[i] = shape.mesh->positions[triangle[i]].cwiseProduct(shape.scale);
         }
-        nearest_m = std::min(nearest_m, (closest_on_triangle(point, corners) - point).norm());
-    }
-    return nearest_m;
+        return (closest_on_triangle(point, corners) - point).norm() <= reach_m;
+    });
 }
 
-// Hands on the body that would not find its new surface when they close.
+// Hands on the body that would not find its new surface when they close. An order that the host has
+// given for the next step stays.
 void release_far_hands(hh_world& host, Entity body, ShapeId shape) {
     TuningOfPlayers tunings(host.tuning);
     for (std::size_t index = 0; index < host.world.grab.size(); ++index) {
         const Grab& grab = host.world.grab.elements()[index];
-        if (grab.kind == GripKind::none || grab.body != body) {
+        const Entity hand = host.world.grab.owners()[index];
+        if (grab.kind == GripKind::none || grab.body != body ||
+            host.world.grab_order.contains(hand)) {
             continue;
         }
-        const Entity hand = host.world.grab.owners()[index];
         const HandOwner& owner = host.world.hand_owner.at(hand);
         const HandTuning& tuning = tunings.of(host.world.player_origin.at(owner.player)).hand;
         const double reach_m = std::max(tuning.ray_length_m - tuning.ray_back_m, tuning.reach_m);
         const Vec3 palm_bs = palm_ray(grab.anchor_bs, owner.side, tuning).palm_ws;
-        if (shape == k_no_shape || distance_m(host.shapes.at(shape), palm_bs) > reach_m) {
-            host.world.grab_order.remove(hand);
+        if (shape == k_no_shape || !is_in_reach(host, shape, palm_bs, reach_m)) {
             host.world.grab_order.add(hand, {k_no_entity});
         }
     }

@@ -86,6 +86,7 @@ hh_result hh_body_set_surface(hh_world* world, hh_body body, const hh_mesh* mesh
                 "the mesh or the world was made without fits_hands");
         host.caches.body_surfaces.remove(entity);
         host.caches.body_surfaces.add(entity, {mesh->grip});
+        forget_surface(host.world, entity);
     });
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
 #include <span>
 
 #include "systems/host/host_world.hpp"
@@ -114,7 +115,8 @@ std::shared_ptr<const Mesh> copy_mesh(const hh_mesh_def& def) {
 
 }  // namespace
 
-ShapeId head_shape(hh_world& host, double radius_m) {
+ShapeId head_shape(hh_world& host, double wanted_m) {
+    const double radius_m = std::max(wanted_m, k_smallest_head_m);
     for (const ShapeId id : host.head_shapes) {
         if (host.shapes.at(id).radius_m == radius_m) {
             return id;
@@ -124,6 +126,9 @@ ShapeId head_shape(hh_world& host, double radius_m) {
     if (id.index >= host.host_shapes.size()) {
         host.host_shapes.resize(std::size_t{id.index} + 1);
     }
+    // No id in the C interface is valid, also not that of a removed shape that had this index.
+    host.host_shapes[id.index] = {
+        .generation = std::numeric_limits<std::uint32_t>::max(), .frame = {}, .is_moved = false};
     host.head_shapes.push_back(id);
     host.caches.collision.update_shapes();
     return id;

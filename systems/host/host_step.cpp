@@ -221,12 +221,12 @@ hh_result hh_world_restore(hh_world* world, const void* bytes, size_t size) {
         hh_world& host = world_of(world);
         require(bytes != nullptr, HH_ERROR_NULL, "the bytes are null");
         const std::span<const std::byte> read{static_cast<const std::byte*>(bytes), size};
-        for (const double radius_m : head_radii_in(read, assets_of(host))) {
-            if (radius_m >= k_smallest_head_m && radius_m <= k_largest_head_m) {
-                head_shape(host, radius_m);  // heads have the sizes of the world that was saved
-            }
-        }
-        if (const auto error = restore_snapshot(read, assets_of(host), host.world)) {
+        // Heads have the sizes of the world that was saved.
+        const MissingHeads heads{
+            .smallest_m = k_smallest_head_m,
+            .largest_m = k_largest_head_m,
+            .make = [&host](double radius_m) { return head_shape(host, radius_m); }};
+        if (const auto error = restore_snapshot(read, assets_of(host), host.world, heads)) {
             throw HostError{HH_ERROR_DATA, error->message()};
         }
         sync_index(host.world);

@@ -189,11 +189,13 @@ inline HandSide side_of(hh_side side) {
 // The shape behind an id; k_no_shape for the null id.
 ShapeId shape_of(const hh_world& host, hh_shape shape);
 
-// The shape of heads with this radius. It has no id in the C interface and is never removed, so
-// that a snapshot saved before a player was added or removed can still be restored.
-ShapeId head_shape(hh_world& host, double radius_m);
-// Radii that heads may have: head.radius_m times any scale of a player.
-inline constexpr double k_smallest_head_m = 1e-5;
+// The shape of heads with this radius, at least k_smallest_head_m. It has no id in the C interface
+// and is never removed, so that a snapshot saved before a player was added or removed can still be
+// restored.
+ShapeId head_shape(hh_world& host, double wanted_m);
+// Radii that heads may have: those of a ShapeLibrary's spheres, and head.radius_m times any scale
+// of a player.
+inline constexpr double k_smallest_head_m = 1e-3;
 inline constexpr double k_largest_head_m = 100.0;
 // Shapes that the host added.
 std::size_t shape_count(const hh_world& host);

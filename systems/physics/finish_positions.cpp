@@ -34,16 +34,16 @@ struct StuckIn {
 };
 
 // `motion_m`: head_motion_m. The approach of head and wall in this frame is undone in full. Older
-// penetration is reduced at k_head_eject_mps at most.
-StuckIn stuck_in(const FinishPositionsIo& io, const RowBlock& block, const Vec3& motion_m) {
+// penetration is reduced by `eject_m` at most.
+StuckIn stuck_in(const FinishPositionsIo& io, const RowBlock& block, const Vec3& motion_m,
+                 double eject_m) {
     const FrameGraph& frame = io.frame;
     const Pose& wall_ws = frame.graph.bodies[block.b].pose_ws;
     const ColliderProxy& wall = frame.proxies[block.b];
     const Vec3 normal = wall_ws.rotation * block.normal_b_bs;
     const Vec3 wall_motion_m = transform_point(wall.to_ws, block.point_b_bs) -
                                transform_point(wall.from_ws, block.point_b_bs);
-    const double allowed_m =
-        std::max(0.0, normal.dot(wall_motion_m - motion_m)) + k_head_eject_mps * io.dt_s;
+    const double allowed_m = std::max(0.0, normal.dot(wall_motion_m - motion_m)) + eject_m;
     const double depth_m =
         normal.dot(transform_point(wall_ws, block.point_b_bs) -
                    transform_point(frame.phase[block.a].reached_ws, block.point_a_bs));
@@ -62,7 +62,8 @@ void limit_pushes(const FinishPositionsIo& io, const HeadTuning& tuning) {
         }
         const Vec3& reached_m = frame.phase[i].reached_ws.position;
         Vec3 push_m = body.pose_ws.position - reached_m;
-        if (push_m.norm() <= io.origin.at(frame.entities[i]).scale * k_head_eject_mps * io.dt_s) {
+        const double eject_m = io.origin.at(frame.entities[i]).scale * k_head_eject_mps * io.dt_s;
+        if (push_m.norm() <= eject_m) {
             continue;
         }
         const Vec3 motion_m = head_motion_m(io, i, tuning);
@@ -70,7 +71,7 @@ void limit_pushes(const FinishPositionsIo& io, const HeadTuning& tuning) {
         for (const RowBlock& block : frame.graph.blocks) {
             if (is_contact(block) && block.a == i &&
                 frame.graph.bodies[block.b].role == BodyRole::fixed) {
-                const StuckIn found = stuck_in(io, block, motion_m);
+                const StuckIn found = stuck_in(io, block, motion_m, eject_m);
                 worst = found.excess_m > worst.excess_m ? found : worst;
             }
         }

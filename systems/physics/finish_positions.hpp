@@ -22,12 +22,12 @@
 // that penetrated a fixed or kinematic body is carried along with it, and enters the velocity solve
 // at the velocity of that body. The penetrating bodies of one island are restored together or not
 // at all. A player whose head was stuck in a fixed or kinematic body leaves it at k_head_eject_mps
-// at most.
+// times the player's scale at most.
 // Fallbacks counted: restored_last_valid_pose (per island), contacts_unresolved (also of a head on
 // its way out), pairs_deferred, solver_budget (heaps so large that nothing is restored).
 namespace handhold {
 
-// Largest speed at which a player who is stuck in a wall is pushed out of it.
+// Largest speed at which a player of scale 1 who is stuck in a wall is pushed out of it.
 inline constexpr double k_head_eject_mps = 3.0;
 
 struct FinishPositionsIo {

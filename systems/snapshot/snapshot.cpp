@@ -19,7 +19,7 @@ namespace {
 // line feed that a text-mode transfer would alter.
 constexpr char k_snapshot_magic[] = "\x89HHSNAP\n";
 constexpr std::size_t k_magic_bytes = sizeof k_snapshot_magic - 1;
-constexpr std::uint32_t k_format_version = 9;
+constexpr std::uint32_t k_format_version = 10;
 // Byte offsets of the header's fields.
 constexpr std::size_t k_version_at = k_magic_bytes;
 constexpr std::size_t k_schema_size_at = k_version_at + 4;
@@ -50,6 +50,10 @@ std::uint64_t checksum_of(std::span<const std::byte> bytes) {
 std::uint32_t shape_count_in(std::span<const std::byte> bytes) {
     return load_little<std::uint32_t>(bytes.data() + bytes.size() - k_checksum_bytes -
                                       k_shape_count_bytes);
+}
+// 64 bits, because the count is not checked yet.
+std::uint64_t bytes_of_shapes(std::span<const std::byte> bytes) {
+    return std::uint64_t{shape_count_in(bytes)} * k_shape_bytes;
 }
 
 FileError refusal(std::size_t byte, const std::string& expected) {
@@ -92,8 +96,8 @@ std::optional<FileError> check_envelope(std::span<const std::byte> bytes,
     if (load_little<std::uint64_t>(bytes.data() + k_assets_at) != assets.scene_hash()) {
         return refusal(k_assets_at, "a snapshot of this scene, found another's");
     }
-    const std::size_t shapes = shape_count_in(bytes) * k_shape_bytes;
-    if (shapes > checksum_at - k_shape_count_bytes - k_snapshot_header_bytes - schema_bytes) {
+    if (bytes_of_shapes(bytes) >
+        checksum_at - k_shape_count_bytes - k_snapshot_header_bytes - schema_bytes) {
         return refusal(checksum_at - k_shape_count_bytes,
                        "as many shapes as fit into the snapshot, found more");
     }
@@ -124,24 +128,38 @@ const char* kind_text(std::byte kind) {
     return index < k_texts.size() ? k_texts[index] : "shape";
 }
 
+struct HeadToMake {
+    Entity player;
+    double radius_m = 0.0;
+};
+
 // Gives each collider the shape with the saved content. An id whose shape already has that content
-// is kept.
+// is kept. Heads that `heads` can make are not shapes yet: their colliders get k_no_shape.
 std::optional<FileError> find_shapes(std::span<const std::byte> bytes, std::size_t shapes_at,
-                                     const SnapshotAssets& assets, World& world) {
+                                     const SnapshotAssets& assets, const MissingHeads& heads,
+                                     World& world, std::vector<HeadToMake>& to_make) {
     if (shape_count_in(bytes) != world.collider.size()) {
         return refusal(shapes_at, "a shape for each collider");
     }
     for (std::size_t index = 0; index < world.collider.size(); ++index) {
         const std::size_t at = shapes_at + index * k_shape_bytes;
         const auto digest = load_little<std::uint64_t>(bytes.data() + at);
+        const Entity owner = world.collider.owners()[index];
         ShapeId& shape = world.collider.elements()[index].shape;
         const bool is_head = bytes[at + 8] == k_head_kind;
+        if (is_head != world.player.contains(owner)) {
+            return refusal(at + 8, "the kind of a head for players, and another for bodies");
+        }
         const auto radius_m = std::bit_cast<double>(digest);  // meaning for a head only
         if (is_head ? assets.is_head(shape, radius_m)
                     : digest != 0 && assets.digest(shape) == digest) {
             continue;
         }
         shape = is_head ? assets.find_head(radius_m) : assets.find(digest);
+        if (is_head && shape == k_no_shape && heads.can_make(radius_m)) {
+            to_make.push_back({owner, radius_m});
+            continue;
+        }
         if (digest == 0 || shape == k_no_shape) {
             return FileError{
                 "snapshot",
@@ -174,38 +192,29 @@ void save_snapshot(const World& world, const SnapshotAssets& assets,
     store_little(checksum_of(std::span(bytes).first(written)), bytes.data() + written);
 }
 
-std::vector<double> head_radii_in(std::span<const std::byte> bytes, const SnapshotAssets& assets) {
-    std::vector<double> radii_m;
-    if (check_envelope(bytes, assets)) {
-        return radii_m;
-    }
-    std::size_t at = bytes.size() - k_checksum_bytes - k_shape_count_bytes;
-    for (std::uint32_t left = shape_count_in(bytes); left > 0; --left) {
-        at -= k_shape_bytes;
-        if (bytes[at + 8] == k_head_kind) {
-            radii_m.push_back(std::bit_cast<double>(load_little<std::uint64_t>(bytes.data() + at)));
-        }
-    }
-    return radii_m;
-}
-
 std::optional<FileError> restore_snapshot(std::span<const std::byte> bytes,
-                                          const SnapshotAssets& assets, World& world) {
+                                          const SnapshotAssets& assets, World& world,
+                                          const MissingHeads& heads) {
     if (std::optional<FileError> error = check_envelope(bytes, assets)) {
         return error;
     }
     World restored;
     const std::size_t shapes_at = bytes.size() - k_checksum_bytes - k_shape_count_bytes -
-                                  shape_count_in(bytes) * k_shape_bytes;
+                                  static_cast<std::size_t>(bytes_of_shapes(bytes));
     if (std::optional<FileError> error = read_payload(
             bytes, k_snapshot_header_bytes + snapshot_schema().size(), shapes_at, restored)) {
         return error;
     }
-    if (std::optional<FileError> error = find_shapes(bytes, shapes_at, assets, restored)) {
+    std::vector<HeadToMake> to_make;
+    if (std::optional<FileError> error =
+            find_shapes(bytes, shapes_at, assets, heads, restored, to_make)) {
         return error;
     }
     if (const std::optional<WorldBreach> breach = find_breach(restored, assets.shapes())) {
         return FileError{"snapshot", breach->place, breach->expected};
+    }
+    for (const auto& [player, radius_m] : to_make) {
+        restored.collider.at(player).shape = heads.make(radius_m);
     }
     sync_index(restored);
     restored.name_of_id = std::move(world.name_of_id);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -61,9 +62,17 @@ class SnapshotAssets {
     std::vector<std::pair<std::uint64_t, std::uint32_t>> by_digest_;  // digest and index; sorted
 };
 
-// The radii of the players' heads in a snapshot, which the restoring library must have as spheres.
-// None for bytes that restore_snapshot refuses for another reason.
-std::vector<double> head_radii_in(std::span<const std::byte> bytes, const SnapshotAssets& assets);
+// Makes the spheres of players' heads that a restored world has and the library lacks.
+struct MissingHeads {
+    double smallest_m = 0.0;  // radius
+    double largest_m = 0.0;   // 0: heads are not made
+    // Adds a sphere to the library. Called only for snapshots that are good in everything else.
+    std::function<ShapeId(double radius_m)> make;
+
+    bool can_make(double radius_m) const {
+        return radius_m >= smallest_m && radius_m <= largest_m;  // NaN: false
+    }
+};
 
 // Call between frames only. Shapes are saved by their content: the library of the restored world
 // may hold other shapes too, and the same ones with other ids. Saves every bit of the columns, the
@@ -75,12 +84,14 @@ void save_snapshot(const World& world, const SnapshotAssets& assets, std::vector
 // that have the same hand rigs and body clips (not checked). Entity handles taken before the save
 // are valid again. Returns an error, with its place and what was expected, and leaves the world
 // unchanged, for: bytes that are no snapshot, truncated or damaged; another format or schema (the
-// first differing field is named); another scene's name; a shape of a collider that `assets` lacks;
+// first differing field is named); another scene's name; a shape of a collider that `assets` lacks
+// and `heads` cannot make;
 // and any state that step_frame could not run on
 // (docs/reference/snapshot_format.md). Memory use is at most proportional to the size of `bytes`,
 // never to a number in them.
 [[nodiscard]] std::optional<FileError> restore_snapshot(std::span<const std::byte> bytes,
-                                                        const SnapshotAssets& assets, World& world);
+                                                        const SnapshotAssets& assets, World& world,
+                                                        const MissingHeads& heads = {});
 
 // save_snapshot and restore_snapshot with a file. Saving is atomic: the file is replaced completely
 // or not at all.

@@ -137,8 +137,10 @@ class BreachFinder {
                   "at most 8 moves");
             const auto moves = std::span(target.moves).first(breach_ ? 0 : target.count);
             check(std::ranges::all_of(moves,
-                                      [](const MoveTarget::Move& m) { return m.span_s > 0.0; }),
-                  "move_target", owner, ".moves", "times > 0");
+                                      [](const MoveTarget::Move& m) { return m.span_s >= 1e-6; }),
+                  "move_target", owner, ".moves", "times of 1e-6 s or more");
+            check(target.moved_s <= w_.clock.t_s, "move_target", owner, ".moved_s",
+                  "a time up to the clock's");
         }
         for (std::size_t index = 0; index < w_.path_mover.size(); ++index) {
             const PosePath& path = w_.path_mover.elements()[index].path;
@@ -342,15 +344,17 @@ class BreachFinder {
             const RigidBody* const body = w_.body.find(owner);
             check(body != nullptr || w_.player.contains(owner), "collider", owner, "",
                   "a body or a player");
-            check(shapes_.has(shape), "collider", owner, ".shape", "a shape that exists");
+            const bool is_new_head = body == nullptr && shape == k_no_shape;
+            check(is_new_head || shapes_.has(shape), "collider", owner, ".shape",
+                  "a shape that exists");
             if (breach_) {
                 return;
             }
             if (body == nullptr || body->kind == BodyKind::free) {
                 check(w_.last_valid.contains(owner), "collider", owner, "",
                       "an element in last_valid of the same owner");
-                check(shapes_.at(shape).kind != ShapeKind::mesh, "collider", owner, ".shape",
-                      "no mesh on a free body or player");
+                check(is_new_head || shapes_.at(shape).kind != ShapeKind::mesh, "collider", owner,
+                      ".shape", "no mesh on a free body or player");
             }
         }
     }

@@ -16,7 +16,8 @@ struct WorldBreach {
 
 // Returns the first violation of the rules between elements (docs/reference/snapshot_format.md);
 // nullopt if step_frame can run. Each field must have been validated by itself. Worlds made by
-// add_body, add_joint, add_player and frames have no violation.
+// add_body, add_joint, add_player and frames have no violation. A player's collider may have
+// k_no_shape: its head is made afterwards (MissingHeads).
 std::optional<WorldBreach> find_breach(const World& world, const ShapeLibrary& shapes);
 
 // An entity in messages: "0x00000000000000a1".

@@ -49,13 +49,25 @@ class ByteCounter : public FieldVisitor {
     bool has_list_ = false;
 };
 
-// Bytes of one element's fields with empty lists. Without lists, all elements of a column have as
+// An element that takes as few bytes as any that is saved.
+template <typename Component>
+Component smallest_element() {
+    return {};
+}
+template <>
+EarlySamples smallest_element() {
+    EarlySamples one;
+    one.count = 1;  // players without early samples have no element
+    return one;
+}
+
+// Bytes of the fields of the smallest element. Without lists, all elements of a column have as
 // many.
 template <typename Component>
 const ByteCounter& row_counter() {
     static const ByteCounter k_counter = [] {
         ByteCounter counter;
-        walk_component(Component{}, counter);
+        walk_component(smallest_element<Component>(), counter);
         return counter;
     }();
     return k_counter;
@@ -254,7 +266,13 @@ class ByteReader : public PathVisitor {
             if (!pool.is_alive(owner) || column.contains(owner)) {
                 refuse("an owner that is alive and has no element yet");
             } else {
-                walk_component(column.add(owner), *this);
+                const T& element = column.add(owner);
+                walk_component(element, *this);
+                if constexpr (std::is_same_v<T, EarlySamples>) {
+                    if (element.count == 0) {
+                        refuse("a sample in every element");
+                    }
+                }
             }
             leave();
         }

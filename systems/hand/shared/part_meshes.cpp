@@ -4,33 +4,45 @@
 #include <cmath>
 
 namespace handhold {
-namespace {}  // namespace
+namespace {
 
-PartMeshes::Size PartMeshes::size_of(const PartCapsule& capsule) {
-    constexpr double k_most_steps = 1e4;
+// `length_m` with seven significant bits: within 0.8 % of the exact value.
+double rounded_m(double length_m) {
+    constexpr double k_steps = 128.0;  // of a power of two
     // Slightly more than one half, because some usual lengths lie exactly between two steps: when
     // such a length is measured again, rounding errors must not change its step.
     constexpr double k_up = 0.5 + 1e-6;
-    const auto steps = [&](double length_m, double step_m) {
-        const double exact = std::min(length_m / step_m, k_most_steps);
-        return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(exact + k_up));
-    };
-    return {steps(capsule.end_bs.norm(), k_length_step_m),
-            steps(capsule.radius_m, k_radius_step_m)};
+    int exponent = 0;
+    const double mantissa = std::frexp(std::max(length_m, k_min_part_m), &exponent);
+    return std::ldexp(std::floor(mantissa * k_steps + k_up) / k_steps, exponent);
+}
+
+}  // namespace
+
+PartMeshes::Size PartMeshes::size_of(const PartCapsule& capsule) {
+    return {rounded_m(capsule.end_bs.norm()), rounded_m(capsule.radius_m)};
+}
+
+void PartMeshes::drop_if_many() {
+    if (mesh_of_size_.size() > k_many_part_meshes) {
+        mesh_of_size_.clear();
+    }
 }
 
 void PartMeshes::add(const PartCapsule& capsule) {
-    const Size size = size_of(capsule);
-    if (mesh_of_size_.contains(size)) {
+    const auto [length_m, radius_m] = size_of(capsule);
+    if (mesh_of_size_.contains({length_m, radius_m})) {
         return;
     }
     Shape shape;
     shape.kind = ShapeKind::capsule;
-    shape.half_height_m = 0.5 * k_length_step_m * static_cast<double>(size.first);
-    shape.radius_m = k_radius_step_m * static_cast<double>(size.second);
+    shape.half_height_m = 0.5 * length_m;
+    shape.radius_m = radius_m;
     GripMeshSettings settings;
-    settings.shape_tolerance_m = 1e-3;  // skin; a finer mesh takes long to build within a frame
-    mesh_of_size_.emplace(size, build_grip_mesh(shape, settings));
+    // Skin; a finer mesh takes long to build within a frame. A small hand on a giant's part needs
+    // no finer sectors than a hand on a usual part.
+    settings.shape_tolerance_m = std::max(1e-3, radius_m / 200.0);
+    mesh_of_size_.emplace(Size{length_m, radius_m}, build_grip_mesh(shape, settings));
 }
 
 const GripMesh* PartMeshes::find(const PartCapsule& capsule) const {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <map>
 #include <utility>
 
@@ -9,26 +9,31 @@
 
 namespace handhold {
 
-inline constexpr double k_length_step_m = 0.01;
-inline constexpr double k_radius_step_m = 0.001;
+inline constexpr double k_min_part_m = 1e-3;  // smaller lengths and radii count as this, m
+// Meshes kept from frame to frame; each takes 1 to 2 MB.
+inline constexpr std::size_t k_many_part_meshes = 64;
 
 // The capsule in the metres of hands of that scale (PlayerOrigin::scale).
 inline PartCapsule resized(const PartCapsule& capsule, double scale) {
     return {capsule.frame_ws, capsule.end_bs / scale, capsule.radius_m / scale};
 }
 
-// Grip meshes of the capsules of shown bodies. Lengths are rounded to k_length_step_m and radii to
-// k_radius_step_m, so that players share meshes and a stretched arm needs few. A cache: a mesh
-// depends on the rounded sizes alone.
+// Grip meshes of the capsules of shown bodies. Lengths and radii are rounded by up to 0.8 %, so
+// that players share meshes and a stretched arm needs few. A cache: a mesh depends on the rounded
+// sizes alone.
 class PartMeshes {
   public:
-    // Length and radius in steps.
-    using Size = std::pair<std::uint64_t, std::uint64_t>;
+    // Rounded length of the axis and radius, m of the hand's scale.
+    using Size = std::pair<double, double>;
     static Size size_of(const PartCapsule& capsule);
+    // Forgets all meshes if there are more than k_many_part_meshes. For the begin of a frame,
+    // before add(): pointers from find() end.
+    void drop_if_many();
     // Builds the capsule's mesh if it is missing. Not for several threads at once.
     void add(const PartCapsule& capsule);
     // Null if it was not added.
     const GripMesh* find(const PartCapsule& capsule) const;
+    std::size_t size() const { return mesh_of_size_.size(); }  // number of meshes
     // The mesh's frame in the part's: its origin is the middle of the axis.
     static Pose frame_of_mesh(const PartCapsule& capsule);
 

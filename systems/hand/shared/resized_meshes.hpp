@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <utility>
@@ -13,12 +14,14 @@ namespace handhold {
 class ResizedMeshes {
   public:
     // `mesh` with lengths over `scale`. Made at the first call, at about 0.2 microseconds a
-    // triangle; kept while others than this cache have `mesh`. Not for several threads at once.
+    // triangle. Those of meshes that are gone are dropped when another one is made. Not for several
+    // threads at once.
     const GripMesh& get(const std::shared_ptr<const GripMesh>& mesh, double scale);
+    std::size_t size() const { return entries_.size(); }  // number of meshes
 
   private:
     struct Entry {
-        std::shared_ptr<const GripMesh> original;  // mesh whose address is in the key
+        std::weak_ptr<const GripMesh> original;  // mesh whose address is in the key
         GripMesh resized;
     };
     // Ordered by address and scale. No result depends on the order.

@@ -83,7 +83,8 @@ void SurfaceCandidates::evaluate(const Candidate& candidate, FittedPalm held) {
     }
 }
 
-// A fit is abandoned early if its penetration alone costs more than the best candidate.
+// A fit is abandoned early if its deepest penetration, at the palm's cost, costs more than the best
+// candidate.
 FittedPalm SurfaceCandidates::fit(const Candidate& candidate) const {
     return has_best_ ? fitter_.fit(candidate, best_.cost_m / k_penetration_cost)
                      : fitter_.fit(candidate);

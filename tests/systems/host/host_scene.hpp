@@ -9,7 +9,8 @@
 namespace handhold::test {
 
 inline constexpr double k_step_s = 1.0 / 90.0;
-inline constexpr hh::Vec3 k_wall_m = {0.0, 1.5, -0.6};  // of the scene's wall
+inline constexpr hh::Vec3 k_wall_m = {0.0, 1.5, -0.6};  // position of the scene's wall
+inline constexpr hh::Quat k_palm_ahead{0.7071067811865476, 0.0, 0.0, 0.7071067811865476};
 
 // A dynamic cube of 0.2 m and 2 kg.
 inline hh_body_def crate(hh::World& world, hh::Vec3 position) {

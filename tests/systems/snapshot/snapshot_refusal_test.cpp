@@ -78,11 +78,11 @@ TEST_F(SnapshotRefuses, AnyDamagedByte) {
 
 TEST_F(SnapshotRefuses, AnotherFormatVersion) {
     for (const std::uint32_t version :
-         {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 10U}) {  // earlier field names; a later build
+         {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 11U}) {  // earlier field names; a later build
         SnapshotBytes other(bytes_);
         other.put(8, version);
         expect_refused(other,
-                       "byte 8: expected format version 9, found " + std::to_string(version));
+                       "byte 8: expected format version 10, found " + std::to_string(version));
     }
 }
 
@@ -223,6 +223,8 @@ TEST_F(SnapshotRefuses, RowsWithoutTheirCounterparts) {
     break_world("].count", [](World& w) {
         w.early_samples.add(w.player.owners()[0]).count = EarlySamples::k_capacity + 1;
     });
+    break_world("early_samples: expected at most 0 rows",
+                [](World& w) { w.early_samples.add(w.player.owners()[0]); });
     break_world(".shape: expected a shape of this world",
                 [](World& w) { w.collider.elements()[0].shape.index = 1000; });
     break_world("expected an element in last_valid of the same owner",

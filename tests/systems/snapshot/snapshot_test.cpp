@@ -64,6 +64,34 @@ TEST(Snapshot, HandlesTakenBeforeAreValidAgain) {
     EXPECT_TRUE(crowd.world.body.contains(rock));
 }
 
+// A world that lacks the sphere of a player's head makes it, but for no snapshot that is refused.
+TEST(Snapshot, MissingHeadsAreMadeForGoodSnapshotsOnly) {
+    Crowd there = played_crowd();
+    constexpr double k_radius_m = 0.777;
+    const Entity player = there.world.player.owners()[0];
+    there.world.collider.at(player).shape = there.shapes.add_sphere(k_radius_m);
+    const std::vector<std::byte> good = saved(there);
+    there.world.body.at(find_by_id(there.world, persistent_id_from_name("rock"))).mass_kg = 0.0;
+    const std::vector<std::byte> bad = saved(there);
+
+    Crowd here = played_crowd();
+    const SnapshotAssets assets(here.shapes);
+    std::vector<double> made_m;
+    MissingHeads heads{.smallest_m = 0.1, .largest_m = 1.0, .make = [&](double radius_m) {
+                           made_m.push_back(radius_m);
+                           return here.shapes.add_sphere(radius_m);
+                       }};
+    const std::uint64_t before = hash_state(here.world);
+    EXPECT_TRUE(restore_snapshot(bad, assets, here.world, heads));
+    EXPECT_TRUE(restore_snapshot(good, assets, here.world));
+    EXPECT_TRUE(restore_snapshot(good, assets, here.world, {0.1, 0.5, heads.make}));
+    EXPECT_EQ(hash_state(here.world), before);
+    EXPECT_TRUE(made_m.empty());
+    EXPECT_FALSE(restore_snapshot(good, assets, here.world, heads));
+    EXPECT_EQ(made_m, std::vector<double>{k_radius_m});
+    EXPECT_EQ(here.shapes.at(here.world.collider.at(player).shape).radius_m, k_radius_m);
+}
+
 // Extreme values, bit for bit.
 TEST(Snapshot, KeepsEveryBitOfNumbers) {
     Crowd crowd;
