@@ -1,5 +1,6 @@
 #include "engine/geometry/grip_mesh.hpp"
 
+#include <bit>
 #include <utility>
 
 #include "engine/core/hash.hpp"
@@ -31,18 +32,22 @@ std::size_t memory_bytes(const SurfaceGraph& graph) {
 
 }  // namespace
 
+// A multiplication a word, as in FNV-1a: HashStream takes three times as long.
 std::uint64_t digest_of(const SurfaceGraph& contact) {
-    HashStream stream;
+    std::uint64_t digest = contact.positions.size();
+    const auto add = [&digest](std::uint64_t word) {
+        digest = (std::rotl(digest, 5) ^ word) * 0x9e3779b97f4a7c15ULL;
+    };
     for (const Vec3& position : contact.positions) {
         for (int axis = 0; axis < 3; ++axis) {
-            stream.add(position[axis]);
+            add(std::bit_cast<std::uint64_t>(position[axis]));
         }
     }
     for (const auto& [a, b, c] : contact.triangles) {
-        stream.add((std::uint64_t{a} << 32U) | b);
-        stream.add(std::uint64_t{c});
+        add((std::uint64_t{a} << 32U) | b);
+        add(c);
     }
-    return stream.value();
+    return mix64(digest);
 }
 
 GripMesh build_grip_mesh(const Mesh& mesh, const GripMeshSettings& settings) {
