@@ -12,7 +12,7 @@ namespace handhold {
 inline constexpr double k_length_step_m = 0.01;
 inline constexpr double k_radius_step_m = 0.001;
 
-// The capsule in the metres of hands of that scale (PlayerOrigin::scale).
+// Returns the capsule in the metres of hands of that scale (PlayerOrigin::scale).
 inline PartCapsule resized(const PartCapsule& capsule, double scale) {
     return {capsule.frame_ws, capsule.end_bs / scale, capsule.radius_m / scale};
 }
@@ -22,14 +22,15 @@ inline PartCapsule resized(const PartCapsule& capsule, double scale) {
 // depends on the rounded sizes alone.
 class PartMeshes {
   public:
-    // Length and radius in steps.
+    // Length and radius in steps of k_length_step_m and k_radius_step_m, at least 1 each.
     using Size = std::pair<std::uint64_t, std::uint64_t>;
     static Size size_of(const PartCapsule& capsule);
     // Builds the capsule's mesh if it is missing. Not for several threads at once.
     void add(const PartCapsule& capsule);
-    // Null if it was not added.
+    // Null if no capsule of this size was added.
     const GripMesh* find(const PartCapsule& capsule) const;
-    // The mesh's frame in the part's: its origin is the middle of the axis.
+    // The mesh's frame in the part's frame: the origin is the middle of the capsule's axis, +Y
+    // along it.
     static Pose frame_of_mesh(const PartCapsule& capsule);
 
   private:
