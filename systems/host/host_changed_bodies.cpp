@@ -12,7 +12,7 @@
 namespace handhold {
 namespace {
 
-// A body as it becomes with this kind and mass.
+// Returns the body with this kind and mass, and its present restitution and friction.
 RigidBody changed_body(const hh_world& host, Entity entity, hh_body_kind kind, double mass_kg,
                        const hh_vec3& inertia_kgm2) {
     const RigidBody& now = host.world.body.at(entity);
@@ -40,7 +40,8 @@ double distance_m(const Shape& shape, const Vec3& point) {
     return nearest_m;
 }
 
-// Hands on the body that would not find its new surface when they close.
+// Orders hands to let go whose palm is farther from the body's new surface than a closing hand
+// reaches; without a shape, all hands on the body.
 void release_far_hands(hh_world& host, Entity body, ShapeId shape) {
     TuningOfPlayers tunings(host.tuning);
     for (std::size_t index = 0; index < host.world.grab.size(); ++index) {

@@ -10,6 +10,7 @@
 namespace handhold {
 namespace {
 
+// Distance of the palm from a surface for HH_EVENT_TOUCHED; times the player's scale.
 constexpr double k_event_touch_m = 0.02;
 
 HandReport& report_of(hh_world& host, Entity hand) {
@@ -336,7 +337,7 @@ void drop_stale(Column<T>& column, const Column<Required>& required) {
 
 void begin_events(hh_world& host) {
     host.events.clear();
-    // Adds events for grips that ended between the steps, by teleports.
+    // Adds events for grips that ended between the steps, by teleports or hh_hand_hold.
     for (std::size_t index = 0; index < host.world.grab.size(); ++index) {
         const Entity hand = host.world.grab.owners()[index];
         HandReport& report = report_of(host, hand);

@@ -17,7 +17,7 @@ HEADERS = ("version.h", "base.h", "convert.h", "world.h", "level.h", "players.h"
 
 SCALARS = {"double": 8, "float": 4, "int32_t": 4, "uint32_t": 4, "uint64_t": 8, "uint8_t": 1, "size_t": 0, "char": 1, "void": 0}
 
-# Array fields whose count is not one element each: struct.field -> (field that counts, elements for each counted).
+# Array fields with more than one element per count: struct.field -> (field with the count, elements per count).
 COUNTED_FIELDS = {"hh_mesh_def.positions": ("vertex_count", 3)}
 
 TOKEN = re.compile(r'/\*.*?\*/|"[^"\n]*"|\w+|\.\.\.|[^\s\w]', re.DOTALL)
