@@ -40,8 +40,7 @@ double distance_m(const Shape& shape, const Vec3& point) {
     return nearest_m;
 }
 
-// Orders hands to let go whose palm is farther from the body's new surface than a closing hand
-// reaches; without a shape, all hands on the body.
+// Hands on the body that would not find its new surface when they close.
 void release_far_hands(hh_world& host, Entity body, ShapeId shape) {
     TuningOfPlayers tunings(host.tuning);
     for (std::size_t index = 0; index < host.world.grab.size(); ++index) {

@@ -193,7 +193,7 @@ ShapeId shape_of(const hh_world& host, hh_shape shape);
 // The shape of heads with this radius. It has no id in the C interface and is never removed, so
 // that a snapshot saved before a player was added or removed can still be restored.
 ShapeId head_shape(hh_world& host, double radius_m);
-// Bounds of the radii that heads may have: head.radius_m times any scale of a player is between.
+// Radii that heads may have: head.radius_m times any scale of a player.
 inline constexpr double k_smallest_head_m = 1e-5;
 inline constexpr double k_largest_head_m = 100.0;
 // Number of shapes without those of heads.

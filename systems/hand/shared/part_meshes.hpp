@@ -12,7 +12,7 @@ namespace handhold {
 inline constexpr double k_length_step_m = 0.01;
 inline constexpr double k_radius_step_m = 0.001;
 
-// Returns the capsule in the metres of hands of that scale (PlayerOrigin::scale).
+// The capsule in the metres of hands of that scale (PlayerOrigin::scale).
 inline PartCapsule resized(const PartCapsule& capsule, double scale) {
     return {capsule.frame_ws, capsule.end_bs / scale, capsule.radius_m / scale};
 }
@@ -22,7 +22,7 @@ inline PartCapsule resized(const PartCapsule& capsule, double scale) {
 // depends on the rounded sizes alone.
 class PartMeshes {
   public:
-    // Length and radius in steps of k_length_step_m and k_radius_step_m, at least 1 each.
+    // Length and radius in steps.
     using Size = std::pair<std::uint64_t, std::uint64_t>;
     static Size size_of(const PartCapsule& capsule);
     // Builds the capsule's mesh if it is missing. Not for several threads at once.

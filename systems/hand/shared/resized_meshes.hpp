@@ -13,13 +13,12 @@ namespace handhold {
 class ResizedMeshes {
   public:
     // `mesh` with lengths over `scale`. Made at the first call, at about 0.2 microseconds a
-    // triangle; kept while others than this cache have `mesh`, so the reference is valid that long.
-    // Not for several threads at once.
+    // triangle; kept while others than this cache have `mesh`. Not for several threads at once.
     const GripMesh& get(const std::shared_ptr<const GripMesh>& mesh, double scale);
 
   private:
     struct Entry {
-        std::shared_ptr<const GripMesh> original;  // keeps the mesh whose address is in the key
+        std::shared_ptr<const GripMesh> original;  // mesh whose address is in the key
         GripMesh resized;
     };
     // Ordered by address and scale. No result depends on the order.
