@@ -49,8 +49,8 @@ class ByteCounter : public FieldVisitor {
     bool has_list_ = false;
 };
 
-// Counts the bytes of one element's fields, with empty lists. If the component has no lists, all
-// elements of its column have as many.
+// Bytes of one element's fields with empty lists. Without lists, all elements of a column have as
+// many.
 template <typename Component>
 const ByteCounter& element_counter() {
     static const ByteCounter k_counter = [] {
