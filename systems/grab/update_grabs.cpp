@@ -5,6 +5,7 @@
 #include "components/hand_indices.hpp"
 #include "components/play_space.hpp"
 #include "components/scaled_tuning.hpp"
+#include "systems/grab/shared/grab_sight.hpp"
 #include "systems/grab/shared/grip_kind.hpp"
 #include "systems/grab/shared/release_grabs.hpp"
 

@@ -65,9 +65,6 @@ struct GrabTarget {
     std::optional<BodyPart> part = {};  // part of another player; none: a body, or a head
 };
 
-// Advances HandSight of all hands to the start of the frame.
-void update_sights(const GrabSearch& io, const Tuning& tuning);
-
 // What a closing hand grips, or why it grips nothing.
 struct GrabSearchResult {
     std::optional<GrabTarget> target;

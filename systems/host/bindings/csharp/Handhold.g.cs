@@ -115,7 +115,7 @@ namespace Handhold {
         Refused = 3,
         /// <summary>a hand lost its grip: `reason`</summary>
         Slipped = 4,
-        /// <summary>the player's head, or what a hand holds, hits a body</summary>
+        /// <summary>The player's head, or what a hand holds, hits a body or another player's head.</summary>
         ContactBegan = 5,
         ContactEnded = 6,
         /// <summary>of `joint`</summary>
@@ -790,9 +790,9 @@ namespace Handhold {
         public Player other;
         /// <summary>contacts: what the hand holds; null: the head</summary>
         public Body held;
-        /// <summary>of latches and limits</summary>
+        /// <summary>whose latch or limit it is; null: none</summary>
         public HhJoint joint;
-        /// <summary>in the world</summary>
+        /// <summary>in the world: of the wrist, the contact, the joint or the head</summary>
         public Vec3 position;
         /// <summary>of a contact that began: &gt;= 0, for haptics and sound</summary>
         public double impulse_ns;

@@ -86,7 +86,7 @@ export declare const HH_EVENT_RELEASED: 2;
 export declare const HH_EVENT_REFUSED: 3;
 /** a hand lost its grip: `reason` */
 export declare const HH_EVENT_SLIPPED: 4;
-/** the player's head, or what a hand holds, hits a body */
+/** The player's head, or what a hand holds, hits a body or another player's head. */
 export declare const HH_EVENT_CONTACT_BEGAN: 5;
 export declare const HH_EVENT_CONTACT_ENDED: 6;
 /** of `joint` */
@@ -533,9 +533,9 @@ export interface hh_event {
     other: hh_player;
     /** contacts: what the hand holds; null: the head */
     held: hh_body;
-    /** of latches and limits */
+    /** whose latch or limit it is; null: none */
     joint: hh_joint;
-    /** in the world */
+    /** in the world: of the wrist, the contact, the joint or the head */
     position: hh_vec3;
     /** of a contact that began: >= 0, for haptics and sound */
     impulse_ns: number;

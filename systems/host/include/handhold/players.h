@@ -197,7 +197,8 @@ typedef enum hh_event_kind {
     HH_EVENT_RELEASED = 2,      /* the player opened the hand, or `reason` says who did */
     HH_EVENT_REFUSED = 3,       /* a hand closed and grips nothing: `reason` */
     HH_EVENT_SLIPPED = 4,       /* a hand lost its grip: `reason` */
-    HH_EVENT_CONTACT_BEGAN = 5, /* the player's head, or what a hand holds, hits a body */
+    /* The player's head, or what a hand holds, hits a body or another player's head. */
+    HH_EVENT_CONTACT_BEGAN = 5,
     HH_EVENT_CONTACT_ENDED = 6,
     HH_EVENT_LATCH_CLOSED = 7, /* of `joint` */
     HH_EVENT_LATCH_OPENED = 8,
@@ -233,8 +234,8 @@ typedef struct hh_event {
     hh_body body;      /* touched, gripped, held or hit; null: a player, or nothing */
     hh_player other;   /* gripped or hit player; null: none */
     hh_body held;      /* contacts: what the hand holds; null: the head */
-    hh_joint joint;    /* of latches and limits */
-    hh_vec3 position;  /* in the world */
+    hh_joint joint;    /* whose latch or limit it is; null: none */
+    hh_vec3 position;  /* in the world: of the wrist, the contact, the joint or the head */
     double impulse_ns; /* of a contact that began: >= 0, for haptics and sound */
 } hh_event;
 

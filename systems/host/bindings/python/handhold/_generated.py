@@ -90,7 +90,7 @@ class EventKind(enum.IntEnum):
     HH_EVENT_RELEASED = 2  # the player opened the hand, or `reason` says who did
     HH_EVENT_REFUSED = 3  # a hand closed and grips nothing: `reason`
     HH_EVENT_SLIPPED = 4  # a hand lost its grip: `reason`
-    HH_EVENT_CONTACT_BEGAN = 5  # the player's head, or what a hand holds, hits a body
+    HH_EVENT_CONTACT_BEGAN = 5  # The player's head, or what a hand holds, hits a body or another player's head.
     HH_EVENT_CONTACT_ENDED = 6
     HH_EVENT_LATCH_CLOSED = 7  # of `joint`
     HH_EVENT_LATCH_OPENED = 8
@@ -792,8 +792,8 @@ class Event(Struct):
     body: touched, gripped, held or hit; null: a player, or nothing
     other: gripped or hit player; null: none
     held: contacts: what the hand holds; null: the head
-    joint: of latches and limits
-    position: in the world
+    joint: whose latch or limit it is; null: none
+    position: in the world: of the wrist, the contact, the joint or the head
     impulse_ns: of a contact that began: >= 0, for haptics and sound"""
     _fields_ = [
         ("kind", c_int32),
