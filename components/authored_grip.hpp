@@ -44,8 +44,9 @@ struct AuthoredGrips {
 };
 
 // The authored grip that a hand currently uses. Only hands in an authored grip have this component.
-// It applies only while the hand's Grab is on `body`. Written by update_grabs; read by
-// anchor_grabs, gather_surroundings and publish_pose.
+// It applies only while the hand's Grab is on `body`. Written by update_grabs; change_shape moves
+// hand.wrist_bs to the body's new frame, and teleports remove it. Read by anchor_grabs,
+// gather_surroundings and publish_pose.
 struct AuthoredHold {
     Entity body = k_no_entity;
     std::uint8_t grip = 0;  // index into AuthoredGrips::grips

@@ -46,10 +46,19 @@ enum class GrabPhase : std::uint8_t {
     releasing,
 };
 
-// Written by update_grabs (kind, phase, body, hit), anchor_grabs (anchor, target, two_handed) and
-// finish_positions (error); limit_velocities clears released grips. _bs is the gripped body's
-// frame. If `body` is another player, _bs is the frame of the part in the hand's BodyHold, or of
-// that player's head if the hand has no BodyHold.
+// What one hand grips. _bs is the gripped body's frame. If `body` is another player, _bs is the
+// frame of the part in the hand's BodyHold, or of that player's head if the hand has no BodyHold.
+//
+// Written in a frame, in this order:
+//  - update_grabs begins grips (kind, jointed, phase, body, since_s, hit_*), ends them and marks
+//    those that end in this frame. It takes a new anchor, with error_m 0, for a hand whose partner
+//    lets go of a shared hold, and for a hand whose body has changed its kind or mass; the latter
+//    also resets kind, jointed, two_handed and slip_hs.
+//  - anchor_grabs: anchor_bs, slip_hs, target_*, two_handed, phase.
+//  - finish_positions or accept_solution: error_m, which discard_broken_results bounds.
+//  - limit_velocities clears released grips.
+// In frames without physics, keep_holds writes error_m instead and clears grips of removed bodies.
+// Between frames, change_shape moves anchor_bs and hit_* to the new frame, and teleports end grips.
 struct Grab {
     GripKind kind = GripKind::none;
     GrabPhase phase = GrabPhase::none;
@@ -84,7 +93,8 @@ inline bool has_slipped(const Grab& grab) {
 }
 
 // Where the palm was last known to be outside of walls. A hand grips only what is visible from
-// there or from the head. Written by update_grabs.
+// there or from the head. Written by update_grabs; change_shape moves outside_bs to the body's new
+// frame, and teleports reset it.
 struct HandSight {
     Vec3 outside_bs = Vec3::Zero();  // point in `frame`
     Entity frame = k_no_entity;      // body that the player last gripped; null: the world

@@ -21,8 +21,8 @@
 namespace handhold {
 
 // The surface under one palm: the candidate with the smallest full cost
-// (shared/surface_candidates.hpp). Written by search_grip; read by constrain_palms, sweep_fingers
-// and fit_hands. _bs is the gripped body's frame.
+// (shared/surface_candidates.hpp). Written by search_grip; change_shape resets it. Read by
+// constrain_palms, sweep_fingers and fit_hands. _bs is the gripped body's frame.
 struct GripSurface {
     static constexpr std::uint32_t k_none = ~0U;
 
@@ -32,7 +32,7 @@ struct GripSurface {
     // Mean surface normal around the point; unit, towards the back of the hand.
     Vec3 normal_bs = Vec3::UnitY();
     // Tracked wrist and HandSurroundings::signature of the last search. The next one is due when
-    // the hand has travelled from there, or the signature has changed.
+    // the hand has travelled by k_search_again_m from there, or the signature has changed.
     Pose wrist_bs;
     std::uint64_t surroundings_signature = 0;
     Pose fitted_wrist_bs;  // the palm within its limits here; not set in an authored grip
@@ -57,7 +57,8 @@ struct PalmPose {
     Pose pose_ws;
 };
 
-// The digits of one hand, by index into HandRig::fingers.
+// The digits of one hand, by index into HandRig::fingers. Written by sweep_fingers and fit_hands;
+// change_shape resets both cache keys.
 struct FingerPose {
     std::array<FingerAngles, k_finger_count> shown;   // follows `target` at the tuned rates
     std::array<FingerAngles, k_finger_count> target;  // written by fit_hands

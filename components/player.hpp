@@ -46,7 +46,8 @@ struct PushBack {
 
 // Velocity relative to which drag, brake and the release clamp act: the velocity of the body last
 // gripped, at the gripped point, or the scene's velocity before the first grip. Written by
-// locomote_players.
+// locomote_players and, for frames without physics, keep_holds; change_shape moves point_bs to the
+// body's new frame, and teleport_player resets it.
 struct ReferenceVelocity {
     Vec3 linear_mps = Vec3::Zero();
     Entity body = k_no_entity;     // body last gripped; null: none yet

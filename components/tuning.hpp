@@ -237,7 +237,8 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     see("finger.open_radps", t.finger.open_radps, "rad/s", 0.1, 1e6,
         "Speed at which shown fingers open.");
     see("finger.reuse_travel_m", t.finger.reuse_travel_m, "m", 0.0, 0.01,
-        "Wrist travel since the last fit below which palm and fingers keep that fit.");
+        "Wrist travel since the last fit below which palm and fingers are fitted only until that "
+        "fit has converged. Beyond it the fit is kept up to 1 mm, but not in authored grips.");
     see("thumb.opposition_steps", t.thumb.opposition_steps, "", 1.0, 32.0,
         "Number of evenly spaced opposition angles evaluated when a thumb is fitted.");
     see("thumb.rest_opposition_rad", t.thumb.rest_opposition_rad, "rad", -3.2, 3.2,

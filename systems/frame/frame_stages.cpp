@@ -6,6 +6,7 @@
 #include "systems/grab/anchor_grabs.hpp"
 #include "systems/grab/keep_holds.hpp"
 #include "systems/grab/pull_bodies.hpp"
+#include "systems/grab/shared/grab_sight.hpp"
 #include "systems/grab/update_grabs.hpp"
 #include "systems/input/read_paused_tracking.hpp"
 #include "systems/input/read_tracking.hpp"

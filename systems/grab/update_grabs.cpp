@@ -1,13 +1,13 @@
 #include "systems/grab/update_grabs.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 
 #include "components/hand_indices.hpp"
 #include "components/play_space.hpp"
 #include "components/scaled_tuning.hpp"
+#include "systems/grab/shared/grab_sight.hpp"
 #include "systems/grab/shared/grip_kind.hpp"
+#include "systems/grab/shared/release_grabs.hpp"
 
 namespace handhold {
 namespace {
@@ -18,17 +18,6 @@ GripKind grip_kind(const UpdateGrabsIo& io, Entity gripped, const PhaseTuning& t
         return GripKind::player;
     }
     return grip_kind_of(*body, tuning.heavy_body_kg);
-}
-
-// Play space of the hand at that index of `grab`.
-const PlayerOrigin& origin_of(const UpdateGrabsIo& io, std::size_t index) {
-    return io.origin.at(io.owner.at(io.grab.owners()[index]).player);
-}
-
-// True if the gripped body or player still exists.
-bool is_there(const UpdateGrabsIo& io, const Grab& grab) {
-    return grab.kind == GripKind::player ? io.origin.contains(grab.body)
-                                         : io.body.contains(grab.body);
 }
 
 void ignore_for_head(HeadIgnores& ignores, Entity body, StageStats& stats) {
@@ -180,122 +169,6 @@ void begin_grab(const UpdateGrabsIo& io, std::size_t index, const Closing& closi
     start_grab(io, entity, *target, closing.since_s, io.grab.elements()[index], tuning, stats);
 }
 
-// Index of the player's other hand, if that grips something too.
-std::optional<std::size_t> partner_of(const UpdateGrabsIo& io, std::size_t index) {
-    const std::size_t other = find_other_hand(io.owner, io.grab, index);
-    return other < io.grab.size() && io.grab.elements()[other].kind != GripKind::none
-               ? std::optional(other)
-               : std::nullopt;
-}
-
-// Pose of the gripped body, head or part at the start of the frame.
-Pose gripped_start_ws(const UpdateGrabsIo& io, Entity gripped, const BodyHold* hold) {
-    const BodyPose* const body = io.body_pose.find(gripped);
-    return body != nullptr ? body->pose_ws
-                           : io.origin.at(gripped).pose_ws *
-                                 (hold != nullptr ? hold->start_ps : io.head.at(gripped).start_ps);
-}
-
-// Ends the grip at once. If the two hands grip together (share_hold), the other hand takes a new
-// anchor where it is, before anything has moved, so that its own error does not move the player.
-void release_grab(const UpdateGrabsIo& io, std::size_t index, Fallback reason, StageStats& stats) {
-    Grab& grab = io.grab.elements()[index];
-    stats.note(reason, io.grab.owners()[index], grab.body);
-    if (const std::optional<std::size_t> partner = partner_of(io, index)) {
-        Grab& staying = io.grab.elements()[*partner];
-        const Entity hand = io.grab.owners()[*partner];
-        // anchor_grabs does the same for two hands on one free body.
-        if (share_hold(grab, staying) && !share_free_body(grab, staying) && is_there(io, staying)) {
-            const Pose hand_ws =
-                io.origin.at(io.owner.at(hand).player).pose_ws * io.hand.at(hand).start_ps;
-            staying.anchor_bs =
-                inverse(gripped_start_ws(io, staying.body, io.body_hold.find(hand))) * hand_ws;
-            staying.error_m = 0.0;
-            stats.count(Fallback::grip_reanchored);
-        }
-    }
-    grab = {};
-}
-
-// True if this hand lets go when both of a player's hands are overstretched: the one with the
-// larger error; with equal errors the one that closed later; if both closed at once, the left one.
-// The other hand may then reach its anchor.
-bool yields_to_partner(const UpdateGrabsIo& io, std::size_t index, std::size_t partner) {
-    const Grab& grab = io.grab.elements()[index];
-    const Grab& other = io.grab.elements()[partner];
-    constexpr double k_equal_m = 1e-6;
-    const double difference = grab.error_m - other.error_m;
-    if (std::abs(difference) > k_equal_m) {
-        return difference > 0.0;
-    }
-    return grab.since_s != other.since_s
-               ? grab.since_s > other.since_s
-               : io.owner.at(io.grab.owners()[index]).side == HandSide::left;
-}
-
-void release_destroyed_bodies(const UpdateGrabsIo& io, StageStats& stats) {
-    for (std::size_t index = 0; index < io.grab.size(); ++index) {
-        const Grab& grab = io.grab.elements()[index];
-        if (grab.kind != GripKind::none && !is_there(io, grab)) {
-            release_grab(io, index, Fallback::grip_body_gone, stats);
-        }
-    }
-}
-
-// Evaluates hands that grip alone first. A hand whose partner lets go in this pass is left until
-// the next frame.
-void release_overstretched_grabs(const UpdateGrabsIo& io, const HandTuning& tuning,
-                                 StageStats& stats) {
-    for (const bool alone : {true, false}) {
-        for (std::size_t index = 0; index < io.grab.size(); ++index) {
-            const Grab& grab = io.grab.elements()[index];
-            const double max_stretch_m = origin_of(io, index).scale * tuning.max_stretch_m;
-            if (grab.kind == GripKind::none || grab.error_m <= max_stretch_m) {
-                continue;
-            }
-            const std::optional<std::size_t> partner = partner_of(io, index);
-            if (alone != partner.has_value() && (alone || yields_to_partner(io, index, *partner))) {
-                release_grab(io, index, Fallback::grip_stretched, stats);
-            }
-        }
-    }
-}
-
-// True if the palm is farther than `reach_m` from the gripped surface; on a player's part, from the
-// surface point that was gripped.
-bool is_out_of_reach(const UpdateGrabsIo& io, Entity hand, const Vec3& palm_ws, double reach_m) {
-    const Grab& grab = io.grab.at(hand);
-    if (const BodyHold* const hold = io.body_hold.find(hand)) {
-        const Pose part_ws = gripped_start_ws(io, grab.body, hold);
-        return (transform_point(part_ws, grab.hit_bs) - palm_ws).norm() > reach_m;
-    }
-    const auto nearest =
-        io.surfaces.closest_point_on(io.persistent_id.at(grab.body).value, palm_ws);
-    return nearest && (nearest->point_ws - palm_ws).norm() > reach_m && nearest->distance_m > 0.0;
-}
-
-// After a tracking error the hand may be anywhere. A held free body comes back into it
-// (anchor_grabs). Any other grip ends if the palm is farther than max_stretch_m from the surface.
-void release_grabs_out_of_reach(const UpdateGrabsIo& io, TuningOfPlayers& tunings,
-                                StageStats& stats) {
-    for (std::size_t index = 0; index < io.grab.size(); ++index) {
-        const Grab& grab = io.grab.elements()[index];
-        const Entity entity = io.grab.owners()[index];
-        const HandTracking& hand = io.hand.at(entity);
-        const bool returns = grab.kind == GripKind::held && !grab.jointed;
-        if (grab.kind == GripKind::none || returns || !(hand.resumed || has_slipped(grab))) {
-            continue;
-        }
-        const HandOwner& owner = io.owner.at(entity);
-        const PlayerOrigin& origin = io.origin.at(owner.player);
-        const HandTuning& tuning = tunings.of(origin).hand;
-        const Vec3 palm_ws = palm_ray(origin.pose_ws * hand.start_ps, owner.side, tuning).palm_ws;
-        if (is_out_of_reach(io, entity, palm_ws, tuning.max_stretch_m)) {
-            release_grab(io, index, Fallback::grip_out_of_reach, stats);
-        }
-    }
-}
-
 // A gripped body's kind or mass has changed so that it now moves the player, or now comes along.
 // The hand takes its anchor where it is, so that nothing jumps.
 void follow_changed_bodies(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats) {
@@ -347,24 +220,6 @@ void update_authored_hold(const UpdateGrabsIo& io, Entity entity, const Grab& gr
     }
     if (!stays) {
         io.authored_hold.remove(entity);
-    }
-}
-
-// Ends grips on two-handed bodies (GrabRule::two_hands) if one of the hands has left or leaves now.
-void release_half_held_bodies(const UpdateGrabsIo& io, StageStats& stats) {
-    for (std::size_t index = 0; index < io.grab.size(); ++index) {
-        const Grab& grab = io.grab.elements()[index];
-        const GrabRule* const rule = io.rules.rule_of(grab.body);
-        if (grab.kind == GripKind::none || grab.phase == GrabPhase::releasing || rule == nullptr ||
-            !rule->two_hands) {
-            continue;
-        }
-        const std::optional<std::size_t> partner = partner_of(io, index);
-        const bool is_whole = partner && io.grab.elements()[*partner].body == grab.body &&
-                              io.grab.elements()[*partner].phase != GrabPhase::releasing;
-        if (!is_whole) {
-            release_grab(io, index, Fallback::grip_needs_two_hands, stats);
-        }
     }
 }
 

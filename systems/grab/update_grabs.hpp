@@ -9,9 +9,8 @@ namespace handhold {
 using UpdateGrabsIo = GrabSearch;  // systems/grab/shared/grab_search.hpp
 
 // A hand that closes grips, in this order:
-//  - an authored grip whose snap zone it is in (docs/talk_map.md, row 10): the grip of the highest
-//  priority,
-//    among equal ones the grip that moves the palm least. Grips that another hand occupies, or that
+//  - an authored grip in whose snap zone the hand is (talk row 10): the one of highest priority,
+//    among equal ones the one that moves the palm least. Grips that another hand occupies, or that
 //    an obstacle blocks, do not count;
 //  - the first surface on the palm ray (talk rows 2, 3), or one in reach of a higher
 //    GrabRule::priority;
@@ -26,6 +25,10 @@ using UpdateGrabsIo = GrabSearch;  // systems/grab/shared/grab_search.hpp
 // player's hands exceed max_stretch_m, only the hand with the larger error lets go; with equal
 // errors, the hand that gripped later.
 // A closed hand that pulls a body (pull_bodies) grips it as soon as the body is at the palm.
+//
+// If a gripped body's kind or mass has changed so that it now moves the player, or now comes along,
+// the hand takes its anchor where it is, so that nothing jumps. Grips on players' parts follow the
+// shown bodies (BodyHold).
 //
 // Skips bodies that refuse the hand, by their GrabRule or because none of their layers is in the
 // player's GrabLayers. A two-handed body is gripped when the second hand closes on it. A host's

@@ -14,17 +14,21 @@ struct ConstrainPalmsIo {
     Column<PalmOffset>& offset;               // out: held_*, hand space, metres and radians
 };
 
-// Holds each gripping palm within its limits over the surface. Talk rows 16 and 18.
+// Holds each gripping palm at the wrist that search_grip fitted to the surface. Talk rows 16
+// and 18.
 //
-// The limits are PalmTuning::min_height_m, max_height_m and max_angle_rad, and no penetration of
-// the palm's capsules. PalmOffset::held_* is the smallest wrist correction that meets them, which
-// search_grip found for the surface (shared/palm_fit.hpp). It stays where it is on the body until
-// the next search. Fingers close from there, and fit_hands starts from there.
+// PalmOffset::held_* is the correction from the present tracked wrist to
+// GripSurface::fitted_wrist_bs. At the last search, that was the smallest correction with which the
+// palm met PalmTuning::min_height_m, max_height_m and max_angle_rad without penetration
+// (shared/palm_fit.hpp). The wrist stays there on the body until the next search, so the tracked
+// wrist may since have travelled by up to k_search_again_m (hand_travel_m). Fingers close from the
+// held wrist, and fit_hands starts from it.
 //
-// A palm in an authored grip is held at the authored wrist. Talk row 10.
+// A palm in an authored grip is held at the authored wrist. Talk row 10. Without a surface, held_*
+// is zero.
 //
-// Idempotent with an error below 0.1 mm: so far the held pose of a hand that is tracked at its own
-// held pose moves.
+// Idempotent: a hand that is tracked at its own held pose is held there, with an error below 0.1
+// mm.
 //
 // Fallbacks counted: none. search_grip counts hands without a surface, which are shown as tracked.
 void constrain_palms(const ConstrainPalmsIo& io);

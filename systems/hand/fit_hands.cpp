@@ -13,12 +13,12 @@ namespace handhold {
 namespace {
 
 constexpr std::int32_t k_closing_rounds = 10;
-// Rounds for a hand that still shows its last fit.
+// Rounds from a closing of a hand that has a fit to the same body; the following frames continue.
 constexpr std::int32_t k_closing_again_rounds = 2;
-// A warm fit continues in the next frame.
+// Rounds from the last fit; the following frames continue.
 constexpr std::int32_t k_rounds = 1;
-constexpr double k_max_flex_rad = 0.15;
-constexpr double k_deep_m = 3e-3;  // a fit that penetrates deeper is counted
+constexpr double k_max_flex_rad = 0.15;  // largest step of an angle in a round from the last fit
+constexpr double k_deep_m = 3e-3;        // a fit that penetrates deeper is counted
 
 // How far a digit of an empty hand is closed: 0 at rest, 1 in a fist.
 double closed_share(const HandTracking& hand, FingerName digit) {
@@ -120,7 +120,8 @@ HandFit best_fit(const HandSurroundings& hand, const GripSurface& surface, const
     return closed.cost < k_change_cost_share * last.cost ? closed : last;
 }
 
-// True if the hand keeps its last fit. A hand at rest is fitted until the fit has converged.
+// True if the hand keeps its last fit; the surroundings are unchanged. A hand at rest is fitted
+// until the fit has converged.
 bool sticks(const HandSurroundings& hand, const FingerTuning& tuning, const FingerPose& pose) {
     const double travel_m = hand_travel_m(pose.fitted_wrist_bs, hand.wrist_bs);
     return travel_m < tuning.reuse_travel_m ? pose.is_converged
@@ -152,7 +153,7 @@ void fit_one(const HandSurroundings& hand, const GripSurface& surface, const Tun
     pose.is_converged = fit.is_converged;
 }
 
-// Fingers of an authored grip that follow the trigger.
+// Moves the authored digits of an authored grip between their pose and their pressed pose.
 void follow_trigger(const HandSurroundings& hand, double trigger, FingerPose& pose) {
     for (std::size_t f = 0; hand.authored != nullptr && f < hand.rig->fingers.size(); ++f) {
         if (pose.is_authored[f]) {
@@ -162,7 +163,8 @@ void follow_trigger(const HandSurroundings& hand, double trigger, FingerPose& po
     }
 }
 
-// The target wrist relative to the present tracked one: a fitted hand stays on its body.
+// Returns the target wrist relative to the present tracked one. PalmOffset::target_* is relative to
+// the tracked wrist of the last fit, because a fitted hand stays where it is on its body.
 Pose target_in_hand(const HandSurroundings& hand, const FingerPose& pose,
                     const PalmOffset& offset) {
     const Pose target{offset.target_m, rotation_from_vector(offset.target_turn_rad)};
@@ -188,8 +190,9 @@ void follow_palm(const Pose& target_hs, double dt_s, const PalmTuning& tuning, P
     }
 }
 
-// All angles advance by the same share, the largest within their speeds: otherwise one angle would
-// reach its target first and swing the digit through the surface.
+// All angles advance by the same share of their remaining change, the largest share at which none
+// exceeds its speed. Otherwise one angle would reach its target first and swing the digit through
+// the surface.
 void follow_digit(double dt_s, const FingerTuning& tuning, const FingerAngles& target,
                   FingerAngles& shown) {
     double share = 1.0;

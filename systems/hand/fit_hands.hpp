@@ -18,7 +18,8 @@ namespace handhold {
 // Hysteresis: a hand that closes again while it grips changes to the new closing if that costs less
 // than this share of its last fit's cost.
 inline constexpr double k_change_cost_share = 0.75;
-// Travel of the tracked wrist up to which a fitted hand stays where it is on its surface.
+// Travel of the tracked wrist (hand_travel_m) since the last fit, below which a hand outside
+// authored grips is not fitted again: it stays where it is on its body.
 inline constexpr double k_stick_m = 1e-3;
 
 struct FitHandsIo {
@@ -27,34 +28,40 @@ struct FitHandsIo {
     const Column<HandTracking>& hand;         // in: pressed, squeeze, trigger, curls
     const Column<GripSurface>& surface;       // in: body frame (_bs)
     Column<PalmOffset>& offset;               // in: held_*; in/out: target_*, shown_*, hand space
-    Column<FingerPose>& fingers;              // in: closed, touches; in/out: target, shown, radians
-    Column<PalmPose>& palm;                   // out: shown wrist, world space
+    // in: results of sweep_fingers (closed, touches, is_closed_clear, is_authored); in/out:
+    // is_newly_closed, target, shown, is_clear, is_converged and fitted_*; angles in radians
+    Column<FingerPose>& fingers;
+    Column<PalmPose>& palm;  // out: shown wrist, world space
 };
 
 // Fits wrist, fingers and thumb of each gripping hand together to the surfaces around it
 // (shared/hand_fit.hpp), and shows all hands. Talk rows 10, 16 and 18.
 //
 // A hand that has just closed starts at the palm within its limits and the closed digits
-// (constrain_palms, sweep_fingers). Other hands move on from last frame's fit, carried along with
-// the tracked wrist; while that has travelled less than k_stick_m, the hand stays where it is on
-// its body. A hand that closes again while it grips tries both and changes only if the closing
-// costs less than k_change_cost_share of the other. The fit is kept while wrist and surroundings
-// are unchanged and another one would change nothing.
+// (constrain_palms, sweep_fingers). Other hands start at the last fit, carried along with the
+// tracked wrist. A hand that closes again on the body that it grips is fitted from both starts and
+// takes the closing only if its fit costs less than k_change_cost_share of the other.
+//
+// The last fit is kept without a new one while the surroundings are unchanged and the tracked wrist
+// has travelled from the last fit by
+//  - less than FingerTuning::reuse_travel_m, if that fit has converged;
+//  - at least that, but less than k_stick_m, outside authored grips.
 //
 // A palm in an authored grip keeps the authored wrist. Digits with an authored pose keep it, or
-// move to their pressed pose with the trigger; other digits do not depend on the trigger. Fingers
-// of an empty hand bend from the rest pose as far as the button is pressed that closes the hand,
-// the index finger at least as far as the trigger; once the button counts as pressed the hand is a
-// fist. A finger of known curl (HandTracking::curls) is bent as far as that, from straight to a
-// fist.
+// move to their pressed pose with the trigger; other digits do not depend on the trigger. A
+// gripping hand without a surface has the rest pose. Fingers of an empty hand bend from the rest
+// pose by HandTracking::squeeze, the index finger at least by the trigger; once the button counts
+// as pressed the hand is a fist. A finger of known curl (HandTracking::curls) is bent as far as
+// that, from straight to a fist.
 //
 // The shown hand follows at PalmTuning::rate_mps, FingerTuning::close_radps (closing) and
 // open_radps (opening), all angles of a digit by the same share of their remaining change. Only the
 // shown hand moves, never the player.
 //
-// Fallbacks counted: hand_penetrates, once per fit that started from a closing.
+// Fallbacks counted: hand_penetrates, once per closing after which the fit still penetrates by
+// millimetres.
 void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats);
-// The same with scratch memory, so that warm frames do not allocate.
+// The same with scratch memory in `rows`, so that warm frames do not allocate.
 void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats,
                std::vector<PenaltyRow>& rows);
 

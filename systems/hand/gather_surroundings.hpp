@@ -36,21 +36,21 @@ struct BodiesNearHands {
     std::span<const Entity> bodies;  // bodies in an order independent of entity slots
     // Has the colliders of `bodies`. Null: every body is tested.
     const CollisionWorld* collision = nullptr;
-    std::span<const ColliderProxy> proxies =
-        {};  // proxies of `collision`, indexed like `bodies`, sorted by id
+    // Proxies of `collision`, indexed like `bodies` and sorted by id.
+    std::span<const ColliderProxy> proxies = {};
 };
 
 struct GatherSurroundingsIo {
     MeshesForHands meshes;                        // in
     std::span<const HandRig, k_hand_count> rigs;  // in: by HandSide
     std::span<const HandRig> more_rigs;           // in: by HandRigChoice::index
-    // in: hands without a choice, or without such a rig: `rigs`
+    // in: a hand without a choice, or with an index beyond more_rigs, has its side's rig of `rigs`
     const Column<HandRigChoice>& rig_choice;
     BodiesNearHands near;                       // in: end of the frame
     const Column<PersistentId>& persistent_id;  // in
     const Column<HandOwner>& owner;             // in
     const Column<HandTracking>& hand;           // in: pose_ps, end of the frame
-    const Column<Grab>& grab;                   // in: kind, body, anchor_bs
+    const Column<Grab>& grab;                   // in: kind, body, anchor_bs, jointed, two_handed
     const Column<BodyHold>& body_hold;          // in: hands that grip another player's body
     const Column<PlayerOrigin>& origin;         // in: pose_ws, end of the frame
     const Column<HeadTracking>& head;           // in: pose_ps, for hands on a player's head
@@ -58,8 +58,8 @@ struct GatherSurroundingsIo {
     const Column<BodyMeasures>& measures;       // in: held players
     const Column<BodyPose>& body_pose;          // in: pose_ws, end of the frame
     const Column<Collider>& collider;           // in: shape, the key into `meshes.of_shapes`
-    // In. HandSurroundings::authored points into this column, so it must not change before the hand
-    // stages have run.
+    // in: HandSurroundings::authored points into this column, so it must not change before the hand
+    // stages have run
     const Column<AuthoredHold>& authored_hold;
     std::vector<HandSurroundings>& surroundings;  // out: one per element of `owner`, in its order
 };
@@ -69,13 +69,16 @@ struct GatherSurroundingsIo {
 //
 // The wrist of a gripping hand is at its anchor. Its rotation is the tracked one, unless the
 // gripped object turns with the hand. A body is near if its mesh's bounding box is within
-// k_hand_length_m of the palm. Heads have no grip mesh: a hand that grips a head is shown as
-// tracked. A hand on another player's part is fitted to the part's capsule; the body's frame is
-// then the capsule's.
-// Where `meshes` has no mesh for the gripped body, the hand is shown as tracked. All lengths are
-// over the player's scale; meshes come from MeshesForHands::resized.
+// k_hand_length_m of the palm. A hand on another player's part is fitted to the part's capsule; the
+// body's frame is then the capsule's.
 //
-// Fallbacks counted: body_no_surface.
+// If the gripped body has no mesh, HandSurroundings::body is null: the hand is shown at its anchor,
+// not fitted. Heads never have a mesh.
+//
+// All lengths are in the hand's metres: the world's over the player's scale. Meshes for a scale
+// other than 1 come from MeshesForHands::resized.
+//
+// Fallbacks counted: body_no_surface, if a gripped body has no mesh in a world that fits hands.
 void gather_surroundings(const GatherSurroundingsIo& io, StageStats& stats);
 // gather_surroundings for the elements [first, last) of `owner`. `surroundings` must already have
 // its full size. Ranges may be gathered in parallel if all players have a scale of 1.

@@ -10,7 +10,8 @@
 namespace handhold {
 namespace {
 
-// The surface nearest to a palm in an authored grip. It seeds the searches of the closing fingers.
+// Returns the surface nearest to a palm in an authored grip. It seeds the searches of the closing
+// fingers.
 GripSurface authored_grip_surface(const HandSurroundings& hand, const PalmTuning& tuning) {
     const PalmFitter fitter(hand, hand.authored_wrist_bs(), tuning);
     const auto near =

@@ -21,21 +21,27 @@ struct SearchGripIo {
 };
 
 // Chooses the surface under each gripping palm: the one for which the palm must move least from its
-// tracked pose ("sync") to fit. Talk rows 2, 11, 17.
+// tracked pose ("sync") to fit, with penalties for penetration and for backfaces. Talk rows 2, 11,
+// 17.
 //
 // 1. Search (shared/surface_search.hpp): a best-first search over neighbouring triangles within
 //    PalmTuning::reach_m. Its seeds are the palm ray's hit, the nearest triangle and the triangle
 //    of the last search. A triangle's closed-form cost is the palm's translation into the height
-//    limits plus PalmTuning::tilt_cost_m_per_rad times its rotation into the tilt limit.
+//    limits plus PalmTuning::tilt_cost_m_per_rad times its rotation into the tilt limit, and for a
+//    backface PalmTuning::backface_cost_m.
 // 2. Evaluation (shared/surface_candidates.hpp): the palm is fitted to candidates in the order of
-//    their closed-form costs, until no other candidate can be better.
+//    their closed-form costs, while these are below the best full cost. At most
+//    SurfaceCandidates::k_max_count are evaluated.
 //
 // A hand searches when its grip begins, when its surroundings change, and after k_search_again_m of
-// travel (hand_travel_m). In other frames its surface is kept.
+// travel (hand_travel_m). In other frames its surface is kept. A hand that found no surface in
+// reach has none to keep and searches in every frame.
 //
-// A palm in an authored grip gets the nearest triangle, without a search. Talk row 10.
+// A palm in an authored grip gets the triangle nearest to the authored palm within
+// PalmTuning::reach_m, without a search. Talk row 10.
 //
-// Fallbacks counted: palm_no_surface (GripSurface::triangle is k_none).
+// Fallbacks counted: palm_no_surface, for each search that finds no surface (GripSurface::triangle
+// is then k_none); not in authored grips.
 void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats);
 
 }  // namespace handhold

@@ -8,7 +8,8 @@
 namespace handhold {
 namespace {
 
-// small: an authored pose is checked at the exact wrist
+// Travel of the held wrist after which a hand in an authored grip closes again. Small, because an
+// authored pose is checked at the exact wrist.
 constexpr double k_close_again_in_grip_m = 1e-6;
 
 void count_fallback(ChainFallback fallback, StageStats& stats) {

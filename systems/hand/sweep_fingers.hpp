@@ -11,15 +11,18 @@
 
 namespace handhold {
 
-// Travel of the held palm after which a hand closes again: fingers may reach other parts.
+// Travel of the held wrist on the body after which a hand closes again: fingers may reach other
+// parts.
 inline constexpr double k_close_again_m = 0.08;
 
 struct SweepFingersIo {
     std::span<const HandSurroundings> hands;  // in: body frame (_bs)
     const Column<GripSurface>& surface;       // in: body frame (_bs)
     const Column<PalmOffset>& offset;         // in: held_*, hand space, metres and radians
-    Column<FingerPose>& fingers;              // in/out: closed and what it was closed for, radians
-    // Out: by index in `hands`, for hands that close in this frame; or empty.
+    // in/out: closed (radians), closed_*, touches, is_closed_*, is_authored,
+    // authored_pose_rejected, is_newly_closed
+    Column<FingerPose>& fingers;
+    // out: by index in `hands`, written for hands that close in this frame; may be empty
     std::span<std::array<FingerTrace, k_finger_count>> traces;
     ChainFitScratch& scratch;  // scratch: nothing is read from an earlier call
 };
@@ -35,10 +38,12 @@ struct SweepFingersIo {
 // (shared/thumb_closing.hpp).
 //
 // A hand closes again on another body, at another place of the surface (search_grip), when it
-// enters or leaves an authored grip, and after k_close_again_m of travel.
+// enters or leaves an authored grip, and after k_close_again_m of travel. In an authored grip it
+// closes again only if the authored wrist changes.
 //
 // Digits with an authored pose take it, unless it penetrates by more than
-// FingerTuning::search_depth_m. Talk row 10.
+// FingerTuning::search_depth_m. Talk row 10. A hand without a surface does not close; digits with
+// an authored pose then take it unchecked.
 //
 // Fallbacks counted: finger_full_search, finger_depenetrated, finger_opened, finger_no_contact,
 // authored_finger_rejected.

@@ -15,8 +15,8 @@
 #include "engine/core/float_environment.hpp"
 #include "engine/math/math.hpp"
 
-// What every function of the C interface does: checks, conversions, and turning exceptions into
-// results. Nothing thrown below leaves this layer.
+// Shared by all functions of the C interface: checks, conversions, and call(), which turns
+// exceptions into results. No exception leaves a function that runs in call().
 namespace handhold {
 
 // Ends a call with a result other than HH_OK.
@@ -25,7 +25,8 @@ struct HostError {
     std::string text;
 };
 
-// For texts that name a value of the call, so that they are made only on failure.
+// Throws HostError if the condition is false. `text` is a function, for texts that name a value of
+// the call: they are made only on failure.
 template <typename MakeText>
 requires std::is_invocable_r_v<std::string, MakeText>
 void require(bool condition, hh_result result, const MakeText& text) {
@@ -39,7 +40,7 @@ inline void require(bool condition, hh_result result, const char* text) {
     }
 }
 
-// Tells the host's log, if it has one, something that is no failure of a call.
+// Passes a note to the host's log, if the host has one.
 void log_note(const char* text) noexcept;
 // Stores the text for hh_last_error and logs it; HH_ERROR_INTERNAL also calls the assert hook.
 hh_result report_failure(hh_result result, const char* text) noexcept;
@@ -50,8 +51,8 @@ template <typename Work>
     work();
 }
 
-// Runs a call in the library's floating-point environment. `precondition`: what a PreconditionError
-// means in it.
+// Runs `work` in the library's floating-point environment and returns HH_OK, or the result for what
+// it throws. `precondition`: the result for a PreconditionError.
 template <typename Work>
 hh_result call(Work&& work, hh_result precondition = HH_ERROR_VALUE) noexcept {
     const FloatEnvironment environment;
@@ -77,11 +78,12 @@ inline hh_pose to_c(const Pose& pose) {
     const Quat& q = pose.rotation;
     return {to_c(pose.position), {q.x(), q.y(), q.z(), q.w()}};
 }
-// Any numbers.
+// Converts any numbers.
 inline Pose unchecked_pose(const hh_pose& pose) {
     const hh_quat& q = pose.rotation;
     return {from_c(pose.position), Quat(q.w, q.x, q.y, q.z)};
 }
+// These three convert numbers that may be used, and throw HH_ERROR_VALUE for others, NaN included.
 inline Vec3 checked(const hh_vec3& v, double limit, const char* text) {
     Vec3 read = from_c(v);
     for (const double axis : read) {
@@ -107,7 +109,8 @@ inline Pose checked(const hh_pose& pose) {
     return read;
 }
 
-// Copies a list into a host's buffer. `count` gets its length in any case.
+// Copies a list into a host's buffer. `count` gets its length in any case. A null buffer of
+// capacity 0 asks for the length only.
 template <typename T, typename Get>
 void write_list(std::size_t size, T* buffer, std::size_t capacity, std::size_t* count,
                 const Get& get) {

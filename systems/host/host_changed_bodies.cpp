@@ -11,7 +11,7 @@
 namespace handhold {
 namespace {
 
-// A body as it becomes with this kind and mass.
+// Returns the body with this kind and mass, and its present restitution and friction.
 RigidBody changed_body(const hh_world& host, Entity entity, hh_body_kind kind, double mass_kg,
                        const hh_vec3& inertia_kgm2) {
     const RigidBody& now = host.world.body.at(entity);

@@ -41,7 +41,7 @@ inline Entity entity_of(hh_body body) { return {body.index, body.generation}; }
 inline Entity entity_of(hh_player player) { return {player.index, player.generation}; }
 inline hh_body body_id(Entity entity) { return {entity.slot, entity.generation}; }
 inline hh_player player_id(Entity entity) { return {entity.slot, entity.generation}; }
-// A player with both hands.
+// The entities of a player and both hands.
 PlayerEntities player_entities(const World& world, hh_player player);
 
 // The interface's vectors as Eigen's, and back, to the bit.

@@ -15,7 +15,7 @@ namespace handhold {
 namespace {
 
 struct Axis {
-    int index;    // the engine's axis that lies along ours
+    int index;    // index of the engine's axis that lies along ours
     double sign;  // -1: the engine's axis points the other way
 };
 

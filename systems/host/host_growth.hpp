@@ -21,8 +21,8 @@ inline void require_size(std::size_t size, std::size_t first_size, std::size_t o
     });
 }
 
-// A definition of any version up to this library's: what it lacks keeps its default. `first_size`:
-// of the struct in its first version.
+// Reads a definition of any version up to this library's: fields that it lacks have their default.
+// `first_size`: size of the struct in its first version. HH_ERROR_VERSION for other sizes.
 template <typename Def>
 Def read_def(const Def* def, const Def& defaults, std::size_t first_size = sizeof(Def)) {
     require(def != nullptr, HH_ERROR_NULL, "the definition is null");
@@ -33,7 +33,8 @@ Def read_def(const Def* def, const Def& defaults, std::size_t first_size = sizeo
     return read;
 }
 
-// Writes an output of any version up to this library's.
+// Writes an output of any version up to this library's: the fields that the host knows.
+// HH_ERROR_VERSION for other sizes.
 template <typename Out>
 void write_out(Out* out, Out value, std::size_t first_size = sizeof(Out)) {
     require(out != nullptr, HH_ERROR_NULL, "the output is null");
@@ -43,8 +44,8 @@ void write_out(Out* out, Out value, std::size_t first_size = sizeof(Out)) {
     std::memcpy(out, &value, size);
 }
 
-// Fills a host's struct of `size` bytes with defaults. Of a later version than the library's: with
-// zeros, so that calls refuse it.
+// Fills a host's struct of `size` bytes with defaults. If this library does not know a version of
+// that size, fills it with zeros, so that calls refuse it.
 template <typename Def>
 hh_result write_default(Def* filled, std::size_t size, Def defaults,
                         std::size_t first_size = sizeof(Def)) noexcept {
@@ -57,7 +58,7 @@ hh_result write_default(Def* filled, std::size_t size, Def defaults,
     });
 }
 
-// Element of an array whose elements lie `size` bytes apart: the size that the host knows.
+// Element of an array of the host, whose elements have the size of the host's version.
 template <typename T>
 const T& sized_element(const T* first, std::size_t size, std::size_t i) {
     return *reinterpret_cast<const T*>(reinterpret_cast<const char*>(first) + i * size);
@@ -67,7 +68,8 @@ T& sized_element(T* first, std::size_t size, std::size_t i) {
     return *reinterpret_cast<T*>(reinterpret_cast<char*>(first) + i * size);
 }
 
-// Where a struct that grows holds an array of structs that grow: its own later fields come behind.
+// Layout of a struct that grows and contains an array of structs that grow. Its own later fields
+// come behind the array.
 struct NestedLayout {
     std::size_t size;         // bytes of the outer struct
     std::size_t nested_size;  // bytes of one element

@@ -4,7 +4,7 @@
 
 namespace handhold {
 
-// Number of worlds of the C interface: hooks change only while there is none.
+// Number of worlds of the C interface. Hooks can be set only while it is 0.
 std::atomic<int>& world_count();
 
 }  // namespace handhold

@@ -1,4 +1,4 @@
-// Impulses of hands and contacts as a host is told of them.
+// The impulses of hands and contacts that a host reads.
 #include "systems/host/host_impulses.hpp"
 
 #include <algorithm>
@@ -29,7 +29,9 @@ bool is_kind_of_drive(const RowBlock& block) { return is_drive(block); }
 bool is_kind_of_contact(const RowBlock& block) { return is_contact(block); }
 
 double impulse_limit_ns(const FrameGraph& frame, const Island& island) {
-    constexpr double k_true_share = 1.0 - 1e-9;  // less is not rounding
+    // A player's share of their true inverse mass below this is not rounding: the step treated the
+    // player as heavier.
+    constexpr double k_true_share = 1.0 - 1e-9;
     const ConstraintGraph& graph = frame.graph;
     const double hand_mps = hand_speed_mps(graph, island);
     double limit_ns = 0.0;

@@ -1,4 +1,4 @@
-// Impulses of hands and contacts as a host is told of them.
+// The impulses of hands and contacts that a host reads.
 
 #pragma once
 
@@ -19,7 +19,8 @@ namespace handhold {
 // Impulses in other islands are reported as they are.
 void limit_impulses(hh_world& host);
 
-// The impulse on the block's first body, world axes.
+// The reported impulse on the first body of the constraint block with this index, in the world's
+// axes.
 Vec3 reported_impulse_ns(const hh_world& host, std::size_t block);
 
 }  // namespace handhold

@@ -118,7 +118,7 @@ hh_result hh_player_place(hh_world* world, hh_player player, hh_pose origin, hh_
         host.world.player_origin.at(entity).pose_ws = origin_ws;
         host.world.player_start.at(entity).pose_ws = origin_ws;
         host.world.player_velocity.at(entity).linear_mps = velocity;
-        // No sweep over the distance from its old place.
+        // Forgets the last valid pose: no sweep over the distance from there.
         host.world.last_valid.at(entity).known = false;
     });
 }

@@ -38,7 +38,7 @@ hh_world& queried_world(hh_world* world) {
     return *world;
 }
 
-// The ids that a query leaves out.
+// The persistent ids that a query leaves out: that of `player`, or none for a null id.
 class Skipped {
   public:
     Skipped(const hh_world& host, hh_player player) {

@@ -1,11 +1,11 @@
-// Recentrings of the devices in the C interface (handhold/players.h): the player's origin is the
-// space of their samples, which a recentring moves in play space.
+// Recentrings of devices in the C interface (handhold/players.h). Hosts call the space of the
+// samples the player's origin. A recentring moves that space in play space.
 #include "systems/host/host_world.hpp"
 
 namespace handhold {
 namespace {
 
-// The rotation of a level space, without the rest of a tilt that rounding leaves.
+// Returns the pose without a tilt as small as rounding leaves. Refuses larger tilts.
 Pose level(const Pose& pose) {
     constexpr double k_max_tilt = 1e-3;
     const Quat& turn = pose.rotation;
@@ -14,7 +14,8 @@ Pose level(const Pose& pose) {
     return {pose.position, Quat(turn.w(), 0.0, turn.y(), 0.0).normalized()};
 }
 
-// Poses that need no correction stay equal to the bit.
+// True if samples differ from play space. Else poses are not multiplied, so that they stay equal to
+// the bit.
 bool is_corrected(const hh_world& host, Entity player) {
     const HeadTracking& head = host.world.head_tracking.at(player);
     return head.shift_m != Vec3::Zero() || head.shift_turn.coeffs() != Quat::Identity().coeffs();
@@ -82,7 +83,7 @@ hh_result hh_player_recenter(hh_world* world, hh_player player, hh_pose new_in_o
         HeadTracking& head = host.world.head_tracking.at(entity);
         set_guess(host, entity, false);
         if (head.state == TrackingState::never) {
-            return;  // there is no sample that the next one could differ from
+            return;  // no sample was given in the old space
         }
         head.shift_m = head.shift_turn * space.position + head.shift_m;
         head.shift_turn = (head.shift_turn * space.rotation).normalized();

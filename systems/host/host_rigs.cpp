@@ -11,8 +11,8 @@
 namespace handhold {
 namespace {
 
-// `name` replaces a file name in messages, because bytes in memory have none. No file beside them
-// is read.
+// Returns the value of a file reader's result, or throws HH_ERROR_DATA. `name` stands for the file
+// in the message, because bytes in memory have no file name.
 template <typename T>
 T value_or_throw(Result<T> result, const char* name) {
     if (!result) {

@@ -16,7 +16,8 @@ namespace {
 constexpr double k_min_step_s = 1e-6;
 constexpr double k_max_step_s = 10.0;
 
-// Poses that are not tracked, or that no tracking gives, become NaN: read_tracking ignores them.
+// Returns the pose, or NaN, which read_tracking ignores, if the pose is not tracked, not valid or
+// too far away.
 Pose tracked_or_invalid(const Pose& pose, bool is_tracked) {
     Pose read;
     if (is_tracked && is_valid(pose) &&
@@ -27,8 +28,8 @@ Pose tracked_or_invalid(const Pose& pose, bool is_tracked) {
     return read;
 }
 
-// A host that computes a step's end in another way than the world's clock, such as by dividing a
-// frame's number, differs from it by rounding: such a sample is one of the step's end.
+// Returns the sample's time; the step's end if the sample is later by rounding errors only. A host
+// may compute the step's end in another way than the world's clock, such as from a frame number.
 double without_rounding_s(double time_s, double end_s) {
     constexpr double k_rounding_s = 1e-6;
     return time_s > end_s && time_s <= end_s + k_rounding_s ? end_s : time_s;
@@ -94,13 +95,13 @@ PlayerCommands read_commands(const hh_commands& commands) {
             commands.calibrate != 0};
 }
 
-// Elements of an array of definitions lie apart by the size that the host knows.
+// Element of an array of definitions, whose elements have the size of the host's version.
 template <typename Def>
 const Def& def_at(const Def* defs, std::size_t i) {
     return sized_element(defs, defs->struct_size, i);
 }
 
-// Element `i` of such an array. HH_ERROR_VERSION unless it has the size of the first.
+// Reads element `i` of such an array. HH_ERROR_VERSION unless it has the size of the first.
 template <typename Def>
 Def read_def_at(const Def* defs, std::size_t i, const Def& defaults) {
     require(def_at(defs, i).struct_size == defs->struct_size, HH_ERROR_VERSION,
@@ -108,7 +109,7 @@ Def read_def_at(const Def* defs, std::size_t i, const Def& defaults) {
     return read_def(&def_at(defs, i), defaults);
 }
 
-// Players whose kept samples are due in a step that the host has no input for.
+// Adds an input without commands for each player who has kept samples but no input.
 void add_silent_inputs(hh_world& host) {
     const std::size_t given = host.inputs.size();
     for (const Entity player : host.world.early_samples.owners()) {
@@ -121,7 +122,8 @@ void add_silent_inputs(hh_world& host) {
     }
 }
 
-// A player all of whose samples are far from the step is stamped by another clock: said once.
+// Logs, once per world, that a player's samples are on another clock. `off_s`: time of the last
+// sample after the step's end.
 void name_other_clock(hh_world& host, double off_s) {
     if (host.has_named_clock) {
         return;

@@ -6,10 +6,14 @@
 namespace handhold {
 
 enum class StepKind : std::uint8_t { advances, poses_only };
-// Checks and fills host.inputs: the samples kept from earlier steps, then those given. A sample
-// given now replaces those kept of its time or later. Players who have kept samples and no input
-// get one without commands in a step that advances. Samples too far ahead are left out; they and
-// those too old are counted by finish_step. Nothing else changes.
+// Checks a step's inputs and fills host.inputs: for each player the samples kept from earlier
+// steps, then the given ones. A given sample replaces kept ones of the same time or later.
+//
+// In a step that advances the clock, a player with kept samples but no input gets an input without
+// commands. Samples more than half a second after the step's end are left out, unless the input
+// repeats samples. They, and those more than half a second before its start, are counted by
+// finish_step. A step of poses only drops all kept samples and takes given ones of any time.
+// Nothing else changes, except that the log may be told that samples are on another clock.
 void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std::size_t count,
                  StepKind kind = StepKind::advances);
 // Keeps the samples of host.inputs after the step's end, at most EarlySamples::k_capacity a player.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double k_max_position_m = 1e7;
 
-// Removes a shape that was not published because something failed on the way.
+// Removes a new shape again unless publish() is called, so that a failed call leaves none.
 class Unpublished {
   public:
     Unpublished(hh_world& host, ShapeId id) : host_(host), id_(id) {}
@@ -33,7 +33,7 @@ class Unpublished {
     bool is_published_ = false;
 };
 
-// Makes the id, and prepares the shape for collision and hands.
+// Returns a new id for the shape, after preparing it for collision and hands.
 hh_shape publish_shape(hh_world& host, ShapeId id, const Pose& frame, bool is_moved,
                        std::shared_ptr<const GripMesh> grip = nullptr) {
     Unpublished shape_of_host(host, id);

@@ -9,7 +9,7 @@
 namespace handhold {
 namespace {
 
-// XR_EXT_hand_tracking's order.
+// Indices of joints in XR_EXT_hand_tracking's order.
 constexpr std::size_t k_palm = 0;
 constexpr std::size_t k_wrist = 1;
 constexpr std::size_t k_thumb_finger = 2;  // metacarpal, proximal, distal, tip

@@ -10,8 +10,8 @@
 namespace handhold {
 namespace {
 
-// The host's handles of the bodies with these ids. Leaves out players' heads, for which the host
-// has no bodies.
+// The host's handles of the first 32 bodies with these ids. Leaves out players' heads, for which
+// the host has no bodies.
 struct SkippedBodies {
     SkippedBodies(const World& world, std::span<const std::uint64_t> ids) {
         for (const std::uint64_t id : ids) {

@@ -11,7 +11,8 @@
 
 namespace handhold {
 
-// Answers the queries of SurfaceQuery from a host's surfaces, and checks the host's answers.
+// Answers the queries of SurfaceQuery with the host's functions, and checks the host's answers. A
+// query whose function is null finds nothing. At most 32 bodies are skipped.
 class HostSurfaces {
   public:
     // `world` maps ids to bodies. It must outlive this object.
@@ -38,7 +39,7 @@ class HostSurfaces {
         Vec3 normal_ws;  // unit
         double distance_m = 0.0;
     };
-    // Returns what ask() returns.
+    // Returns ask(), during which is_asking() is true.
     template <typename Ask>
     bool answer(const Ask& ask) const {
         struct Asking {  // ends also if the host throws

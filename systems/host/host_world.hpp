@@ -27,7 +27,7 @@ struct HostShape {
     // The library's frame (centre of mass, principal axes) in the frame in which the host made the
     // shape.
     Pose frame;
-    bool is_moved = false;  // false: the frames are equal
+    bool is_moved = false;  // false: `frame` is the identity
 };
 
 struct UserData {
@@ -39,7 +39,8 @@ struct BodyRigSlot {
     SkeletonPose pose;  // scratch
 };
 
-// One hand at the end of the last step, for the state and for the next step's events.
+// One hand at the end of the last step. hh_hand_state has its impulse, and the next step's events
+// are differences from it.
 struct HandReport {
     GripKind grip = GripKind::none;
     Entity body = k_no_entity;
@@ -51,7 +52,7 @@ struct HandReport {
 
 // How a player's samples were corrected at the end of the last step.
 struct SpaceReport {
-    Pose correction;
+    Pose correction;            // the samples' space in play space
     bool is_announced = false;  // hh_player_recenter announced it
 };
 
@@ -77,7 +78,7 @@ struct HostContact {
 
 }  // namespace handhold
 
-// The C interface's names.
+// These two have the names of the C interface.
 // NOLINTBEGIN(readability-identifier-naming)
 struct hh_mesh {
     std::atomic<std::uint32_t> references{1};
@@ -120,7 +121,7 @@ struct hh_world {
     std::vector<handhold::TrackingSample> samples;
     std::uint64_t samples_too_far_ahead = 0;  // number in this step, until finish_step counts them
     std::uint64_t samples_too_old = 0;
-    bool has_named_clock = false;  // the log was told of samples on another clock
+    bool has_named_clock = false;  // the log has been told of samples on another clock
     std::vector<std::byte> snapshot;
     // Assets of the shapes as of `assets_revision`.
     std::optional<handhold::SnapshotAssets> assets;
@@ -197,11 +198,10 @@ ShapeId head_shape(hh_world& host, double wanted_m);
 // of a player.
 inline constexpr double k_smallest_head_m = 1e-3;
 inline constexpr double k_largest_head_m = 100.0;
-// Shapes that the host added.
+// Number of shapes without those of heads.
 std::size_t shape_count(const hh_world& host);
 
-// Needed to convert between a body's pose in the library and in the frame in which the host made
-// its shape.
+// Convert between a body's library frame and its host frame, in which the host made its shape.
 const HostShape* moved_shape_of(const hh_world& host, Entity body);  // null: the frames are equal
 Pose host_pose_of(const hh_world& host, Entity body);
 Pose library_pose(const hh_world& host, Entity body, const Pose& host_pose_ws);
@@ -209,13 +209,14 @@ Pose library_pose(const hh_world& host, Entity body, const Pose& host_pose_ws);
 Pose to_host_bs(const hh_world& host, Entity body, const Pose& pose_bs);
 Pose from_host_bs(const hh_world& host, Entity body, const Pose& pose_bs);
 
-// From the space of a player's samples to play space (HeadTracking's shift), and that space's pose
-// in the world, which hosts call the player's origin.
+// The pose in play space of the space in which a player's samples are given (HeadTracking's shift).
 Pose samples_in_play_space(const hh_world& host, Entity player);
+// The pose of that space in the world, which hosts call the player's origin.
 Pose samples_space_ws(const hh_world& host, Entity player);
-// The play space's pose for such an origin.
+// The pose of the play space for such an origin.
 Pose play_space_ws(const hh_world& host, Entity player, const Pose& samples_space_ws);
-// Adds an event for each player whose samples are corrected in another way than in the last report.
+// Updates `spaces`. makes_events: adds an event for each player whose samples' correction has
+// changed since the last report.
 void report_recentrings(hh_world& host, bool makes_events);
 
 // The given name, or one made from the id of the next entity. That id is part of the state, so
@@ -223,15 +224,17 @@ void report_recentrings(hh_world& host, bool makes_events);
 // begun step.
 std::string new_name(const hh_world& host, const char* name, const char* kind);
 
-// Removes an entity from the world and from all that this layer knows of it.
+// Removes an entity, with the joints of a body and the hands of a player, from the world and from
+// this layer's data. HH_ERROR_STATE inside a begun step.
 void remove_entity(hh_world& host, Entity entity);
 void set_user_data(hh_world& host, Entity entity, std::uint64_t value);
 std::uint64_t user_data_of(const hh_world& host, Entity entity);
 
-// Called before and after a step. Events are the differences between its begin and its end.
+// Called before and after a step. Events are the differences between its end and the end of the
+// step before.
 void begin_events(hh_world& host);
 void finish_events(hh_world& host);
-// Called after a restore. What the restored state contains does not count as an event.
+// Called after a restore. Differences from the state before the restore make no events.
 void forget_events(hh_world& host);
 
 }  // namespace handhold

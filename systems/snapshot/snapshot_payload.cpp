@@ -64,7 +64,7 @@ EarlySamples smallest_element() {
 // Bytes of the fields of the smallest element. Without lists, all elements of a column have as
 // many.
 template <typename Component>
-const ByteCounter& row_counter() {
+const ByteCounter& element_counter() {
     static const ByteCounter k_counter = [] {
         ByteCounter counter;
         walk_component(smallest_element<Component>(), counter);
@@ -74,13 +74,13 @@ const ByteCounter& row_counter() {
 }
 
 template <typename Component>
-std::size_t rows_bytes(std::span<const Component> rows) {
-    if (!row_counter<Component>().has_list()) {
-        return rows.size() * row_counter<Component>().bytes();
+std::size_t elements_bytes(std::span<const Component> elements) {
+    if (!element_counter<Component>().has_list()) {
+        return elements.size() * element_counter<Component>().bytes();
     }
     ByteCounter counter;
-    for (const Component& index : rows) {
-        walk_component(index, counter);
+    for (const Component& element : elements) {
+        walk_component(element, counter);
     }
     return counter.bytes();
 }
@@ -211,7 +211,7 @@ class ByteReader : public PathVisitor {
         return value;
     }
     // Handles that are null, alive or stale are valid. A handle of an entity that never existed is
-    // not: it could match a future entity, once its slot was reused often enough.
+    // not: once its slot has been reused often enough, it would be the handle of another entity.
     Entity read_handle() {
         const auto slot = number<std::uint32_t>();
         const auto generation = number<std::uint32_t>();
@@ -258,7 +258,8 @@ class ByteReader : public PathVisitor {
 
     template <typename T>
     void read_column(const EntityPool& pool, Column<T>& column) {
-        const std::uint32_t count = count_of(k_owner_bytes + row_counter<T>().bytes(), "rows");
+        const std::uint32_t count =
+            count_of(k_owner_bytes + element_counter<T>().bytes(), "elements");
         column.reserve(count);
         for (std::uint32_t index = 0; index < count && !error_; ++index) {
             enter(std::size_t{index});
@@ -294,7 +295,7 @@ std::size_t payload_bytes(const World& world) {
                                                world.entities.free_slots().size());
     visit_columns(world, [&bytes](const char*, const auto& column) {
         bytes += 4 + column.size() * k_owner_bytes +
-                 rows_bytes<ComponentOf<decltype(column)>>(column.elements());
+                 elements_bytes<ComponentOf<decltype(column)>>(column.elements());
     });
     return bytes;
 }

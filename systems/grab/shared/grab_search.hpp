@@ -40,11 +40,12 @@ struct GrabSearch {
     const Column<HandPull>& pull;                // in: from the last frame
     const Column<ReferenceVelocity>& reference;  // in: from the last frame
     Column<HandSight>& sight;                    // in/out
-    Column<Grab>& grab;                          // in/out
-    Column<AuthoredHold>& authored_hold;         // in/out: hands in an authored grip
-    Column<HeadIgnores>& head_ignores;           // in/out: held bodies are added
-    Column<BodyHold>& body_hold;                 // in/out: hands that grip a part of a player
-    Column<GrabOrder>& order;                    // in/out: carried out and removed
+    // in/out; update_grabs also takes new anchors (anchor_bs, two_handed, slip_hs, error_m)
+    Column<Grab>& grab;
+    Column<AuthoredHold>& authored_hold;  // in/out: hands in an authored grip
+    Column<HeadIgnores>& head_ignores;    // in/out: held bodies are added
+    Column<BodyHold>& body_hold;          // in/out: hands that grip a part of a player
+    Column<GrabOrder>& order;             // in/out: carried out and removed
 
     ShownBodies bodies() const {
         return {.shown = shown,
@@ -63,9 +64,6 @@ struct GrabTarget {
     std::optional<AuthoredHold> hold;   // none: not an authored grip
     std::optional<BodyPart> part = {};  // part of another player; none: a body, or a head
 };
-
-// Advances HandSight of all hands to the start of the frame.
-void update_sights(const GrabSearch& io, const Tuning& tuning);
 
 // What a closing hand grips, or why it grips nothing.
 struct GrabSearchResult {

@@ -8,8 +8,8 @@
 #include "engine/geometry/hinge_chain.hpp"
 #include "systems/hand/shared/hand_spheres.hpp"
 
-// Clearance between a hand's own thumb and fingers. Neighbouring fingers need none: their discs are
-// farther apart than their capsules are thick.
+// Clearance between a hand's own thumb and fingers. Neighbouring fingers are not tested: their
+// discs are farther apart than their capsules are thick.
 namespace handhold {
 
 using DigitCapsules = std::array<std::array<Capsule, k_max_links>, k_finger_count>;
@@ -31,12 +31,13 @@ struct DigitGap {
 
 inline constexpr std::size_t k_max_digit_gaps = k_max_links * k_max_links * (k_finger_count - 1);
 
-// Writes the pairs whose gap is at most `within_m`, in order of the rig, and returns their number.
-// Pairs whose axes cross have no direction and are left out.
+// Writes the pairs of a thumb's link and another digit's link whose gap is at most `within_m`, in
+// order of the rig, and returns their number. Pairs whose axes cross have no direction and are left
+// out.
 std::size_t find_digit_gaps(const HandRig& rig, const DigitCapsules& capsules, double within_m,
                             std::span<DigitGap, k_max_digit_gaps> gaps);
 
-// Depth by which a thumb's capsules and the fingers' overlap; 0 if they do not.
+// Largest depth by which one of the thumb's capsules overlaps one of the fingers'; 0 if none does.
 double thumb_overlap_m(const HandRig& rig, const DigitCapsules& fingers,
                        std::span<const Capsule> thumb);
 

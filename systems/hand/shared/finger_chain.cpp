@@ -19,8 +19,8 @@ GraphPoint seed_under_palm(const PlacedMesh& placed, const GripSurface& surface)
 
 GraphPoint seed_near_finger(const PlacedMesh& placed, const HingeChain& chain) {
     const double radius_m = reach_m(chain);
-    const Vec3 half_closed_middle(0.0, -0.2 * radius_m,
-                                  -0.4 * radius_m);  // point in the base's frame
+    // The middle of the half-closed finger, in the base's frame.
+    const Vec3 half_closed_middle(0.0, -0.2 * radius_m, -0.4 * radius_m);
     const Vec3 middle = transform_point(inverse(placed.pose) * chain.base, half_closed_middle);
     const auto near = placed.mesh->search_bvh.closest_point(middle, radius_m);
     return near ? GraphPoint{near->triangle, near->point} : GraphPoint{};

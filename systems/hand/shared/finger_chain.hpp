@@ -6,23 +6,24 @@
 #include "components/tuning.hpp"
 #include "engine/geometry/chain_fit.hpp"
 
-// Used by several hand stages: fingers and thumbs as chains of hinged capsules.
+// Converts fingers and thumbs to chains of hinged capsules, for several hand stages.
 namespace handhold {
 
 // Returns the digit's chain in the frame in which `wrist` is given.
 HingeChain finger_chain(const FingerRig& finger, double opposition_rad, const Pose& wrist);
 
 ChainFitSettings chain_settings(const FingerTuning& tuning);
-// Smallest radius of the digit's links. If a digit penetrates less than this, no surface crosses
-// the axes of its links: the axes are still outside, on the side from which the digit closed.
+// Smallest radius of the digit's links, in metres. If a digit penetrates less than this, no surface
+// crosses the axes of its links: the axes are still outside, on the side from which the digit
+// closed.
 double clear_depth_m(const FingerRig& finger);
 
-// The wrist held within the palm's limits.
+// The wrist at PalmOffset::held_*, in the body's frame.
 Pose held_wrist_bs(const HandSurroundings& hand, const PalmOffset& offset);
 
-// Returns the seeds of a finger's surface searches: the point under the palm, and the point nearest
-// to the half-closed finger, which may be over another part of the mesh. `chain` is in the body's
-// frame. Precondition: the hand has a mesh.
+// Returns the seeds of a finger's surface searches on the hand's first mesh: the point under the
+// palm, and the point nearest to the middle of the half-closed finger, which may be on another part
+// of the mesh. `chain` is in the body's frame. Precondition: the hand has a mesh.
 ChainSeed chain_seed(const HandSurroundings& hand, const GripSurface& surface,
                      const HingeChain& chain);
 

@@ -23,8 +23,8 @@ struct FitPart {
 // Collects a fit's squares and inequalities, linearised at one pose, and their cost there.
 class FitProblem {
   public:
-    // `terms`, if not null, gets the costs added by term and part. `rows` is memory for the
-    // inequalities: 72 kB, too much for a small stack. Both outlive the problem.
+    // `terms`: gets the costs, added by term and part; null: not needed. `rows`: memory for the
+    // inequalities, 72 kB, too much for a small stack. Both must outlive the problem.
     FitProblem(int unknowns, FitTerms* terms, std::vector<PenaltyRow>& rows)
         : unknowns_(unknowns), terms_(terms), rows_(rows) {
         rows_.reserve(k_max_penalty_rows);
@@ -50,17 +50,18 @@ class FitProblem {
         squares_m2_ += cost_m2;
         charge(part, cost_m2);
     }
-    // Adds the inequality slope . x + value >= 0 as a penalty.
+    // Adds the inequality slope . x + value >= 0 as a penalty: weight / 2 * violation^2.
     void add_row(const FitPart& part, const Unknowns& slope, double value, double weight) {
         rows_.push_back({slope, value, weight});
         charge(part, penalty_m2(rows_.back()));
     }
-    // Keeps an unknown where it is.
+    // Keeps an unknown at 0, by a stiffness much larger than all weights.
     void hold(int place) {
         constexpr double k_held = 1e6;
         hessian_(place, place) += k_held;
     }
 
+    // The cost at x = 0, the pose at which the problem was linearised.
     double cost_m2() const {
         double sum_m2 = squares_m2_;
         for (const PenaltyRow& row : rows_) {
@@ -68,6 +69,7 @@ class FitProblem {
         }
         return sum_m2;
     }
+    // Returns the x of least cost.
     Unknowns solve() const {
         return minimise_penalised(hessian_, gradient_, rows_, static_cast<std::size_t>(unknowns_));
     }

@@ -9,13 +9,14 @@
 // The objective of a hand's fit, term by term and digit by digit: why a hand looks as it does.
 namespace handhold {
 
-// The terms of hand_fit.hpp. Those from `penetration` on are penalties for inequalities.
+// The terms of hand_fit.hpp and what each one costs for. Those from `penetration` on are penalties
+// for inequalities.
 enum class FitTerm : std::uint8_t {
     sync,         // the palm is away from where it is tracked
     touch,        // a digit's nearest point is off the surface
     tip,          // a digit's tip is off the surface
     opposition,   // a thumb has left the opposition of the closing
-    rest,         // a digit has left its rest pose
+    rest,         // an angle of a digit is away from its rest pose
     alike,        // neighbouring fingers bend differently
     fan,          // neighbouring fingers point differently
     roll,         // a finger bends in the middle more or less than at the knuckle

@@ -8,7 +8,7 @@
 namespace handhold {
 namespace {
 
-// Largest step of one round: gaps are linearised.
+// Largest step of the wrist in one round. Gaps are linearised, so longer steps are not reliable.
 constexpr double k_max_move_m = 0.02;
 constexpr double k_max_turn_rad = 0.3;
 

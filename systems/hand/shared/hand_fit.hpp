@@ -11,12 +11,13 @@
 #include "systems/hand/shared/fit_terms.hpp"
 #include "systems/hand/shared/hand_spheres.hpp"
 
-// One fit of wrist, fingers and thumb to the surfaces around a hand: the stage behind fit_hands.
+// Fits wrist, fingers and thumb of one hand to the surfaces around it. fit_hands calls it.
 //
 //   minimise
 //     |p - p0|^2 + (arm |r|)^2               p: palm's centre, p0: tracked one, r: rotation vector
 //                                            from the tracked wrist; arm = k_fit_arm_m
-//   + 2   sum_d pull(gap_d)                  nearest point of each digit d
+//   + 2   sum_d pull(gap_d)                  nearest sphere of each digit d that touched something
+//                                            when the hand closed, or is within k_sphere_reach_m
 //   + 1   sum_f pull(tip_f)                  each finger's tip; fingers f are without the thumb
 //   + 0.5 tip_t^2                            the thumb's tip
 //   + 0.3 sum_f (l (d_f - d_f+1))^2          fan: neighbours point alike; d: direction from knuckle
@@ -30,23 +31,25 @@
 //   + 2e-5 sum (l (q - q_rest))^2            rest: keeps every angle determined; 0.002 for a thumb
 //                                            that touched nothing when the hand closed
 //   subject to
-//     every capsule's gap >= 0, gaps between thumb and fingers >= 0
+//     every sphere's gap >= a margin of less than a millimetre
+//     gaps between thumb and fingers >= 0
 //     joint limits
 //     q1 >= 0.6 q2 - k_claw_rad             claw: no stretched knuckle with a bent middle
 //     q1 + q2 + q3 <= k_max_bend_rad         bend: no finger folded into itself
 //     neighbours' total bends within k_max_apart_rad, and directions within k_max_fan_rad
 //     the palm's limits on height and tilt (PalmTuning)
 //
-// Fingers whose angles are kept have no fan and alike with their neighbours. pull(x) = x^2 / (1 +
-// x^2 / g^2) is bounded by g^2, so distant surfaces hardly attract a digit; g = k_let_go_m; l =
-// k_fit_lever_m. Hinges q1, q2, q3 are numbered from the knuckle. Only gaps within k_sphere_reach_m
-// count; tips have their own reach (hand_spheres.hpp). Costs are half of these sums. The
-// inequalities are penalties, stiffer in this order: bends, directions, claw, palm, joints, gaps;
-// where they contradict each other, the fit divides the violation among them. Each round queries
-// the gaps (hand_spheres.hpp), linearises and solves (engine/math/penalty_quadratic.hpp). Sources:
-// Santello, Flanders, Soechting, Postural hand synergies for tool use, 1998 (fingers bend alike);
-// Rijpkema, Girard, Computer animation of knowledge-based human grasping, 1991 (2/3). The weights
-// follow 694 labels of posed hands (docs/decisions).
+// A finger whose angles are fixed (HandFitGoal::is_fixed) has no fan and no alike term with its
+// neighbours. pull(x) = x^2 / (1 + x^2 / g^2) is bounded by g^2, so distant surfaces hardly attract
+// a digit; g = k_let_go_m; l = k_fit_lever_m. Hinges q1, q2, q3 are numbered from the knuckle. Gaps
+// beyond the reach of their sphere do not count (hand_spheres.hpp); tips have a larger reach. Costs
+// are half of these sums. The inequalities are penalties, stiffer in this order: bends, directions,
+// claw, palm, joints, gaps; if they contradict each other, the fit divides the violation among
+// them. Each round queries the gaps (hand_spheres.hpp), linearises and solves
+// (engine/math/penalty_quadratic.hpp). Sources: Santello, Flanders, Soechting, Postural hand
+// synergies for tool use, 1998 (fingers bend alike); Rijpkema, Girard, Computer animation of
+// knowledge-based human grasping, 1991 (2/3). The weights follow 694 labels of posed hands
+// (docs/decisions).
 namespace handhold {
 
 inline constexpr double k_fit_arm_m = 0.05;
@@ -58,8 +61,8 @@ inline constexpr double k_max_bend_rad = 2.75;
 inline constexpr double k_claw_rad = 20.0 * k_degree;
 
 struct HandFitGoal {
-    HandPose first;  // where the rounds start; from the closing, or last frame's fit
-    // Angles from the closing, which stated the digits' contacts.
+    HandPose first;  // where the rounds start: the closing's result, or the last fit's
+    // Angles from the closing. Only a thumb's opposition is read.
     std::array<FingerAngles, k_finger_count> closed;
     std::array<bool, k_finger_count> touches = {};  // the closing found a contact
     // `first` is known to be outside solids (see HandSpheres)
@@ -73,13 +76,14 @@ struct HandFitGoal {
 struct HandFit {
     HandPose pose;               // pose of the cheapest round; `first` if none was cheaper
     double cost = 0.0;           // value of the objective, m^2
-    double penetration_m = 0.0;  // depth of the deepest sphere, >= 0
-    // By finger: smallest gap, below 0 if penetrating; infinity: nothing within reach.
+    double penetration_m = 0.0;  // depth of the deepest sphere, palm included; >= 0
+    // By digit: smallest gap, below 0 if penetrating; infinity: nothing within reach.
     std::array<double, k_finger_count> gap_m = {};
-    bool is_converged = false;  // the last round gained nothing
+    bool is_converged = false;  // the last round did not lower the cost; true without rounds
 };
 
-// Deterministic. `rows` is scratch memory; it allocates once. Never costs more than `goal.first`.
+// Deterministic. `rows` is scratch memory; it allocates once. The result never costs more than
+// `goal.first`.
 // Precondition: the hand has meshes, and `surface` is on the first one.
 HandFit fit_hand(const HandSurroundings& hand, const GripSurface& surface, const HandFitGoal& goal,
                  const PalmTuning& tuning, std::vector<PenaltyRow>& rows);

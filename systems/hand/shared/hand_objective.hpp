@@ -27,12 +27,13 @@ class HandObjective {
 
     // Builds the problem at `pose` and returns its cost there.
     double evaluate(const HandPose& pose);
-    // Solves the problem that evaluate() built. No angle changes by more than goal.max_flex_rad;
-    // what the goal fixes does not change.
+    // Solves the problem that evaluate() built and returns the change of the unknowns. Call it once
+    // per evaluate(). goal.max_flex_rad and what the goal fixes are penalties here, so the result
+    // may exceed them slightly: the caller clamps it.
     Unknowns solve();
 
     const HandUnknowns& layout() const { return layout_; }
-    // The rest is as of the last evaluate(). Centre of the palm; _bs.
+    // These three are as of the last evaluate(). center(): of the palm, in the body's frame.
     const Vec3& center() const { return center_; }
     double gap_m(std::size_t f) const { return spheres_.gap_m(f); }
     double penetration_m() const { return spheres_.penetration_m(); }
@@ -55,9 +56,10 @@ class HandObjective {
     // Adds the terms between neighbours: fingers next to each other in the rig, not counting
     // thumbs.
     void add_neighbours();
-    // The weight s of hand_fit.hpp for one finger: 0 in contact, towards 1 far off.
+    // The weight s of hand_fit.hpp for one finger: 0 in contact, towards 1 far from all surfaces.
     double free_share(std::size_t f) const;
-    // A finger whose angles are kept, like a pointing one, has no terms with its neighbours.
+    // Adds fan, alike and apart. A finger whose angles are fixed, like a pointing one, has only the
+    // apart inequalities with its neighbours.
     void add_neighbour(std::size_t a, std::size_t b);
     void add_alike(std::size_t a, std::size_t b);
     // Sum of the pose's curls, weighted by `slope`.

@@ -11,9 +11,12 @@
 namespace handhold {
 namespace {
 
-constexpr double k_spacing_m = 0.018;          // largest distance between spheres of one link
-constexpr double k_extra_gap_m = 0.005;        // links farther away need no extra sphere
-constexpr double k_max_depth_inside_m = 0.03;  // centres deeper inside a solid are not found
+// Largest distance between spheres of one link, of links up to k_max_pieces times this.
+constexpr double k_spacing_m = 0.018;
+constexpr double k_extra_gap_m = 0.005;  // links farther away need no extra sphere
+// Centres deeper inside a solid have no gap, or count as outside unless they were inside at their
+// last search.
+constexpr double k_max_depth_inside_m = 0.03;
 
 double query_radius_m(const HandSphere& sphere) {
     const double reach_m = sphere.is_tip ? k_tip_reach_m : k_sphere_reach_m;
@@ -106,8 +109,8 @@ std::array<double, k_finger_count + 1> HandSpheres::keep_gaps_m(
 }
 
 void HandSpheres::query(const HandPose& pose, const HandLinkFrames& frames) {
-    const HandSphere* nearest = nullptr;   // nearest sphere of the present capsule
-    const HandSphere* previous = nullptr;  // searched last
+    const HandSphere* nearest = nullptr;   // sphere of the present capsule with the smallest gap
+    const HandSphere* previous = nullptr;  // sphere that was searched last
     const auto keep_m = keep_gaps_m(pose, frames);
     for (std::size_t i = 0; i < count_; ++i) {
         HandSphere& sphere = spheres_[i];
@@ -183,8 +186,8 @@ void HandSpheres::query_extra(const HandSphere& nearest, HandSphere& extra, cons
     query_sphere(extra, center, &nearest, false);
 }
 
-// Side of the gripped mesh on which the centre is: 1 outside, -1 inside. Called before the distance
-// is known.
+// Side of the gripped mesh on which the centre is: 1 outside, -1 inside. `is_below`: it is clearly
+// below its nearest triangle. Reads the sphere's last search.
 double HandSpheres::side_of_gripped(const HandSphere& sphere, const Vec3& center, bool is_below,
                                     bool is_first) const {
     if (is_first) {

@@ -18,7 +18,8 @@ struct HandPose {
     std::array<FingerAngles, k_finger_count> fingers;  // indexed like HandRig::fingers
 };
 
-// Frames of all links in the frame of the wrist's parent: hinge at the origin, -Z along the link.
+// Frames of all links in the frame in which the wrist is given: hinge at the origin, -Z along the
+// link.
 using HandLinkFrames = std::array<std::array<Pose, k_max_links>, k_finger_count>;
 HandLinkFrames link_frames(const HandRig& rig, const HandPose& pose);
 
@@ -46,10 +47,13 @@ struct HandSphere {
     std::uint32_t triangle = k_no_triangle;
 };
 
+// True for the sphere at the base of a digit.
 bool is_knuckle(const HandSphere& sphere);
 
 inline constexpr double k_keep_travel_m = 1.2e-3;  // travel of a centre whose gap is kept
-// Gaps up to this are reported. A digit's tip can be far from a surface that its base touches.
+// Gaps up to this are found. Thin spheres find slightly larger gaps too, because every query
+// reaches a minimum distance from the centre. A digit's tip can be far from a surface that its base
+// touches.
 inline constexpr double k_sphere_reach_m = 0.02;
 inline constexpr double k_tip_reach_m = 0.06;
 
@@ -62,29 +66,33 @@ class HandSpheres {
         4 * k_max_palm_capsules;
 
     // `is_clear`: by finger, the first queried pose is known to be outside every solid, whatever
-    // the meshes' windings say. Keeps a reference to `hand`. Precondition: the hand has meshes, and
-    // its rig at most k_max_palm_capsules.
+    // the meshes' windings say. Keeps a reference to `hand`. Preconditions: `surface` is on the
+    // hand's first mesh; the rig has at most k_max_palm_capsules.
     HandSpheres(const HandSurroundings& hand, const GripSurface& surface,
                 const std::array<bool, k_finger_count>& is_clear);
 
-    // Computes all gaps at a pose. A sphere that has moved less than k_keep_travel_m since its last
-    // search, or cannot be the nearest of its digit, is not searched: its last gap is corrected by
-    // its movement along `away`. At the first call, a centre is inside a solid if it is below the
-    // plane of its nearest triangle. Later a centre changes sides only if its path since the last
-    // call crosses a surface of the gripped mesh: windings of open or broken meshes cannot flip a
-    // finger through a wall.
+    // Computes all gaps at a pose. A sphere is not searched again if it has moved less than
+    // k_keep_travel_m since its last search, or if it is surely neither close to a surface nor the
+    // nearest of its digit (tips excepted). Its last gap is then corrected by its movement along
+    // `away`.
+    //
+    // A centre is inside a solid if it is far enough below the plane of its nearest triangle. On
+    // the gripped mesh this counts at the first call only. Later a centre changes sides only if its
+    // path since its last search crosses a surface of that mesh: windings of open or broken meshes
+    // cannot flip a finger through a wall.
     void query(const HandPose& pose, const HandLinkFrames& frames);
 
     std::span<const HandSphere> all() const { return {spheres_.data(), count_}; }
     // The sphere of a digit with the smallest gap, knuckles left out; null: none in reach.
     const HandSphere* nearest(std::size_t finger) const;
-    double penetration_m() const;            // depth of the deepest sphere, >= 0
-    double gap_m(std::size_t finger) const;  // smallest of a digit; infinity: none in reach
+    double penetration_m() const;  // depth of the deepest sphere, >= 0
+    // Smallest gap of a digit, knuckles included; infinity: no surface in reach.
+    double gap_m(std::size_t finger) const;
 
   private:
     void add(const HandSphere& sphere) { spheres_[count_++] = sphere; }
     // For each digit, and last for the palm: spheres whose gap is surely larger than this keep
-    // their last gap, because they cannot be the nearest.
+    // their last gap. They are not the nearest of their digit and need no extra sphere.
     std::array<double, k_finger_count + 1> keep_gaps_m(const HandPose& pose,
                                                        const HandLinkFrames& frames) const;
     // `near_sphere`: a sphere nearby, whose triangle bounds the search.

@@ -8,8 +8,9 @@
 
 namespace handhold {
 
-// Which unknown is which in the fit of a hand: 0 to 2 translation, 3 to 5 rotation vector about the
-// palm's centre, then each finger's hinges, followed by its opposition angle if it has one.
+// Indices of the unknowns in the fit of a hand: 0 to 2 are the translation and 3 to 5 the rotation
+// vector about the palm's centre. Then come each digit's hinges, followed by its opposition angle
+// if it has one.
 class HandUnknowns {
   public:
     explicit HandUnknowns(const HandRig& rig);
@@ -21,7 +22,7 @@ class HandUnknowns {
     std::size_t count() const { return count_; }
     int end() const { return static_cast<int>(count_); }
 
-    // Coefficients of the finger's total bend: `sign` for each of its hinges.
+    // Coefficients of the finger's total bend (sum of its hinges): `sign` for each hinge.
     Unknowns bend(std::size_t finger, double sign) const;
     // Coefficients of the direction from the knuckle to the tip of a nearly straight finger: for
     // each hinge, `sign` times the share of its angle by which that direction turns (length beyond

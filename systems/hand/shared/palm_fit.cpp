@@ -112,9 +112,9 @@ void add_limits(const HandSurroundings& hand, const GripSurface& surface, const 
     }
 }
 
-// Queries the gaps between the palm and the surfaces near it. Spheres along the palm's capsules
-// approximate the palm. A triangle's winding tells which side is outside. On the gripped mesh the
-// sides are swapped if the palm is fitted to a backface.
+// Queries the gaps between the palm with its open fingers and the surfaces near it. Three spheres
+// along each capsule approximate the hand. A triangle's winding tells which side is outside. On the
+// gripped mesh the sides are swapped if the palm is fitted to a backface.
 class PalmSpheres {
   public:
     PalmSpheres(const HandSurroundings& hand, const GripSurface& surface) : hand_(hand) {

@@ -6,8 +6,8 @@
 #include "components/hand_surroundings.hpp"
 #include "components/tuning.hpp"
 
-// Fits a palm to a surface: applies its height and tilt limits and depenetrates it. search_grip
-// evaluates candidates with it. Talk row 16.
+// Fits a palm to a surface: moves it into its height and tilt limits and depenetrates it.
+// search_grip evaluates candidates with it. Talk row 16.
 namespace handhold {
 
 struct PalmFit {
@@ -20,9 +20,11 @@ struct PalmFit {
 // Finds the smallest correction of the tracked wrist that brings the palm within its limits over
 // `surface`, without penetration:
 //
-// 1. Limits: moves the palm along the normal into [min_height_m, max_height_m], then tilts
-//    it about its centre to at most max_angle_rad.
-// 2. Depenetration, if capsules of the palm penetrate: repeatedly solves the linearised problem
+// 1. Limits: moves the palm parallel to the triangle's plane until it is over the triangle, then
+//    along the normal into [min_height_m, max_height_m], then tilts it about its centre to at most
+//    max_angle_rad.
+// 2. Depenetration, if capsules of the palm or of open fingers penetrate: solves in each of at most
+//    6 iterations the linearised problem
 //      minimise |t|^2 + (arm |r|)^2   subject to   gap_i + a_i . t + b_i . r >= 0
 //    where t is the translation and r the rotation vector about the palm's centre, and arm is
 //    PalmTuning::rotation_arm_m. gap_i is the distance of one of the palm's spheres from a surface,
@@ -30,7 +32,8 @@ struct PalmFit {
 //
 // Open fingers, without the thumb, are part of the palm's collision shape: a finger that closes
 // starts there. A fit that penetrates deeper than `max_penetration_m` after 2 iterations is
-// abandoned. Precondition: the hand has meshes, and `surface` is on the first mesh.
+// abandoned: the result is the best pose so far. Precondition: the hand has meshes, and `surface`
+// is on the first mesh.
 PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, const PalmTuning& tuning,
                  double max_penetration_m = std::numeric_limits<double>::infinity());
 

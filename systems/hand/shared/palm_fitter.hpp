@@ -32,7 +32,8 @@ class PalmFitter {
   public:
     using Candidate = GripSearchScratch::Candidate;
 
-    // `wrist_bs` is the tracked wrist.
+    // `wrist_bs`: the wrist at which palm() is; the tracked one, or that of an authored grip. fit()
+    // always starts at the hand's tracked wrist.
     PalmFitter(const HandSurroundings& hand, const Pose& wrist_bs, const PalmTuning& tuning);
 
     const HandSurroundings& hand() const { return hand_; }
@@ -50,8 +51,8 @@ class PalmFitter {
     // For a backface: true if a palm on it would be inside a solid, that is, if a ray from the
     // triangle towards the palm first hits another triangle from inside.
     bool is_inside(const Candidate& candidate) const;
-    // True if the straight path from the tracked palm to the fitted one enters the mesh more often
-    // than it leaves it.
+    // True if the straight path from palm() to the fitted palm enters the first mesh more often
+    // than it leaves it, or crosses it more than 32 times.
     bool enters_solid(const FittedPalm& held) const;
     // Returns how deep the palm penetrates surfaces that cross the axis of one of its capsules; 0
     // if none does. For one crossing this is the capsule's radius plus the distance from the

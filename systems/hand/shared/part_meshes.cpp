@@ -51,7 +51,7 @@ const GripMesh* PartMeshes::find(const PartCapsule& capsule) const {
 }
 
 Pose PartMeshes::frame_of_mesh(const PartCapsule& capsule) {
-    // Bones lie along -Y or -Z.
+    // Bones lie along Y or Z of their part. The mesh's capsule lies along Y.
     const bool along_z = std::abs(capsule.end_bs.z()) > std::abs(capsule.end_bs.y());
     return {0.5 * capsule.end_bs,
             along_z ? rotation_about(Vec3::UnitX(), k_half_pi) : Quat::Identity()};

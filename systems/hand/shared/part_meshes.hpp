@@ -31,10 +31,11 @@ class PartMeshes {
     void drop_if_many();
     // Builds the capsule's mesh if it is missing. Not for several threads at once.
     void add(const PartCapsule& capsule);
-    // Null if it was not added.
+    // Null if no capsule of this size was added.
     const GripMesh* find(const PartCapsule& capsule) const;
     std::size_t size() const { return mesh_of_size_.size(); }  // number of meshes
-    // The mesh's frame in the part's: its origin is the middle of the axis.
+    // The mesh's frame in the part's frame: the origin is the middle of the capsule's axis, +Y
+    // along it.
     static Pose frame_of_mesh(const PartCapsule& capsule);
 
   private:

@@ -15,21 +15,23 @@ namespace handhold {
 // Chooses the candidate with the smallest full cost:
 //   cost = sync + placement
 //        + (without clearance) 12 * palm penetration + 9 * finger penetration
-// sync is the movement of the fitted, depenetrated palm (FittedPalm::sync_m). placement is a
-// penalty for backfaces and for palms inside a solid. Candidates are evaluated in the order of
-// their closed-form costs (cost_of), which rarely exceed the full costs, as long as the closed-form
-// cost is below the best full cost.
+// sync is the movement of the fitted, depenetrated palm (FittedPalm::sync_m). placement is the sum
+// of the penalties for backfaces, for palms inside a solid and for paths into a solid. A palm has
+// clearance if it and its open fingers penetrate no deeper than the tolerances of palm_fitter.hpp.
+// Candidates are evaluated in the order of their closed-form costs (cost_of), which rarely exceed
+// the full costs, as long as the closed-form cost is below the best full cost.
 //
 // Keeps references to its constructor arguments.
 class SurfaceCandidates {
   public:
-    static constexpr std::size_t k_max_count = 14;
+    static constexpr std::size_t k_max_count = 14;  // maximum number of evaluated candidates
 
     SurfaceCandidates(const PalmFitter& fitter, SurfaceSearch& search, const PalmTuning& tuning);
 
-    // Returns the best surface; call once. The surface of `last` is the first candidate. The
-    // result's triangle is k_none if there is no surface within reach. Precondition: last.triangle
-    // is k_none or a triangle of this mesh.
+    // Returns the best surface; call once. The first candidate is the place of `last` if the search
+    // visits it, else the triangle with the smallest closed-form cost. The result's triangle is
+    // k_none if there is no surface within reach. Precondition: last.triangle is k_none or a
+    // triangle of this mesh.
     GripSurface best(const GripSurface& last);
 
   private:
@@ -54,7 +56,7 @@ class SurfaceCandidates {
     const PalmTuning& tuning_;
     Evaluated best_;
     bool has_best_ = false;
-    // The palm may have crossed the first candidate's surface, so backfaces are evaluated as well.
+    // True if the palm may have crossed the first candidate's surface: backfaces are evaluated too.
     bool allows_backfaces_ = false;
 };
 

@@ -54,11 +54,12 @@ class SurfaceSearch {
 
     // Ignores triangles that the graph does not have.
     void add_seed(std::uint32_t triangle);
-    // Continues until `max_idle_pops` consecutive pops have found no cheaper triangle. Can be
-    // called again.
+    // Continues until `max_idle_pops` consecutive pops have found no cheaper triangle, until no
+    // triangle within reach is left, or until k_max_pops. Can be called again.
     void run(std::uint32_t max_idle_pops);
 
-    // Returns the cheapest visited triangle that is not a duplicate place of any in `excluded`.
+    // Returns the cheapest visited triangle that is not a duplicate place of any in `excluded`;
+    // nullopt: there is none.
     std::optional<Candidate> cheapest_excluding(std::span<const Candidate> excluded) const;
     // Appends the result of cheapest_excluding() to the first `count` candidates. Repeats this
     // while the result costs less than max_cost_m and `candidates` has space. Returns the new
@@ -66,7 +67,7 @@ class SurfaceSearch {
     std::size_t append_cheapest_excluding(std::span<Candidate> candidates, std::size_t count,
                                           double max_cost_m) const;
     // Returns the cheapest visited triangle that is a duplicate place of the point `other` on
-    // `other_triangle`.
+    // `other_triangle`; nullopt: there is none.
     std::optional<Candidate> cheapest_near(const Vec3& other, std::uint32_t other_triangle) const;
 
   private:

@@ -52,8 +52,8 @@ class ThumbCloser {
                                std::span(capsules).first(closing_.thumb.link_count));
     }
 
-    // Opens a thumb that crosses fingers, all hinges by the same share, until it is clear of them.
-    // Returns false if it is never clear.
+    // Opens a thumb that crosses fingers, all hinges by the same share, until it is clear of them,
+    // and returns true. Returns false if it does not cross any, or is never clear.
     bool stop_at_fingers(ClosedThumb& closed) const {
         constexpr int k_steps = 8;
         constexpr double k_clear_of_fingers_m = 1e-3;

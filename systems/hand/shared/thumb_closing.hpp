@@ -19,8 +19,9 @@ struct ClosingThumb {
 
 struct ClosedThumb {
     double opposition_rad = 0.0;
-    ChainFit fit;  // fit that counts the visits of all oppositions
-    bool touches = false;
+    // The best fit. Its counters (discs, pops, walked) are sums over all oppositions.
+    ChainFit fit;
+    bool touches = false;  // a surface stops the thumb
 };
 
 // Closes the thumb like a finger at ThumbTuning::opposition_steps angles and returns the cheapest:
@@ -28,8 +29,8 @@ struct ClosedThumb {
 //        + open_cost_m, if it touches nothing
 //        + tip_gap_cost * tip gap
 //        + opposition_cost_m_per_rad * |opposition - rest_opposition_rad|
-// At each opposition, the thumb may also stop where it meets a finger. If costs are equal, the
-// angle nearest to the rest pose wins.
+// At each opposition, a thumb that crosses fingers is evaluated a second time, opened until it is
+// clear of them. If costs are equal, the angle nearest to the rest pose wins.
 ClosedThumb close_thumb(const ClosingThumb& closing, const ChainFitSettings& settings,
                         const ThumbTuning& tuning, ChainFitScratch& scratch);
 

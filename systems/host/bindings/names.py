@@ -46,12 +46,12 @@ def given(function: dict) -> list[dict]:
 
 
 def has_callbacks(struct: dict, callbacks: set[str]) -> bool:
-    """True for structs of functions that the library calls: what they point to must live as long."""
+    """True for structs of functions that the library calls: delegates and contexts must live as long as it may call them."""
     return any(part["type"] in callbacks for part in struct["fields"])
 
 
 def is_own_count(function: dict, param: dict) -> bool:
-    """True for an array that the function fills, whose length nothing but the caller knows."""
+    """True for an array that the function fills, whose length the caller must give: no other array of the call has it."""
     return "count" in param and not any(p.get("role") == "array" and p.get("count") == param["count"] for p in function["params"])
 
 

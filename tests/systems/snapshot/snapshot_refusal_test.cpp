@@ -223,7 +223,7 @@ TEST_F(SnapshotRefuses, RowsWithoutTheirCounterparts) {
     break_world("].count", [](World& w) {
         w.early_samples.add(w.player.owners()[0]).count = EarlySamples::k_capacity + 1;
     });
-    break_world("early_samples: expected at most 0 rows",
+    break_world("early_samples: expected at most 0 elements",
                 [](World& w) { w.early_samples.add(w.player.owners()[0]); });
     break_world(".shape: expected a shape of this world",
                 [](World& w) { w.collider.elements()[0].shape.index = 1000; });

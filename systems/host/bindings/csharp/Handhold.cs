@@ -80,7 +80,7 @@ namespace Handhold {
         private static Action<LogLevel, string> log;
         private static readonly HostHooksLog logCallback = Log;
 
-        /// <summary>The library's log goes to `heard` from now on; null: back to the standard error output. HH_ERROR_STATE while a world exists.
+        /// <summary>The library's log goes to `heard` from now on; null: there is no log. HH_ERROR_STATE while a world exists.
         /// Other hooks are reset. `heard` may be called by any thread that calls the library.</summary>
         public static void SetLog(Action<LogLevel, string> heard) {
             RequireVersion();

@@ -59,10 +59,10 @@ namespace Handhold {
 
     /// <summary>What receives the impulses of constraints, index of hh_momentum's arrays.</summary>
     public enum MomentumReceiver {
-        /// <summary>dynamic ones</summary>
+        /// <summary>dynamic bodies</summary>
         Bodies = 0,
         Players = 1,
-        /// <summary>that hands moved bodies with, without pushing the player back</summary>
+        /// <summary>impulses of hands on bodies that did not push the player back</summary>
         Discarded = 2,
         /// <summary>static and kinematic bodies</summary>
         Statics = 3,
@@ -78,17 +78,17 @@ namespace Handhold {
         Dynamic = 2,
     }
 
-    /// <summary>Each has a coordinate, which limits, friction, detents and latches act on.</summary>
+    /// <summary>Each kind has a coordinate, on which limits, friction, detents and latches act.</summary>
     public enum JointKind {
-        /// <summary>points coincide; the angle between both axes, a cone, rad</summary>
+        /// <summary>points coincide; coordinate: angle between the axes, rad; limits: a cone</summary>
         Ball = 0,
-        /// <summary>turns about the axis, rad</summary>
+        /// <summary>turns about the axis; coordinate: angle, rad</summary>
         Hinge = 1,
-        /// <summary>moves along the axis, m</summary>
+        /// <summary>moves along the axis; coordinate: displacement, m</summary>
         Slider = 2,
         /// <summary>no coordinate</summary>
         Fixed = 3,
-        /// <summary>distance of two points, m; lower 0: a rope; equal limits: a rod</summary>
+        /// <summary>coordinate: distance of two points, m; lower 0: a rope; equal limits: a rod</summary>
         Distance = 4,
     }
 
@@ -105,7 +105,7 @@ namespace Handhold {
     }
 
     public enum EventKind {
-        /// <summary>The palm of an empty hand came within 2 cm of a body or player.</summary>
+        /// <summary>The palm of an empty, tracked hand came within 2 cm times the player's scale of a body or of another player's head.</summary>
         Touched = 0,
         /// <summary>a hand grips</summary>
         Grabbed = 1,
@@ -115,7 +115,7 @@ namespace Handhold {
         Refused = 3,
         /// <summary>a hand lost its grip: `reason`</summary>
         Slipped = 4,
-        /// <summary>the player's head, or what a hand holds, hits a body</summary>
+        /// <summary>The player's head, or what a hand holds, hits a body or another player's head.</summary>
         ContactBegan = 5,
         ContactEnded = 6,
         /// <summary>of `joint`</summary>
@@ -143,7 +143,7 @@ namespace Handhold {
         TrackingLost = 6,
         /// <summary>the body was removed</summary>
         BodyGone = 7,
-        /// <summary>hh_hand_release, hh_hand_grip or a teleport</summary>
+        /// <summary>hh_hand_release, hh_hand_grip, hh_hand_hold, hh_body_set_shape or a teleport</summary>
         ByHost = 8,
         /// <summary>the other of two hands on a body let go</summary>
         OtherHand = 9,
@@ -284,7 +284,7 @@ namespace Handhold {
         public Quat rotation;
     }
 
-    /// <summary>How far each finger is bent, by thumb, index, middle, ring, little: 0 straight, 1 as in a fist. Below 0 or NaN: unknown; above 1: as 1.</summary>
+    /// <summary>How far each finger is bent: thumb, index, middle, ring, little. 0: straight; 1: as in a fist; above 1: as 1; below 0 or NaN: unknown.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct FingerCurls {
         public DoubleArray5 fingers;
@@ -359,7 +359,7 @@ namespace Handhold {
         public override int GetHashCode() => (int)(index * 2654435761u ^ generation);
     }
 
-    /// <summary>Functions of the host that the library uses. Null functions: the library's own. Memory comes from the global operator new, which a program may replace as usual; the shared library and the standard library inside it then use the replacement too, once per process. Apart from that a world's blocks are taken and given back by the threads that call it, and by those of parallel_for: a replacement with an arena a thread gives each world its own. A host that uses Bullet needs its double-precision build, and sets btAlignedAllocSetCustom before the first world.</summary>
+    /// <summary>Functions of the host that the library uses. Null functions are not called; without parallel_for the library has its own threads. Memory comes from the global operator new, which a program may replace as usual; the shared library and the standard library inside it then use the replacement too, once per process. Apart from that a world's blocks are taken and given back by the threads that call it, and by those of parallel_for: a replacement with an arena a thread gives each world its own. A host that uses Bullet needs its double-precision build, and sets btAlignedAllocSetCustom before the first world.</summary>
     /// <remarks>For Native: keep the delegates of all functions alive while the library may call them, and make them static methods with
     /// MonoPInvokeCallback for IL2CPP. World.SetSurfaces and Library.SetLog do both.</remarks>
     [StructLayout(LayoutKind.Sequential)]
@@ -389,7 +389,7 @@ namespace Handhold {
         public uint struct_size;
         /// <summary>Fingers and palms close on what they grip. Default true. Without it no shape needs a grip mesh, hands are shown as tracked, and meshes are added faster: for servers.</summary>
         public Flag fits_hands;
-        /// <summary>HH_EVENT_TOUCHED is reported: one query a hand and step. Default true.</summary>
+        /// <summary>HH_EVENT_TOUCHED is reported: one query a step for each empty hand. Default true.</summary>
         public Flag reports_touches;
         /// <summary>of dynamic bodies; default 0. Each axis within 1e4</summary>
         public Vec3 gravity_mps2;
@@ -408,7 +408,7 @@ namespace Handhold {
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct TrackingSample {
         public uint struct_size;
-        /// <summary>On the world's clock: hh_world_time plus the step for a sample at the step's end. Later than the sample before, else it is ignored and counted as sample_out_of_order. More than 0.5 s after the step's end: dropped and counted as sample_too_far_ahead; more than 0.5 s before its start: counted as sample_too_old. If all of a step's samples are so far off, the log is told once that they are on another clock.</summary>
+        /// <summary>On the world's clock: hh_world_time plus the step for a sample at the step's end. A sample that is not later than the one before is ignored and counted as sample_out_of_order. More than 0.5 s after the step's end, it is dropped and counted as sample_too_far_ahead, unless hh_player_input.repeats_samples; more than 0.5 s before the step's start, it is counted as sample_too_old. If all samples of a player in a step are so far off, the log is told, once per world, that they are on another clock. hh_world_step_pose_only takes any times.</summary>
         public double time_s;
         /// <summary>between the eyes, in play space: the frame that the tracking is given in</summary>
         public HhPose head;
@@ -424,11 +424,11 @@ namespace Handhold {
         public DoubleArray2 squeeze;
         /// <summary>How far the index finger's trigger is pressed, [0, 1]: bends the index finger of an empty hand, and the fingers of authored grips that follow the trigger.</summary>
         public DoubleArray2 trigger;
-        /// <summary>True if the runtime only guesses the head's position: OpenXR's POSITION_VALID without POSITION_TRACKED, WebXR's emulatedPosition, a low confidence. Default false; true counts before head_tracked. The head follows the guess, but while a hand grips what the player can pull on, only its rotation does.</summary>
+        /// <summary>True if the runtime only guesses the head's position: OpenXR's POSITION_VALID without POSITION_TRACKED, WebXR's emulatedPosition, a low confidence. Default false; true overrides head_tracked. The head follows the guess, but while a hand grips what the player can pull on, only its rotation does.</summary>
         public Flag head_inferred;
-        /// <summary>The same of the hands, before hand_tracked. An inferred hand does not grip, and never moves a player who grips: it stays where it was last measured. Opening `grab` lets go, without a throw. The shown empty hand follows the guess. Once measured again, the hand may be elsewhere: it did not travel.</summary>
+        /// <summary>The same for the hands; true overrides hand_tracked. An inferred hand does not begin to grip, and never moves a player who grips: it stays where it was last measured. Opening `grab` lets go, without a throw. The shown empty hand follows the guess. When the hand is measured again, its displacement since does not count as travel.</summary>
         public FlagArray2 hand_inferred;
-        /// <summary>Bends the fingers of an empty hand, before squeeze and trigger; default unknown. By gloves, or from joints by hh_finger_curls_of.</summary>
+        /// <summary>Bend of the fingers of an empty hand; known curls override squeeze and trigger. Default unknown. Measured by gloves, or made from joints by hh_finger_curls_of.</summary>
         public FingerCurlsArray2 curls;
 
         /// <summary>The library's defaults.</summary>
@@ -439,7 +439,7 @@ namespace Handhold {
         }
     }
 
-    /// <summary>What a player asks for in one step. All zero: nothing. Grows with hh_player_input, of which it is the last field: later versions add fields whose 0 means nothing, too.</summary>
+    /// <summary>What a player asks for in one step. All zero: nothing. Grows with hh_player_input, of which it is the last field. In the fields of later versions, too, 0 will ask for nothing.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct Commands {
         /// <summary>[-1, 1], positive turns left</summary>
@@ -459,10 +459,10 @@ namespace Handhold {
     public unsafe partial struct PlayerInput {
         public uint struct_size;
         public Player player;
-        /// <summary>Sorted by time: those since the last step. Give each once. Up to 64 may be later than this step's end, by at most 0.5 s, as predicted poses are: the poses at the end are then interpolated, and each sample is kept for the step of its time, also if that step has no input. A sample replaces those kept of its time or later. None: the devices are silent but for samples that were kept.</summary>
+        /// <summary>The samples since the last step, sorted by time. Give each once. Up to 64 may be later than this step's end, by at most 0.5 s, as predicted poses are: the poses at the end are then interpolated, and each sample is kept for the step of its time, even if that step has no input. A new sample replaces kept samples of the same time or later. None: the devices are silent, except for kept samples.</summary>
         public TrackingSample* samples;
         public UIntPtr sample_count;
-        /// <summary>The host gives a sample that is later than the step's end again in the next step, so the world keeps none; and a sample's time is taken to the bit, where otherwise a microsecond after the end counts as the end. For hosts that have the whole stream: recordings, rollback. Default 0.</summary>
+        /// <summary>True: the host gives a sample that is later than the step's end again in the next step, so the world keeps none, and sample times are exact. False, the default: up to a microsecond after the step's end counts as the end. For hosts that have the whole stream: recordings, rollback.</summary>
         public Flag repeats_samples;
         public Commands commands;
 
@@ -500,11 +500,11 @@ namespace Handhold {
         public double hand_error_m;
         /// <summary>worst contact overlap at the end</summary>
         public double overlap_m;
-        /// <summary>worst joint</summary>
+        /// <summary>largest position error of a joint</summary>
         public double joint_error_m;
         /// <summary>sum of all stages</summary>
         public double step_us;
-        /// <summary>worst direction or angle of a joint beyond its limit</summary>
+        /// <summary>largest error of a joint's direction, or angle beyond a limit</summary>
         public double joint_error_rad;
         /// <summary>islands in which something pushed a player back</summary>
         public ulong islands_pushed;
@@ -512,7 +512,7 @@ namespace Handhold {
         public ulong contact_rounds;
         /// <summary>hands that closed</summary>
         public ulong hands_closed;
-        /// <summary>those of them that gripped something</summary>
+        /// <summary>grips that began</summary>
         public ulong hands_gripped;
         public Momentum momentum;
 
@@ -538,7 +538,7 @@ namespace Handhold {
         public double high;
         /// <summary>1 or 3</summary>
         public UIntPtr count;
-        /// <summary>true: times hh_player_def.scale for that player</summary>
+        /// <summary>true: each player has the number times hh_player_def.scale</summary>
         public Flag scales;
 
         /// <summary>The library's defaults.</summary>
@@ -555,7 +555,7 @@ namespace Handhold {
         public Shape shape;
         /// <summary>in the compound's frame</summary>
         public HhPose pose;
-        /// <summary>of all parts, or 0 for all: by volume</summary>
+        /// <summary>give it for all parts, or 0 for all: the mass is then spread by volume</summary>
         public double mass_kg;
     }
 
@@ -597,7 +597,7 @@ namespace Handhold {
         public Vec3 angular_velocity_radps;
         /// <summary>dynamic: [1e-12, 1e15], default 1</summary>
         public double mass_kg;
-        /// <summary>About the principal axes; 0: computed from the shape, if there is one.</summary>
+        /// <summary>About the principal axes; 0: computed from the shape. A dynamic body without a shape needs one: HH_ERROR_VALUE.</summary>
         public Vec3 inertia_kgm2;
         /// <summary>[0, 1]</summary>
         public double restitution;
@@ -649,13 +649,13 @@ namespace Handhold {
         public double friction;
         /// <summary>a rest position at each multiple; 0: none</summary>
         public double detent_spacing;
-        /// <summary>N or N m</summary>
+        /// <summary>force towards the nearest rest position, N or N m</summary>
         public double detent_strength;
-        /// <summary>the coordinate is locked when it comes near this</summary>
+        /// <summary>the latch locks the coordinate at this</summary>
         public double latch_at;
-        /// <summary>closes within this distance; 0: no latch</summary>
+        /// <summary>the latch closes within this distance; 0: no latch</summary>
         public double latch_range;
-        /// <summary>opens above this force, N or N m; 0: never by force</summary>
+        /// <summary>the latch opens above this force, N or N m; 0: never by force</summary>
         public double latch_strength;
         /// <summary>a joint that opens it; null: none</summary>
         public HhJoint latch_handle;
@@ -748,11 +748,11 @@ namespace Handhold {
         public HhPose tracked;
         /// <summary>The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres from it, so that palm and fingers touch.</summary>
         public HhPose shown;
-        /// <summary>The wrist in the frame of what it grips (a body, or a part of a player), fixed when the hand closed.</summary>
+        /// <summary>The wrist in the frame of what it grips (a body, or a part of a player), from when the hand closed. The hand takes a new anchor after tracking errors, when the other hand of a shared grip lets go, and when the body's kind or mass changes.</summary>
         public HhPose anchor;
         /// <summary>Distance of the tracked wrist from the anchor: 0 unless something blocks it.</summary>
         public double error_m;
-        /// <summary>Impulse of the hand on what it grips in the last step, for haptics. 0 if the host's solver moved the player (hh_world_end_step): read it there. While hands move only light bodies, hands and contacts report at most the momentum that the players and bodies involved have, with the hands' speed on top.</summary>
+        /// <summary>Impulse of the hand on what it grips in the last step, for haptics. 0 if the host's solver moved the player (hh_world_end_step): read it there. While hands move only light bodies, the reported impulses of hands and contacts are limited to the momentum that the players and bodies involved have at their speeds plus the hands' speed.</summary>
         public Vec3 force_impulse_ns;
         /// <summary>false while the hand is lost or inferred</summary>
         public Flag is_tracked;
@@ -790,9 +790,9 @@ namespace Handhold {
         public Player other;
         /// <summary>contacts: what the hand holds; null: the head</summary>
         public Body held;
-        /// <summary>of latches and limits</summary>
+        /// <summary>whose latch or limit it is; null: none</summary>
         public HhJoint joint;
-        /// <summary>in the world</summary>
+        /// <summary>in the world: of the wrist, the contact, the joint or the head</summary>
         public Vec3 position;
         /// <summary>of a contact that began: &gt;= 0, for haptics and sound</summary>
         public double impulse_ns;
@@ -810,7 +810,7 @@ namespace Handhold {
     public unsafe partial struct Finger {
         /// <summary>false: the finger closes on the surface as usual</summary>
         public Flag is_posed;
-        /// <summary>of its hinges, from the palm</summary>
+        /// <summary>of its hinges, from the knuckle; each within pi</summary>
         public DoubleArray3 curl_rad;
         /// <summary>thumb</summary>
         public double opposition_rad;
@@ -850,7 +850,7 @@ namespace Handhold {
         }
     }
 
-    /// <summary>What a query found. Ignored, and counted as surface_answer_invalid: a body that is not in the world, numbers that are not finite, a normal of length zero.</summary>
+    /// <summary>What a query found. Ignored, and counted as surface_answer_invalid: a body that is not in the world, numbers that are not finite, a point beyond 1e9 m, a normal of length zero.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct SurfaceHit {
         public Body body;
@@ -1567,6 +1567,7 @@ namespace Handhold {
             Library.Check(Native.hh_set_thread_count(count));
         }
 
+        /// <summary>Number of threads of the library's own pool, the caller's included. Any thread.</summary>
         public static unsafe uint ThreadCount() {
             uint answer = Native.hh_thread_count();
             return answer;
@@ -1642,7 +1643,7 @@ namespace Handhold {
             return answer;
         }
 
-        /// <summary>A mesh in place: converts x, y, z of its vertices, and reverses its triangles if the engine's front faces are clockwise (Unity, Godot), so that they are counter-clockwise from outside. A mirrored object, of which the product of the scales is negative: multiply its vertices by the scale and reverse the indices before, since hh_shape_add_mesh takes positive scales only. HH_ERROR_VALUE, and no change, for counts that are no multiples of 3.</summary>
+        /// <summary>Converts a mesh in place: x, y, z of its vertices. Reverses its triangles if the engine's front faces are clockwise (Unity, Godot), so that they are counter-clockwise from outside. A mirrored object, of which the product of the scales is negative, needs nothing else: give its scale, from hh_convert_scale_from, to hh_shape_add_mesh, which takes negative factors. HH_ERROR_VALUE, and no change, for counts that are no multiples of 3.</summary>
         public static unsafe void ConvertMeshFrom(Engine engine, float[] coordinates, uint[] indices) {
             fixed (float* coordinates_at = coordinates) {
                 fixed (uint* indices_at = indices) {
@@ -1926,7 +1927,7 @@ namespace Handhold {
             return shape;
         }
 
-        /// <summary>1 to 64 parts that move as one. It keeps copies: the parts may be removed. Cost with fits_hands: of all its parts as if they were new.</summary>
+        /// <summary>1 to 64 parts that move as one. It keeps copies: the parts may be removed. Cost with fits_hands: as if all its parts were new shapes.</summary>
         public unsafe Shape ShapeAddCompound(CompoundPart[] parts) {
             Shape shape;
             Shape shape_at;
@@ -2063,19 +2064,19 @@ namespace Handhold {
             GC.KeepAlive(this);
         }
 
-        /// <summary>Dynamic bodies only, as are impulses: HH_ERROR_STATE.</summary>
+        /// <summary>Within 1e6 m/s and 1e4 rad/s. HH_ERROR_STATE for a body that is not dynamic.</summary>
         public unsafe void BodySetVelocity(Body body, Vec3 velocity_mps, Vec3 angular_velocity_radps) {
             Library.Check(Native.hh_body_set_velocity(Handle, body, velocity_mps, angular_velocity_radps));
             GC.KeepAlive(this);
         }
 
-        /// <summary>Changes the velocity by an impulse in N s at a point in the world.</summary>
+        /// <summary>Changes the velocity by an impulse in N s at a point in the world. HH_ERROR_STATE for a body that is not dynamic, HH_ERROR_VALUE if the velocity would leave the limits of hh_body_set_velocity.</summary>
         public unsafe void BodyApplyImpulse(Body body, Vec3 impulse_ns, Vec3 point) {
             Library.Check(Native.hh_body_apply_impulse(Handle, body, impulse_ns, point));
             GC.KeepAlive(this);
         }
 
-        /// <summary>At once, without collisions on the path. Keeps the velocity. Hands that grip it let go.</summary>
+        /// <summary>Moves a body at once, without collisions on the path. It keeps its velocity; hands that grip it let go.</summary>
         public unsafe void BodyTeleport(Body body, HhPose pose) {
             Library.Check(Native.hh_body_teleport(Handle, body, pose));
             GC.KeepAlive(this);
@@ -2111,7 +2112,7 @@ namespace Handhold {
             return kind;
         }
 
-        /// <summary>0 of a body that is not dynamic: nothing that acts on it moves it.</summary>
+        /// <summary>0 for a body that is not dynamic: nothing that acts on it moves it.</summary>
         public unsafe double BodyMass(Body body) {
             double mass_kg;
             double mass_kg_at;
@@ -2158,7 +2159,7 @@ namespace Handhold {
             return shape;
         }
 
-        /// <summary>The body touches with another shape from now on, or with none (null id: not for dynamic bodies, HH_ERROR_VALUE, as a mesh). Its pose, joints and grips stay as they are in the frame in which the host made the shapes, whatever their centres of mass; a dynamic body's inertia becomes that of the solid shape with the same mass. Hands whose palm is farther from the new surface than a closing hand reaches (hand.ray_length_m) let go in the next step: HH_EVENT_RELEASED, HH_REASON_BY_HOST. HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds; with a mesh that a hand grips, linear in its triangles, 0.1 ms for 5,000.</summary>
+        /// <summary>The body touches with another shape from now on, or with none (null id). A dynamic body needs a solid shape: HH_ERROR_VALUE for none or a mesh. The body's pose, joints and grips stay as they are in the frame in which the host made the shapes, whatever their centres of mass; a dynamic body's inertia becomes that of the solid shape with the same mass. Hands let go in the next step (HH_EVENT_RELEASED, HH_REASON_BY_HOST) if the body has no shape any more, or if their palm is farther from the new surface than a closing hand reaches: hand.ray_length_m minus hand.ray_back_m, or hand.reach_m if that is larger. HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds; with a mesh that a hand grips, linear in its triangles, 0.1 ms for 5,000.</summary>
         public unsafe void BodySetShape(Body body, Shape shape) {
             Library.Check(Native.hh_body_set_shape(Handle, body, shape));
             GC.KeepAlive(this);
@@ -2236,7 +2237,7 @@ namespace Handhold {
             return hit;
         }
 
-        /// <summary>First impact of a sphere that moves along the segment, radius within 1e4 m; distance_m: how far its centre has moved, 0 if it touches something at the start.</summary>
+        /// <summary>First impact of a sphere that moves along the segment. Radius in [1e-6, 1e4] m; distance_m: how far its centre has moved, 0 if it touches something at the start.</summary>
         public unsafe Hit CastSphere(double radius_m, Vec3 from, Vec3 to, Player skip) {
             Hit hit;
             Hit hit_at;
@@ -2303,7 +2304,7 @@ namespace Handhold {
             return players;
         }
 
-        /// <summary>The headset's runtime, or the host, has recentred: from the next sample on, poses are given in a space that lies at `new_in_old` in the space before (OpenXR: poseInPreviousSpace). Level: it turns about +Y only, within 0.001. View, hands and grips stay where they are in the world; hh_player_pose.origin changes at once, HH_EVENT_RECENTRED follows in the next step. From now on the host announces all recentrings, as after hh_player_set_recenter_guess(world, player, 0).</summary>
+        /// <summary>The headset's runtime, or the host, has recentred: from the next sample on, poses are given in a space that lies at `new_in_old` in the space before (OpenXR: poseInPreviousSpace). It turns about +Y only, else HH_ERROR_VALUE: x and z of the quaternion within 0.001. Before the player's first sample there is nothing to recentre. View, hands and grips stay where they are in the world; hh_player_pose.origin changes at once, HH_EVENT_RECENTRED follows in the next step. From now on the host announces all recentrings, as after hh_player_set_recenter_guess(world, player, 0).</summary>
         public unsafe void PlayerRecenter(Player player, HhPose new_in_old) {
             Library.Check(Native.hh_player_recenter(Handle, player, new_in_old));
             GC.KeepAlive(this);
@@ -2315,7 +2316,7 @@ namespace Handhold {
             GC.KeepAlive(this);
         }
 
-        /// <summary>The play space is there at once, at rest. Dynamic bodies in the hands that no joint holds come along; hands let go of everything else.</summary>
+        /// <summary>Moves the play space at once; it is then at rest relative to the scene. Dynamic bodies in the hands that no joint holds come along; hands let go of everything else, and hands of other players let go of this player and of those bodies.</summary>
         public unsafe void PlayerTeleport(Player player, HhPose origin) {
             Library.Check(Native.hh_player_teleport(Handle, player, origin));
             GC.KeepAlive(this);
@@ -2355,7 +2356,7 @@ namespace Handhold {
             return distance_m;
         }
 
-        /// <summary>The body mass that the player was added with.</summary>
+        /// <summary>hh_player_def.mass_kg.</summary>
         public unsafe double PlayerMass(Player player) {
             double mass_kg;
             double mass_kg_at;
@@ -2377,7 +2378,7 @@ namespace Handhold {
             GC.KeepAlive(this);
         }
 
-        /// <summary>The measures with the scale in them.</summary>
+        /// <summary>The measures times the player's scale, in the world's metres.</summary>
         public unsafe Measures PlayerMeasures(Player player) {
             Measures measures;
             Measures measures_at;
@@ -2387,7 +2388,7 @@ namespace Handhold {
             return measures;
         }
 
-        /// <summary>Replaces the measures. `measures`, not null.</summary>
+        /// <summary>Replaces the measures. `measures`, not null: times the player's scale, each in [0.05, 5] m times the scale.</summary>
         public unsafe void PlayerSetMeasures(Player player, Measures measures) {
             Library.Check(Native.hh_player_set_measures(Handle, player, &measures));
             GC.KeepAlive(this);
@@ -2407,14 +2408,14 @@ namespace Handhold {
             return user_data;
         }
 
-        /// <summary>The hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists with OpenXR's axes (-Z to the fingers, +Y the back of the hand). Null: a controller's grip pose, by the tuning's hand.controller_ numbers times the player's scale, which is the default. The given pose is used as it is.</summary>
+        /// <summary>Sets the hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists with OpenXR's axes (-Z to the fingers, +Y the back of the hand). The pose is in the world's metres, like the samples, and does not scale with the player; within 10 m. Null: the default, which is the tuning's hand.controller_ numbers, for a controller's grip pose, times the player's scale.</summary>
         public unsafe void PlayerSetHandInController(Player player, Side side, HhPose? hand_in_controller) {
             HhPose hand_in_controller_at = hand_in_controller.GetValueOrDefault();
             Library.Check(Native.hh_player_set_hand_in_controller(Handle, player, side, hand_in_controller.HasValue ? &hand_in_controller_at : null));
             GC.KeepAlive(this);
         }
 
-        /// <summary>Returns the pose set by hh_player_set_hand_in_controller, for hosts that have wrists and need controllers.</summary>
+        /// <summary>Returns the wrist in the frame of the player's samples, in the world's metres: the pose set by hh_player_set_hand_in_controller or, without one, the tuning's times the player's scale. For hosts that have wrists and need controllers.</summary>
         public unsafe HhPose PlayerHandInController(Player player, Side side) {
             HhPose hand_in_controller;
             HhPose hand_in_controller_at;
@@ -2424,7 +2425,7 @@ namespace Handhold {
             return hand_in_controller;
         }
 
-        /// <summary>Returns the tuning's pose of the wrist in a controller, for players of scale 1 without one of their own.</summary>
+        /// <summary>Returns the tuning's pose of the wrist in a controller. Players of scale 1 without a pose of their own have it.</summary>
         public unsafe HhPose HandInController(Side side) {
             HhPose hand_in_controller;
             HhPose hand_in_controller_at;
@@ -2555,7 +2556,7 @@ namespace Handhold {
             GC.KeepAlive(this);
         }
 
-        /// <summary>Adds an authored grip to a body, at most 4: hands that close near it take it.</summary>
+        /// <summary>Adds an authored grip to a body: hands that close near it take it. HH_ERROR_STATE if the body has 4 already.</summary>
         public unsafe void BodyAddGrip(Body body, GripDef? def) {
             GripDef def_at = def.GetValueOrDefault();
             Library.Check(Native.hh_body_add_grip(Handle, body, def.HasValue ? &def_at : null));
@@ -2577,13 +2578,13 @@ namespace Handhold {
             }
         }
 
-        /// <summary>Where a player's hh_player_pose.origin is now, by the host's locomotion. Unlike a teleport it ends no grip, and the body goes on moving.</summary>
+        /// <summary>Where a player's hh_player_pose.origin is now, and its velocity, by the host's locomotion. Unlike a teleport it ends no grip.</summary>
         public unsafe void PlayerPlace(Player player, HhPose origin, Vec3 velocity_mps) {
             Library.Check(Native.hh_player_place(Handle, player, origin, velocity_mps));
             GC.KeepAlive(this);
         }
 
-        /// <summary>The hand holds `body` from now on; a null id: nothing. `anchor`: the wrist in the body's frame; null: where both are now. For hosts that use hh_world_step_hands only: the other steps keep the hold and let the hand pull the player.</summary>
+        /// <summary>The hand holds `body` from now on; a null id: nothing. `anchor`: the wrist in the body's frame; null: where both are now, HH_ERROR_STATE for a hand that was never tracked. For hosts that use hh_world_step_hands only: the other steps keep the hold and let the hand pull the player.</summary>
         public unsafe void HandHold(Player player, Side side, Body body, HhPose? anchor) {
             HhPose anchor_at = anchor.GetValueOrDefault();
             Library.Check(Native.hh_hand_hold(Handle, player, side, body, anchor.HasValue ? &anchor_at : null));

@@ -43,10 +43,10 @@ export declare const HH_ENGINE_UNITY: 0;
 export declare const HH_ENGINE_UNREAL: 1;
 /** as Handhold: right-handed, +X right, +Y up, -Z ahead, metres */
 export declare const HH_ENGINE_GODOT: 2;
-/** dynamic ones */
+/** dynamic bodies */
 export declare const HH_MOMENTUM_BODIES: 0;
 export declare const HH_MOMENTUM_PLAYERS: 1;
-/** that hands moved bodies with, without pushing the player back */
+/** impulses of hands on bodies that did not push the player back */
 export declare const HH_MOMENTUM_DISCARDED: 2;
 /** static and kinematic bodies */
 export declare const HH_MOMENTUM_STATICS: 3;
@@ -57,15 +57,15 @@ export declare const HH_STATIC: 0;
 export declare const HH_KINEMATIC: 1;
 /** moved by its velocity, contacts, joints and hands */
 export declare const HH_DYNAMIC: 2;
-/** points coincide; the angle between both axes, a cone, rad */
+/** points coincide; coordinate: angle between the axes, rad; limits: a cone */
 export declare const HH_BALL: 0;
-/** turns about the axis, rad */
+/** turns about the axis; coordinate: angle, rad */
 export declare const HH_HINGE: 1;
-/** moves along the axis, m */
+/** moves along the axis; coordinate: displacement, m */
 export declare const HH_SLIDER: 2;
 /** no coordinate */
 export declare const HH_FIXED: 3;
-/** distance of two points, m; lower 0: a rope; equal limits: a rod */
+/** coordinate: distance of two points, m; lower 0: a rope; equal limits: a rod */
 export declare const HH_DISTANCE: 4;
 export declare const HH_GRIP_NONE: 0;
 /** something static, kinematic or heavy: the player moves */
@@ -76,7 +76,7 @@ export declare const HH_GRIP_HELD: 2;
 export declare const HH_GRIP_AUTHORED: 3;
 /** another player: head, arm, trunk or leg */
 export declare const HH_GRIP_PLAYER: 4;
-/** The palm of an empty hand came within 2 cm of a body or player. */
+/** The palm of an empty, tracked hand came within 2 cm times the player's scale of a body or of another player's head. */
 export declare const HH_EVENT_TOUCHED: 0;
 /** a hand grips */
 export declare const HH_EVENT_GRABBED: 1;
@@ -86,7 +86,7 @@ export declare const HH_EVENT_RELEASED: 2;
 export declare const HH_EVENT_REFUSED: 3;
 /** a hand lost its grip: `reason` */
 export declare const HH_EVENT_SLIPPED: 4;
-/** the player's head, or what a hand holds, hits a body */
+/** The player's head, or what a hand holds, hits a body or another player's head. */
 export declare const HH_EVENT_CONTACT_BEGAN: 5;
 export declare const HH_EVENT_CONTACT_ENDED: 6;
 /** of `joint` */
@@ -111,7 +111,7 @@ export declare const HH_REASON_STRETCHED: 5;
 export declare const HH_REASON_TRACKING_LOST: 6;
 /** the body was removed */
 export declare const HH_REASON_BODY_GONE: 7;
-/** hh_hand_release, hh_hand_grip or a teleport */
+/** hh_hand_release, hh_hand_grip, hh_hand_hold, hh_body_set_shape or a teleport */
 export declare const HH_REASON_BY_HOST: 8;
 /** the other of two hands on a body let go */
 export declare const HH_REASON_OTHER_HAND: 9;
@@ -189,7 +189,7 @@ export interface hh_pose {
     rotation: hh_quat;
 }
 
-/** How far each finger is bent, by thumb, index, middle, ring, little: 0 straight, 1 as in a fist. Below 0 or NaN: unknown; above 1: as 1. */
+/** How far each finger is bent: thumb, index, middle, ring, little. 0: straight; 1: as in a fist; above 1: as 1; below 0 or NaN: unknown. */
 export interface hh_finger_curls {
     fingers: number[];
 }
@@ -215,7 +215,7 @@ export interface hh_player {
     generation: number;
 }
 
-/** Functions of the host that the library uses. Null functions: the library's own. Memory comes from the global operator new, which a program may replace as usual; the shared library and the standard library inside it then use the replacement too, once per process. Apart from that a world's blocks are taken and given back by the threads that call it, and by those of parallel_for: a replacement with an arena a thread gives each world its own. A host that uses Bullet needs its double-precision build, and sets btAlignedAllocSetCustom before the first world. */
+/** Functions of the host that the library uses. Null functions are not called; without parallel_for the library has its own threads. Memory comes from the global operator new, which a program may replace as usual; the shared library and the standard library inside it then use the replacement too, once per process. Apart from that a world's blocks are taken and given back by the threads that call it, and by those of parallel_for: a replacement with an arena a thread gives each world its own. A host that uses Bullet needs its double-precision build, and sets btAlignedAllocSetCustom before the first world. */
 export interface hh_host_hooks {
     /** Called by any thread that calls the library. `message` is one line, valid during the call. */
     log: ((level: number, message: string) => void) | null;
@@ -230,7 +230,7 @@ export interface hh_host_hooks {
 export interface hh_world_def {
     /** Fingers and palms close on what they grip. Default true. Without it no shape needs a grip mesh, hands are shown as tracked, and meshes are added faster: for servers. */
     fits_hands: boolean;
-    /** HH_EVENT_TOUCHED is reported: one query a hand and step. Default true. */
+    /** HH_EVENT_TOUCHED is reported: one query a step for each empty hand. Default true. */
     reports_touches: boolean;
     /** of dynamic bodies; default 0. Each axis within 1e4 */
     gravity_mps2: hh_vec3;
@@ -240,7 +240,7 @@ export interface hh_world_def {
 
 /** One reading of the headset and both controllers. A pose at exactly (0, 0, 0) counts as not tracked, since runtimes report devices that sleep so. */
 export interface hh_tracking_sample {
-    /** On the world's clock: hh_world_time plus the step for a sample at the step's end. Later than the sample before, else it is ignored and counted as sample_out_of_order. More than 0.5 s after the step's end: dropped and counted as sample_too_far_ahead; more than 0.5 s before its start: counted as sample_too_old. If all of a step's samples are so far off, the log is told once that they are on another clock. */
+    /** On the world's clock: hh_world_time plus the step for a sample at the step's end. A sample that is not later than the one before is ignored and counted as sample_out_of_order. More than 0.5 s after the step's end, it is dropped and counted as sample_too_far_ahead, unless hh_player_input.repeats_samples; more than 0.5 s before the step's start, it is counted as sample_too_old. If all samples of a player in a step are so far off, the log is told, once per world, that they are on another clock. hh_world_step_pose_only takes any times. */
     time_s: number;
     /** between the eyes, in play space: the frame that the tracking is given in */
     head: hh_pose;
@@ -256,15 +256,15 @@ export interface hh_tracking_sample {
     squeeze: number[];
     /** How far the index finger's trigger is pressed, [0, 1]: bends the index finger of an empty hand, and the fingers of authored grips that follow the trigger. */
     trigger: number[];
-    /** True if the runtime only guesses the head's position: OpenXR's POSITION_VALID without POSITION_TRACKED, WebXR's emulatedPosition, a low confidence. Default false; true counts before head_tracked. The head follows the guess, but while a hand grips what the player can pull on, only its rotation does. */
+    /** True if the runtime only guesses the head's position: OpenXR's POSITION_VALID without POSITION_TRACKED, WebXR's emulatedPosition, a low confidence. Default false; true overrides head_tracked. The head follows the guess, but while a hand grips what the player can pull on, only its rotation does. */
     head_inferred: boolean;
-    /** The same of the hands, before hand_tracked. An inferred hand does not grip, and never moves a player who grips: it stays where it was last measured. Opening `grab` lets go, without a throw. The shown empty hand follows the guess. Once measured again, the hand may be elsewhere: it did not travel. */
+    /** The same for the hands; true overrides hand_tracked. An inferred hand does not begin to grip, and never moves a player who grips: it stays where it was last measured. Opening `grab` lets go, without a throw. The shown empty hand follows the guess. When the hand is measured again, its displacement since does not count as travel. */
     hand_inferred: boolean[];
-    /** Bends the fingers of an empty hand, before squeeze and trigger; default unknown. By gloves, or from joints by hh_finger_curls_of. */
+    /** Bend of the fingers of an empty hand; known curls override squeeze and trigger. Default unknown. Measured by gloves, or made from joints by hh_finger_curls_of. */
     curls: hh_finger_curls[];
 }
 
-/** What a player asks for in one step. All zero: nothing. Grows with hh_player_input, of which it is the last field: later versions add fields whose 0 means nothing, too. */
+/** What a player asks for in one step. All zero: nothing. Grows with hh_player_input, of which it is the last field. In the fields of later versions, too, 0 will ask for nothing. */
 export interface hh_commands {
     /** [-1, 1], positive turns left */
     smooth_turn: number;
@@ -281,9 +281,9 @@ export interface hh_commands {
 /** One player's input of one step. Fill by hh_default_player_input. */
 export interface hh_player_input {
     player: hh_player;
-    /** Sorted by time: those since the last step. Give each once. Up to 64 may be later than this step's end, by at most 0.5 s, as predicted poses are: the poses at the end are then interpolated, and each sample is kept for the step of its time, also if that step has no input. A sample replaces those kept of its time or later. None: the devices are silent but for samples that were kept. */
+    /** The samples since the last step, sorted by time. Give each once. Up to 64 may be later than this step's end, by at most 0.5 s, as predicted poses are: the poses at the end are then interpolated, and each sample is kept for the step of its time, even if that step has no input. A new sample replaces kept samples of the same time or later. None: the devices are silent, except for kept samples. */
     samples: hh_tracking_sample[];
-    /** The host gives a sample that is later than the step's end again in the next step, so the world keeps none; and a sample's time is taken to the bit, where otherwise a microsecond after the end counts as the end. For hosts that have the whole stream: recordings, rollback. Default 0. */
+    /** True: the host gives a sample that is later than the step's end again in the next step, so the world keeps none, and sample times are exact. False, the default: up to a microsecond after the step's end counts as the end. For hosts that have the whole stream: recordings, rollback. */
     repeats_samples: boolean;
     commands: hh_commands;
 }
@@ -311,11 +311,11 @@ export interface hh_world_stats {
     hand_error_m: number;
     /** worst contact overlap at the end */
     overlap_m: number;
-    /** worst joint */
+    /** largest position error of a joint */
     joint_error_m: number;
     /** sum of all stages */
     step_us: number;
-    /** worst direction or angle of a joint beyond its limit */
+    /** largest error of a joint's direction, or angle beyond a limit */
     joint_error_rad: number;
     /** islands in which something pushed a player back */
     islands_pushed: bigint;
@@ -323,7 +323,7 @@ export interface hh_world_stats {
     contact_rounds: bigint;
     /** hands that closed */
     hands_closed: bigint;
-    /** those of them that gripped something */
+    /** grips that began */
     hands_gripped: bigint;
     momentum: hh_momentum;
 }
@@ -340,7 +340,7 @@ export interface hh_tuning_info {
     high: number;
     /** 1 or 3 */
     count: number;
-    /** true: times hh_player_def.scale for that player */
+    /** true: each player has the number times hh_player_def.scale */
     scales: boolean;
 }
 
@@ -349,7 +349,7 @@ export interface hh_compound_part {
     shape: hh_shape;
     /** in the compound's frame */
     pose: hh_pose;
-    /** of all parts, or 0 for all: by volume */
+    /** give it for all parts, or 0 for all: the mass is then spread by volume */
     mass_kg: number;
 }
 
@@ -377,7 +377,7 @@ export interface hh_body_def {
     angular_velocity_radps: hh_vec3;
     /** dynamic: [1e-12, 1e15], default 1 */
     mass_kg: number;
-    /** About the principal axes; 0: computed from the shape, if there is one. */
+    /** About the principal axes; 0: computed from the shape. A dynamic body without a shape needs one: HH_ERROR_VALUE. */
     inertia_kgm2: hh_vec3;
     /** [0, 1] */
     restitution: number;
@@ -420,13 +420,13 @@ export interface hh_joint_def {
     friction: number;
     /** a rest position at each multiple; 0: none */
     detent_spacing: number;
-    /** N or N m */
+    /** force towards the nearest rest position, N or N m */
     detent_strength: number;
-    /** the coordinate is locked when it comes near this */
+    /** the latch locks the coordinate at this */
     latch_at: number;
-    /** closes within this distance; 0: no latch */
+    /** the latch closes within this distance; 0: no latch */
     latch_range: number;
-    /** opens above this force, N or N m; 0: never by force */
+    /** the latch opens above this force, N or N m; 0: never by force */
     latch_strength: number;
     /** a joint that opens it; null: none */
     latch_handle: hh_joint;
@@ -493,11 +493,11 @@ export interface hh_hand_state {
     tracked: hh_pose;
     /** The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres from it, so that palm and fingers touch. */
     shown: hh_pose;
-    /** The wrist in the frame of what it grips (a body, or a part of a player), fixed when the hand closed. */
+    /** The wrist in the frame of what it grips (a body, or a part of a player), from when the hand closed. The hand takes a new anchor after tracking errors, when the other hand of a shared grip lets go, and when the body's kind or mass changes. */
     anchor: hh_pose;
     /** Distance of the tracked wrist from the anchor: 0 unless something blocks it. */
     error_m: number;
-    /** Impulse of the hand on what it grips in the last step, for haptics. 0 if the host's solver moved the player (hh_world_end_step): read it there. While hands move only light bodies, hands and contacts report at most the momentum that the players and bodies involved have, with the hands' speed on top. */
+    /** Impulse of the hand on what it grips in the last step, for haptics. 0 if the host's solver moved the player (hh_world_end_step): read it there. While hands move only light bodies, the reported impulses of hands and contacts are limited to the momentum that the players and bodies involved have at their speeds plus the hands' speed. */
     force_impulse_ns: hh_vec3;
     /** false while the hand is lost or inferred */
     is_tracked: boolean;
@@ -533,9 +533,9 @@ export interface hh_event {
     other: hh_player;
     /** contacts: what the hand holds; null: the head */
     held: hh_body;
-    /** of latches and limits */
+    /** whose latch or limit it is; null: none */
     joint: hh_joint;
-    /** in the world */
+    /** in the world: of the wrist, the contact, the joint or the head */
     position: hh_vec3;
     /** of a contact that began: >= 0, for haptics and sound */
     impulse_ns: number;
@@ -551,7 +551,7 @@ export interface hh_hand_joint {
 export interface hh_finger {
     /** false: the finger closes on the surface as usual */
     is_posed: boolean;
-    /** of its hinges, from the palm */
+    /** of its hinges, from the knuckle; each within pi */
     curl_rad: number[];
     /** thumb */
     opposition_rad: number;
@@ -581,7 +581,7 @@ export interface hh_grip_def {
     snap_angle_rad: number;
 }
 
-/** What a query found. Ignored, and counted as surface_answer_invalid: a body that is not in the world, numbers that are not finite, a normal of length zero. */
+/** What a query found. Ignored, and counted as surface_answer_invalid: a body that is not in the world, numbers that are not finite, a point beyond 1e9 m, a normal of length zero. */
 export interface hh_surface_hit {
     body: hh_body;
     /** on the surface, in the world */
@@ -683,6 +683,7 @@ export declare class LibraryCalls {
     setHostHooks(hooks: Given<hh_host_hooks> | null): void;
     /** Sets the number of threads of the library's own pool, [1, 256]. Allowed while worlds exist, for instance to use all cores while a level loads. HH_ERROR_STATE if the host lends parallel_for. Not beside any other call of the library. */
     setThreadCount(count: number): void;
+    /** Number of threads of the library's own pool, the caller's included. Any thread. */
     threadCount(): number;
     /** Metres in one of the engine's units of length: 0.01 for Unreal, else 1. For radii and distances. */
     convertMetresPerUnit(engine: number): number;
@@ -702,7 +703,7 @@ export declare class LibraryCalls {
     /** Scale factors of an object along its own axes, and half extents in metres: axes change places, signs do not. */
     convertScaleFrom(engine: number, scale: Given<hh_vec3>): hh_vec3;
     convertScaleTo(engine: number, scale: Given<hh_vec3>): hh_vec3;
-    /** A mesh in place: converts x, y, z of its vertices, and reverses its triangles if the engine's front faces are clockwise (Unity, Godot), so that they are counter-clockwise from outside. A mirrored object, of which the product of the scales is negative: multiply its vertices by the scale and reverse the indices before, since hh_shape_add_mesh takes positive scales only. HH_ERROR_VALUE, and no change, for counts that are no multiples of 3. */
+    /** Converts a mesh in place: x, y, z of its vertices. Reverses its triangles if the engine's front faces are clockwise (Unity, Godot), so that they are counter-clockwise from outside. A mirrored object, of which the product of the scales is negative, needs nothing else: give its scale, from hh_convert_scale_from, to hh_shape_add_mesh, which takes negative factors. HH_ERROR_VALUE, and no change, for counts that are no multiples of 3. */
     convertMeshFrom(engine: number, coordinates: ArrayLike<number>, indices: ArrayLike<number>): { coordinates: number[]; indices: number[] };
     /** Stages and fallbacks by index; null beyond the last. A fallback is counted whenever the runtime does the next best instead of what was asked. Any thread. */
     stageName(stage: number): string | null;
@@ -761,7 +762,7 @@ export declare class WorldCalls {
     shapeAddCylinder(radius_m: number, half_height_m: number): hh_shape;
     /** Convex hull of points that are not coplanar. Cost with fits_hands: 1.6 ms for 64 points. */
     shapeAddHull(points: Given<hh_vec3>[]): hh_shape;
-    /** 1 to 64 parts that move as one. It keeps copies: the parts may be removed. Cost with fits_hands: of all its parts as if they were new. */
+    /** 1 to 64 parts that move as one. It keeps copies: the parts may be removed. Cost with fits_hands: as if all its parts were new shapes. */
     shapeAddCompound(parts: Given<hh_compound_part>[]): hh_shape;
     /** A shape of a prepared mesh, for static and kinematic bodies. The size of each factor is in [1e-3, 1e3], others get HH_ERROR_VALUE; negative ones mirror the mesh, whose triangles keep their outer side. Cost: microseconds for scale 1; another scale prepares the hands' surface again, about 40 microseconds a triangle with fits_hands. */
     shapeAddMesh(mesh: Mesh | null, scale: Given<hh_vec3>): hh_shape;
@@ -785,11 +786,11 @@ export declare class WorldCalls {
     bodyPoses(bodies: Given<hh_body>[]): hh_pose[];
     /** Null outputs are skipped. */
     bodyVelocity(body: Given<hh_body>): { velocity_mps: hh_vec3; angular_velocity_radps: hh_vec3 };
-    /** Dynamic bodies only, as are impulses: HH_ERROR_STATE. */
+    /** Within 1e6 m/s and 1e4 rad/s. HH_ERROR_STATE for a body that is not dynamic. */
     bodySetVelocity(body: Given<hh_body>, velocity_mps: Given<hh_vec3>, angular_velocity_radps: Given<hh_vec3>): void;
-    /** Changes the velocity by an impulse in N s at a point in the world. */
+    /** Changes the velocity by an impulse in N s at a point in the world. HH_ERROR_STATE for a body that is not dynamic, HH_ERROR_VALUE if the velocity would leave the limits of hh_body_set_velocity. */
     bodyApplyImpulse(body: Given<hh_body>, impulse_ns: Given<hh_vec3>, point: Given<hh_vec3>): void;
-    /** At once, without collisions on the path. Keeps the velocity. Hands that grip it let go. */
+    /** Moves a body at once, without collisions on the path. It keeps its velocity; hands that grip it let go. */
     bodyTeleport(body: Given<hh_body>, pose: Given<hh_pose>): void;
     /** A kinematic body reaches the pose at the end of the next step and then rests. Call it before every step in which it moves, or less often: a host that ticks slower than it draws may tell each tick's pose once. The body's velocity, with which hands leave it and bodies are thrown, is the displacement since the pose before over the time since then; over tracking.release_window_s if the poses come at varying times. It is 0 once a pose is due that does not come or is the same. The first pose after a rest counts as half a second's motion, since nothing says when it began. */
     bodyMoveKinematic(body: Given<hh_body>, pose: Given<hh_pose>): void;
@@ -797,7 +798,7 @@ export declare class WorldCalls {
     bodySetLayers(body: Given<hh_body>, layers: number, mask: number): void;
     bodySetGrabRule(body: Given<hh_body>, left: boolean, right: boolean, two_hands: boolean, priority: number): void;
     bodyGetKind(body: Given<hh_body>): number;
-    /** 0 of a body that is not dynamic: nothing that acts on it moves it. */
+    /** 0 for a body that is not dynamic: nothing that acts on it moves it. */
     bodyMass(body: Given<hh_body>): number;
     /** Mass in [1e-12, 1e15] kg and inertia as hh_body_def's, else HH_ERROR_VALUE; 0 inertia: of the solid shape. Dynamic bodies only: HH_ERROR_STATE. Hands keep their grips: beyond phases.heavy_body_kg the body moves its player from the next step on, below it comes along. */
     bodySetMass(body: Given<hh_body>, mass_kg: number, inertia_kgm2: Given<hh_vec3>): void;
@@ -808,7 +809,7 @@ export declare class WorldCalls {
     bodySetKind(body: Given<hh_body>, kind: number, mass_kg: number, inertia_kgm2: Given<hh_vec3>): void;
     /** Null for a body without a shape. */
     bodyShape(body: Given<hh_body>): hh_shape;
-    /** The body touches with another shape from now on, or with none (null id: not for dynamic bodies, HH_ERROR_VALUE, as a mesh). Its pose, joints and grips stay as they are in the frame in which the host made the shapes, whatever their centres of mass; a dynamic body's inertia becomes that of the solid shape with the same mass. Hands whose palm is farther from the new surface than a closing hand reaches (hand.ray_length_m) let go in the next step: HH_EVENT_RELEASED, HH_REASON_BY_HOST. HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds; with a mesh that a hand grips, linear in its triangles, 0.1 ms for 5,000. */
+    /** The body touches with another shape from now on, or with none (null id). A dynamic body needs a solid shape: HH_ERROR_VALUE for none or a mesh. The body's pose, joints and grips stay as they are in the frame in which the host made the shapes, whatever their centres of mass; a dynamic body's inertia becomes that of the solid shape with the same mass. Hands let go in the next step (HH_EVENT_RELEASED, HH_REASON_BY_HOST) if the body has no shape any more, or if their palm is farther from the new surface than a closing hand reaches: hand.ray_length_m minus hand.ray_back_m, or hand.reach_m if that is larger. HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds; with a mesh that a hand grips, linear in its triangles, 0.1 ms for 5,000. */
     bodySetShape(body: Given<hh_body>, shape: Given<hh_shape>): void;
     bodySetUserData(body: Given<hh_body>, user_data: bigint): void;
     bodyUserData(body: Given<hh_body>): bigint;
@@ -821,7 +822,7 @@ export declare class WorldCalls {
     jointState(joint: Given<hh_joint>): { coordinate: number; speed: number; latched: boolean };
     /** First surface that the segment hits, from outside or inside; distance_m: from `from`. `skip`: a player whose head counts as not there; null: none. Coordinates within 1e9 m. */
     castRay(from: Given<hh_vec3>, to: Given<hh_vec3>, skip: Given<hh_player>): hh_hit;
-    /** First impact of a sphere that moves along the segment, radius within 1e4 m; distance_m: how far its centre has moved, 0 if it touches something at the start. */
+    /** First impact of a sphere that moves along the segment. Radius in [1e-6, 1e4] m; distance_m: how far its centre has moved, 0 if it touches something at the start. */
     castSphere(radius_m: number, from: Given<hh_vec3>, to: Given<hh_vec3>, skip: Given<hh_player>): hh_hit;
     /** Nearest surface point within max_distance_m of the point, [0, 1e4]; distance_m: 0 inside a solid, where the normal points outward. */
     closestPoint(point: Given<hh_vec3>, max_distance_m: number, skip: Given<hh_player>): hh_hit;
@@ -831,11 +832,11 @@ export declare class WorldCalls {
     playerRemove(player: Given<hh_player>): void;
     playerIsValid(player: Given<hh_player>): boolean;
     players(): hh_player[];
-    /** The headset's runtime, or the host, has recentred: from the next sample on, poses are given in a space that lies at `new_in_old` in the space before (OpenXR: poseInPreviousSpace). Level: it turns about +Y only, within 0.001. View, hands and grips stay where they are in the world; hh_player_pose.origin changes at once, HH_EVENT_RECENTRED follows in the next step. From now on the host announces all recentrings, as after hh_player_set_recenter_guess(world, player, 0). */
+    /** The headset's runtime, or the host, has recentred: from the next sample on, poses are given in a space that lies at `new_in_old` in the space before (OpenXR: poseInPreviousSpace). It turns about +Y only, else HH_ERROR_VALUE: x and z of the quaternion within 0.001. Before the player's first sample there is nothing to recentre. View, hands and grips stay where they are in the world; hh_player_pose.origin changes at once, HH_EVENT_RECENTRED follows in the next step. From now on the host announces all recentrings, as after hh_player_set_recenter_guess(world, player, 0). */
     playerRecenter(player: Given<hh_player>, new_in_old: Given<hh_pose>): void;
     /** `guesses` 1, the default: if head and hands jump by one turn about +Y and one translation, or the head by more than tracking.max_jump_m, the runtime has recentred, and nothing in the world moves. 0: the host announces recentrings, and every other jump is meant, such as a turn that the host puts into its samples: view and hands follow it, and gripping hands take new anchors. Part of the state. */
     playerSetRecenterGuess(player: Given<hh_player>, guesses: boolean): void;
-    /** The play space is there at once, at rest. Dynamic bodies in the hands that no joint holds come along; hands let go of everything else. */
+    /** Moves the play space at once; it is then at rest relative to the scene. Dynamic bodies in the hands that no joint holds come along; hands let go of everything else, and hands of other players let go of this player and of those bodies. */
     playerTeleport(player: Given<hh_player>, origin: Given<hh_pose>): void;
     playerVelocity(player: Given<hh_player>): hh_vec3;
     playerSetVelocity(player: Given<hh_player>, velocity_mps: Given<hh_vec3>): void;
@@ -843,21 +844,21 @@ export declare class WorldCalls {
     playerReferenceVelocity(player: Given<hh_player>): hh_vec3;
     /** How far contacts moved the play space in the last step, against its hands and its velocity. */
     playerPushBack(player: Given<hh_player>): number;
-    /** The body mass that the player was added with. */
+    /** hh_player_def.mass_kg. */
     playerMass(player: Given<hh_player>): number;
     /** The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked: false before the head's first sample, and while it is lost or inferred. */
     playerHead(player: Given<hh_player>): { center: hh_vec3; radius_m: number; is_tracked: boolean };
-    /** The measures with the scale in them. */
+    /** The measures times the player's scale, in the world's metres. */
     playerMeasures(player: Given<hh_player>): hh_measures;
-    /** Replaces the measures. `measures`, not null. */
+    /** Replaces the measures. `measures`, not null: times the player's scale, each in [0.05, 5] m times the scale. */
     playerSetMeasures(player: Given<hh_player>, measures: Given<hh_measures>): void;
     playerSetUserData(player: Given<hh_player>, user_data: bigint): void;
     playerUserData(player: Given<hh_player>): bigint;
-    /** The hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists with OpenXR's axes (-Z to the fingers, +Y the back of the hand). Null: a controller's grip pose, by the tuning's hand.controller_ numbers times the player's scale, which is the default. The given pose is used as it is. */
+    /** Sets the hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists with OpenXR's axes (-Z to the fingers, +Y the back of the hand). The pose is in the world's metres, like the samples, and does not scale with the player; within 10 m. Null: the default, which is the tuning's hand.controller_ numbers, for a controller's grip pose, times the player's scale. */
     playerSetHandInController(player: Given<hh_player>, side: number, hand_in_controller: Given<hh_pose> | null): void;
-    /** Returns the pose set by hh_player_set_hand_in_controller, for hosts that have wrists and need controllers. */
+    /** Returns the wrist in the frame of the player's samples, in the world's metres: the pose set by hh_player_set_hand_in_controller or, without one, the tuning's times the player's scale. For hosts that have wrists and need controllers. */
     playerHandInController(player: Given<hh_player>, side: number): hh_pose;
-    /** Returns the tuning's pose of the wrist in a controller, for players of scale 1 without one of their own. */
+    /** Returns the tuning's pose of the wrist in a controller. Players of scale 1 without a pose of their own have it. */
     handInController(side: number): hh_pose;
     /** One hand. `hand_size`: bytes of hh_hand_state as the host knows it. */
     playerHand(player: Given<hh_player>, side: number): hh_hand_state;
@@ -883,17 +884,17 @@ export declare class WorldCalls {
     playerSkeleton(player: Given<hh_player>, space: number): hh_pose[];
     /** Name and parent (-1: none) of one of these joints. The name is valid while the rig is set. */
     playerSkeletonJoint(player: Given<hh_player>, joint: number): { name: string; parent: number };
-    /** Adds an authored grip to a body, at most 4: hands that close near it take it. */
+    /** Adds an authored grip to a body: hands that close near it take it. HH_ERROR_STATE if the body has 4 already. */
     bodyAddGrip(body: Given<hh_body>, def: Given<hh_grip_def> | null): void;
-    /** From now on hands and legs ask the host, not the world's shapes. Null: back to the shapes. */
+    /** From now on hands, trunks and legs ask the host, not the world's shapes. Null: back to the shapes. HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. */
     setSurfaceQuery(query: Given<hh_surface_query> | null): void;
     /** The triangles that palm and fingers close on, in the body's frame; null: none. Not needed for gripping. The body must have no shape. HH_ERROR_STATE if it has, or if the mesh or the world was made without fits_hands. */
     bodySetSurface(body: Given<hh_body>, mesh: Mesh | null): void;
     /** Where bodies are now, after the host's own step. Unlike a teleport it ends no grip. A kinematic body rests there until hh_body_move_kinematic says where it will be at the end of the next step. Places all or, on an error, none. */
     placeBodies(motions: Given<hh_body_motion>[]): void;
-    /** Where a player's hh_player_pose.origin is now, by the host's locomotion. Unlike a teleport it ends no grip, and the body goes on moving. */
+    /** Where a player's hh_player_pose.origin is now, and its velocity, by the host's locomotion. Unlike a teleport it ends no grip. */
     playerPlace(player: Given<hh_player>, origin: Given<hh_pose>, velocity_mps: Given<hh_vec3>): void;
-    /** The hand holds `body` from now on; a null id: nothing. `anchor`: the wrist in the body's frame; null: where both are now. For hosts that use hh_world_step_hands only: the other steps keep the hold and let the hand pull the player. */
+    /** The hand holds `body` from now on; a null id: nothing. `anchor`: the wrist in the body's frame; null: where both are now, HH_ERROR_STATE for a hand that was never tracked. For hosts that use hh_world_step_hands only: the other steps keep the hold and let the hand pull the player. */
     handHold(player: Given<hh_player>, side: number, body: Given<hh_body>, anchor: Given<hh_pose> | null): void;
     /** What the hand would grip if it closed where it is, by the rules of hands that pull players: reach, sight, grab rules, authored grips. A null body: nothing, or another player. distance_m: from the palm. In every kind of world. HH_ERROR_STATE for a hand that was never tracked. */
     handFindGrip(player: Given<hh_player>, side: number): hh_surface_hit;

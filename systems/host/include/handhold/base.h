@@ -11,9 +11,11 @@
  * Units are SI: metres, seconds, kilograms, radians. Frames are right-handed: +Y up, -Z ahead,
  * +X right. Rotations are unit quaternions.
  *
- * Calls. Every function returns a hh_result and never throws or crashes for a null pointer, a
- * stale id, a NaN or a number out of range. A call that fails changes nothing and writes no output;
- * hh_last_error() then says in one line what was wrong.
+ * Calls. Functions that can fail return a hh_result. No function throws, or crashes for a null
+ * pointer, a stale id, a NaN or a number out of range. A call that fails changes nothing and writes
+ * no output, except the needed count or size with HH_ERROR_CAPACITY; hh_last_error() then says in
+ * one line what was wrong. After HH_ERROR_INTERNAL the world may be in an invalid state: destroy or
+ * restore it.
  *
  * Floating point. Every call computes without exception traps, rounds to nearest and keeps denormals,
  * on the threads that it uses too, and leaves the environment of the calling thread as it was, flags
@@ -23,13 +25,14 @@
  * runs its tasks, so threads with 112 KiB and more are large enough (musl's default is 128).
  *
  * Threads. Calls on different worlds may run at the same time. Calls on one world must not
- * overlap, not even two that only read. Functions without a world say what they allow.
+ * overlap, not even two that only read. Functions without a world say what they allow; those named
+ * hh_default_... allow any thread.
  *
  * Growth. Structs that begin with `struct_size` get fields in later versions, at their end. Their
  * hh_default_ function fills them. In an array, all elements have the struct_size of the first.
  * hh_player_pose, hh_hand_state and hh_event grow too, without a struct_size. A library takes every
- * size from that of version 0.2.0 up to its own; HH_ERROR_VERSION for others. All other structs keep
- * their fields for good.
+ * size from that of version 0.2.0 up to its own; HH_ERROR_VERSION for others, which hh_default_
+ * functions fill with zeros. All other structs keep their fields for good.
  *
  * Functions named ..._sized write a struct that grows: they take its size in bytes as the host was
  * compiled with it, and never write more. In C and C++ call the inline functions of the same names
@@ -91,8 +94,8 @@ typedef struct hh_pose {
     hh_quat rotation;
 } hh_pose;
 
-/* How far each finger is bent, by thumb, index, middle, ring, little: 0 straight, 1 as in a fist. Below 0
- * or NaN: unknown; above 1: as 1. */
+/* How far each finger is bent: thumb, index, middle, ring, little. 0: straight; 1: as in a fist;
+ * above 1: as 1; below 0 or NaN: unknown. */
 typedef struct hh_finger_curls {
     double fingers[5];
 } hh_finger_curls;
@@ -130,7 +133,8 @@ typedef enum hh_log_level { HH_LOG_NOTE = 0, HH_LOG_ERROR = 1, HH_LOG_LEVEL_32_B
 
 typedef void (*hh_task)(void* task_context, size_t index);
 
-/* Functions of the host that the library uses. Null functions: the library's own.
+/* Functions of the host that the library uses. Null functions are not called; without parallel_for
+ * the library has its own threads.
  * Memory comes from the global operator new, which a program may replace as usual; the shared
  * library and the standard library inside it then use the replacement too, once per process. Apart
  * from that a world's blocks are taken and given back by the threads that call it, and by those of
@@ -165,6 +169,7 @@ HH_API hh_result hh_set_host_hooks(const hh_host_hooks* hooks);
  * instance to use all cores while a level loads. HH_ERROR_STATE if the host lends parallel_for. Not
  * beside any other call of the library. */
 HH_API hh_result hh_set_thread_count(uint32_t count);
+/* Number of threads of the library's own pool, the caller's included. Any thread. */
 HH_API uint32_t hh_thread_count(void);
 
 #ifdef __cplusplus

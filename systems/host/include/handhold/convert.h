@@ -42,10 +42,10 @@ HH_API hh_pose hh_convert_pose_to(hh_engine engine, hh_pose pose);
 HH_API hh_vec3 hh_convert_scale_from(hh_engine engine, hh_vec3 scale);
 HH_API hh_vec3 hh_convert_scale_to(hh_engine engine, hh_vec3 scale);
 
-/* A mesh in place: converts x, y, z of its vertices, and reverses its triangles if the engine's front
+/* Converts a mesh in place: x, y, z of its vertices. Reverses its triangles if the engine's front
  * faces are clockwise (Unity, Godot), so that they are counter-clockwise from outside.
- * A mirrored object, of which the product of the scales is negative: multiply its vertices by the scale
- * and reverse the indices before, since hh_shape_add_mesh takes positive scales only.
+ * A mirrored object, of which the product of the scales is negative, needs nothing else: give its
+ * scale, from hh_convert_scale_from, to hh_shape_add_mesh, which takes negative factors.
  * HH_ERROR_VALUE, and no change, for counts that are no multiples of 3. */
 HH_API hh_result hh_convert_mesh_from(hh_engine engine, float* coordinates, size_t coordinate_count,
                                       uint32_t* indices, size_t index_count);

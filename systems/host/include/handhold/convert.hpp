@@ -39,7 +39,7 @@ struct EngineSpace {
     hh_pose pose_from(hh_pose pose) const { return hh_convert_pose_from(engine, pose); }
     // The reverse of pose_from.
     hh_pose pose_to(hh_pose pose) const { return hh_convert_pose_to(engine, pose); }
-    // Scale factors, and half extents in metres: without signs.
+    // Scale factors, and half extents in metres: axes change places, signs do not.
     hh_vec3 scale_from(hh_vec3 scale) const { return hh_convert_scale_from(engine, scale); }
     // The reverse of scale_from.
     hh_vec3 scale_to(hh_vec3 scale) const { return hh_convert_scale_to(engine, scale); }

@@ -102,7 +102,7 @@ class World {
     Status remove(Body body) { return hh_body_remove(world_, body); }
     // Removes a joint; its bodies stay.
     Status remove(Joint joint) { return hh_joint_remove(world_, joint); }
-    // Removes a player with both hands.
+    // Removes a player and both hands.
     Status remove(Player player) { return hh_player_remove(world_, player); }
     // True if the shape is in this world.
     bool has(Shape shape) const { return hh_shape_is_valid(world_, shape); }
@@ -148,7 +148,7 @@ class World {
         return make<hh_body_kind>(
             [&](hh_body_kind* k) { return hh_body_get_kind(world_, body, k); });
     }
-    // The mass of a dynamic body.
+    // The mass of a dynamic body; 0 for others.
     Maybe<double> mass_kg(Body body) const {
         return make<double>([&](double* m) { return hh_body_mass(world_, body, m); });
     }
@@ -182,7 +182,8 @@ class World {
     Maybe<Shape> shape(Body body) const {
         return make<Shape>([&](Shape* s) { return hh_body_shape(world_, body, s); });
     }
-    // Changes the body's shape where it is. Hands that are too far from the new surface let go.
+    // Changes the body's shape where it is. Hands that are too far from the new surface let go in
+    // the next step.
     Status set_shape(Body body, Shape shape) { return hh_body_set_shape(world_, body, shape); }
     // Ids of all bodies.
     std::vector<Body> bodies() const { return all<Body>(&hh_world_bodies); }
@@ -205,7 +206,8 @@ class World {
         return hh_body_add_grip(world_, body, &def);
     }
 
-    // Queries: nullopt if nothing was found, or if the call failed. The first surface on a segment.
+    // The first surface on a segment. Queries return nullopt if nothing was found, or if the call
+    // failed.
     std::optional<Hit> cast_ray(Vec3 from, Vec3 to, Player skip = {}) {
         Hit hit{};
         return found(hh_world_cast_ray(world_, from, to, skip, &hit), hit);
@@ -280,11 +282,11 @@ class World {
     Maybe<double> push_back_m(Player player) const {
         return make<double>([&](double* d) { return hh_player_push_back(world_, player, d); });
     }
-    // The body mass that the player was added with.
+    // hh_player_def::mass_kg.
     Maybe<double> mass_kg(Player player) const {
         return make<double>([&](double* m) { return hh_player_mass(world_, player, m); });
     }
-    // The wrist in the frame of the player's samples.
+    // The wrist in the frame of the player's samples, in the world's metres.
     Maybe<Pose> hand_in_controller(Player player, Side side) const {
         return make<Pose>(
             [&](Pose* p) { return hh_player_hand_in_controller(world_, player, side, p); });
@@ -293,13 +295,13 @@ class World {
     Maybe<Pose> hand_in_controller(Side side) const {
         return make<Pose>([&](Pose* p) { return hh_world_hand_in_controller(world_, side, p); });
     }
-    // Sets the wrist in the frame of the player's samples.
+    // Sets the wrist in the frame of the player's samples. It does not scale with the player.
     Status set_hand_in_controller(Player player, Side side, const Pose& hand_in_controller) {
         return hh_player_set_hand_in_controller(world_, player, side, &hand_in_controller);
     }
     // Ids of all players.
     std::vector<Player> players() const { return all<Player>(&hh_world_players); }
-    // By hh_hand_joint_name.
+    // Indexed by hh_hand_joint_name.
     using HandJoints = std::array<hh_hand_joint, HH_HAND_JOINT_COUNT>;
     // Joints of the shown hand, with the axes of XR_EXT_hand_tracking.
     Maybe<HandJoints> hand_joints(Player player, Side side, hh_space space) const {
@@ -307,7 +309,7 @@ class World {
             return hh_player_hand_joints(world_, player, side, space, joints->data());
         });
     }
-    // By hh_body_joint.
+    // Indexed by hh_body_joint.
     using BodyJoints = std::array<Pose, HH_BODY_JOINT_COUNT>;
     // Joints of the shown body, with VRM's names.
     Maybe<BodyJoints> body_joints(Player player, hh_space space) const {
@@ -339,7 +341,7 @@ class World {
 
     // ---- For hosts with their own physics (your_physics.h) ----
 
-    // From now on hands and legs ask the host for surfaces, not the world's shapes.
+    // From now on hands, trunks and legs ask the host for surfaces, not the world's shapes.
     Status set_surface_query(const hh_surface_query& query) {
         return hh_world_set_surface_query(world_, &query);
     }

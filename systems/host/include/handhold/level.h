@@ -31,10 +31,10 @@ HH_API hh_result hh_shape_add_hull(hh_world* world, const hh_vec3* points, size_
 typedef struct hh_compound_part {
     hh_shape shape;
     hh_pose pose;   /* in the compound's frame */
-    double mass_kg; /* of all parts, or 0 for all: by volume */
+    double mass_kg; /* give it for all parts, or 0 for all: the mass is then spread by volume */
 } hh_compound_part;
-/* 1 to 64 parts that move as one. It keeps copies: the parts may be removed. Cost with fits_hands: of all
- * its parts as if they were new. */
+/* 1 to 64 parts that move as one. It keeps copies: the parts may be removed. Cost with fits_hands: as
+ * if all its parts were new shapes. */
 HH_API hh_result hh_shape_add_compound(hh_world* world, const hh_compound_part* parts, size_t count,
                                        hh_shape* shape);
 
@@ -58,7 +58,7 @@ static inline hh_mesh_def hh_default_mesh_def(void) {
 /* Copies and prepares a mesh. Any thread, beside steps of any world: the place for the work of
  * streaming. Cost: up to 40 microseconds a triangle with fits_hands, 1 without. */
 HH_API hh_result hh_mesh_create(const hh_mesh_def* def, hh_mesh** mesh);
-/* Releases the caller's reference; shapes keep theirs. Null: nothing happens. Any thread. */
+/* Destroys the handle; shapes keep what they need of the mesh. Null: nothing happens. Any thread. */
 HH_API void hh_mesh_destroy(hh_mesh* mesh);
 /* A shape of a prepared mesh, for static and kinematic bodies. The size of each factor is in
  * [1e-3, 1e3], others get HH_ERROR_VALUE; negative ones mirror the mesh, whose triangles keep their
@@ -93,7 +93,8 @@ typedef struct hh_body_def {
     hh_vec3 velocity_mps;         /* each within 1e6 */
     hh_vec3 angular_velocity_radps; /* each within 1e4 */
     double mass_kg;        /* dynamic: [1e-12, 1e15], default 1 */
-    /* About the principal axes; 0: computed from the shape, if there is one. */
+    /* About the principal axes; 0: computed from the shape. A dynamic body without a shape needs
+     * one: HH_ERROR_VALUE. */
     hh_vec3 inertia_kgm2;
     double restitution;    /* [0, 1] */
     double friction;       /* [0, 1e6], default 0.4 */
@@ -131,13 +132,15 @@ HH_API hh_result hh_world_body_poses(const hh_world* world, const hh_body* bodie
 /* Null outputs are skipped. */
 HH_API hh_result hh_body_velocity(const hh_world* world, hh_body body, hh_vec3* velocity_mps,
                                   hh_vec3* angular_velocity_radps);
-/* Dynamic bodies only, as are impulses: HH_ERROR_STATE. */
+/* Within 1e6 m/s and 1e4 rad/s. HH_ERROR_STATE for a body that is not dynamic. */
 HH_API hh_result hh_body_set_velocity(hh_world* world, hh_body body, hh_vec3 velocity_mps,
                                       hh_vec3 angular_velocity_radps);
-/* Changes the velocity by an impulse in N s at a point in the world. */
+/* Changes the velocity by an impulse in N s at a point in the world. HH_ERROR_STATE for a body that
+ * is not dynamic, HH_ERROR_VALUE if the velocity would leave the limits of hh_body_set_velocity. */
 HH_API hh_result hh_body_apply_impulse(hh_world* world, hh_body body, hh_vec3 impulse_ns,
                                        hh_vec3 point);
-/* At once, without collisions on the path. Keeps the velocity. Hands that grip it let go. */
+/* Moves a body at once, without collisions on the path. It keeps its velocity; hands that grip it
+ * let go. */
 HH_API hh_result hh_body_teleport(hh_world* world, hh_body body, hh_pose pose);
 /* A kinematic body reaches the pose at the end of the next step and then rests. Call it before every
  * step in which it moves, or less often: a host that ticks slower than it draws may tell each tick's
@@ -151,7 +154,7 @@ HH_API hh_result hh_body_set_layers(hh_world* world, hh_body body, uint32_t laye
 HH_API hh_result hh_body_set_grab_rule(hh_world* world, hh_body body, uint8_t left, uint8_t right,
                                        uint8_t two_hands, int32_t priority);
 HH_API hh_result hh_body_get_kind(const hh_world* world, hh_body body, hh_body_kind* kind);
-/* 0 of a body that is not dynamic: nothing that acts on it moves it. */
+/* 0 for a body that is not dynamic: nothing that acts on it moves it. */
 HH_API hh_result hh_body_mass(const hh_world* world, hh_body body, double* mass_kg);
 /* Mass in [1e-12, 1e15] kg and inertia as hh_body_def's, else HH_ERROR_VALUE; 0 inertia: of the solid
  * shape. Dynamic bodies only: HH_ERROR_STATE. Hands keep their grips: beyond phases.heavy_body_kg the
@@ -172,11 +175,13 @@ HH_API hh_result hh_body_set_kind(hh_world* world, hh_body body, hh_body_kind ki
                                   hh_vec3 inertia_kgm2);
 /* Null for a body without a shape. */
 HH_API hh_result hh_body_shape(const hh_world* world, hh_body body, hh_shape* shape);
-/* The body touches with another shape from now on, or with none (null id: not for dynamic bodies,
- * HH_ERROR_VALUE, as a mesh). Its pose, joints and grips stay as they are in the frame in which the
- * host made the shapes, whatever their centres of mass; a dynamic body's inertia becomes that of the
- * solid shape with the same mass. Hands whose palm is farther from the new surface than a closing hand
- * reaches (hand.ray_length_m) let go in the next step: HH_EVENT_RELEASED, HH_REASON_BY_HOST.
+/* The body touches with another shape from now on, or with none (null id). A dynamic body needs a
+ * solid shape: HH_ERROR_VALUE for none or a mesh. The body's pose, joints and grips
+ * stay as they are in the frame in which the host made the shapes, whatever their centres of mass; a
+ * dynamic body's inertia becomes that of the solid shape with the same mass. Hands let go in the next
+ * step (HH_EVENT_RELEASED, HH_REASON_BY_HOST) if the body has no shape any more, or if their palm is
+ * farther from the new surface than a closing hand reaches: hand.ray_length_m minus hand.ray_back_m,
+ * or hand.reach_m if that is larger.
  * HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds; with a mesh
  * that a hand grips, linear in its triangles, 0.1 ms for 5,000. */
 HH_API hh_result hh_body_set_shape(hh_world* world, hh_body body, hh_shape shape);
@@ -185,13 +190,13 @@ HH_API hh_result hh_body_user_data(const hh_world* world, hh_body body, uint64_t
 
 /* ---- Joints --------------------------------------------------------------------------------- */
 
-/* Each has a coordinate, which limits, friction, detents and latches act on. */
+/* Each kind has a coordinate, on which limits, friction, detents and latches act. */
 typedef enum hh_joint_kind {
-    HH_BALL = 0,    /* points coincide; the angle between both axes, a cone, rad */
-    HH_HINGE = 1,   /* turns about the axis, rad */
-    HH_SLIDER = 2,  /* moves along the axis, m */
+    HH_BALL = 0,    /* points coincide; coordinate: angle between the axes, rad; limits: a cone */
+    HH_HINGE = 1,   /* turns about the axis; coordinate: angle, rad */
+    HH_SLIDER = 2,  /* moves along the axis; coordinate: displacement, m */
     HH_FIXED = 3,   /* no coordinate */
-    HH_DISTANCE = 4, /* distance of two points, m; lower 0: a rope; equal limits: a rod */
+    HH_DISTANCE = 4, /* coordinate: distance of two points, m; lower 0: a rope; equal limits: a rod */
     HH_JOINT_KIND_32_BITS = 0x7fffffff
 } hh_joint_kind;
 
@@ -209,10 +214,10 @@ typedef struct hh_joint_def {
     double lower, upper;
     double friction;         /* N, or N m about a hinge or any axis of a ball; >= 0 */
     double detent_spacing;   /* a rest position at each multiple; 0: none */
-    double detent_strength;  /* N or N m */
-    double latch_at;         /* the coordinate is locked when it comes near this */
-    double latch_range;      /* closes within this distance; 0: no latch */
-    double latch_strength;   /* opens above this force, N or N m; 0: never by force */
+    double detent_strength;  /* force towards the nearest rest position, N or N m */
+    double latch_at;         /* the latch locks the coordinate at this */
+    double latch_range;      /* the latch closes within this distance; 0: no latch */
+    double latch_strength;   /* the latch opens above this force, N or N m; 0: never by force */
     hh_joint latch_handle;   /* a joint that opens it; null: none */
     double latch_handle_at;  /* open while |handle's coordinate| is at least this */
 } hh_joint_def;
@@ -250,7 +255,7 @@ typedef struct hh_hit {
  * player whose head counts as not there; null: none. Coordinates within 1e9 m. */
 HH_API hh_result hh_world_cast_ray(hh_world* world, hh_vec3 from, hh_vec3 to, hh_player skip,
                                    hh_hit* hit);
-/* First impact of a sphere that moves along the segment, radius within 1e4 m; distance_m: how far
+/* First impact of a sphere that moves along the segment. Radius in [1e-6, 1e4] m; distance_m: how far
  * its centre has moved, 0 if it touches something at the start. */
 HH_API hh_result hh_world_cast_sphere(hh_world* world, double radius_m, hh_vec3 from, hh_vec3 to,
                                       hh_player skip, hh_hit* hit);

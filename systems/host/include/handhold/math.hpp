@@ -53,7 +53,7 @@ inline hh_quat normalized(hh_quat q) {
 
 }  // namespace hh
 
-// a * b turns by b, then by a. Not normalised.
+// a * b rotates by b, then by a. Not normalised.
 constexpr hh_quat operator*(hh_quat a, hh_quat b) {
     return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
             a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z,
@@ -108,7 +108,7 @@ inline hh_quat rotation_about(hh_vec3 axis, double angle_rad) {
     const double inverse_length = 1.0 / std::sqrt(c * c + v.x * v.x + (v.y * v.y + v.z * v.z));
     return {v.x * inverse_length, v.y * inverse_length, v.z * inverse_length, c * inverse_length};
 }
-// Rotation about vector_rad by its length, and the shortest such vector of a rotation.
+// Rotation about vector_rad by its length. rotation_to_vector returns the shortest such vector.
 inline hh_quat rotation_from_vector(hh_vec3 vector_rad) {
     const double angle = length(vector_rad);
     if (angle < 1e-12) {

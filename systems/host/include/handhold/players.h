@@ -51,8 +51,9 @@ HH_API uint8_t hh_player_is_valid(const hh_world* world, hh_player player);
 HH_API hh_result hh_world_players(const hh_world* world, hh_player* players, size_t capacity,
                                   size_t* count);
 /* The headset's runtime, or the host, has recentred: from the next sample on, poses are given in a
- * space that lies at `new_in_old` in the space before (OpenXR: poseInPreviousSpace). Level: it
- * turns about +Y only, within 0.001. View, hands and grips stay where they are in the world;
+ * space that lies at `new_in_old` in the space before (OpenXR: poseInPreviousSpace). It turns about
+ * +Y only, else HH_ERROR_VALUE: x and z of the quaternion within 0.001. Before the player's first
+ * sample there is nothing to recentre. View, hands and grips stay where they are in the world;
  * hh_player_pose.origin changes at once, HH_EVENT_RECENTRED follows in the next step. From now on
  * the host announces all recentrings, as after hh_player_set_recenter_guess(world, player, 0). */
 HH_API hh_result hh_player_recenter(hh_world* world, hh_player player, hh_pose new_in_old);
@@ -62,8 +63,9 @@ HH_API hh_result hh_player_recenter(hh_world* world, hh_player player, hh_pose n
  * puts into its samples: view and hands follow it, and gripping hands take new anchors. Part of the
  * state. */
 HH_API hh_result hh_player_set_recenter_guess(hh_world* world, hh_player player, uint8_t guesses);
-/* The play space is there at once, at rest. Dynamic bodies in the hands that no joint holds come
- * along; hands let go of everything else. */
+/* Moves the play space at once; it is then at rest relative to the scene. Dynamic bodies in the hands
+ * that no joint holds come along; hands let go of everything else, and hands of other players let go
+ * of this player and of those bodies. */
 HH_API hh_result hh_player_teleport(hh_world* world, hh_player player, hh_pose origin);
 HH_API hh_result hh_player_velocity(const hh_world* world, hh_player player, hh_vec3* velocity_mps);
 HH_API hh_result hh_player_set_velocity(hh_world* world, hh_player player, hh_vec3 velocity_mps);
@@ -73,31 +75,33 @@ HH_API hh_result hh_player_reference_velocity(const hh_world* world, hh_player p
                                               hh_vec3* velocity_mps);
 /* How far contacts moved the play space in the last step, against its hands and its velocity. */
 HH_API hh_result hh_player_push_back(const hh_world* world, hh_player player, double* distance_m);
-/* The body mass that the player was added with. */
+/* hh_player_def.mass_kg. */
 HH_API hh_result hh_player_mass(const hh_world* world, hh_player player, double* mass_kg);
 /* The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked:
  * false before the head's first sample, and while it is lost or inferred. */
 HH_API hh_result hh_player_head(const hh_world* world, hh_player player, hh_vec3* center,
                                 double* radius_m, uint8_t* is_tracked);
-/* The measures with the scale in them. */
+/* The measures times the player's scale, in the world's metres. */
 HH_API hh_result hh_player_measures(const hh_world* world, hh_player player, hh_measures* measures);
-/* Replaces the measures. `measures`, not null. */
+/* Replaces the measures. `measures`, not null: times the player's scale, each in [0.05, 5] m times the
+ * scale. */
 HH_API hh_result hh_player_set_measures(hh_world* world, hh_player player,
                                         const hh_measures* measures);
 HH_API hh_result hh_player_set_user_data(hh_world* world, hh_player player, uint64_t user_data);
 HH_API hh_result hh_player_user_data(const hh_world* world, hh_player player, uint64_t* user_data);
-/* The hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists
- * with OpenXR's axes (-Z to the fingers, +Y the back of the hand). Null: a controller's grip pose,
- * by the tuning's hand.controller_ numbers times the player's scale, which is the default. The
- * given pose is used as it is. */
+/* Sets the hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists
+ * with OpenXR's axes (-Z to the fingers, +Y the back of the hand). The pose is in the world's metres,
+ * like the samples, and does not scale with the player; within 10 m. Null: the default, which is the
+ * tuning's hand.controller_ numbers, for a controller's grip pose, times the player's scale. */
 HH_API hh_result hh_player_set_hand_in_controller(hh_world* world, hh_player player, hh_side side,
                                                   const hh_pose* hand_in_controller);
-/* Returns the pose set by hh_player_set_hand_in_controller, for hosts that have wrists and need
- * controllers. */
+/* Returns the wrist in the frame of the player's samples, in the world's metres: the pose set by
+ * hh_player_set_hand_in_controller or, without one, the tuning's times the player's scale. For hosts
+ * that have wrists and need controllers. */
 HH_API hh_result hh_player_hand_in_controller(const hh_world* world, hh_player player, hh_side side,
                                               hh_pose* hand_in_controller);
-/* Returns the tuning's pose of the wrist in a controller, for players of scale 1 without one of
- * their own. */
+/* Returns the tuning's pose of the wrist in a controller. Players of scale 1 without a pose of their
+ * own have it. */
 HH_API hh_result hh_world_hand_in_controller(const hh_world* world, hh_side side,
                                              hh_pose* hand_in_controller);
 
@@ -121,15 +125,16 @@ typedef struct hh_hand_state {
     /* The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres
      * from it, so that palm and fingers touch. */
     hh_pose shown;
-    /* The wrist in the frame of what it grips (a body, or a part of a player), fixed when
-     * the hand closed. */
+    /* The wrist in the frame of what it grips (a body, or a part of a player), from when the hand
+     * closed. The hand takes a new anchor after tracking errors, when the other hand of a shared grip
+     * lets go, and when the body's kind or mass changes. */
     hh_pose anchor;
     /* Distance of the tracked wrist from the anchor: 0 unless something blocks it. */
     double error_m;
     /* Impulse of the hand on what it grips in the last step, for haptics. 0 if the host's solver
-     * moved the player (hh_world_end_step): read it there. While hands move only light bodies,
-     * hands and contacts report at most the momentum that the players and bodies involved have,
-     * with the hands' speed on top. */
+     * moved the player (hh_world_end_step): read it there. While hands move only light bodies, the
+     * reported impulses of hands and contacts are limited to the momentum that the players and
+     * bodies involved have at their speeds plus the hands' speed. */
     hh_vec3 force_impulse_ns;
     uint8_t is_tracked; /* false while the hand is lost or inferred */
     uint8_t is_closed;  /* the button is down */
@@ -185,13 +190,15 @@ HH_API hh_result hh_hand_release(hh_world* world, hh_player player, hh_side side
 /* ---- Events --------------------------------------------------------------------------------- */
 
 typedef enum hh_event_kind {
-    /* The palm of an empty hand came within 2 cm of a body or player. */
+    /* The palm of an empty, tracked hand came within 2 cm times the player's scale of a body or of
+     * another player's head. */
     HH_EVENT_TOUCHED = 0,
     HH_EVENT_GRABBED = 1,       /* a hand grips */
     HH_EVENT_RELEASED = 2,      /* the player opened the hand, or `reason` says who did */
     HH_EVENT_REFUSED = 3,       /* a hand closed and grips nothing: `reason` */
     HH_EVENT_SLIPPED = 4,       /* a hand lost its grip: `reason` */
-    HH_EVENT_CONTACT_BEGAN = 5, /* the player's head, or what a hand holds, hits a body */
+    /* The player's head, or what a hand holds, hits a body or another player's head. */
+    HH_EVENT_CONTACT_BEGAN = 5,
     HH_EVENT_CONTACT_ENDED = 6,
     HH_EVENT_LATCH_CLOSED = 7, /* of `joint` */
     HH_EVENT_LATCH_OPENED = 8,
@@ -211,7 +218,8 @@ typedef enum hh_reason {
     HH_REASON_STRETCHED = 5,       /* farther from its anchor than hand.max_stretch_m */
     HH_REASON_TRACKING_LOST = 6,   /* it opened unseen, or came back too far away */
     HH_REASON_BODY_GONE = 7,       /* the body was removed */
-    HH_REASON_BY_HOST = 8,         /* hh_hand_release, hh_hand_grip or a teleport */
+    /* hh_hand_release, hh_hand_grip, hh_hand_hold, hh_body_set_shape or a teleport */
+    HH_REASON_BY_HOST = 8,
     HH_REASON_OTHER_HAND = 9,      /* the other of two hands on a body let go */
     HH_REASON_32_BITS = 0x7fffffff
 } hh_reason;
@@ -226,8 +234,8 @@ typedef struct hh_event {
     hh_body body;      /* touched, gripped, held or hit; null: a player, or nothing */
     hh_player other;   /* gripped or hit player; null: none */
     hh_body held;      /* contacts: what the hand holds; null: the head */
-    hh_joint joint;    /* of latches and limits */
-    hh_vec3 position;  /* in the world */
+    hh_joint joint;    /* whose latch or limit it is; null: none */
+    hh_vec3 position;  /* in the world: of the wrist, the contact, the joint or the head */
     double impulse_ns; /* of a contact that began: >= 0, for haptics and sound */
 } hh_event;
 
@@ -348,7 +356,7 @@ HH_API hh_result hh_player_skeleton_joint(const hh_world* world, hh_player playe
 
 typedef struct hh_finger {
     uint8_t is_posed;      /* false: the finger closes on the surface as usual */
-    double curl_rad[3];    /* of its hinges, from the palm */
+    double curl_rad[3];    /* of its hinges, from the knuckle; each within pi */
     double opposition_rad; /* thumb */
     /* The finger moves from these angles to the pressed ones as far as the sample's `trigger` is
      * pressed. The pressed angles may reach into the body: a trigger gives way. */
@@ -374,7 +382,8 @@ static inline hh_grip_def hh_default_grip_def(void) {
     hh_default_grip_def_sized(&filled, sizeof(filled));
     return filled;
 }
-/* Adds an authored grip to a body, at most 4: hands that close near it take it. */
+/* Adds an authored grip to a body: hands that close near it take it. HH_ERROR_STATE if the body has
+ * 4 already. */
 HH_API hh_result hh_body_add_grip(hh_world* world, hh_body body, const hh_grip_def* def);
 
 #ifdef __cplusplus

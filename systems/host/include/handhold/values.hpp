@@ -90,7 +90,8 @@ class [[nodiscard]] Maybe {
     T value_;
 };
 
-// Defaults, to be changed by name: hh::BodyDef{.kind = ...} is not possible, since 0 is no default.
+// Definitions with their defaults. Change fields by name; designated initialisers would set all
+// other fields to 0, which is not every field's default.
 inline hh_world_def world_def() { return hh_default_world_def(); }
 inline hh_body_def body_def() { return hh_default_body_def(); }
 inline hh_joint_def joint_def() { return hh_default_joint_def(); }
@@ -98,6 +99,7 @@ inline hh_player_def player_def() { return hh_default_player_def(); }
 inline hh_grip_def grip_def() { return hh_default_grip_def(); }
 inline Sample sample() { return hh_default_tracking_sample(); }
 
+// The input of one player for one step. Points to `samples`, which must live until the step.
 inline hh_player_input input(Player player, std::span<const Sample> samples,
                              const hh_commands& commands = {}) {
     hh_player_input made = hh_default_player_input();
@@ -108,7 +110,7 @@ inline hh_player_input input(Player player, std::span<const Sample> samples,
     return made;
 }
 
-// Triangles that are prepared on any thread.
+// Triangles, prepared for collision and hands by the constructor. Any thread.
 class Mesh {
   public:
     Mesh() = default;

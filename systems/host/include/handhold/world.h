@@ -14,7 +14,7 @@ typedef struct hh_world_def {
     /* Fingers and palms close on what they grip. Default true. Without it no shape needs a grip
      * mesh, hands are shown as tracked, and meshes are added faster: for servers. */
     uint8_t fits_hands;
-    /* HH_EVENT_TOUCHED is reported: one query a hand and step. Default true. */
+    /* HH_EVENT_TOUCHED is reported: one query a step for each empty hand. Default true. */
     uint8_t reports_touches;
     hh_vec3 gravity_mps2;           /* of dynamic bodies; default 0. Each axis within 1e4 */
     hh_vec3 reference_velocity_mps; /* of the scene: what counts as rest. Each axis within 1e6 */
@@ -36,11 +36,12 @@ HH_API void hh_world_destroy(hh_world* world);
  * tracked, since runtimes report devices that sleep so. */
 typedef struct hh_tracking_sample {
     uint32_t struct_size;
-    /* On the world's clock: hh_world_time plus the step for a sample at the step's end. Later than
-     * the sample before, else it is ignored and counted as sample_out_of_order. More than 0.5 s
-     * after the step's end: dropped and counted as sample_too_far_ahead; more than 0.5 s before its
-     * start: counted as sample_too_old. If all of a step's samples are so far off, the log is told
-     * once that they are on another clock. */
+    /* On the world's clock: hh_world_time plus the step for a sample at the step's end. A sample
+     * that is not later than the one before is ignored and counted as sample_out_of_order. More
+     * than 0.5 s after the step's end, it is dropped and counted as sample_too_far_ahead, unless
+     * hh_player_input.repeats_samples; more than 0.5 s before the step's start, it is counted as
+     * sample_too_old. If all samples of a player in a step are so far off, the log is told, once
+     * per world, that they are on another clock. hh_world_step_pose_only takes any times. */
     double time_s;
     hh_pose head;     /* between the eyes, in play space: the frame that the tracking is given in */
     hh_pose hands[2]; /* controllers, by hh_side; see hh_player_set_hand_in_controller */
@@ -52,17 +53,17 @@ typedef struct hh_tracking_sample {
      * hand, and the fingers of authored grips that follow the trigger. */
     double trigger[2];
     /* True if the runtime only guesses the head's position: OpenXR's POSITION_VALID without
-     * POSITION_TRACKED, WebXR's emulatedPosition, a low confidence. Default false; true counts
-     * before head_tracked. The head follows the guess, but while a hand grips what the player can
+     * POSITION_TRACKED, WebXR's emulatedPosition, a low confidence. Default false; true overrides
+     * head_tracked. The head follows the guess, but while a hand grips what the player can
      * pull on, only its rotation does. */
     uint8_t head_inferred;
-    /* The same of the hands, before hand_tracked. An inferred hand does not grip, and never moves a
-     * player who grips: it stays where it was last measured. Opening `grab` lets go, without a
-     * throw. The shown empty hand follows the guess. Once measured again, the hand may be
-     * elsewhere: it did not travel. */
+    /* The same for the hands; true overrides hand_tracked. An inferred hand does not begin to grip,
+     * and never moves a player who grips: it stays where it was last measured. Opening `grab` lets
+     * go, without a throw. The shown empty hand follows the guess. When the hand is measured again,
+     * its displacement since does not count as travel. */
     uint8_t hand_inferred[2];
-    /* Bends the fingers of an empty hand, before squeeze and trigger; default unknown. By gloves,
-     * or from joints by hh_finger_curls_of. */
+    /* Bend of the fingers of an empty hand; known curls override squeeze and trigger. Default
+     * unknown. Measured by gloves, or made from joints by hh_finger_curls_of. */
     hh_finger_curls curls[2];
 } hh_tracking_sample;
 
@@ -76,7 +77,7 @@ static inline hh_tracking_sample hh_default_tracking_sample(void) {
 }
 
 /* What a player asks for in one step. All zero: nothing. Grows with hh_player_input, of which it is
- * the last field: later versions add fields whose 0 means nothing, too. */
+ * the last field. In the fields of later versions, too, 0 will ask for nothing. */
 typedef struct hh_commands {
     double smooth_turn; /* [-1, 1], positive turns left */
     int32_t snap_turns; /* turns to the left begun in this step; negative: to the right */
@@ -89,17 +90,17 @@ typedef struct hh_commands {
 typedef struct hh_player_input {
     uint32_t struct_size;
     hh_player player;
-    /* Sorted by time: those since the last step. Give each once. Up to 64 may be later than this
-     * step's end, by at most 0.5 s, as predicted poses are: the poses at the end are then
-     * interpolated, and each sample is kept for the step of its time, also if that step has no
-     * input. A sample replaces those kept of its time or later. None: the devices are silent but
-     * for samples that were kept. */
+    /* The samples since the last step, sorted by time. Give each once. Up to 64 may be later than
+     * this step's end, by at most 0.5 s, as predicted poses are: the poses at the end are then
+     * interpolated, and each sample is kept for the step of its time, even if that step has no
+     * input. A new sample replaces kept samples of the same time or later. None: the devices are
+     * silent, except for kept samples. */
     const hh_tracking_sample* samples;
     size_t sample_count;
-    /* The host gives a sample that is later than the step's end again in the next step, so the
-     * world keeps none; and a sample's time is taken to the bit, where otherwise a microsecond
-     * after the end counts as the end. For hosts that have the whole stream: recordings, rollback.
-     * Default 0. */
+    /* True: the host gives a sample that is later than the step's end again in the next step, so
+     * the world keeps none, and sample times are exact. False, the default: up to a microsecond
+     * after the step's end counts as the end. For hosts that have the whole stream: recordings,
+     * rollback. */
     uint8_t repeats_samples;
     hh_commands commands;
 } hh_player_input;
@@ -148,9 +149,9 @@ HH_API hh_result hh_world_restore(hh_world* world, const void* bytes, size_t siz
 
 /* What receives the impulses of constraints, index of hh_momentum's arrays. */
 typedef enum hh_momentum_receiver {
-    HH_MOMENTUM_BODIES = 0, /* dynamic ones */
+    HH_MOMENTUM_BODIES = 0, /* dynamic bodies */
     HH_MOMENTUM_PLAYERS = 1,
-    HH_MOMENTUM_DISCARDED = 2, /* that hands moved bodies with, without pushing the player back */
+    HH_MOMENTUM_DISCARDED = 2, /* impulses of hands on bodies that did not push the player back */
     HH_MOMENTUM_STATICS = 3,   /* static and kinematic bodies */
     HH_MOMENTUM_RECEIVERS = 4
 } hh_momentum_receiver;
@@ -169,13 +170,13 @@ typedef struct hh_world_stats {
     uint64_t newton_iterations; /* of all solves */
     double hand_error_m;        /* largest distance of a gripping hand from its anchor */
     double overlap_m;           /* worst contact overlap at the end */
-    double joint_error_m;       /* worst joint */
+    double joint_error_m;       /* largest position error of a joint */
     double step_us;             /* sum of all stages */
-    double joint_error_rad;     /* worst direction or angle of a joint beyond its limit */
+    double joint_error_rad;     /* largest error of a joint's direction, or angle beyond a limit */
     uint64_t islands_pushed;    /* islands in which something pushed a player back */
     uint64_t contact_rounds;    /* searches for contacts inside the solve */
     uint64_t hands_closed;      /* hands that closed */
-    uint64_t hands_gripped;     /* those of them that gripped something */
+    uint64_t hands_gripped;     /* grips that began */
     hh_momentum momentum;
 } hh_world_stats;
 HH_API hh_result hh_default_world_stats_sized(hh_world_stats* filled, size_t size);
@@ -204,7 +205,7 @@ typedef struct hh_tuning_info {
     const char* what;
     double low, high; /* of each component */
     size_t count;     /* 1 or 3 */
-    uint8_t scales;   /* true: times hh_player_def.scale for that player */
+    uint8_t scales;   /* true: each player has the number times hh_player_def.scale */
 } hh_tuning_info;
 HH_API hh_result hh_default_tuning_info_sized(hh_tuning_info* filled, size_t size);
 static inline hh_tuning_info hh_default_tuning_info(void) {

@@ -23,7 +23,7 @@ extern "C" {
 /* ---- Surfaces ------------------------------------------------------------------------------- */
 
 /* What a query found. Ignored, and counted as surface_answer_invalid: a body that is not in the
- * world, numbers that are not finite, a normal of length zero. */
+ * world, numbers that are not finite, a point beyond 1e9 m, a normal of length zero. */
 typedef struct hh_surface_hit {
     hh_body body;
     hh_vec3 point;     /* on the surface, in the world */
@@ -60,7 +60,8 @@ static inline hh_surface_query hh_default_surface_query(void) {
     hh_default_surface_query_sized(&filled, sizeof(filled));
     return filled;
 }
-/* From now on hands and legs ask the host, not the world's shapes. Null: back to the shapes. */
+/* From now on hands, trunks and legs ask the host, not the world's shapes. Null: back to the shapes.
+ * HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. */
 HH_API hh_result hh_world_set_surface_query(hh_world* world, const hh_surface_query* query);
 /* The triangles that palm and fingers close on, in the body's frame; null: none. Not needed for
  * gripping. The body must have no shape. HH_ERROR_STATE if it has, or if the mesh or the world was
@@ -80,16 +81,16 @@ typedef struct hh_body_motion {
  * Places all or, on an error, none. */
 HH_API hh_result hh_world_place_bodies(hh_world* world, const hh_body_motion* motions,
                                        size_t count);
-/* Where a player's hh_player_pose.origin is now, by the host's locomotion. Unlike a teleport it ends no grip,
- * and the body goes on moving. */
+/* Where a player's hh_player_pose.origin is now, and its velocity, by the host's locomotion. Unlike a
+ * teleport it ends no grip. */
 HH_API hh_result hh_player_place(hh_world* world, hh_player player, hh_pose origin,
                                  hh_vec3 velocity_mps);
 
 /* ---- The host moves players and decides what hands hold ------------------------------------- */
 
 /* The hand holds `body` from now on; a null id: nothing. `anchor`: the wrist in the body's frame;
- * null: where both are now. For hosts that use hh_world_step_hands only: the other steps keep the
- * hold and let the hand pull the player. */
+ * null: where both are now, HH_ERROR_STATE for a hand that was never tracked. For hosts that use
+ * hh_world_step_hands only: the other steps keep the hold and let the hand pull the player. */
 HH_API hh_result hh_hand_hold(hh_world* world, hh_player player, hh_side side, hh_body body,
                               const hh_pose* anchor);
 /* What the hand would grip if it closed where it is, by the rules of hands that pull players:

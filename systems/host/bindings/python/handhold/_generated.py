@@ -51,9 +51,9 @@ class Engine(enum.IntEnum):
 
 class MomentumReceiver(enum.IntEnum):
     """What receives the impulses of constraints, index of hh_momentum's arrays."""
-    HH_MOMENTUM_BODIES = 0  # dynamic ones
+    HH_MOMENTUM_BODIES = 0  # dynamic bodies
     HH_MOMENTUM_PLAYERS = 1
-    HH_MOMENTUM_DISCARDED = 2  # that hands moved bodies with, without pushing the player back
+    HH_MOMENTUM_DISCARDED = 2  # impulses of hands on bodies that did not push the player back
     HH_MOMENTUM_STATICS = 3  # static and kinematic bodies
     HH_MOMENTUM_RECEIVERS = 4
 
@@ -66,12 +66,12 @@ class BodyKind(enum.IntEnum):
 
 
 class JointKind(enum.IntEnum):
-    """Each has a coordinate, which limits, friction, detents and latches act on."""
-    HH_BALL = 0  # points coincide; the angle between both axes, a cone, rad
-    HH_HINGE = 1  # turns about the axis, rad
-    HH_SLIDER = 2  # moves along the axis, m
+    """Each kind has a coordinate, on which limits, friction, detents and latches act."""
+    HH_BALL = 0  # points coincide; coordinate: angle between the axes, rad; limits: a cone
+    HH_HINGE = 1  # turns about the axis; coordinate: angle, rad
+    HH_SLIDER = 2  # moves along the axis; coordinate: displacement, m
     HH_FIXED = 3  # no coordinate
-    HH_DISTANCE = 4  # distance of two points, m; lower 0: a rope; equal limits: a rod
+    HH_DISTANCE = 4  # coordinate: distance of two points, m; lower 0: a rope; equal limits: a rod
 
 
 class GripKind(enum.IntEnum):
@@ -85,12 +85,12 @@ class GripKind(enum.IntEnum):
 
 class EventKind(enum.IntEnum):
     """hh_event_kind"""
-    HH_EVENT_TOUCHED = 0  # The palm of an empty hand came within 2 cm of a body or player.
+    HH_EVENT_TOUCHED = 0  # The palm of an empty, tracked hand came within 2 cm times the player's scale of a body or of another player's head.
     HH_EVENT_GRABBED = 1  # a hand grips
     HH_EVENT_RELEASED = 2  # the player opened the hand, or `reason` says who did
     HH_EVENT_REFUSED = 3  # a hand closed and grips nothing: `reason`
     HH_EVENT_SLIPPED = 4  # a hand lost its grip: `reason`
-    HH_EVENT_CONTACT_BEGAN = 5  # the player's head, or what a hand holds, hits a body
+    HH_EVENT_CONTACT_BEGAN = 5  # The player's head, or what a hand holds, hits a body or another player's head.
     HH_EVENT_CONTACT_ENDED = 6
     HH_EVENT_LATCH_CLOSED = 7  # of `joint`
     HH_EVENT_LATCH_OPENED = 8
@@ -108,7 +108,7 @@ class Reason(enum.IntEnum):
     HH_REASON_STRETCHED = 5  # farther from its anchor than hand.max_stretch_m
     HH_REASON_TRACKING_LOST = 6  # it opened unseen, or came back too far away
     HH_REASON_BODY_GONE = 7  # the body was removed
-    HH_REASON_BY_HOST = 8  # hh_hand_release, hh_hand_grip or a teleport
+    HH_REASON_BY_HOST = 8  # hh_hand_release, hh_hand_grip, hh_hand_hold, hh_body_set_shape or a teleport
     HH_REASON_OTHER_HAND = 9  # the other of two hands on a body let go
 
 
@@ -328,8 +328,8 @@ class Pose(Struct):
 
 
 class FingerCurls(Struct):
-    """How far each finger is bent, by thumb, index, middle, ring, little: 0 straight, 1 as in a fist. Below 0 or
-    NaN: unknown; above 1: as 1."""
+    """How far each finger is bent: thumb, index, middle, ring, little. 0: straight; 1: as in a fist; above 1: as
+    1; below 0 or NaN: unknown."""
     _fields_ = [
         ("fingers", c_double * 5),
     ]
@@ -372,12 +372,12 @@ HostHooksParallelFor = CFUNCTYPE(None, c_void_p, c_size_t, Task, c_void_p)
 
 
 class HostHooks(Struct):
-    """Functions of the host that the library uses. Null functions: the library's own. Memory comes from the
-    global operator new, which a program may replace as usual; the shared library and the standard library
-    inside it then use the replacement too, once per process. Apart from that a world's blocks are taken and
-    given back by the threads that call it, and by those of parallel_for: a replacement with an arena a thread
-    gives each world its own. A host that uses Bullet needs its double-precision build, and sets
-    btAlignedAllocSetCustom before the first world.
+    """Functions of the host that the library uses. Null functions are not called; without parallel_for the
+    library has its own threads. Memory comes from the global operator new, which a program may replace as
+    usual; the shared library and the standard library inside it then use the replacement too, once per
+    process. Apart from that a world's blocks are taken and given back by the threads that call it, and by
+    those of parallel_for: a replacement with an arena a thread gives each world its own. A host that uses
+    Bullet needs its double-precision build, and sets btAlignedAllocSetCustom before the first world.
     context: passed to each of the functions
     log: Called by any thread that calls the library. `message` is one line, valid during the call.
     assert_failed: A defect of the library was found; the call then returns HH_ERROR_INTERNAL.
@@ -400,7 +400,7 @@ class WorldDef(Struct):
     """hh_world_def
     fits_hands: Fingers and palms close on what they grip. Default true. Without it no shape needs a grip
     mesh, hands are shown as tracked, and meshes are added faster: for servers.
-    reports_touches: HH_EVENT_TOUCHED is reported: one query a hand and step. Default true.
+    reports_touches: HH_EVENT_TOUCHED is reported: one query a step for each empty hand. Default true.
     gravity_mps2: of dynamic bodies; default 0. Each axis within 1e4
     reference_velocity_mps: of the scene: what counts as rest. Each axis within 1e6"""
     _fields_ = [
@@ -416,11 +416,12 @@ class WorldDef(Struct):
 class TrackingSample(Struct):
     """One reading of the headset and both controllers. A pose at exactly (0, 0, 0) counts as not tracked, since
     runtimes report devices that sleep so.
-    time_s: On the world's clock: hh_world_time plus the step for a sample at the step's end. Later than the
-    sample before, else it is ignored and counted as sample_out_of_order. More than 0.5 s after the step's
-    end: dropped and counted as sample_too_far_ahead; more than 0.5 s before its start: counted as
-    sample_too_old. If all of a step's samples are so far off, the log is told once that they are on another
-    clock.
+    time_s: On the world's clock: hh_world_time plus the step for a sample at the step's end. A sample that is
+    not later than the one before is ignored and counted as sample_out_of_order. More than 0.5 s after the
+    step's end, it is dropped and counted as sample_too_far_ahead, unless hh_player_input.repeats_samples;
+    more than 0.5 s before the step's start, it is counted as sample_too_old. If all samples of a player in a
+    step are so far off, the log is told, once per world, that they are on another clock.
+    hh_world_step_pose_only takes any times.
     head: between the eyes, in play space: the frame that the tracking is given in
     hands: controllers, by hh_side; see hh_player_set_hand_in_controller
     head_tracked: false: `head` is ignored
@@ -430,14 +431,14 @@ class TrackingSample(Struct):
     trigger: How far the index finger's trigger is pressed, [0, 1]: bends the index finger of an empty hand,
     and the fingers of authored grips that follow the trigger.
     head_inferred: True if the runtime only guesses the head's position: OpenXR's POSITION_VALID without
-    POSITION_TRACKED, WebXR's emulatedPosition, a low confidence. Default false; true counts before
-    head_tracked. The head follows the guess, but while a hand grips what the player can pull on, only its
-    rotation does.
-    hand_inferred: The same of the hands, before hand_tracked. An inferred hand does not grip, and never moves
-    a player who grips: it stays where it was last measured. Opening `grab` lets go, without a throw. The
-    shown empty hand follows the guess. Once measured again, the hand may be elsewhere: it did not travel.
-    curls: Bends the fingers of an empty hand, before squeeze and trigger; default unknown. By gloves, or from
-    joints by hh_finger_curls_of."""
+    POSITION_TRACKED, WebXR's emulatedPosition, a low confidence. Default false; true overrides head_tracked.
+    The head follows the guess, but while a hand grips what the player can pull on, only its rotation does.
+    hand_inferred: The same for the hands; true overrides hand_tracked. An inferred hand does not begin to
+    grip, and never moves a player who grips: it stays where it was last measured. Opening `grab` lets go,
+    without a throw. The shown empty hand follows the guess. When the hand is measured again, its displacement
+    since does not count as travel.
+    curls: Bend of the fingers of an empty hand; known curls override squeeze and trigger. Default unknown.
+    Measured by gloves, or made from joints by hh_finger_curls_of."""
     _fields_ = [
         ("struct_size", c_uint32),
         ("time_s", c_double),
@@ -457,7 +458,7 @@ class TrackingSample(Struct):
 
 class Commands(Struct):
     """What a player asks for in one step. All zero: nothing. Grows with hh_player_input, of which it is the last
-    field: later versions add fields whose 0 means nothing, too.
+    field. In the fields of later versions, too, 0 will ask for nothing.
     smooth_turn: [-1, 1], positive turns left
     snap_turns: turns to the left begun in this step; negative: to the right
     brake: [0, 1]
@@ -474,13 +475,13 @@ class Commands(Struct):
 
 class PlayerInput(Struct):
     """One player's input of one step. Fill by hh_default_player_input.
-    samples: Sorted by time: those since the last step. Give each once. Up to 64 may be later than this step's
-    end, by at most 0.5 s, as predicted poses are: the poses at the end are then interpolated, and each sample
-    is kept for the step of its time, also if that step has no input. A sample replaces those kept of its time
-    or later. None: the devices are silent but for samples that were kept.
-    repeats_samples: The host gives a sample that is later than the step's end again in the next step, so the
-    world keeps none; and a sample's time is taken to the bit, where otherwise a microsecond after the end
-    counts as the end. For hosts that have the whole stream: recordings, rollback. Default 0."""
+    samples: The samples since the last step, sorted by time. Give each once. Up to 64 may be later than this
+    step's end, by at most 0.5 s, as predicted poses are: the poses at the end are then interpolated, and each
+    sample is kept for the step of its time, even if that step has no input. A new sample replaces kept
+    samples of the same time or later. None: the devices are silent, except for kept samples.
+    repeats_samples: True: the host gives a sample that is later than the step's end again in the next step,
+    so the world keeps none, and sample times are exact. False, the default: up to a microsecond after the
+    step's end counts as the end. For hosts that have the whole stream: recordings, rollback."""
     _fields_ = [
         ("struct_size", c_uint32),
         ("player", Player),
@@ -509,13 +510,13 @@ class WorldStats(Struct):
     newton_iterations: of all solves
     hand_error_m: largest distance of a gripping hand from its anchor
     overlap_m: worst contact overlap at the end
-    joint_error_m: worst joint
+    joint_error_m: largest position error of a joint
     step_us: sum of all stages
-    joint_error_rad: worst direction or angle of a joint beyond its limit
+    joint_error_rad: largest error of a joint's direction, or angle beyond a limit
     islands_pushed: islands in which something pushed a player back
     contact_rounds: searches for contacts inside the solve
     hands_closed: hands that closed
-    hands_gripped: those of them that gripped something"""
+    hands_gripped: grips that began"""
     _fields_ = [
         ("struct_size", c_uint32),
         ("bodies", c_uint64),
@@ -545,7 +546,7 @@ class TuningInfo(Struct):
     unit: "m", ""
     high: of each component
     count: 1 or 3
-    scales: true: times hh_player_def.scale for that player"""
+    scales: true: each player has the number times hh_player_def.scale"""
     _fields_ = [
         ("struct_size", c_uint32),
         ("name", c_char_p),
@@ -562,7 +563,7 @@ class TuningInfo(Struct):
 class CompoundPart(Struct):
     """A part of a compound: any shape but a mesh or a compound.
     pose: in the compound's frame
-    mass_kg: of all parts, or 0 for all: by volume"""
+    mass_kg: give it for all parts, or 0 for all: the mass is then spread by volume"""
     _fields_ = [
         ("shape", Shape),
         ("pose", Pose),
@@ -597,7 +598,8 @@ class BodyDef(Struct):
     velocity_mps: each within 1e6
     angular_velocity_radps: each within 1e4
     mass_kg: dynamic: [1e-12, 1e15], default 1
-    inertia_kgm2: About the principal axes; 0: computed from the shape, if there is one.
+    inertia_kgm2: About the principal axes; 0: computed from the shape. A dynamic body without a shape needs
+    one: HH_ERROR_VALUE.
     restitution: [0, 1]
     friction: [0, 1e6], default 0.4
     gravity_scale: default 1; within 1000
@@ -640,10 +642,10 @@ class JointDef(Struct):
     limited: lower and upper apply; distance joints are always limited
     friction: N, or N m about a hinge or any axis of a ball; >= 0
     detent_spacing: a rest position at each multiple; 0: none
-    detent_strength: N or N m
-    latch_at: the coordinate is locked when it comes near this
-    latch_range: closes within this distance; 0: no latch
-    latch_strength: opens above this force, N or N m; 0: never by force
+    detent_strength: force towards the nearest rest position, N or N m
+    latch_at: the latch locks the coordinate at this
+    latch_range: the latch closes within this distance; 0: no latch
+    latch_strength: the latch opens above this force, N or N m; 0: never by force
     latch_handle: a joint that opens it; null: none
     latch_handle_at: open while |handle's coordinate| is at least this"""
     _fields_ = [
@@ -740,13 +742,14 @@ class HandState(Struct):
     tracked: the wrist in the world, as the devices say
     shown: The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres from it,
     so that palm and fingers touch.
-    anchor: The wrist in the frame of what it grips (a body, or a part of a player), fixed when the hand
-    closed.
+    anchor: The wrist in the frame of what it grips (a body, or a part of a player), from when the hand
+    closed. The hand takes a new anchor after tracking errors, when the other hand of a shared grip lets go,
+    and when the body's kind or mass changes.
     error_m: Distance of the tracked wrist from the anchor: 0 unless something blocks it.
     force_impulse_ns: Impulse of the hand on what it grips in the last step, for haptics. 0 if the host's
-    solver moved the player (hh_world_end_step): read it there. While hands move only light bodies, hands and
-    contacts report at most the momentum that the players and bodies involved have, with the hands' speed on
-    top.
+    solver moved the player (hh_world_end_step): read it there. While hands move only light bodies, the
+    reported impulses of hands and contacts are limited to the momentum that the players and bodies involved
+    have at their speeds plus the hands' speed.
     is_tracked: false while the hand is lost or inferred
     is_closed: the button is down
     is_inferred: The runtime guesses where the hand is (hh_tracking_sample.hand_inferred). `tracked` is the
@@ -789,8 +792,8 @@ class Event(Struct):
     body: touched, gripped, held or hit; null: a player, or nothing
     other: gripped or hit player; null: none
     held: contacts: what the hand holds; null: the head
-    joint: of latches and limits
-    position: in the world
+    joint: whose latch or limit it is; null: none
+    position: in the world: of the wrist, the contact, the joint or the head
     impulse_ns: of a contact that began: >= 0, for haptics and sound"""
     _fields_ = [
         ("kind", c_int32),
@@ -819,7 +822,7 @@ class HandJoint(Struct):
 class Finger(Struct):
     """hh_finger
     is_posed: false: the finger closes on the surface as usual
-    curl_rad: of its hinges, from the palm
+    curl_rad: of its hinges, from the knuckle; each within pi
     opposition_rad: thumb
     follows_trigger: The finger moves from these angles to the pressed ones as far as the sample's `trigger`
     is pressed. The pressed angles may reach into the body: a trigger gives way."""
@@ -863,7 +866,7 @@ class GripDef(Struct):
 
 class SurfaceHit(Struct):
     """What a query found. Ignored, and counted as surface_answer_invalid: a body that is not in the world,
-    numbers that are not finite, a normal of length zero.
+    numbers that are not finite, a point beyond 1e9 m, a normal of length zero.
     point: on the surface, in the world
     normal: out of the solid or towards the query; need not have length 1
     distance_m: see each query"""
@@ -1197,6 +1200,7 @@ def set_thread_count(count):
 
 
 def thread_count():
+    """Number of threads of the library's own pool, the caller's included. Any thread."""
     return lib().hh_thread_count()
 
 
@@ -1260,10 +1264,10 @@ def convert_scale_to(engine, scale):
 
 
 def convert_mesh_from(engine, coordinates, indices):
-    """A mesh in place: converts x, y, z of its vertices, and reverses its triangles if the engine's front faces
-    are clockwise (Unity, Godot), so that they are counter-clockwise from outside. A mirrored object, of which
-    the product of the scales is negative: multiply its vertices by the scale and reverse the indices before,
-    since hh_shape_add_mesh takes positive scales only. HH_ERROR_VALUE, and no change, for counts that are no
+    """Converts a mesh in place: x, y, z of its vertices. Reverses its triangles if the engine's front faces are
+    clockwise (Unity, Godot), so that they are counter-clockwise from outside. A mirrored object, of which the
+    product of the scales is negative, needs nothing else: give its scale, from hh_convert_scale_from, to
+    hh_shape_add_mesh, which takes negative factors. HH_ERROR_VALUE, and no change, for counts that are no
     multiples of 3."""
     coordinates, coordinates_at = changed(c_float, coordinates)
     indices, indices_at = changed(c_uint32, indices)
@@ -1455,8 +1459,8 @@ class WorldCalls:
         return shape
 
     def shape_add_compound(self, parts):
-        """1 to 64 parts that move as one. It keeps copies: the parts may be removed. Cost with fits_hands: of
-        all its parts as if they were new."""
+        """1 to 64 parts that move as one. It keeps copies: the parts may be removed. Cost with fits_hands: as if
+        all its parts were new shapes."""
         parts, count_ = array(CompoundPart, parts)
         shape = Shape()
         check(lib().hh_shape_add_compound(self._handle, parts, count_, byref(shape)))
@@ -1534,15 +1538,17 @@ class WorldCalls:
         return velocity_mps, angular_velocity_radps
 
     def body_set_velocity(self, body, velocity_mps, angular_velocity_radps):
-        """Dynamic bodies only, as are impulses: HH_ERROR_STATE."""
+        """Within 1e6 m/s and 1e4 rad/s. HH_ERROR_STATE for a body that is not dynamic."""
         check(lib().hh_body_set_velocity(self._handle, value(Body, body), value(Vec3, velocity_mps), value(Vec3, angular_velocity_radps)))
 
     def body_apply_impulse(self, body, impulse_ns, point):
-        """Changes the velocity by an impulse in N s at a point in the world."""
+        """Changes the velocity by an impulse in N s at a point in the world. HH_ERROR_STATE for a body that is
+        not dynamic, HH_ERROR_VALUE if the velocity would leave the limits of hh_body_set_velocity."""
         check(lib().hh_body_apply_impulse(self._handle, value(Body, body), value(Vec3, impulse_ns), value(Vec3, point)))
 
     def body_teleport(self, body, pose):
-        """At once, without collisions on the path. Keeps the velocity. Hands that grip it let go."""
+        """Moves a body at once, without collisions on the path. It keeps its velocity; hands that grip it let
+        go."""
         check(lib().hh_body_teleport(self._handle, value(Body, body), value(Pose, pose)))
 
     def body_move_kinematic(self, body, pose):
@@ -1569,7 +1575,7 @@ class WorldCalls:
         return kind.value
 
     def body_mass(self, body):
-        """0 of a body that is not dynamic: nothing that acts on it moves it."""
+        """0 for a body that is not dynamic: nothing that acts on it moves it."""
         mass_kg = c_double()
         check(lib().hh_body_mass(self._handle, value(Body, body), byref(mass_kg)))
         return mass_kg.value
@@ -1605,13 +1611,14 @@ class WorldCalls:
         return shape
 
     def body_set_shape(self, body, shape):
-        """The body touches with another shape from now on, or with none (null id: not for dynamic bodies,
-        HH_ERROR_VALUE, as a mesh). Its pose, joints and grips stay as they are in the frame in which the host
-        made the shapes, whatever their centres of mass; a dynamic body's inertia becomes that of the solid
-        shape with the same mass. Hands whose palm is farther from the new surface than a closing hand reaches
-        (hand.ray_length_m) let go in the next step: HH_EVENT_RELEASED, HH_REASON_BY_HOST. HH_ERROR_STATE
-        between hh_world_begin_step and hh_world_end_step. Cost: microseconds; with a mesh that a hand grips,
-        linear in its triangles, 0.1 ms for 5,000."""
+        """The body touches with another shape from now on, or with none (null id). A dynamic body needs a solid
+        shape: HH_ERROR_VALUE for none or a mesh. The body's pose, joints and grips stay as they are in the
+        frame in which the host made the shapes, whatever their centres of mass; a dynamic body's inertia
+        becomes that of the solid shape with the same mass. Hands let go in the next step (HH_EVENT_RELEASED,
+        HH_REASON_BY_HOST) if the body has no shape any more, or if their palm is farther from the new surface
+        than a closing hand reaches: hand.ray_length_m minus hand.ray_back_m, or hand.reach_m if that is
+        larger. HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds; with a
+        mesh that a hand grips, linear in its triangles, 0.1 ms for 5,000."""
         check(lib().hh_body_set_shape(self._handle, value(Body, body), value(Shape, shape)))
 
     def body_set_user_data(self, body, user_data):
@@ -1654,8 +1661,8 @@ class WorldCalls:
         return hit
 
     def cast_sphere(self, radius_m, start, end, skip):
-        """First impact of a sphere that moves along the segment, radius within 1e4 m; distance_m: how far its
-        centre has moved, 0 if it touches something at the start."""
+        """First impact of a sphere that moves along the segment. Radius in [1e-6, 1e4] m; distance_m: how far
+        its centre has moved, 0 if it touches something at the start."""
         hit = Hit()
         check(lib().hh_world_cast_sphere(self._handle, radius_m, value(Vec3, start), value(Vec3, end), value(Player, skip), byref(hit)))
         return hit
@@ -1689,8 +1696,9 @@ class WorldCalls:
 
     def player_recenter(self, player, new_in_old):
         """The headset's runtime, or the host, has recentred: from the next sample on, poses are given in a space
-        that lies at `new_in_old` in the space before (OpenXR: poseInPreviousSpace). Level: it turns about +Y
-        only, within 0.001. View, hands and grips stay where they are in the world; hh_player_pose.origin
+        that lies at `new_in_old` in the space before (OpenXR: poseInPreviousSpace). It turns about +Y only,
+        else HH_ERROR_VALUE: x and z of the quaternion within 0.001. Before the player's first sample there is
+        nothing to recentre. View, hands and grips stay where they are in the world; hh_player_pose.origin
         changes at once, HH_EVENT_RECENTRED follows in the next step. From now on the host announces all
         recentrings, as after hh_player_set_recenter_guess(world, player, 0)."""
         check(lib().hh_player_recenter(self._handle, value(Player, player), value(Pose, new_in_old)))
@@ -1703,8 +1711,9 @@ class WorldCalls:
         check(lib().hh_player_set_recenter_guess(self._handle, value(Player, player), guesses))
 
     def player_teleport(self, player, origin):
-        """The play space is there at once, at rest. Dynamic bodies in the hands that no joint holds come along;
-        hands let go of everything else."""
+        """Moves the play space at once; it is then at rest relative to the scene. Dynamic bodies in the hands
+        that no joint holds come along; hands let go of everything else, and hands of other players let go of
+        this player and of those bodies."""
         check(lib().hh_player_teleport(self._handle, value(Player, player), value(Pose, origin)))
 
     def player_velocity(self, player):
@@ -1729,7 +1738,7 @@ class WorldCalls:
         return distance_m.value
 
     def player_mass(self, player):
-        """The body mass that the player was added with."""
+        """hh_player_def.mass_kg."""
         mass_kg = c_double()
         check(lib().hh_player_mass(self._handle, value(Player, player), byref(mass_kg)))
         return mass_kg.value
@@ -1744,13 +1753,14 @@ class WorldCalls:
         return center, radius_m.value, bool(is_tracked.value)
 
     def player_measures(self, player):
-        """The measures with the scale in them."""
+        """The measures times the player's scale, in the world's metres."""
         measures = Measures()
         check(lib().hh_player_measures(self._handle, value(Player, player), byref(measures)))
         return measures
 
     def player_set_measures(self, player, measures):
-        """Replaces the measures. `measures`, not null."""
+        """Replaces the measures. `measures`, not null: times the player's scale, each in [0.05, 5] m times the
+        scale."""
         check(lib().hh_player_set_measures(self._handle, value(Player, player), byref(value(Measures, measures))))
 
     def player_set_user_data(self, player, user_data):
@@ -1762,22 +1772,23 @@ class WorldCalls:
         return user_data.value
 
     def player_set_hand_in_controller(self, player, side, hand_in_controller=None):
-        """The hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists with
-        OpenXR's axes (-Z to the fingers, +Y the back of the hand). Null: a controller's grip pose, by the
-        tuning's hand.controller_ numbers times the player's scale, which is the default. The given pose is
-        used as it is."""
+        """Sets the hand's wrist in the frame of hh_tracking_sample.hands: identity if the samples are wrists
+        with OpenXR's axes (-Z to the fingers, +Y the back of the hand). The pose is in the world's metres,
+        like the samples, and does not scale with the player; within 10 m. Null: the default, which is the
+        tuning's hand.controller_ numbers, for a controller's grip pose, times the player's scale."""
         check(lib().hh_player_set_hand_in_controller(self._handle, value(Player, player), side, optional(Pose, hand_in_controller)))
 
     def player_hand_in_controller(self, player, side):
-        """Returns the pose set by hh_player_set_hand_in_controller, for hosts that have wrists and need
-        controllers."""
+        """Returns the wrist in the frame of the player's samples, in the world's metres: the pose set by
+        hh_player_set_hand_in_controller or, without one, the tuning's times the player's scale. For hosts
+        that have wrists and need controllers."""
         hand_in_controller = Pose()
         check(lib().hh_player_hand_in_controller(self._handle, value(Player, player), side, byref(hand_in_controller)))
         return hand_in_controller
 
     def hand_in_controller(self, side):
-        """Returns the tuning's pose of the wrist in a controller, for players of scale 1 without one of their
-        own."""
+        """Returns the tuning's pose of the wrist in a controller. Players of scale 1 without a pose of their own
+        have it."""
         hand_in_controller = Pose()
         check(lib().hh_world_hand_in_controller(self._handle, side, byref(hand_in_controller)))
         return hand_in_controller
@@ -1862,11 +1873,13 @@ class WorldCalls:
         return shown(name.value), parent.value
 
     def body_add_grip(self, body, definition=None, **fields):
-        """Adds an authored grip to a body, at most 4: hands that close near it take it."""
+        """Adds an authored grip to a body: hands that close near it take it. HH_ERROR_STATE if the body has 4
+        already."""
         check(lib().hh_body_add_grip(self._handle, value(Body, body), optional(GripDef, definition, fields)))
 
     def set_surface_query(self, query=None):
-        """From now on hands and legs ask the host, not the world's shapes. Null: back to the shapes."""
+        """From now on hands, trunks and legs ask the host, not the world's shapes. Null: back to the shapes.
+        HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step."""
         query = held(SurfaceQuery, query)
         check(lib().hh_world_set_surface_query(self._handle, optional(SurfaceQuery, query)))
         self._kept["hh_surface_query"] = query
@@ -1885,14 +1898,14 @@ class WorldCalls:
         check(lib().hh_world_place_bodies(self._handle, motions, count_))
 
     def player_place(self, player, origin, velocity_mps):
-        """Where a player's hh_player_pose.origin is now, by the host's locomotion. Unlike a teleport it ends no
-        grip, and the body goes on moving."""
+        """Where a player's hh_player_pose.origin is now, and its velocity, by the host's locomotion. Unlike a
+        teleport it ends no grip."""
         check(lib().hh_player_place(self._handle, value(Player, player), value(Pose, origin), value(Vec3, velocity_mps)))
 
     def hand_hold(self, player, side, body, anchor=None):
         """The hand holds `body` from now on; a null id: nothing. `anchor`: the wrist in the body's frame; null:
-        where both are now. For hosts that use hh_world_step_hands only: the other steps keep the hold and let
-        the hand pull the player."""
+        where both are now, HH_ERROR_STATE for a hand that was never tracked. For hosts that use
+        hh_world_step_hands only: the other steps keep the hold and let the hand pull the player."""
         check(lib().hh_hand_hold(self._handle, value(Player, player), side, value(Body, body), optional(Pose, anchor)))
 
     def hand_find_grip(self, player, side):

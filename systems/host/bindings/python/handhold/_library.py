@@ -147,7 +147,7 @@ class Struct(ctypes.Structure):
 
 
 def value(kind, given):
-    """`given` as `kind`: an instance, a tuple, an element of a numpy array, or a row of numbers."""
+    """`given` as `kind`. It may be an instance, a tuple, a dictionary, an element of a numpy array, a sequence of numbers, or None: all zero."""
     if isinstance(given, kind) or not issubclass(kind, Struct):
         return given
     if isinstance(given, np.void):
@@ -181,7 +181,7 @@ def held(kind, given):
 
 
 def numbers_of(kind):
-    """The type of all numbers of a struct, if it is one type."""
+    """The type of all numbers of a struct; None if they have several types."""
     kinds = {numbers_of(one[0]) for one in kind.fields.values()} if kind.fields is not None else {kind.base if kind.subdtype else kind}
     return kinds.pop() if len(kinds) == 1 else None
 
@@ -245,7 +245,7 @@ def listed(kind, call):
 
 
 def raw(given):
-    """Bytes or a text for the library, and their number; None is null."""
+    """Bytes or a text for the library, and the number of bytes; None is null."""
     if given is None:
         return None, 0
     made = given.encode() if isinstance(given, str) else bytes(given)
