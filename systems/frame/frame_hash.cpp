@@ -37,8 +37,7 @@ class FieldHasher {
         const PersistentId* const id = world_.persistent_id.find(entity);
         stream_.add(id != nullptr ? id->value : std::uint64_t{0});
     }
-    // Not hashed: an index into the asset library, which depends on loading order. A body's shape
-    // never changes while frames run.
+    // Not hashed: an index into the asset library, which depends on loading order.
     void add(ShapeId /*shape*/) const {}
     template <typename T, std::size_t N>
     void add(const std::array<T, N>& values) const {

@@ -1755,7 +1755,7 @@ namespace Handhold {
             return velocity_mps;
         }
 
-        /// <summary>Hash of the whole state. Equal on every machine, compiler and number of threads after equal calls with equal names. Cost: linear in the state, about 0.1 ms for a scene of 100 bodies.</summary>
+        /// <summary>Hash of the whole state. Equal on every machine, compiler and number of threads after equal calls with equal names. Not in it: which shape a body has, because ids depend on the order of loading. Cost: linear in the state, about 0.1 ms for a scene of 100 bodies.</summary>
         public unsafe ulong Hash() {
             ulong hash;
             ulong hash_at;

@@ -732,7 +732,7 @@ export declare class WorldCalls {
     setReferenceVelocity(velocity_mps: Given<hh_vec3>): void;
     gravity(): hh_vec3;
     referenceVelocity(): hh_vec3;
-    /** Hash of the whole state. Equal on every machine, compiler and number of threads after equal calls with equal names. Cost: linear in the state, about 0.1 ms for a scene of 100 bodies. */
+    /** Hash of the whole state. Equal on every machine, compiler and number of threads after equal calls with equal names. Not in it: which shape a body has, because ids depend on the order of loading. Cost: linear in the state, about 0.1 ms for a scene of 100 bodies. */
     hash(): bigint;
     /** Saves every bit of the state. Writes the number of bytes to `size`. A null `buffer` only asks for it. HH_ERROR_CAPACITY if it is more than `capacity`. Rigs, tuning and user data are not in a snapshot. Shapes are named by their content: a world that restores it needs equal ones, whatever their ids. */
     save(): Uint8Array;

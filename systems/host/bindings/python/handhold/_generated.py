@@ -1360,7 +1360,8 @@ class WorldCalls:
 
     def hash(self):
         """Hash of the whole state. Equal on every machine, compiler and number of threads after equal calls with
-        equal names. Cost: linear in the state, about 0.1 ms for a scene of 100 bodies."""
+        equal names. Not in it: which shape a body has, because ids depend on the order of loading. Cost:
+        linear in the state, about 0.1 ms for a scene of 100 bodies."""
         hash = c_uint64()
         check(lib().hh_world_hash(self._handle, byref(hash)))
         return hash.value
