@@ -44,7 +44,9 @@ void expect_closed_and_outward(const SurfaceGraph& graph) {
     }
 }
 
-TEST(GripMesh, ConvexShapesDeviateAtMostTenthOfMillimetre) {
+constexpr double k_tolerance_m = GripMeshSettings{}.shape_tolerance_m;
+
+TEST(GripMesh, ConvexShapesDeviateAtMostByTheTolerance) {
     Random random(820);
     for (int round = 0; round < 12; ++round) {
         ShapeLibrary shapes;
@@ -68,14 +70,14 @@ TEST(GripMesh, ConvexShapesDeviateAtMostTenthOfMillimetre) {
             SCOPED_TRACE(static_cast<int>(shapes.at({i}).kind));
             const GripMesh grip = build_grip_mesh(shapes.at({i}));
             expect_closed_and_outward(grip.contact);
-            EXPECT_LE(worst_deviation_m(shapes.at({i}), grip.contact), 1e-4);
+            EXPECT_LE(worst_deviation_m(shapes.at({i}), grip.contact), k_tolerance_m);
             // The other direction: no point of the shape is far from the triangles.
             for (int k = 0; k < 200; ++k) {
                 const Vec3 out = 10.0 * random.direction();
                 const Vec3 on_shape = closest_on_shape(shapes.at({i}), out).point;
                 const auto near = grip.contact_bvh.closest_point(on_shape, 1.0);
                 ASSERT_TRUE(near.has_value());
-                ASSERT_LE(near->distance_m, 1.0001e-4);
+                ASSERT_LE(near->distance_m, 1.0001 * k_tolerance_m);
             }
         }
     }
@@ -110,7 +112,7 @@ TEST(GripMesh, CompoundMatchesDistanceToItsParts) {
         if (oracle.distance_m > 1e-3) {
             const auto near = grip.contact_bvh.closest_point(point, 10.0);
             ASSERT_TRUE(near.has_value());
-            ASSERT_NEAR(near->distance_m, oracle.distance_m, 1.001e-4);
+            ASSERT_NEAR(near->distance_m, oracle.distance_m, 1.001 * k_tolerance_m);
         }
     }
 }
