@@ -7,9 +7,9 @@
 #include "engine/math/math.hpp"
 
 // Arms and chest. No device tracks them: they are estimated from the head and the shown hands. They
-// never move their own player; hands that grip another player follow that player's arms as the last
-// frame showed them (BodyHold). Torso axes (_ts): -Z is the horizontal direction in which the chest
-// faces; +Y is the play space's up, even if the chest leans.
+// never move a player; hands that grip another player follow a body of their own (GrippableBody).
+// Torso axes (_ts): -Z is the horizontal direction in which the chest faces; +Y is the play space's
+// up, even if the chest leans.
 namespace handhold {
 
 // A player's size. Written by calibrate_players, or by the host that adds the player.

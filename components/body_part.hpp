@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "components/arm.hpp"
+#include "components/spine.hpp"
 #include "engine/math/math.hpp"
 
-// Parts of a player's shown body that other players' hands can grip.
+// Parts of a player's body that other players' hands can grip.
 namespace handhold {
 
 enum class BodyPart : std::uint8_t {
@@ -29,14 +31,22 @@ inline constexpr std::size_t k_gripped_parts = 13;
 inline constexpr bool swings(BodyPart part) { return part >= BodyPart::upper_spine; }
 
 // A hand's grip on a part of another player's body. Only hands with such a grip have this
-// component; a hand that grips a head has none. The poses are those of the part's bone (ArmPose,
-// SpinePose) in the held player's play space. They follow the shown bone with a delay of at least
+// component; a hand that grips a head has none. The poses are those of the part's bone
+// (GrippableBody) in the held player's play space. They follow the bone with a delay of at least
 // one frame (HandTuning::part_speed_mps, swing_lag_s). Written by update_grabs. When the held
 // player turns, locomote_players changes the poses so that they stay in place in the world.
 struct BodyHold {
     BodyPart part = BodyPart::left_upper_arm;
     Pose start_ps;  // pose at the start of the frame
     Pose pose_ps;   // pose at the end of the frame
+};
+
+// A player's arms, trunk and legs where other players' hands can grip them: a function of the
+// tracked head and wrists at the start of the frame alone. The shown body lags and swings about it.
+// Not state: written by pose_grippable_bodies, for players who may be gripped in the frame.
+struct GrippableBody {
+    ArmPose arms;
+    SpinePose spine;
 };
 
 }  // namespace handhold

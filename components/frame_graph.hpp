@@ -6,8 +6,10 @@
 
 #include "components/active_bodies.hpp"
 #include "components/body.hpp"
+#include "components/body_part.hpp"
 #include "components/player.hpp"
 #include "engine/collision/collision_world.hpp"
+#include "engine/ecs/column.hpp"
 #include "engine/ecs/column_watch.hpp"
 #include "engine/ecs/entity.hpp"
 #include "engine/solver/contact/missed_overlaps.hpp"
@@ -91,8 +93,9 @@ struct FrameGraph {
     // If a joint connects a body to the world, `phase` and graph.bodies have one element more than
     // `entities`: the last one stands for the world.
     std::vector<PhaseBody> phase;
-    JointGroups joint_groups;          // written by group_joints
-    std::vector<PushBack> push_backs;  // one per player; written by finish_positions
+    JointGroups joint_groups;                // written by group_joints
+    Column<GrippableBody> grippable_bodies;  // written by pose_grippable_bodies; by player
+    std::vector<PushBack> push_backs;        // one per player; written by finish_positions
 
     std::vector<ContactPoint> contacts;  // written by find_contacts, solve_phases
     std::vector<IgnoredPair> ignored;    // written by find_contacts

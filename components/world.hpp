@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <unordered_map>
+#include <utility>
 
 #include "components/arm.hpp"
 #include "components/authored_grip.hpp"
@@ -30,7 +32,7 @@ struct FrameClock {
     double t_s = 0.0;         // end of the last frame, s
 };
 
-// The whole simulation state: one column per component. No other state is kept from frame to frame.
+// The whole state: one column per component. No other state is kept from frame to frame.
 struct World {
     EntityPool entities;
     FrameClock clock;
@@ -101,61 +103,106 @@ struct World {
     std::unordered_map<std::uint64_t, std::string> name_of_id;  // indexed by persistent id
 };
 
-// Calls visit(name, column) for every column. Hashing, snapshots and destroy use this list.
+// Columns of two kinds. Shown columns are what the shown stages write and what only they read:
+// fitted hands, arms, spine, legs and the poses that hosts draw. All other columns are simulated:
+// without the shown stages, and whatever is in the shown columns, they change equally, bit for bit.
+template <typename Component>
+inline constexpr bool k_is_shown = false;
+template <>
+inline constexpr bool k_is_shown<RenderPose> = true;
+template <>
+inline constexpr bool k_is_shown<ArmMemory> = true;
+template <>
+inline constexpr bool k_is_shown<ArmEstimate> = true;
+template <>
+inline constexpr bool k_is_shown<ArmPose> = true;
+template <>
+inline constexpr bool k_is_shown<SpineMemory> = true;
+template <>
+inline constexpr bool k_is_shown<SpinePose> = true;
+template <>
+inline constexpr bool k_is_shown<BodyClipState> = true;
+template <>
+inline constexpr bool k_is_shown<GripSurface> = true;
+template <>
+inline constexpr bool k_is_shown<PalmOffset> = true;
+template <>
+inline constexpr bool k_is_shown<PalmPose> = true;
+template <>
+inline constexpr bool k_is_shown<FingerPose> = true;
+template <>
+inline constexpr bool k_is_shown<HandRigChoice> = true;
+
+// Calls visit(name, &World::column) for every column. Hashing, snapshots and destroy use this list.
+template <typename Visit>
+void visit_column_members(Visit&& visit) {
+    visit("persistent_id", &World::persistent_id);
+    visit("body", &World::body);
+    visit("body_pose", &World::body_pose);
+    visit("body_start", &World::body_start);
+    visit("body_velocity", &World::body_velocity);
+    visit("collider", &World::collider);
+    visit("mover", &World::mover);
+    visit("path_mover", &World::path_mover);
+    visit("leg_mover", &World::leg_mover);
+    visit("move_target", &World::move_target);
+    visit("gravity_scale", &World::gravity_scale);
+    visit("filter", &World::filter);
+    visit("grab_rule", &World::grab_rule);
+    visit("last_valid", &World::last_valid);
+    visit("authored_grips", &World::authored_grips);
+    visit("joint", &World::joint);
+    visit("joint_state", &World::joint_state);
+    visit("player", &World::player);
+    visit("player_origin", &World::player_origin);
+    visit("player_start", &World::player_start);
+    visit("player_velocity", &World::player_velocity);
+    visit("player_commands", &World::player_commands);
+    visit("reference_velocity", &World::reference_velocity);
+    visit("head_tracking", &World::head_tracking);
+    visit("head_ignores", &World::head_ignores);
+    visit("render_pose", &World::render_pose);
+    visit("body_measures", &World::body_measures);
+    visit("calibration", &World::calibration);
+    visit("arm_memory", &World::arm_memory);
+    visit("arm_estimate", &World::arm_estimate);
+    visit("arm_pose", &World::arm_pose);
+    visit("spine_memory", &World::spine_memory);
+    visit("spine_pose", &World::spine_pose);
+    visit("body_clip_state", &World::body_clip_state);
+    visit("hand_owner", &World::hand_owner);
+    visit("hand_tracking", &World::hand_tracking);
+    visit("hand_history", &World::hand_history);
+    visit("grab", &World::grab);
+    visit("hand_sight", &World::hand_sight);
+    visit("grip_surface", &World::grip_surface);
+    visit("palm_offset", &World::palm_offset);
+    visit("palm_pose", &World::palm_pose);
+    visit("finger_pose", &World::finger_pose);
+    visit("controller_to_hand", &World::controller_to_hand);
+    visit("authored_hold", &World::authored_hold);
+    visit("body_hold", &World::body_hold);
+    visit("hand_pull", &World::hand_pull);
+    visit("early_samples", &World::early_samples);
+    visit("recenter_guess", &World::recenter_guess);
+    visit("grab_layers", &World::grab_layers);
+    visit("grab_order", &World::grab_order);
+    visit("hand_rig", &World::hand_rig);
+}
+// Calls visit(name, column) for every column of a world.
 template <typename WorldType, typename Visit>
 void visit_columns(WorldType& world, Visit&& visit) {
-    visit("persistent_id", world.persistent_id);
-    visit("body", world.body);
-    visit("body_pose", world.body_pose);
-    visit("body_start", world.body_start);
-    visit("body_velocity", world.body_velocity);
-    visit("collider", world.collider);
-    visit("mover", world.mover);
-    visit("path_mover", world.path_mover);
-    visit("leg_mover", world.leg_mover);
-    visit("move_target", world.move_target);
-    visit("gravity_scale", world.gravity_scale);
-    visit("filter", world.filter);
-    visit("grab_rule", world.grab_rule);
-    visit("last_valid", world.last_valid);
-    visit("authored_grips", world.authored_grips);
-    visit("joint", world.joint);
-    visit("joint_state", world.joint_state);
-    visit("player", world.player);
-    visit("player_origin", world.player_origin);
-    visit("player_start", world.player_start);
-    visit("player_velocity", world.player_velocity);
-    visit("player_commands", world.player_commands);
-    visit("reference_velocity", world.reference_velocity);
-    visit("head_tracking", world.head_tracking);
-    visit("head_ignores", world.head_ignores);
-    visit("render_pose", world.render_pose);
-    visit("body_measures", world.body_measures);
-    visit("calibration", world.calibration);
-    visit("arm_memory", world.arm_memory);
-    visit("arm_estimate", world.arm_estimate);
-    visit("arm_pose", world.arm_pose);
-    visit("spine_memory", world.spine_memory);
-    visit("spine_pose", world.spine_pose);
-    visit("body_clip_state", world.body_clip_state);
-    visit("hand_owner", world.hand_owner);
-    visit("hand_tracking", world.hand_tracking);
-    visit("hand_history", world.hand_history);
-    visit("grab", world.grab);
-    visit("hand_sight", world.hand_sight);
-    visit("grip_surface", world.grip_surface);
-    visit("palm_offset", world.palm_offset);
-    visit("palm_pose", world.palm_pose);
-    visit("finger_pose", world.finger_pose);
-    visit("controller_to_hand", world.controller_to_hand);
-    visit("authored_hold", world.authored_hold);
-    visit("body_hold", world.body_hold);
-    visit("hand_pull", world.hand_pull);
-    visit("early_samples", world.early_samples);
-    visit("recenter_guess", world.recenter_guess);
-    visit("grab_layers", world.grab_layers);
-    visit("grab_order", world.grab_order);
-    visit("hand_rig", world.hand_rig);
+    visit_column_members([&](const char* name, auto member) { visit(name, world.*member); });
+}
+// Calls visit(name, &World::column) for every simulated column.
+template <typename Visit>
+void visit_simulated_members(Visit&& visit) {
+    visit_column_members([&](const char* name, auto member) {
+        using Elements = std::remove_cvref_t<decltype(std::declval<World&>().*member)>;
+        if constexpr (!k_is_shown<typename Elements::Element>) {
+            visit(name, member);
+        }
+    });
 }
 
 // Limits of the numbers that add_body, add_joint and add_player accept. Within these limits, no

@@ -14,15 +14,11 @@
 #include "systems/body/shared/body_contacts.hpp"
 #include "systems/body/shared/hang_body.hpp"
 #include "systems/body/shared/pose_spine.hpp"
+#include "systems/body/shared/rest_spine.hpp"
 #include "systems/body/shared/spine_chain.hpp"
 
 namespace handhold {
 namespace {
-
-// Angle of a link at rest, measured like the angle that its joint limit bounds.
-double rest_angle(const SpineLink& link) {
-    return link.kind == SpineLinkKind::shin ? arc_tangent2(link.rest.z(), -link.rest.y()) : 0.0;
-}
 
 JointRange range_of(SpineLinkKind kind, const SpineTuning& tuning) {
     const double share = k_spine_tick_s / (k_spine_tick_s + tuning.limit_lag_s);
@@ -43,38 +39,6 @@ Quat between(const Quat& a, const Quat& b, double share) {
     const double of_a = 1.0 - share;
     return unit_quat(of_a * a.w() + of_b * b.w(), of_a * a.x() + of_b * b.x(),
                      of_a * a.y() + of_b * b.y(), of_a * a.z() + of_b * b.z());
-}
-
-// The rest pose of the trunk below a chest.
-TrunkLean lean_at(const Quat& chest_ps, const Vec3& pull_ps, double lying) {
-    const Quat to_chest = chest_ps.conjugate();
-    return lean_of(to_chest * pull_ps, upright_turn(to_chest * Vec3::UnitY(), lying));
-}
-
-void rest_at(const Quat& chest, double lying, double scale, double t_s, SpineMemory& memory) {
-    const TrunkLean lean = lean_at(chest, Vec3::Zero(), lying);
-    SpineChain chain{frame_at(leaning_chest(chest, lean)), {}};
-    memory.velocity_mps.fill(Vec3::Zero());
-    memory.twist_rad.fill(0.0);
-    memory.moved_m = Vec3::Zero();
-    memory.since_tick_s = std::fmod(t_s, k_spine_tick_s);
-    memory.tick_chest_ps = chest;
-    memory.contacts = {};
-    memory.pull.now = Vec3::Zero();
-    memory.pull.before = Vec3::Zero();
-    memory.pull.rate_per_s = Vec3::Zero();
-    for (std::size_t i = 0; i < k_body_links; ++i) {
-        const SpineLink& link = spine_links()[i];
-        const SpineFrame& above = frame_above_link(chain, link);
-        const Vec3& rest = i < k_spine_links ? lean.rest_above[i] : link.rest;
-        memory.offset_m[i] = link_base(above, memory.offset_m, link, scale) +
-                             above.axes * ((scale * link.length_m) * rest);
-        memory.angle_rad[i] = i < k_spine_links
-                                  ? arc_tangent2(rest.cross(link.rest).norm(), rest.dot(link.rest))
-                                  : rest_angle(link);
-        chain.links[i] = frame_at(link_frame(above.rotation, rest, 0.0));
-    }
-    memory.before_m = memory.offset_m;
 }
 
 // Passes a turn of the chest down the spine: each link first keeps its heading, then follows the
@@ -285,7 +249,7 @@ void propagate_player(const PropagateSpineIo& io, std::size_t index, const Spine
     const Quat to_ps = origin_ws.rotation.conjugate();
     const Vec3 relative = to_ps * (io.velocity.at(player).linear_mps - reference_ws);
     if (!memory.known || is_jump(own_m.norm() / io.origin.at(player).scale, io.dt_s)) {
-        rest_at(chest_ps.rotation, lying, scale, io.t_s, memory);
+        rest_spine(chest_ps.rotation, lying, scale, io.t_s, memory);
         memory.known = true;
         memory.rate_mps = relative;
         memory.rate_span_s = io.dt_s;

@@ -9,7 +9,9 @@ namespace handhold::stages {
 
 // --- The stages of a frame, in order -------------------------------------------------------------
 // step_frame runs the five parts below, from top to bottom. Other kinds of frames leave parts out,
-// or put a few stages of their own in place of a part. Nothing else decides the order of stages.
+// or put a few stages of their own in place of a part. The first four parts read and write
+// simulated columns only; the last reads those and writes the shown ones. Nothing else decides the
+// order of stages.
 
 // Input: what devices and hosts say about players.
 void read_input(const FrameContext& f) {
@@ -22,6 +24,7 @@ void prepare_solve(const FrameContext& f, Contacts contacts) {
     // Intent: grabs, pulls and locomotion of players.
     group_joints(f);
     place_colliders(f, Stage::update_grabs);
+    pose_grippable_bodies(f, k_no_entity);
     update_grabs(f);
     locomote_players(f);
     pull_bodies(f);
@@ -110,6 +113,17 @@ void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const F
     advance_clock(f);
 }
 
+void step_simulated(World& world, FrameCaches& caches, const Tuning& tuning,
+                    const FrameInput& input, StageStats& stats) {
+    using namespace stages;
+    const FrameContext f = begin_frame(world, caches, tuning, input, stats);
+    read_input(f);
+    prepare_solve(f, Contacts::searched);
+    solve(f);
+    finish_solve(f);
+    advance_clock(f);
+}
+
 void step_pose_only(World& world, FrameCaches& caches, const Tuning& tuning,
                     const FrameInput& input, StageStats& stats) {
     using namespace stages;
@@ -163,6 +177,7 @@ std::optional<GrabTarget> find_grip(World& world, FrameCaches& caches, const Tun
     // Bodies and shapes may have been added, removed or moved since the last step.
     group_joints(f);
     place_colliders(f, Stage::update_grabs);
+    pose_grippable_bodies(f, hand);
     const HandTracking& tracking = world.hand_tracking.at(hand);
     const PlayerOrigin& origin = world.player_origin.at(world.hand_owner.at(hand).player);
     const Pose hand_ws = origin.pose_ws * tracking.pose_ps;

@@ -63,6 +63,12 @@ struct FrameCaches {
 void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
                 StageStats& stats);
 
+// The same without the shown stages: no fitted hands, arms, spine and legs, and RenderPose stays as
+// it was. Simulated columns (k_is_shown) change exactly as in step_frame. For rollback: of many
+// steps only the last is shown.
+void step_simulated(World& world, FrameCaches& caches, const Tuning& tuning,
+                    const FrameInput& input, StageStats& stats);
+
 // Shows players while the world is paused, as in a menu. Heads, hands and bodies follow each
 // player's last sample for dt_s; the clock, bodies, joints, grips and players' origins do not
 // change. The next step_frame continues from the end of the last one. Throws the same errors as
@@ -74,5 +80,7 @@ void step_pose_only(World& world, FrameCaches& caches, const Tuning& tuning,
 // Identifies elements by persistent id, so it is independent of slots, creation order, thread
 // count, build, compiler and processor. docs/guide/platforms.md lists the tested targets.
 std::uint64_t hash_state(const World& world);
+// The same of the simulated columns alone: equal whichever steps were shown.
+std::uint64_t hash_simulated(const World& world);
 
 }  // namespace handhold

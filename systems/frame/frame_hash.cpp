@@ -62,11 +62,12 @@ class FieldHasher {
     HashStream& stream_;
 };
 
-}  // namespace
-
-std::uint64_t hash_state(const World& world) {
+// Hash of the columns that visit_members lists, and of the world's data outside of columns.
+template <typename VisitMembers>
+std::uint64_t hash_columns(const World& world, const VisitMembers& visit_members) {
     std::uint64_t sum = 0;
-    visit_columns(world, [&](const char* name, const auto& column) {
+    visit_members([&](const char* name, auto member) {
+        const auto& column = world.*member;
         for (std::size_t index = 0; index < column.size(); ++index) {
             HashStream stream;
             stream.add(hash_text(name));
@@ -88,6 +89,16 @@ std::uint64_t hash_state(const World& world) {
         }
     }
     return stream.value();
+}
+
+}  // namespace
+
+std::uint64_t hash_state(const World& world) {
+    return hash_columns(world, [](auto&& visit) { visit_column_members(visit); });
+}
+
+std::uint64_t hash_simulated(const World& world) {
+    return hash_columns(world, [](auto&& visit) { visit_simulated_members(visit); });
 }
 
 }  // namespace handhold

@@ -1,6 +1,7 @@
 #include "systems/frame/frame_stages.hpp"
 
 #include "systems/body/calibrate_players.hpp"
+#include "systems/body/pose_grippable_bodies.hpp"
 #include "systems/frame/frame_slices.hpp"
 #include "systems/frame/frame_stage_timer.hpp"
 #include "systems/grab/anchor_grabs.hpp"
@@ -115,6 +116,22 @@ GrabRules grab_rules(const World& w) {
 
 }  // namespace
 
+void pose_grippable_bodies(const FrameContext& f, Entity asking) {
+    const StageTimer timer(Stage::update_grabs, f.stats);
+    World& w = f.w;
+    handhold::pose_grippable_bodies({.origin = w.player_origin,
+                                     .head = w.head_tracking,
+                                     .measures = w.body_measures,
+                                     .owner = w.hand_owner,
+                                     .hand = w.hand_tracking,
+                                     .grab = w.grab,
+                                     .body_hold = w.body_hold,
+                                     .pull = w.hand_pull,
+                                     .asking = asking,
+                                     .bodies = f.graph().grippable_bodies},
+                                    f.tuning);
+}
+
 GrabSearch grab_search(const FrameContext& f) {
     World& w = f.w;
     return {.start_s = f.start_s(),
@@ -130,7 +147,7 @@ GrabSearch grab_search(const FrameContext& f) {
             .joint_groups = f.graph().joint_groups,
             .authored_grips = w.authored_grips,
             .rules = grab_rules(w),
-            .shown = w.render_pose,
+            .grippable = f.graph().grippable_bodies,
             .measures = w.body_measures,
             .pull = w.hand_pull,
             .reference = w.reference_velocity,

@@ -33,6 +33,9 @@ void read_paused_tracking(const FrameContext& f);
 void calibrate_players(const FrameContext& f);
 void group_joints(const FrameContext& f);
 void place_colliders(const FrameContext& f, Stage needed_by);
+// Poses the bodies that hands may grip in this frame. `asking`: a hand that asks between frames;
+// null: none. Its time is part of update_grabs.
+void pose_grippable_bodies(const FrameContext& f, Entity asking);
 GrabSearch grab_search(const FrameContext& f);
 void update_grabs(const FrameContext& f);
 // Updates only HandSight, for frames in which hands grip nothing by themselves.

@@ -58,7 +58,7 @@ const BodyHold* hold_part(const UpdateGrabsIo& io, Entity hand, const GrabTarget
     return &io.body_hold.add(hand, {*target.part, part_ps, part_ps});
 }
 
-// Moves grips on players' parts along with the shown bodies, and removes the BodyHold of grips that
+// Moves grips on players' parts along with the bodies, and removes the BodyHold of grips that
 // ended.
 void follow_parts(const UpdateGrabsIo& io, const HandTuning& tuning) {
     for (const Entity hand : io.grab.owners()) {

@@ -27,6 +27,12 @@ Gripped as_gripped(const hh_world& host, Entity entity) {
     return {entity, host.world.player.contains(entity)};
 }
 
+Pose tracked_hand_ws(const hh_world& host, Entity hand) {
+    const World& world = host.world;
+    return world.player_origin.at(world.hand_owner.at(hand).player).pose_ws *
+           world.hand_tracking.at(hand).pose_ps;
+}
+
 hh_event hand_event(const hh_world& host, hh_event_kind kind, hh_reason reason, Entity hand,
                     const Gripped& what) {
     const HandOwner& owner = host.world.hand_owner.at(hand);
@@ -41,7 +47,8 @@ hh_event hand_event(const hh_world& host, hh_event_kind kind, hh_reason reason, 
         event.body = id_of<hh_body>(what.entity);
     }
     const RenderPose& shown = host.world.render_pose.at(owner.player);
-    event.position = to_c(shown.hands[index_of(owner.side)].shown_ws.position);
+    event.position = to_c(host.shows_hands ? shown.hands[index_of(owner.side)].shown_ws.position
+                                           : tracked_hand_ws(host, hand).position);
     return event;
 }
 
@@ -151,8 +158,7 @@ void add_touch_events(hh_world& host) {
         Entity touched = k_no_entity;
         if (report.grip == GripKind::none &&
             host.world.hand_tracking.at(hand).state == TrackingState::tracked) {
-            const Pose& hand_ws =
-                host.world.render_pose.at(owner.player).hands[index_of(owner.side)].tracked_ws;
+            const Pose hand_ws = tracked_hand_ws(host, hand);
             const PlayerOrigin& origin = host.world.player_origin.at(owner.player);
             const PalmRay ray = palm_ray(hand_ws, owner.side, tunings.of(origin).hand);
             const std::array own_head = {host.world.persistent_id.at(owner.player).value};

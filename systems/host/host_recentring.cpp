@@ -63,7 +63,9 @@ void report_recentrings(hh_world& host, bool makes_events) {
             event.reason = report->is_announced ? HH_REASON_BY_HOST : HH_REASON_NONE;
             event.player = id_of<hh_player>(player);
             event.side = -1;
-            event.position = to_c(host.world.render_pose.at(player).head_ws.position);
+            event.position =
+                to_c(transform_point(host.world.player_origin.at(player).pose_ws,
+                                     host.world.head_tracking.at(player).pose_ps.position));
             host.events.push_back(event);
         }
         *report = {correction, false};

@@ -60,6 +60,7 @@ hh_result step_with(hh_world* world, double dt_s, const hh_player_input* inputs,
             hh_world& host = *world;
             host.velocity_changes.clear();
             begin_events(host);
+            host.shows_hands = step != &step_simulated;
             if (makes_events) {
                 keep_early_samples(host, host.world.clock.t_s + dt_s);
             }
@@ -67,7 +68,7 @@ hh_result step_with(hh_world* world, double dt_s, const hh_player_input* inputs,
             if (makes_events) {
                 finish_events(host);
             }
-            if (step == &step_frame) {
+            if (step == &step_frame || step == &step_simulated) {
                 note_held_bodies(host);
             }
             finish_step(host);
@@ -145,6 +146,11 @@ hh_result hh_world_step(hh_world* world, double dt_s, const hh_player_input* inp
     return step_with(world, dt_s, inputs, input_count, &step_frame, true);
 }
 
+hh_result hh_world_step_simulated(hh_world* world, double dt_s, const hh_player_input* inputs,
+                                  size_t input_count) {
+    return step_with(world, dt_s, inputs, input_count, &step_simulated, true);
+}
+
 hh_result hh_world_step_pose_only(hh_world* world, double dt_s, const hh_player_input* inputs,
                                   size_t input_count) {
     return step_with(world, dt_s, inputs, input_count, &step_pose_only, false);
@@ -199,6 +205,14 @@ hh_result hh_world_hash(const hh_world* world, uint64_t* hash) {
         const hh_world& host = world_of(world);
         require(hash != nullptr, HH_ERROR_NULL, "the output is null");
         *hash = hash_state(host.world);
+    });
+}
+
+hh_result hh_world_simulated_hash(const hh_world* world, uint64_t* hash) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(hash != nullptr, HH_ERROR_NULL, "the output is null");
+        *hash = hash_simulated(host.world);
     });
 }
 

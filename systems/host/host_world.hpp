@@ -119,6 +119,7 @@ struct hh_world {
     std::vector<handhold::PlayerInput> inputs;
     std::vector<std::uint8_t> repeats_samples;  // indexed by index of `inputs`
     std::vector<handhold::TrackingSample> samples;
+    bool shows_hands = true;                  // the last step ran the shown stages
     std::uint64_t samples_too_far_ahead = 0;  // number in this step, until finish_step counts them
     std::uint64_t samples_too_old = 0;
     bool has_named_clock = false;  // the log has been told of samples on another clock

@@ -42,7 +42,8 @@ PartCapsule leg_capsule(const SpinePose::Leg& leg, bool is_shin, double scale) {
 
 }  // namespace
 
-PartCapsule part_capsule(const RenderPose& shown, const BodyMeasures& measures, BodyPart part) {
+PartCapsule part_capsule(const ArmPose& arms, const SpinePose& spine, const BodyMeasures& measures,
+                         BodyPart part) {
     constexpr auto k_arms = static_cast<std::size_t>(BodyPart::left_upper_arm);
     constexpr auto k_spine = static_cast<std::size_t>(BodyPart::upper_spine);
     constexpr auto k_legs = static_cast<std::size_t>(BodyPart::left_thigh);
@@ -50,12 +51,12 @@ PartCapsule part_capsule(const RenderPose& shown, const BodyMeasures& measures, 
     const double scale = measures.eye_height_m / k_scale_eye_m;
     const auto i = static_cast<std::size_t>(part);
     if (i < k_spine) {
-        return arm_capsule(shown.arms.arms[i / k_arm_bones], i % k_arm_bones, scale);
+        return arm_capsule(arms.arms[i / k_arm_bones], i % k_arm_bones, scale);
     }
     if (i < k_legs) {
-        return spine_capsule(shown.spine, i - k_spine, scale);
+        return spine_capsule(spine, i - k_spine, scale);
     }
-    return leg_capsule(shown.spine.legs[(i - k_legs) / 2], (i - k_legs) % 2 == 1, scale);
+    return leg_capsule(spine.legs[(i - k_legs) / 2], (i - k_legs) % 2 == 1, scale);
 }
 
 }  // namespace handhold

@@ -105,7 +105,8 @@ void save_snapshot(const World& world, const SnapshotAssets& assets, std::vector
 struct WorldDiffSettings {
     std::size_t limit = 20;  // maximum number of differences listed
     // Names of entities for the messages; entities without a name are shown by id.
-    std::span<const std::string> names;
+    std::span<const std::string> names = {};
+    bool simulated_only = false;  // true: leaves out the shown columns (k_is_shown)
 };
 // Lists the fields in which two worlds differ, bit for bit, by persistent id, in the order of the
 // columns and of the elements of `a`: "head_tracking[player].pose_ps.position.x: a 0.1, b 0.2",

@@ -59,15 +59,14 @@ class WorldDiff {
 
     std::vector<std::string> find() {
         compare("", [](const World& world, auto& visitor) { walk_globals(world, visitor); });
-        visit_columns(a_, [this](const char* name, const auto& column) {
-            visit_columns(b_, [&](const char* other_name, const auto& other) {
-                if constexpr (std::is_same_v<decltype(column), decltype(other)>) {
-                    if (std::string_view(name) == other_name) {
-                        compare_columns(name, column, other);
-                    }
-                }
-            });
-        });
+        const auto compare_members = [this](const char* name, auto member) {
+            compare_columns(name, a_.*member, b_.*member);
+        };
+        if (settings_.simulated_only) {
+            visit_simulated_members(compare_members);
+        } else {
+            visit_column_members(compare_members);
+        }
         return std::move(found_);
     }
 

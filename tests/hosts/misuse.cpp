@@ -20,11 +20,13 @@ void misuse_pointers(hh_world* world, hh_body body, hh_player player, hh_joint j
     HH_GIVES(HH_ERROR_NULL, hh_world_step(nullptr, 0.01, nullptr, 0));
     HH_GIVES(HH_ERROR_NULL, hh_world_step(world, 0.01, nullptr, 1));
     HH_GIVES(HH_ERROR_NULL, hh_world_step_pose_only(nullptr, 0.01, nullptr, 0));
+    HH_GIVES(HH_ERROR_NULL, hh_world_step_simulated(nullptr, 0.01, nullptr, 0));
     HH_GIVES(HH_ERROR_NULL, hh_world_time(nullptr, nullptr, nullptr));
     HH_GIVES(HH_OK, hh_world_time(world, nullptr, nullptr));
     HH_GIVES(HH_ERROR_NULL, hh_world_set_gravity(nullptr, {}));
     HH_GIVES(HH_ERROR_NULL, hh_world_set_reference_velocity(nullptr, {}));
     HH_GIVES(HH_ERROR_NULL, hh_world_hash(world, nullptr));
+    HH_GIVES(HH_ERROR_NULL, hh_world_simulated_hash(world, nullptr));
     HH_GIVES(HH_ERROR_NULL, hh_world_save(world, nullptr, 0, nullptr));
     HH_GIVES(HH_ERROR_NULL, hh_world_restore(world, nullptr, 10));
     HH_GIVES(HH_ERROR_NULL, hh_world_get_stats(world, nullptr));

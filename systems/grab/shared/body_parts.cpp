@@ -6,11 +6,6 @@
 namespace handhold {
 namespace {
 
-// False before a player's first frame.
-bool is_shown(const RenderPose& shown) {
-    return shown.spine.pelvis_ws.position != shown.spine.chest_ws.position;
-}
-
 struct CapsulePoint {
     Vec3 point_ws;
     Vec3 normal_ws;
@@ -98,22 +93,21 @@ Pose follow_part(const Pose& from_ps, const Pose& to_ps, const Vec3& anchor_bs,
     return {anchor_ps + share * way - rotation * anchor_bs, rotation};
 }
 
-Pose ShownBodies::part_ps(Entity player, BodyPart part) const {
-    const RenderPose& body = shown.at(player);
-    const Pose frame_ws = part_capsule(body, measures.at(player), part).frame_ws;
-    return head.at(player).start_ps * (inverse(body.head_ws) * frame_ws);
+Pose GrippableBodies::part_ps(Entity player, BodyPart part) const {
+    const PartCapsule capsule = part_capsule(bodies.at(player), measures.at(player), part);
+    return inverse(origin.at(player).pose_ws) * capsule.frame_ws;
 }
 
 template <typename Test>
-std::optional<PartHit> ShownBodies::nearest(const Vec3& near_ws, double within_m, Skip skip,
-                                            const Test& test) const {
+std::optional<PartHit> GrippableBodies::nearest(const Vec3& near_ws, double within_m, Skip skip,
+                                                const Test& test) const {
     constexpr double k_reach_eyes = 2.0;  // eye heights; parts farther from the head are not found
     std::optional<PartHit> best;
-    for (std::size_t index = 0; index < shown.size(); ++index) {
-        const Entity player = shown.owners()[index];
-        const RenderPose& body = shown.elements()[index];
+    for (std::size_t index = 0; index < bodies.size(); ++index) {
+        const Entity player = bodies.owners()[index];
+        const GrippableBody& body = bodies.elements()[index];
         const std::uint64_t id = persistent_id.at(player).value;
-        if (std::ranges::find(skip, id) != skip.end() || !is_shown(body)) {
+        if (std::ranges::find(skip, id) != skip.end()) {
             continue;
         }
         const BodyMeasures& size = measures.at(player);
@@ -123,8 +117,7 @@ std::optional<PartHit> ShownBodies::nearest(const Vec3& near_ws, double within_m
         }
         for (std::size_t i = 0; i < k_gripped_parts; ++i) {
             const auto part = static_cast<BodyPart>(i);
-            PartCapsule capsule = part_capsule(body, size, part);
-            capsule.frame_ws = head_ws * (inverse(body.head_ws) * capsule.frame_ws);
+            const PartCapsule capsule = part_capsule(body, size, part);
             const std::optional<CapsulePoint> hit = test(capsule);
             if (hit && (!best || hit->distance_m < best->distance_m ||
                         (hit->distance_m == best->distance_m && id < best->id))) {
@@ -135,14 +128,14 @@ std::optional<PartHit> ShownBodies::nearest(const Vec3& near_ws, double within_m
     return best;
 }
 
-std::optional<PartHit> ShownBodies::cast_ray(const Vec3& from_ws, const Vec3& to_ws,
-                                             Skip skip) const {
+std::optional<PartHit> GrippableBodies::cast_ray(const Vec3& from_ws, const Vec3& to_ws,
+                                                 Skip skip) const {
     return nearest(from_ws, (to_ws - from_ws).norm(), skip,
                    [&](const PartCapsule& capsule) { return ray_hit(capsule, from_ws, to_ws); });
 }
 
-std::optional<PartHit> ShownBodies::closest_point(const Vec3& point_ws, double max_distance_m,
-                                                  Skip skip) const {
+std::optional<PartHit> GrippableBodies::closest_point(const Vec3& point_ws, double max_distance_m,
+                                                      Skip skip) const {
     return nearest(point_ws, max_distance_m, skip,
                    [&](const PartCapsule& capsule) -> std::optional<CapsulePoint> {
                        const CapsulePoint found = closest_on(capsule, point_ws);

@@ -6,13 +6,12 @@
 
 #include "components/body_part.hpp"
 #include "components/player.hpp"
-#include "components/render.hpp"
 #include "components/tracking.hpp"
 #include "engine/ecs/column.hpp"
 #include "engine/math/math.hpp"
 #include "systems/rigs/body_capsules.hpp"
 
-// Finds the parts of shown bodies that a hand can grip.
+// Finds the parts of bodies that a hand can grip.
 namespace handhold {
 
 // How far follow_part moves: a share of the displacement, [0, 1], but at most `max_m`.
@@ -34,17 +33,16 @@ struct PartHit {
     double distance_m = 0.0;  // distance from the ray's start or the query point; negative: inside
 };
 
-// The bodies of all players, as the last frame showed them, at the start of this frame. A player
-// who is not in `shown` has no body that can be gripped.
-struct ShownBodies {
-    const Column<RenderPose>& shown;
-    const Column<BodyMeasures>& measures;  // has every player of `shown`
+// The bodies of players at the start of the frame. A player who is not in `bodies` has no body that
+// can be gripped.
+struct GrippableBodies {
+    const Column<GrippableBody>& bodies;
+    const Column<BodyMeasures>& measures;  // has every player of `bodies`
     const Column<PersistentId>& persistent_id;
     const Column<PlayerOrigin>& origin;
     const Column<HeadTracking>& head;
 
-    // The part's frame in its player's play space. It is taken relative to the head, so that a
-    // teleport between the frames moves the part too.
+    // The part's frame in its player's play space. Precondition: the player is in `bodies`.
     Pose part_ps(Entity player, BodyPart part) const;
 
     // The queries return the nearest part; among equally near ones, that of the player with the

@@ -80,12 +80,12 @@ class SurfaceFinder {
     };
 
     std::optional<FoundSurface> on_ray() const {
-        const ShownBodies::Skip skip = skipped_.view();
+        const GrippableBodies::Skip skip = skipped_.view();
         return nearer(io_.surfaces.cast_ray(ray_.from_ws, ray_.to_ws, skip),
                       io_.bodies().cast_ray(ray_.from_ws, ray_.to_ws, skip));
     }
     std::optional<FoundSurface> near_palm(double reach_m) const {
-        const ShownBodies::Skip skip = skipped_.view();
+        const GrippableBodies::Skip skip = skipped_.view();
         return nearer(io_.surfaces.closest_point(ray_.palm_ws, reach_m, skip),
                       io_.bodies().closest_point(ray_.palm_ws, reach_m, skip));
     }

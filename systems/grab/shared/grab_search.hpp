@@ -34,9 +34,9 @@ struct GrabSearch {
     const JointGroups& joint_groups;              // in
     const Column<AuthoredGrips>& authored_grips;  // in
     GrabRules rules;                              // in
-    // in: from the last frame; of players who are not in it, only the heads can be gripped
-    const Column<RenderPose>& shown;
-    const Column<BodyMeasures>& measures;        // in: has every player of `shown`
+    // in: at the start of the frame; of players who are not in it, only the heads can be gripped
+    const Column<GrippableBody>& grippable;
+    const Column<BodyMeasures>& measures;        // in: has every player of `grippable`
     const Column<HandPull>& pull;                // in: from the last frame
     const Column<ReferenceVelocity>& reference;  // in: from the last frame
     Column<HandSight>& sight;                    // in/out
@@ -47,8 +47,8 @@ struct GrabSearch {
     Column<BodyHold>& body_hold;          // in/out: hands that grip a part of a player
     Column<GrabOrder>& order;             // in/out: carried out and removed
 
-    ShownBodies bodies() const {
-        return {.shown = shown,
+    GrippableBodies bodies() const {
+        return {.bodies = grippable,
                 .measures = measures,
                 .persistent_id = persistent_id,
                 .origin = origin,

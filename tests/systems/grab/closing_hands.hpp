@@ -27,7 +27,7 @@ struct Grabs : test::HandsAndBodies {
     Column<HeadIgnores> head_ignores;
     Column<BodyHold> body_hold;
     Column<GrabOrder> order;
-    Column<RenderPose> shown;
+    Column<GrippableBody> grippable;
     Column<BodyMeasures> measures;
 
     explicit Grabs(const Pose& frame = {}, std::initializer_list<Entity> hands = {k_left, k_right})
@@ -74,7 +74,7 @@ struct Grabs : test::HandsAndBodies {
                       .joint_groups = joint_groups,
                       .authored_grips = authored_grips,
                       .rules = {.rule = grab_rule, .layers = grab_layers, .filter = filter},
-                      .shown = shown,
+                      .grippable = grippable,
                       .measures = measures,
                       .pull = pull,
                       .reference = reference,

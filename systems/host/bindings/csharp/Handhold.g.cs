@@ -1272,6 +1272,8 @@ namespace Handhold {
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_world_step(IntPtr world, double dt_s, PlayerInput* inputs, UIntPtr input_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_world_step_simulated(IntPtr world, double dt_s, PlayerInput* inputs, UIntPtr input_count);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_world_step_pose_only(IntPtr world, double dt_s, PlayerInput* inputs, UIntPtr input_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_world_time(IntPtr world, double* time_s, ulong* frame);
@@ -1285,6 +1287,8 @@ namespace Handhold {
         public static extern Result hh_world_reference_velocity(IntPtr world, Vec3* velocity_mps);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_world_hash(IntPtr world, ulong* hash);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_world_simulated_hash(IntPtr world, ulong* hash);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_world_save(IntPtr world, void* buffer, UIntPtr capacity, UIntPtr* size);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
@@ -1707,6 +1711,14 @@ namespace Handhold {
             }
         }
 
+        /// <summary>hh_world_step without fitted hands, arms, spine and legs: about a quarter of its cost. What hosts draw (hh_player_pose, joints of bodies, the shown hands) stays as the last other step left it. Everything else changes exactly as in hh_world_step, bit for bit: hh_world_simulated_hash is equal whichever steps were shown. For rollback: step again to the present with this, and the last time with hh_world_step. Events carry the tracked hand's position.</summary>
+        public unsafe void StepSimulated(double dt_s, PlayerInput[] inputs) {
+            fixed (PlayerInput* inputs_at = inputs) {
+                Library.Check(Native.hh_world_step_simulated(Handle, dt_s, inputs_at, Library.Count(inputs)));
+                GC.KeepAlive(this);
+            }
+        }
+
         /// <summary>While the game is paused: heads, hands and bodies of players follow their last sample, whatever its time. The clock, bodies, joints, grips and play spaces stand still. Samples that were waiting for their step are dropped. The next hh_world_step goes on: hands that are still closed grip where they are at that time.</summary>
         public unsafe void StepPoseOnly(double dt_s, PlayerInput[] inputs) {
             fixed (PlayerInput* inputs_at = inputs) {
@@ -1760,6 +1772,16 @@ namespace Handhold {
             ulong hash;
             ulong hash_at;
             Library.Check(Native.hh_world_hash(Handle, &hash_at));
+            hash = hash_at;
+            GC.KeepAlive(this);
+            return hash;
+        }
+
+        /// <summary>The same of the simulated state alone, without what hosts draw. Machines that show different frames, or none, compare this.</summary>
+        public unsafe ulong SimulatedHash() {
+            ulong hash;
+            ulong hash_at;
+            Library.Check(Native.hh_world_simulated_hash(Handle, &hash_at));
             hash = hash_at;
             GC.KeepAlive(this);
             return hash;

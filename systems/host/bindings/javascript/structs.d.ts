@@ -722,6 +722,8 @@ export declare class LibraryCalls {
 export declare class WorldCalls {
     /** Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players without one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs all the time, and up to 4 ms in the frame in which a hand closes: docs/guide/cost.md. */
     step(dt_s: number, inputs: Given<hh_player_input>[]): void;
+    /** hh_world_step without fitted hands, arms, spine and legs: about a quarter of its cost. What hosts draw (hh_player_pose, joints of bodies, the shown hands) stays as the last other step left it. Everything else changes exactly as in hh_world_step, bit for bit: hh_world_simulated_hash is equal whichever steps were shown. For rollback: step again to the present with this, and the last time with hh_world_step. Events carry the tracked hand's position. */
+    stepSimulated(dt_s: number, inputs: Given<hh_player_input>[]): void;
     /** While the game is paused: heads, hands and bodies of players follow their last sample, whatever its time. The clock, bodies, joints, grips and play spaces stand still. Samples that were waiting for their step are dropped. The next hh_world_step goes on: hands that are still closed grip where they are at that time. */
     stepPoseOnly(dt_s: number, inputs: Given<hh_player_input>[]): void;
     /** The world's clock, seconds, and the number of steps. Null outputs are skipped. */
@@ -734,6 +736,8 @@ export declare class WorldCalls {
     referenceVelocity(): hh_vec3;
     /** Hash of the whole state. Equal on every machine, compiler and number of threads after equal calls with equal names. Not in it: which shape a body has, because ids depend on the order of loading. Cost: linear in the state, about 0.1 ms for a scene of 100 bodies. */
     hash(): bigint;
+    /** The same of the simulated state alone, without what hosts draw. Machines that show different frames, or none, compare this. */
+    simulatedHash(): bigint;
     /** Saves every bit of the state. Writes the number of bytes to `size`. A null `buffer` only asks for it. HH_ERROR_CAPACITY if it is more than `capacity`. Rigs, tuning and user data are not in a snapshot. Shapes are named by their content: a world that restores it needs equal ones, whatever their ids. */
     save(): Uint8Array;
     /** Back to a saved state, which then goes on bit for bit. Ids taken before the save are valid again. HH_ERROR_DATA, and no change, for bytes that are damaged or name a shape that this world has not. Tolerates any bytes. */

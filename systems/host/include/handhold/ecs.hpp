@@ -8,6 +8,7 @@
 //   ShapeLibrary                                       collision shapes, for any number of worlds
 //   GripMeshLibrary                                    meshes that hands are fitted to
 //   step_frame, step_pose_only, hash_state             one frame; a hash of the whole state
+//   step_simulated, hash_simulated, SimulatedState     rollback within a window of frames
 //   begin_host_frame, end_host_frame                   frames around a host's own solver
 //   save_snapshot, restore_snapshot                    rollback and saved games
 //   columns_of                                         from a hh_world of handhold.h to all of this
@@ -29,4 +30,5 @@
 #include "systems/frame/frame_of_host.hpp"
 #include "systems/host/host_columns.hpp"
 #include "systems/input/read_tracking.hpp"
+#include "systems/snapshot/simulated_state.hpp"
 #include "systems/snapshot/snapshot.hpp"

@@ -334,6 +334,10 @@ class World {
     Status step(double dt_s, const hh_player_input& input) {
         return hh_world_step(world_, dt_s, &input, 1);
     }
+    // A step without what hosts draw, for rollback. Changes no bit of the simulated state.
+    Status step_simulated(double dt_s, std::span<const hh_player_input> inputs = {}) {
+        return hh_world_step_simulated(world_, dt_s, inputs.data(), inputs.size());
+    }
     // While the game is paused: players follow their last sample, the world stands still.
     Status step_pose_only(double dt_s, std::span<const hh_player_input> inputs) {
         return hh_world_step_pose_only(world_, dt_s, inputs.data(), inputs.size());
@@ -447,6 +451,11 @@ class World {
     std::uint64_t hash() const {
         std::uint64_t hash = 0;
         return hh_world_hash(world_, &hash) == HH_OK ? hash : 0;
+    }
+    // Hash of the simulated state alone: equal whichever steps were shown; 0 for an invalid world.
+    std::uint64_t simulated_hash() const {
+        std::uint64_t hash = 0;
+        return hh_world_simulated_hash(world_, &hash) == HH_OK ? hash : 0;
     }
 
     // Sets all numbers from JSON; those that it lacks get their defaults.

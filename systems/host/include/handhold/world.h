@@ -118,6 +118,13 @@ static inline hh_player_input hh_default_player_input(void) {
  * to 4 ms in the frame in which a hand closes: docs/guide/cost.md. */
 HH_API hh_result hh_world_step(hh_world* world, double dt_s, const hh_player_input* inputs,
                                size_t input_count);
+/* hh_world_step without fitted hands, arms, spine and legs: about a quarter of its cost. What hosts
+ * draw (hh_player_pose, joints of bodies, the shown hands) stays as the last other step left it.
+ * Everything else changes exactly as in hh_world_step, bit for bit: hh_world_simulated_hash is equal
+ * whichever steps were shown. For rollback: step again to the present with this, and the last time
+ * with hh_world_step. Events carry the tracked hand's position. */
+HH_API hh_result hh_world_step_simulated(hh_world* world, double dt_s,
+                                         const hh_player_input* inputs, size_t input_count);
 /* While the game is paused: heads, hands and bodies of players follow their last sample, whatever
  * its time. The clock, bodies, joints, grips and play spaces stand still. Samples that were waiting
  * for their step are dropped. The next hh_world_step goes on: hands that are still closed grip
@@ -138,6 +145,9 @@ HH_API hh_result hh_world_reference_velocity(const hh_world* world, hh_vec3* vel
  * calls with equal names. Not in it: which shape a body has, because ids depend on the order of
  * loading. Cost: linear in the state, about 0.1 ms for a scene of 100 bodies. */
 HH_API hh_result hh_world_hash(const hh_world* world, uint64_t* hash);
+/* The same of the simulated state alone, without what hosts draw. Machines that show different
+ * frames, or none, compare this. */
+HH_API hh_result hh_world_simulated_hash(const hh_world* world, uint64_t* hash);
 /* Saves every bit of the state. Writes the number of bytes to `size`. A null `buffer` only asks for
  * it. HH_ERROR_CAPACITY if it is more than `capacity`. Rigs, tuning and user data are not in a
  * snapshot. Shapes are named by their content: a world that restores it needs equal ones, whatever

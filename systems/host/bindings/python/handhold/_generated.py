@@ -1022,6 +1022,7 @@ FUNCTIONS = {
     "hh_default_tracking_sample_sized": (c_int32, [POINTER(TrackingSample), c_size_t]),
     "hh_default_player_input_sized": (c_int32, [POINTER(PlayerInput), c_size_t]),
     "hh_world_step": (c_int32, [c_void_p, c_double, POINTER(PlayerInput), c_size_t]),
+    "hh_world_step_simulated": (c_int32, [c_void_p, c_double, POINTER(PlayerInput), c_size_t]),
     "hh_world_step_pose_only": (c_int32, [c_void_p, c_double, POINTER(PlayerInput), c_size_t]),
     "hh_world_time": (c_int32, [c_void_p, POINTER(c_double), POINTER(c_uint64)]),
     "hh_world_set_gravity": (c_int32, [c_void_p, Vec3]),
@@ -1029,6 +1030,7 @@ FUNCTIONS = {
     "hh_world_gravity": (c_int32, [c_void_p, POINTER(Vec3)]),
     "hh_world_reference_velocity": (c_int32, [c_void_p, POINTER(Vec3)]),
     "hh_world_hash": (c_int32, [c_void_p, POINTER(c_uint64)]),
+    "hh_world_simulated_hash": (c_int32, [c_void_p, POINTER(c_uint64)]),
     "hh_world_save": (c_int32, [c_void_p, c_void_p, c_size_t, POINTER(c_size_t)]),
     "hh_world_restore": (c_int32, [c_void_p, c_void_p, c_size_t]),
     "hh_default_world_stats_sized": (c_int32, [POINTER(WorldStats), c_size_t]),
@@ -1325,6 +1327,15 @@ class WorldCalls:
         inputs, input_count_ = array(PlayerInput, inputs)
         check(lib().hh_world_step(self._handle, dt_s, inputs, input_count_))
 
+    def step_simulated(self, dt_s, inputs):
+        """hh_world_step without fitted hands, arms, spine and legs: about a quarter of its cost. What hosts draw
+        (hh_player_pose, joints of bodies, the shown hands) stays as the last other step left it. Everything
+        else changes exactly as in hh_world_step, bit for bit: hh_world_simulated_hash is equal whichever
+        steps were shown. For rollback: step again to the present with this, and the last time with
+        hh_world_step. Events carry the tracked hand's position."""
+        inputs, input_count_ = array(PlayerInput, inputs)
+        check(lib().hh_world_step_simulated(self._handle, dt_s, inputs, input_count_))
+
     def step_pose_only(self, dt_s, inputs):
         """While the game is paused: heads, hands and bodies of players follow their last sample, whatever its
         time. The clock, bodies, joints, grips and play spaces stand still. Samples that were waiting for
@@ -1364,6 +1375,13 @@ class WorldCalls:
         linear in the state, about 0.1 ms for a scene of 100 bodies."""
         hash = c_uint64()
         check(lib().hh_world_hash(self._handle, byref(hash)))
+        return hash.value
+
+    def simulated_hash(self):
+        """The same of the simulated state alone, without what hosts draw. Machines that show different frames,
+        or none, compare this."""
+        hash = c_uint64()
+        check(lib().hh_world_simulated_hash(self._handle, byref(hash)))
         return hash.value
 
     def save(self):
