@@ -26,7 +26,7 @@ namespace handhold {
 struct GripSurface {
     static constexpr std::uint32_t k_none = ~0U;
 
-    Entity body = k_no_entity;        // owner of the triangle; null: the hand is empty
+    Entity body = k_no_entity;        // body that was searched; null: the hand is empty
     std::uint32_t triangle = k_none;  // index into the body's search mesh; k_none: no surface
     Vec3 point_bs = Vec3::Zero();     // point on the contact mesh under the palm
     // Mean surface normal around the point; unit, towards the back of the hand.

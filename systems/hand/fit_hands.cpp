@@ -7,6 +7,7 @@
 #include "systems/hand/shared/hand_fit.hpp"
 #include "systems/hand/shared/thumb_closing.hpp"
 #include "systems/rigs/authored_hand.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 #include "systems/rigs/hand_limits.hpp"
 
 namespace handhold {
@@ -33,6 +34,15 @@ double straight_rad(const FingerRig& finger, std::size_t link) {
     return std::clamp(0.0, finger.lower_rad[link], finger.upper_rad[link]);
 }
 
+// Angles of a gripping hand's digit that has nothing to touch.
+FingerAngles loose_fist(const FingerRig& finger, const ThumbTuning& tuning) {
+    FingerAngles angles = coupled_angles(finger, k_loose_fist_curl);
+    if (finger.name == FingerName::thumb) {
+        angles.opposition_rad = rest_opposition_rad(finger, tuning);
+    }
+    return angles;
+}
+
 // Angles of an empty hand's digit: as its curl says where that is known, else between the rest pose
 // and a fist.
 FingerAngles empty_angles(const FingerRig& finger, const HandTracking& hand,
@@ -57,10 +67,12 @@ void pose_unsupported_hand(const HandSurroundings& hand, const HandTracking& tra
     offset.target_turn_rad = offset.held_turn_rad;
     for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
         const FingerRig& finger = hand.rig->fingers[f];
-        pose.target[f] =
-            pose.is_authored[f]
-                ? pose.closed[f]
-                : empty_angles(finger, hand.is_gripping ? HandTracking{} : tracking, tuning);
+        if (pose.is_authored[f]) {
+            pose.target[f] = pose.closed[f];
+        } else {
+            pose.target[f] = hand.is_gripping ? loose_fist(finger, tuning)
+                                              : empty_angles(finger, tracking, tuning);
+        }
     }
     pose.fitted_body = k_no_entity;
     pose.is_converged = false;

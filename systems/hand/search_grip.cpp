@@ -48,8 +48,8 @@ GripSurface surface_of_smallest_sync(const HandSurroundings& hand, const Tuning&
     return SurfaceCandidates(fitter, search, tuning.palm).best(last);
 }
 
-// True if the result of the last search is of this body's mesh.
-bool is_valid(const HandSurroundings& hand, const GripSurface& surface) {
+// True if the last search found a surface of this body's mesh.
+bool has_surface(const HandSurroundings& hand, const GripSurface& surface) {
     return surface.body == hand.body &&
            surface.triangle < hand.meshes.front().mesh->search.triangles.size();
 }
@@ -64,21 +64,27 @@ void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats
             continue;
         }
         if (hand.authored != nullptr) {
-            const bool is_known = is_valid(hand, surface) && surface.surroundings_signature == 0 &&
+            const bool is_known = has_surface(hand, surface) &&
+                                  surface.surroundings_signature == 0 &&
                                   hand_travel_m(surface.wrist_bs, hand.authored_wrist_bs()) == 0.0;
             if (!is_known) {
                 surface = authored_grip_surface(hand, tuning.palm);
             }
             continue;
         }
-        const bool has_last = is_valid(hand, surface);
-        if (has_last && surface.surroundings_signature == hand.signature &&
+        const bool has_last = has_surface(hand, surface);
+        const bool is_searched =
+            has_last || (surface.body == hand.body && surface.triangle == GripSurface::k_none);
+        if (is_searched && surface.surroundings_signature == hand.signature &&
             hand_travel_m(surface.wrist_bs, hand.wrist_bs) < k_search_again_m) {
             continue;
         }
         const GripSurface last = has_last ? surface : GripSurface{};
         surface = surface_of_smallest_sync(hand, tuning, last, io.scratch);
         if (surface.triangle == GripSurface::k_none) {
+            surface.body = hand.body;
+            surface.wrist_bs = hand.wrist_bs;
+            surface.surroundings_signature = hand.signature;
             stats.count(Fallback::palm_no_surface);
         }
     }

@@ -28,14 +28,14 @@ struct SearchGripIo {
 //    PalmTuning::reach_m. Its seeds are the palm ray's hit, the nearest triangle and the triangle
 //    of the last search. A triangle's closed-form cost is the palm's translation into the height
 //    limits plus PalmTuning::tilt_cost_m_per_rad times its rotation into the tilt limit, and for a
-//    backface PalmTuning::backface_cost_m.
+//    backface PalmTuning::backface_cost_m. Triangles at the back of the hand that face it are no
+//    candidates.
 // 2. Evaluation (shared/surface_candidates.hpp): the palm is fitted to candidates in the order of
 //    their closed-form costs, while these are below the best full cost. At most
 //    SurfaceCandidates::k_max_count are evaluated.
 //
 // A hand searches when its grip begins, when its surroundings change, and after k_search_again_m of
-// travel (hand_travel_m). In other frames its surface is kept. A hand that found no surface in
-// reach has none to keep and searches in every frame.
+// travel (hand_travel_m). In other frames it keeps what it found, also if that was no surface.
 //
 // A palm in an authored grip gets the triangle nearest to the authored palm within
 // PalmTuning::reach_m, without a search. Talk row 10.

@@ -67,11 +67,13 @@ void SurfaceSearch::run(std::uint32_t max_idle_pops) {
         const GripSearchScratch::Node node = open_.back();
         open_.pop_back();
         ++idle_pops;
-        if (visited_.empty() || node.cost_m < best_m_) {
+        if (node.cost_m < best_m_) {
             best_m_ = node.cost_m;
             idle_pops = 0;
         }
-        visited_.push_back({node.triangle, node.point, node.cost_m});
+        if (!is_behind(node)) {
+            visited_.push_back({node.triangle, node.point, node.cost_m});
+        }
         for (const std::uint32_t next : graph_.neighbours[node.triangle]) {
             if (next != k_no_triangle) {
                 push(next);
@@ -131,6 +133,12 @@ std::optional<SurfaceSearch::Candidate> SurfaceSearch::cheapest_near(
 bool SurfaceSearch::is_duplicate_of(const Candidate& found, const Candidate& other) const {
     return is_duplicate_place(found.point, graph_.normals[found.triangle], other.point,
                               graph_.normals[other.triangle]);
+}
+
+bool SurfaceSearch::is_behind(const GripSearchScratch::Node& node) const {
+    constexpr double k_behind_m = 0.01;  // a palm that has come through a sheet is less far
+    return graph_.normals[node.triangle].dot(palm_.up) < 0.0 &&
+           (node.point - palm_.center).dot(palm_.up) > k_behind_m;
 }
 
 void SurfaceSearch::push(std::uint32_t triangle) {

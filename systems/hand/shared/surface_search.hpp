@@ -72,6 +72,8 @@ class SurfaceSearch {
 
   private:
     void push(std::uint32_t triangle);
+    // True if the triangle is at the back of the hand and faces it: nothing that a palm can grip.
+    bool is_behind(const GripSearchScratch::Node& node) const;
     bool is_duplicate_of(const Candidate& found, const Candidate& other) const;
 
     const SurfaceGraph& graph_;
@@ -82,7 +84,7 @@ class SurfaceSearch {
     std::uint32_t pushed_ = 0;
     std::vector<Candidate>& visited_;
     std::vector<Candidate>& remaining_;
-    double best_m_ = 0.0;
+    double best_m_ = std::numeric_limits<double>::infinity();
     std::uint32_t pops_ = 0;
 };
 

@@ -3,6 +3,8 @@
 
 #include "beam.hpp"
 #include "systems/hand/fit_hands.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
+#include "systems/rigs/hand_limits.hpp"
 
 namespace handhold::shown_hand_test {
 namespace {
@@ -180,6 +182,38 @@ TEST_F(ShownHand, EmptyHandTakesRestPoseOrFist) {
             EXPECT_LE(hand.pose().shown[f].curl_rad[i], rig.fingers[f].upper_rad[i]);
         }
     }
+}
+
+// Hands at random whose back is to a floor, 2 to 5 cm before it. They have nothing to grip: they
+// stay where they are tracked and close to a loose fist, whatever their button and their curls say.
+TEST_F(ShownHand, GrippingHandWithItsBackToASurfaceIsALooseFist) {
+    Random random(2104);
+    for (int i = 0; i < 2000; ++i) {
+        const double height_m = random.between(0.02, 0.05);
+        const Vec3 up = (-Vec3::UnitY() + random.vector(0.5)).normalized();
+        FittedHand hand(floor, wrist_with_palm_at(rig, {0.0, height_m, 0.0}, up));
+        hand.tracking.at(k_right).squeeze = random.between(0.0, 1.0);
+        hand.tracking.at(k_right).pressed = random.between(0.0, 1.0) < 0.5;
+        hand.frame(k_unbudgeted_s);
+        ASSERT_EQ(hand.surface.at(k_right).triangle, GripSurface::k_none);
+        EXPECT_EQ(hand.palm.at(k_right).pose_ws.position, hand.wrist_bs().position);
+        for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+            EXPECT_EQ(hand.pose().shown[f].curl_rad,
+                      coupled_angles(rig.fingers[f], k_loose_fist_curl).curl_rad);
+        }
+    }
+}
+
+// A hand without a surface keeps that result until it has moved.
+TEST_F(ShownHand, HandWithoutASurfaceSearchesOnce) {
+    FittedHand hand(floor, wrist_with_palm_at(rig, {0.0, 0.03, 0.0}, -Vec3::UnitY()));
+    for (int frame = 0; frame < 10; ++frame) {
+        hand.frame(k_dt_s);
+    }
+    EXPECT_EQ(test::count_of(hand.stats, Fallback::palm_no_surface), 1U);
+    hand.wrist_bs() = wrist_with_palm_at(rig, {0.0, 0.02, 0.0}, Vec3::UnitY());
+    hand.frame(k_dt_s);
+    EXPECT_NE(hand.surface.at(k_right).triangle, GripSurface::k_none);
 }
 
 }  // namespace
