@@ -23,7 +23,6 @@ hh::Pose level_pose(double turn_rad, hh::Vec3 position) {
 hh::Pose product(const hh::Pose& a, const hh::Pose& b) {
     return to_c(unchecked_pose(a) * unchecked_pose(b));
 }
-double distance_m(const hh::Vec3& a, const hh::Vec3& b) { return (from_c(a) - from_c(b)).norm(); }
 
 // Devices that move slowly in the room, told in a space that lies at `space` in the room.
 struct Devices {

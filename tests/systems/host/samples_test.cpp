@@ -15,6 +15,7 @@ namespace handhold::host_samples_test {
 namespace {
 
 using test::HostScene;
+using test::k_palm_ahead;
 using test::Random;
 
 std::uint64_t count_of(const hh::World& world, const std::string& name) {
@@ -35,19 +36,15 @@ hh::Sample sample_at(double t_s) {
     hh::Sample made = hh::sample();
     made.time_s = t_s;
     made.head.position = {0.02 * std::sin(5.0 * t_s), 1.6, 0.03 * std::cos(3.0 * t_s)};
-    const hh::Quat ahead{0.7071067811865476, 0.0, 0.0, 0.7071067811865476};
-    made.hands[0] = hh::pose_at({-0.25, 1.3 + 0.1 * std::sin(4.0 * t_s), -0.3}, ahead);
-    made.hands[1] = hh::pose_at({0.2 + 0.1 * std::sin(6.0 * t_s), 1.4, -0.43}, ahead);
+    made.hands[0] = hh::pose_at({-0.25, 1.3 + 0.1 * std::sin(4.0 * t_s), -0.3}, k_palm_ahead);
+    made.hands[1] = hh::pose_at({0.2 + 0.1 * std::sin(6.0 * t_s), 1.4, -0.43}, k_palm_ahead);
     made.grab[1] = std::fmod(t_s, 0.6) > 0.3;
     return made;
 }
 
 bool are_same(const hh_player_pose& a, const hh_player_pose& b) {
     const auto same = [](const hh_pose& p, const hh_pose& q) {
-        return p.position.x == q.position.x && p.position.y == q.position.y &&
-               p.position.z == q.position.z && p.rotation.x == q.rotation.x &&
-               p.rotation.y == q.rotation.y && p.rotation.z == q.rotation.z &&
-               p.rotation.w == q.rotation.w;
+        return p.position == q.position && p.rotation == q.rotation;
     };
     bool result = same(a.origin, b.origin) && same(a.head, b.head);
     for (std::size_t side = 0; side < 2; ++side) {
