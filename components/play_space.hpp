@@ -27,8 +27,8 @@ inline PalmRay palm_ray(const Pose& hand_ws, HandSide side, const HandTuning& tu
     return {from_ws, from_ws + tuning.ray_length_m * outward_ws, palm_ws};
 }
 
-// Pose of what a hand grips: a body, or the head or another part of a player. `hold`: the hand's
-// BodyHold; null if the hand has none.
+// Returns the pose of the body, head or other part of a player that a hand grips. `hold`: the
+// hand's BodyHold; null if the hand has none.
 inline Pose gripped_pose_ws(const Column<BodyPose>& body_pose, const Column<PlayerOrigin>& origin,
                             const Column<HeadTracking>& head, Entity gripped,
                             const BodyHold* hold) {

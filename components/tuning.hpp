@@ -148,8 +148,8 @@ struct TuningInfo {
     bool scales;       // times PlayerOrigin::scale for a player of another size
 };
 
-// True for numbers in a player's metres: all that have metres or newtons in their unit, but for
-// those of contacts and of the solver, which belong to the world.
+// True if a number of the tuning scales with the player: its unit begins with metres, or is
+// newtons. Numbers of contacts and of the solver belong to the world and do not scale.
 constexpr bool is_in_players_metres(std::string_view name, std::string_view unit) {
     return (unit.starts_with("m") || unit == "N") && !name.starts_with("contact.") &&
            !name.starts_with("solver.");

@@ -14,7 +14,7 @@ from pathlib import Path
 SOURCE = Path(__file__).resolve().parent.parent
 BINDINGS = SOURCE / "systems/host/bindings"
 
-# Unity's importer settings by folder below Plugins: platform, CPU; the editor's system.
+# Unity's importer settings. Key: folder below Plugins. Value: Unity's platform, CPU, and the editor's operating system.
 PLUGINS = {"linux": ("Standalone: Linux64", "x86_64", "Linux"), "windows": ("Standalone: Win64", "x86_64", "Windows"),
            "macos": ("Standalone: OSXUniversal", "AnyCPU", "OSX"), "android": ("Android: Android", "ARM64", "")}
 
@@ -28,8 +28,11 @@ def platform_of(library: Path) -> str:
     """The folder for a library: those of Linux and Android have one name."""
     if library.suffix in (".dll", ".dylib"):
         return {".dll": "windows", ".dylib": "macos"}[library.suffix]
-    arm64 = 183  # e_machine of ELF
-    return "android" if int.from_bytes(library.read_bytes()[18:20], "little") == arm64 else "linux"
+    header = library.read_bytes()[:20]
+    folder = {62: "linux", 183: "android"}.get(int.from_bytes(header[18:20], "little"))  # e_machine: x86-64, AArch64
+    if header[:4] != b"\x7fELF" or folder is None:
+        raise SystemExit(f"{library}: neither a .dll, a .dylib nor an ELF library for x86-64 or AArch64")
+    return folder
 
 
 def plugin_importer(platform: str) -> str:

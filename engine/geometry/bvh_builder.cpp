@@ -159,7 +159,7 @@ BvhBuilder::Split BvhBuilder::best_split(const Work& work, const Box& middles) c
 
 // Partitions the items and returns the index of the upper side's first item.
 std::uint32_t BvhBuilder::part(const Work& work, const Split& split, const Box& middles) {
-    if (!order_.empty()) {  // full leaves, but for the last one
+    if (!order_.empty()) {  // all leaves are full, except perhaps the last one
         const std::uint32_t half = (work.last - work.first) / 2 / k_leaf * k_leaf;
         return work.first + std::max(half, k_leaf);
     }

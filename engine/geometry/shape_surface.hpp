@@ -40,7 +40,7 @@ TurnedSurface turned_capsule(double radius_m, double half_height_m, std::uint32_
 Mesh turned_mesh(const TurnedSurface& surface);
 
 struct TurnedIndex {
-    std::uint32_t rings;  // points of the profile but for its ends, at least one
+    std::uint32_t rings;  // number of the profile's points without its two ends; >= 1
     std::uint32_t sectors;
 
     explicit TurnedIndex(const TurnedSurface& surface)

@@ -4,6 +4,7 @@
 
 #include "components/play_space.hpp"
 #include "systems/frame/frame_of_host.hpp"
+#include "systems/host/host_samples.hpp"
 #include "systems/host/host_step.hpp"
 #include "systems/physics/shared/mass_shares.hpp"
 

@@ -3,281 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "components/hand_indices.hpp"
 #include "components/scaled_tuning.hpp"
 #include "engine/core/check.hpp"
-#include "systems/input/shared/hand_motion.hpp"
-#include "systems/input/shared/motion_limit.hpp"
+#include "systems/input/shared/device_frame.hpp"
+#include "systems/input/shared/hand_reader.hpp"
 #include "systems/input/shared/play_space_tracker.hpp"
 
 namespace handhold {
 namespace {
 
 constexpr double k_half_turn_rad = 3.14159265358979323846;
-
-// True if the sample is later than the end of the frame; false for a time of NaN.
-bool is_later(double t_s, double end_s) { return std::isfinite(t_s) && t_s > end_s; }
-
-// Finds state and pose at the end of the frame, for the head and for hands alike. `later` is the
-// first pose after the frame's end, or null. Returns true if no later pose is usable, so that an
-// older one is held.
-template <typename Device>
-bool finish_device(Device& device, bool has_sample, const Pose* later, double later_t_s,
-                   double end_s, double lost_after_s, StageStats& stats) {
-    if (!has_sample && later == nullptr) {
-        return false;  // never tracked
-    }
-    const bool first = device.state == TrackingState::never;
-    if (has_sample && later != nullptr && later_t_s - device.sample_t_s > lost_after_s) {
-        later = nullptr;  // the motion across a gap that long is unknown
-    }
-    if (!has_sample) {
-        // The first frame has only a sample after its end. That sample's buttons count in its own
-        // frame.
-        device.sample_ps = *later;
-        device.sample_t_s = end_s;
-    }
-    if (later == nullptr && end_s - device.sample_t_s > lost_after_s) {
-        if (device.state != TrackingState::lost) {
-            stats.count(Fallback::tracking_lost);
-        }
-        device.state = TrackingState::lost;
-        return true;
-    }
-    device.state = TrackingState::tracked;
-    device.pose_ps = device.sample_ps;
-    if (later != nullptr && later_t_s > device.sample_t_s && end_s > device.sample_t_s) {
-        const double t = (end_s - device.sample_t_s) / (later_t_s - device.sample_t_s);
-        device.pose_ps = interpolate(device.sample_ps, *later, std::clamp(t, 0.0, 1.0));
-    }
-    if (first) {
-        device.start_ps = device.pose_ps;
-    }
-    return later == nullptr;
-}
-
-void begin_edge(HandTracking& hand, const HandHistory& history, double t_s, const Pose& hand_ps,
-                const TrackingTuning& tuning) {
-    hand.pressed = !hand.pressed;
-    hand.edge = hand.pressed ? GrabEdge::onset : GrabEdge::release;
-    hand.edge_t_s = t_s;
-    hand.edge_ps = hand_ps;
-    if (hand.edge == GrabEdge::release) {
-        measure_release(history, t_s, tuning.release_window_s, hand);
-    }
-}
-
-// True if a hand could have come to `hand_ps`:
-//  - from its last sample at tracking.max_hand_speed_mps, or from where its own velocity would have
-//    taken it (fast hands are fast for several samples);
-//  - and, after a reading that was ignored, from that one too: two consecutive readings must agree.
-// A jump by d is thus believed once d / max_hand_speed_mps has passed.
-bool is_plausible(const HandTracking& hand, const HandHistory& history, const Pose& hand_ps,
-                  double t_s, double max_speed_mps, double scale) {
-    const double dt_s = t_s - hand.sample_t_s;
-    const bool was_ignored = hand.reading_t_s > hand.sample_t_s;
-    if (could_move(hand.sample_ps, hand_ps, dt_s, max_speed_mps, scale)) {
-        return !was_ignored ||
-               could_move(hand.reading_ps, hand_ps, t_s - hand.reading_t_s, max_speed_mps, scale);
-    }
-    return !hand.interrupted &&
-           could_move(extrapolated(hand, history, t_s), hand_ps, dt_s, max_speed_mps, scale);
-}
-
-// One hand and all that its readings are compared with.
-struct HandReader {
-    HandTracking& hand;
-    HandHistory& history;
-    PlaySpaceTracker space;  // state at the end of the last frame
-    HandSide side;
-    const ReadTrackingIo& io;
-    const Tuning& tuning;  // numbers of a player of that scale
-    double scale;          // PlayerOrigin::scale
-    StageStats& stats;
-    bool freezes_guesses = false;  // guesses do not move the hand
-    bool has_sample = false;
-    bool has_jumped = false;
-    bool is_inferred = false;        // the last reading used was a guess
-    std::optional<Pose> guess_ps{};  // the last guess of this frame
-
-    // Why a reading is ignored; none if it is used. `is_meant`: the devices jumped as intended, so
-    // any travel of the hand is plausible.
-    std::optional<Fallback> refusal(const ControllerSample& reading, const Pose& hand_ps,
-                                    double t_s, bool is_meant) const {
-        if (!is_trackable(reading.controller_ps)) {
-            return Fallback::sample_not_finite;
-        }
-        if (is_asleep(reading)) {
-            return Fallback::device_asleep;
-        }
-        if (!space.is_in_reach(hand_ps.position, tuning.hand.max_arm_m)) {
-            return Fallback::hand_out_of_reach;
-        }
-        if (has_sample && !is_meant && !reading.is_inferred &&
-            !is_plausible(hand, history, hand_ps, t_s, tuning.tracking.max_hand_speed_mps, scale)) {
-            return Fallback::hand_implausible;
-        }
-        return std::nullopt;
-    }
-
-    // True if the hand comes back at another place than where it was last shown.
-    bool jumps_to(const Pose& hand_ps) const {
-        const bool is_first = hand.sample_t_s < io.frame_start_s;
-        return has_sample && hand.interrupted &&
-               travel_m(is_first ? hand.start_ps : hand.sample_ps, hand_ps, scale) >
-                   scale * k_unnoticed_m;
-    }
-
-    void ignore(Fallback reason, const Pose& hand_ps, double t_s) {
-        stats.count(reason);
-        hand.interrupted = has_sample;
-        if (reason == Fallback::hand_implausible) {
-            hand.reading_ps = hand_ps;
-            hand.reading_t_s = t_s;
-        }
-    }
-
-    // Uses a pose that the runtime guessed.
-    void follow_guess(const Pose& hand_ps, double t_s) {
-        if (!has_sample) {  // no sample of the hand was measured yet
-            hand.sample_ps = hand.reading_ps = hand_ps;
-            hand.sample_t_s = hand.reading_t_s = t_s;
-            has_sample = true;
-        }
-        hand.interrupted = true;
-        hand.inferred_t_s = t_s;
-        is_inferred = true;
-        guess_ps = hand_ps;
-    }
-
-    // `is_meant`: the devices were moved as intended. The hand did not travel, and its velocity is
-    // unknown.
-    void jump_with_space(bool is_meant) {
-        if (is_meant) {
-            hand.interrupted = has_sample;
-            clear(history);
-        }
-    }
-
-    void believe(const Pose& hand_ps, double t_s) {
-        if (jumps_to(hand_ps)) {
-            has_jumped = true;
-            if (hand.reading_t_s > hand.sample_t_s) {
-                clear(history);  // no velocity after a jump
-            }
-            if (hand.edge == GrabEdge::onset) {  // the hand closes where it is now
-                hand.edge_ps = hand_ps;
-                hand.edge_t_s = std::max(t_s, io.frame_start_s);
-            }
-        }
-        hand.sample_ps = hand.reading_ps = hand_ps;
-        hand.sample_t_s = hand.reading_t_s = t_s;
-        hand.interrupted = false;
-        has_sample = true;
-        is_inferred = false;
-        remember(history, hand);
-    }
-
-    void read_button(const ControllerSample& reading, double t_s, bool is_believed) {
-        hand.raw_pressed = reading.grab;
-        hand.squeeze = pressed_share(reading.squeeze);
-        hand.trigger = pressed_share(reading.trigger);
-        hand.curls = known_curls(reading.curls);
-        // A hand that cannot be seen may let go, but does not close until it is seen again.
-        const bool may_begin = has_sample && (is_believed || !reading.grab);
-        if (may_begin && reading.grab != hand.pressed && hand.edge == GrabEdge::none) {
-            begin_edge(hand, history, std::max(t_s, io.frame_start_s), hand.sample_ps,
-                       tuning.tracking);
-        }
-    }
-
-    void begin_frame() {
-        hand.start_ps = hand.pose_ps;
-        hand.edge = GrabEdge::none;
-        // As in read_button: a hand that is not seen may let go.
-        const bool may_begin_now = hand.pressed
-                                       ? hand.state != TrackingState::never
-                                       : hand.state == TrackingState::tracked && !hand.interrupted;
-        if (hand.raw_pressed != hand.pressed && may_begin_now) {
-            begin_edge(hand, history, io.frame_start_s, hand.start_ps, tuning.tracking);
-        }
-    }
-
-    void read(const PlayerInput& input) {
-        const TrackingState before = hand.state;
-        has_sample = before != TrackingState::never;
-        is_inferred = before == TrackingState::inferred;
-        begin_frame();
-        std::optional<Pose> later;
-        double later_t_s = 0.0;
-        for (const TrackingSample& sample : input.samples) {
-            const ControllerSample& reading = sample.controllers[index_of(side)];
-            const bool is_meant =
-                space.follow(sample, tuning.tracking) == PlaySpaceTracker::Jump::meant;
-            const Pose hand_ps = space.hand_ps(reading, side);
-            const std::optional<Fallback> why_not = refusal(reading, hand_ps, sample.t_s, is_meant);
-            if (is_later(sample.t_s, io.frame_end_s)) {
-                if (!why_not && !is_meant && !reading.is_inferred && !jumps_to(hand_ps)) {
-                    later = hand_ps;
-                    later_t_s = sample.t_s;
-                }
-                break;
-            }
-            if (is_stale(sample.t_s, has_sample, last_t_s())) {
-                continue;  // counted once per player, for the head
-            }
-            if (why_not) {
-                ignore(*why_not, hand_ps, sample.t_s);
-            } else if (reading.is_inferred) {
-                follow_guess(hand_ps, sample.t_s);
-            } else {
-                jump_with_space(is_meant);
-                believe(hand_ps, sample.t_s);
-            }
-            read_button(reading, sample.t_s, !why_not && !reading.is_inferred);
-        }
-        if (is_inferred && io.frame_end_s - hand.inferred_t_s <= tuning.tracking.lost_after_s) {
-            finish_guess(before);
-        } else {
-            finish(before, later ? &*later : nullptr, later_t_s);
-        }
-    }
-
-    double last_t_s() const {
-        return is_inferred ? std::max(hand.sample_t_s, hand.inferred_t_s) : hand.sample_t_s;
-    }
-
-    void finish_guess(TrackingState before) {
-        hand.state = TrackingState::inferred;
-        hand.resumed = false;
-        if (guess_ps && !freezes_guesses) {
-            hand.pose_ps = *guess_ps;
-        } else if (before == TrackingState::tracked && freezes_guesses) {
-            hand.pose_ps = hand.sample_ps;
-        }
-        if (before == TrackingState::never) {
-            hand.start_ps = hand.pose_ps;
-        }
-    }
-
-    void finish(TrackingState before, const Pose* later, double later_t_s) {
-        // A pose that is held longer than this interrupts the hand. Devices of 30 Hz and more never
-        // exceed it.
-        constexpr double k_longest_hold_s = 0.05;
-        const bool is_held = finish_device(hand, has_sample, later, later_t_s, io.frame_end_s,
-                                           tuning.tracking.lost_after_s, stats);
-        hand.interrupted =
-            hand.interrupted || (is_held && io.frame_end_s - hand.sample_t_s > k_longest_hold_s);
-        hand.resumed = hand.state == TrackingState::tracked &&
-                       (before == TrackingState::lost || before == TrackingState::inferred ||
-                        (has_jumped && before != TrackingState::never));
-        if (hand.resumed) {
-            hand.start_ps = hand.pose_ps;
-        }
-    }
-};
 
 void read_head(HeadTracking& head, PlaySpaceTracker space, const PlayerInput& input,
                const ReadTrackingIo& io, const TrackingTuning& tuning, StageStats& stats) {
@@ -415,16 +152,16 @@ void read_player(const ReadTrackingIo& io, std::size_t index, TuningOfPlayers& t
         if (hand_index < io.owner.size()) {
             const Entity entity = io.owner.owners()[hand_index];
             const Grab* const grab = io.grab.find(entity);
-            HandReader reader{io.hand.at(entity),
-                              io.history.at(entity),
-                              space,
-                              side,
-                              io,
-                              tuning,
-                              origin.scale,
-                              stats};
-            reader.freezes_guesses = holds_on && grab != nullptr && grab->kind != GripKind::none;
-            reader.read(input);
+            read_hand(
+                {.frame_start_s = io.frame_start_s,
+                 .frame_end_s = io.frame_end_s,
+                 .side = side,
+                 .space = space,
+                 .scale = origin.scale,
+                 .freezes_guesses = holds_on && grab != nullptr && grab->kind != GripKind::none,
+                 .hand = io.hand.at(entity),
+                 .history = io.history.at(entity)},
+                input.samples, tuning, stats);
         }
     }
     read_head(head, space, input, io, tuning.tracking, stats);

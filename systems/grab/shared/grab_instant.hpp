@@ -44,8 +44,8 @@ struct GrabInstant {
     // The pose interpolated from the start of the frame to the prediction; for a player, the
     // head's.
     Pose body_ws(Entity body) const;
-    // The pose of what the hand grips: like body_ws, but for a player's part that the hand's
-    // BodyHold names, the part's pose. `grab` is an element of `io.grab`.
+    // The pose of what the hand grips: body_ws, or the pose of another player's part if the hand
+    // has a BodyHold. Precondition: `grab` is an element of `io.grab`.
     Pose gripped_ws(const Grab& grab) const;
     Pose origin_ws(Entity player) const;
     // `hand` is an element of `io.hand`.

@@ -2,80 +2,38 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "systems/hand/shared/digit_gaps.hpp"
-#include "systems/hand/shared/fit_problem.hpp"
-#include "systems/hand/shared/hand_unknowns.hpp"
+#include "systems/hand/shared/hand_objective.hpp"
 
 namespace handhold {
 namespace {
 
-// The weights and lengths of hand_fit.hpp.
-constexpr double k_touch = 2.0;
-constexpr double k_tip = 1.0;
-constexpr double k_thumb_tip = 0.5;
-constexpr double k_fan = 0.3;
-constexpr double k_alike = 0.3;
-constexpr double k_free_gap_m = 1e-3;  // gap at which fingers bend alike by half the weight
-constexpr double k_couple = 0.1;
-constexpr double k_coupling = 2.0 / 3.0;
-constexpr double k_couple_thumb = 0.15;
-constexpr double k_roll = 0.01;
-constexpr double k_opposition = 0.002;
-constexpr double k_rest = 2e-5;
-constexpr double k_rest_of_free_thumb = 0.002;
-// Stiffness of the inequalities.
-constexpr double k_contact = 2000.0;
-constexpr double k_joint_limit = 500.0;
-constexpr double k_palm_limit = 20.0;
-constexpr double k_bend_limit = 0.3;
-constexpr double k_fan_limit = 2.0;
-constexpr double k_claw_limit = 4.0;
-constexpr double k_digit_contact = 500.0;  // weight of contacts between the thumb and a finger
-constexpr double k_digit_reach_m = 0.03;   // digits farther apart need no inequality
-constexpr double k_claw_share = 0.6;
-constexpr double k_clear_m = 3e-4;  // gap that contacts aim for
 // Largest step of one round: gaps are linearised.
 constexpr double k_max_move_m = 0.02;
 constexpr double k_max_turn_rad = 0.3;
 
-constexpr double k_lever2 = k_fit_lever_m * k_fit_lever_m;
-
-bool is_thumb(const FingerRig& finger) { return finger.name == FingerName::thumb; }
-
-// Maximum number of inequalities: four per angle (limits and steps), two per finger (bend, claw),
-// four per pair of neighbours, gaps, the palm's limits.
-static_assert(4 * (k_max_unknowns - 6) + 2 * k_finger_count + 4 * (k_finger_count - 1) +
-                  HandSpheres::k_max_count + k_max_digit_gaps + 3 <=
-              k_max_penalty_rows);
-
+// Minimises the objective by Gauss-Newton steps.
 class Fitter {
   public:
     Fitter(const HandSurroundings& hand, const GripSurface& surface, const HandFitGoal& goal,
-           const PalmTuning& tuning, std::vector<PenaltyRow>& rows, FitTerms* terms = nullptr)
-        : hand_(hand),
-          rig_(*hand.rig),
-          surface_(surface),
+           const PalmTuning& tuning, std::vector<PenaltyRow>& rows)
+        : rig_(*hand.rig),
           goal_(goal),
-          tuning_(tuning),
-          layout_(rig_),
           pose_(goal.first),
-          spheres_(hand, surface, goal.is_clear),
-          problem_(layout_.end(), terms, rows) {}
+          objective_(hand, surface, goal, tuning, rows, nullptr) {}
 
     HandFit run() {
         constexpr double k_gain = 1e-6;  // smaller relative gains do not count
         constexpr double k_gain_m2 = 1e-12;
         // Relative change of the cost that justifies a next round.
         constexpr double k_worthwhile_gain = 0.01;
-        double cost = evaluate();
+        double cost = objective_.evaluate(pose_);
         HandFit best = described(cost);
         best.is_converged = true;
         for (std::int32_t round = 0; round < goal_.rounds; ++round) {
             step();
             const double before = cost;
-            const double now = evaluate();
+            const double now = objective_.evaluate(pose_);
             const bool is_gain = now < cost - k_gain * cost - k_gain_m2;
             if (is_gain) {
                 cost = now;
@@ -89,295 +47,21 @@ class Fitter {
         return best;
     }
 
-    // Builds the problem at the present pose and returns its cost there.
-    double evaluate() {
-        center_ = transform_point(pose_.wrist_bs, rig_.palm_center_hs);
-        frames_ = link_frames(rig_, pose_);
-        spheres_.query(pose_, frames_);
-        problem_.clear();
-        add_wrist();
-        for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
-            add_hinges(f);
-            add_opposition(f);
-            add_attraction(f);
-        }
-        add_neighbours();
-        add_contacts();
-        add_digit_gaps();
-        add_palm_limits();
-        return problem_.cost_m2();
-    }
-
-    double gap_m(std::size_t f) const { return spheres_.gap_m(f); }
-
   private:
     HandFit described(double cost) const {
         HandFit fit;
         fit.cost = cost;
         fit.pose = pose_;
-        fit.penetration_m = spheres_.penetration_m();
+        fit.penetration_m = objective_.penetration_m();
         for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
-            fit.gap_m[f] = spheres_.gap_m(f);
+            fit.gap_m[f] = objective_.gap_m(f);
         }
         return fit;
     }
 
-    void add_wrist() {
-        const Vec3 moved = center_ - transform_point(hand_.wrist_bs, rig_.palm_center_hs);
-        const Vec3 turned = rotation_to_vector(
-            (pose_.wrist_bs.rotation * hand_.wrist_bs.rotation.conjugate()).normalized());
-        for (int i = 0; i < 3; ++i) {
-            problem_.add_square({FitTerm::sync, FitTerms::k_palm}, 1.0, moved[i], unit(i));
-            problem_.add_square({FitTerm::sync, FitTerms::k_palm}, k_fit_arm_m * k_fit_arm_m,
-                                turned[i], unit(3 + i));
-        }
-    }
-
-    void add_hinges(std::size_t f) {
-        const FingerRig& finger = rig_.fingers[f];
-        const FingerAngles& angles = pose_.fingers[f];
-        const bool is_free_thumb = is_thumb(finger) && !goal_.touches[f];
-        for (std::size_t i = 0; i < finger.link_count; ++i) {
-            const int place = layout_.hinge(f, i);
-            const double angle_rad = angles.curl_rad[i];
-            problem_.add_square({FitTerm::rest, f},
-                                (is_free_thumb ? k_rest_of_free_thumb : k_rest) * k_lever2,
-                                angle_rad - finger.rest_rad[i], unit(place));
-            problem_.add_row({FitTerm::joints, f}, unit(place), angle_rad - finger.lower_rad[i],
-                             k_joint_limit * k_lever2);
-            problem_.add_row({FitTerm::joints, f}, unit(place, -1.0),
-                             finger.upper_rad[i] - angle_rad, k_joint_limit * k_lever2);
-        }
-        if (finger.link_count == 3) {
-            add_coupling(f);
-        }
-        if (!is_thumb(finger)) {
-            add_shape(f);
-        }
-    }
-
-    // Adds the couple term: the last hinge bends with its parent.
-    void add_coupling(std::size_t f) {
-        const FingerAngles& angles = pose_.fingers[f];
-        const bool is_of_thumb = is_thumb(rig_.fingers[f]);
-        const double share = is_of_thumb ? 1.0 : k_coupling;
-        problem_.add_square({FitTerm::couple, f},
-                            (is_of_thumb ? k_couple_thumb : k_couple) * k_lever2,
-                            angles.curl_rad[2] - share * angles.curl_rad[1],
-                            unit(layout_.hinge(f, 2)) + unit(layout_.hinge(f, 1), -share));
-    }
-
-    // Adds the roll term and the bend and claw inequalities of a finger.
-    void add_shape(std::size_t f) {
-        const FingerAngles& angles = pose_.fingers[f];
-        const Unknowns open = layout_.bend(f, -1.0);
-        problem_.add_row({FitTerm::bend, f}, open, k_max_bend_rad + along(open),
-                         k_bend_limit * k_lever2);
-        problem_.add_square({FitTerm::roll, f}, k_roll * k_lever2,
-                            angles.curl_rad[1] - angles.curl_rad[0],
-                            unit(layout_.hinge(f, 1)) + unit(layout_.hinge(f, 0), -1.0));
-        problem_.add_row({FitTerm::claw, f},
-                         unit(layout_.hinge(f, 0)) + unit(layout_.hinge(f, 1), -k_claw_share),
-                         angles.curl_rad[0] - k_claw_share * angles.curl_rad[1] + k_claw_rad,
-                         k_claw_limit * k_lever2);
-    }
-
-    void add_opposition(std::size_t f) {
-        const FingerRig& finger = rig_.fingers[f];
-        const int place = layout_.opposition(f);
-        if (place < 0) {
-            return;
-        }
-        const double angle_rad = pose_.fingers[f].opposition_rad;
-        problem_.add_square({FitTerm::opposition, f}, k_opposition * k_lever2,
-                            angle_rad - goal_.closed[f].opposition_rad, unit(place));
-        problem_.add_row({FitTerm::joints, f}, unit(place), angle_rad - finger.lower_opposition_rad,
-                         k_joint_limit * k_lever2);
-        problem_.add_row({FitTerm::joints, f}, unit(place, -1.0),
-                         finger.upper_opposition_rad - angle_rad, k_joint_limit * k_lever2);
-    }
-
-    // Adds the touch and tip terms, which pull a digit's nearest sphere and its tip to the surface.
-    // Spheres at knuckles are not pulled.
-    void add_attraction(std::size_t f) {
-        for (const HandSphere& sphere : spheres_.all()) {
-            if (!sphere.is_tip || sphere.finger != static_cast<std::int32_t>(f) ||
-                !sphere.has_gap) {
-                continue;
-            }
-            if (is_thumb(rig_.fingers[f])) {
-                problem_.add_square({FitTerm::tip, f}, k_thumb_tip, sphere.gap_m, slope_of(sphere));
-            } else {
-                add_pull({FitTerm::tip, f}, k_tip, sphere);
-            }
-        }
-        const HandSphere* const nearest = spheres_.nearest(f);
-        if (nearest != nullptr && (goal_.touches[f] || nearest->gap_m < k_sphere_reach_m)) {
-            add_pull({FitTerm::touch, f}, k_touch, *nearest);
-        }
-    }
-
-    // Adds pull / 2 * gap^2 / (1 + gap^2 / g^2), as the square that has the same slope here
-    // (iteratively reweighted least squares). A gap of 0 is pulled too, so that the wrist does not
-    // leave it.
-    void add_pull(const FitPart& part, double pull, const HandSphere& sphere) {
-        const double ratio = sphere.gap_m / k_let_go_m;
-        const double share = 1.0 / (1.0 + ratio * ratio);
-        const double weight = pull * share * share;
-        problem_.add_square(part, weight, sphere.gap_m, slope_of(sphere));
-        problem_.add_constant(part, 0.5 * (pull * share - weight) * sphere.gap_m * sphere.gap_m);
-    }
-
-    // Adds the terms between neighbours: fingers next to each other in the rig, not counting
-    // thumbs.
-    void add_neighbours() {
-        std::size_t before = k_finger_count;
-        for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
-            if (is_thumb(rig_.fingers[f])) {
-                continue;
-            }
-            if (before < k_finger_count) {
-                add_neighbour(before, f);
-            }
-            before = f;
-        }
-    }
-
-    // The weight s of hand_fit.hpp for one finger: 0 in contact, towards 1 far off.
-    double free_share(std::size_t f) const {
-        const HandSphere* const nearest = spheres_.nearest(f);
-        if (nearest == nullptr) {
-            return 1.0;
-        }
-        const double ratio = std::max(0.0, nearest->gap_m) / k_free_gap_m;
-        return ratio * ratio / (1.0 + ratio * ratio);
-    }
-
-    // A finger whose angles are kept, like a pointing one, has no terms with its neighbours.
-    void add_neighbour(std::size_t a, std::size_t b) {
-        const Unknowns fan = layout_.direction(b, 1.0) + layout_.direction(a, -1.0);
-        const double fan_rad = along(fan);
-        if (!goal_.is_fixed[a] && !goal_.is_fixed[b]) {
-            add_alike(a, b);
-            problem_.add_square({FitTerm::fan, a, b}, k_fan * k_lever2, fan_rad, fan);
-        }
-        problem_.add_row({FitTerm::apart, a, b}, fan, k_max_fan_rad + fan_rad,
-                         k_fan_limit * k_lever2);
-        problem_.add_row({FitTerm::apart, a, b}, -fan, k_max_fan_rad - fan_rad,
-                         k_fan_limit * k_lever2);
-        const Unknowns apart = layout_.bend(b, 1.0) + layout_.bend(a, -1.0);
-        const double apart_rad = along(apart);
-        problem_.add_row({FitTerm::apart, a, b}, apart, k_max_apart_rad + apart_rad,
-                         k_bend_limit * k_lever2);
-        problem_.add_row({FitTerm::apart, a, b}, -apart, k_max_apart_rad - apart_rad,
-                         k_bend_limit * k_lever2);
-    }
-
-    void add_alike(std::size_t a, std::size_t b) {
-        const double free = std::max(free_share(a), free_share(b));
-        const std::size_t links = std::min(rig_.fingers[a].link_count, rig_.fingers[b].link_count);
-        for (std::size_t i = 0; i < links; ++i) {
-            problem_.add_square({FitTerm::alike, a, b}, k_alike * free * k_lever2,
-                                pose_.fingers[b].curl_rad[i] - pose_.fingers[a].curl_rad[i],
-                                unit(layout_.hinge(b, i)) + unit(layout_.hinge(a, i), -1.0));
-        }
-    }
-
-    // Sum of the pose's curls, weighted by `slope`.
-    double along(const Unknowns& slope) const {
-        double sum_rad = 0.0;
-        for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
-            for (std::size_t i = 0; i < rig_.fingers[f].link_count; ++i) {
-                sum_rad += slope[layout_.hinge(f, i)] * pose_.fingers[f].curl_rad[i];
-            }
-        }
-        return sum_rad;
-    }
-
-    void add_contacts() {
-        for (const HandSphere& sphere : spheres_.all()) {
-            if (sphere.has_gap) {
-                const std::size_t part = sphere.finger == HandSphere::k_palm
-                                             ? FitTerms::k_palm
-                                             : static_cast<std::size_t>(sphere.finger);
-                problem_.add_row({FitTerm::penetration, part}, slope_of(sphere),
-                                 sphere.gap_m - k_clear_m, k_contact);
-            }
-        }
-    }
-
-    // Adds the inequalities that keep the thumb out of the fingers.
-    void add_digit_gaps() {
-        std::array<DigitGap, k_max_digit_gaps> gaps;
-        const std::size_t count =
-            find_digit_gaps(rig_, digit_capsules(rig_, frames_), k_digit_reach_m, gaps);
-        for (std::size_t i = 0; i < count; ++i) {
-            const DigitGap& pair = gaps[i];
-            Unknowns slope = Unknowns::Zero();
-            add_digit_slope(pair.thumb, pair.thumb_link, pair.on_thumb, pair.away, slope);
-            add_digit_slope(pair.finger, pair.finger_link, pair.on_finger, -pair.away, slope);
-            problem_.add_row({FitTerm::overlap, pair.thumb, pair.finger}, slope, pair.gap_m,
-                             k_digit_contact);
-        }
-    }
-
-    void add_palm_limits() {
-        const FitPart part(FitTerm::palm_limits, FitTerms::k_palm);
-        const Vec3& normal = surface_.normal_bs;
-        const double height_m = (center_ - surface_.point_bs).dot(normal);
-        Unknowns slope = Unknowns::Zero();
-        slope.head<3>() = normal;
-        problem_.add_row(part, slope, height_m - tuning_.min_height_m, k_palm_limit);
-        problem_.add_row(part, -slope,
-                         std::max(tuning_.min_height_m, tuning_.max_height_m) - height_m,
-                         k_palm_limit);
-        const Vec3 up = pose_.wrist_bs.rotation * -rig_.palm_normal_hs;
-        const Vec3 across = up.cross(normal);
-        if (across.norm() > 1e-9) {
-            Unknowns turn = Unknowns::Zero();
-            turn.segment<3>(3) = across.normalized();
-            problem_.add_row(part, turn,
-                             tuning_.max_angle_rad - arc_tangent2(across.norm(), up.dot(normal)),
-                             k_palm_limit * k_fit_arm_m * k_fit_arm_m);
-        }
-    }
-
-    // Returns the change of a sphere's gap per unit of each unknown.
-    Unknowns slope_of(const HandSphere& sphere) const {
-        Unknowns slope = Unknowns::Zero();
-        slope.head<3>() = sphere.away;
-        slope.segment<3>(3) = (sphere.center - center_).cross(sphere.away);
-        if (sphere.finger == HandSphere::k_palm) {
-            return slope;
-        }
-        add_digit_slope(static_cast<std::size_t>(sphere.finger), sphere.link, sphere.center,
-                        sphere.away, slope);
-        return slope;
-    }
-
-    // Adds how far a point of a link moves along `away` per unit of the digit's angles.
-    void add_digit_slope(std::size_t f, std::size_t link, const Vec3& point, const Vec3& away,
-                         Unknowns& slope) const {
-        for (std::size_t i = 0; i <= link; ++i) {
-            const Pose& frame = frames_[f][i];
-            const Vec3 axis = frame.rotation * -Vec3::UnitX();
-            slope[layout_.hinge(f, i)] += axis.cross(point - frame.position).dot(away);
-        }
-        if (layout_.opposition(f) >= 0) {
-            const Vec3 axis = pose_.wrist_bs.rotation * rig_.fingers[f].opposition_axis_hs;
-            slope[layout_.opposition(f)] += axis.cross(point - frames_[f][0].position).dot(away);
-        }
-    }
-
-    // Solves the problem that evaluate() built, and moves the pose by the solution.
+    // Moves the pose by the solution of the problem that the objective built there.
     void step() {
-        const FitPart part(FitTerm::joints, FitTerms::k_palm);  // costs nothing where it starts
-        for (int i = 6; i < layout_.end(); ++i) {
-            problem_.add_row(part, unit(i), goal_.max_flex_rad, k_joint_limit * k_lever2);
-            problem_.add_row(part, unit(i, -1.0), goal_.max_flex_rad, k_joint_limit * k_lever2);
-        }
-        hold_fixed_unknowns();
-        Unknowns change = problem_.solve();
+        Unknowns change = objective_.solve();
         const double move_m = change.head<3>().norm();
         const double turn_rad = change.segment<3>(3).norm();
         change *= std::min(k_max_move_m / std::max(k_max_move_m, move_m),
@@ -385,26 +69,13 @@ class Fitter {
         apply(change);
     }
 
-    void hold_fixed_unknowns() {
-        for (int i = 0; goal_.is_wrist_fixed && i < 6; ++i) {
-            problem_.hold(i);
-        }
-        for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
-            for (std::size_t i = 0; goal_.is_fixed[f] && i < rig_.fingers[f].link_count; ++i) {
-                problem_.hold(layout_.hinge(f, i));
-            }
-            if (goal_.is_fixed[f] && layout_.opposition(f) >= 0) {
-                problem_.hold(layout_.opposition(f));
-            }
-        }
-    }
-
     void apply(const Unknowns& change) {
         if (!goal_.is_wrist_fixed) {
             Pose& wrist = pose_.wrist_bs;
             wrist.rotation =
                 (rotation_from_vector(change.segment<3>(3)) * wrist.rotation).normalized();
-            wrist.position = center_ + change.head<3>() - wrist.rotation * rig_.palm_center_hs;
+            wrist.position =
+                objective_.center() + change.head<3>() - wrist.rotation * rig_.palm_center_hs;
         }
         for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
             if (goal_.is_fixed[f]) {
@@ -413,12 +84,12 @@ class Fitter {
             const FingerRig& finger = rig_.fingers[f];
             FingerAngles& angles = pose_.fingers[f];
             for (std::size_t i = 0; i < finger.link_count; ++i) {
-                const double flex_rad = std::clamp(change[layout_.hinge(f, i)], -goal_.max_flex_rad,
-                                                   goal_.max_flex_rad);
+                const double flex_rad = std::clamp(change[objective_.layout().hinge(f, i)],
+                                                   -goal_.max_flex_rad, goal_.max_flex_rad);
                 angles.curl_rad[i] = std::clamp(angles.curl_rad[i] + flex_rad, finger.lower_rad[i],
                                                 finger.upper_rad[i]);
             }
-            if (const int place = layout_.opposition(f); place >= 0) {
+            if (const int place = objective_.layout().opposition(f); place >= 0) {
                 const double turn_rad =
                     std::clamp(change[place], -goal_.max_flex_rad, goal_.max_flex_rad);
                 angles.opposition_rad =
@@ -428,17 +99,10 @@ class Fitter {
         }
     }
 
-    const HandSurroundings& hand_;
     const HandRig& rig_;
-    const GripSurface& surface_;
     const HandFitGoal& goal_;
-    const PalmTuning& tuning_;
-    const HandUnknowns layout_;
     HandPose pose_;
-    HandSpheres spheres_;
-    Vec3 center_ = Vec3::Zero();  // centre of the palm at pose_
-    HandLinkFrames frames_;
-    FitProblem problem_;  // problem at pose_
+    HandObjective objective_;
 };
 
 }  // namespace
@@ -452,10 +116,10 @@ FitTerms fit_terms(const HandSurroundings& hand, const GripSurface& surface,
                    const HandFitGoal& goal, const PalmTuning& tuning) {
     FitTerms terms;
     std::vector<PenaltyRow> rows;
-    Fitter fitter(hand, surface, goal, tuning, rows, &terms);
-    fitter.evaluate();
+    HandObjective objective(hand, surface, goal, tuning, rows, &terms);
+    objective.evaluate(goal.first);
     for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
-        terms.gap_m[f] = fitter.gap_m(f);
+        terms.gap_m[f] = objective.gap_m(f);
     }
     return terms;
 }

@@ -15,8 +15,8 @@ TEST(HeadsetClock, EveryRefreshHasOneFrameForHours) {
     HeadsetClock clock;
     EXPECT_EQ(clock.advance(k_begin_ns, k_period_ns), 0);
     EXPECT_EQ(clock.hz(), 90.0);
-    // Runtimes' times are of whole nanoseconds: 90 Hz drift by one part in 1e8 and never by half a
-    // frame within a day... but for a frame that comes twice or not at all, once in a while.
+    // Runtimes count whole nanoseconds. At 90 Hz this drifts by one part in 1e8, which is less than
+    // half a frame a day. Now and then a frame comes twice or not at all.
     std::int64_t frames = 0;
     constexpr std::int64_t k_refreshes = 90LL * 3600;
     for (std::int64_t i = 1; i <= k_refreshes; ++i) {

@@ -203,8 +203,8 @@ TEST(HostScale, AScaledWorldBehavesLikeTheUnscaledOne) {
     EXPECT_GT(4 * counts.thrown, sessions);
 }
 
-// A hand of another size is shown like one of the usual size, but for the detail of the surface,
-// which does not scale: joints over the scale are within a few millimetres.
+// A hand of another size is shown like one of the usual size. The detail of the surface does not
+// scale, so joints divided by the scale agree within a few millimetres only.
 RC_GTEST_PROP(HostScale, HandsAreShownInTheirPlayersSize, ()) {
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     const double scale = std::pow(10.0, random.between(-0.7, 1.0));

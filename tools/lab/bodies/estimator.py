@@ -7,7 +7,7 @@ import numpy as np
 
 from .scoring import across, turned, unit, wrapped_deg
 
-LOOK_LAGS_S = (0.15, 0.35, 1.0)  # body_constants::k_look_lags_s; the talk's formulas uses the first
+LOOK_LAGS_S = (0.15, 0.35, 1.0)  # body_constants::k_look_lags_s; the talk's formulas use the first
 CHEST_LIMIT_RAD = 1.3962634015954636  # ArmTuning, as are the next four, and the cone
 REACH, FOLLOW_M, CLAVICLE_LIFT, CLAVICLE_SHARE = 0.995, 0.06, 0.35, 0.8
 CLAVICLE_CURVE = ((0.0, 0.7, 0.85, 1.05, 1.2), (0.006, 0.010, 0.018, 0.032, 0.070))

@@ -38,7 +38,7 @@ namespace Handhold {
         private static void Hear(Action<LogLevel, string> log) {
             try {
                 Library.SetLog(log);
-            } catch (HandholdException) {
+            } catch (HandholdException error) when (error.Result == Result.ErrorState) {
                 // The script has a world of its own: hooks stay as they are.
             }
         }

@@ -23,10 +23,10 @@ namespace Handhold {
             return new Vector3((float)made.x, (float)made.y, (float)made.z);
         }
 
-        // Floats leave a rotation of length 1 only to seven digits.
+        // Floats leave a rotation of length 1 only to seven digits. The library refuses a zero or NaN rotation and counts it.
         private static Quat Unit(Quat q) {
             double length = System.Math.Sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
-            return length > 0.0 ? new Quat(q.x / length, q.y / length, q.z / length, q.w / length) : new Quat(0, 0, 0, 1);
+            return length > 0.0 ? new Quat(q.x / length, q.y / length, q.z / length, q.w / length) : q;
         }
     }
 }

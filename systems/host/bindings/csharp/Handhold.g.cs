@@ -748,7 +748,7 @@ namespace Handhold {
         public HhPose tracked;
         /// <summary>The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres from it, so that palm and fingers touch.</summary>
         public HhPose shown;
-        /// <summary>The wrist in the frame of what it grips (of a gripped player: the gripped part), fixed when the hand closed.</summary>
+        /// <summary>The wrist in the frame of what it grips (a body, or a part of a player), fixed when the hand closed.</summary>
         public HhPose anchor;
         /// <summary>Distance of the tracked wrist from the anchor: 0 unless something blocks it.</summary>
         public double error_m;

@@ -493,7 +493,7 @@ export interface hh_hand_state {
     tracked: hh_pose;
     /** The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres from it, so that palm and fingers touch. */
     shown: hh_pose;
-    /** The wrist in the frame of what it grips (of a gripped player: the gripped part), fixed when the hand closed. */
+    /** The wrist in the frame of what it grips (a body, or a part of a player), fixed when the hand closed. */
     anchor: hh_pose;
     /** Distance of the tracked wrist from the anchor: 0 unless something blocks it. */
     error_m: number;

@@ -121,7 +121,7 @@ typedef struct hh_hand_state {
     /* The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres
      * from it, so that palm and fingers touch. */
     hh_pose shown;
-    /* The wrist in the frame of what it grips (of a gripped player: the gripped part), fixed when
+    /* The wrist in the frame of what it grips (a body, or a part of a player), fixed when
      * the hand closed. */
     hh_pose anchor;
     /* Distance of the tracked wrist from the anchor: 0 unless something blocks it. */

@@ -740,8 +740,8 @@ class HandState(Struct):
     tracked: the wrist in the world, as the devices say
     shown: The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres from it,
     so that palm and fingers touch.
-    anchor: The wrist in the frame of what it grips (of a gripped player: the gripped part), fixed when the
-    hand closed.
+    anchor: The wrist in the frame of what it grips (a body, or a part of a player), fixed when the hand
+    closed.
     error_m: Distance of the tracked wrist from the anchor: 0 unless something blocks it.
     force_impulse_ns: Impulse of the hand on what it grips in the last step, for haptics. 0 if the host's
     solver moved the player (hh_world_end_step): read it there. While hands move only light bodies, hands and
