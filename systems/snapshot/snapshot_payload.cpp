@@ -67,8 +67,8 @@ std::size_t rows_bytes(std::span<const Component> rows) {
         return rows.size() * row_counter<Component>().bytes();
     }
     ByteCounter counter;
-    for (const Component& index : rows) {
-        walk_component(index, counter);
+    for (const Component& element : rows) {
+        walk_component(element, counter);
     }
     return counter.bytes();
 }
