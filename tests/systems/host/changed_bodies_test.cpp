@@ -56,7 +56,8 @@ RC_GTEST_PROP(ChangedBodies, GripsStayWhateverKindAndMassTheBodyGets, (std::uint
         RC_ASSERT(static_cast<bool>(scene.world.set_material(scene.body, {0.3, 0.2})));
         scene.move(5);
         const hh_hand_state hand = scene.hand(HH_RIGHT);
-        const bool is_held = kind == HH_DYNAMIC && mass_kg < *scene.world.tuning("phases.heavy_body_kg");
+        const bool is_held =
+            kind == HH_DYNAMIC && mass_kg < *scene.world.tuning("phases.heavy_body_kg");
         RC_ASSERT(hand.grip == (is_held ? HH_GRIP_HELD : HH_GRIP_SURFACE));
         RC_ASSERT(distance_m(hand.anchor.position, anchor) < 1e-6);
         RC_ASSERT(scene.log == "grab right;");
