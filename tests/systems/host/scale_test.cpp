@@ -11,6 +11,7 @@
 #include <handhold/math.hpp>
 #include <rapidcheck/gtest.h>
 
+#include "engine/geometry/grip_mesh.hpp"
 #include "tests/random.hpp"
 #include "tests/systems/host/host_scene.hpp"
 
@@ -79,7 +80,7 @@ struct Scene {
     }
 };
 
-// Where hands go, as sums of waves, and when they close. In most sessions they close alternately.
+// Where hands go, as sums of waves, and when they close: in most sessions alternately.
 // If both grip, and the lift moves, they contradict each other.
 struct Plan {
     explicit Plan(Random& random)
@@ -89,7 +90,7 @@ struct Plan {
           period_s(random.between(1.0, 2.0)),
           lift_mps(random.between(-0.3, 0.3)),
           has_ball(random.between(0.0, 1.0) < 0.5),
-          shift(random.between(0.0, 1.0) < 0.75 ? 0.5 : 0.1) {}
+          shift(random.between(0.0, 1.0) < 0.6 ? 0.5 : 0.1) {}
 
     hh::Sample sample(double t_s, double scale) const {
         const double wave = std::sin(6.28 * rate_hz * t_s);
@@ -197,15 +198,17 @@ TEST(HostScale, AScaledWorldBehavesLikeTheUnscaledOne) {
     EXPECT_TRUE(rc::check([&counts] { compare_session(counts); }));
     const auto sessions = static_cast<std::size_t>(counts.sessions);
     EXPECT_GT(counts.contradicting, 0);
-    EXPECT_GT(counts.compared, 200 * sessions);
-    EXPECT_GT(counts.surface, 80 * sessions);
-    EXPECT_GT(counts.held, 20 * sessions);
+    EXPECT_GT(counts.compared, 180 * sessions);
+    EXPECT_GT(counts.surface, 60 * sessions);
+    EXPECT_GT(counts.held, 15 * sessions);
     EXPECT_GT(4 * counts.thrown, sessions);
 }
 
 // A hand of another size is shown like one of the usual size. The detail of the surface does not
-// scale, so joints divided by the scale agree within a few millimetres only.
+// scale, so joints divided by the scale agree only as well as two meshes that deviate from it.
 RC_GTEST_PROP(HostScale, HandsAreShownInTheirPlayersSize, ()) {
+    constexpr GripMeshSettings k_mesh{};
+    constexpr double k_detail_m = k_mesh.search.deviation_m + k_mesh.shape_tolerance_m;
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     const double scale = std::pow(10.0, random.between(-0.7, 1.0));
     Scene one(1.0, false);
@@ -232,7 +235,7 @@ RC_GTEST_PROP(HostScale, HandsAreShownInTheirPlayersSize, ()) {
     for (std::size_t i = 0; i < a.size(); ++i) {
         RC_ASSERT(a[i].is_valid && b[i].is_valid && a[i].radius_m > 0.0);
         const double apart_m = distance_m(a[i].pose.position, b[i].pose.position / scale);
-        RC_ASSERT(apart_m < (closes ? 4e-3 : 1e-9));
+        RC_ASSERT(apart_m < (closes ? k_detail_m : 1e-9));
         RC_ASSERT(std::abs(a[i].radius_m - b[i].radius_m / scale) < 1e-12);
     }
 }
