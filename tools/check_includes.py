@@ -30,7 +30,7 @@ PUBLIC_HEADERS = "systems/host/include/"
 # Files of the game that know the library by its public headers alone, as a stranger's game would: climbers, sessions, devices, runs and the
 # loops of desktop and headset. Levels, pictures, inspector and reports use the columns.
 PLAYS_THE_INTERFACE = re.compile(r"game/(climber|session|devices|run|play|desktop|headset)/.*|game/commands/play_files\.[hc]pp")
-# Of these, the loops show what is in the columns. The others do not name them.
+# The desktop and headset loops may name columns, which they draw. The other files may not.
 NAMES_NO_COLUMNS = re.compile(r"game/(climber|session|devices|run|play)/.*")
 COLUMNS = re.compile(r"(?<!hh::)\b(World|FrameCaches|StageStats|CollisionWorld|PlayerEntities|step_frame|hash_state|columns_of|entity_of|from_host)\b"
                      r"|\bscene_?(\(\))?\.(world|tuning|shapes|grip_meshes|caches|stats)\(\)")

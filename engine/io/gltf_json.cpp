@@ -14,8 +14,8 @@ std::uint64_t read_offset(const JsonValue& value) { return value.exists() ? read
 
 std::vector<int> read_index_array(const JsonValue& array) {
     std::vector<int> indices;
-    for (const JsonValue& index : array.optional_items()) {
-        indices.push_back(read_index(index));
+    for (const JsonValue& item : array.optional_items()) {
+        indices.push_back(read_index(item));
     }
     return indices;
 }

@@ -18,7 +18,7 @@ struct Bodies : test::BodyColumns {
     double moved_s = 0.0;
 
     explicit Bodies(std::uint32_t count) {
-        // In the order of a world: a player, then both hands.
+        // Adds each player before its hands, as add_player does.
         for (std::uint32_t i = 0; i < count; ++i) {
             add_player(test::entity(3 * i), test::entity(3 * i + 1), test::entity(3 * i + 2));
         }

@@ -79,7 +79,8 @@ internal static class Lifetimes {
         }
         GC.Collect();
         GC.WaitForPendingFinalizers();
-        Require(Array.Exists(worlds, one => !one.IsAlive), "worlds without an owner are finalized");
+        // A conservative stack may still hold a few.
+        Require(Array.FindAll(worlds, one => !one.IsAlive).Length > 10, "worlds without an owner are finalized");
     }
     private static void FingersNeedAllJointsOfAHand() {
         using (World world = new World()) {
@@ -106,9 +107,12 @@ internal static class Lifetimes {
         GC.Collect();
         using (World world = new World()) {
             RequireRefused(Result.ErrorValue, () => world.ShapeAddSphere(-1.0), "a negative radius");
+            Require(logged == 1, "the log is heard");
             RequireRefused(Result.ErrorState, () => Library.SetLog(null), "hooks stay while a world exists");
+            int before = logged;
+            RequireRefused(Result.ErrorValue, () => world.ShapeAddSphere(-1.0), "a negative radius");
+            Require(logged == before + 1, "refused hooks change nothing");
         }
-        Require(logged > 0, "the log is heard");
         Library.SetLog(null);
     }
     private static void MakeWithoutLibrary() {

@@ -3,7 +3,7 @@
 
 usage: tests/bindings/run.py generated|layouts|python|csharp|javascript BUILD WORK     WORK: a folder of its own, emptied first
     generated   the generated files are what the headers say, and unclear headers are errors
-    layouts     C compilers agree with handhold.json on every size, offset and value: this machine's, and clang's for wasm32 if there is one
+    layouts     C compilers agree with handhold.json on every size, offset and value: this machine's, and clang's for wasm32
     python      the Python binding gets the state hashes of C programs that make the same calls
     csharp      the C# binding does, under Mono; the Unity package compiles against stand-ins of Unity's types
     javascript  the JavaScript binding keeps its views, callbacks and arrays, against a library of JavaScript functions
@@ -19,16 +19,11 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 SOURCE = HERE.parent.parent
+sys.path.insert(0, str(HERE.parent / "hosts"))
+from run import run  # noqa: E402  (tests/hosts/run.py)
+
 BINDINGS = SOURCE / "systems/host/bindings"
 INCLUDE = SOURCE / "systems/host/include"
-
-
-def run(*command, **options) -> str:
-    done = subprocess.run([str(word) for word in command], text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **options)
-    if done.returncode != 0:
-        print(" ".join(map(str, command)), done.stdout, sep="\n", file=sys.stderr)
-        raise SystemExit(1)
-    return done.stdout
 
 
 def skip(what: str) -> None:
@@ -37,13 +32,20 @@ def skip(what: str) -> None:
 
 
 def expected_lines(library: Path, work: Path) -> list[str]:
-    """What C programs print that make the calls of the bindings' tests."""
+    """What C programs print that make the calls of the bindings' tests. Their hands grip as they should."""
     lines = []
     for source in (SOURCE / "tests/portability/grip_hash.c", HERE / "wall_hash.c"):
         program = work / source.stem
         run("cc", "-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", f"-I{INCLUDE}", source, library, "-lm", f"-Wl,-rpath,{library.parent}",
             "-o", program)
         lines.append(run(program).partition(" step_us")[0].strip())
+    described = json.loads((BINDINGS / "handhold.json").read_text(encoding="utf-8"))
+    value = {value["name"]: value["value"] for enum in described["enums"] for value in enum["values"]}
+    # The left hand holds the chain, the right one the wall. In the second scene a hand moves 0.2 m while it grips a wall.
+    said = (rf"0x[0-9a-f]{{16}} grips {value['HH_GRIP_HELD']} {value['HH_GRIP_SURFACE']}", r"0x[0-9a-f]{16} grabs 1 moved_mm 200\.000")
+    if not all(re.fullmatch(pattern, line) for pattern, line in zip(said, lines, strict=True)):
+        print("C says", *lines, "instead of", *said, sep="\n", file=sys.stderr)
+        raise SystemExit(1)
     return lines
 
 
@@ -74,9 +76,9 @@ def check_layouts(work: Path) -> None:
     described = json.loads((BINDINGS / "handhold.json").read_text(encoding="utf-8"))
     values = [f'HH_SAME({value["name"]}, {value["value"]});' for enum in described["enums"] for value in enum["values"]]
     compilers = {"64": ["cc"], "wasm32": ["clang", "--target=wasm32", "-ffreestanding"]}
+    missing = [command[0] for command in compilers.values() if shutil.which(command[0]) is None]
     for name, command in compilers.items():
-        if shutil.which(command[0]) is None:
-            print(f"{name}: skipped, {command[0]} is missing")
+        if command[0] in missing:
             continue
         checks = []
         for struct in described["structs"]:
@@ -88,6 +90,8 @@ def check_layouts(work: Path) -> None:
                           "#define HH_SAME(a, b) _Static_assert((a) == (b), #a)\n" + "\n".join(checks + values) + "\n", encoding="utf-8")
         run(*command, "-std=c11", "-fsyntax-only", f"-I{INCLUDE}", source)
         print(f"{name}: {len(described['structs'])} structs, {len(checks)} sizes and offsets, {len(values)} values")
+    if missing:
+        skip(" and ".join(missing))
 
 
 def check_python(library: Path, work: Path) -> None:

@@ -49,14 +49,14 @@ TEST(Column, RejectsNullEntityAndNeverFindsIt) {
     EXPECT_EQ(column.size(), 1U);
 }
 
-TEST(Column, RejectsSecondRowAndKeepsFirst) {
+TEST(Column, RejectsSecondElementAndKeepsFirst) {
     Column<int> column = column_of({4});
     EXPECT_THROW(column.add(entity_of(4), 99), PreconditionError);
     EXPECT_EQ(column.size(), 1U);
     EXPECT_EQ(column.at(entity_of(4)), 4);
 }
 
-TEST(Column, RejectsRowInSlotOfStalePredecessor) {
+TEST(Column, RejectsElementInSlotOfStalePredecessor) {
     Column<int> column = column_of({4});
     const Entity next = entity_of(4, 2);
     EXPECT_EQ(column.find(next), nullptr);
@@ -68,7 +68,7 @@ TEST(Column, RejectsRowInSlotOfStalePredecessor) {
     EXPECT_EQ(column.find(entity_of(4)), nullptr) << "the old handle is stale";
 }
 
-TEST(Column, AtNamesFunctionAndSlotIfThereIsNoRow) {
+TEST(Column, AtNamesFunctionAndSlotIfThereIsNoElement) {
     const Column<int> column = column_of({1});
     try {
         column.at(entity_of(12));
@@ -80,7 +80,7 @@ TEST(Column, AtNamesFunctionAndSlotIfThereIsNoRow) {
     }
 }
 
-TEST(Column, RemoveMovesLastRowIntoGap) {
+TEST(Column, RemoveMovesLastElementIntoGap) {
     Column<int> column = column_of({0, 1, 2, 3, 4});
     EXPECT_TRUE(column.remove(entity_of(1)));
     EXPECT_EQ(slots_in_order(column), (std::vector<std::uint32_t>{0, 4, 2, 3}));
@@ -90,23 +90,23 @@ TEST(Column, RemoveMovesLastRowIntoGap) {
     EXPECT_FALSE(column.remove(entity_of(3)));
 }
 
-TEST(Column, AddReturnsSameRowAsFind) {
+TEST(Column, AddReturnsSameElementAsFind) {
     Column<int> column = column_of({9});
-    int& index = column.add(entity_of(3));
-    EXPECT_EQ(index, 0);
-    index = 42;
-    EXPECT_EQ(&index, column.find(entity_of(3)));
+    int& element = column.add(entity_of(3));
+    EXPECT_EQ(element, 0);
+    element = 42;
+    EXPECT_EQ(&element, column.find(entity_of(3)));
     EXPECT_EQ(column.elements()[1], 42);
-    EXPECT_EQ(&std::as_const(column).at(entity_of(3)), &index);
+    EXPECT_EQ(&std::as_const(column).at(entity_of(3)), &element);
 }
 
 TEST(Column, ReferencesSurviveValueChanges) {
     Column<int> column = column_of({0, 1, 2});
-    int& index = column.at(entity_of(1));
+    int& element = column.at(entity_of(1));
     for (int& value : column.elements()) {
         value += 10;
     }
-    EXPECT_EQ(index, 11);
+    EXPECT_EQ(element, 11);
 }
 
 TEST(Column, EqualHistoriesGiveEqualOrders) {
@@ -131,7 +131,7 @@ TEST(Column, CopyIsIndependent) {
     EXPECT_TRUE(column.contains(entity_of(0)));
 }
 
-TEST(Column, ClearRemovesAllRows) {
+TEST(Column, ClearRemovesAllElements) {
     Column<int> column = column_of({0, 1, 2});
     column.clear();
     EXPECT_TRUE(column.empty());

@@ -60,7 +60,7 @@ TEST(Join, EmptyColumnsVisitNothing) {
     EXPECT_TRUE(visit_all(none, none).empty());
 }
 
-TEST(Join, DriverAloneVisitsEveryRow) {
+TEST(Join, DriverAloneVisitsEveryElement) {
     EntityPool pool;
     Column<int> driver = column_of(make_entities(pool, 300), 1);
     int visits = 0;

@@ -31,7 +31,7 @@ double deviation_m(const Shape& shape, const Vec3& point) {
     return std::abs((point - axis).norm() - shape.radius_m);
 }
 
-// Oracle: the general way from triangles to a graph.
+// Oracle: build_surface_graph.
 RC_GTEST_PROP(RoundGripMesh, ContactDetailIsTheSurfaceAsAnyMeshWouldBeLinked,
               (std::uint64_t seed)) {
     Random random(seed);
@@ -57,6 +57,7 @@ RC_GTEST_PROP(RoundGripMesh, SearchDetailDeviatesAsFarAsAllowed, (std::uint64_t 
     const Shape shape = random_shape(random);
     const GripMeshSettings settings;
     const GripMesh grip = build_round_grip_mesh(shape, settings);
+    RC_ASSERT(grip.search.triangles.size() >= 8U);
     RC_ASSERT(grip.search.triangles.size() <= grip.contact.triangles.size());
     RC_ASSERT(grip.search.report.border_edges == 0U);
     for (std::size_t t = 0; t < grip.search.triangles.size(); ++t) {
@@ -67,17 +68,30 @@ RC_GTEST_PROP(RoundGripMesh, SearchDetailDeviatesAsFarAsAllowed, (std::uint64_t 
     }
 }
 
-// Oracle: a tree whose splits were searched for.
-RC_GTEST_PROP(RoundGripMesh, TreesFindWhatOthersFind, (std::uint64_t seed)) {
-    Random random(seed);
+Vec3 random_point_on(const Shape& shape, Random& random) {
+    const Vec3 on_axis(0.0, random.between(-shape.half_height_m, shape.half_height_m), 0.0);
+    return on_axis + shape.radius_m * random.direction();
+}
+
+// Of all shapes of one kind.
+struct Counts {
+    int nears = 0;
+    int hits = 0;
+};
+
+// Oracle: a tree built by the general TriangleBvh constructor.
+void compare_trees(Counts& spheres, Counts& capsules) {
+    Random random(*rc::gen::arbitrary<std::uint64_t>());
     const Shape shape = random_shape(random);
+    Counts& counts = shape.kind == ShapeKind::capsule ? capsules : spheres;
     const GripMesh grip = build_round_grip_mesh(shape, {});
     const TriangleBvh oracle(grip.contact.positions, grip.contact.triangles);
     RC_ASSERT(grip.contact_bvh.triangle_count() == oracle.triangle_count());
     const double size_m = 2.0 * (shape.radius_m + shape.half_height_m);
     for (int i = 0; i < 50; ++i) {
         const Vec3 from = random.vector(size_m);
-        const Vec3 to = random.vector(size_m);
+        const Vec3 on_shape = random_point_on(shape, random);
+        const Vec3 to = on_shape + random.vector(shape.radius_m);
         const auto near = grip.contact_bvh.closest_point(from, size_m);
         const auto oracle_near = oracle.closest_point(from, size_m);
         RC_ASSERT(near.has_value() == oracle_near.has_value());
@@ -86,6 +100,18 @@ RC_GTEST_PROP(RoundGripMesh, TreesFindWhatOthersFind, (std::uint64_t seed)) {
         const auto oracle_hit = oracle.cast_ray(from, to);
         RC_ASSERT(hit.has_value() == oracle_hit.has_value());
         RC_ASSERT(!hit || hit->triangle == oracle_hit->triangle);
+        counts.nears += near ? 1 : 0;
+        counts.hits += hit ? 1 : 0;
+    }
+}
+
+TEST(RoundGripMesh, TreesFindWhatOthersFind) {
+    Counts spheres;
+    Counts capsules;
+    EXPECT_TRUE(rc::check([&] { compare_trees(spheres, capsules); }));
+    for (const Counts& counts : {spheres, capsules}) {
+        EXPECT_GT(counts.nears, 200);
+        EXPECT_GT(counts.hits, 200);
     }
 }
 

@@ -42,16 +42,16 @@ struct RandomMesh {
     }
 };
 
-// Rows of numbers of one component type, as they are in the buffer. Rows are padded to a multiple
-// of 4 bytes, as the specification asks of vertex attributes.
-struct EncodedRows {
+// Elements of numbers of one component type, as they are in the buffer. Elements are padded to a
+// multiple of 4 bytes, as the specification asks of vertex attributes.
+struct EncodedElements {
     std::string bytes;
     std::size_t element_bytes = 0;  // with padding
     std::size_t count = 0;
     int component_type = 5126;
     bool is_normalized = false;
 
-    std::string_view row(std::size_t i) const {
+    std::string_view element(std::size_t i) const {
         return std::string_view(bytes).substr(i * element_bytes, element_bytes);
     }
 };
@@ -84,17 +84,18 @@ inline void append_component(std::string& bytes, int component_type, double valu
     bytes.append(reinterpret_cast<const char*>(&integer), bytes_of(component_type));
 }
 
-template <typename Rows>
-EncodedRows encode_rows(const Rows& rows, int component_type, bool is_normalized) {
-    EncodedRows encoded;
+template <typename Elements>
+EncodedElements encode_elements(const Elements& elements, int component_type, bool is_normalized) {
+    EncodedElements encoded;
     encoded.component_type = component_type;
     encoded.is_normalized = is_normalized;
-    encoded.count = rows.size();
-    for (const auto& row : rows) {
+    encoded.count = elements.size();
+    for (const auto& element : elements) {
         const std::size_t begin = encoded.bytes.size();
-        for (std::size_t k = 0; k < static_cast<std::size_t>(row.size()); ++k) {
-            append_component(encoded.bytes, component_type,
-                             static_cast<double>(row[static_cast<decltype(row.size())>(k)]));
+        for (std::size_t k = 0; k < static_cast<std::size_t>(element.size()); ++k) {
+            append_component(
+                encoded.bytes, component_type,
+                static_cast<double>(element[static_cast<decltype(element.size())>(k)]));
         }
         encoded.bytes.append((4 - encoded.bytes.size() % 4) % 4, '\0');
         encoded.element_bytes = encoded.bytes.size() - begin;
@@ -104,7 +105,7 @@ EncodedRows encode_rows(const Rows& rows, int component_type, bool is_normalized
 
 // Positions in a random component type, and the map that undoes the quantisation.
 struct QuantizedPositions {
-    EncodedRows rows;
+    EncodedElements elements;
     double scale = 1.0;
     Vec3 offset = Vec3::Zero();
     double tolerance_m = 0.0;  // half a quantisation step, and rounding to float
@@ -121,7 +122,7 @@ inline QuantizedPositions quantize(const std::vector<Vec3>& positions, Random& r
         high = high.cwiseMax(position);
     }
     QuantizedPositions quantized;
-    std::vector<Vec3> rows = positions;
+    std::vector<Vec3> elements = positions;
     double step_m = 0.0;
     if (type != 5126) {
         const bool is_signed = type == 5120 || type == 5122;
@@ -129,12 +130,12 @@ inline QuantizedPositions quantize(const std::vector<Vec3>& positions, Random& r
         step_m = (high - low).maxCoeff() / (is_signed ? 2.0 * largest : largest);
         quantized.offset = is_signed ? Vec3(0.5 * (low + high)) : low;
         quantized.scale = is_normalized ? step_m * largest : step_m;
-        for (Vec3& row : rows) {
-            row = (row - quantized.offset) / step_m;
-            row = row.cwiseMax(is_signed ? -largest : 0.0).cwiseMin(largest);
+        for (Vec3& element : elements) {
+            element = (element - quantized.offset) / step_m;
+            element = element.cwiseMax(is_signed ? -largest : 0.0).cwiseMin(largest);
         }
     }
-    quantized.rows = encode_rows(rows, type, is_normalized);
+    quantized.elements = encode_elements(elements, type, is_normalized);
     quantized.tolerance_m = 0.5 * step_m + 1e-6 * (low.norm() + high.norm() + 1.0);
     return quantized;
 }
@@ -176,51 +177,53 @@ struct VariantBuilder {
         return view;
     }
 
-    std::size_t add_rows_view(const EncodedRows& rows, bool is_compressed) {
+    std::size_t add_elements_view(const EncodedElements& elements, bool is_compressed) {
         if (!is_compressed) {
-            return add_view(rows.bytes, rows.element_bytes);
+            return add_view(elements.bytes, elements.element_bytes);
         }
-        std::string compressed(meshopt_encodeVertexBufferBound(rows.count, rows.element_bytes),
-                               '\0');
+        std::string compressed(
+            meshopt_encodeVertexBufferBound(elements.count, elements.element_bytes), '\0');
         compressed.resize(meshopt_encodeVertexBuffer(
             reinterpret_cast<unsigned char*>(compressed.data()), compressed.size(),
-            rows.bytes.data(), rows.count, rows.element_bytes));
-        const std::size_t view =
-            add_compressed_view(compressed, rows.element_bytes, rows.count, "ATTRIBUTES", "NONE");
-        gltf.json["bufferViews"][view]["byteStride"] = rows.element_bytes;
+            elements.bytes.data(), elements.count, elements.element_bytes));
+        const std::size_t view = add_compressed_view(compressed, elements.element_bytes,
+                                                     elements.count, "ATTRIBUTES", "NONE");
+        gltf.json["bufferViews"][view]["byteStride"] = elements.element_bytes;
         return view;
     }
 
-    int add_accessor(std::size_t view, const EncodedRows& rows, const char* type) {
+    int add_accessor(std::size_t view, const EncodedElements& elements, const char* type) {
         nlohmann::json accessor = {{"bufferView", view},
-                                   {"componentType", rows.component_type},
-                                   {"count", rows.count},
+                                   {"componentType", elements.component_type},
+                                   {"count", elements.count},
                                    {"type", type}};
-        if (rows.is_normalized) {
+        if (elements.is_normalized) {
             accessor["normalized"] = true;
         }
         gltf.json["accessors"].push_back(accessor);
         return static_cast<int>(gltf.json["accessors"].size()) - 1;
     }
 
-    // Stores random rows sparsely: the base holds another value there, or does not exist and is
-    // zero; then every row is sparse.
-    int add_sparse_accessor(const EncodedRows& rows, const char* type, std::size_t components,
-                            Random& random) {
+    // Stores random elements sparsely: the base holds another value there, or does not exist and is
+    // zero; then every element is sparse.
+    int add_sparse_accessor(const EncodedElements& elements, const char* type,
+                            std::size_t components, Random& random) {
         const bool has_base = random.between(0, 1) < 0.7;
-        EncodedRows base = rows;
+        EncodedElements base = elements;
         std::vector<std::uint16_t> indices;
         std::string values;
-        for (std::size_t i = 0; i < rows.count; ++i) {
-            if (!has_base || random.between(0, 1) < 0.4 || i + 1 == rows.count) {
+        for (std::size_t i = 0; i < elements.count; ++i) {
+            if (!has_base || random.between(0, 1) < 0.4 || i + 1 == elements.count) {
                 indices.push_back(static_cast<std::uint16_t>(i));
                 // Sparse values are tightly packed.
-                values += rows.row(i).substr(0, components * bytes_of(rows.component_type));
-                base.bytes.replace(i * rows.element_bytes, rows.element_bytes, rows.element_bytes,
-                                   '\x11');
+                values +=
+                    elements.element(i).substr(0, components * bytes_of(elements.component_type));
+                base.bytes.replace(i * elements.element_bytes, elements.element_bytes,
+                                   elements.element_bytes, '\x11');
             }
         }
-        const int accessor = add_accessor(has_base ? add_rows_view(base, false) : 0, rows, type);
+        const int accessor =
+            add_accessor(has_base ? add_elements_view(base, false) : 0, elements, type);
         nlohmann::json& json = gltf.json["accessors"][static_cast<std::size_t>(accessor)];
         if (!has_base) {
             json.erase("bufferView");
@@ -234,11 +237,11 @@ struct VariantBuilder {
         return accessor;
     }
 
-    int add_rows(const EncodedRows& rows, const char* type, std::size_t components,
-                 Random& random) {
+    int add_elements(const EncodedElements& elements, const char* type, std::size_t components,
+                     Random& random) {
         const double kind = random.between(0, 3);
-        return kind < 1.0 ? add_sparse_accessor(rows, type, components, random)
-                          : add_accessor(add_rows_view(rows, kind < 2.0), rows, type);
+        return kind < 1.0 ? add_sparse_accessor(elements, type, components, random)
+                          : add_accessor(add_elements_view(elements, kind < 2.0), elements, type);
     }
 
     // As a plain list, or compressed as triangles or as a sequence, in 16 or 32 bits.
@@ -260,7 +263,7 @@ struct VariantBuilder {
         const std::size_t stride = random.between(0, 1) < 0.5 ? 2 : 4;
         const std::size_t view = add_compressed_view(compressed, stride, indices.size(),
                                                      is_list ? "TRIANGLES" : "INDICES", "NONE");
-        EncodedRows shape;
+        EncodedElements shape;
         shape.count = indices.size();
         shape.component_type = stride == 2 ? 5123 : 5125;
         return add_accessor(view, shape, "SCALAR");

@@ -15,8 +15,8 @@ namespace handhold::io_gltf_variants_test {
 namespace {
 
 using Json = nlohmann::json;
-using test::encode_rows;
-using test::EncodedRows;
+using test::encode_elements;
+using test::EncodedElements;
 using test::GltfBuilder;
 using test::quantize;
 using test::QuantizedPositions;
@@ -59,7 +59,7 @@ TEST(GltfVariants, RandomLevelsAreReadWithinQuantisation) {
         const RandomMesh source(random);
         const QuantizedPositions quantized = quantize(source.positions, random);
         VariantBuilder builder;
-        const int positions = builder.add_rows(quantized.rows, "VEC3", 3, random);
+        const int positions = builder.add_elements(quantized.elements, "VEC3", 3, random);
         const int indices = builder.add_indices(source.indices, source.positions.size(), random);
         builder.gltf.json["nodes"] =
             Json::array({dequantizing_node(quantized, builder.gltf.add_mesh(positions, indices))});
@@ -104,15 +104,16 @@ TEST(GltfVariants, RandomInstancesStandWhereTheirTransformsSay) {
             rotation *= is_quantized ? 32767.0 : 1.0;
         }
         VariantBuilder builder;
-        const EncodedRows rows = encode_rows(source.positions, 5126, false);
-        const int positions = builder.add_rows(rows, "VEC3", 3, random);
+        const EncodedElements elements = encode_elements(source.positions, 5126, false);
+        const int positions = builder.add_elements(elements, "VEC3", 3, random);
         const int mesh = builder.gltf.add_mesh(positions, builder.gltf.add_indices(source.indices));
         Json attributes;
         attributes["TRANSLATION"] =
-            builder.add_rows(encode_rows(translations, 5126, false), "VEC3", 3, random);
-        attributes["ROTATION"] = builder.add_rows(
-            encode_rows(coded, is_quantized ? 5122 : 5126, is_quantized), "VEC4", 4, random);
-        attributes["SCALE"] = builder.add_rows(encode_rows(scales, 5126, false), "VEC3", 3, random);
+            builder.add_elements(encode_elements(translations, 5126, false), "VEC3", 3, random);
+        attributes["ROTATION"] = builder.add_elements(
+            encode_elements(coded, is_quantized ? 5122 : 5126, is_quantized), "VEC4", 4, random);
+        attributes["SCALE"] =
+            builder.add_elements(encode_elements(scales, 5126, false), "VEC3", 3, random);
         const Vec3 shift = random.vector(5);
         builder.gltf.json["nodes"] = {{{"mesh", mesh}, {"translation", array_of(shift)}}};
         builder.gltf.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] =
@@ -159,8 +160,8 @@ TEST(GltfVariants, RandomSkinsKeepTheFourHeaviestJointsOfEight) {
         constexpr std::array<int, 3> k_types = {5126, 5121, 5123};
         const int type = k_types[static_cast<std::size_t>(random.between(0, 2.999))];
         const double unit = type == 5126 ? 1.0 : test::largest_of(type);
-        std::vector<std::vector<std::array<double, 4>>> joint_rows(sets);
-        std::vector<std::vector<std::array<double, 4>>> weight_rows(sets);
+        std::vector<std::vector<std::array<double, 4>>> joint_elements(sets);
+        std::vector<std::vector<std::array<double, 4>>> weight_elements(sets);
         std::vector<std::array<double, joints>> expected(vertices);
         for (std::size_t i = 0; i < vertices; ++i) {
             expected[i].fill(0.0);
@@ -180,26 +181,27 @@ TEST(GltfVariants, RandomSkinsKeepTheFourHeaviestJointsOfEight) {
                         expected[i][static_cast<std::size_t>(names[k])] += weights[k];
                     }
                 }
-                joint_rows[set].push_back(names);
-                weight_rows[set].push_back(weights);
+                joint_elements[set].push_back(names);
+                weight_elements[set].push_back(weights);
             }
         }
         VariantBuilder builder;
-        const EncodedRows rows = encode_rows(source.positions, 5126, false);
-        const int positions = builder.add_rows(rows, "VEC3", 3, random);
+        const EncodedElements elements = encode_elements(source.positions, 5126, false);
+        const int positions = builder.add_elements(elements, "VEC3", 3, random);
         const int indices = builder.add_indices(source.indices, vertices, random);
         const int mesh = builder.gltf.add_mesh(positions, indices);
         const double up = type == 5126 ? 127.0 : 1.0;
         const std::vector<Vec3> normals(vertices, Vec3(0, up, 0));
         Json& attributes = builder.gltf.json["meshes"][0]["primitives"][0]["attributes"];
-        attributes["NORMAL"] = builder.add_rows(
-            encode_rows(normals, type == 5126 ? 5120 : 5126, type == 5126), "VEC3", 3, random);
+        attributes["NORMAL"] = builder.add_elements(
+            encode_elements(normals, type == 5126 ? 5120 : 5126, type == 5126), "VEC3", 3, random);
         for (std::size_t set = 0; set < sets; ++set) {
-            attributes["JOINTS_" + std::to_string(set)] = builder.add_rows(
-                encode_rows(joint_rows[set], random.between(0, 1) < 0.5 ? 5121 : 5123, false),
+            attributes["JOINTS_" + std::to_string(set)] = builder.add_elements(
+                encode_elements(joint_elements[set], random.between(0, 1) < 0.5 ? 5121 : 5123,
+                                false),
                 "VEC4", 4, random);
-            attributes["WEIGHTS_" + std::to_string(set)] = builder.add_rows(
-                encode_rows(weight_rows[set], type, type != 5126), "VEC4", 4, random);
+            attributes["WEIGHTS_" + std::to_string(set)] = builder.add_elements(
+                encode_elements(weight_elements[set], type, type != 5126), "VEC4", 4, random);
         }
         Json nodes = Json::array();
         Json names = Json::array();
@@ -262,30 +264,30 @@ TEST(GltfVariants, FilteredAttributesAreDecoded) {
                 numbers.push_back(static_cast<float>(source.positions[i][k]));
             }
         }
-        EncodedRows normal_rows;
-        normal_rows.bytes.resize(4 * vertices);
-        normal_rows.element_bytes = 4;
-        normal_rows.count = vertices;
-        normal_rows.component_type = 5120;
-        normal_rows.is_normalized = true;
-        meshopt_encodeFilterOct(normal_rows.bytes.data(), vertices, 4, 8, directions.data());
-        EncodedRows position_rows;
-        position_rows.bytes.resize(12 * vertices);
-        position_rows.element_bytes = 12;
-        position_rows.count = vertices;
-        meshopt_encodeFilterExp(position_rows.bytes.data(), vertices, 12, 20, numbers.data());
+        EncodedElements normal_elements;
+        normal_elements.bytes.resize(4 * vertices);
+        normal_elements.element_bytes = 4;
+        normal_elements.count = vertices;
+        normal_elements.component_type = 5120;
+        normal_elements.is_normalized = true;
+        meshopt_encodeFilterOct(normal_elements.bytes.data(), vertices, 4, 8, directions.data());
+        EncodedElements position_elements;
+        position_elements.bytes.resize(12 * vertices);
+        position_elements.element_bytes = 12;
+        position_elements.count = vertices;
+        meshopt_encodeFilterExp(position_elements.bytes.data(), vertices, 12, 20, numbers.data());
         VariantBuilder builder;
-        const auto add = [&](const EncodedRows& rows, const char* filter) {
-            const std::size_t view = builder.add_rows_view(rows, true);
+        const auto add = [&](const EncodedElements& elements, const char* filter) {
+            const std::size_t view = builder.add_elements_view(elements, true);
             builder.gltf
                 .json["bufferViews"][view]["extensions"]["EXT_meshopt_compression"]["filter"] =
                 filter;
-            return builder.add_accessor(view, rows, "VEC3");
+            return builder.add_accessor(view, elements, "VEC3");
         };
-        const int positions = add(position_rows, "EXPONENTIAL");
+        const int positions = add(position_elements, "EXPONENTIAL");
         const int mesh = builder.gltf.add_mesh(positions, builder.gltf.add_indices(source.indices));
         builder.gltf.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] =
-            add(normal_rows, "OCTAHEDRAL");
+            add(normal_elements, "OCTAHEDRAL");
         builder.gltf.json["nodes"] = {{{"mesh", mesh}}};
         const Result<SkinnedMesh> figure = parse_gltf_figure(builder.glb(), "figure.glb");
         ASSERT_TRUE(figure.ok()) << round << ": " << figure.error().message();

@@ -76,7 +76,8 @@ TEST(HeadsetHands, WandsHandleIsDrawnWhereTheRealHandleIs) {
         const hh::Pose wand_ps = hand_ps * controller_in_hand(wand.sides[side].fit);
         const hh::Pose seen = hh::inverse(grip_ps) * wand_ps;
         EXPECT_LT(std::hypot(seen.position.x, seen.position.y), 1e-9);
-        EXPECT_LT(std::abs(seen.position.z), 0.04);  // along it: nobody feels how long it is
+        // Offset along the handle: players cannot feel it.
+        EXPECT_LT(std::abs(seen.position.z), 0.04);
         EXPECT_LT(hh::length(hh::rotation_to_vector(seen.rotation)), 1e-9);
     }
 }

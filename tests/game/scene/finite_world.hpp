@@ -51,8 +51,8 @@ class FiniteFields {
 inline bool is_finite_world(const World& world) {
     FiniteFields fields;
     visit_columns(world, [&fields](const char*, const auto& column) {
-        for (const auto& index : column.elements()) {
-            visit_fields(index, fields);
+        for (const auto& element : column.elements()) {
+            visit_fields(element, fields);
         }
     });
     return fields.all();

@@ -98,7 +98,8 @@ struct BodyColumns {
                                    .pose = spine_pose},
                                   spine_tuning);
     }
-    // `grips` is a parameter because the trunk need not hang from the hands that push off.
+    // `grips`: hands whose release counts as a push-off. They may differ from `grab`, which the
+    // trunk hangs from.
     void layer_additives(double dt_s, const Column<Grab>& grips) {
         handhold::layer_additives({.dt_s = dt_s,
                                    .clips = clips,

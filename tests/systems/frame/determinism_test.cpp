@@ -111,7 +111,7 @@ TEST(Determinism, CreationOrderChangesNoFrame) {
 
 // Destroying and adding leaves elements in any order: hands before their players, each column
 // differently.
-TEST(Determinism, RowOrderChangesNoFrame) {
+TEST(Determinism, ElementOrderChangesNoFrame) {
     const Hashes expected = Crowd().run(Crowd::k_frames);
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
         Crowd crowd;

@@ -216,7 +216,7 @@ TEST(HashState, CopiesAreEqual) {
 
 // --- Ownership of elements -----------------------------------------------------------------------
 
-// Row hashes are summed; the owner must still show.
+// Hashes of elements are summed; the owner must still show.
 TEST(HashState, ChangesIfTwoBodiesSwapPoses) {
     World world;
     const Entity a = add_body(world, rock("a", 1));

@@ -6,7 +6,7 @@
 
 namespace handhold::test {
 
-inline constexpr double k_heap_half_m = 0.1;  // of its crates
+inline constexpr double k_heap_half_m = 0.1;  // half extent of its crates
 
 // side^3 crates 5 mm apart before a wall, and a crate in the right hand that is pushed into them at
 // up to 1.5 m/s.

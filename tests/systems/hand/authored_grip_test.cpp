@@ -14,7 +14,7 @@ namespace {
 using test::count_of;
 using test::distance;
 using test::FittedHand;
-using test::k_unbudgeted_s;
+using test::k_unlimited_s;
 using test::wrist_with_palm_at;
 
 struct AuthoredGripOnFloor : testing::Test {
@@ -51,7 +51,7 @@ TEST_F(AuthoredGripOnFloor, PalmMovesToAuthoredPoseAtPalmRate) {
     EXPECT_GT(travel_m, 0.9 * (grip.wrist_bs.position - closed.position).norm());
     // After leaving the grip the palm is fitted to the surface again.
     hand.hands.front().authored = nullptr;
-    hand.frame(k_unbudgeted_s);
+    hand.frame(k_unlimited_s);
     EXPECT_GT(distance(hand.shown_bs(), grip.wrist_bs), 0.01);
 }
 
@@ -64,7 +64,7 @@ TEST_F(AuthoredGripOnFloor, FingersTakeAuthoredPoseAtClosingRate) {
         EXPECT_EQ(hand.pose().target[f].curl_rad, grip.fingers[f].curl_rad) << f;
         EXPECT_LE(hand.pose().shown[f].curl_rad[1], 0.01 + 1e-12) << f;
     }
-    hand.frame(k_unbudgeted_s);
+    hand.frame(k_unlimited_s);
     EXPECT_EQ(hand.pose().shown[0].opposition_rad, -1.0);
     EXPECT_EQ(hand.pose().shown[2].curl_rad, grip.fingers[2].curl_rad);
     EXPECT_EQ(count_of(hand.stats, Fallback::authored_finger_rejected), 0U);
@@ -79,7 +79,7 @@ TEST_F(AuthoredGripOnFloor, TriggerFingerFollowsTriggerAndOthersStay) {
     hand.tracking.at(test::k_right).pressed = true;
     for (const double trigger : {0.0, 0.25, 1.0, 0.5, 0.0}) {
         hand.tracking.at(test::k_right).trigger = trigger;
-        hand.frame(k_unbudgeted_s);
+        hand.frame(k_unlimited_s);
         for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
             for (std::size_t i = 0; i < k_max_links; ++i) {
                 const double open_rad = grip.fingers[f].curl_rad[i];
@@ -100,7 +100,7 @@ TEST_F(AuthoredGripOnFloor, RejectedFingerDoesNotFollowTrigger) {
     FittedHand hand(floor, grip.wrist_bs);
     hand.hands.front().authored = &grip;
     hand.tracking.at(test::k_right).trigger = 1.0;
-    hand.frame(k_unbudgeted_s);
+    hand.frame(k_unlimited_s);
     EXPECT_EQ(count_of(hand.stats, Fallback::authored_finger_rejected), 1U);
     const HingeChain chain = finger_chain(rig.fingers[1], 0.0, hand.shown_bs());
     for (const Capsule& capsule : chain_capsules(chain, hand.pose().shown[1].curl_rad)) {
@@ -123,7 +123,7 @@ TEST_F(AuthoredGripOnFloor, PosedIndexFingerLeavesOtherFingersOnTheSurface) {
         hand.hands.front().authored = &pointing;
         hand.tracking.at(test::k_right).trigger = trigger;
         for (int frame = 0; frame < 30; ++frame) {
-            hand.frame(k_unbudgeted_s);
+            hand.frame(k_unlimited_s);
             hand.wrist_bs().position.x() += 1e-4;  // the fit goes on
         }
         const HingeChain chain = finger_chain(rig.fingers[2], 0.0, hand.shown_bs());
@@ -144,7 +144,7 @@ TEST_F(AuthoredGripOnFloor, PenetratingAuthoredFingerIsFittedAndCounted) {
     grip.fingers[1].curl_rad = {1.2, 0.3, 0.1};  // through the floor
     FittedHand hand(floor, grip.wrist_bs);
     hand.hands.front().authored = &grip;
-    hand.frame(k_unbudgeted_s);
+    hand.frame(k_unlimited_s);
     EXPECT_EQ(count_of(hand.stats, Fallback::authored_finger_rejected), 1U);
     const HingeChain chain = finger_chain(rig.fingers[1], 0.0, hand.shown_bs());
     for (const Capsule& capsule : chain_capsules(chain, hand.pose().target[1].curl_rad)) {
@@ -224,7 +224,7 @@ TEST_F(AuthoredGripOnFloor, FingersWithoutAuthoredPoseCloseOnSurface) {
     grip.is_posed.fill(false);
     FittedHand hand(floor, grip.wrist_bs);
     hand.hands.front().authored = &grip;
-    hand.frame(k_unbudgeted_s);
+    hand.frame(k_unlimited_s);
     for (std::size_t f = 1; f < rig.fingers.size(); ++f) {
         EXPECT_GE(hand.traces[0][f].contact_link, 0) << f;
     }

@@ -9,7 +9,7 @@ namespace {
 
 using test::FittedHand;
 using test::k_right;
-using test::k_unbudgeted_s;
+using test::k_unlimited_s;
 using test::wrist_with_palm_at;
 
 constexpr std::size_t k_index = 1;
@@ -62,7 +62,7 @@ TEST_F(FingerChain, SearchIsSeededUnderPalmAndAtFinger) {
 }
 
 TEST_F(FingerChain, FingerOverAnotherPartThanPalmTouchesIt) {
-    hand.frame(k_unbudgeted_s);
+    hand.frame(k_unlimited_s);
     for (std::size_t f = k_index; f < rig.fingers.size(); ++f) {
         EXPECT_GE(hand.traces[0][f].contact_link, 0) << f;
     }

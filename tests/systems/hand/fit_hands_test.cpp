@@ -10,7 +10,7 @@ namespace {
 
 using test::FittedHand;
 using test::k_right;
-using test::k_unbudgeted_s;
+using test::k_unlimited_s;
 using test::Random;
 using test::wrist_with_palm_at;
 
@@ -68,7 +68,7 @@ TEST_F(FitHands, FittedHandDoesNotPenetrateAndStaysWithinLimits) {
         const Vec3 up = (Vec3::UnitY() + random.vector(0.4)).normalized();
         const Vec3 center = Vec3(0.0, 0.01, 0.0) + random.vector(0.02);
         FittedHand hand(beam, wrist_with_palm_at(rig, center, up));
-        hand.frame(k_unbudgeted_s);
+        hand.frame(k_unlimited_s);
         const FingerPose& pose = hand.pose();
         deep += test::deepest_digit_m(hand, pose.target, hand.shown_bs()) > 1.5e-3 ? 1 : 0;
         for (const PalmCapsule& capsule : rig.palm) {
@@ -107,11 +107,11 @@ TEST_F(FitHands, DigitsStayOnTheSideWhereTheyClosed) {
         held.wrist_bs = wrist_with_palm_at(rig, center, up);
         FittedHand hand(grip_mesh, held.wrist_bs);
         hand.hands.front().authored = &held;
-        hand.frame(k_unbudgeted_s);
+        hand.frame(k_unlimited_s);
         const FingerPose closing = hand.pose();
         const Pose wrist_bs = hand.shown_bs();
         for (int frame = 0; frame < 5; ++frame) {
-            hand.frame(k_unbudgeted_s);
+            hand.frame(k_unlimited_s);
         }
         for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
             const double closed_m = test::digit_depth_m(hand, f, closing.closed[f], wrist_bs);
@@ -137,7 +137,7 @@ TEST_F(FitHands, ThumbStaysOutOfTheFingers) {
         const Vec3 center{random.between(-0.1, 0.1), 0.012, random.between(-0.02, 0.02)};
         FittedHand hand(rod, wrist_with_palm_at(rig, center, up));
         for (int frame = 0; frame < 5; ++frame) {
-            hand.frame(k_unbudgeted_s);
+            hand.frame(k_unlimited_s);
         }
         const double gap_m = least_thumb_gap_m(rig, hand.pose());
         EXPECT_GT(gap_m, -2e-3) << i;
@@ -154,7 +154,7 @@ TEST_F(FitHands, FingersDoNotFanOut) {
         at_end.position.x() += random.between(0.15, 0.22);
         FittedHand hand(beam, at_end);
         for (int frame = 0; frame < 5; ++frame) {
-            hand.frame(k_unbudgeted_s);
+            hand.frame(k_unlimited_s);
         }
         for (std::size_t f = 2; f < rig.fingers.size(); ++f) {
             const Vec3 one = knuckle_to_tip(rig.fingers[f - 1], hand.pose().target[f - 1]);
@@ -170,7 +170,7 @@ TEST_F(FitHands, FingerThatReachesNothingGoesWithItsNeighbour) {
     Pose at_end = on_beam;
     at_end.position.x() += 0.19;
     FittedHand hand(beam, at_end);
-    hand.frame(k_unbudgeted_s);
+    hand.frame(k_unlimited_s);
     int free = 0;
     int touching = 0;
     for (std::size_t f = 1; f < rig.fingers.size(); ++f) {
@@ -232,11 +232,11 @@ TEST_F(FitHands, StationaryHandConvergesAndKeepsItsFit) {
 TEST_F(FitHands, FitDoesNotDependOnBodyPose) {
     Random random(2502);
     FittedHand at_origin(beam, on_beam);
-    at_origin.frame(k_unbudgeted_s);
+    at_origin.frame(k_unlimited_s);
     for (int i = 0; i < 10; ++i) {
         FittedHand elsewhere(beam, on_beam);
         elsewhere.hands.front().body_ws = random.pose(20.0);
-        elsewhere.frame(k_unbudgeted_s);
+        elsewhere.frame(k_unlimited_s);
         EXPECT_LT((elsewhere.shown_bs().position - at_origin.shown_bs().position).norm(), 1e-9);
         for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
             EXPECT_EQ(elsewhere.pose().target[f].curl_rad, at_origin.pose().target[f].curl_rad);
@@ -247,8 +247,8 @@ TEST_F(FitHands, FitDoesNotDependOnBodyPose) {
 TEST_F(FitHands, LeftHandMirrorsRightHand) {
     FittedHand right(beam, on_beam);
     FittedHand left(beam, test::mirrored(on_beam), HandSide::left);
-    right.frame(k_unbudgeted_s);
-    left.frame(k_unbudgeted_s);
+    right.frame(k_unlimited_s);
+    left.frame(k_unlimited_s);
     EXPECT_LT((test::mirrored(left.shown_bs()).position - right.shown_bs().position).norm(), 1e-3);
     for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
         for (std::size_t k = 0; k < k_max_links; ++k) {
@@ -262,7 +262,7 @@ TEST_F(FitHands, LeftHandMirrorsRightHand) {
 TEST_F(FitHands, ThumbOfStationaryHandYieldsToMovedBody) {
     FittedHand hand(beam, on_beam);
     for (int frame = 0; frame < 20; ++frame) {
-        hand.frame(k_unbudgeted_s);
+        hand.frame(k_unlimited_s);
     }
     const auto depth_m = [&] {
         return test::deepest_digit_m(hand, hand.pose().target, hand.shown_bs());
@@ -280,7 +280,7 @@ TEST_F(FitHands, ThumbOfStationaryHandYieldsToMovedBody) {
     ASSERT_GT(depth_m(), 2e-3);
     hand.hands.front().signature = 2;
     for (int frame = 0; frame < 20; ++frame) {
-        hand.frame(k_unbudgeted_s);
+        hand.frame(k_unlimited_s);
     }
     EXPECT_LT(depth_m(), 1.5e-3);
 }

@@ -12,7 +12,7 @@ namespace {
 
 using test::FittedHand;
 using test::k_right;
-using test::k_unbudgeted_s;
+using test::k_unlimited_s;
 using test::Random;
 using test::wrist_with_palm_at;
 
@@ -105,7 +105,7 @@ TEST_F(FitTermsOfHand, ShownHandHasTheTermsOfItsFit) {
     for (int i = 0; i < 20; ++i) {
         FittedHand hand{random_mesh(random), random_wrist(random)};
         hand.search();
-        hand.frame(k_unbudgeted_s);
+        hand.frame(k_unlimited_s);
         const PalmOffset& offset = hand.offset.at(k_right);
         const auto terms = shown_fit_terms(hand.hands.front(), hand.surface.at(k_right), offset,
                                            hand.pose(), hand.tuning.palm);

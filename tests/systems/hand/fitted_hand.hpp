@@ -13,8 +13,8 @@
 
 namespace handhold::test {
 
-// Frame length that lifts all rate limits and budgets.
-constexpr double k_unbudgeted_s = std::numeric_limits<double>::infinity();
+// Frame length that lifts all rate limits.
+constexpr double k_unlimited_s = std::numeric_limits<double>::infinity();
 
 // A floor in the plane y = 0 facing up, one metre wide, with cells of 25 mm.
 inline Mesh make_floor_mesh() {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "engine/geometry/chain_fit.hpp"
 #include "engine/geometry/closest_point.hpp"
 #include "fitted_hand.hpp"
@@ -47,21 +49,38 @@ inline double finger_penetration_m(const FittedHand& hand, const Pose& wrist_bs)
     return deepest_m;
 }
 
+// True if a surface crosses the axis of a finger.
+inline bool is_crossed(const FittedHand& hand, const FingerRig& finger, const FingerAngles& angles,
+                       const Pose& wrist_bs) {
+    const auto links =
+        chain_capsules(finger_chain(finger, angles.opposition_rad, wrist_bs), angles.curl_rad);
+    for (std::size_t i = 0; i < finger.link_count; ++i) {
+        if (find_penetration(links[i], hand.hands.front().meshes).crossed_at) {
+            return true;
+        }
+    }
+    return false;
+}
+
 // True if a surface crosses the axis of a shown digit.
 inline bool is_digit_crossed(FittedHand& hand) {
     const Pose wrist_bs = hand.shown_bs();
     for (std::size_t f = 0; f < hand.rig.fingers.size(); ++f) {
-        const FingerRig& finger = hand.rig.fingers[f];
-        const FingerAngles& angles = hand.pose().shown[f];
-        const auto links =
-            chain_capsules(finger_chain(finger, angles.opposition_rad, wrist_bs), angles.curl_rad);
-        for (std::size_t i = 0; i < finger.link_count; ++i) {
-            if (find_penetration(links[i], hand.hands.front().meshes).crossed_at) {
-                return true;
-            }
+        if (is_crossed(hand, hand.rig.fingers[f], hand.pose().shown[f], wrist_bs)) {
+            return true;
         }
     }
     return false;
+}
+
+// True if a surface crosses the axis of an open finger, without the thumb, beside the palm fitted
+// by search_grip.
+inline bool is_open_finger_crossed(const FittedHand& hand) {
+    const Pose& wrist_bs = hand.surface.at(k_right).fitted_wrist_bs;
+    return std::ranges::any_of(hand.rig.fingers, [&](const FingerRig& finger) {
+        return finger.name != FingerName::thumb &&
+               is_crossed(hand, finger, {.curl_rad = finger.lower_rad}, wrist_bs);
+    });
 }
 
 }  // namespace handhold::search_grip_test

@@ -118,7 +118,7 @@ TEST(SearchGrip, SurfaceStaysUntilTheHandOrItsSurroundingsHaveMoved) {
         hand.search();
         const GripSurface found = hand.surface.at(k_right);
         ASSERT_NE(found.triangle, GripSurface::k_none);
-        const double share = random.between(0.0, 1.0);  // of the travel that is a move
+        const double share = random.between(0.0, 1.0);  // of the travel that is translation
         const double travel_m = random.between(0.0, 0.06);
         const Vec3 move_m = share * travel_m * random.direction();
         const double turn_rad = (1.0 - share) * travel_m / 0.1;
@@ -138,9 +138,10 @@ TEST(SearchGrip, SurfaceStaysUntilTheHandOrItsSurroundingsHaveMoved) {
     }
 }
 
-// Along a ring, the surface needs hardly more palm movement than one searched from scratch in every
-// frame: at most what the hand has travelled since its last search.
-TEST(SearchGrip, KeptSurfaceNeedsHardlyMoreSyncThanSearchedOne) {
+// Along a ring, a kept surface needs at most the palm's movement since its search more than one
+// searched from scratch: sync(now, kept) <= since + sync(then, kept), by the triangle inequality,
+// and by the ring's symmetry searches from scratch need the same everywhere, but for its facets.
+TEST(SearchGrip, KeptSurfaceNeedsAtMostTheTravelMoreSync) {
     const GripMesh ring = build_grip_mesh(test::make_torus(0.12, 0.02, 60, 24));
     const HandRig rig = builtin_hand_rig(HandSide::right);
     const auto on_ring = [&](double turn_rad) {
@@ -148,7 +149,9 @@ TEST(SearchGrip, KeptSurfaceNeedsHardlyMoreSyncThanSearchedOne) {
         return Pose{Vec3::Zero(), turn} *
                wrist_with_palm_at(rig, {0.0, 0.028, 0.12}, Vec3::UnitY());
     };
+    constexpr double k_facets_m = GripMeshSettings{}.search.deviation_m;
     FittedHand hand(ring, on_ring(0.0));
+    int kept = 0;
     for (int frame = 0; frame < 150; ++frame) {
         hand.wrist_bs() = on_ring(0.018 * frame);
         hand.search();
@@ -159,8 +162,14 @@ TEST(SearchGrip, KeptSurfaceNeedsHardlyMoreSyncThanSearchedOne) {
         const auto sync_m = [&](const GripSurface& found) {
             return grip_sync(hand.wrist_bs(), found.fitted_wrist_bs, rig.palm_center_hs).palm_m;
         };
-        EXPECT_LE(sync_m(surface), sync_m(from_scratch.surface.at(k_right)) + 0.033) << frame;
+        const double since_m =
+            grip_sync(hand.wrist_bs(), surface.wrist_bs, rig.palm_center_hs).palm_m;
+        EXPECT_LE(sync_m(surface), sync_m(from_scratch.surface.at(k_right)) + since_m + k_facets_m)
+            << frame;
+        kept += surface.wrist_bs.position != hand.wrist_bs().position ? 1 : 0;
     }
+    EXPECT_GT(kept, 75);
+    EXPECT_LT(kept, 149);
 }
 
 TEST(SearchGrip, PrefersOuterSideOfPlate) {

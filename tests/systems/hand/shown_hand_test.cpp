@@ -11,7 +11,7 @@ namespace {
 
 using test::FittedHand;
 using test::k_right;
-using test::k_unbudgeted_s;
+using test::k_unlimited_s;
 using test::Random;
 using test::wrist_with_palm_at;
 
@@ -106,7 +106,7 @@ TEST_F(ShownHand, ShownOffsetIsNeverFasterThanItsRate) {
 
 TEST_F(ShownHand, EmptyHandReturnsToTrackedPose) {
     FittedHand hand(floor, wrist_with_palm_at(rig, {0.0, -0.02, 0.0}, Vec3::UnitY()));
-    hand.frame(k_unbudgeted_s);
+    hand.frame(k_unlimited_s);
     EXPECT_GT(hand.offset.at(k_right).shown_m.norm(), 0.01);
     let_go(hand);
     double offset_m = hand.offset.at(k_right).shown_m.norm();
@@ -121,17 +121,17 @@ TEST_F(ShownHand, EmptyHandReturnsToTrackedPose) {
 TEST_F(ShownHand, EmptyHandClosesAsFarAsItsButton) {
     FittedHand hand(beam, {});
     let_go(hand);
-    hand.frame(k_unbudgeted_s);
+    hand.frame(k_unlimited_s);
     const FingerPose rest = hand.pose();
     hand.tracking.at(k_right).pressed = true;
-    hand.frame(k_unbudgeted_s);
+    hand.frame(k_unlimited_s);
     const FingerPose fist = hand.pose();
     hand.tracking.at(k_right).pressed = false;
     Random random(2103);
     for (int i = 0; i < 100; ++i) {
         const double squeeze = random.between(0.0, 1.0);
         hand.tracking.at(k_right).squeeze = squeeze;
-        hand.frame(k_unbudgeted_s);
+        hand.frame(k_unlimited_s);
         for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
             for (std::size_t link = 0; link < rig.fingers[f].link_count; ++link) {
                 const double open_rad = rest.shown[f].curl_rad[link];
@@ -149,7 +149,7 @@ TEST_F(ShownHand, TriggerBendsIndexFingerOfEmptyHandOnly) {
     const auto curls = [&](double squeeze, double trigger) {
         hand.tracking.at(k_right).squeeze = squeeze;
         hand.tracking.at(k_right).trigger = trigger;
-        hand.frame(k_unbudgeted_s);
+        hand.frame(k_unlimited_s);
         std::array<double, k_finger_count> sum_rad = {};
         for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
             const auto& curl_rad = hand.pose().shown[f].curl_rad;
@@ -170,11 +170,11 @@ TEST_F(ShownHand, TriggerBendsIndexFingerOfEmptyHandOnly) {
 TEST_F(ShownHand, EmptyHandTakesRestPoseOrFist) {
     FittedHand hand(beam, {});
     let_go(hand);
-    hand.frame(k_unbudgeted_s);
+    hand.frame(k_unlimited_s);
     const FingerPose rest = hand.pose();
     EXPECT_EQ(rest.shown[0].opposition_rad, hand.tuning.thumb.rest_opposition_rad);
     hand.tracking.at(k_right).pressed = true;
-    hand.frame(k_unbudgeted_s);
+    hand.frame(k_unlimited_s);
     for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
         EXPECT_EQ(rest.shown[f].curl_rad, rig.fingers[f].rest_rad);
         for (std::size_t i = 0; i < rig.fingers[f].link_count; ++i) {

@@ -15,10 +15,6 @@ namespace {
 
 using namespace test;
 
-double distance_m(const hh::Vec3& a, const hh::Vec3& b) {
-    return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
-}
-
 // Bytes in memory have no file name, and no file is read beside them.
 TEST(HostRigs, RefusalsNameTheRigAndWhatIsWrong) {
     HostScene scene;

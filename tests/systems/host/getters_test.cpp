@@ -1,4 +1,4 @@
-// Getters of the C interface say what definitions, columns and steps say.
+// Getters of the C interface return the values of definitions, columns and the last step.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <handhold/handhold.hpp>
+#include <handhold/math.hpp>
 
 // A host of one player whose palms face -Z, for tests of the C interface.
 namespace handhold::test {
@@ -11,6 +12,8 @@ namespace handhold::test {
 inline constexpr double k_step_s = 1.0 / 90.0;
 inline constexpr hh::Vec3 k_wall_m = {0.0, 1.5, -0.6};  // position of the scene's wall
 inline constexpr hh::Quat k_palm_ahead{0.7071067811865476, 0.0, 0.0, 0.7071067811865476};
+
+inline double distance_m(hh::Vec3 a, hh::Vec3 b) { return hh::length(a - b); }
 
 // A dynamic cube of 0.2 m and 2 kg.
 inline hh_body_def crate(hh::World& world, hh::Vec3 position) {
@@ -37,7 +40,7 @@ struct HostScene {
         player = *world.add(def);
         is_good = static_cast<bool>(world.use_wrists(player));
     }
-    // Its face is at z = -0.5.
+    // A static wall. Its face is at z = -0.5.
     hh::Body add_wall() { return add_wall("wall", HH_STATIC); }
     // The same wall, which the host moves.
     hh::Body add_lift() { return add_wall(nullptr, HH_KINEMATIC); }
@@ -46,8 +49,7 @@ struct HostScene {
         made.time_s = world.time_s() + k_step_s;
         made.head.position = {0.0, 1.6, 0.0};
         for (std::size_t side = 0; side < 2; ++side) {
-            made.hands[side] =
-                hh::pose_at(hand_at[side], {0.7071067811865476, 0.0, 0.0, 0.7071067811865476});
+            made.hands[side] = hh::pose_at(hand_at[side], k_palm_ahead);
             made.grab[side] = closed[side];
         }
         return made;

@@ -16,13 +16,11 @@
 namespace handhold::host_inferred_test {
 namespace {
 
+using test::distance_m;
 using test::HostScene;
 using test::Random;
 
 hh::Vec3 vec(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-double distance_m(const hh::Vec3& a, const hh::Vec3& b) {
-    return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
-}
 hh::Quat quat(const Quat& q) { return {q.x(), q.y(), q.z(), q.w()}; }
 
 hh::Vec3 origin_of(const HostScene& scene) {

@@ -41,7 +41,8 @@ TEST(HostInput, SamplesOfAfterTheStepAreNotLost) {
     EXPECT_TRUE(scene.hand(HH_RIGHT).is_tracked);
 }
 
-// What a step is given of a stream of samples: those up to its end, and one after it.
+// Returns the samples of a stream that a host passes to one step: those up to its end, and the next
+// one.
 struct Stream {
     std::vector<hh::Sample> samples;
     std::size_t next = 0;
@@ -117,7 +118,8 @@ RC_GTEST_PROP(HostSamples, MayBeGivenAgain, ()) {
     }
 }
 
-// A host that computes a step's end in another way gives samples a little after it.
+// Rounding in a host may put a sample 1 ns after the step's end. Kept samples are rounded to the
+// end; repeated ones are not.
 TEST(HostSamples, AreTakenToTheBitIfTheyAreGivenAgain) {
     for (const bool repeats : {false, true}) {
         HostScene scene;

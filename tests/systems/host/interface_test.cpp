@@ -221,20 +221,5 @@ RC_GTEST_PROP(HostSnapshots, ReplayAfterRestoreIsBitForBitEqual, ()) {
     RC_ASSERT(hash == scene.world.hash());
 }
 
-RC_GTEST_PROP(HostSnapshots, RollbackGivesTheSameHash, ()) {
-    const int saved_at = *rc::gen::inRange(1, 30);
-    const double late_s = *rc::gen::element(0.0, 0.004, 0.02);
-    HostScene scene;
-    scene.add_wall();
-    play(scene, 0, saved_at, late_s);
-    std::vector<std::byte> saved;
-    RC_ASSERT(static_cast<bool>(scene.world.save(saved)));
-    play(scene, saved_at, 40, late_s);
-    const std::uint64_t hash = scene.world.hash();
-    RC_ASSERT(static_cast<bool>(scene.world.restore(saved)));
-    play(scene, saved_at, 40, late_s);
-    RC_ASSERT(scene.world.hash() == hash);
-}
-
 }  // namespace
 }  // namespace handhold::host_interface_test

@@ -1,5 +1,5 @@
-// A client that joins late knows today's shapes, not those that came and went before: it restores
-// server's snapshot, and goes on bit for bit.
+// A client that joins late knows today's shapes, not those that came and went before: it restores a
+// server's snapshot and continues bit for bit.
 #include <cmath>
 #include <cstddef>
 #include <string>

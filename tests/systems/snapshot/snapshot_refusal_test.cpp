@@ -170,7 +170,7 @@ TEST_F(SnapshotRefuses, InconsistentEntityPools) {
 
 // --- What step_frame relies on -------------------------------------------------------------------
 
-TEST_F(SnapshotRefuses, RowsWithoutTheirCounterparts) {
+TEST_F(SnapshotRefuses, ElementsWithoutTheirCounterparts) {
     const auto break_world = [&](const char* part, auto&& change) {
         Crowd broken = played_crowd();
         change(broken.world);
@@ -199,6 +199,20 @@ TEST_F(SnapshotRefuses, RowsWithoutTheirCounterparts) {
                 [&](World& w) { w.body.at(by_name(w, "rock")).inertia_kgm2.y() = -1.0; });
     break_world("path_mover[", [](World& w) { w.path_mover.elements()[0].path.count = 17; });
     break_world("path_mover[", [](World& w) { w.path_mover.elements()[0].path.period_s = 0.0; });
+    break_world("].count: expected at most 8 moves", [&](World& w) {
+        w.move_target.add(by_name(w, "train")).count = MoveTarget::k_capacity + 1;
+    });
+    break_world("].moves: expected times > 0", [&](World& w) {
+        w.move_target.add(by_name(w, "train")).count = 1;  // of a move without a time
+    });
+    break_world("expected an element in body of the same owner",
+                [&](World& w) { w.move_target.add(by_name(w, "crawler")); });
+    break_world("].scale: expected a number in [0.01, 100]",
+                [](World& w) { w.player_origin.elements()[0].scale = 101.0; });
+    break_world("].scale: expected a number in [0.01, 100]",
+                [](World& w) { w.player_origin.elements()[0].scale = 0.0099; });
+    break_world("lengths of 0.05 to 5 m times the player's scale",
+                [](World& w) { w.player_origin.elements()[0].scale = 0.01; });
     break_world("leg_mover[", [](World& w) { w.leg_mover.elements()[0].gait.standing = 1.0; });
     break_world("leg_mover[", [](World& w) { w.leg_mover.elements()[0].leg.upper_m = 1e-6; });
     break_world("expected an element in joint_state of the same owner",

@@ -50,7 +50,7 @@ TEST(WorldDiff, ListsEntitiesThatOnlyOneWorldHas) {
     EXPECT_EQ(unnamed.substr(0, 8), "mover[0x") << unnamed;
 }
 
-TEST(WorldDiff, IgnoresSlotsAndRowOrder) {
+TEST(WorldDiff, IgnoresSlotsAndElementOrder) {
     Crowd a;
     Crowd b(3);
     EXPECT_TRUE(diff_worlds(a.world, b.world).empty());
