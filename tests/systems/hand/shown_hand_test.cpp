@@ -194,7 +194,7 @@ TEST_F(ShownHand, GrippingHandWithItsBackToASurfaceIsALooseFist) {
         FittedHand hand(floor, wrist_with_palm_at(rig, {0.0, height_m, 0.0}, up));
         hand.tracking.at(k_right).squeeze = random.between(0.0, 1.0);
         hand.tracking.at(k_right).pressed = random.between(0.0, 1.0) < 0.5;
-        hand.frame(k_unbudgeted_s);
+        hand.frame(k_unlimited_s);
         ASSERT_EQ(hand.surface.at(k_right).triangle, GripSurface::k_none);
         EXPECT_EQ(hand.palm.at(k_right).pose_ws.position, hand.wrist_bs().position);
         for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
