@@ -94,12 +94,19 @@ void visit_fields(const Calibration& c, V&& visit) {
     visit("right_ps", c.right_ps);
 }
 template <typename V>
+void visit_fields(const HandRest& c, V&& visit) {
+    visit("is_away", c.is_away);
+    visit("share", c.share);
+    visit("from_vs", c.from_vs);
+}
+template <typename V>
 void visit_fields(const ArmMemory::Arm& c, V&& visit) {
     visit("axis_ts", c.axis_ts);
     visit("bend_ts", c.bend_ts);
     visit("hand_ts", c.hand_ts);
     visit("elbow_ts", c.elbow_ts);
     visit("hand_ps", c.hand_ps);
+    visit("rest", c.rest);
 }
 template <typename V>
 void visit_fields(const ChestOffset& c, V&& visit) {
@@ -118,6 +125,7 @@ void visit_fields(const ArmMemory& c, V&& visit) {
 template <typename V>
 void visit_fields(const ArmEstimate::Arm& c, V&& visit) {
     visit("hand_ps", c.hand_ps);
+    visit("goal", c.goal);
     visit("shoulder_ps", c.shoulder_ps);
     visit("bend_ps", c.bend_ps);
     visit("stretch", c.stretch);

@@ -152,6 +152,8 @@ void estimate_arms(const FrameContext& f) {
                              .head = w.head_tracking,
                              .measures = w.body_measures,
                              .owner = w.hand_owner,
+                             .hand = w.hand_tracking,
+                             .grab = w.grab,
                              .palm = w.palm_pose,
                              .memory = w.arm_memory,
                              .estimate = w.arm_estimate},

@@ -248,6 +248,10 @@ class BreachFinder {
                       (is_level_unit(memory.facing_ps) &&
                        std::all_of(memory.looks_ps.begin(), memory.looks_ps.end(), is_level_unit)),
                   "arm_memory", w_.arm_memory.owners()[index], "", "horizontal unit vectors");
+            for (const ArmMemory::Arm& arm : memory.arms) {
+                check(arm.rest.share >= 0.0 && arm.rest.share <= 1.0, "arm_memory",
+                      w_.arm_memory.owners()[index], ".arms", "shares in [0, 1]");
+            }
         }
         for (std::size_t index = 0; index < w_.spine_memory.size(); ++index) {
             const double since_s = w_.spine_memory.elements()[index].since_tick_s;
