@@ -13,7 +13,8 @@
 // faces; +Y is the play space's up, even if the chest leans.
 namespace handhold {
 
-// A player's size. Written by calibrate_players, or by the host that adds the player.
+// A player's size. Written by calibrate_players and estimate_sizes, or by the host that adds the
+// player.
 struct BodyMeasures {
     static constexpr double k_min_m = 0.05;
     static constexpr double k_max_m = 5.0;

@@ -15,6 +15,7 @@ namespace handhold::stages {
 void read_input(const FrameContext& f) {
     read_tracking(f);
     calibrate_players(f);
+    estimate_sizes(f);
 }
 
 // Everything before the solve.
@@ -72,6 +73,7 @@ void show(const FrameContext& f) {
     pose_arms(f);
     propagate_spine(f);
     layer_additives(f);
+    limit_feet(f);
 
     // Writes the poses that hosts draw.
     publish_pose(f);

@@ -31,6 +31,8 @@ struct FrameContext {
 void read_tracking(const FrameContext& f);
 void read_paused_tracking(const FrameContext& f);
 void calibrate_players(const FrameContext& f);
+// Its time counts as that of calibrate_players.
+void estimate_sizes(const FrameContext& f);
 void group_joints(const FrameContext& f);
 void place_colliders(const FrameContext& f, Stage needed_by);
 GrabSearch grab_search(const FrameContext& f);
@@ -71,6 +73,8 @@ void layer_clavicles(const FrameContext& f);
 void pose_arms(const FrameContext& f);
 void propagate_spine(const FrameContext& f);
 void layer_additives(const FrameContext& f);
+// Its time counts as that of layer_additives.
+void limit_feet(const FrameContext& f);
 void publish_pose(const FrameContext& f);
 void publish_body(const FrameContext& f);
 

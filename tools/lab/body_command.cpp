@@ -7,6 +7,7 @@
 #include "engine/core/text_file.hpp"
 #include "game/play/progress.hpp"
 #include "systems/body/estimate_arms.hpp"
+#include "systems/body/estimate_sizes.hpp"
 #include "systems/body/pose_arms.hpp"
 #include "tools/lab/body_baselines.hpp"
 #include "tools/lab/body_files.hpp"
@@ -26,6 +27,8 @@ class OnePlayer {
         origin_.add(player_);
         head_.add(player_);
         measures_.add(player_);
+        calibration_.add(player_);
+        size_.add(player_);
         memory_.add(player_);
         estimate_.add(player_);
         arms_.add(player_);
@@ -37,8 +40,10 @@ class OnePlayer {
         }
     }
 
-    void start(const BodyMeasures& measures) {
-        measures_.at(player_) = measures;
+    // Without measures: nobody measured the player, whose size is estimated while playing.
+    void start(const std::optional<BodyMeasures>& measures) {
+        measures_.at(player_) = measures.value_or(BodyMeasures{});
+        size_.at(player_) = {.is_measured = measures.has_value()};
         memory_.at(player_) = {};
         for (const Entity hand : hands_) {
             tracking_.at(hand).state = TrackingState::never;
@@ -61,6 +66,15 @@ class OnePlayer {
             palm_.at(hands_[side]).pose_ws = tracking.pose_ps;
             estimate.arms[side].hand_ps = tracking.pose_ps;
         }
+        head_.at(player_).state = TrackingState::tracked;
+        estimate_sizes({.dt_s = dt_s,
+                        .origin = origin_,
+                        .head = head_,
+                        .owner = owner_,
+                        .hand = tracking_,
+                        .calibration = calibration_,
+                        .size = size_,
+                        .measures = measures_});
         const BodyMeasures& measures = measures_.at(player_);
         if (estimator_ == "naive") {
             estimate_naive(sample.head_ps, measures, estimate);
@@ -108,6 +122,8 @@ class OnePlayer {
     Column<PlayerOrigin> origin_;
     Column<HeadTracking> head_;
     Column<BodyMeasures> measures_;
+    Column<Calibration> calibration_;
+    Column<SizeEstimate> size_;
     Column<HandOwner> owner_;
     Column<HandTracking> tracking_;
     Column<Grab> grab_;  // empty: nothing is gripped

@@ -143,7 +143,7 @@ Result<std::vector<BodySample>> load_body_samples(const std::filesystem::path& p
     return samples;
 }
 
-Result<std::map<std::int64_t, BodyMeasures>> load_body_measures(const std::filesystem::path& path) {
+Result<MeasuresOfClips> load_body_measures(const std::filesystem::path& path) {
     const Result<std::string> read = read_file(path);
     if (!read) {
         return read.error();
@@ -154,7 +154,7 @@ Result<std::map<std::int64_t, BodyMeasures>> load_body_measures(const std::files
             find_columns(lines.empty() ? std::string_view() : lines[0], columns)) {
         return FileError{path.string(), "line 1", *objection};
     }
-    std::map<std::int64_t, BodyMeasures> measures;
+    MeasuresOfClips measures;
     for (std::size_t row = 0; row + 1 < lines.size(); ++row) {
         const std::vector<std::string_view> cells = split(lines[row + 1], ',');
         if (cells.size() != columns.count) {
@@ -163,7 +163,12 @@ Result<std::map<std::int64_t, BodyMeasures>> load_body_measures(const std::files
                 "expected as many cells as the header has, found " + std::to_string(cells.size())};
         }
         std::array<double, CalibColumns::k_names.size()> numbers{};
+        bool is_measured = true;
         for (std::size_t i = 0; i < numbers.size(); ++i) {
+            if (i > 0 && cells[columns.place[i]].empty()) {
+                is_measured = false;
+                continue;
+            }
             const bool good = read_number(cells[columns.place[i]], numbers[i]) &&
                               (i == 0 ? numbers[i] == std::floor(numbers[i])
                                       : numbers[i] >= 0.05 && numbers[i] <= 5.0);
@@ -174,11 +179,13 @@ Result<std::map<std::int64_t, BodyMeasures>> load_body_measures(const std::files
                                      " in column " + CalibColumns::k_names[i]};
             }
         }
-        BodyMeasures one;
-        one.eye_height_m = numbers[1];
-        one.upper_arm_m = numbers[2];
-        one.forearm_m = numbers[3];
-        one.shoulder_width_m = numbers[4];
+        std::optional<BodyMeasures> one;
+        if (is_measured) {
+            one = BodyMeasures{.eye_height_m = numbers[1],
+                               .shoulder_width_m = numbers[4],
+                               .upper_arm_m = numbers[2],
+                               .forearm_m = numbers[3]};
+        }
         if (!measures.emplace(static_cast<std::int64_t>(numbers[0]), one).second) {
             return FileError{path.string(), line_of(row), "expected each clip once"};
         }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "components/arm.hpp"
@@ -26,7 +27,9 @@ struct BodySample {
 Result<std::vector<BodySample>> load_body_samples(const std::filesystem::path& path);
 
 // Body measures; the key is the clip. The table may have text cells: only the columns clip,
-// eye_height, upper_arm, forearm and shoulder_width are read.
-Result<std::map<std::int64_t, BodyMeasures>> load_body_measures(const std::filesystem::path& path);
+// eye_height, upper_arm, forearm and shoulder_width are read. A person with an empty one was not
+// measured: nullopt.
+using MeasuresOfClips = std::map<std::int64_t, std::optional<BodyMeasures>>;
+Result<MeasuresOfClips> load_body_measures(const std::filesystem::path& path);
 
 }  // namespace handhold::lab

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/body_tuning.hpp"
 #include "systems/body/shared/level_direction.hpp"
 
 namespace handhold {
@@ -20,8 +21,8 @@ double share_of(const Pose& a, const Pose& b, double scale, double dt_s) {
     const double distance_m = (b.position - a.position).norm() / scale;
     const double cosine = std::min(1.0, std::abs(a.rotation.dot(b.rotation)));
     const double angle_rad = 2.0 * arc_tangent2(std::sqrt(1.0 - cosine * cosine), cosine);
-    const double needed_s = k_slope * std::max(distance_m / k_rest_speed_mps,
-                                               angle_rad / k_rest_spin_radps);
+    const double needed_s =
+        k_slope * std::max(distance_m / k_rest_speed_mps, angle_rad / k_rest_spin_radps);
     return dt_s / std::max(needed_s, k_shortest_s);
 }
 
@@ -41,8 +42,8 @@ Pose rest_hand(HandSide side, const Pose& view_ps, double lying, const TrackedBo
     const Vec3 back = mirrored_if_left(Vec3(0.794, 0.607, -0.011), side);
     Quat axes = view_ps.rotation;
     if (lying > 0.0) {
-        const Vec3 up = (1.0 - lying) * Vec3::UnitY() +
-                        lying * (body.head_ps.rotation * Vec3::UnitY());
+        const Vec3 up =
+            (1.0 - lying) * Vec3::UnitY() + lying * (body.head_ps.rotation * Vec3::UnitY());
         const double length = up.norm();
         if (length > 0.1) {
             axes = (rotation_between(Vec3::UnitY(), up / length) * axes).normalized();

@@ -25,11 +25,11 @@ Pose rest_hand(HandSide side, const Pose& view_ps, double lying, const TrackedBo
 // What place_hand needs to know of one hand.
 struct GivenHand {
     ArmGoal goal = ArmGoal::hand;
-    Pose hand_ps;    // as the earlier stages show it
-    Pose rest_ps;    // rest_hand
-    Pose view_ps;    // view_frame
-    Pose before_ps;  // hand as last shown
-    Pose view_before_ps;
+    Pose hand_ps;         // hand that the earlier stages show
+    Pose rest_ps;         // rest_hand
+    Pose view_ps;         // view_frame now
+    Pose before_ps;       // hand that was shown last
+    Pose view_before_ps;  // view_frame then
 };
 
 // Starts a hand without a past: at its rest pose if it is lost.

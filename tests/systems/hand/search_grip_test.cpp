@@ -9,6 +9,7 @@
 #include "held_hand.hpp"
 #include "systems/hand/shared/finger_chain.hpp"
 #include "systems/hand/shared/palm_fit.hpp"
+#include "systems/hand/shared/palm_fitter.hpp"
 #include "systems/rigs/authored_hand.hpp"
 #include "tests/engine/geometry/surface_cuts.hpp"
 

@@ -8,6 +8,7 @@ from .scoring import mean, wrapped_deg
 SETTLED_S = 1.0  # a hand counts as lost when it has been lost for this long
 CONVERGED_S = 20.0  # play after which the size of an unmeasured player is scored
 LONG_ARM = 1.3  # drawn length over that of the bones
+SHOULDER_SHARE, UPPER_SHARE = 0.25, 0.30 / 0.58  # body_proportions.hpp, and the default measures
 GAP_S = 1.0 / 30.0  # between two recordings of a session
 
 
@@ -74,6 +75,14 @@ def input_text(table, order=None):
                 cells[7 * (side + 1):7 * (side + 2)] = ["nan"] * 7
         lines.append(f"{table.clip[row]:.0f},{table.t_s[row]:.6f}," + ",".join(cells))
     return "\n".join(lines) + "\n"
+
+
+def measures_of_t_pose(sizes):
+    """What the runtime makes of the eye height and arm span of a person with these sizes (systems/body/shared/body_proportions.cpp)."""
+    eye_height, upper_arm, forearm, width = sizes
+    span = 2.0 * (upper_arm + forearm) + width
+    arm = 0.5 * (1.0 - SHOULDER_SHARE) * span
+    return eye_height, UPPER_SHARE * arm, (1.0 - UPPER_SHARE) * arm, SHOULDER_SHARE * span
 
 
 def calibration_text(measures):
