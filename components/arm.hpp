@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 
 #include "components/tracking.hpp"
 #include "engine/math/math.hpp"
@@ -12,7 +13,8 @@
 // up, even if the chest leans.
 namespace handhold {
 
-// A player's size. Written by calibrate_players, or by the host that adds the player.
+// A player's size. Written by calibrate_players and estimate_sizes, or by the host that adds the
+// player.
 struct BodyMeasures {
     static constexpr double k_min_m = 0.05;
     static constexpr double k_max_m = 5.0;
@@ -49,6 +51,19 @@ struct ChestOffset {
 
 inline constexpr std::size_t k_look_filters = 3;
 
+// What an arm reaches for. `hand`: the hand as tracked or inferred. `grip`: a hand that grips, also
+// a lost one. `rest`: a hand that is lost or was never tracked, and grips nothing.
+enum class ArmGoal : std::uint8_t { hand, grip, rest };
+
+// The way of a hand to its rest pose and back (systems/body/shared/rest_hand.hpp).
+struct HandRest {
+    bool is_away = false;  // true: the goal is ArmGoal::rest
+    // Away: passed share of the way from `from_vs` to the rest pose. Else: what is left of the way
+    // from `from_vs` back to the hand. [0, 1]
+    double share = 0.0;
+    Pose from_vs;  // where the way began, in the view's frame
+};
+
 // State of estimate_arms between frames.
 struct ArmMemory {
     struct Arm {
@@ -57,6 +72,7 @@ struct ArmMemory {
         Vec3 hand_ts = Vec3::Zero();    // hand relative to the shoulder's rest position
         Vec3 elbow_ts = Vec3::Zero();   // elbow relative to the shoulder
         Pose hand_ps;                   // shown hand at the end of the last frame
+        HandRest rest;
     };
     bool known = false;  // false: the next frame re-initialises this state
     // The head's look direction after low-pass filters of different time constants, the shortest
@@ -77,6 +93,7 @@ inline constexpr double k_clavicle_from = 0.12;
 struct ArmEstimate {
     struct Arm {
         Pose hand_ps;  // shown hand
+        ArmGoal goal = ArmGoal::hand;
         Vec3 shoulder_ps = Vec3::Zero();
         Vec3 bend_ps = Vec3::UnitZ();  // unit, perpendicular to the line from shoulder to hand
         double stretch = 1.0;  // >= 1; scale of upper arm and forearm so that they reach the hand

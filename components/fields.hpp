@@ -39,5 +39,7 @@ template <>
 inline constexpr std::uint32_t k_value_count<JointKind> = 5;
 template <>
 inline constexpr std::uint32_t k_value_count<LegBone> = 2;
+template <>
+inline constexpr std::uint32_t k_value_count<ArmGoal> = 3;
 
 }  // namespace handhold

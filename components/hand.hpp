@@ -52,7 +52,8 @@ struct PalmOffset {
     Vec3 shown_turn_rad = Vec3::Zero();
 };
 
-// The shown wrist at the end of the frame; the arms reach for it. Written by fit_hands.
+// The shown wrist at the end of the frame; the arms reach for it. Written by fit_hands; by
+// estimate_arms for lost hands and those that come back.
 struct PalmPose {
     Pose pose_ws;
 };

@@ -93,6 +93,22 @@ void visit_fields(const Calibration& c, V&& visit) {
     visit("left_ps", c.left_ps);
     visit("right_ps", c.right_ps);
 }
+template <std::size_t Bins, typename V>
+void visit_fields(const LengthHistogram<Bins>& c, V&& visit) {
+    visit("time_s", c.time_s);
+}
+template <typename V>
+void visit_fields(const SizeEstimate& c, V&& visit) {
+    visit("is_measured", c.is_measured);
+    visit("eyes", c.eyes);
+    visit("reach", c.reach);
+}
+template <typename V>
+void visit_fields(const HandRest& c, V&& visit) {
+    visit("is_away", c.is_away);
+    visit("share", c.share);
+    visit("from_vs", c.from_vs);
+}
 template <typename V>
 void visit_fields(const ArmMemory::Arm& c, V&& visit) {
     visit("axis_ts", c.axis_ts);
@@ -100,6 +116,7 @@ void visit_fields(const ArmMemory::Arm& c, V&& visit) {
     visit("hand_ts", c.hand_ts);
     visit("elbow_ts", c.elbow_ts);
     visit("hand_ps", c.hand_ps);
+    visit("rest", c.rest);
 }
 template <typename V>
 void visit_fields(const ChestOffset& c, V&& visit) {
@@ -118,6 +135,7 @@ void visit_fields(const ArmMemory& c, V&& visit) {
 template <typename V>
 void visit_fields(const ArmEstimate::Arm& c, V&& visit) {
     visit("hand_ps", c.hand_ps);
+    visit("goal", c.goal);
     visit("shoulder_ps", c.shoulder_ps);
     visit("bend_ps", c.bend_ps);
     visit("stretch", c.stretch);
@@ -167,12 +185,20 @@ void visit_fields(const BodyPull& c, V&& visit) {
     visit("hands_before", c.hands_before);
 }
 template <typename V>
+void visit_fields(const FootMemory& c, V&& visit) {
+    visit("known", c.known);
+    visit("wanted_m", c.wanted_m);
+    visit("shown_m", c.shown_m);
+    visit("velocity_mps", c.velocity_mps);
+}
+template <typename V>
 void visit_fields(const SpineMemory& c, V&& visit) {
     visit("known", c.known);
     visit("since_tick_s", c.since_tick_s);
     visit("moved_m", c.moved_m);
     visit("chest_ps", c.chest_ps);
     visit("neck_ps", c.neck_ps);
+    visit("head_ps", c.head_ps);
     visit("rate_mps", c.rate_mps);
     visit("rate_span_s", c.rate_span_s);
     visit("tick_chest_ps", c.tick_chest_ps);
@@ -185,6 +211,7 @@ void visit_fields(const SpineMemory& c, V&& visit) {
     visit("contacts", c.contacts);
     visit("searches", c.searches);
     visit("pull", c.pull);
+    visit("feet", c.feet);
 }
 template <typename V>
 void visit_fields(const BodyClipState& c, V&& visit) {

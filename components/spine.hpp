@@ -60,6 +60,14 @@ struct BodyPull {
     Vec3 hands_before = Vec3::Zero();  // one frame earlier
 };
 
+// A foot as it was shown last, relative to the chest in play-space axes. Written by limit_feet.
+struct FootMemory {
+    bool known = false;                // false: the next frame shows the foot where the leg puts it
+    Vec3 wanted_m = Vec3::Zero();      // where the leg put it
+    Vec3 shown_m = Vec3::Zero();       // where it was shown
+    Vec3 velocity_mps = Vec3::Zero();  // velocity of the shown foot
+};
+
 // State of propagate_spine: the hanging chain, before pose_spine folds it for a crouch. Offsets
 // lead from the chest to each link's lower end, in play-space axes. Velocities and displacements
 // are relative to the reference velocity `reference_ws_mps`. The chain advances in fixed time
@@ -71,6 +79,7 @@ struct SpineMemory {
     Pose chest_ps;                // chest at the end of the last frame
     // Neck at the end of the last frame: the chest's position minus ArmEstimate::from_neck_m.
     Vec3 neck_ps = Vec3::Zero();
+    Quat head_ps = Quat::Identity();        // head's rotation at the end of the last frame
     Vec3 rate_mps = Vec3::Zero();           // velocity of the neck in the last frame
     double rate_span_s = 1.0;               // duration of the last frame; > 0
     Quat tick_chest_ps = Quat::Identity();  // chest rotation at the last tick
@@ -85,6 +94,7 @@ struct SpineMemory {
     std::array<BodyContact, k_body_parts> contacts;  // indexed by body_part_of
     std::array<BodySearch, k_body_parts> searches;   // indexed by body_part_of
     BodyPull pull;
+    std::array<FootMemory, k_hand_count> feet;  // indexed by HandSide
 };
 
 // World poses of trunk and legs. Written by propagate_spine; layer_additives adds the clips.

@@ -231,6 +231,7 @@ PlayerEntities add_player(World& world, const PlayerDescription& description) {
     world.render_pose.add(made.player);
     world.body_measures.add(made.player, scaled(description.measures, description.scale));
     world.calibration.add(made.player);
+    world.size_estimate.add(made.player, {.is_measured = description.is_measured});
     world.arm_memory.add(made.player);
     world.arm_estimate.add(made.player);
     world.arm_pose.add(made.player);

@@ -18,6 +18,7 @@
 #include "components/joint.hpp"
 #include "components/player.hpp"
 #include "components/render.hpp"
+#include "components/size_estimate.hpp"
 #include "components/spine.hpp"
 #include "components/tracking.hpp"
 #include "components/world_index.hpp"
@@ -68,8 +69,9 @@ struct World {
     Column<HeadTracking> head_tracking;
     Column<HeadIgnores> head_ignores;
     Column<RenderPose> render_pose;
-    Column<BodyMeasures> body_measures;  // every player has this and the next seven components
+    Column<BodyMeasures> body_measures;  // every player has this and the next eight components
     Column<Calibration> calibration;
+    Column<SizeEstimate> size_estimate;
     Column<ArmMemory> arm_memory;
     Column<ArmEstimate> arm_estimate;
     Column<ArmPose> arm_pose;
@@ -164,6 +166,7 @@ void visit_column_members(Visit&& visit) {
     visit("render_pose", &World::render_pose);
     visit("body_measures", &World::body_measures);
     visit("calibration", &World::calibration);
+    visit("size_estimate", &World::size_estimate);
     visit("arm_memory", &World::arm_memory);
     visit("arm_estimate", &World::arm_estimate);
     visit("arm_pose", &World::arm_pose);
@@ -259,6 +262,7 @@ struct PlayerDescription {
     // Shape of the head's collider: a sphere; k_no_shape: the head touches nothing.
     ShapeId head_shape;
     BodyMeasures measures = {};  // measures before `scale`
+    bool is_measured = false;    // false: the size is estimated while playing, from `measures` on
     double scale = 1.0;          // PlayerOrigin::scale
 };
 struct PlayerEntities {

@@ -8,14 +8,8 @@
 namespace handhold {
 namespace {
 
-// Body proportions (docs/decisions/, 40): shoulder width / arm span, and arm span / eye height.
-constexpr double k_shoulder_share = 0.25;
-constexpr double k_span_share = 0.95;
 // Distance of the shoulder joints below the eyes / arm span.
 constexpr double k_shoulder_drop_share = 0.145;
-// A player counts as seated if the eyes are lower than this share of the eye height that the arm
-// span predicts.
-constexpr double k_seated_share = 0.87;
 
 // Arm span of a player whose wrists are `level_m` apart horizontally and `below_m` below the eyes.
 // Let S be the span. The shoulders are k_shoulder_share S apart and k_shoulder_drop_share S below
@@ -117,23 +111,6 @@ std::optional<TPose> read_t_pose(const Vec3& head_ps, const Vec3& left_ps, const
                         head_ps.y() < TPoseRange::k_max_eyes_m &&
                         is_plausible(span, head_ps.y(), below <= k_level_arms);
     return is_one ? std::optional(TPose{head_ps.y(), span}) : std::nullopt;
-}
-
-BodyMeasures measures_of(const TPose& pose) {
-    const BodyMeasures usual;
-    const double upper_share = usual.upper_arm_m / (usual.upper_arm_m + usual.forearm_m);
-    BodyMeasures measures;
-    measures.shoulder_width_m = k_shoulder_share * pose.span_m;
-    const double arm_m = 0.5 * (pose.span_m - measures.shoulder_width_m);
-    measures.upper_arm_m = upper_share * arm_m;
-    measures.forearm_m = arm_m - measures.upper_arm_m;
-    const double standing_m = pose.span_m / k_span_share;
-    measures.eye_height_m = pose.eyes_m < k_seated_share * standing_m ? standing_m : pose.eyes_m;
-    return measures;
-}
-
-BodyMeasures measures_of_eye_height(double eye_height_m) {
-    return measures_of({eye_height_m, k_span_share * eye_height_m});
 }
 
 void calibrate_players(const CalibratePlayersIo& io, const CalibrationTuning& tuning) {

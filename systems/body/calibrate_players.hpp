@@ -10,6 +10,7 @@
 #include "components/player.hpp"
 #include "components/tracking.hpp"
 #include "engine/ecs/column.hpp"
+#include "systems/body/shared/body_proportions.hpp"
 
 namespace handhold {
 
@@ -30,11 +31,6 @@ struct CalibratePlayersIo {
 // predicts. Measures once per request. Without the pose, nothing changes.
 void calibrate_players(const CalibratePlayersIo& io, const CalibrationTuning& tuning);
 
-// Measures of a T-pose or an A-pose.
-struct TPose {
-    double eyes_m = 0.0;  // height of the eyes above the floor
-    double span_m = 0.0;  // arm span: distance between the wrists with the arms held level
-};
 // Least and greatest height of the eyes above the hands in a T- or A-pose, in arm spans.
 inline constexpr double k_highest_hands = 0.02;
 inline constexpr double k_lowest_hands = 0.47;
@@ -44,10 +40,5 @@ inline constexpr double k_lowest_hands = 0.47;
 // and eye height within TPoseRange and plausible for each other. Positions are relative to the
 // tracked floor.
 std::optional<TPose> read_t_pose(const Vec3& head_ps, const Vec3& left_ps, const Vec3& right_ps);
-
-// Body measures from a pose, with average human proportions.
-BodyMeasures measures_of(const TPose& pose);
-// Body measures from an eye height alone.
-BodyMeasures measures_of_eye_height(double eye_height_m);
 
 }  // namespace handhold

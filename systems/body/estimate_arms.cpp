@@ -7,6 +7,9 @@
 #include "engine/core/parallel.hpp"
 #include "engine/math/scalar_rotation.hpp"
 #include "systems/body/shared/estimate_body.hpp"
+#include "systems/body/shared/level_direction.hpp"
+#include "systems/body/shared/lie_down.hpp"
+#include "systems/body/shared/rest_hand.hpp"
 
 namespace handhold {
 namespace {
@@ -60,11 +63,51 @@ void estimate_player(const TrackedBody& now, const EstimateStep& frame, ArmMemor
     memory.known = true;
     memory.head_ps = now.head_ps;
     for (std::size_t side = 0; side < k_hand_count; ++side) {
-        memory.arms[side].hand_ps = now.hands_ps[side];
+        memory.arms[side].hand_ps = out.arms[side].hand_ps;
     }
 }
 
-// Writes the palms' poses to the estimates, in play space.
+// Replaces the hands of `body` by where they are shown, if they are lost or come back.
+void place_lost_hands(const EstimateStep& frame, const ArmEstimate& estimate, TrackedBody& body,
+                      ArmMemory& memory) {
+    const auto is_exact = [&](std::size_t side) {
+        return estimate.arms[side].goal != ArmGoal::rest && !memory.arms[side].rest.is_away &&
+               memory.arms[side].rest.share == 0.0;
+    };
+    if (is_exact(0) && is_exact(1)) {
+        return;
+    }
+    const BodyAxes axes = axes_of(body);
+    const Vec3 look_ps =
+        memory.known ? memory.looks_ps[0] : level_look(-axes.head.col(2), axes.head.col(1));
+    const Pose view_ps = view_frame(body.head_ps.position, look_ps);
+    const Pose view_before_ps = view_frame(memory.head_ps.position, look_ps);
+    const double lying = trunk_view(body, axes).lying;
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const ArmGoal goal = estimate.arms[index_of(side)].goal;
+        ArmMemory::Arm& arm = memory.arms[index_of(side)];
+        if (!memory.known) {
+            start_hand(goal, arm.rest);
+        }
+        Pose& hand_ps = body.hands_ps[index_of(side)];
+        hand_ps = place_hand({goal, hand_ps, rest_hand(side, view_ps, lying, body), view_ps,
+                              arm.hand_ps, view_before_ps},
+                             frame.scale, frame.dt_s, arm.rest);
+    }
+}
+
+ArmGoal goal_of(const EstimateArmsIo& io, Entity hand) {
+    const Grab* const grab = io.grab.find(hand);
+    if (grab != nullptr && grab->kind != GripKind::none) {
+        return ArmGoal::grip;
+    }
+    const HandTracking* const tracking = io.hand.find(hand);
+    const bool is_shown = tracking == nullptr || tracking->state == TrackingState::tracked ||
+                          tracking->state == TrackingState::inferred;
+    return is_shown ? ArmGoal::hand : ArmGoal::rest;
+}
+
+// Writes the palms' poses to the estimates, in play space, and what the arms reach for.
 void take_hands(const EstimateArmsIo& io) {
     Entity player = k_no_entity;
     const Pose* origin_ws = nullptr;
@@ -78,9 +121,23 @@ void take_hands(const EstimateArmsIo& io) {
         }
         const Pose& palm_ws = io.palm.at(io.owner.owners()[index]).pose_ws;
         const Quat turn = product(origin_ws->rotation.conjugate(), palm_ws.rotation);
-        estimate->arms[index_of(owner.side)].hand_ps = {
-            inverse_transform_point(*origin_ws, palm_ws.position),
-            unit_quat(turn.w(), turn.x(), turn.y(), turn.z())};
+        ArmEstimate::Arm& arm = estimate->arms[index_of(owner.side)];
+        arm.hand_ps = {inverse_transform_point(*origin_ws, palm_ws.position),
+                       unit_quat(turn.w(), turn.x(), turn.y(), turn.z())};
+        arm.goal = goal_of(io, io.owner.owners()[index]);
+    }
+}
+
+// Shows the palms of hands that are at rest, or on their way to it or back, where the arms end.
+void give_hands(const EstimateArmsIo& io) {
+    for (std::size_t index = 0; index < io.owner.size(); ++index) {
+        const HandOwner& owner = io.owner.elements()[index];
+        const HandRest& rest = io.memory.at(owner.player).arms[index_of(owner.side)].rest;
+        if (rest.is_away || rest.share > 0.0) {
+            io.palm.at(io.owner.owners()[index]).pose_ws =
+                io.origin.at(owner.player).pose_ws *
+                io.estimate.at(owner.player).arms[index_of(owner.side)].hand_ps;
+        }
     }
 }
 
@@ -98,22 +155,27 @@ void estimate_arms(const EstimateArmsIo& io, const ArmTuning& tuning) {
             const BodyMeasures* const measures = io.measures.find(player);
             if (memory != nullptr && head != nullptr && measures != nullptr) {
                 ArmEstimate& out = io.estimate.elements()[index];
-                const TrackedBody body{head->pose_ps,
-                                       {out.arms[0].hand_ps, out.arms[1].hand_ps},
-                                       *measures,
-                                       head->shift_m.y()};
+                TrackedBody body{head->pose_ps,
+                                 {out.arms[0].hand_ps, out.arms[1].hand_ps},
+                                 *measures,
+                                 head->shift_m.y()};
+                const auto estimate_at = [&](const EstimateStep& frame) {
+                    place_lost_hands(frame, out, body, *memory);
+                    estimate_player(body, frame, *memory, out);
+                };
                 const double scale = io.origin.at(player).scale;
                 if (scale == 1.0) {
-                    estimate_player(body, step, *memory, out);
+                    estimate_at(step);
                 } else {
                     ArmTuning own = tuning;
                     own.shoulder_follow_m *= scale;
-                    estimate_player(body, estimate_step(io.dt_s, scale, own), *memory, out);
+                    estimate_at(estimate_step(io.dt_s, scale, own));
                 }
             }
         }
     };
     parallel_slices(io.estimate.size(), k_players_per_slice, estimate);
+    give_hands(io);
 }
 
 }  // namespace handhold

@@ -95,10 +95,11 @@ void slow_down(double drag, double speed_max_mps, BodyLinkVectors& velocity_mps)
 
 struct Ticked {
     Quat chest;
-    double lying;  // ArmEstimate::lying
-    Vec3 moved_m;  // neck's displacement since the last tick
-    Vec3 ahead_m;  // neck's displacement from this tick to the frame's end
-    double share;  // share of the frame that has passed, [0, 1]
+    double lying;         // ArmEstimate::lying
+    Vec3 moved_m;         // neck's displacement since the last tick
+    Vec3 ahead_m;         // neck's displacement from this tick to the frame's end
+    double share;         // share of the frame that has passed, [0, 1]
+    double origin_scale;  // PlayerOrigin::scale
 };
 
 void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemory& memory) {
@@ -128,8 +129,9 @@ void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemor
         const BodyContact* const contact = contact_of(memory, i);
         const Vec3 outside = contact == nullptr
                                  ? returned
-                                 : before_surface(returned, base - now.ahead_m,
-                                                  scale * link.length_m, above, *contact);
+                                 : before_surface({returned, base - now.ahead_m,
+                                                   scale * link.length_m, now.origin_scale},
+                                                  above, *contact);
         JointRange range = shares.range[static_cast<std::size_t>(link.kind)];
         range.high_rad =
             reached_limit(link.kind, range.high_rad, contact != nullptr, memory.angle_rad[i]);
@@ -163,6 +165,7 @@ struct Motion {
     double dt_s;
     double t_s;  // world clock at the frame's end
     double lying;
+    double origin_scale;  // PlayerOrigin::scale
     Pose chest_ps;
     // Displacements in this frame relative to the reference, play-space axes.
     Vec3 moved_m;        // the neck
@@ -179,7 +182,8 @@ void play(const Motion& motion, double scale, const SpineTuning& tuning, SpineMe
         const Vec3 moved_m = memory.moved_m + (path.at(until_s) - path.at(played_s));
         played_s = until_s;
         const Quat chest = between(from, motion.chest_ps.rotation, played_s / span_s);
-        tick({chest, motion.lying, moved_m, path.at(span_s) - path.at(until_s), played_s / span_s},
+        tick({chest, motion.lying, moved_m, path.at(span_s) - path.at(until_s), played_s / span_s,
+              motion.origin_scale},
              scale, tuning, memory);
         memory.moved_m = Vec3::Zero();
         memory.since_tick_s = 0.0;
@@ -200,13 +204,15 @@ void touch_surfaces(const PropagateSpineIo& io, Entity player, const Motion& mot
     }
     // A point inside the head, because the eyes are near the surface of the head's collider, which
     // may touch other surfaces.
-    const Vec3 in_head_m(0.0, 0.0, 0.08);
+    const double origin_scale = io.origin.at(player).scale;
+    const Vec3 in_head_m(0.0, 0.0, origin_scale * 0.08);
     const BodySurroundings around{io.surfaces,
                                   io.persistent_id.at(player).value,
                                   io.origin.at(player).pose_ws,
                                   transform_point(io.head.at(player).pose_ps, in_head_m),
                                   motion.chest_ps.position,
                                   floor,
+                                  origin_scale,
                                   io.pose.at(player)};
     find_body_contacts(around, io.t_s, io.dt_s, motion.chest_moved_m, memory);
 }
@@ -229,6 +235,20 @@ Held held(const PropagateSpineIo& io, Entity player) {
     return found;
 }
 
+// Displacement of the neck in a frame, less what a bend of the neck explains. The neck bends about
+// a point that is known within k_pivot_m: while the head turns by an angle, the estimated point may
+// move by that angle times k_pivot_m although the trunk rests.
+Vec3 trunk_motion(const Vec3& neck_moved_m, const Quat& head_before, const Quat& head_now,
+                  double scale) {
+    constexpr double k_pivot_m = 0.05;
+    const Quat turn = head_before.conjugate() * head_now;
+    const double angle_rad = 2.0 * arc_tangent2(turn.vec().norm(), std::abs(turn.w()));
+    const double length_m = neck_moved_m.norm();
+    const double explained_m = scale * k_pivot_m * angle_rad;
+    return length_m > explained_m ? Vec3(neck_moved_m * (1.0 - explained_m / length_m))
+                                  : Vec3(Vec3::Zero());
+}
+
 void propagate_player(const PropagateSpineIo& io, std::size_t index, const SpineTuning& tuning) {
     const Entity player = io.pose.owners()[index];
     SpineMemory& memory = io.memory.at(player);
@@ -245,10 +265,11 @@ void propagate_player(const PropagateSpineIo& io, std::size_t index, const Spine
     // A bending neck moves the chest a little. This must not make the body swing, so the chain
     // moves with it rigidly.
     const Vec3 neck_ps = chest_ps.position - io.estimate.at(player).from_neck_m;
-    const Vec3 own_m = neck_ps - memory.neck_ps;
+    const Quat& head_ps = io.head.at(player).pose_ps.rotation;
+    const Vec3 neck_moved_m = neck_ps - memory.neck_ps;
     const Quat to_ps = origin_ws.rotation.conjugate();
     const Vec3 relative = to_ps * (io.velocity.at(player).linear_mps - reference_ws);
-    if (!memory.known || is_jump(own_m.norm() / io.origin.at(player).scale, io.dt_s)) {
+    if (!memory.known || is_jump(neck_moved_m.norm() / io.origin.at(player).scale, io.dt_s)) {
         rest_spine(chest_ps.rotation, lying, scale, io.t_s, memory);
         memory.known = true;
         memory.rate_mps = relative;
@@ -263,9 +284,14 @@ void propagate_player(const PropagateSpineIo& io, std::size_t index, const Spine
         }
         memory.rate_mps += shift;
         const Vec3 travel_m = io.dt_s * relative;
-        const Motion motion{
-            io.dt_s,  io.t_s,           lying,
-            chest_ps, own_m + travel_m, chest_ps.position - memory.chest_ps.position + travel_m};
+        const Vec3 own_m = trunk_motion(neck_moved_m, memory.head_ps, head_ps, scale);
+        const Motion motion{io.dt_s,
+                            io.t_s,
+                            lying,
+                            io.origin.at(player).scale,
+                            chest_ps,
+                            own_m + travel_m,
+                            chest_ps.position - memory.chest_ps.position + travel_m};
         touch_surfaces(io, player, motion, floor, memory);
         SpineTuning own = tuning;
         own.speed_max_mps *= io.origin.at(player).scale;
@@ -274,6 +300,7 @@ void propagate_player(const PropagateSpineIo& io, std::size_t index, const Spine
     memory.reference_ws_mps = reference_ws;
     memory.chest_ps = chest_ps;
     memory.neck_ps = neck_ps;
+    memory.head_ps = head_ps;
     pose_spine(origin_ws * chest_ps, memory, chest_ps, floor, io.pose.at(player));
 }
 

@@ -17,6 +17,7 @@ namespace handhold::stages {
 void read_input(const FrameContext& f) {
     read_tracking(f);
     calibrate_players(f);
+    estimate_sizes(f);
 }
 
 // Everything before the solve.
@@ -75,6 +76,7 @@ void show(const FrameContext& f) {
     pose_arms(f);
     propagate_spine(f);
     layer_additives(f);
+    limit_feet(f);
 
     // Writes the poses that hosts draw.
     publish_pose(f);

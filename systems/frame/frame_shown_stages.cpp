@@ -3,6 +3,7 @@
 
 #include "systems/body/estimate_arms.hpp"
 #include "systems/body/layer_additives.hpp"
+#include "systems/body/limit_feet.hpp"
 #include "systems/body/pose_arms.hpp"
 #include "systems/body/propagate_spine.hpp"
 #include "systems/body/publish_body.hpp"
@@ -153,6 +154,8 @@ void estimate_arms(const FrameContext& f) {
                              .head = w.head_tracking,
                              .measures = w.body_measures,
                              .owner = w.hand_owner,
+                             .hand = w.hand_tracking,
+                             .grab = w.grab,
                              .palm = w.palm_pose,
                              .memory = w.arm_memory,
                              .estimate = w.arm_estimate},
@@ -214,6 +217,15 @@ void layer_additives(const FrameContext& f) {
                                .state = w.body_clip_state,
                                .pose = w.spine_pose},
                               f.tuning.additive);
+}
+
+void limit_feet(const FrameContext& f) {
+    const StageTimer timer(Stage::layer_additives, f.stats);
+    World& w = f.w;
+    handhold::limit_feet({.dt_s = f.dt_s(),
+                          .origin = w.player_origin,
+                          .memory = w.spine_memory,
+                          .pose = w.spine_pose});
 }
 
 void publish_pose(const FrameContext& f) {

@@ -1,6 +1,7 @@
 #include "systems/frame/frame_stages.hpp"
 
 #include "systems/body/calibrate_players.hpp"
+#include "systems/body/estimate_sizes.hpp"
 #include "systems/body/pose_grippable_bodies.hpp"
 #include "systems/frame/frame_slices.hpp"
 #include "systems/frame/frame_stage_timer.hpp"
@@ -79,6 +80,19 @@ void calibrate_players(const FrameContext& f) {
                                  .calibration = w.calibration,
                                  .measures = w.body_measures},
                                 f.tuning.calibration);
+}
+
+void estimate_sizes(const FrameContext& f) {
+    const StageTimer timer(Stage::calibrate_players, f.stats);
+    World& w = f.w;
+    handhold::estimate_sizes({.dt_s = f.dt_s(),
+                              .origin = w.player_origin,
+                              .head = w.head_tracking,
+                              .owner = w.hand_owner,
+                              .hand = w.hand_tracking,
+                              .calibration = w.calibration,
+                              .size = w.size_estimate,
+                              .measures = w.body_measures});
 }
 
 void group_joints(const FrameContext& f) {

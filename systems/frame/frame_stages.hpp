@@ -31,6 +31,8 @@ struct FrameContext {
 void read_tracking(const FrameContext& f);
 void read_paused_tracking(const FrameContext& f);
 void calibrate_players(const FrameContext& f);
+// Its time counts as that of calibrate_players.
+void estimate_sizes(const FrameContext& f);
 void group_joints(const FrameContext& f);
 void place_colliders(const FrameContext& f, Stage needed_by);
 // Poses the bodies that hands may grip in this frame. `asking`: a hand that asks between frames;
@@ -74,6 +76,8 @@ void layer_clavicles(const FrameContext& f);
 void pose_arms(const FrameContext& f);
 void propagate_spine(const FrameContext& f);
 void layer_additives(const FrameContext& f);
+// Its time counts as that of layer_additives.
+void limit_feet(const FrameContext& f);
 void publish_pose(const FrameContext& f);
 void publish_body(const FrameContext& f);
 

@@ -13,6 +13,14 @@ BodyMeasures read_measures(const hh_measures& measures) {
             measures.forearm_m};
 }
 
+// True for the measures of hh_default_player_def: nobody measured the player.
+bool is_default(const hh_measures& measures) {
+    const BodyMeasures usual;
+    return measures.eye_height_m == usual.eye_height_m &&
+           measures.shoulder_width_m == usual.shoulder_width_m &&
+           measures.upper_arm_m == usual.upper_arm_m && measures.forearm_m == usual.forearm_m;
+}
+
 hh_measures write_measures(const BodyMeasures& measures) {
     return {measures.eye_height_m, measures.shoulder_width_m, measures.upper_arm_m,
             measures.forearm_m};
@@ -56,6 +64,7 @@ hh_result hh_player_add(hh_world* world, const hh_player_def* wanted, hh_player*
                                            "a velocity beyond 1e6 m/s, or NaN");
         description.scale = scale;
         description.measures = read_measures(def.measures);
+        description.is_measured = !is_default(def.measures);
         require(are_measures(description.measures, 1.0), HH_ERROR_VALUE,
                 "the body's measures must lie within 0.05 to 5 m");
         checked(def.mass_kg, world_limits::k_min_mass_kg, world_limits::k_max_mass_kg,
@@ -185,6 +194,7 @@ hh_result hh_player_set_measures(hh_world* world, hh_player player, const hh_mea
         require(are_measures(given, host.world.player_origin.at(entity).scale), HH_ERROR_VALUE,
                 "the body's measures must lie within 0.05 to 5 m times the player's scale");
         host.world.body_measures.at(entity) = given;
+        host.world.size_estimate.at(entity).is_measured = true;
     });
 }
 

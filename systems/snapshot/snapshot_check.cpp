@@ -203,6 +203,7 @@ class BreachFinder {
     void check_figures() {
         require_both("player", w_.player, "body_measures", w_.body_measures);
         require_both("player", w_.player, "calibration", w_.calibration);
+        require_both("player", w_.player, "size_estimate", w_.size_estimate);
         require_both("player", w_.player, "arm_memory", w_.arm_memory);
         require_both("player", w_.player, "arm_estimate", w_.arm_estimate);
         require_both("player", w_.player, "arm_pose", w_.arm_pose);
@@ -240,6 +241,13 @@ class BreachFinder {
                       is_sum_of(c.span_s_m, TPoseRange::k_min_span_m, TPoseRange::k_max_span_m),
                   "calibration", player, "", "sums that T-poses held for held_s can have");
         }
+        for (std::size_t index = 0; index < w_.size_estimate.size(); ++index) {
+            const SizeEstimate& size = w_.size_estimate.elements()[index];
+            const auto is_time = [](double time_s) { return time_s >= 0.0 && time_s <= 1e6; };
+            check(std::ranges::all_of(size.eyes.time_s, is_time) &&
+                      std::ranges::all_of(size.reach.time_s, is_time),
+                  "size_estimate", w_.size_estimate.owners()[index], "", "times in [0, 1e6] s");
+        }
         for (std::size_t index = 0; index < w_.arm_memory.size(); ++index) {
             const ArmMemory& memory = w_.arm_memory.elements()[index];
             const auto is_level_unit = [](const Vec3& v) {
@@ -250,6 +258,10 @@ class BreachFinder {
                       (is_level_unit(memory.facing_ps) &&
                        std::all_of(memory.looks_ps.begin(), memory.looks_ps.end(), is_level_unit)),
                   "arm_memory", w_.arm_memory.owners()[index], "", "horizontal unit vectors");
+            for (const ArmMemory::Arm& arm : memory.arms) {
+                check(arm.rest.share >= 0.0 && arm.rest.share <= 1.0, "arm_memory",
+                      w_.arm_memory.owners()[index], ".arms", "shares in [0, 1]");
+            }
         }
         for (std::size_t index = 0; index < w_.spine_memory.size(); ++index) {
             const double since_s = w_.spine_memory.elements()[index].since_tick_s;

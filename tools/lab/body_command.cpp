@@ -7,6 +7,7 @@
 #include "engine/core/text_file.hpp"
 #include "game/play/progress.hpp"
 #include "systems/body/estimate_arms.hpp"
+#include "systems/body/estimate_sizes.hpp"
 #include "systems/body/pose_arms.hpp"
 #include "tools/lab/body_baselines.hpp"
 #include "tools/lab/body_files.hpp"
@@ -26,6 +27,8 @@ class OnePlayer {
         origin_.add(player_);
         head_.add(player_);
         measures_.add(player_);
+        calibration_.add(player_);
+        size_.add(player_);
         memory_.add(player_);
         estimate_.add(player_);
         arms_.add(player_);
@@ -33,21 +36,45 @@ class OnePlayer {
             hands_[side] = pool.create();
             owner_.add(hands_[side], {player_, side == 0 ? HandSide::left : HandSide::right});
             palm_.add(hands_[side]);
+            tracking_.add(hands_[side]);
         }
     }
 
-    void start(const BodyMeasures& measures) {
-        measures_.at(player_) = measures;
+    // Without measures: nobody measured the player, whose size is estimated while playing.
+    void start(const std::optional<BodyMeasures>& measures) {
+        measures_.at(player_) = measures.value_or(BodyMeasures{});
+        size_.at(player_) = {.is_measured = measures.has_value()};
         memory_.at(player_) = {};
+        for (const Entity hand : hands_) {
+            tracking_.at(hand).state = TrackingState::never;
+            palm_.at(hand) = {};
+        }
     }
 
     void step(const BodySample& sample, double dt_s) {
         head_.at(player_).pose_ps = sample.head_ps;
         ArmEstimate& estimate = estimate_.at(player_);
         for (std::size_t side = 0; side < k_hand_count; ++side) {
-            palm_.at(hands_[side]).pose_ws = sample.hands_ps[side];
-            estimate.arms[side].hand_ps = sample.hands_ps[side];
+            // The runtime freezes a lost hand; estimate_arms then shows it elsewhere.
+            HandTracking& tracking = tracking_.at(hands_[side]);
+            if (!sample.is_lost[side]) {
+                tracking.pose_ps = sample.hands_ps[side];
+                tracking.state = TrackingState::tracked;
+            } else if (tracking.state == TrackingState::tracked) {
+                tracking.state = TrackingState::lost;
+            }
+            palm_.at(hands_[side]).pose_ws = tracking.pose_ps;
+            estimate.arms[side].hand_ps = tracking.pose_ps;
         }
+        head_.at(player_).state = TrackingState::tracked;
+        estimate_sizes({.dt_s = dt_s,
+                        .origin = origin_,
+                        .head = head_,
+                        .owner = owner_,
+                        .hand = tracking_,
+                        .calibration = calibration_,
+                        .size = size_,
+                        .measures = measures_});
         const BodyMeasures& measures = measures_.at(player_);
         if (estimator_ == "naive") {
             estimate_naive(sample.head_ps, measures, estimate);
@@ -59,6 +86,8 @@ class OnePlayer {
                            .head = head_,
                            .measures = measures_,
                            .owner = owner_,
+                           .hand = tracking_,
+                           .grab = grab_,
                            .palm = palm_,
                            .memory = memory_,
                            .estimate = estimate_},
@@ -77,6 +106,14 @@ class OnePlayer {
         return arc_tangent2(-ahead.x(), -ahead.z()) * 180.0 / std::numbers::pi;
     }
     const ArmPose& arms() const { return arms_.at(player_); }
+    // Length of the arm as drawn, over that of its bones.
+    double arm_ratio(HandSide side) const {
+        const ArmPose::Arm& arm = arms().arms[index_of(side)];
+        const BodyMeasures& measures = measures_.at(player_);
+        const double drawn_m = (arm.forearm_ws.position - arm.upper_ws.position).norm() +
+                               (arm.hand_ws.position - arm.forearm_ws.position).norm();
+        return drawn_m / (measures.upper_arm_m + measures.forearm_m);
+    }
 
   private:
     std::string estimator_;
@@ -85,7 +122,11 @@ class OnePlayer {
     Column<PlayerOrigin> origin_;
     Column<HeadTracking> head_;
     Column<BodyMeasures> measures_;
+    Column<Calibration> calibration_;
+    Column<SizeEstimate> size_;
     Column<HandOwner> owner_;
+    Column<HandTracking> tracking_;
+    Column<Grab> grab_;  // empty: nothing is gripped
     Column<PalmPose> palm_;
     Column<ArmMemory> memory_;
     Column<ArmEstimate> estimate_;
@@ -112,6 +153,9 @@ void append_row(const BodySample& sample, const OnePlayer& player, std::string& 
     for (const ArmPose::Arm& arm : player.arms().arms) {
         point(arm.forearm_ws.position);
     }
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        number(player.arm_ratio(side));
+    }
     text += '\n';
 }
 
@@ -129,7 +173,8 @@ int body_command(const BodyOptions& options) {
         return refuse(measures.error());
     }
     std::string text =
-        "clip,t,chest_yaw_deg,lshx,lshy,lshz,rshx,rshy,rshz,lelx,lely,lelz,relx,rely,relz\n";
+        "clip,t,chest_yaw_deg,lshx,lshy,lshz,rshx,rshy,rshz,lelx,lely,lelz,relx,rely,relz,"
+        "l_arm_ratio,r_arm_ratio\n";
     OnePlayer player(options.estimator);
     Progress progress("body");
     const std::vector<BodySample>& rows = samples.value();

@@ -12,10 +12,23 @@ namespace handhold::lab {
 namespace {
 
 constexpr std::size_t k_cells = 23;
+constexpr std::size_t k_head_cell = 2;
+constexpr std::array<std::size_t, k_hand_count> k_hand_cells = {9, 16};
 constexpr double k_furthest_m = 1e4;
 constexpr double k_length_tolerance = 0.01;
 
 std::string line_of(std::size_t row) { return "line " + std::to_string(row + 2); }
+
+// True if the seven numbers of a pose are NaN: the device is lost.
+bool is_lost(const NumericTable& table, std::size_t row, std::size_t first) {
+    constexpr std::size_t k_pose_cells = 7;
+    for (std::size_t i = 0; i < k_pose_cells; ++i) {
+        if (!std::isnan(table.at(row, first + i))) {
+            return false;
+        }
+    }
+    return true;
+}
 
 // False if the numbers are not a valid pose.
 bool read_pose(const NumericTable& table, std::size_t row, std::size_t first, Pose& pose) {
@@ -24,7 +37,7 @@ bool read_pose(const NumericTable& table, std::size_t row, std::size_t first, Po
     pose.rotation = Quat(cell(6), cell(3), cell(4), cell(5));
     const double length = pose.rotation.norm();
     pose.rotation.normalize();
-    return pose.position.cwiseAbs().maxCoeff() <= k_furthest_m &&
+    return (pose.position.array().abs() <= k_furthest_m).all() &&
            std::abs(length - 1.0) <= k_length_tolerance;
 }
 
@@ -86,7 +99,7 @@ std::optional<std::string> find_columns(std::string_view header, CalibColumns& c
 }  // namespace
 
 Result<std::vector<BodySample>> load_body_samples(const std::filesystem::path& path) {
-    const Result<NumericTable> read = load_csv(path);
+    const Result<NumericTable> read = load_csv(path, NanCells::allowed);
     if (!read) {
         return read.error();
     }
@@ -103,26 +116,34 @@ Result<std::vector<BodySample>> load_body_samples(const std::filesystem::path& p
     for (std::size_t row = 0; row < samples.size(); ++row) {
         BodySample& sample = samples[row];
         const double clip = table.at(row, 0);
-        if (clip != std::floor(clip) || std::abs(clip) > 1e9) {
+        if (!(clip == std::floor(clip) && std::abs(clip) <= 1e9)) {
             return FileError{path.string(), line_of(row), "expected a whole number in column clip"};
         }
         sample.clip = static_cast<std::int64_t>(clip);
         sample.t_s = table.at(row, 1);
-        if (row > 0 && samples[row - 1].clip == sample.clip &&
-            !(sample.t_s > samples[row - 1].t_s)) {
+        if (!std::isfinite(sample.t_s) || (row > 0 && samples[row - 1].clip == sample.clip &&
+                                           !(sample.t_s > samples[row - 1].t_s))) {
             return FileError{path.string(), line_of(row), "expected t to increase within a clip"};
         }
-        if (!read_pose(table, row, 2, sample.head_ps) ||
-            !read_pose(table, row, 9, sample.hands_ps[0]) ||
-            !read_pose(table, row, 16, sample.hands_ps[1])) {
+        bool good = read_pose(table, row, k_head_cell, sample.head_ps);
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            const std::size_t first = k_hand_cells[side];
+            if (is_lost(table, row, first)) {
+                sample.is_lost[side] = true;
+            } else {
+                good = good && read_pose(table, row, first, sample.hands_ps[side]);
+            }
+        }
+        if (!good) {
             return FileError{path.string(), line_of(row),
-                             "expected positions within 1e4 m and quaternions of length 1"};
+                             "expected positions within 1e4 m and quaternions of length 1, or a "
+                             "wrist of seven nan"};
         }
     }
     return samples;
 }
 
-Result<std::map<std::int64_t, BodyMeasures>> load_body_measures(const std::filesystem::path& path) {
+Result<MeasuresOfClips> load_body_measures(const std::filesystem::path& path) {
     const Result<std::string> read = read_file(path);
     if (!read) {
         return read.error();
@@ -133,7 +154,7 @@ Result<std::map<std::int64_t, BodyMeasures>> load_body_measures(const std::files
             find_columns(lines.empty() ? std::string_view() : lines[0], columns)) {
         return FileError{path.string(), "line 1", *objection};
     }
-    std::map<std::int64_t, BodyMeasures> measures;
+    MeasuresOfClips measures;
     for (std::size_t row = 0; row + 1 < lines.size(); ++row) {
         const std::vector<std::string_view> cells = split(lines[row + 1], ',');
         if (cells.size() != columns.count) {
@@ -142,7 +163,12 @@ Result<std::map<std::int64_t, BodyMeasures>> load_body_measures(const std::files
                 "expected as many cells as the header has, found " + std::to_string(cells.size())};
         }
         std::array<double, CalibColumns::k_names.size()> numbers{};
+        bool is_measured = true;
         for (std::size_t i = 0; i < numbers.size(); ++i) {
+            if (i > 0 && cells[columns.place[i]].empty()) {
+                is_measured = false;
+                continue;
+            }
             const bool good = read_number(cells[columns.place[i]], numbers[i]) &&
                               (i == 0 ? numbers[i] == std::floor(numbers[i])
                                       : numbers[i] >= 0.05 && numbers[i] <= 5.0);
@@ -153,11 +179,13 @@ Result<std::map<std::int64_t, BodyMeasures>> load_body_measures(const std::files
                                      " in column " + CalibColumns::k_names[i]};
             }
         }
-        BodyMeasures one;
-        one.eye_height_m = numbers[1];
-        one.upper_arm_m = numbers[2];
-        one.forearm_m = numbers[3];
-        one.shoulder_width_m = numbers[4];
+        std::optional<BodyMeasures> one;
+        if (is_measured) {
+            one = BodyMeasures{.eye_height_m = numbers[1],
+                               .shoulder_width_m = numbers[4],
+                               .upper_arm_m = numbers[2],
+                               .forearm_m = numbers[3]};
+        }
         if (!measures.emplace(static_cast<std::int64_t>(numbers[0]), one).second) {
             return FileError{path.string(), line_of(row), "expected each clip once"};
         }

@@ -20,9 +20,11 @@ constexpr double k_trunk_radius_m = 0.09;
 constexpr double k_thigh_contact_radius_m = 0.065;
 constexpr double k_shin_contact_radius_m = 0.05;
 constexpr double k_cast_wider_m = 0.015;
-constexpr double k_widest_cast_m = 0.105;  // greatest radius of a cast, for players of any size
-constexpr double k_sole_m = 0.11;          // distance of the sole below the ankle
-constexpr double k_ahead_m = 0.15;         // margin for motion until the next search
+constexpr double k_sole_m = 0.11;  // distance of the sole below the ankle
+// In the player's metres: the greatest radius of a cast, because the head's sphere does not depend
+// on the eye height, and the margin for motion until the next search.
+constexpr double k_widest_cast_m = 0.105;
+constexpr double k_ahead_m = 0.15;
 
 // True if this part is searched in this frame. The phase differs between players and parts, which
 // spreads the searches over frames.
@@ -60,19 +62,21 @@ PartLine line_of(const BodySurroundings& around, std::size_t part) {
 }
 
 // True if the surface coincides with the tracked floor, above which pose_spine folds the body.
-bool is_tracked_floor(const Vec3& normal_ps, double surface_m, const TrackedFloor& floor) {
+bool is_tracked_floor(const Vec3& normal_ps, double surface_m, const BodySurroundings& around) {
     constexpr double k_level_cosine = 0.9;
     constexpr double k_near_m = 0.15;
     return normal_ps.y() > k_level_cosine &&
-           std::abs(surface_m / normal_ps.y() + floor.chest_m) < k_near_m;
+           std::abs(surface_m / normal_ps.y() + around.floor.chest_m) <
+               around.origin_scale * k_near_m;
 }
 
 // Casts a sphere along a part unless the last result is still valid.
 void search_part(const BodySurroundings& around, const Vec3& from_ws, const Vec3& to_ws,
                  double radius_m, BodySearch& search) {
     const std::array<std::uint64_t, 1> skip = {around.own_id};
+    const double moved_m = around.origin_scale * k_part_moved_m;
     const auto hash_near = [&]() -> std::optional<std::uint64_t> {
-        const Vec3 reach_m = Vec3::Constant(radius_m + k_part_moved_m);
+        const Vec3 reach_m = Vec3::Constant(radius_m + moved_m);
         const auto near =
             around.surfaces.hash_near(search.from_ws.cwiseMin(search.to_ws) - reach_m,
                                       search.from_ws.cwiseMax(search.to_ws) + reach_m, skip);
@@ -84,9 +88,9 @@ void search_part(const BodySurroundings& around, const Vec3& from_ws, const Vec3
         hash.add(radius_m);
         return hash.value();
     };
-    constexpr double k_moved2 = k_part_moved_m * k_part_moved_m;
-    if (search.known && (from_ws - search.from_ws).squaredNorm() < k_moved2 &&
-        (to_ws - search.to_ws).squaredNorm() < k_moved2 && hash_near() == search.near) {
+    const double moved2 = moved_m * moved_m;
+    if (search.known && (from_ws - search.from_ws).squaredNorm() < moved2 &&
+        (to_ws - search.to_ws).squaredNorm() < moved2 && hash_near() == search.near) {
         return;
     }
     search.from_ws = from_ws;
@@ -125,9 +129,11 @@ BodyContact find_contact(const BodySurroundings& around, std::size_t part, Spine
         return transform_point(around.origin_ws, around.chest_ps + from_chest_m);
     };
     BodySearch& search = memory.searches[part];
-    search_part(
-        around, in_world(line.from_m), in_world(line.to_m + (line.beyond_m + k_ahead_m) * along),
-        std::min(line.radius_m + around.floor.scale * k_cast_wider_m, k_widest_cast_m), search);
+    const double beyond_m = line.beyond_m + around.origin_scale * k_ahead_m;
+    search_part(around, in_world(line.from_m), in_world(line.to_m + beyond_m * along),
+                std::min(line.radius_m + around.floor.scale * k_cast_wider_m,
+                         around.origin_scale * k_widest_cast_m),
+                search);
     if (!search.hits) {
         return {};
     }
@@ -137,7 +143,7 @@ BodyContact find_contact(const BodySurroundings& around, std::size_t part, Spine
     // Height of the pelvis above the floor before the chain is folded.
     const double pelvis_m =
         (around.floor.chest_m + memory.offset_m[k_spine_links - 1].y()) / around.floor.scale;
-    if (legs_fold(pelvis_m) && is_tracked_floor(normal_ps, surface_m, around.floor)) {
+    if (legs_fold(pelvis_m) && is_tracked_floor(normal_ps, surface_m, around)) {
         return {};
     }
     const double thickness_m = std::max(line.radius_m, -line.beyond_m * normal_ps.dot(along));
@@ -163,17 +169,16 @@ const BodyContact* contact_of(const SpineMemory& memory, std::size_t link) {
     return contact.touches ? &contact : nullptr;
 }
 
-Vec3 before_surface(const Vec3& towards, const Vec3& base_m, double length_m,
-                    const SpineFrame& above, const BodyContact& contact) {
-    constexpr double k_out_mps = 2.0;
+Vec3 before_surface(const TouchingLink& link, const SpineFrame& above, const BodyContact& contact) {
+    constexpr double k_out_mps = 2.0;  // length in the player's metres
     constexpr double k_any_lift = 2.0;
-    const double least_m = contact.surface_m - contact.normal_ps.dot(base_m);
-    const Vec3 outside = deflect_outward(towards, above.axes.transpose() * contact.normal_ps,
-                                         least_m / length_m, k_any_lift);
-    const Vec3 turn = outside - towards;
+    const double least_m = contact.surface_m - contact.normal_ps.dot(link.base_m);
+    const Vec3 outside = deflect_outward(link.towards, above.axes.transpose() * contact.normal_ps,
+                                         least_m / link.length_m, k_any_lift);
+    const Vec3 turn = outside - link.towards;
     const double size = turn.norm();
-    const double most = k_out_mps * k_spine_tick_s / length_m;
-    return size <= most ? outside : (towards + turn * (most / size)).normalized();
+    const double most = link.scale * k_out_mps * k_spine_tick_s / link.length_m;
+    return size <= most ? outside : (link.towards + turn * (most / size)).normalized();
 }
 
 Vec3 touching_mps(const Vec3& normal, const Vec3& velocity_mps, const Vec3& correction_mps) {

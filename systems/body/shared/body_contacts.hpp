@@ -18,13 +18,14 @@ struct BodySurroundings {
     Vec3 head_ps = Vec3::Zero();  // a point well inside the head's collider
     Vec3 chest_ps = Vec3::Zero();
     TrackedFloor floor;
+    double origin_scale = 1.0;  // PlayerOrigin::scale
     // The body as it was shown in the last frame, with clips: surfaces are searched at the parts
     // where they are seen.
     const SpinePose& shown;
 };
 
 inline constexpr double k_body_searches_per_s = 15.0;
-inline constexpr double k_part_moved_m = 0.005;
+inline constexpr double k_part_moved_m = 0.005;  // length in the player's metres
 
 // Updates SpineMemory::contacts for one frame that ends at t_s. Each part is searched at most
 // k_body_searches_per_s times a second of the world's clock: a sphere is cast along it, from the
@@ -38,11 +39,18 @@ void find_body_contacts(const BodySurroundings& around, double t_s, double dt_s,
 // The contact of the body part to which a link belongs; null if it touches nothing.
 const BodyContact* contact_of(const SpineMemory& memory, std::size_t link);
 
+// A link that before_surface turns.
+struct TouchingLink {
+    Vec3 towards;  // unit, in the parent's frame
+    Vec3 base_m;   // upper end, relative to the chest
+    double length_m = 0.0;
+    double scale = 1.0;  // PlayerOrigin::scale
+};
+
 // Turns a link's direction, in its parent's frame, until the link's lower end is in front of the
 // surface. The speed of the lower end is limited, so that a link that starts inside a wall moves
 // out without a jump.
-Vec3 before_surface(const Vec3& towards, const Vec3& base_m, double length_m,
-                    const SpineFrame& above, const BodyContact& contact);
+Vec3 before_surface(const TouchingLink& link, const SpineFrame& above, const BodyContact& contact);
 
 // Returns the velocity of a joint that touches a surface, after correction_mps was added to it. Its
 // normal part is limited so that the joint neither moves into the surface nor leaves it faster than

@@ -12,8 +12,8 @@
 // up. Constants: body_constants.hpp, fitted by tools/lab/fit_body.
 namespace handhold {
 
-// Displacement of the shoulder by the clavicle's movement, metres. `hand`: position relative to the
-// shoulder at rest, in torso axes and arm lengths.
+// Displacement of the shoulder by the clavicle's movement, in the player's metres. `hand`: position
+// relative to the shoulder at rest, in torso axes and arm lengths.
 Vec3 clavicle_shift(const Vec3& hand, const ArmTuning& tuning);
 
 // Displacement of the shoulder towards a hand that the arm does not reach. `hand_m`: position

@@ -5,8 +5,10 @@
 
 #include "engine/math/scalar_rotation.hpp"
 #include "systems/body/shared/body_constants.hpp"
+#include "systems/body/shared/clear_trunk.hpp"
 #include "systems/body/shared/elbow_direction.hpp"
 #include "systems/body/shared/level_direction.hpp"
+#include "systems/body/shared/rest_hand.hpp"
 
 namespace handhold {
 
@@ -74,10 +76,10 @@ Vec3 estimate_chest(const TrackedBody& body, const BodyAxes& axes, const Estimat
 
 // The line from shoulder to hand of an arm whose shoulder at rest is at `rest_ps`.
 ArmLine line_of(const Vec3& facing, const Vec3& rest_ps, const Vec3& hand_ps, double arm_m,
-                const ArmMemory::Arm& memory, const ArmTuning& tuning) {
+                const ArmMemory::Arm& memory, const EstimateStep& step) {
     const Vec3 hand_ts = to_facing(facing, hand_ps - rest_ps);
-    Vec3 shoulder_ts = clavicle_shift(hand_ts / arm_m, tuning);
-    shoulder_ts += shoulder_follow(hand_ts - shoulder_ts, arm_m, shoulder_ts.norm(), tuning);
+    Vec3 shoulder_ts = step.scale * clavicle_shift(hand_ts / arm_m, step.tuning);
+    shoulder_ts += shoulder_follow(hand_ts - shoulder_ts, arm_m, shoulder_ts.norm(), step.tuning);
     const Vec3 reach_ts = hand_ts - shoulder_ts;
     const double distance_m = reach_ts.norm();
     return {shoulder_ts, reach_ts, distance_m,
@@ -92,15 +94,15 @@ struct ArmStep {
     double forearm_m = 0.0;
     double floor_m = 0.0;  // height of the tracked floor above the resting shoulder
     Vec3 pole_ts = Vec3::Zero();
+    TrunkCapsule trunk;  // relative to the resting shoulder
     const ArmLine& line;
 };
 
 // Returns `bend_ts`, turned about the arm's axis by the smallest angle that keeps the elbow above
-// the tracked floor.
+// `floor_m`.
 Vec3 bend_above_floor(const ElbowCircle& circle, const Vec3& axis_ts, const Vec3& bend_ts,
                       double floor_m) {
-    constexpr double k_elbow_m = 0.04;  // half the thickness of an arm
-    const double least_m = floor_m + k_elbow_m - circle.middle_ts.y();
+    const double least_m = floor_m - circle.middle_ts.y();
     if (circle.radius_m * bend_ts.y() >= least_m || circle.radius_m < 1e-6) {
         return bend_ts;
     }
@@ -118,8 +120,8 @@ Vec3 bend_above_floor(const ElbowCircle& circle, const Vec3& axis_ts, const Vec3
     return rise * rising + std::sqrt(1.0 - rise * rise) * level;
 }
 
-// Updates ArmMemory's elbow direction. Returns the direction to show, which keeps the elbow above
-// the floor.
+// Updates ArmMemory's elbow direction. Returns the direction to show, which keeps elbow and forearm
+// out of the trunk, and the elbow above the floor.
 Vec3 estimate_elbow(const EstimateStep& step, const ArmStep& arm, ArmMemory::Arm& memory,
                     ArmEstimate::Arm& out) {
     const ArmTuning& tuning = step.tuning;
@@ -149,12 +151,18 @@ Vec3 estimate_elbow(const EstimateStep& step, const ArmStep& arm, ArmMemory::Arm
     memory.axis_ts = axis_ts;
     memory.hand_ts = hand_rest_ts;
     memory.elbow_ts = circle.middle_ts + circle.radius_m * memory.bend_ts;
-    return bend_above_floor(circle, axis_ts, memory.bend_ts, arm.floor_m);
+    constexpr double k_elbow_m = 0.04;  // half the thickness of an arm, in the player's metres
+    TrunkCapsule trunk = arm.trunk;
+    trunk.top_ts -= line.shoulder_ts;
+    trunk.bottom_ts -= line.shoulder_ts;
+    const Vec3 clear_ts =
+        bend_clear_of_trunk(circle, memory.bend_ts, line.reach_ts, arm.side, trunk);
+    return bend_above_floor(circle, axis_ts, clear_ts, arm.floor_m + step.scale * k_elbow_m);
 }
 
 }  // namespace
 
-void estimate_body(const TrackedBody& body, const EstimateStep& step, bool reset, ArmMemory& memory,
+void estimate_body(TrackedBody body, const EstimateStep& step, bool reset, ArmMemory& memory,
                    ArmEstimate& out) {
     const ArmTuning& tuning = step.tuning;
     const BodyAxes axes = axes_of(body);
@@ -165,12 +173,22 @@ void estimate_body(const TrackedBody& body, const EstimateStep& step, bool reset
         (0.5 * body.measures.shoulder_width_m) * (out.chest_ps.rotation * Vec3::UnitX());
     const std::array<Vec3, k_hand_count> rest_ps = {out.chest_ps.position - right_ps,
                                                     out.chest_ps.position + right_ps};
+    for (std::size_t i = 0; i < k_hand_count; ++i) {
+        Vec3& hand_ps = body.hands_ps[i].position;
+        if (out.arms[i].goal == ArmGoal::rest) {
+            hand_ps = within_reach(hand_ps, rest_ps[i], k_rest_reach * arm_m);
+        }
+        out.arms[i].hand_ps = body.hands_ps[i];
+    }
     const auto line_at = [&](std::size_t i) {
-        return line_of(facing, rest_ps[i], body.hands_ps[i].position, arm_m, memory.arms[i],
-                       tuning);
+        return line_of(facing, rest_ps[i], body.hands_ps[i].position, arm_m, memory.arms[i], step);
     };
     const std::array<ArmLine, k_hand_count> lines = {line_at(0), line_at(1)};
     const BodyView view = view_from(facing, axes);
+    // The trunk hangs below a chest that leans, unless the player lies.
+    const Vec3 down_ts = (-(1.0 - out.lying) * Vec3::UnitY() -
+                          out.lying * to_facing(facing, out.chest_ps.rotation * Vec3::UnitY()))
+                             .normalized();
     const double turned = sine_between(facing, look_ps);
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const std::size_t i = index_of(side);
@@ -179,7 +197,10 @@ void estimate_body(const TrackedBody& body, const EstimateStep& step, bool reset
         const Vec3 bend_ts =
             estimate_elbow(step,
                            {side, reset, body.measures.upper_arm_m, body.measures.forearm_m,
-                            body.floor_m - rest_ps[i].y(), pole_ts, lines[i]},
+                            body.floor_m - rest_ps[i].y(), pole_ts,
+                            trunk_capsule(to_facing(facing, out.chest_ps.position - rest_ps[i]),
+                                          down_ts, body.measures.eye_height_m / k_scale_eye_m),
+                            lines[i]},
                            memory.arms[i], out.arms[i]);
         out.arms[i].shoulder_ps = rest_ps[i] + from_facing(facing, lines[i].shoulder_ts);
         out.arms[i].bend_ps = from_facing(facing, bend_ts);

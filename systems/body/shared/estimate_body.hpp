@@ -26,8 +26,9 @@ EstimateStep estimate_step(double dt_s, double scale, const ArmTuning& tuning);
 bool has_jumped(const Vec3& before, const Vec3& now, double scale, double dt_s);
 
 // Estimates chest, shoulders and elbow directions. `reset`: ignores `memory`, and initialises it so
-// that nothing lags; the result then depends on `body` alone. Does not write ArmEstimate::hand_ps.
-void estimate_body(const TrackedBody& body, const EstimateStep& step, bool reset, ArmMemory& memory,
+// that nothing lags; the result then depends on `body` and the goals alone. Pulls in hands at rest
+// (`out.arms[i].goal`) beyond k_rest_reach, and writes where the hands are to `out`.
+void estimate_body(TrackedBody body, const EstimateStep& step, bool reset, ArmMemory& memory,
                    ArmEstimate& out);
 
 }  // namespace handhold

@@ -21,7 +21,8 @@ struct BodyColumns {
     Column<BodyMeasures> measures;
     Column<HandOwner> owner;
     Column<PalmPose> palm;
-    Column<Grab> grab;  // hands that are not in it hold nothing
+    Column<HandTracking> tracking;  // hands that are not in it are tracked
+    Column<Grab> grab;              // hands that are not in it hold nothing
     Column<BodyHold> body_hold;
     Column<ArmMemory> arm_memory;
     Column<ArmEstimate> estimate;
@@ -66,6 +67,8 @@ struct BodyColumns {
                                  .head = head,
                                  .measures = measures,
                                  .owner = owner,
+                                 .hand = tracking,
+                                 .grab = grab,
                                  .palm = palm,
                                  .memory = arm_memory,
                                  .estimate = estimate},

@@ -225,6 +225,10 @@ TEST_F(SnapshotRefuses, ElementsWithoutTheirCounterparts) {
         w.arm_memory.elements()[0].known = true;
         w.arm_memory.elements()[0].looks_ps[1] = Vec3::Zero();
     });
+    break_world("arm_memory[",
+                [](World& w) { w.arm_memory.elements()[0].arms[1].rest.share = 1.5; });
+    break_world("size_estimate[",
+                [](World& w) { w.size_estimate.elements()[0].eyes.time_s[3] = -1.0; });
     break_world("calibration[", [](World& w) { w.calibration.elements()[0].held_s = 0.5; });
     break_world("squeeze and trigger in [0, 1]",
                 [](World& w) { w.hand_tracking.elements()[0].trigger = 2.0; });

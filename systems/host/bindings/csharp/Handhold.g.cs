@@ -714,7 +714,7 @@ namespace Handhold {
         public Vec3 velocity_mps;
         /// <summary>default 80</summary>
         public double mass_kg;
-        /// <summary>before scale: each in [0.05, 5] m</summary>
+        /// <summary>Before scale: each in [0.05, 5] m. Default: unknown, the size is estimated from head and hands while the player plays, within 20 s and by less than 1 mm a step. Other measures stay.</summary>
         public Measures measures;
         /// <summary>Size of the player, [0.01, 100], default 1; else HH_ERROR_VALUE. Body, head, hands, reach and every number with hh_tuning_info.scales are times this. Samples and all results stay in the world's metres: a host gives the tracked poses times the scale. Tested from 0.1 to 20. The first hand of another scale than 1 that grips a shape copies its surface, at about 0.2 microseconds a triangle.</summary>
         public double scale;
@@ -746,7 +746,7 @@ namespace Handhold {
         public Player other;
         /// <summary>the wrist in the world, as the devices say</summary>
         public HhPose tracked;
-        /// <summary>The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres from it, so that palm and fingers touch.</summary>
+        /// <summary>The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres from it, so that palm and fingers touch. A lost or never tracked hand that grips nothing hangs beside the trunk; it goes there and comes back at a bounded speed.</summary>
         public HhPose shown;
         /// <summary>The wrist in the frame of what it grips (a body, or a part of a player), from when the hand closed. The hand takes a new anchor after tracking errors, when the other hand of a shared grip lets go, and when the body's kind or mass changes.</summary>
         public HhPose anchor;
@@ -2400,7 +2400,7 @@ namespace Handhold {
             GC.KeepAlive(this);
         }
 
-        /// <summary>The measures times the player's scale, in the world's metres.</summary>
+        /// <summary>The measures times the player's scale, in the world's metres: those given or measured in a T-pose, else what is believed of the player's size by now.</summary>
         public unsafe Measures PlayerMeasures(Player player) {
             Measures measures;
             Measures measures_at;
@@ -2410,7 +2410,7 @@ namespace Handhold {
             return measures;
         }
 
-        /// <summary>Replaces the measures. `measures`, not null: times the player's scale, each in [0.05, 5] m times the scale.</summary>
+        /// <summary>Replaces the measures, which are then no longer estimated. `measures`, not null: times the player's scale, each in [0.05, 5] m times the scale.</summary>
         public unsafe void PlayerSetMeasures(Player player, Measures measures) {
             Library.Check(Native.hh_player_set_measures(Handle, player, &measures));
             GC.KeepAlive(this);

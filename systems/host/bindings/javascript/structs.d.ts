@@ -467,7 +467,7 @@ export interface hh_player_def {
     velocity_mps: hh_vec3;
     /** default 80 */
     mass_kg: number;
-    /** before scale: each in [0.05, 5] m */
+    /** Before scale: each in [0.05, 5] m. Default: unknown, the size is estimated from head and hands while the player plays, within 20 s and by less than 1 mm a step. Other measures stay. */
     measures: hh_measures;
     /** Size of the player, [0.01, 100], default 1; else HH_ERROR_VALUE. Body, head, hands, reach and every number with hh_tuning_info.scales are times this. Samples and all results stay in the world's metres: a host gives the tracked poses times the scale. Tested from 0.1 to 20. The first hand of another scale than 1 that grips a shape copies its surface, at about 0.2 microseconds a triangle. */
     scale: number;
@@ -491,7 +491,7 @@ export interface hh_hand_state {
     other: hh_player;
     /** the wrist in the world, as the devices say */
     tracked: hh_pose;
-    /** The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres from it, so that palm and fingers touch. */
+    /** The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres from it, so that palm and fingers touch. A lost or never tracked hand that grips nothing hangs beside the trunk; it goes there and comes back at a bounded speed. */
     shown: hh_pose;
     /** The wrist in the frame of what it grips (a body, or a part of a player), from when the hand closed. The hand takes a new anchor after tracking errors, when the other hand of a shared grip lets go, and when the body's kind or mass changes. */
     anchor: hh_pose;
@@ -852,9 +852,9 @@ export declare class WorldCalls {
     playerMass(player: Given<hh_player>): number;
     /** The sphere with which the head collides, in the world. Null outputs are skipped. is_tracked: false before the head's first sample, and while it is lost or inferred. */
     playerHead(player: Given<hh_player>): { center: hh_vec3; radius_m: number; is_tracked: boolean };
-    /** The measures times the player's scale, in the world's metres. */
+    /** The measures times the player's scale, in the world's metres: those given or measured in a T-pose, else what is believed of the player's size by now. */
     playerMeasures(player: Given<hh_player>): hh_measures;
-    /** Replaces the measures. `measures`, not null: times the player's scale, each in [0.05, 5] m times the scale. */
+    /** Replaces the measures, which are then no longer estimated. `measures`, not null: times the player's scale, each in [0.05, 5] m times the scale. */
     playerSetMeasures(player: Given<hh_player>, measures: Given<hh_measures>): void;
     playerSetUserData(player: Given<hh_player>, user_data: bigint): void;
     playerUserData(player: Given<hh_player>): bigint;

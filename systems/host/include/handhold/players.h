@@ -26,7 +26,9 @@ typedef struct hh_player_def {
     hh_pose origin;   /* the space of the samples in the world */
     hh_vec3 velocity_mps;
     double mass_kg;       /* default 80 */
-    hh_measures measures; /* before scale: each in [0.05, 5] m */
+    /* Before scale: each in [0.05, 5] m. Default: unknown, the size is estimated from head and hands
+     * while the player plays, within 20 s and by less than 1 mm a step. Other measures stay. */
+    hh_measures measures;
     /* Size of the player, [0.01, 100], default 1; else HH_ERROR_VALUE. Body, head, hands, reach and
      * every number with hh_tuning_info.scales are times this. Samples and all results stay in the
      * world's metres: a host gives the tracked poses times the scale. Tested from 0.1 to 20. The
@@ -81,10 +83,11 @@ HH_API hh_result hh_player_mass(const hh_world* world, hh_player player, double*
  * false before the head's first sample, and while it is lost or inferred. */
 HH_API hh_result hh_player_head(const hh_world* world, hh_player player, hh_vec3* center,
                                 double* radius_m, uint8_t* is_tracked);
-/* The measures times the player's scale, in the world's metres. */
+/* The measures times the player's scale, in the world's metres: those given or measured in a T-pose,
+ * else what is believed of the player's size by now. */
 HH_API hh_result hh_player_measures(const hh_world* world, hh_player player, hh_measures* measures);
-/* Replaces the measures. `measures`, not null: times the player's scale, each in [0.05, 5] m times the
- * scale. */
+/* Replaces the measures, which are then no longer estimated. `measures`, not null: times the player's
+ * scale, each in [0.05, 5] m times the scale. */
 HH_API hh_result hh_player_set_measures(hh_world* world, hh_player player,
                                         const hh_measures* measures);
 HH_API hh_result hh_player_set_user_data(hh_world* world, hh_player player, uint64_t user_data);
@@ -123,7 +126,8 @@ typedef struct hh_hand_state {
     hh_player other; /* gripped player; null: none */
     hh_pose tracked; /* the wrist in the world, as the devices say */
     /* The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres
-     * from it, so that palm and fingers touch. */
+     * from it, so that palm and fingers touch. A lost or never tracked hand that grips nothing
+     * hangs beside the trunk; it goes there and comes back at a bounded speed. */
     hh_pose shown;
     /* The wrist in the frame of what it grips (a body, or a part of a player), from when the hand
      * closed. The hand takes a new anchor after tracking errors, when the other hand of a shared grip

@@ -709,7 +709,8 @@ class PlayerDef(Struct):
     name: unique in the world; null: by its id
     origin: the space of the samples in the world
     mass_kg: default 80
-    measures: before scale: each in [0.05, 5] m
+    measures: Before scale: each in [0.05, 5] m. Default: unknown, the size is estimated from head and hands
+    while the player plays, within 20 s and by less than 1 mm a step. Other measures stay.
     scale: Size of the player, [0.01, 100], default 1; else HH_ERROR_VALUE. Body, head, hands, reach and every
     number with hh_tuning_info.scales are times this. Samples and all results stay in the world's metres: a
     host gives the tracked poses times the scale. Tested from 0.1 to 20. The first hand of another scale than
@@ -741,7 +742,8 @@ class HandState(Struct):
     other: gripped player; null: none
     tracked: the wrist in the world, as the devices say
     shown: The wrist to draw. While it grips it is fitted to the surface near the anchor: centimetres from it,
-    so that palm and fingers touch.
+    so that palm and fingers touch. A lost or never tracked hand that grips nothing hangs beside the trunk; it
+    goes there and comes back at a bounded speed.
     anchor: The wrist in the frame of what it grips (a body, or a part of a player), from when the hand
     closed. The hand takes a new anchor after tracking errors, when the other hand of a shared grip lets go,
     and when the body's kind or mass changes.
@@ -1772,14 +1774,15 @@ class WorldCalls:
         return center, radius_m.value, bool(is_tracked.value)
 
     def player_measures(self, player):
-        """The measures times the player's scale, in the world's metres."""
+        """The measures times the player's scale, in the world's metres: those given or measured in a T-pose,
+        else what is believed of the player's size by now."""
         measures = Measures()
         check(lib().hh_player_measures(self._handle, value(Player, player), byref(measures)))
         return measures
 
     def player_set_measures(self, player, measures):
-        """Replaces the measures. `measures`, not null: times the player's scale, each in [0.05, 5] m times the
-        scale."""
+        """Replaces the measures, which are then no longer estimated. `measures`, not null: times the player's
+        scale, each in [0.05, 5] m times the scale."""
         check(lib().hh_player_set_measures(self._handle, value(Player, player), byref(value(Measures, measures))))
 
     def player_set_user_data(self, player, user_data):

@@ -1,0 +1,138 @@
+#include "systems/body/limit_feet.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/anim/two_bone_ik.hpp"
+
+namespace handhold {
+namespace {
+
+// Deceleration with which a lagging foot comes to rest at its place.
+constexpr double k_catch_up_mps2 = 30.0;
+// Share of the change of velocity in a frame with which a lagging foot brakes as its leg becomes
+// straight.
+constexpr double k_brake_share = 0.6;
+// Least share of the leg's length between hip and ankle that a lagging foot may take.
+constexpr double k_shortest_leg = 0.05;
+
+Vec3 at_most(const Vec3& v, double most) {
+    const double length = v.norm();
+    return length > most ? Vec3(v * (most / length)) : v;
+}
+
+// The hip relative to the chest, and the length of the straight leg.
+struct Reach {
+    Vec3 hip_m;
+    double leg_m = 0.0;
+};
+
+// Slows a foot that moves away from its hip, so that it does not stop dead when the leg is
+// straight.
+// `step_mps`: how much the velocity may change in this frame. If each frame brakes by b, a foot at
+// the distance d from its end may move by v = sqrt(b^2 + 2 b d / dt) - b.
+Vec3 braked(const Vec3& velocity_mps, double step_mps, double dt_s, const Reach& reach,
+            const FootMemory& foot) {
+    const Vec3 from_hip = foot.shown_m - reach.hip_m;
+    const double distance_m = from_hip.norm();
+    const double room_m = std::max(0.0, reach.leg_m - distance_m);
+    const double outward_mps = velocity_mps.dot(from_hip) / std::max(distance_m, 1e-9);
+    const double brake_mps = k_brake_share * step_mps;
+    const double most_mps = std::sqrt(brake_mps * (brake_mps + 2.0 * room_m / dt_s)) - brake_mps;
+    return outward_mps > most_mps
+               ? Vec3(velocity_mps +
+                      ((most_mps - outward_mps) / std::max(distance_m, 1e-9)) * from_hip)
+               : velocity_mps;
+}
+
+// Where the foot is shown, relative to the chest. `wanted_m`: where the leg puts it.
+Vec3 limited(const Vec3& wanted_m, const Reach& reach, double scale, double dt_s,
+             const FootMemory& foot) {
+    const Vec3 wanted_mps = (wanted_m - foot.wanted_m) / dt_s;
+    const Vec3 lag_m = foot.wanted_m - foot.shown_m;
+    const double catch_up_mps = std::sqrt(2.0 * scale * k_catch_up_mps2 * lag_m.norm());
+    const Vec3 free_mps = wanted_mps + at_most(lag_m / dt_s, catch_up_mps);
+    const double step_mps = scale * std::min(k_foot_step_mps, k_foot_mps2 * dt_s);
+    const auto stepped = [&](const Vec3& to_mps) {
+        return Vec3(foot.velocity_mps + at_most(to_mps - foot.velocity_mps, step_mps));
+    };
+    const Vec3 next_mps = stepped(at_most(free_mps, scale * k_foot_mps));
+    // Exactly the wanted place if nothing is limited, without rounding.
+    const Vec3 shown_m = foot.shown_m + dt_s * next_mps;
+    constexpr double k_same_m = 1e-9;
+    return (shown_m - wanted_m).norm() < k_same_m
+               ? wanted_m
+               : Vec3(foot.shown_m + dt_s * stepped(braked(next_mps, step_mps, dt_s, reach, foot)));
+}
+
+Quat turned(const Vec3& from, const Vec3& to, const Quat& rotation) {
+    return (rotation_between(from.normalized(), to.normalized()) * rotation).normalized();
+}
+
+// Moves the ankle to `ankle_ws`, or as near as the bones reach. Returns its place.
+Vec3 move_ankle(const Vec3& ankle_ws, SpinePose::Leg& leg) {
+    const Vec3 hip = leg.thigh_ws.position;
+    const Vec3 thigh = leg.shin_ws.position - hip;
+    const Vec3 shin = leg.foot_ws.position - leg.shin_ws.position;
+    const double thigh_m = thigh.norm();
+    const double shin_m = shin.norm();
+    const Vec3 line = ankle_ws - hip;
+    const double length_m = line.norm();
+    if (!(length_m > 1e-6 && thigh_m > 1e-6 && shin_m > 1e-6)) {
+        return leg.foot_ws.position;
+    }
+    const Vec3 axis = line * (1.0 / length_m);
+    const double shortest_m =
+        std::max(std::abs(thigh_m - shin_m), k_shortest_leg * (thigh_m + shin_m));
+    const double reach_m = std::clamp(length_m, shortest_m, thigh_m + shin_m);
+    const MiddleJoint knee = middle_joint(reach_m, thigh_m, shin_m);
+    // A straight leg bends forwards.
+    Vec3 aside = thigh - axis * axis.dot(thigh);
+    if (aside.norm() < 1e-3 * thigh_m) {
+        const Vec3 ahead = leg.thigh_ws.rotation * -Vec3::UnitZ();
+        aside = ahead - axis * axis.dot(ahead);
+    }
+    const double aside_m = aside.norm();
+    const Vec3 knee_ws =
+        hip + knee.along_m * axis +
+        (aside_m > 1e-9 ? Vec3(aside * (knee.aside_m / aside_m)) : Vec3(Vec3::Zero()));
+    const Vec3 end_ws = hip + reach_m * axis;
+    const Quat in_shin = leg.shin_ws.rotation.conjugate() * leg.foot_ws.rotation;
+    leg.thigh_ws.rotation = turned(thigh, knee_ws - hip, leg.thigh_ws.rotation);
+    leg.shin_ws = {knee_ws, turned(shin, end_ws - knee_ws, leg.shin_ws.rotation)};
+    leg.foot_ws = {end_ws, (leg.shin_ws.rotation * in_shin).normalized()};
+    return end_ws;
+}
+
+}  // namespace
+
+void limit_feet(const LimitFeetIo& io) {
+    for (std::size_t index = 0; index < io.pose.size(); ++index) {
+        const Entity player = io.pose.owners()[index];
+        SpinePose& pose = io.pose.elements()[index];
+        SpineMemory& memory = io.memory.at(player);
+        const auto& [origin_ws, scale] = io.origin.at(player);
+        const Mat3 to_ps = origin_ws.rotation.toRotationMatrix().transpose();
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            SpinePose::Leg& leg = pose.legs[side];
+            FootMemory& foot = memory.feet[side];
+            const Vec3& chest_ws = pose.chest_ws.position;
+            const Vec3 wanted_m = to_ps * (leg.foot_ws.position - chest_ws);
+            if (!foot.known) {
+                foot = {true, wanted_m, wanted_m, Vec3::Zero()};
+                continue;
+            }
+            const Reach reach{to_ps * (leg.thigh_ws.position - chest_ws),
+                              (leg.shin_ws.position - leg.thigh_ws.position).norm() +
+                                  (leg.foot_ws.position - leg.shin_ws.position).norm()};
+            Vec3 shown_m = limited(wanted_m, reach, scale, io.dt_s, foot);
+            if (shown_m != wanted_m) {
+                const Vec3 ankle_ws = move_ankle(chest_ws + to_ps.transpose() * shown_m, leg);
+                shown_m = to_ps * (ankle_ws - chest_ws);
+            }
+            foot = {true, wanted_m, shown_m, (shown_m - foot.shown_m) / io.dt_s};
+        }
+    }
+}
+
+}  // namespace handhold
