@@ -133,8 +133,6 @@ RC_GTEST_PROP(Postures, NeckThatBendsLeavesHipsAndFeet, ()) {
     const Vec3 hips = player.hips();
     const std::array<Vec3, k_hand_count> feet = {player.foot(HandSide::left),
                                                  player.foot(HandSide::right)};
-    double hips_m = 0.0;
-    double feet_m = 0.0;
     for (int i = 1; i <= static_cast<int>((lasts_s + 4.0) * hz); ++i) {
         Posture bent = upright;
         bent.head.rotation = rotation_about(axis, angle * eased(i / hz / lasts_s));
