@@ -57,9 +57,8 @@ Vec3 bend_clear_of_trunk(const ElbowCircle& circle, const Vec3& bend_ts, const V
         return Vec3(cosine * bend_ts + sine * square);
     };
     // Arms that gain little turn little: the result is continuous where turning begins to help.
-    constexpr double k_gain_m = 0.01;
     const double least_m = std::max(depth_m(out), 0.0);
-    const double gain = smooth_step(now_m - least_m, 0.0, std::min(k_gain_m, now_m));
+    const double gain = smooth_step(now_m - least_m, 0.0, std::min(k_trunk_gain_m, now_m));
     if (gain == 0.0) {
         return bend_ts;
     }

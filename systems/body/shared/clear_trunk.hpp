@@ -11,6 +11,9 @@ namespace handhold {
 // ever nearer.
 inline constexpr double k_clear_trunk_m = 0.12;
 
+// Arms that get out of the trunk by less than this turn less.
+inline constexpr double k_trunk_gain_m = 0.02;
+
 // The trunk as a capsule; positions relative to the shoulder, torso axes.
 struct TrunkCapsule {
     Vec3 top_ts = Vec3::Zero();

@@ -136,7 +136,7 @@ bool SurfaceSearch::is_duplicate_of(const Candidate& found, const Candidate& oth
 }
 
 bool SurfaceSearch::is_behind(const GripSearchScratch::Node& node) const {
-    constexpr double k_behind_m = 0.01;  // a palm that has come through a sheet is less far
+    constexpr double k_behind_m = 0.03;  // the thickness of a hand: nearer surfaces were crossed
     return graph_.normals[node.triangle].dot(palm_.up) < 0.0 &&
            (node.point - palm_.center).dot(palm_.up) > k_behind_m;
 }

@@ -57,10 +57,9 @@ RC_GTEST_PROP(ClearTrunk, ElbowsLeaveTheTrunkWhereTheyCan, ()) {
         }
         ++entered;
         const double best_m = std::max(0.0, arm.depth(arm.out()));
-        constexpr double k_gain_m = 0.01;  // arms that gain less turn less
-        if (before_m - best_m > k_gain_m) {
+        if (before_m - best_m > k_trunk_gain_m) {
             RC_ASSERT(arm.depth(after) <= best_m + 1e-3);
-        } else if (arm.depth(after) > before_m + k_gain_m) {
+        } else if (arm.depth(after) > before_m + k_trunk_gain_m) {
             ++deeper;  // on the way to a place that is hardly better
         }
     }

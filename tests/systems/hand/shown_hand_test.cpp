@@ -184,13 +184,13 @@ TEST_F(ShownHand, EmptyHandTakesRestPoseOrFist) {
     }
 }
 
-// Hands at random whose back is to a floor, 2 to 5 cm before it. They have nothing to grip: they
+// Hands at random whose back is to a floor, 4 to 6 cm before it. They have nothing to grip: they
 // stay where they are tracked and close to a loose fist, whatever their button and their curls say.
 TEST_F(ShownHand, GrippingHandWithItsBackToASurfaceIsALooseFist) {
     Random random(2104);
     for (int i = 0; i < 2000; ++i) {
-        const double height_m = random.between(0.02, 0.05);
-        const Vec3 up = (-Vec3::UnitY() + random.vector(0.5)).normalized();
+        const double height_m = random.between(0.04, 0.06);
+        const Vec3 up = (-Vec3::UnitY() + random.vector(0.3)).normalized();
         FittedHand hand(floor, wrist_with_palm_at(rig, {0.0, height_m, 0.0}, up));
         hand.tracking.at(k_right).squeeze = random.between(0.0, 1.0);
         hand.tracking.at(k_right).pressed = random.between(0.0, 1.0) < 0.5;

@@ -202,7 +202,7 @@ TEST_F(SnapshotRefuses, ElementsWithoutTheirCounterparts) {
     break_world("].count: expected at most 8 moves", [&](World& w) {
         w.move_target.add(by_name(w, "train")).count = MoveTarget::k_capacity + 1;
     });
-    break_world("].moves: expected times > 0", [&](World& w) {
+    break_world("].moves: expected times of 1e-6 s or more", [&](World& w) {
         w.move_target.add(by_name(w, "train")).count = 1;  // of a move without a time
     });
     break_world("expected an element in body of the same owner",
