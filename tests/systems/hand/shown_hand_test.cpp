@@ -206,7 +206,7 @@ TEST_F(ShownHand, GrippingHandWithItsBackToASurfaceIsALooseFist) {
 
 // A hand without a surface keeps that result until it has moved.
 TEST_F(ShownHand, HandWithoutASurfaceSearchesOnce) {
-    FittedHand hand(floor, wrist_with_palm_at(rig, {0.0, 0.03, 0.0}, -Vec3::UnitY()));
+    FittedHand hand(floor, wrist_with_palm_at(rig, {0.0, 0.04, 0.0}, -Vec3::UnitY()));
     for (int frame = 0; frame < 10; ++frame) {
         hand.frame(k_dt_s);
     }
