@@ -5,7 +5,6 @@
 
 #include "engine/math/scalar_rotation.hpp"
 #include "systems/body/shared/body_constants.hpp"
-#include "systems/body/shared/clear_trunk.hpp"
 #include "systems/body/shared/elbow_direction.hpp"
 #include "systems/body/shared/level_direction.hpp"
 #include "systems/body/shared/rest_hand.hpp"
@@ -94,7 +93,6 @@ struct ArmStep {
     double forearm_m = 0.0;
     double floor_m = 0.0;  // height of the tracked floor above the resting shoulder
     Vec3 pole_ts = Vec3::Zero();
-    TrunkCapsule trunk;  // relative to the resting shoulder
     const ArmLine& line;
 };
 
@@ -120,8 +118,8 @@ Vec3 bend_above_floor(const ElbowCircle& circle, const Vec3& axis_ts, const Vec3
     return rise * rising + std::sqrt(1.0 - rise * rise) * level;
 }
 
-// Updates ArmMemory's elbow direction. Returns the direction to show, which keeps elbow and forearm
-// out of the trunk, and the elbow above the floor.
+// Updates ArmMemory's elbow direction. Returns the direction to show, which keeps the elbow above
+// the floor.
 Vec3 estimate_elbow(const EstimateStep& step, const ArmStep& arm, ArmMemory::Arm& memory,
                     ArmEstimate::Arm& out) {
     const ArmTuning& tuning = step.tuning;
@@ -152,12 +150,8 @@ Vec3 estimate_elbow(const EstimateStep& step, const ArmStep& arm, ArmMemory::Arm
     memory.hand_ts = hand_rest_ts;
     memory.elbow_ts = circle.middle_ts + circle.radius_m * memory.bend_ts;
     constexpr double k_elbow_m = 0.04;  // half the thickness of an arm, in the player's metres
-    TrunkCapsule trunk = arm.trunk;
-    trunk.top_ts -= line.shoulder_ts;
-    trunk.bottom_ts -= line.shoulder_ts;
-    const Vec3 clear_ts =
-        bend_clear_of_trunk(circle, memory.bend_ts, line.reach_ts, arm.side, trunk);
-    return bend_above_floor(circle, axis_ts, clear_ts, arm.floor_m + step.scale * k_elbow_m);
+    return bend_above_floor(circle, axis_ts, memory.bend_ts,
+                            arm.floor_m + step.scale * k_elbow_m);
 }
 
 }  // namespace
@@ -185,10 +179,6 @@ void estimate_body(TrackedBody body, const EstimateStep& step, bool reset, ArmMe
     };
     const std::array<ArmLine, k_hand_count> lines = {line_at(0), line_at(1)};
     const BodyView view = view_from(facing, axes);
-    // The trunk hangs below a chest that leans, unless the player lies.
-    const Vec3 down_ts = (-(1.0 - out.lying) * Vec3::UnitY() -
-                          out.lying * to_facing(facing, out.chest_ps.rotation * Vec3::UnitY()))
-                             .normalized();
     const double turned = sine_between(facing, look_ps);
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const std::size_t i = index_of(side);
@@ -197,10 +187,7 @@ void estimate_body(TrackedBody body, const EstimateStep& step, bool reset, ArmMe
         const Vec3 bend_ts =
             estimate_elbow(step,
                            {side, reset, body.measures.upper_arm_m, body.measures.forearm_m,
-                            body.floor_m - rest_ps[i].y(), pole_ts,
-                            trunk_capsule(to_facing(facing, out.chest_ps.position - rest_ps[i]),
-                                          down_ts, body.measures.eye_height_m / k_scale_eye_m),
-                            lines[i]},
+                            body.floor_m - rest_ps[i].y(), pole_ts, lines[i]},
                            memory.arms[i], out.arms[i]);
         out.arms[i].shoulder_ps = rest_ps[i] + from_facing(facing, lines[i].shoulder_ts);
         out.arms[i].bend_ps = from_facing(facing, bend_ts);

@@ -145,7 +145,7 @@ TEST(Crowd, StaysFiniteAndNearTheStation) {
                 hh::Vec3 head{};
                 ASSERT_EQ(hh_player_head(now.host.get(), players[i], &head, nullptr, nullptr),
                           HH_OK);
-                EXPECT_TRUE(now.host.closest_point(head, 30.0, players[i])) << "lost: " << i;
+                EXPECT_TRUE(scene.host.closest_point(head, 30.0, players[i])) << "lost: " << i;
             }
         });
     const RunSummary summary = tally.finish(log);

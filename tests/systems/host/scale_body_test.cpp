@@ -20,31 +20,16 @@ hh::Vec3 times(double scale, const Vec3& v) {
 }
 Vec3 seen(const hh::Vec3& v, double scale) { return Vec3(v.x, v.y, v.z) / scale; }
 
-// A wall before the player, a pillar at the legs and a floor, all static.
 struct Scene {
     double scale;
     hh::World world;
     hh::Player player{};
 
-    Scene(double s, double wall_m, double floor_m, bool has_surfaces) : scale(s) {
+    explicit Scene(double s) : scale(s) {
         hh_player_def you = hh::player_def();
         you.scale = scale;
         player = *world.add(you);
         (void)world.use_wrists(player);
-        if (!has_surfaces) {
-            return;
-        }
-        add(Vec3(2.0, 3.0, 0.1), Vec3(0.0, 1.0, -wall_m - 0.1));
-        add(Vec3(0.1, 0.4, 0.1), Vec3(0.15, 0.2, wall_m));
-        add(Vec3(3.0, 0.1, 3.0), Vec3(0.0, floor_m - 0.1, 0.0));
-    }
-    void add(const Vec3& half_m, const Vec3& at) {
-        hh_body_def def = hh::body_def();
-        def.kind = HH_STATIC;
-        const hh::Vec3 half = times(scale, half_m);
-        def.shape = *world.add_box(half);
-        def.pose.position = times(scale, at);
-        (void)*world.add(def);
     }
     Joints joints() const {
         Joints list;
@@ -90,20 +75,15 @@ struct Plan {
     double lost_s;
 };
 
-// All joints of the body, also of a player whom nobody measured, who crouches to the floor, touches
-// walls with trunk and legs, or loses hands. Distances at which casts find a surface again do not
-// scale, so beside surfaces a part may leave one earlier or later: there 98 % of joints agree.
+// All joints of the body, also of a player whom nobody measured, who crouches or loses hands. Not
+// beside surfaces: distances at which casts find a surface again do not scale, so a part leaves one
+// earlier or later.
 RC_GTEST_PROP(HostScale, BodiesAreShownInTheirPlayersSize, ()) {
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     const double scale = std::pow(10.0, random.between(-1.0, std::log10(20.0)));
-    const double wall_m = random.between(0.25, 0.7);
-    const double floor_m = random.between(-0.6, 0.0);
     const Plan plan(random);
-    const bool has_surfaces = random.between(0.0, 1.0) < 0.5;
-    Scene one(1.0, wall_m, floor_m, has_surfaces);
-    Scene other(scale, wall_m, floor_m, has_surfaces);
-    std::size_t far = 0;
-    std::size_t compared = 0;
+    Scene one(1.0);
+    Scene other(scale);
     for (int frame = 1; frame <= 450; ++frame) {
         const double t_s = frame / 90.0;
         for (Scene* const scene : {&one, &other}) {
@@ -116,14 +96,9 @@ RC_GTEST_PROP(HostScale, BodiesAreShownInTheirPlayersSize, ()) {
         for (std::size_t joint = 0; joint < a.size(); ++joint) {
             const Vec3 apart = seen(a[joint].position, 1.0) - seen(b[joint].position, scale);
             constexpr double k_same_m = 1e-3;
-            constexpr double k_near_m = 0.02;
-            RC_ASSERT(has_surfaces || apart.norm() < k_same_m);
-            far += apart.norm() > k_near_m ? std::size_t{1} : std::size_t{0};
-            ++compared;
+            RC_ASSERT(apart.norm() < k_same_m);
         }
     }
-    RC_TAG(has_surfaces);
-    RC_ASSERT(far * 50 <= compared);
 }
 
 }  // namespace
