@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <limits>
 #include <span>
 
 #include "systems/host/host_world.hpp"
@@ -126,9 +125,9 @@ ShapeId head_shape(hh_world& host, double wanted_m) {
     if (id.index >= host.host_shapes.size()) {
         host.host_shapes.resize(std::size_t{id.index} + 1);
     }
-    // No id in the C interface is valid, also not that of a removed shape that had this index.
-    host.host_shapes[id.index] = {
-        .generation = std::numeric_limits<std::uint32_t>::max(), .frame = {}, .is_moved = false};
+    // Generation 0: no id in the C interface is valid, also not that of a removed shape that had
+    // this index.
+    host.host_shapes[id.index] = {};
     host.head_shapes.push_back(id);
     host.caches.collision.update_shapes();
     return id;

@@ -18,9 +18,9 @@ inline PartCapsule resized(const PartCapsule& capsule, double scale) {
     return {capsule.frame_ws, capsule.end_bs / scale, capsule.radius_m / scale};
 }
 
-// Grip meshes of the capsules of shown bodies. Lengths and radii are rounded by up to 0.8 %, so
-// that players share meshes and a stretched arm needs few. A cache: a mesh depends on the rounded
-// sizes alone.
+// Grip meshes of the capsules of shown bodies. Lengths and radii are rounded to seven significant
+// bits, so that players share meshes and a stretched arm needs few. A cache: a mesh depends on the
+// rounded sizes alone.
 class PartMeshes {
   public:
     // Rounded length of the axis and radius, m of the hand's scale.

@@ -43,9 +43,10 @@ TEST(Playback, BothMenuButtonsCalibrate) {
     EXPECT_NEAR(found.shoulder_width_m + 2.0 * (found.upper_arm_m + found.forearm_m), 1.6, 0.1);
 }
 
+// Meanwhile the size is estimated from play, at 3.5 cm/s.
 TEST(Playback, OneMenuButtonDoesNot) {
     for (const bool left : {false, true}) {
-        EXPECT_EQ(play(t_pose(left, !left)).eye_height_m, BodyMeasures{}.eye_height_m);
+        EXPECT_NEAR(play(t_pose(left, !left)).eye_height_m, BodyMeasures{}.eye_height_m, 0.06);
     }
 }
 
