@@ -54,7 +54,7 @@ World full_world() {
     world.authored_hold.add(made.hands[0]);
     world.body_hold.add(made.hands[0]);
     world.hand_pull.add(made.hands[0]);
-    world.move_target.add(ship);
+    world.move_target.add(ship).count = 1;
     world.gravity_scale.add(other);
     world.filter.add(other);
     world.grab_rule.add(other);
