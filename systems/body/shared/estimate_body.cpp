@@ -150,8 +150,7 @@ Vec3 estimate_elbow(const EstimateStep& step, const ArmStep& arm, ArmMemory::Arm
     memory.hand_ts = hand_rest_ts;
     memory.elbow_ts = circle.middle_ts + circle.radius_m * memory.bend_ts;
     constexpr double k_elbow_m = 0.04;  // half the thickness of an arm, in the player's metres
-    return bend_above_floor(circle, axis_ts, memory.bend_ts,
-                            arm.floor_m + step.scale * k_elbow_m);
+    return bend_above_floor(circle, axis_ts, memory.bend_ts, arm.floor_m + step.scale * k_elbow_m);
 }
 
 }  // namespace

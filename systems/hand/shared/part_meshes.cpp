@@ -8,7 +8,7 @@ namespace {
 
 // `length_m` with seven significant bits: within 0.8 % of the exact value.
 double rounded_m(double length_m) {
-    constexpr double k_steps = 128.0;  // of a power of two
+    constexpr double k_steps = 128.0;  // steps in a power of two
     // Slightly more than one half, because some usual lengths lie exactly between two steps: when
     // such a length is measured again, rounding errors must not change its step.
     constexpr double k_up = 0.5 + 1e-6;
