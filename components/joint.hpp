@@ -24,7 +24,7 @@ enum class JointKind : std::uint8_t {
 struct JointLatch {
     double at = 0.0;           // coordinate at which the joint is locked, rad or m
     double catch_range = 0.0;  // closes within this distance of `at`, rad or m; 0: no latch
-    double strength = 0.0;     // opens above this force, N or N m; 0: never by force
+    double strength = 0.0;     // load at which it opens, N or N m; 0: no load does
     Entity handle;             // joint (hinge or slider) that opens the latch; null: none
     double handle_at = 0.0;    // open while |handle's coordinate| is at least this, rad or m
 };

@@ -197,7 +197,7 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "relative to the player. Limits how fast a jump of the estimated body moves both players.");
     see("hand.swing_lag_s", t.hand.swing_lag_s, "s", 0.0, 10.0,
         "Time constant with which a grip on another player's trunk or leg follows that "
-        "part. Damps the feedback: the part moves because the grip moves its player.");
+        "part. Damps a feedback: the grip moves the gripped player, which makes the part swing.");
     see("palm.min_height_m", t.palm.min_height_m, "m", -0.05, 0.1,
         "Minimum height of a gripping palm's centre above its surface.");
     see("palm.max_height_m", t.palm.max_height_m, "m", -0.05, 0.2,
@@ -221,8 +221,9 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     see("palm.rate_mps", t.palm.rate_mps, "m/s", 0.0, 1e6,
         "Maximum speed at which the shown hand moves relative to the tracked hand.");
     see("finger.plane_offset", t.finger.plane_offset, "", 0.0, 0.99,
-        "A closing finger is tested against the cuts of the surface in three parallel planes; "
-        "distance of the outer two from the middle one, in mean link radii.");
+        "A closing finger is tested against cross-sections of the surface in three parallel "
+        "planes. "
+        "Distance of the outer two planes from the finger's middle plane, in mean link radii.");
     see("finger.search_depth_m", t.finger.search_depth_m, "m", 0.0, 0.1,
         "Penetration depth above which a closing finger tests every triangle in reach, and above "
         "which a finger does not take its authored pose.");

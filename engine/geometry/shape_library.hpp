@@ -125,8 +125,8 @@ constexpr std::size_t k_max_triangles = std::size_t{1} << 21U;
 // True if add_hull accepts `hull`: its smallest width and its largest extent are in [1e-3, 1e4] m.
 bool is_solid(const ConvexHull& hull);
 
-// Radius of the smallest sphere about the shape's origin that contains the shape, metres. Larger
-// than the smallest for compounds with cylinders.
+// Radius of a sphere about the shape's origin that contains the shape, metres. It is the smallest
+// such sphere, except for compounds with cylinders, where it may be larger.
 double bounding_radius(const Shape& shape);
 // Half the smallest extent, metres; a compound's is that of its thinnest part. Bodies this thin may
 // tunnel. Meshes: 0.

@@ -90,7 +90,7 @@ class SceneBuilder {
             error_ = level.error();
             return std::nullopt;
         }
-        // A file that several bodies use adds its notes once.
+        // Each note is listed once, even if several levels or bodies use the same file.
         for (const std::string& note : level.value().notes) {
             if (std::find(scene_.notes.begin(), scene_.notes.end(), note) == scene_.notes.end()) {
                 scene_.notes.push_back(note);

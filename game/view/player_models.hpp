@@ -28,9 +28,9 @@ struct PlayerModels {
     }
 };
 
-// Model files named on the command line; an empty name selects the built-in robot.
+// Model files named on the command line. No hands, or an empty body: the built-in robot's.
 struct PlayerModelFiles {
-    std::vector<std::string> hands;  // two skins, left and right
+    std::vector<std::string> hands;  // skins, left and right; or none
     std::string body;                // file of a figure
     std::string body_map;            // file with the names of the figure's joints
     std::string controllers;         // "builtin" or a profile; empty: none

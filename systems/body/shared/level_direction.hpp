@@ -2,8 +2,8 @@
 
 #include "engine/math/math.hpp"
 
-// Level directions: horizontal unit vectors, in play space. Functions on them avoid trigonometry
-// for small angles, for speed.
+// Level directions: horizontal unit vectors, in play space. To save time, follow_look and
+// turn_at_most call no trigonometric function if the angle is small.
 namespace handhold {
 
 // A maximum angle of at most half a turn, given by its sine and cosine.

@@ -7,9 +7,9 @@
 
 namespace handhold {
 
-// Arms, spine and legs as they would be shown if head and hands had never moved: a pure function of
-// its arguments. Nothing lags, swings or hangs from the hands, and surfaces beside the body and
-// clips have no influence. `tuning`: for a scale of 1.
+// Returns the arms, spine and legs that would be shown if head and hands had never moved. Depends
+// on its arguments only: no lag, no swing, no trunk that the hands pull, no contact with surfaces,
+// no clips. `tuning`: for a player of scale 1; the function scales it.
 GrippableBody memoryless_body(const PlayerOrigin& origin, const TrackedBody& body,
                               const ArmTuning& tuning);
 

@@ -14,7 +14,8 @@
 // Finds the parts of bodies that a hand can grip.
 namespace handhold {
 
-// How far follow_part moves: a share of the displacement, [0, 1], but at most `max_m`.
+// How far follow_part moves the pose: `share` of the way, in [0, 1], but the anchor by at most
+// `max_m`.
 struct PartStep {
     double share = 1.0;
     double max_m = 0.0;

@@ -23,8 +23,9 @@ struct FitPart {
 // Collects a fit's squares and inequalities, linearised at one pose, and their cost there.
 class FitProblem {
   public:
-    // `terms`: gets the costs, added by term and part; null: not needed. `rows`: memory for the
-    // inequalities, 72 kB, too much for a small stack. Both must outlive the problem.
+    // `terms`: if not null, each cost is added to its entry for that term and part of the hand.
+    // `rows`: buffer for the inequalities. The constructor reserves 72 kB in it, too much for a
+    // small stack. Both must outlive the problem.
     FitProblem(int unknowns, FitTerms* terms, std::vector<PenaltyRow>& rows)
         : unknowns_(unknowns), terms_(terms), rows_(rows) {
         rows_.reserve(k_max_penalty_rows);
