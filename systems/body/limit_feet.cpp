@@ -101,7 +101,7 @@ Vec3 move_ankle(const Vec3& ankle_ws, SpinePose::Leg& leg) {
     leg.thigh_ws.rotation = turned(thigh, knee_ws - hip, leg.thigh_ws.rotation);
     leg.shin_ws = {knee_ws, turned(shin, end_ws - knee_ws, leg.shin_ws.rotation)};
     leg.foot_ws = {end_ws, (leg.shin_ws.rotation * in_shin).normalized()};
-    return end_ws;
+    return leg.foot_ws.position;
 }
 
 }  // namespace
