@@ -48,5 +48,7 @@ struct GrippableBody {
     ArmPose arms;
     SpinePose spine;
 };
+// Distance from the head, in eye heights, beyond which hands find no part.
+inline constexpr double k_grippable_eyes = 2.0;
 
 }  // namespace handhold

@@ -111,9 +111,8 @@ void visit_body_tuning(TuningType& t, const See& see) {
     see("spine.knee_limit_rad", t.spine.knee_limit_rad, "rad", 0.01, 2.5,
         "Maximum bend of a knee, backwards only.");
     see("spine.limit_lag_s", t.spine.limit_lag_s, "s", 0.0, 1.0,
-        "Time constant of a link's fastest approach to a joint limit: it slows down and does not "
-        "stop "
-        "abruptly.");
+        "Time constant of a link's fastest approach to a joint limit: it slows down and does "
+        "not stop abruptly.");
     see("spine.return_per_s", t.spine.return_per_s, "1/s", 0.0, 100.0,
         "Rate at which each link returns to its rest direction against the link above.");
     see("spine.drag_per_s", t.spine.drag_per_s, "1/s", 0.0, 100.0,

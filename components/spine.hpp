@@ -60,7 +60,8 @@ struct BodyPull {
     Vec3 hands_before = Vec3::Zero();  // one frame earlier
 };
 
-// A foot as it was shown last, relative to the chest in play-space axes. Written by limit_feet.
+// A foot as it was shown last, relative to the chest in play-space axes. Written by limit_feet;
+// reset by propagate_spine when the chain starts from rest.
 struct FootMemory {
     bool known = false;                // false: the next frame shows the foot where the leg puts it
     Vec3 wanted_m = Vec3::Zero();      // where the leg put it
@@ -68,10 +69,10 @@ struct FootMemory {
     Vec3 velocity_mps = Vec3::Zero();  // velocity of the shown foot
 };
 
-// State of propagate_spine: the hanging chain, before pose_spine folds it for a crouch. Offsets
-// lead from the chest to each link's lower end, in play-space axes. Velocities and displacements
-// are relative to the reference velocity `reference_ws_mps`. The chain advances in fixed time
-// steps, called ticks (k_spine_tick_s).
+// State of propagate_spine, and `feet` of limit_feet: the hanging chain, before pose_spine folds it
+// for a crouch. Offsets lead from the chest to each link's lower end, in play-space axes.
+// Velocities and displacements are relative to the reference velocity `reference_ws_mps`. The chain
+// advances in fixed time steps, called ticks (k_spine_tick_s).
 struct SpineMemory {
     bool known = false;           // false: the next frame starts from rest
     double since_tick_s = 0.0;    // time since the last tick; [0, k_spine_tick_s)
@@ -97,7 +98,8 @@ struct SpineMemory {
     std::array<FootMemory, k_hand_count> feet;  // indexed by HandSide
 };
 
-// World poses of trunk and legs. Written by propagate_spine; layer_additives adds the clips.
+// World poses of trunk and legs. Written by propagate_spine; layer_additives adds the
+// clips, limit_feet slows the feet.
 struct SpinePose {
     struct Leg {
         Pose thigh_ws;  // origin: hip

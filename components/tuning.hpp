@@ -222,8 +222,7 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "Maximum speed at which the shown hand moves relative to the tracked hand.");
     see("finger.plane_offset", t.finger.plane_offset, "", 0.0, 0.99,
         "A closing finger is tested against cross-sections of the surface in three parallel "
-        "planes. "
-        "Distance of the outer two planes from the finger's middle plane, in mean link radii.");
+        "planes. Distance of the outer two from the finger's middle plane, in mean link radii.");
     see("finger.search_depth_m", t.finger.search_depth_m, "m", 0.0, 0.1,
         "Penetration depth above which a closing finger tests every triangle in reach, and above "
         "which a finger does not take its authored pose.");

@@ -132,8 +132,6 @@ template <>
 inline constexpr bool k_is_shown<PalmPose> = true;
 template <>
 inline constexpr bool k_is_shown<FingerPose> = true;
-template <>
-inline constexpr bool k_is_shown<HandRigChoice> = true;
 
 // Calls visit(name, &World::column) for every column. Hashing, snapshots and destroy use this list.
 template <typename Visit>

@@ -32,7 +32,7 @@ std::size_t memory_bytes(const SurfaceGraph& graph) {
 
 }  // namespace
 
-// A multiplication a word, as in FNV-1a: HashStream takes three times as long.
+// One multiplication for each word. HashStream has four, and large meshes have many words.
 std::uint64_t digest_of(const SurfaceGraph& contact) {
     std::uint64_t digest = contact.positions.size();
     const auto add = [&digest](std::uint64_t word) {

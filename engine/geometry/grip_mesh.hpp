@@ -36,10 +36,12 @@ struct GripMesh {
     TriangleBvh search_bvh;            // tree of search's triangles
     std::uint32_t turned = 0;          // triangles flipped to match their sheet or to face outwards
     std::uint32_t full_triangles = 0;  // number of triangles at full detail
-    // Hash of the contact detail, equal on every machine. Meshes with equal digests are equal.
+    // Hash of the contact detail, equal on every machine. Two meshes that were built with the same
+    // settings and have the same digest are taken for equal.
     std::uint64_t digest = 0;
 };
 
+// Hash of positions and triangles, for GripMesh::digest.
 std::uint64_t digest_of(const SurfaceGraph& contact);
 
 GripMesh build_grip_mesh(const Mesh& mesh, const GripMeshSettings& settings = {});

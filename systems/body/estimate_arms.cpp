@@ -96,17 +96,6 @@ void place_lost_hands(const EstimateStep& frame, const ArmEstimate& estimate, Tr
     }
 }
 
-ArmGoal goal_of(const EstimateArmsIo& io, Entity hand) {
-    const Grab* const grab = io.grab.find(hand);
-    if (grab != nullptr && grab->kind != GripKind::none) {
-        return ArmGoal::grip;
-    }
-    const HandTracking* const tracking = io.hand.find(hand);
-    const bool is_shown = tracking == nullptr || tracking->state == TrackingState::tracked ||
-                          tracking->state == TrackingState::inferred;
-    return is_shown ? ArmGoal::hand : ArmGoal::rest;
-}
-
 // Writes the palms' poses to the estimates, in play space, and what the arms reach for.
 void take_hands(const EstimateArmsIo& io) {
     Entity player = k_no_entity;
@@ -124,7 +113,8 @@ void take_hands(const EstimateArmsIo& io) {
         ArmEstimate::Arm& arm = estimate->arms[index_of(owner.side)];
         arm.hand_ps = {inverse_transform_point(*origin_ws, palm_ws.position),
                        unit_quat(turn.w(), turn.x(), turn.y(), turn.z())};
-        arm.goal = goal_of(io, io.owner.owners()[index]);
+        const Entity hand = io.owner.owners()[index];
+        arm.goal = arm_goal(io.grab.at(hand), io.hand.at(hand));
     }
 }
 

@@ -18,7 +18,8 @@ constexpr double k_sits = 0.85;
 constexpr double k_stands = 0.93;
 // Time that must have been seen before measures change.
 constexpr double k_least_s = 1.0;
-// Beyond this time all that was seen counts half, so that another player is noticed.
+// Beyond this time all that was seen counts half, so that another player is noticed. Both hands
+// count for the reach, so it forgets twice as fast.
 constexpr double k_most_s = 240.0;
 
 template <std::size_t Bins>
@@ -34,7 +35,7 @@ template <std::size_t Bins>
 void see(double length_m, double dt_s, LengthHistogram<Bins>& seen) {
     const double bin = length_m / LengthHistogram<Bins>::k_bin_m;
     if (!(bin >= 0.0 && bin < static_cast<double>(Bins))) {
-        return;  // no person is that tall
+        return;  // outside of what people have
     }
     seen.time_s[static_cast<std::size_t>(bin)] += dt_s;
     if (sum_s(seen) > k_most_s) {

@@ -5,29 +5,36 @@
 
 #include "components/scaled_tuning.hpp"
 #include "systems/body/shared/memoryless_body.hpp"
+#include "systems/body/shared/rest_hand.hpp"
 
 namespace handhold {
 namespace {
 
-// Adds the body of a player, unless it is there already or the head was never tracked.
-void add_grippable_body(const PoseGrippableBodiesIo& io, Entity player, const ArmTuning& tuning) {
-    const HeadTracking* const head = io.head.find(player);
-    if (head == nullptr || head->state == TrackingState::never || io.bodies.contains(player)) {
+const Pose& head_ps(const PoseGrippableBodiesIo& io, Entity player) {
+    const HeadTracking& head = io.head.at(player);
+    return is_null(io.asking) ? head.start_ps : head.pose_ps;
+}
+
+// Adds the body of a player, unless it is there already.
+void add_grippable_body(const PoseGrippableBodiesIo& io, Entity player, TuningOfPlayers& tunings) {
+    if (io.bodies.contains(player)) {
         return;
     }
-    const bool is_between_frames = !is_null(io.asking);
-    TrackedBody body{is_between_frames ? head->pose_ps : head->start_ps,
-                     {},
-                     io.measures.at(player),
-                     head->shift_m.y()};
+    TrackedBody body{
+        head_ps(io, player), {}, io.measures.at(player), io.head.at(player).shift_m.y()};
+    std::array<ArmGoal, k_hand_count> goals{};
     for (std::size_t index = 0; index < io.owner.size(); ++index) {
         const HandOwner& owner = io.owner.elements()[index];
         if (owner.player == player) {
-            const HandTracking& hand = io.hand.at(io.owner.owners()[index]);
-            body.hands_ps[index_of(owner.side)] = is_between_frames ? hand.pose_ps : hand.start_ps;
+            const Entity hand = io.owner.owners()[index];
+            const HandTracking& tracking = io.hand.at(hand);
+            body.hands_ps[index_of(owner.side)] =
+                is_null(io.asking) ? tracking.start_ps : tracking.pose_ps;
+            goals[index_of(owner.side)] = arm_goal(io.grab.at(hand), tracking);
         }
     }
-    io.bodies.add(player, memoryless_body(io.origin.at(player), body, tuning));
+    const PlayerOrigin& origin = io.origin.at(player);
+    io.bodies.add(player, memoryless_body(origin, body, goals, tunings.of(origin).arm));
 }
 
 // True if the hand may begin to grip in this frame.
@@ -48,18 +55,20 @@ bool may_close_or_join(const PoseGrippableBodiesIo& io, std::size_t index) {
     return false;
 }
 
-// True if the hand may find a part of that player in this frame. Errs on the side of true.
+// True if the hand may find a part of that player in this frame. Errs on the side of true. Nobody
+// knows where a player is whose head was never tracked.
 bool may_reach(const PoseGrippableBodiesIo& io, std::size_t index, Entity player,
                TuningOfPlayers& tunings) {
-    constexpr double k_body_eyes =
-        2.0;  // eye heights from the head; GrippableBodies finds no farther
+    if (io.head.at(player).state == TrackingState::never) {
+        return false;
+    }
     const HandTracking& hand = io.hand.at(io.owner.owners()[index]);
     const PlayerOrigin& own = io.origin.at(io.owner.elements()[index].player);
     const PlayerOrigin& other = io.origin.at(player);
     const HandTuning& tuning = tunings.of(own).hand;
     const double reach_m = tuning.palm_center_m.norm() + tuning.ray_back_m + tuning.ray_length_m +
-                           tuning.reach_m + k_body_eyes * io.measures.at(player).eye_height_m;
-    const Vec3 head_ws = transform_point(other.pose_ws, io.head.at(player).start_ps.position);
+                           tuning.reach_m + k_grippable_eyes * io.measures.at(player).eye_height_m;
+    const Vec3 head_ws = transform_point(other.pose_ws, head_ps(io, player).position);
     const std::array poses_ps = {&hand.start_ps, &hand.edge_ps, &hand.pose_ps};
     return std::ranges::any_of(poses_ps, [&](const Pose* pose_ps) {
         return (transform_point(own.pose_ws, pose_ps->position) - head_ws).norm() <= reach_m;
@@ -70,21 +79,24 @@ bool may_reach(const PoseGrippableBodiesIo& io, std::size_t index, Entity player
 
 void pose_grippable_bodies(const PoseGrippableBodiesIo& io, const Tuning& tuning) {
     io.bodies.clear();
+    if (io.origin.size() < 2) {
+        return;
+    }
+    TuningOfPlayers tunings(tuning);
     for (const Entity hand : io.body_hold.owners()) {
         const Grab& grab = io.grab.at(hand);
         if (grab.kind == GripKind::player && io.origin.contains(grab.body)) {
-            add_grippable_body(io, grab.body, tuning.arm);
+            add_grippable_body(io, grab.body, tunings);
         }
     }
-    TuningOfPlayers tunings(tuning);
     for (std::size_t index = 0; index < io.owner.size(); ++index) {
-        if (io.origin.size() < 2 || !may_close_or_join(io, index)) {
+        if (!may_close_or_join(io, index)) {
             continue;
         }
         for (const Entity player : io.origin.owners()) {
             if (player != io.owner.elements()[index].player &&
                 may_reach(io, index, player, tunings)) {
-                add_grippable_body(io, player, tuning.arm);
+                add_grippable_body(io, player, tunings);
             }
         }
     }

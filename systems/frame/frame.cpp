@@ -61,6 +61,14 @@ void finish_solve(const FrameContext& f) {
     discard_broken_results(f);
 }
 
+// The simulated stages of a frame whose contacts the library finds and solves.
+void simulate(const FrameContext& f) {
+    read_input(f);
+    prepare_solve(f, Contacts::searched);
+    solve(f);
+    finish_solve(f);
+}
+
 // The hands and bodies that players see.
 void show(const FrameContext& f) {
     // Poses palms and fingers on what the hands hold.
@@ -107,10 +115,7 @@ void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const F
                 StageStats& stats) {
     using namespace stages;
     const FrameContext f = begin_frame(world, caches, tuning, input, stats);
-    read_input(f);
-    prepare_solve(f, Contacts::searched);
-    solve(f);
-    finish_solve(f);
+    simulate(f);
     show(f);
     advance_clock(f);
 }
@@ -119,10 +124,7 @@ void step_simulated(World& world, FrameCaches& caches, const Tuning& tuning,
                     const FrameInput& input, StageStats& stats) {
     using namespace stages;
     const FrameContext f = begin_frame(world, caches, tuning, input, stats);
-    read_input(f);
-    prepare_solve(f, Contacts::searched);
-    solve(f);
-    finish_solve(f);
+    simulate(f);
     advance_clock(f);
 }
 

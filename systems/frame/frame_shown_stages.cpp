@@ -36,7 +36,7 @@ std::span<const HandSurroundings> hands_of(const FrameContext& f, std::size_t fi
 // Builds the missing meshes of held parts.
 void add_part_meshes(const FrameContext& f) {
     const World& w = f.w;
-    f.caches.part_meshes.drop_if_many();
+    f.caches.part_meshes.drop_if_many(w.body_hold.size());
     for (std::size_t index = 0; index < w.body_hold.size(); ++index) {
         const Entity hand = w.body_hold.owners()[index];
         const Grab& grab = w.grab.at(hand);

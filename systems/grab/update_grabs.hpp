@@ -15,7 +15,7 @@ using UpdateGrabsIo = GrabSearch;  // systems/grab/shared/grab_search.hpp
 //  - the first surface on the palm ray (talk rows 2, 3), or one in reach of a higher
 //    GrabRule::priority;
 //  - the nearest surface within HandTuning::reach_m of the palm, from any angle. Other players'
-//    heads, and their bodies as the last frame showed them, count as surfaces.
+//    heads, and their GrippableBody, count as surfaces.
 // The hand must get there without crossing a wall: the palm or the surface must be visible from
 // where the palm was last outside of walls (HandSight) or from the head, directly or by a detour of
 // a hand's width. A palm pushed through a surface grips that surface.
@@ -28,7 +28,7 @@ using UpdateGrabsIo = GrabSearch;  // systems/grab/shared/grab_search.hpp
 //
 // If a gripped body's kind or mass has changed so that it now moves the player, or now comes along,
 // the hand takes its anchor where it is, so that nothing jumps. Grips on players' parts follow the
-// shown bodies (BodyHold).
+// parts of GrippableBody (BodyHold).
 //
 // Skips bodies that refuse the hand, by their GrabRule or because none of their layers is in the
 // player's GrabLayers. A two-handed body is gripped when the second hand closes on it. A host's

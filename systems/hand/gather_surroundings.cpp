@@ -112,7 +112,7 @@ class Gatherer {
         return is_known ? &of_shapes->shared_at(collider->shape) : nullptr;
     }
 
-    // Adds the body, its number of triangles and its pose to the hash. Positions are rounded to 0.1
+    // Adds the body, its mesh's digest and its pose to the hash. Positions are rounded to 0.1
     // mm and axes to 1e-4, so that tiny numerical differences rarely change the signature.
     void add_to_signature(HashStream& stream, Entity body, const PlacedMesh& placed) const {
         constexpr double k_steps_per_m = 1e4;

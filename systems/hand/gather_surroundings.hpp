@@ -69,8 +69,8 @@ struct GatherSurroundingsIo {
 //
 // The wrist of a gripping hand is at its anchor. Its rotation is the tracked one, unless the
 // gripped object turns with the hand. A body is near if its mesh's bounding box is within
-// k_hand_length_m of the palm. A hand on another player's part is fitted to the part's capsule; the
-// body's frame is then the capsule's.
+// k_hand_length_m of the palm; for players whose scale is not 1, if its surface is. A hand on
+// another player's part is fitted to the part's capsule; the body's frame is then the capsule's.
 //
 // If the gripped body has no mesh, HandSurroundings::body is null: the hand is shown at its anchor,
 // not fitted. Heads never have a mesh.

@@ -63,18 +63,17 @@ void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats
             surface = {};
             continue;
         }
+        const bool has_last = has_surface(hand, surface);
+        const bool is_searched =
+            has_last || (surface.body == hand.body && surface.triangle == GripSurface::k_none);
         if (hand.authored != nullptr) {
-            const bool is_known = has_surface(hand, surface) &&
-                                  surface.surroundings_signature == 0 &&
+            const bool is_known = is_searched && surface.surroundings_signature == 0 &&
                                   hand_travel_m(surface.wrist_bs, hand.authored_wrist_bs()) == 0.0;
             if (!is_known) {
                 surface = authored_grip_surface(hand, tuning.palm);
             }
             continue;
         }
-        const bool has_last = has_surface(hand, surface);
-        const bool is_searched =
-            has_last || (surface.body == hand.body && surface.triangle == GripSurface::k_none);
         if (is_searched && surface.surroundings_signature == hand.signature &&
             hand_travel_m(surface.wrist_bs, hand.wrist_bs) < k_search_again_m) {
             continue;

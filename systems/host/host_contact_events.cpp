@@ -1,4 +1,4 @@
-// Contacts of players' heads and of what hands hold, as events of the C interface.
+// Makes the C interface's events of contacts: those of players' heads and of held bodies.
 #include <algorithm>
 #include <tuple>
 

@@ -1,4 +1,4 @@
-// Latches and limits of joints, as events of the C interface.
+// Makes the C interface's events of joints: latches that open or close, and limits reached.
 #include "systems/host/host_events.hpp"
 
 namespace handhold {

@@ -184,7 +184,8 @@ hh_result hh_hand_find_grip(hh_world* world, hh_player player, hh_side side, hh_
 
 hh_result hh_world_step_hands(hh_world* world, double dt_s, const hh_player_input* inputs,
                               size_t input_count) {
-    return step_with(world, dt_s, inputs, input_count, &show_host_frame, true);
+    return step_with(world, dt_s, inputs, input_count,
+                     {.run = &show_host_frame, .moves_bodies = false});
 }
 
 hh_result hh_world_held_bodies(const hh_world* world, hh_body* bodies, size_t capacity,

@@ -165,6 +165,7 @@ hh_result hh_world_begin_step(hh_world* world, double dt_s, const hh_player_inpu
         [&] {
             hh_world& host = *world;
             begin_events(host);
+            host.shows_hands = true;
             keep_early_samples(host, host.world.clock.t_s + dt_s);
             host.begun_velocities.clear();
             for (const Entity body : host.world.body.owners()) {

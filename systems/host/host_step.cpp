@@ -44,11 +44,11 @@ void note_held_bodies(hh_world& host) {
 }  // namespace
 
 hh_result step_with(hh_world* world, double dt_s, const hh_player_input* inputs, std::size_t count,
-                    HostStep step, bool makes_events) {
+                    const HostStep& step) {
     hh_result result = call([&] {
         require_idle(world_of(world));
         read_inputs(*world, dt_s, inputs, count,
-                    makes_events ? StepKind::advances : StepKind::poses_only);
+                    step.advances ? StepKind::advances : StepKind::poses_only);
     });
     if (result != HH_OK) {
         return result;
@@ -60,15 +60,15 @@ hh_result step_with(hh_world* world, double dt_s, const hh_player_input* inputs,
             hh_world& host = *world;
             host.velocity_changes.clear();
             begin_events(host);
-            host.shows_hands = step != &step_simulated;
-            if (makes_events) {
+            host.shows_hands = step.shows_hands;
+            if (step.advances) {
                 keep_early_samples(host, host.world.clock.t_s + dt_s);
             }
-            step(host.world, host.caches, host.tuning, {dt_s, host.inputs}, host.stats);
-            if (makes_events) {
+            step.run(host.world, host.caches, host.tuning, {dt_s, host.inputs}, host.stats);
+            if (step.advances) {
                 finish_events(host);
             }
-            if (step == &step_frame || step == &step_simulated) {
+            if (step.moves_bodies) {
                 note_held_bodies(host);
             }
             finish_step(host);
@@ -143,17 +143,19 @@ hh_result hh_default_player_input_sized(hh_player_input* filled, size_t size) {
 
 hh_result hh_world_step(hh_world* world, double dt_s, const hh_player_input* inputs,
                         size_t input_count) {
-    return step_with(world, dt_s, inputs, input_count, &step_frame, true);
+    return step_with(world, dt_s, inputs, input_count, {.run = &step_frame});
 }
 
 hh_result hh_world_step_simulated(hh_world* world, double dt_s, const hh_player_input* inputs,
                                   size_t input_count) {
-    return step_with(world, dt_s, inputs, input_count, &step_simulated, true);
+    return step_with(world, dt_s, inputs, input_count,
+                     {.run = &step_simulated, .shows_hands = false});
 }
 
 hh_result hh_world_step_pose_only(hh_world* world, double dt_s, const hh_player_input* inputs,
                                   size_t input_count) {
-    return step_with(world, dt_s, inputs, input_count, &step_pose_only, false);
+    return step_with(world, dt_s, inputs, input_count,
+                     {.run = &step_pose_only, .advances = false, .moves_bodies = false});
 }
 
 hh_result hh_world_time(const hh_world* world, double* time_s, uint64_t* frame) {

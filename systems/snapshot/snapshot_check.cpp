@@ -210,6 +210,13 @@ class BreachFinder {
         require_both("player", w_.player, "spine_memory", w_.spine_memory);
         require_both("player", w_.player, "spine_pose", w_.spine_pose);
         require_both("player", w_.player, "body_clip_state", w_.body_clip_state);
+        check_body_clips();
+        check_sizes();
+        check_arm_memories();
+        check_spine_memories();
+    }
+
+    void check_body_clips() {
         for (std::size_t index = 0; index < w_.body_clip_state.size(); ++index) {
             const BodyClipState& state = w_.body_clip_state.elements()[index];
             const Entity owner = w_.body_clip_state.owners()[index];
@@ -220,6 +227,9 @@ class BreachFinder {
             check(state.outside >= 0.0 && state.outside <= 1.0, "body_clip_state", owner,
                   ".outside", "a number in [0, 1]");
         }
+    }
+
+    void check_sizes() {
         for (std::size_t index = 0; index < w_.body_measures.size(); ++index) {
             const Entity owner = w_.body_measures.owners()[index];
             const PlayerOrigin* const origin = w_.player_origin.find(owner);
@@ -248,6 +258,9 @@ class BreachFinder {
                       std::ranges::all_of(size.reach.time_s, is_time),
                   "size_estimate", w_.size_estimate.owners()[index], "", "times in [0, 1e6] s");
         }
+    }
+
+    void check_arm_memories() {
         for (std::size_t index = 0; index < w_.arm_memory.size(); ++index) {
             const ArmMemory& memory = w_.arm_memory.elements()[index];
             const auto is_level_unit = [](const Vec3& v) {
@@ -263,6 +276,9 @@ class BreachFinder {
                       w_.arm_memory.owners()[index], ".arms", "shares in [0, 1]");
             }
         }
+    }
+
+    void check_spine_memories() {
         for (std::size_t index = 0; index < w_.spine_memory.size(); ++index) {
             const double since_s = w_.spine_memory.elements()[index].since_tick_s;
             check(since_s >= 0.0 && since_s <= 1.0, "spine_memory", w_.spine_memory.owners()[index],

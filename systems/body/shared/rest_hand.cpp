@@ -56,6 +56,15 @@ Pose rest_hand(HandSide side, const Pose& view_ps, double lying, const TrackedBo
     return rest;
 }
 
+ArmGoal arm_goal(const Grab& grab, const HandTracking& tracking) {
+    if (grab.kind != GripKind::none) {
+        return ArmGoal::grip;
+    }
+    const bool is_shown =
+        tracking.state == TrackingState::tracked || tracking.state == TrackingState::inferred;
+    return is_shown ? ArmGoal::hand : ArmGoal::rest;
+}
+
 void start_hand(ArmGoal goal, HandRest& rest) {
     rest = {};
     rest.is_away = goal == ArmGoal::rest;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "components/arm.hpp"
+#include "components/grab.hpp"
+#include "components/tracking.hpp"
 #include "engine/math/math.hpp"
 #include "systems/body/shared/body_view.hpp"
 
@@ -21,6 +23,9 @@ Pose view_frame(const Vec3& eyes_ps, const Vec3& look_ps);
 // The rest pose of a hand in the frame `view_ps` (view_frame). Hangs beside the trunk, above the
 // tracked floor; along the trunk of a player who lies (`lying`: lying_share).
 Pose rest_hand(HandSide side, const Pose& view_ps, double lying, const TrackedBody& body);
+
+// What a hand's arm reaches for.
+ArmGoal arm_goal(const Grab& grab, const HandTracking& tracking);
 
 // What place_hand needs to know of one hand.
 struct GivenHand {

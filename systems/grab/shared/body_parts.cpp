@@ -101,7 +101,6 @@ Pose GrippableBodies::part_ps(Entity player, BodyPart part) const {
 template <typename Test>
 std::optional<PartHit> GrippableBodies::nearest(const Vec3& near_ws, double within_m, Skip skip,
                                                 const Test& test) const {
-    constexpr double k_reach_eyes = 2.0;  // eye heights; parts farther from the head are not found
     std::optional<PartHit> best;
     for (std::size_t index = 0; index < bodies.size(); ++index) {
         const Entity player = bodies.owners()[index];
@@ -112,7 +111,7 @@ std::optional<PartHit> GrippableBodies::nearest(const Vec3& near_ws, double with
         }
         const BodyMeasures& size = measures.at(player);
         const Pose head_ws = origin.at(player).pose_ws * head.at(player).start_ps;
-        if ((head_ws.position - near_ws).norm() > within_m + k_reach_eyes * size.eye_height_m) {
+        if ((head_ws.position - near_ws).norm() > within_m + k_grippable_eyes * size.eye_height_m) {
             continue;
         }
         for (std::size_t i = 0; i < k_gripped_parts; ++i) {

@@ -23,8 +23,8 @@ PartMeshes::Size PartMeshes::size_of(const PartCapsule& capsule) {
     return {rounded_m(capsule.end_bs.norm()), rounded_m(capsule.radius_m)};
 }
 
-void PartMeshes::drop_if_many() {
-    if (mesh_of_size_.size() > k_many_part_meshes) {
+void PartMeshes::drop_if_many(std::size_t held) {
+    if (mesh_of_size_.size() > std::max(k_many_part_meshes, 2 * held)) {
         mesh_of_size_.clear();
     }
 }

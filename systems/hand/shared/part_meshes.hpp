@@ -26,9 +26,9 @@ class PartMeshes {
     // Rounded length of the axis and radius, m of the hand's scale.
     using Size = std::pair<double, double>;
     static Size size_of(const PartCapsule& capsule);
-    // Forgets all meshes if there are more than k_many_part_meshes. For the begin of a frame,
-    // before add(): pointers from find() end.
-    void drop_if_many();
+    // Forgets all meshes if there are more than k_many_part_meshes and more than two for each of
+    // `held` parts. For the begin of a frame, before add(): pointers from find() end.
+    void drop_if_many(std::size_t held);
     // Builds the capsule's mesh if it is missing. Not for several threads at once.
     void add(const PartCapsule& capsule);
     // Null if no capsule of this size was added.

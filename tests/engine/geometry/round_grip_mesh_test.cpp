@@ -73,7 +73,7 @@ Vec3 random_point_on(const Shape& shape, Random& random) {
     return on_axis + shape.radius_m * random.direction();
 }
 
-// Of all shapes of one kind.
+// Sums over all shapes of one kind.
 struct Counts {
     int nears = 0;
     int hits = 0;

@@ -21,8 +21,8 @@ struct BodyColumns {
     Column<BodyMeasures> measures;
     Column<HandOwner> owner;
     Column<PalmPose> palm;
-    Column<HandTracking> tracking;  // hands that are not in it are tracked
-    Column<Grab> grab;              // hands that are not in it hold nothing
+    Column<HandTracking> tracking;
+    Column<Grab> grab;
     Column<BodyHold> body_hold;
     Column<ArmMemory> arm_memory;
     Column<ArmEstimate> estimate;
@@ -36,7 +36,7 @@ struct BodyColumns {
     AdditiveTuning additive_tuning;
     double t_s = 0.0;  // the world's clock, which propagate_spine advances
 
-    // A player of average size with both hands, in every column except `id` and `grab`.
+    // A player of average size with both hands, tracked and empty, in every column except `id`.
     void add_player(Entity player = k_player, Entity left = k_left, Entity right = k_right) {
         origin.add(player);
         velocity.add(player);
@@ -51,8 +51,11 @@ struct BodyColumns {
         clip_state.add(player);
         owner.add(left, {player, HandSide::left});
         owner.add(right, {player, HandSide::right});
-        palm.add(left);
-        palm.add(right);
+        for (const Entity hand : {left, right}) {
+            palm.add(hand);
+            tracking.add(hand).state = TrackingState::tracked;
+            grab.add(hand);
+        }
     }
     // Head and shown hands of k_player.
     void place(const Pose& head_ps, const Pose& left_ws, const Pose& right_ws) {

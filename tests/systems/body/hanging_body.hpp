@@ -23,8 +23,6 @@ struct HangingBody : BodyColumns {
         head.at(k_player).pose_ps.position = Vec3(0.0, 1.65, -0.08);
         id.add(k_player, {k_own_id});
         estimate.at(k_player).chest_ps.position = Vec3(0.0, 1.4, 0.0);
-        grab.add(k_left);
-        grab.add(k_right);
         put_hand(HandSide::left, Vec3(-0.2, -0.4, -0.1));
         put_hand(HandSide::right, Vec3(0.2, -0.4, -0.1));
     }

@@ -19,7 +19,7 @@ using test::k_right;
 using test::Random;
 
 constexpr double k_longest_way_s = 3.0;  // from a rest pose to any hand within 1.5 m of the eyes
-constexpr double k_drawn_most = 1.3;     // of the bones
+constexpr double k_drawn_most = 1.3;     // drawn length / length of the bones
 
 // A sum of slow waves about a middle.
 struct Wave {
@@ -107,8 +107,7 @@ struct Player : test::BodyColumns {
     Player() {
         add_player();
         for (const Entity hand : k_hands) {
-            tracking.add(hand);
-            grab.add(hand);
+            tracking.at(hand).state = TrackingState::never;
         }
     }
     static constexpr std::array<Entity, k_hand_count> k_hands = {k_left, k_right};

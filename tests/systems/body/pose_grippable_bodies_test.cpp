@@ -105,9 +105,43 @@ TEST(GrippableBodies, OfFarPlayersAreThereOnlyWhileTheyAreHeld) {
     people.grab.at(hand_of(0, 0)).kind = GripKind::player;
     people.grab.at(hand_of(0, 0)).body = player_of(2);
     people.body_hold.add(hand_of(0, 0));
-    people.pose();
-    EXPECT_EQ(people.bodies.size(), 1U);
-    EXPECT_TRUE(people.bodies.contains(player_of(2)));
+    for (const TrackingState state : {TrackingState::tracked, TrackingState::never}) {
+        people.head.at(player_of(2)).state = state;  // a restored world may have both
+        people.pose();
+        EXPECT_EQ(people.bodies.size(), 1U);
+        EXPECT_TRUE(people.bodies.contains(player_of(2)));
+    }
+}
+
+// Hands that are lost or were never tracked hang beside the trunk, wherever they were seen last. A
+// lost hand that grips is where it was.
+TEST(GrippableBodies, ArmsOfLostHandsAreNotStretched) {
+    Random random(5);
+    for (int i = 0; i < 500; ++i) {
+        People people(random, 1.0);
+        const HandSide side = random.between(0.0, 1.0) < 0.5 ? HandSide::left : HandSide::right;
+        const Entity hand = hand_of(1, index_of(side));
+        HandTracking& tracking = people.hand.at(hand);
+        tracking.state =
+            random.between(0.0, 1.0) < 0.5 ? TrackingState::never : TrackingState::lost;
+        tracking.start_ps.position = tracking.pose_ps.position = random.vector(8.0);
+        const bool grips = random.between(0.0, 1.0) < 0.2;
+        people.grab.at(hand).kind = grips ? GripKind::surface : GripKind::none;
+        people.grab.at(hand_of(0, 0)).kind = GripKind::player;
+        people.grab.at(hand_of(0, 0)).body = player_of(1);
+        people.body_hold.add(hand_of(0, 0));
+        people.pose();
+        const ArmPose::Arm& arm = people.bodies.at(player_of(1)).arms.arms[index_of(side)];
+        if (grips) {
+            const Vec3 wrist_ws =
+                transform_point(people.origin.at(player_of(1)).pose_ws, tracking.start_ps.position);
+            ASSERT_LT((arm.hand_ws.position - wrist_ws).norm(), 1e-9);
+            continue;
+        }
+        const BodyMeasures& size = people.measures.at(player_of(1));
+        ASSERT_LT((arm.hand_ws.position - arm.upper_ws.position).norm(),
+                  1.3 * (size.upper_arm_m + size.forearm_m));
+    }
 }
 
 // Equal inputs give equal bits, whatever was computed before; and the body moves with the play

@@ -216,7 +216,8 @@ TEST(SimulatedState, UndoesEntitiesThatCameAndWent) {
     EXPECT_TRUE(differences.empty()) << differences.front();
 }
 
-// hash_simulated sees every field of every simulated column, and no other.
+// hash_simulated depends on the elements of every simulated column that the crowd has, and on no
+// shown one. frame_hash_test covers single fields.
 TEST(HashSimulated, DependsOnSimulatedColumnsAlone) {
     Crowd crowd;
     crowd.run(60);

@@ -30,7 +30,7 @@ TEST(PartMeshes, RoundingDoesNotChangeTheMesh) {
         const auto capsule = [&](double noise) {
             return capsule_of(length_m * (1.0 + noise), 0.0605 * (1.0 + noise));
         };
-        meshes.drop_if_many();
+        meshes.drop_if_many(1);
         meshes.add(capsule(0.0));
         const GripMesh* const found = meshes.find(capsule(0.0));
         ASSERT_NE(found, nullptr);
@@ -66,7 +66,7 @@ TEST(PartMeshes, KeepABoundedNumber) {
     PartMeshes meshes;
     std::size_t most = 0;
     for (int frame = 0; frame < 400; ++frame) {
-        meshes.drop_if_many();
+        meshes.drop_if_many(1);
         const PartCapsule capsule = capsule_of(0.01 * std::pow(1.01, frame), 0.01);
         meshes.add(capsule);
         ASSERT_NE(meshes.find(capsule), nullptr);

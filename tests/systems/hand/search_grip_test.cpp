@@ -118,7 +118,7 @@ TEST(SearchGrip, SurfaceStaysUntilTheHandOrItsSurroundingsHaveMoved) {
         hand.search();
         const GripSurface found = hand.surface.at(k_right);
         ASSERT_NE(found.triangle, GripSurface::k_none);
-        const double share = random.between(0.0, 1.0);  // of the travel that is translation
+        const double share = random.between(0.0, 1.0);  // translation / travel
         const double travel_m = random.between(0.0, 0.06);
         const Vec3 move_m = share * travel_m * random.direction();
         const double turn_rad = (1.0 - share) * travel_m / 0.1;
@@ -138,9 +138,10 @@ TEST(SearchGrip, SurfaceStaysUntilTheHandOrItsSurroundingsHaveMoved) {
     }
 }
 
-// Along a ring, a kept surface needs at most the palm's movement since its search more than one
-// searched from scratch: sync(now, kept) <= since + sync(then, kept), by the triangle inequality,
-// and by the ring's symmetry searches from scratch need the same everywhere, but for its facets.
+// Compares a kept surface with one searched from scratch, along a ring. The kept one needs at most
+// the palm's movement since its search more: sync(now, kept) <= since + sync(then, kept) by the
+// triangle inequality. By the ring's symmetry, a search from scratch needs the same sync
+// everywhere; only the mesh's facets make a difference.
 TEST(SearchGrip, KeptSurfaceNeedsAtMostTheTravelMoreSync) {
     const GripMesh ring = build_grip_mesh(test::make_torus(0.12, 0.02, 60, 24));
     const HandRig rig = builtin_hand_rig(HandSide::right);

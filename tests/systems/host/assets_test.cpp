@@ -131,7 +131,7 @@ TEST(HostBodyClips, MoveLegsAndNeverHandsAndBadOnesChangeNothing) {
     EXPECT_EQ(refused.world.hash(), plain.world.hash());
     ASSERT_TRUE(clipped.world.load_body_clips({}));
     for (HostScene* const scene : {&plain, &clipped}) {
-        scene->step(90);  // feet go back at a bounded speed
+        scene->step(90);  // feet return at a bounded speed
     }
     EXPECT_LT(apart_m(plain, clipped, HH_LEFT_FOOT), 1e-9);
 }

@@ -115,7 +115,7 @@ RC_GTEST_PROP(KinematicMotion, PlayersLeaveAtTheSpeedOfWhatTheyHungOn, (std::uin
               k_rate_tolerance * hanging.speed_of_grip_mps());
 }
 
-// Of all runs.
+// Sums over all runs.
 struct Counts {
     int runs = 0;
     int moving = 0;   // let go while the body moved

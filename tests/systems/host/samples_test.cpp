@@ -55,7 +55,7 @@ bool are_same(const hh_player_pose& a, const hh_player_pose& b) {
     return result;
 }
 
-// Of all sessions.
+// Sums over all sessions.
 struct Counts {
     std::size_t steps = 0;
     std::size_t ahead = 0;    // samples waiting after a step that the other host does not have yet

@@ -203,7 +203,7 @@ TEST_F(SnapshotRefuses, ElementsWithoutTheirCounterparts) {
         w.move_target.add(by_name(w, "train")).count = MoveTarget::k_capacity + 1;
     });
     break_world("].moves: expected times of 1e-6 s or more", [&](World& w) {
-        w.move_target.add(by_name(w, "train")).count = 1;  // of a move without a time
+        w.move_target.add(by_name(w, "train")).count = 1;  // its move has no time
     });
     break_world("expected an element in body of the same owner",
                 [&](World& w) { w.move_target.add(by_name(w, "crawler")); });

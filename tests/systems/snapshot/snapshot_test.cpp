@@ -64,7 +64,7 @@ TEST(Snapshot, HandlesTakenBeforeAreValidAgain) {
     EXPECT_TRUE(crowd.world.body.contains(rock));
 }
 
-// A world that lacks the sphere of a player's head makes it, but for no snapshot that is refused.
+// A world that lacks the sphere of a player's head makes it. A refused snapshot makes none.
 TEST(Snapshot, MissingHeadsAreMadeForGoodSnapshotsOnly) {
     Crowd there = played_crowd();
     constexpr double k_radius_m = 0.777;

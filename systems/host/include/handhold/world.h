@@ -119,7 +119,8 @@ static inline hh_player_input hh_default_player_input(void) {
 HH_API hh_result hh_world_step(hh_world* world, double dt_s, const hh_player_input* inputs,
                                size_t input_count);
 /* hh_world_step without fitted hands, arms, spine and legs: about a quarter of its cost. What hosts
- * draw (hh_player_pose, joints of bodies, the shown hands) stays as the last other step left it.
+ * draw stays as the last other step left it: hh_player_pose with its hands, joints of hands and
+ * bodies, hh_player_push_back.
  * Everything else changes exactly as in hh_world_step, bit for bit: hh_world_simulated_hash is equal
  * whichever steps were shown. For rollback: step again to the present with this, and the last time
  * with hh_world_step. Events carry the tracked hand's position. */
