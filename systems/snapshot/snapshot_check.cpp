@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <span>
 #include <vector>
 
 #include "components/body_clip_state.hpp"
+#include "systems/snapshot/snapshot_schema.hpp"
 
 namespace handhold {
 namespace {
@@ -396,12 +396,6 @@ class BreachFinder {
 
 std::optional<WorldBreach> find_breach(const World& world, const ShapeLibrary& shapes) {
     return BreachFinder(world, shapes).find();
-}
-
-std::string text_of(PersistentId id) {
-    char text[19];
-    std::snprintf(text, sizeof text, "0x%016llx", static_cast<unsigned long long>(id.value));
-    return text;
 }
 
 }  // namespace handhold

@@ -20,7 +20,4 @@ struct WorldBreach {
 // k_no_shape: its head is made afterwards (MissingHeads).
 std::optional<WorldBreach> find_breach(const World& world, const ShapeLibrary& shapes);
 
-// An entity in messages: "0x00000000000000a1".
-std::string text_of(PersistentId id);
-
 }  // namespace handhold

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "systems/snapshot/snapshot.hpp"
-#include "systems/snapshot/snapshot_check.hpp"
 #include "systems/snapshot/snapshot_fields.hpp"
+#include "systems/snapshot/snapshot_schema.hpp"
 
 namespace handhold {
 namespace {

@@ -1,6 +1,7 @@
 #include "systems/snapshot/snapshot_schema.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <string>
 
 #include "systems/snapshot/snapshot_fields.hpp"
@@ -106,6 +107,12 @@ std::string schema_difference(std::string_view expected, std::string_view found)
         }
     }
     return "expected a line end after every field";
+}
+
+std::string text_of(PersistentId id) {
+    char text[19];
+    std::snprintf(text, sizeof text, "0x%016llx", static_cast<unsigned long long>(id.value));
+    return text;
 }
 
 }  // namespace handhold

@@ -37,6 +37,7 @@ class OnePlayer {
             owner_.add(hands_[side], {player_, side == 0 ? HandSide::left : HandSide::right});
             palm_.add(hands_[side]);
             tracking_.add(hands_[side]);
+            grab_.add(hands_[side]);
         }
     }
 
@@ -126,7 +127,7 @@ class OnePlayer {
     Column<SizeEstimate> size_;
     Column<HandOwner> owner_;
     Column<HandTracking> tracking_;
-    Column<Grab> grab_;  // empty: nothing is gripped
+    Column<Grab> grab_;
     Column<PalmPose> palm_;
     Column<ArmMemory> memory_;
     Column<ArmEstimate> estimate_;

@@ -1331,10 +1331,10 @@ class WorldCalls:
 
     def step_simulated(self, dt_s, inputs):
         """hh_world_step without fitted hands, arms, spine and legs: about a quarter of its cost. What hosts draw
-        (hh_player_pose, joints of bodies, the shown hands) stays as the last other step left it. Everything
-        else changes exactly as in hh_world_step, bit for bit: hh_world_simulated_hash is equal whichever
-        steps were shown. For rollback: step again to the present with this, and the last time with
-        hh_world_step. Events carry the tracked hand's position."""
+        stays as the last other step left it: hh_player_pose with its hands, joints of hands and bodies,
+        hh_player_push_back. Everything else changes exactly as in hh_world_step, bit for bit:
+        hh_world_simulated_hash is equal whichever steps were shown. For rollback: step again to the present
+        with this, and the last time with hh_world_step. Events carry the tracked hand's position."""
         inputs, input_count_ = array(PlayerInput, inputs)
         check(lib().hh_world_step_simulated(self._handle, dt_s, inputs, input_count_))
 
