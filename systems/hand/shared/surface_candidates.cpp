@@ -30,7 +30,7 @@ GripSurface SurfaceCandidates::best(const GripSurface& last) {
     if (!first) {
         first = search_.cheapest_excluding({});
     }
-    if (!first) {
+    if (!first || is_beside(*first)) {
         return {};
     }
     FittedPalm held = fit(*first);
@@ -64,6 +64,18 @@ void SurfaceCandidates::search_surroundings() {
         }
     }
     search_.run(SurfaceSearch::k_max_pops);
+}
+
+// True if the candidate is beside the palm, with its face to the hand's edge, as for the edge of a
+// hand on a wall. A palm does not turn that far.
+bool SurfaceCandidates::is_beside(const Candidate& candidate) const {
+    constexpr double k_least_m = 0.03;    // nearer surfaces may have crossed the hand
+    constexpr double k_most_sine = 0.26;  // 15 degrees
+    const PalmFrame& palm = fitter_.palm();
+    const Vec3 offset = candidate.point - palm.center;
+    const Vec3& normal = fitter_.placed().mesh->search.normals[candidate.triangle];
+    return offset.norm() > k_least_m && offset.dot(palm.up) > -k_most_sine * offset.norm() &&
+           normal.dot(palm.up) < k_most_sine;
 }
 
 // Excludes backfaces, because a palm should not move behind a wall only because its fingers have

@@ -44,6 +44,7 @@ class SurfaceCandidates {
 
     void search_surroundings();
     void evaluate(const Candidate& candidate, FittedPalm held);
+    bool is_beside(const Candidate& candidate) const;
     bool is_eligible(const Candidate& candidate) const;
     FittedPalm fit(const Candidate& candidate) const;
     double placement_cost_m(const Candidate& candidate, const FittedPalm& held) const;

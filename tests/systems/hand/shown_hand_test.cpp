@@ -184,13 +184,17 @@ TEST_F(ShownHand, EmptyHandTakesRestPoseOrFist) {
     }
 }
 
-// Hands at random whose back is to a floor, 4 to 6 cm before it. They have nothing to grip: they
-// stay where they are tracked and close to a loose fist, whatever their button and their curls say.
-TEST_F(ShownHand, GrippingHandWithItsBackToASurfaceIsALooseFist) {
+// Hands at random, 4 to 6 cm before a floor, whose palm is turned away from it by more than 75
+// degrees. They have nothing to grip: they stay where they are tracked and close to a loose fist,
+// whatever their button and their curls say.
+TEST_F(ShownHand, GrippingHandWithItsBackOrEdgeToASurfaceIsALooseFist) {
     Random random(2104);
     for (int i = 0; i < 2000; ++i) {
         const double height_m = random.between(0.04, 0.06);
-        const Vec3 up = (-Vec3::UnitY() + random.vector(0.3)).normalized();
+        Vec3 up = random.direction();
+        while (up.y() > 0.25) {
+            up = random.direction();
+        }
         FittedHand hand(floor, wrist_with_palm_at(rig, {0.0, height_m, 0.0}, up));
         hand.tracking.at(k_right).squeeze = random.between(0.0, 1.0);
         hand.tracking.at(k_right).pressed = random.between(0.0, 1.0) < 0.5;
