@@ -13,7 +13,7 @@ namespace handhold {
 struct GripMeshSettings {
     WeldLimits weld;
     // Largest distance of a round shape's triangles from its true surface, > 0.
-    double shape_tolerance_m = 2e-4;
+    double shape_tolerance_m = 3e-4;
     // Detail for graph searches.
     DetailLimits search = {.deviation_m = 2.5e-3, .edge_m = 0.02};
     // Detail for contact. If the deviation is 0, or if more than contact_share of the full mesh's
