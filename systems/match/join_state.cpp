@@ -32,14 +32,21 @@ std::uint32_t get_u32(std::span<const std::byte> bytes, std::size_t at) {
     return value;
 }
 
+// Final inputs may be this far ahead of the snapshot's tick.
+constexpr MatchTick k_most_ahead = InputHistory::k_capacity / 2 - 1;
+constexpr unsigned k_ahead_bits = 8;
+
 // The first tick whose input is kept.
 MatchTick first_kept(MatchTick tick) { return tick > k_inputs_kept ? tick - k_inputs_kept + 1 : 1; }
 
-// Inputs of all slots from first_kept(tick) on; later ones than `tick` are not sent.
+// Each slot's inputs from first_kept(tick) to its final_until(). Those after `tick` are final too:
+// the server has received them and passed them on.
 void write_inputs(std::span<const InputHistory> histories, MatchTick tick, BitWriter& out) {
     for (const InputHistory& history : histories) {
+        const MatchTick last = std::min(history.final_until(), tick + k_most_ahead);
+        out.put(last - tick, k_ahead_bits);
         InputsBefore before = {&k_away_input, &k_away_input, &k_away_input};
-        for (MatchTick at = first_kept(tick); at <= tick; ++at) {
+        for (MatchTick at = first_kept(tick); at <= last; ++at) {
             const InputKind kind = history.kind_at(at);
             out.put(static_cast<std::uint64_t>(kind), 3);
             if (kind != InputKind::none) {
@@ -53,8 +60,9 @@ void write_inputs(std::span<const InputHistory> histories, MatchTick tick, BitWr
 bool read_inputs(BitReader& in, MatchTick tick, std::span<InputHistory> histories) {
     for (InputHistory& history : histories) {
         history.reset(first_kept(tick) - 1);
+        const MatchTick last = tick + in.take(k_ahead_bits);
         InputsBefore before = {&k_away_input, &k_away_input, &k_away_input};
-        for (MatchTick at = first_kept(tick); at <= tick; ++at) {
+        for (MatchTick at = first_kept(tick); at <= last; ++at) {
             const auto kind = in.take_as<std::uint8_t>(3);
             const bool is_known = kind != static_cast<std::uint8_t>(InputKind::none);
             if (kind > static_cast<std::uint8_t>(InputKind::filled) ||
@@ -85,7 +93,8 @@ void write_join_state(const MatchWorld& match, const SnapshotAssets& assets,
     constexpr std::size_t k_most_input_bytes = 64 + 5 * 64;
     std::vector<std::byte> snapshot;
     save_snapshot(match.world, assets, snapshot);
-    const std::size_t most = histories.size() * k_inputs_kept * k_most_input_bytes;
+    const std::size_t most =
+        histories.size() * (k_inputs_kept + k_most_ahead) * k_most_input_bytes;
     bytes.assign(k_header_bytes + most, std::byte{0});
     BitWriter out{std::span(bytes).subspan(k_header_bytes)};
     write_inputs(histories, match.world.clock.frame, out);

@@ -12,7 +12,8 @@
 #include "systems/snapshot/snapshot.hpp"
 
 // What a player who joins late gets over a reliable stream: a snapshot of the world after a
-// confirmed tick, and the last inputs of all slots.
+// confirmed tick, and the final inputs of all slots: the last ones before the tick, and those after
+// it that the server has received, also of the joining player's own slot.
 namespace handhold {
 
 void write_join_state(const MatchWorld& match, const SnapshotAssets& assets,

@@ -201,9 +201,9 @@ void ServerSession::write_state(std::size_t slot, const SnapshotAssets& assets,
     peer.state_epoch = static_cast<std::uint8_t>((peer.state_epoch + 1U) % 4U);
     write_join_state(match_, assets, histories(), peer.state_epoch, bytes);
     peer.needs_state = false;
-    peer.known_until.fill(confirmed());
-    for (SendMarks& marks : peer.marks) {
-        marks.reset(confirmed());
+    for (std::size_t i = 0; i < match_.player_count; ++i) {
+        peer.known_until[i] = histories_[i].final_until();
+        peer.marks[i].reset(histories_[i].final_until());
     }
     peer.compared_until = confirmed();
     sent_[slot].reset(confirmed());

@@ -86,7 +86,7 @@ TEST(HostileMessages, EveryTruncationAndBitFlipIsRefused) {
 // within its ranges.
 TEST(HostileMessages, ForgedFieldsAreRefusedOrInRange) {
     Recording recording;
-    test::Random random(3);
+    test::Random random(seed_of(3));
     std::array<std::size_t, k_match_refusals> seen{};
     const auto in_range = [](const PackedPose& pose) {
         return pose.largest < 4 &&
@@ -160,7 +160,7 @@ TEST(HostileMessages, AttackerMovesNobodyAndIsCounted) {
     calm.play(3.0);
     MatchPlay attacked(traits, 22);
     attacked.records = true;
-    test::Random random(4);
+    test::Random random(seed_of(4));
     for (int i = 0; i < 270; ++i) {
         attacked.play(k_tick_s);
         Bytes noise(static_cast<std::size_t>(random.between(0.0, 1400.0)));
@@ -203,7 +203,7 @@ TEST(HostileMessages, DamagedJoinStatesChangeNothing) {
     match.server.write_state(0, assets, state);
     ClientSession session(other.match(), 0);
     const std::uint64_t before = hash_simulated(other.world);
-    test::Random random(5);
+    test::Random random(seed_of(5));
     for (int i = 0; i < 300; ++i) {
         Bytes damaged = state;
         const auto at =

@@ -13,14 +13,16 @@
 #include "tests/random.hpp"
 #include "tests/systems/frame/column_scene.hpp"
 #include "tests/systems/frame/scenario.hpp"
+#include "tests/systems/match/simulated_network.hpp"
 
 namespace handhold::input_codec_test {
 namespace {
 
+using match_test::seed_of;
 using test::Random;
 
 TEST(PackedPose, KeepsPositionsToTheTenthOfAMillimetreAndRotationsToAMilliradian) {
-    Random random(1);
+    Random random(seed_of(1));
     for (int i = 0; i < 2000; ++i) {
         const Pose pose = random.pose(i % 2 == 0 ? 2.0 : 3000.0);
         ASSERT_TRUE(is_packable(pose));
@@ -79,7 +81,7 @@ MatchInput random_input(Random& random, const MatchInput& before) {
 }
 
 TEST(InputCodec, ReadsWhatItWrites) {
-    Random random(2);
+    Random random(seed_of(2));
     std::vector<MatchInput> inputs(3);
     std::array<std::byte, 400> bytes{};
     for (int i = 0; i < 5000; ++i) {
@@ -105,7 +107,7 @@ TEST(InputCodec, ReadsWhatItWrites) {
 
 // Hands that wave as people's do, with the noise of tracking (0.3 mm, 1 mrad).
 TEST(InputCodec, WavingHandsTakeFewBytes) {
-    Random random(3);
+    Random random(seed_of(3));
     std::vector<MatchInput> inputs(3);
     std::array<std::byte, 400> bytes{};
     std::size_t bits = 0;
@@ -155,7 +157,7 @@ MatchInput with_head(const Vec3& at) {
 }
 
 TEST(PredictInput, ContinuesStraightMotion) {
-    Random random(4);
+    Random random(seed_of(4));
     for (int i = 0; i < 100; ++i) {
         const Vec3 velocity = random.vector(2.0) / 90.0;
         std::vector<MatchInput> inputs;
@@ -177,7 +179,7 @@ TEST(PredictInput, ContinuesStraightMotion) {
 
 // One jump of tracking among still poses does not become a velocity.
 TEST(PredictInput, JumpsAreNoMotion) {
-    Random random(5);
+    Random random(seed_of(5));
     for (int i = 0; i < 200; ++i) {
         std::vector<MatchInput> inputs(15, with_head(Vec3(0.0, 1.6, 0.0)));
         const auto at = static_cast<std::size_t>(random.between(6.0, 15.0));
@@ -212,7 +214,7 @@ TEST(PredictInput, HoldsButtonsAndGuessesNoEdges) {
 
 // Devices of any rate: the poses at the ends of ticks and the times of presses survive.
 TEST(TickSampler, KeepsPosesAtTickEndsAndTimesOfPresses) {
-    Random random(6);
+    Random random(seed_of(6));
     constexpr double k_tick_s = 1.0 / 90.0;
     int presses = 0;
     for (const double device_hz : {60.0, 72.0, 90.0, 120.0, 500.0}) {

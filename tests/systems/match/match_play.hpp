@@ -151,6 +151,7 @@ struct Machine {
     bool is_compared = true;
     std::vector<MatchInput> sent;  // own input of each tick
     MatchTick checked_until = 0;
+    MatchTick own_since = 0;  // inputs up to this tick are those of an earlier connection
 
     explicit Machine(std::size_t person)
         : session(scene.match(), person),
@@ -192,7 +193,7 @@ class MatchPlay {
   public:
     MatchPlay(const NetworkTraits& traits, std::uint64_t seed,
               std::size_t people_at_start = k_people)
-        : network(traits, seed), server(server_scene_.match(), 0.0) {
+        : network(traits, seed_of(seed)), server(server_scene_.match(), 0.0) {
         server_hashes_.push_back(hash_simulated(server_scene_.world));
         for (std::size_t i = 0; i < k_people; ++i) {
             machines.push_back(std::make_unique<Machine>(i));
@@ -233,19 +234,23 @@ class MatchPlay {
         }
     }
 
-    // Hands a new state to a machine, as over a reliable stream.
-    void bring_state(std::size_t person) {
+    // The server's state for a machine, and its arrival there over a reliable stream.
+    std::vector<std::byte> send_state(std::size_t person) {
         std::vector<std::byte> state;
-        const SnapshotAssets from(server_scene_.shapes);
-        server.write_state(person, from, state);
+        server.write_state(person, SnapshotAssets(server_scene_.shapes), state);
+        return state;
+    }
+    void take_state(std::size_t person, std::span<const std::byte> state) {
         Machine& machine = *machines[person];
         const auto error = machine.session.join(state, SnapshotAssets(machine.scene.shapes));
         ASSERT_FALSE(error) << error->message();
         machine.checked_until = machine.session.now();
+        machine.own_since = machine.session.inputs_of(person).final_until();
         machine.is_compared = true;
         machine.next_sample_s = static_cast<double>(machine.session.now()) * k_tick_s;
         machine.devices = {};
     }
+    void bring_state(std::size_t person) { take_state(person, send_state(person)); }
     const World& server_world() const { return server_scene_.world; }
     std::uint64_t server_hash(MatchTick tick) const { return server_hashes_[tick]; }
 
@@ -334,7 +339,7 @@ class MatchPlay {
                 << "person " << person << ", tick " << tick;
             ++counts.compared;
             if (session.inputs_of(person).kind_at(tick) == InputKind::real &&
-                tick < machine.sent.size()) {
+                tick > machine.own_since && tick < machine.sent.size()) {
                 ASSERT_EQ(normalised(machine.sent[tick]), server.inputs_of(person).at(tick));
                 ++counts.own_equal;
             }

@@ -139,6 +139,34 @@ TEST(MatchSessions, DroppedPlayerLetsGoAndMayReturn) {
     EXPECT_EQ(match.server.counts().out_of_sync, 0U);
 }
 
+// A player joins again and again without ever being disconnected: inputs of the connection before
+// are on their way, and some are ahead of the confirmed tick that the state is of.
+TEST(MatchSessions, PlayersWhoJoinAgainWhileConnectedStayEqual) {
+    MatchPlay match({.delay_s = 0.05, .jitter_s = 0.03, .loss = 0.05, .duplication = 0.05}, 16);
+    test::Random random(seed_of(17));
+    int with_inputs_ahead = 0;
+    match.play(1.5);
+    for (int i = 0; i < 12; ++i) {
+        const std::size_t person = random.between(0.0, 1.0) < 0.5 ? 1 : 2;
+        const std::vector<std::byte> state = match.send_state(person);
+        with_inputs_ahead +=
+            match.server.inputs_of(person).final_until() > match.server.confirmed() ? 1 : 0;
+        match.play(i % 3 == 0 ? 0.0 : random.between(0.0, 0.4));  // the state's way
+        match.take_state(person, state);
+        match.play(random.between(0.1, 1.2));
+    }
+    match.play(2.5);
+    EXPECT_GE(with_inputs_ahead, 6);
+    EXPECT_EQ(match.server.counts().out_of_sync, 0U);
+    EXPECT_GT(match.server.counts().hashes, 10U);
+    for (const auto& machine : match.machines) {
+        EXPECT_FALSE(machine->session.needs_state());
+        EXPECT_GT(machine->session.now(), match.server.confirmed());
+        EXPECT_GT(machine->session.confirmed() + 30, match.server.confirmed());
+    }
+    match.expect_it_happened();
+}
+
 // A machine with another tuning computes another world: the hashes tell.
 TEST(MatchSessions, WorldThatDiffersIsFound) {
     MatchPlay match({.delay_s = 0.03, .jitter_s = 0.01}, 11);
