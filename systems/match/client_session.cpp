@@ -26,7 +26,7 @@ ClientSession::ClientSession(const MatchWorld& match, std::size_t slot)
 // Begins at the world's tick; all inputs up to it are final.
 void ClientSession::start_here() {
     trend_of_until_.fill(~MatchTick{0});
-    states_[now() % k_window].keep(match_.world);
+    is_start_kept_ = false;
     oldest_state_ = now();
     has_wrong_ = false;
     sent_.reset(now());
@@ -38,9 +38,10 @@ void ClientSession::start_here() {
 }
 
 std::optional<FileError> ClientSession::join(std::span<const std::byte> state,
-                                             const SnapshotAssets& assets) {
+                                             const SnapshotAssets& assets,
+                                             const MissingHeads& heads) {
     if (std::optional<FileError> error =
-            read_join_state(state, assets, match_, histories(), state_epoch_)) {
+            read_join_state(state, assets, heads, match_, histories(), state_epoch_)) {
         counts_.refused[static_cast<std::size_t>(MatchRefusal::state)] += 1;
         return error;
     }
@@ -62,11 +63,8 @@ MatchTick ClientSession::final_state() const {
 }
 
 MatchRefusal ClientSession::receive(std::span<const std::byte> packet) {
-    MatchRefusal refusal =
-        read_server_packet(packet, match_.player_count, histories(), slot_, incoming_);
-    if (refusal == MatchRefusal::none && incoming_.state_epoch != state_epoch_) {
-        refusal = MatchRefusal::window;  // older than the state that this machine joined with
-    }
+    const MatchRefusal refusal = read_server_packet(packet, match_.player_count,
+                                                    {histories(), slot_, state_epoch_}, incoming_);
     if (refusal != MatchRefusal::none) {
         counts_.refused[static_cast<std::size_t>(refusal)] += 1;
         return refusal;
@@ -135,6 +133,15 @@ void ClientSession::choose_inputs(MatchTick tick) {
     }
 }
 
+void ClientSession::keep_state() {
+    const std::size_t place = now() % k_window;
+    states_[place].keep(match_.world);
+    host_hashes_[place] = hash_of_host(match_);
+    if (match_.host.keep != nullptr) {
+        match_.host.keep(match_.host.context, place);
+    }
+}
+
 void ClientSession::step_once(bool is_shown) {
     const MatchTick tick = now() + 1;
     choose_inputs(tick);
@@ -144,7 +151,7 @@ void ClientSession::step_once(bool is_shown) {
         inputs.now[slot] = &histories_[slot].at(tick);
     }
     step_tick(match_, inputs, is_shown, stats_);
-    states_[tick % k_window].keep(match_.world);
+    keep_state();
     oldest_state_ = std::max(oldest_state_, tick >= k_window ? tick - k_window + 1 : 0);
 }
 
@@ -159,7 +166,11 @@ void ClientSession::go_back() {
         needs_state_ = true;
         return;
     }
-    states_[(first_wrong_ - 1) % k_window].restore(match_.world);
+    const std::size_t place = (first_wrong_ - 1) % k_window;
+    states_[place].restore(match_.world);
+    if (match_.host.restore != nullptr) {
+        match_.host.restore(match_.host.context, place);
+    }
     while (now() < present) {
         step_once(false);
     }
@@ -170,6 +181,10 @@ void ClientSession::go_back() {
 }
 
 bool ClientSession::advance(const MatchInput& own, bool is_shown) {
+    if (!is_start_kept_) {
+        is_start_kept_ = true;
+        keep_state();
+    }
     go_back();
     const MatchTick tick = now() + 1;
     if (tick > confirmed() + k_window - 2) {

@@ -35,16 +35,17 @@ struct ClientCounts {
 class ClientSession {
   public:
     // How many ticks the world may be ahead of what is confirmed, at most.
-    static constexpr MatchTick k_window = 64;
+    static constexpr MatchTick k_window = k_match_window;
 
     // The world is at a tick at which the server's is or was equal, and before which nobody played:
     // the start of a match. Else call join before anything else. `slot`: of this machine's player.
     ClientSession(const MatchWorld& match, std::size_t slot);
 
     // Replaces the world by the server's, as of a confirmed tick. Tolerates any bytes. On error
-    // nothing changes.
+    // nothing changes. A host with state of its own sets it to that of the tick before it advances.
     [[nodiscard]] std::optional<FileError> join(std::span<const std::byte> state,
-                                                const SnapshotAssets& assets);
+                                                const SnapshotAssets& assets,
+                                                const MissingHeads& heads = {});
 
     // Takes a packet of the server. Refused packets change nothing, and are counted.
     MatchRefusal receive(std::span<const std::byte> packet);
@@ -64,9 +65,16 @@ class ClientSession {
     // The world's states up to this tick are final. Inputs that arrived since the last advance may
     // still need a rollback.
     MatchTick final_state() const;
-    // The world's hash (hash_simulated) after a tick of the last k_window ones. Equal on
-    // all machines up to final_state(). Precondition: it is kept.
-    std::uint64_t hash_at(MatchTick tick) const { return states_[tick % k_window].hash(); }
+    // True if the state after the tick is kept: a tick of the last k_window ones that this machine
+    // has stepped.
+    bool has_state(MatchTick tick) const {
+        return is_start_kept_ && tick >= oldest_state_ && tick <= now();
+    }
+    // The match's hash (match_hash) after a tick. Equal on all machines up to final_state().
+    // Precondition: has_state.
+    std::uint64_t hash_at(MatchTick tick) const {
+        return match_hash(match_, states_[tick % k_window].hash(), host_hashes_[tick % k_window]);
+    }
     // True if the server's hash of a confirmed tick differs from this world's, or the server has
     // dropped inputs that this machine lacks: the host must fetch a new state and call join.
     bool needs_state() const { return needs_state_; }
@@ -80,6 +88,7 @@ class ClientSession {
     void take_stream(std::size_t slot, const StreamPart& part);
     void finish_tick(std::size_t slot, const MatchInput& input, InputKind kind);
     void choose_inputs(MatchTick tick);
+    void keep_state();
     void step_once(bool is_shown);
     void go_back();
     void note_hash();
@@ -93,8 +102,10 @@ class ClientSession {
     std::array<MatchTick, k_most_match_players> trend_of_until_{};  // final_until() of the trend
     std::array<SimulatedState, k_window>
         states_;  // states after each tick, indexed by tick % k_window
+    std::array<std::uint64_t, k_window> host_hashes_{};  // hashes of the host's state, likewise
     MatchTick oldest_state_ = 0;
-    MatchTick first_wrong_ = 0;  // a tick that was stepped with other inputs than the final ones
+    bool is_start_kept_ = false;  // the state of the first tick is kept by the first advance
+    MatchTick first_wrong_ = 0;   // a tick that was stepped with other inputs than the final ones
     bool has_wrong_ = false;
     SendMarks marks_;
     std::uint64_t packets_ = 0;

@@ -21,10 +21,8 @@ void write_join_state(const MatchWorld& match, const SnapshotAssets& assets,
                       std::vector<std::byte>& bytes);
 // Tolerates any bytes. On error nothing changes. `state_epoch`: ClientPacket::state_epoch from now
 // on.
-[[nodiscard]] std::optional<FileError> read_join_state(std::span<const std::byte> bytes,
-                                                       const SnapshotAssets& assets,
-                                                       const MatchWorld& match,
-                                                       std::span<InputHistory> histories,
-                                                       std::uint8_t& state_epoch);
+[[nodiscard]] std::optional<FileError> read_join_state(
+    std::span<const std::byte> bytes, const SnapshotAssets& assets, const MissingHeads& heads,
+    const MatchWorld& match, std::span<InputHistory> histories, std::uint8_t& state_epoch);
 
 }  // namespace handhold

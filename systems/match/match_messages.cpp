@@ -180,8 +180,7 @@ std::size_t write_client_packet(const ClientPacket& header, std::size_t players,
 }
 
 MatchRefusal read_client_packet(std::span<const std::byte> bytes, std::size_t players,
-                                std::span<const InputHistory> histories,
-                                std::span<const InputHistory> sent, ClientPacket& out) {
+                                const ClientPacketSource& source, ClientPacket& out) {
     std::span<const std::byte> payload;
     if (const MatchRefusal refusal = open_packet(bytes, PacketKind::client, payload);
         refusal != MatchRefusal::none) {
@@ -190,14 +189,17 @@ MatchRefusal read_client_packet(std::span<const std::byte> bytes, std::size_t pl
     BitReader in(payload);
     in.take(k_kind_bits + k_version_bits);
     out.slot = in.take_as<std::uint8_t>(k_slot_bits);
-    if (out.slot >= players) {
+    if (out.slot >= players || out.slot != source.slot) {
         return MatchRefusal::sender;
     }
     out.state_epoch = in.take_as<std::uint8_t>(k_epoch_bits);
+    if (out.state_epoch != source.state_epochs[out.slot]) {
+        return MatchRefusal::window;
+    }
     const MatchTick first = in.take(k_tick_bits);
     for (std::size_t slot = 0; slot < players; ++slot) {
         out.known_until[slot] = tick_behind(first, in.take_rice(k_tick_rice));
-        if (!in.has_failed() && out.known_until[slot] > histories[slot].final_until()) {
+        if (!in.has_failed() && out.known_until[slot] > source.histories[slot].final_until()) {
             return MatchRefusal::window;  // nobody can know that
         }
     }
@@ -209,7 +211,7 @@ MatchRefusal read_client_packet(std::span<const std::byte> bytes, std::size_t pl
         out.hash_tick = in.take(k_tick_bits);
         out.hash = in.take(64);
     }
-    const InputHistory& history = sent[out.slot];
+    const InputHistory& history = source.sent[out.slot];
     out.own.base = tick_behind(first, in.take_rice(k_tick_rice));
     if (in.has_failed()) {
         return MatchRefusal::malformed;
@@ -253,8 +255,7 @@ std::size_t write_server_packet(const ServerPacket& header, std::size_t players,
 }
 
 MatchRefusal read_server_packet(std::span<const std::byte> bytes, std::size_t players,
-                                std::span<const InputHistory> histories, std::size_t own_slot,
-                                ServerPacket& out) {
+                                const ServerPacketSource& source, ServerPacket& out) {
     std::span<const std::byte> payload;
     if (const MatchRefusal refusal = open_packet(bytes, PacketKind::server, payload);
         refusal != MatchRefusal::none) {
@@ -263,10 +264,13 @@ MatchRefusal read_server_packet(std::span<const std::byte> bytes, std::size_t pl
     BitReader in(payload);
     in.take(k_kind_bits + k_version_bits);
     out.slot = in.take_as<std::uint8_t>(k_slot_bits);
-    if (out.slot != own_slot) {
+    if (out.slot != source.own_slot) {
         return MatchRefusal::sender;
     }
     out.state_epoch = in.take_as<std::uint8_t>(k_epoch_bits);
+    if (out.state_epoch != source.state_epoch) {
+        return MatchRefusal::window;
+    }
     out.confirmed_until = in.take(k_tick_bits);
     out.received_until = tick_behind(out.confirmed_until, in.take_rice(k_tick_rice));
     out.lead_epoch = in.take_as<std::uint8_t>(k_epoch_bits);
@@ -279,14 +283,15 @@ MatchRefusal read_server_packet(std::span<const std::byte> bytes, std::size_t pl
         if (in.has_failed()) {
             return MatchRefusal::malformed;
         }
-        if (part.base > histories[slot].final_until()) {
+        const InputHistory& history = source.histories[slot];
+        if (part.base > history.final_until()) {
             return MatchRefusal::gap;
         }
-        if (part.base + k_oldest < histories[slot].final_until()) {
+        if (part.base + k_oldest < history.final_until()) {
             return MatchRefusal::window;
         }
         if (const MatchRefusal refusal =
-                StreamReader(histories[slot], part).read(true, slot == own_slot, in);
+                StreamReader(history, part).read(true, slot == source.own_slot, in);
             refusal != MatchRefusal::none) {
             return refusal;
         }

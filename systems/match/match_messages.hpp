@@ -87,15 +87,27 @@ std::size_t write_client_packet(const ClientPacket& header, std::size_t players,
 std::size_t write_server_packet(const ServerPacket& header, std::size_t players,
                                 std::span<StreamSource> streams, std::span<std::byte> bytes);
 
-// Reads a message. `histories`: the receiver's, indexed by slot. `sent`: by slot, what the server
-// has received of each player, also if it came late; a client's inputs are encoded against these.
-// On refusal `out` is not to be used.
+// What a server reads a message against.
+struct ClientPacketSource {
+    std::uint8_t slot = 0;                    // the sender's
+    std::span<const InputHistory> histories;  // the server's, indexed by slot
+    // What the server has received of each player, also if it came late: a client's inputs are
+    // encoded against these.
+    std::span<const InputHistory> sent;
+    std::span<const std::uint8_t> state_epochs;  // ClientPacket::state_epoch of each slot
+};
+// Reads a message. Messages of another state_epoch are MatchRefusal::window: they were written
+// before the sender or the receiver joined. On refusal `out` is not to be used.
 MatchRefusal read_client_packet(std::span<const std::byte> bytes, std::size_t players,
-                                std::span<const InputHistory> histories,
-                                std::span<const InputHistory> sent, ClientPacket& out);
+                                const ClientPacketSource& source, ClientPacket& out);
+// What a client reads a message against.
+struct ServerPacketSource {
+    std::span<const InputHistory> histories;  // the client's, indexed by slot
+    std::size_t own_slot = 0;
+    std::uint8_t state_epoch = 0;
+};
 MatchRefusal read_server_packet(std::span<const std::byte> bytes, std::size_t players,
-                                std::span<const InputHistory> histories, std::size_t own_slot,
-                                ServerPacket& out);
+                                const ServerPacketSource& source, ServerPacket& out);
 
 // The checksum of messages and of states of joining players.
 std::uint32_t match_checksum(std::span<const std::byte> bytes);

@@ -2,6 +2,8 @@
 
 #include <span>
 
+#include "engine/core/hash.hpp"
+
 namespace handhold {
 
 void step_tick(const MatchWorld& match, const TickInputs& inputs, bool is_shown,
@@ -22,11 +24,28 @@ void step_tick(const MatchWorld& match, const TickInputs& inputs, bool is_shown,
         ++count;
     }
     const FrameInput input{match.dt_s, std::span(players).first(count)};
-    if (is_shown) {
+    if (match.host.step != nullptr) {
+        match.host.step(match.host.context, input, inputs, is_shown);
+    } else if (is_shown) {
         step_frame(match.world, match.caches, match.tuning, input, stats);
     } else {
         step_simulated(match.world, match.caches, match.tuning, input, stats);
     }
+}
+
+std::uint64_t hash_of_host(const MatchWorld& match) {
+    return match.host.hash != nullptr ? match.host.hash(match.host.context) : 0;
+}
+
+std::uint64_t match_hash(const MatchWorld& match, std::uint64_t world_hash,
+                         std::uint64_t host_hash) {
+    if (match.host.hash == nullptr) {
+        return world_hash;
+    }
+    HashStream hash;
+    hash.add(world_hash);
+    hash.add(host_hash);
+    return hash.value();
 }
 
 }  // namespace handhold

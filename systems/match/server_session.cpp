@@ -6,6 +6,11 @@
 #include "systems/match/tick_pacer.hpp"
 
 namespace handhold {
+namespace {
+
+std::uint8_t next_epoch(std::uint8_t epoch) { return static_cast<std::uint8_t>((epoch + 1U) % 4U); }
+
+}  // namespace
 
 void ServerSession::Waits::add(double wait_s) {
     if (count < 0) {
@@ -49,13 +54,15 @@ void ServerSession::connect(std::size_t slot) {
 
 MatchRefusal ServerSession::receive(std::size_t slot, std::span<const std::byte> packet,
                                     double now_s) {
-    MatchRefusal refusal =
-        read_client_packet(packet, match_.player_count, histories(), sent_, incoming_);
-    if (refusal == MatchRefusal::none && (incoming_.slot != slot || !is_connected(slot))) {
-        refusal = MatchRefusal::sender;
-    } else if (refusal == MatchRefusal::none && incoming_.state_epoch != peers_[slot].state_epoch) {
-        refusal = MatchRefusal::window;  // older than the state that the player joins with
+    std::array<std::uint8_t, k_most_match_players> epochs{};
+    for (std::size_t i = 0; i < match_.player_count; ++i) {
+        epochs[i] = peers_[i].state_epoch;
     }
+    const auto sender = static_cast<std::uint8_t>(slot);
+    const MatchRefusal refusal =
+        is_connected(slot) ? read_client_packet(packet, match_.player_count,
+                                                {sender, histories(), sent_, epochs}, incoming_)
+                           : MatchRefusal::sender;
     if (refusal != MatchRefusal::none) {
         counts_.refused[static_cast<std::size_t>(refusal)] += 1;
         return refusal;
@@ -149,7 +156,7 @@ void ServerSession::confirm(MatchTick tick) {
     step_tick(match_, inputs, false, stats_);
     ++counts_.ticks;
     if (tick % k_hash_every_ticks == 0) {
-        hashes_[tick / k_hash_every_ticks % k_hashes] = hash_simulated(match_.world);
+        hashes_[tick / k_hash_every_ticks % k_hashes] = hash();
     }
 }
 
@@ -195,11 +202,21 @@ std::size_t ServerSession::write_packet(std::size_t slot, std::span<std::byte> b
     return size;
 }
 
+std::uint64_t ServerSession::hash() const {
+    return match_hash(match_, hash_simulated(match_.world), hash_of_host(match_));
+}
+
+void ServerSession::preview_state(std::size_t slot, const SnapshotAssets& assets,
+                                  std::vector<std::byte>& bytes) const {
+    write_join_state(match_, assets, std::span(histories_).first(match_.player_count),
+                     next_epoch(peers_[slot].state_epoch), bytes);
+}
+
 void ServerSession::write_state(std::size_t slot, const SnapshotAssets& assets,
                                 std::vector<std::byte>& bytes) {
+    preview_state(slot, assets, bytes);
     Peer& peer = peers_[slot];
-    peer.state_epoch = static_cast<std::uint8_t>((peer.state_epoch + 1U) % 4U);
-    write_join_state(match_, assets, histories(), peer.state_epoch, bytes);
+    peer.state_epoch = next_epoch(peer.state_epoch);
     peer.needs_state = false;
     for (std::size_t i = 0; i < match_.player_count; ++i) {
         peer.known_until[i] = histories_[i].final_until();

@@ -58,6 +58,12 @@ class ServerSession {
     bool needs_state(std::size_t slot) const { return peers_[slot].needs_state; }
     // The state for a player to join. From now on the player is sent the inputs after it.
     void write_state(std::size_t slot, const SnapshotAssets& assets, std::vector<std::byte>& bytes);
+    // The bytes that write_state would write. Nothing changes.
+    void preview_state(std::size_t slot, const SnapshotAssets& assets,
+                       std::vector<std::byte>& bytes) const;
+
+    // The match's hash (match_hash) after the last confirmed tick.
+    std::uint64_t hash() const;
 
     MatchTick confirmed() const { return match_.world.clock.frame; }
     const ServerCounts& counts() const { return counts_; }

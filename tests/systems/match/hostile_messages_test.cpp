@@ -17,6 +17,12 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
+constexpr std::array<std::uint8_t, k_people> k_epochs{};  // epochs of states: nobody has joined
+
+std::uint8_t sender_of(std::span<const std::byte> packet) {
+    return packet.size() < 2 ? 0 : std::to_integer<std::uint8_t>(packet[1] & std::byte{15});
+}
+
 // Packets of a running match, and the inputs that they are read against.
 struct Recording {
     std::vector<Bytes> packets;
@@ -38,8 +44,10 @@ struct Recording {
         return (std::to_integer<unsigned>(packet[0]) & 7U) == 1;
     }
     MatchRefusal read(std::span<const std::byte> packet, bool by_server) {
-        return by_server ? read_client_packet(packet, k_people, server, server, *of_client_)
-                         : read_server_packet(packet, k_people, client, 0, *of_server_);
+        return by_server
+                   ? read_client_packet(packet, k_people,
+                                        {sender_of(packet), server, server, k_epochs}, *of_client_)
+                   : read_server_packet(packet, k_people, {client, 0, 0}, *of_server_);
     }
 
   private:
@@ -123,9 +131,12 @@ TEST(HostileMessages, ForgedFieldsAreRefusedOrInRange) {
         seal(forged);
         const std::size_t at = allocation_count();
         const MatchRefusal refusal =
-            by_server ? read_client_packet(forged, k_people, recording.server, recording.server,
-                                           *client_packet)
-                      : read_server_packet(forged, k_people, recording.client, 0, *server_packet);
+            by_server
+                ? read_client_packet(
+                      forged, k_people,
+                      {sender_of(forged), recording.server, recording.server, k_epochs},
+                      *client_packet)
+                : read_server_packet(forged, k_people, {recording.client, 0, 0}, *server_packet);
         allocations += allocation_count() - at;
         ++seen[static_cast<std::size_t>(refusal)];
         if (refusal != MatchRefusal::none) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -111,13 +112,17 @@ inline DeviceScript script_of(std::size_t person) {
     if (person == 2) {  // the right palm lies on the back of the left hand of person 1
         const Vec3 other = Vec3(0.9 - 0.45, 1.25, 0.15);
         const Vec3 rest = other + Vec3(0.0, 0.034, -0.06) - palm;
+        // Twice: on a bad network the first grip may come before the players have found their lead.
+        const auto begin_of = [](double t) { return t < 2.3 ? 0.0 : 2.3; };
         script.hands[1] = [=](double t) {
-            const double off = t < 0.45 ? 0.04 * std::sin(2.2 * t) : 0.04 * std::sin(2.2 * 0.45);
-            return Pose{rest + Vec3(0.0, off, 0.0) +
-                            0.1 * ease(t, 1.0, 1.5) * Vec3(std::sin(2.5 * t), 0.0, 0.0),
-                        Quat::Identity()};
+            const double begin = begin_of(t);
+            const double off = 0.04 * std::sin(2.2 * std::min(t, begin + 0.45));
+            const double pull = 0.1 * ease(t - begin, 1.0, 1.5);
+            return Pose{
+                rest + Vec3(0.0, off, 0.0) + pull * Vec3(std::sin(2.5 * (t - begin)), 0.0, 0.0),
+                Quat::Identity()};
         };
-        script.grabs[1] = [](double t) { return t > 0.45 && t < 4.0; };
+        script.grabs[1] = [=](double t) { return t - begin_of(t) > 0.45 && t - begin_of(t) < 2.1; };
     }
     if (person == 3) {
         for (std::size_t side = 0; side < k_hand_count; ++side) {
