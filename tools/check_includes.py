@@ -23,8 +23,8 @@ TREES_WITHOUT_CIRCLES = ("engine", "systems", "game")
 # as an oracle.
 PRODUCT_FOLDERS = {"engine", "components", "systems", "game"}
 # The order of the stages, copies of all columns, and the public headers: these may use every system and the whole World.
-FRONT_DOOR = re.compile(r"systems/(frame|snapshot|host)/.*")
-NAMES_WORLD = re.compile(r"(systems/(frame|snapshot|host)/.*|components/world\w*\.[hc]pp|(game|tools|tests)/.*)")
+FRONT_DOOR = re.compile(r"systems/(frame|snapshot|match|host)/.*")
+NAMES_WORLD = re.compile(r"(systems/(frame|snapshot|match|host)/.*|components/world\w*\.[hc]pp|(game|tools|tests)/.*)")
 # Headers that a host includes: systems/host/include is an include directory, so these are named `handhold/...`.
 PUBLIC_HEADERS = "systems/host/include/"
 # Files of the game that know the library by its public headers alone, as a stranger's game would: climbers, sessions, devices, runs and the

@@ -90,11 +90,6 @@ EarlySample early_of(const TrackingSample& sample) {
     return early;
 }
 
-PlayerCommands read_commands(const hh_commands& commands) {
-    return {commands.smooth_turn, commands.snap_turns, commands.brake, from_c(commands.thrust),
-            commands.calibrate != 0};
-}
-
 // Element of an array of definitions, whose elements have the size of the host's version.
 template <typename Def>
 const Def& def_at(const Def* defs, std::size_t i) {
@@ -166,6 +161,15 @@ void read_given(hh_world& host, const hh_player_input& input, double end_s, Step
 }
 
 }  // namespace
+
+PlayerCommands read_commands(const hh_commands& commands) {
+    return {commands.smooth_turn, commands.snap_turns, commands.brake, from_c(commands.thrust),
+            commands.calibrate != 0};
+}
+
+TrackingSample exact_sample(const hh_tracking_sample* samples, std::size_t i) {
+    return read_sample(read_def_at(samples, i, hh_default_tracking_sample()), 0.0, true);
+}
 
 void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std::size_t count,
                  StepKind kind) {

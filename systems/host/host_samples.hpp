@@ -19,4 +19,9 @@ void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std
 // Keeps the samples of host.inputs after the step's end, at most EarlySamples::k_capacity a player.
 void keep_early_samples(hh_world& host, double end_s);
 
+// Reads one input of an array of the host and its samples: exact times, HH_ERROR_VERSION for other
+// versions. Poses that are not tracked, not valid or too far away are NaN.
+TrackingSample exact_sample(const hh_tracking_sample* samples, std::size_t i);
+PlayerCommands read_commands(const hh_commands& commands);
+
 }  // namespace handhold

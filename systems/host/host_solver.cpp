@@ -156,6 +156,7 @@ hh_result hh_world_begin_step(hh_world* world, double dt_s, const hh_player_inpu
                               size_t input_count) {
     const hh_result result = call([&] {
         require_idle(world_of(world));
+        require_no_match(*world);
         read_inputs(*world, dt_s, inputs, input_count);
     });
     if (result != HH_OK) {

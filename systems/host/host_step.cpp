@@ -43,10 +43,29 @@ void note_held_bodies(hh_world& host) {
 
 }  // namespace
 
+void run_step(hh_world& host, const FrameInput& input, const HostStep& step) {
+    host.velocity_changes.clear();
+    begin_events(host);
+    host.shows_hands = step.shows_hands;
+    step.run(host.world, host.caches, host.tuning, input, host.stats);
+    if (step.advances) {
+        finish_events(host);
+    }
+    if (step.moves_bodies) {
+        note_held_bodies(host);
+    }
+    finish_step(host);
+}
+
+void require_no_match(const hh_world& host) {
+    require(!host.is_in_match, HH_ERROR_STATE, "the world is in a match, which steps it");
+}
+
 hh_result step_with(hh_world* world, double dt_s, const hh_player_input* inputs, std::size_t count,
                     const HostStep& step) {
     hh_result result = call([&] {
         require_idle(world_of(world));
+        require_no_match(*world);
         read_inputs(*world, dt_s, inputs, count,
                     step.advances ? StepKind::advances : StepKind::poses_only);
     });
@@ -58,25 +77,13 @@ hh_result step_with(hh_world* world, double dt_s, const hh_player_input* inputs,
     return call(
         [&] {
             hh_world& host = *world;
-            host.velocity_changes.clear();
-            begin_events(host);
-            host.shows_hands = step.shows_hands;
             if (step.advances) {
                 keep_early_samples(host, host.world.clock.t_s + dt_s);
             }
-            step.run(host.world, host.caches, host.tuning, {dt_s, host.inputs}, host.stats);
-            if (step.advances) {
-                finish_events(host);
-            }
-            if (step.moves_bodies) {
-                note_held_bodies(host);
-            }
-            finish_step(host);
+            run_step(host, {dt_s, host.inputs}, step);
         },
         HH_ERROR_INTERNAL);
 }
-
-namespace {
 
 const SnapshotAssets& assets_of(hh_world& host) {
     if (!host.assets || host.assets_revision != host.shapes.revision()) {
@@ -91,7 +98,22 @@ const SnapshotAssets& assets_of(hh_world& host) {
     return *host.assets;
 }
 
-}  // namespace
+MissingHeads missing_heads(hh_world& host) {
+    return {.smallest_m = k_smallest_head_m,
+            .largest_m = k_largest_head_m,
+            .make = [&host](double radius_m) { return head_shape(host, radius_m); }};
+}
+
+void finish_restore(hh_world& host) {
+    sync_index(host.world);
+    host.is_stepping = false;
+    host.hand_constraints.clear();
+    host.player_motions.clear();
+    host.velocity_changes.clear();
+    host.held_bodies.clear();
+    forget_events(host);
+}
+
 }  // namespace handhold
 
 using namespace handhold;
@@ -121,6 +143,10 @@ hh_result hh_world_create(const hh_world_def* wanted, hh_world** world) {
 void hh_world_destroy(hh_world* world) {
     if (world != nullptr && world->surfaces.is_asking()) {
         report_failure(HH_ERROR_STATE, "a world cannot be destroyed inside its own surface query");
+        return;
+    }
+    if (world != nullptr && world->is_in_match) {
+        report_failure(HH_ERROR_STATE, "a world cannot be destroyed while it is in a match");
         return;
     }
     delete world;
@@ -235,22 +261,14 @@ hh_result hh_world_save(hh_world* world, void* buffer, size_t capacity, size_t* 
 hh_result hh_world_restore(hh_world* world, const void* bytes, size_t size) {
     return call([&] {
         hh_world& host = world_of(world);
+        require_no_match(host);
         require(bytes != nullptr, HH_ERROR_NULL, "the bytes are null");
         const std::span<const std::byte> read{static_cast<const std::byte*>(bytes), size};
         // Heads have the sizes of the world that was saved.
-        const MissingHeads heads{
-            .smallest_m = k_smallest_head_m,
-            .largest_m = k_largest_head_m,
-            .make = [&host](double radius_m) { return head_shape(host, radius_m); }};
-        if (const auto error = restore_snapshot(read, assets_of(host), host.world, heads)) {
+        if (const auto error =
+                restore_snapshot(read, assets_of(host), host.world, missing_heads(host))) {
             throw HostError{HH_ERROR_DATA, error->message()};
         }
-        sync_index(host.world);
-        host.is_stepping = false;
-        host.hand_constraints.clear();
-        host.player_motions.clear();
-        host.velocity_changes.clear();
-        host.held_bodies.clear();
-        forget_events(host);
+        finish_restore(host);
     });
 }

@@ -134,6 +134,8 @@ struct hh_world {
     std::vector<std::uint64_t> near_ids;  // scratch of queries
     std::vector<hh_hit> hits;             // scratch of queries
 
+    bool is_in_match = false;  // a match steps the world (host_match.hpp)
+
     // For hosts with their own physics.
     handhold::HostSurfaces surfaces;
     handhold::StageStats search_stats;  // counters of queries between steps: ignored

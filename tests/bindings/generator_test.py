@@ -57,6 +57,8 @@ class Generator(unittest.TestCase):
             ("hh_player_body_joints", "joints"): ("out_array", 20),
             ("hh_world_set_surface_query", "query"): ("optional", None),
             ("hh_hand_hold", "anchor"): ("optional", None),
+            ("hh_match_create", "game"): ("optional", None),
+            ("hh_match_advance", "input"): ("required", None),
         })
 
     def test_every_call_in_csharp_keeps_its_objects(self):

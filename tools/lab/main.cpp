@@ -10,6 +10,8 @@
 #include "tools/lab/grip_command.hpp"
 #include "tools/lab/hands_picture.hpp"
 #include "tools/lab/lab_scene.hpp"
+#include "tools/lab/match_command.hpp"
+#include "tools/lab/match_scene.hpp"
 #include "tools/lab/recorded_grips.hpp"
 #include "tools/lab/shown_body_command.hpp"
 #include "tools/lab/solve_command.hpp"
@@ -129,6 +131,33 @@ void add_recorded_grips_options(CLI::App& recorded, lab::RecordedGripsOptions& o
     recorded.add_option("--out", options.out, "Output: one grip a line, JSON")->required();
 }
 
+void add_match_options(CLI::App& match, lab::MatchOptions& options) {
+    const CLI::Validator share = number_in(0.0, 1.0);
+    match.add_option("--scene", options.scene, "What the players do")
+        ->check(CLI::IsMember(strings(lab::match_scene_names())));
+    match.add_option("--peers", options.peers, "Players")->check(CLI::Range(1, 16));
+    match.add_option("--rtt-ms", options.rtt_ms, "Round trip without jitter")
+        ->check(number_in(0.0, 1000.0));
+    match.add_option("--jitter-ms", options.jitter_ms, "Largest extra delay, each way")
+        ->check(number_in(0.0, 500.0));
+    match.add_option("--loss", options.loss, "Share of lost packets")->check(share);
+    match
+        .add_option("--burst-loss", options.burst_loss,
+                    "Share of packets that begin a burst of eight lost ones")
+        ->check(share);
+    match.add_option("--duplicate", options.duplicate, "Share of doubled packets")->check(share);
+    match.add_option("--kbps", options.kbps, "Rate of each peer, each way; 0: unlimited")
+        ->check(number_in(0.0, 1e6));
+    match.add_option("--packets", options.packets, "Packets a tick, 1 or 0.5")
+        ->check(number_in(0.5, 1.0));
+    match.add_option("--overhead-bytes", options.overhead_bytes, "Headers of a packet")
+        ->check(number_in(0.0, 200.0));
+    match.add_option("--seconds", options.seconds, "Duration")->check(number_in(3.0, 3600.0));
+    match.add_option("--seed", options.seed, "Seed of the network");
+    match.add_option("--threads", options.threads, "Threads of a step")->check(CLI::Range(1, 64));
+    match.add_option("--json", options.json, "Output: figures")->required();
+}
+
 }  // namespace
 
 // NOLINTNEXTLINE(bugprone-exception-escape): without memory there is no message to print either
@@ -159,6 +188,10 @@ int main(int argc, char** argv) {
     CLI::App* const recorded = app.add_subcommand(
         "recorded-grips", "Measures gripping wrists and the cost of hands in recorded sessions");
     add_recorded_grips_options(*recorded, recorded_options);
+    lab::MatchOptions match_options;
+    CLI::App* const match = app.add_subcommand(
+        "match", "A match over a simulated network: equal hashes, bytes, rollbacks and their cost");
+    add_match_options(*match, match_options);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -171,6 +204,7 @@ int main(int argc, char** argv) {
                                      : body->parsed()     ? *body
                                      : shown->parsed()    ? *shown
                                      : recorded->parsed() ? *recorded
+                                     : match->parsed()    ? *match
                                                           : app;
         std::fprintf(stderr, "%s\n%s", error.what(), subcommand.help().c_str());
         return k_exit_usage;
@@ -186,6 +220,9 @@ int main(int argc, char** argv) {
     }
     if (recorded->parsed()) {
         return lab::recorded_grips_command(recorded_options);
+    }
+    if (match->parsed()) {
+        return lab::match_command(match_options);
     }
     return grip->parsed() ? lab::grip_command(grip_options) : lab::solve_command(options);
 }

@@ -64,4 +64,4 @@ def outputs(function: dict) -> list[dict]:
 def is_raw_only(function: dict) -> bool:
     """Functions that wrappers offer by hand: creation, destruction and defaults."""
     return "default_of" in function or function["name"] in (
-        "hh_world_create", "hh_world_destroy", "hh_mesh_create", "hh_mesh_destroy", "hh_last_error")
+        "hh_world_create", "hh_world_destroy", "hh_mesh_create", "hh_mesh_destroy", "hh_match_create", "hh_match_destroy", "hh_last_error")

@@ -9,6 +9,7 @@
 
 #include "engine/collision/collision_world.hpp"
 #include "engine/solver/packed/triad_kernels.hpp"
+#include "systems/snapshot/simulated_state.hpp"
 #include "tests/engine/allocation_count.hpp"
 #include "tests/systems/frame/scenario.hpp"
 
@@ -157,6 +158,68 @@ TEST(WarmFrame, AllocatesNothing) {
     EXPECT_EQ(in_frames, 0U);
     EXPECT_EQ(collision_allocation_count(), collision_before);
     EXPECT_GT(contacts, 100U);
+#endif
+}
+
+// Each frame goes back by up to 15 ticks and steps them again, only the last one shown, while a
+// hand grips and lets go of a wall and a rock.
+TEST(WarmFrame, WithRollbackAllocatesNothing) {
+#ifdef HH_SANITIZED
+    GTEST_SKIP() << "the sanitizer has the allocator";
+#else
+    constexpr std::uint64_t k_window = 16;
+    Scenario s;
+    s.add_wall("floor", Vec3(2.0, 0.05, 2.0), Vec3(0.0, 1.0, 0.0));
+    s.add_rock("rock", 5.0, Vec3(-0.3, 1.3, 0.0));
+    s.add_player_here();
+    const Vec3 right = hand_for_palm(s, Vec3(0.3, 1.06, 0.1));
+    const Vec3 left = hand_for_palm(s, Vec3(-0.3, 1.385, 0.0));
+    s.script.grabs[0] = [](double t) { return std::fmod(t, 1.5) > 0.1; };
+    s.script.grabs[1] = [](double t) { return std::fmod(t, 0.7) > 0.1; };
+    s.script.hands[1] = [=](double t) {
+        return Pose{right + 0.05 * Vec3(std::sin(3 * t), 0.2 * std::sin(2 * t), std::sin(4 * t)),
+                    Quat::Identity()};
+    };
+    s.script.hands[0] = [=](double t) {
+        return Pose{left - Vec3(0.0, 0.0, 0.25 + 0.25 * std::sin(4.0 * t)), Quat::Identity()};
+    };
+    std::vector<SimulatedState> states(k_window);
+    std::uint64_t in_frames = 0;
+    std::uint64_t in_copies = 0;
+    std::uint64_t steps_again = 0;
+    const auto play_frame = [&](std::uint64_t depth) {
+        const std::uint64_t present = s.world.clock.frame;
+        const std::uint64_t before = allocations.load();
+        states[(present - depth) % k_window].restore(s.world);
+        in_copies += allocations.load() - before;
+        s.rewind_devices();
+        while (s.world.clock.frame <= present) {
+            s.frame = s.world.clock.frame == present ? &step_frame : &step_simulated;
+            in_frames += allocations_in_a_frame(s);
+            const std::uint64_t before_keep = allocations.load();
+            states[s.world.clock.frame % k_window].keep(s.world);
+            in_copies += allocations.load() - before_keep;
+            ++steps_again;
+        }
+    };
+    states[0].keep(s.world);
+    for (int frame = 0; frame < 16; ++frame) {
+        play_frame(0);
+    }
+    for (int frame = 0; frame < 1080; ++frame) {  // warm
+        play_frame(static_cast<std::uint64_t>(frame % 15));
+    }
+    in_frames = in_copies = 0;
+    steps_again = 0;
+    std::uint64_t gripping = 0;
+    for (int frame = 0; frame < 270; ++frame) {
+        play_frame(static_cast<std::uint64_t>(frame % 15));
+        gripping += s.grab(HandSide::right).kind == GripKind::surface ? 1U : 0U;
+    }
+    EXPECT_EQ(in_copies, 0U);
+    EXPECT_EQ(in_frames, 0U);
+    EXPECT_GT(steps_again, 2000U);
+    EXPECT_GT(gripping, 100U);
 #endif
 }
 

@@ -217,6 +217,42 @@ namespace Handhold {
         Direction = 2,
     }
 
+    public enum MatchRole {
+        Client = 0,
+        Server = 1,
+        /// <summary>No network: every tick is stepped again from `sync_ticks` before, and must give the same hashes. Finds state that your game forgets to restore.</summary>
+        SyncTest = 2,
+    }
+
+    public enum MatchEventState {
+        /// <summary>It happened in a tick that may change. Each such event is confirmed or retracted later.</summary>
+        Predicted = 0,
+        /// <summary>its tick is final. Each event of a confirmed tick comes so once</summary>
+        Confirmed = 1,
+        /// <summary>a predicted event that did not happen</summary>
+        Retracted = 2,
+    }
+
+    /// <summary>Why a packet was refused: index of hh_match_stats.refused.</summary>
+    public enum MatchRefusal {
+        /// <summary>shorter than any packet, or longer</summary>
+        Size = 1,
+        /// <summary>damaged</summary>
+        Checksum = 2,
+        /// <summary>of another version of the format, or another kind</summary>
+        Version = 3,
+        /// <summary>another slot's, or of one that is not connected</summary>
+        Sender = 4,
+        /// <summary>fields out of range</summary>
+        Malformed = 5,
+        /// <summary>inputs before it have not arrived. Usual with losses</summary>
+        Gap = 6,
+        /// <summary>too old or too far ahead. Usual around joins</summary>
+        Window = 7,
+        /// <summary>a state that hh_match_join could not restore</summary>
+        State = 8,
+    }
+
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate void HhTask(IntPtr task_context, UIntPtr index);
 
@@ -247,6 +283,22 @@ namespace Handhold {
     /// <summary>Nearest surface point of one body, at any distance; distance_m: 0 inside a solid.</summary>
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate byte SurfaceQueryClosestPointOn(IntPtr context, Body body, Vec3 point, SurfaceHit* hit);
+
+    /// <summary>Called after each step of the world to `tick`, also when it is stepped again. May read the world and its events, and may change its bodies, joints, grips and players; it must not add or remove any. What it does may depend on the world, your state, `tick` and `buttons` only: hh_match_input.buttons of each slot, of which there are `button_count`. What hosts draw, such as hh_player_pose, differs between machines.</summary>
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate void MatchGameStep(IntPtr context, ulong tick, uint* buttons, UIntPtr button_count);
+
+    /// <summary>Keeps a copy of your state in a place of yours, [0, HH_MATCH_PLACES), over the one before. A server saves nothing.</summary>
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate void MatchGameSave(IntPtr context, uint place);
+
+    /// <summary>Sets your state to the copy in that place.</summary>
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate void MatchGameRestore(IntPtr context, uint place);
+
+    /// <summary>Hash of your state: machines compare it together with the world's.</summary>
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate ulong MatchGameHash(IntPtr context);
 
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct Vec3 {
@@ -956,6 +1008,133 @@ namespace Handhold {
         public Vec3 angular_velocity_radps;
     }
 
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct MatchDef {
+        public uint struct_size;
+        /// <summary>default HH_MATCH_CLIENT</summary>
+        public MatchRole role;
+        /// <summary>by slot, the same on every machine; copied. All are in the world, also while nobody plays them</summary>
+        public Player* players;
+        /// <summary>[1, HH_MATCH_PLAYERS]</summary>
+        public UIntPtr player_count;
+        /// <summary>length of a tick, [1e-3, 0.1]; default 1/90</summary>
+        public double tick_s;
+        /// <summary>client: this machine's player; default 0</summary>
+        public uint slot;
+        /// <summary>sync test: ticks stepped again each time, [1, 62]; default 8</summary>
+        public uint sync_ticks;
+        /// <summary>server: time on its clock at the world's present tick; default 0</summary>
+        public double start_s;
+
+        /// <summary>The library's defaults.</summary>
+        public static MatchDef Default() {
+            MatchDef filled;
+            Library.Check(Native.hh_default_match_def_sized(&filled, (UIntPtr)sizeof(MatchDef)));
+            return filled;
+        }
+    }
+
+    /// <summary>Your own state of the match, such as scores and doors' codes, which goes back and forth with the world's. Null functions are not called; `save` and `restore` come together. Inside of them no function of the match may be called, and none that steps, restores or destroys the world.</summary>
+    /// <remarks>For Native: keep the delegates of all functions alive while the library may call them, and make them static methods with
+    /// MonoPInvokeCallback for IL2CPP. World.SetSurfaces and Library.SetLog do both.</remarks>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct MatchGame {
+        public uint struct_size;
+        /// <summary>passed to each of the functions</summary>
+        public IntPtr context;
+        /// <summary>Called after each step of the world to `tick`, also when it is stepped again. May read the world and its events, and may change its bodies, joints, grips and players; it must not add or remove any. What it does may depend on the world, your state, `tick` and `buttons` only: hh_match_input.buttons of each slot, of which there are `button_count`. What hosts draw, such as hh_player_pose, differs between machines.</summary>
+        public IntPtr step;
+        /// <summary>Keeps a copy of your state in a place of yours, [0, HH_MATCH_PLACES), over the one before. A server saves nothing.</summary>
+        public IntPtr save;
+        /// <summary>Sets your state to the copy in that place.</summary>
+        public IntPtr restore;
+        /// <summary>Hash of your state: machines compare it together with the world's.</summary>
+        public IntPtr hash;
+
+        /// <summary>The library's defaults.</summary>
+        public static MatchGame Default() {
+            MatchGame filled;
+            Library.Check(Native.hh_default_match_game_sized(&filled, (UIntPtr)sizeof(MatchGame)));
+            return filled;
+        }
+    }
+
+    /// <summary>A player's input for one tick. Fill by hh_default_match_input.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct MatchInput {
+        public uint struct_size;
+        /// <summary>your bits, for hh_match_game.step</summary>
+        public uint buttons;
+        /// <summary>As in hh_player_input, on the world's clock: a sample at the tick's end has hh_world_time plus tick_s. Later ones are kept for later ticks, at most 64. Poses become integers of 0.1 mm and 1 mrad, the same on every machine. Without a sample for 0.1 s devices count as not tracked.</summary>
+        public TrackingSample* samples;
+        public UIntPtr sample_count;
+        /// <summary>True: the tick is not shown, as by hh_world_step_simulated. For all but the last of several ticks in one frame. Default false.</summary>
+        public Flag is_hidden;
+        public Commands commands;
+
+        /// <summary>The library's defaults.</summary>
+        public static MatchInput Default() {
+            MatchInput filled;
+            Library.Check(Native.hh_default_match_input_sized(&filled, (UIntPtr)sizeof(MatchInput)));
+            return filled;
+        }
+    }
+
+    /// <summary>The first tick whose hash changed when it was stepped again.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct MatchDifference {
+        /// <summary>0: none</summary>
+        public ulong tick;
+        /// <summary>hh_world_simulated_hash differs</summary>
+        public Flag in_world;
+        /// <summary>hh_match_game.hash differs</summary>
+        public Flag in_game;
+    }
+
+    /// <summary>Grows with hh_event, its last field.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct MatchEvent {
+        public ulong tick;
+        public MatchEventState state;
+        /// <summary>`position` is that of the tracked hand, not of the shown one</summary>
+        public HhEvent @event;
+    }
+
+    /// <summary>Counts since the match began, where nothing else is said.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct MatchStats {
+        public uint struct_size;
+        /// <summary>the world's present tick</summary>
+        public ulong tick;
+        /// <summary>the last tick whose state is final here</summary>
+        public ulong confirmed;
+        /// <summary>ticks that the world advanced</summary>
+        public ulong ticks;
+        /// <summary>clients, sync tests: times that the world went back</summary>
+        public ulong rollbacks;
+        /// <summary>ticks stepped again by them</summary>
+        public ulong steps_again;
+        /// <summary>most ticks that one of them stepped again</summary>
+        public ulong deepest;
+        /// <summary>clients: hh_match_advance that were too far ahead</summary>
+        public ulong waits;
+        /// <summary>inputs that came too late: own ones, or on a server those of all</summary>
+        public ulong filled;
+        /// <summary>servers: compared hashes of clients</summary>
+        public ulong hashes;
+        /// <summary>servers: those that differed</summary>
+        public ulong out_of_sync;
+        /// <summary>packets, by hh_match_refusal</summary>
+        public UlongArray16 refused;
+
+        /// <summary>The library's defaults.</summary>
+        public static MatchStats Default() {
+            MatchStats filled;
+            Library.Check(Native.hh_default_match_stats_sized(&filled, (UIntPtr)sizeof(MatchStats)));
+            return filled;
+        }
+    }
+
     /// <summary>5 elements inside of a struct. Write an element by its index; to change a part of it, read, change, write.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct FingerArray5 {
@@ -1198,6 +1377,57 @@ namespace Handhold {
                     case 2: e2 = value; break;
                     case 3: e3 = value; break;
                     case 4: e4 = value; break;
+                    default: throw new IndexOutOfRangeException();
+                }
+            }
+        }
+    }
+
+    /// <summary>16 elements inside of a struct. Write an element by its index; to change a part of it, read, change, write.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct UlongArray16 {
+        private ulong e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11, e12, e13, e14, e15;
+        public const int Length = 16;
+        public ulong this[int index] {
+            get {
+                switch (index) {
+                    case 0: return e0;
+                    case 1: return e1;
+                    case 2: return e2;
+                    case 3: return e3;
+                    case 4: return e4;
+                    case 5: return e5;
+                    case 6: return e6;
+                    case 7: return e7;
+                    case 8: return e8;
+                    case 9: return e9;
+                    case 10: return e10;
+                    case 11: return e11;
+                    case 12: return e12;
+                    case 13: return e13;
+                    case 14: return e14;
+                    case 15: return e15;
+                    default: throw new IndexOutOfRangeException();
+                }
+            }
+            set {
+                switch (index) {
+                    case 0: e0 = value; break;
+                    case 1: e1 = value; break;
+                    case 2: e2 = value; break;
+                    case 3: e3 = value; break;
+                    case 4: e4 = value; break;
+                    case 5: e5 = value; break;
+                    case 6: e6 = value; break;
+                    case 7: e7 = value; break;
+                    case 8: e8 = value; break;
+                    case 9: e9 = value; break;
+                    case 10: e10 = value; break;
+                    case 11: e11 = value; break;
+                    case 12: e12 = value; break;
+                    case 13: e13 = value; break;
+                    case 14: e14 = value; break;
+                    case 15: e15 = value; break;
                     default: throw new IndexOutOfRangeException();
                 }
             }
@@ -1525,6 +1755,50 @@ namespace Handhold {
         public static extern Result hh_world_velocity_changes(IntPtr world, VelocityChange** changes, UIntPtr* count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_world_held_bodies(IntPtr world, Body* bodies, UIntPtr capacity, UIntPtr* count);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_default_match_def_sized(MatchDef* filled, UIntPtr size);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_default_match_game_sized(MatchGame* filled, UIntPtr size);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_match_create(IntPtr world, MatchDef* def, MatchGame* game, IntPtr* match);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern void hh_match_destroy(IntPtr match);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_default_match_input_sized(MatchInput* filled, UIntPtr size);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_match_ticks_due(IntPtr match, double elapsed_s, uint* ticks);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_match_advance(IntPtr match, MatchInput* input, byte* advanced);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_match_receive(IntPtr match, void* packet, UIntPtr size);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_match_packet(IntPtr match, void* buffer, UIntPtr capacity, UIntPtr* size);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_match_join(IntPtr match, void* bytes, UIntPtr size);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_match_connect(IntPtr match, uint slot);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_match_disconnect(IntPtr match, uint slot);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_match_receive_from(IntPtr match, uint slot, double now_s, void* packet, UIntPtr size);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_match_confirm(IntPtr match, double now_s, uint* ticks);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_match_packet_to(IntPtr match, uint slot, void* buffer, UIntPtr capacity, UIntPtr* size);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_match_state(IntPtr match, uint slot, void* buffer, UIntPtr capacity, UIntPtr* size);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_match_sync_test(IntPtr match, MatchInput* inputs, UIntPtr input_count, MatchDifference* difference);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_match_needs_state(IntPtr match, uint slot, byte* needs);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_match_hash(IntPtr match, ulong tick, ulong* hash);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_match_events_sized(IntPtr match, MatchEvent** events, UIntPtr* count, UIntPtr event_size);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_default_match_stats_sized(MatchStats* filled, UIntPtr size);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_match_get_stats(IntPtr match, MatchStats* stats);
     }
 
     public static partial class Library {

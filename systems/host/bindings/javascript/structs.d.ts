@@ -168,6 +168,32 @@ export declare const HH_BODY_JOINT_COUNT: 20;
 export declare const HH_ROWS_POINT: 0;
 export declare const HH_ROWS_WELD: 1;
 export declare const HH_ROWS_DIRECTION: 2;
+export declare const HH_MATCH_CLIENT: 0;
+export declare const HH_MATCH_SERVER: 1;
+/** No network: every tick is stepped again from `sync_ticks` before, and must give the same hashes. Finds state that your game forgets to restore. */
+export declare const HH_MATCH_SYNC_TEST: 2;
+/** It happened in a tick that may change. Each such event is confirmed or retracted later. */
+export declare const HH_MATCH_PREDICTED: 0;
+/** its tick is final. Each event of a confirmed tick comes so once */
+export declare const HH_MATCH_CONFIRMED: 1;
+/** a predicted event that did not happen */
+export declare const HH_MATCH_RETRACTED: 2;
+/** shorter than any packet, or longer */
+export declare const HH_MATCH_REFUSED_SIZE: 1;
+/** damaged */
+export declare const HH_MATCH_REFUSED_CHECKSUM: 2;
+/** of another version of the format, or another kind */
+export declare const HH_MATCH_REFUSED_VERSION: 3;
+/** another slot's, or of one that is not connected */
+export declare const HH_MATCH_REFUSED_SENDER: 4;
+/** fields out of range */
+export declare const HH_MATCH_REFUSED_MALFORMED: 5;
+/** inputs before it have not arrived. Usual with losses */
+export declare const HH_MATCH_REFUSED_GAP: 6;
+/** too old or too far ahead. Usual around joins */
+export declare const HH_MATCH_REFUSED_WINDOW: 7;
+/** a state that hh_match_join could not restore */
+export declare const HH_MATCH_REFUSED_STATE: 8;
 
 export interface hh_vec3 {
     x: number;
@@ -666,6 +692,88 @@ export interface hh_velocity_change {
     body: hh_body;
     velocity_mps: hh_vec3;
     angular_velocity_radps: hh_vec3;
+}
+
+export interface hh_match_def {
+    /** default HH_MATCH_CLIENT */
+    role: number;
+    /** by slot, the same on every machine; copied. All are in the world, also while nobody plays them */
+    players: hh_player[];
+    /** length of a tick, [1e-3, 0.1]; default 1/90 */
+    tick_s: number;
+    /** client: this machine's player; default 0 */
+    slot: number;
+    /** sync test: ticks stepped again each time, [1, 62]; default 8 */
+    sync_ticks: number;
+    /** server: time on its clock at the world's present tick; default 0 */
+    start_s: number;
+}
+
+/** Your own state of the match, such as scores and doors' codes, which goes back and forth with the world's. Null functions are not called; `save` and `restore` come together. Inside of them no function of the match may be called, and none that steps, restores or destroys the world. */
+export interface hh_match_game {
+    /** Called after each step of the world to `tick`, also when it is stepped again. May read the world and its events, and may change its bodies, joints, grips and players; it must not add or remove any. What it does may depend on the world, your state, `tick` and `buttons` only: hh_match_input.buttons of each slot, of which there are `button_count`. What hosts draw, such as hh_player_pose, differs between machines. */
+    step: ((tick: bigint, buttons: number[]) => void) | null;
+    /** Keeps a copy of your state in a place of yours, [0, HH_MATCH_PLACES), over the one before. A server saves nothing. */
+    save: ((place: number) => void) | null;
+    /** Sets your state to the copy in that place. */
+    restore: ((place: number) => void) | null;
+    /** Hash of your state: machines compare it together with the world's. */
+    hash: (() => void) | null;
+}
+
+/** A player's input for one tick. Fill by hh_default_match_input. */
+export interface hh_match_input {
+    /** your bits, for hh_match_game.step */
+    buttons: number;
+    /** As in hh_player_input, on the world's clock: a sample at the tick's end has hh_world_time plus tick_s. Later ones are kept for later ticks, at most 64. Poses become integers of 0.1 mm and 1 mrad, the same on every machine. Without a sample for 0.1 s devices count as not tracked. */
+    samples: hh_tracking_sample[];
+    /** True: the tick is not shown, as by hh_world_step_simulated. For all but the last of several ticks in one frame. Default false. */
+    is_hidden: boolean;
+    commands: hh_commands;
+}
+
+/** The first tick whose hash changed when it was stepped again. */
+export interface hh_match_difference {
+    /** 0: none */
+    tick: bigint;
+    /** hh_world_simulated_hash differs */
+    in_world: boolean;
+    /** hh_match_game.hash differs */
+    in_game: boolean;
+}
+
+/** Grows with hh_event, its last field. */
+export interface hh_match_event {
+    tick: bigint;
+    state: number;
+    /** `position` is that of the tracked hand, not of the shown one */
+    event: hh_event;
+}
+
+/** Counts since the match began, where nothing else is said. */
+export interface hh_match_stats {
+    /** the world's present tick */
+    tick: bigint;
+    /** the last tick whose state is final here */
+    confirmed: bigint;
+    /** ticks that the world advanced */
+    ticks: bigint;
+    /** clients, sync tests: times that the world went back */
+    rollbacks: bigint;
+    /** ticks stepped again by them */
+    steps_again: bigint;
+    /** most ticks that one of them stepped again */
+    deepest: bigint;
+    /** clients: hh_match_advance that were too far ahead */
+    waits: bigint;
+    /** inputs that came too late: own ones, or on a server those of all */
+    filled: bigint;
+    /** servers: compared hashes of clients */
+    hashes: bigint;
+    /** servers: those that differed */
+    out_of_sync: bigint;
+    /** packets, by hh_match_refusal */
+    refused: bigint[];
 }
 
 /** Every function of the library, as a method. They throw a HandholdError if the library refuses the call. */

@@ -113,6 +113,20 @@ export const HH_BODY_JOINT_COUNT = 20;
 export const HH_ROWS_POINT = 0;
 export const HH_ROWS_WELD = 1;
 export const HH_ROWS_DIRECTION = 2;
+export const HH_MATCH_CLIENT = 0;
+export const HH_MATCH_SERVER = 1;
+export const HH_MATCH_SYNC_TEST = 2;
+export const HH_MATCH_PREDICTED = 0;
+export const HH_MATCH_CONFIRMED = 1;
+export const HH_MATCH_RETRACTED = 2;
+export const HH_MATCH_REFUSED_SIZE = 1;
+export const HH_MATCH_REFUSED_CHECKSUM = 2;
+export const HH_MATCH_REFUSED_VERSION = 3;
+export const HH_MATCH_REFUSED_SENDER = 4;
+export const HH_MATCH_REFUSED_MALFORMED = 5;
+export const HH_MATCH_REFUSED_GAP = 6;
+export const HH_MATCH_REFUSED_WINDOW = 7;
+export const HH_MATCH_REFUSED_STATE = 8;
 // By struct: [field, kind, length of an array inside, more about lists and callbacks].
 export const structs = {
     hh_vec3: [["x", "f64"], ["y", "f64"], ["z", "f64"]],
@@ -152,4 +166,10 @@ export const structs = {
     hh_player_motion: [["player", "hh_player"], ["origin", "hh_vec3"], ["velocity_mps", "hh_vec3"], ["mass_kg", "f64"], ["head", "hh_pose"], ["head_radius_m", "f64"]],
     hh_solved_player: [["player", "hh_player"], ["origin", "hh_vec3"], ["velocity_mps", "hh_vec3"]],
     hh_velocity_change: [["body", "hh_body"], ["velocity_mps", "hh_vec3"], ["angular_velocity_radps", "hh_vec3"]],
+    hh_match_def: [["struct_size", "u32"], ["role", "i32"], ["players", "list", 0, {"of": "hh_player", "count": "player_count", "each": 1}], ["player_count", "u32"], ["tick_s", "f64"], ["slot", "u32"], ["sync_ticks", "u32"], ["start_s", "f64"]],
+    hh_match_game: [["struct_size", "u32"], ["context", "pointer"], ["step", "callback", 0, {"returns": "void", "params": [["context", "pointer"], ["value", "u64"], ["array", "u32"], ["count", "u32"]]}], ["save", "callback", 0, {"returns": "void", "params": [["context", "pointer"], ["value", "u32"]]}], ["restore", "callback", 0, {"returns": "void", "params": [["context", "pointer"], ["value", "u32"]]}], ["hash", "callback", 0, {"returns": "u64", "params": [["context", "pointer"]]}]],
+    hh_match_input: [["struct_size", "u32"], ["buttons", "u32"], ["samples", "list", 0, {"of": "hh_tracking_sample", "count": "sample_count", "each": 1}], ["sample_count", "u32"], ["is_hidden", "bool"], ["commands", "hh_commands"]],
+    hh_match_difference: [["tick", "u64"], ["in_world", "bool"], ["in_game", "bool"]],
+    hh_match_event: [["tick", "u64"], ["state", "i32"], ["event", "hh_event"]],
+    hh_match_stats: [["struct_size", "u32"], ["tick", "u64"], ["confirmed", "u64"], ["ticks", "u64"], ["rollbacks", "u64"], ["steps_again", "u64"], ["deepest", "u64"], ["waits", "u64"], ["filled", "u64"], ["hashes", "u64"], ["out_of_sync", "u64"], ["refused", "u64", 16]],
 };

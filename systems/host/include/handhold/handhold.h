@@ -6,6 +6,7 @@
 #include <handhold/base.h>
 #include <handhold/convert.h>
 #include <handhold/level.h>
+#include <handhold/match.h>
 #include <handhold/players.h>
 #include <handhold/world.h>
 #include <handhold/your_physics.h>

@@ -186,6 +186,32 @@ class HandRows(enum.IntEnum):
     HH_ROWS_DIRECTION = 2
 
 
+class MatchRole(enum.IntEnum):
+    """hh_match_role"""
+    HH_MATCH_CLIENT = 0
+    HH_MATCH_SERVER = 1
+    HH_MATCH_SYNC_TEST = 2  # No network: every tick is stepped again from `sync_ticks` before, and must give the same hashes. Finds state that your game forgets to restore.
+
+
+class MatchEventState(enum.IntEnum):
+    """hh_match_event_state"""
+    HH_MATCH_PREDICTED = 0  # It happened in a tick that may change. Each such event is confirmed or retracted later.
+    HH_MATCH_CONFIRMED = 1  # its tick is final. Each event of a confirmed tick comes so once
+    HH_MATCH_RETRACTED = 2  # a predicted event that did not happen
+
+
+class MatchRefusal(enum.IntEnum):
+    """Why a packet was refused: index of hh_match_stats.refused."""
+    HH_MATCH_REFUSED_SIZE = 1  # shorter than any packet, or longer
+    HH_MATCH_REFUSED_CHECKSUM = 2  # damaged
+    HH_MATCH_REFUSED_VERSION = 3  # of another version of the format, or another kind
+    HH_MATCH_REFUSED_SENDER = 4  # another slot's, or of one that is not connected
+    HH_MATCH_REFUSED_MALFORMED = 5  # fields out of range
+    HH_MATCH_REFUSED_GAP = 6  # inputs before it have not arrived. Usual with losses
+    HH_MATCH_REFUSED_WINDOW = 7  # too old or too far ahead. Usual around joins
+    HH_MATCH_REFUSED_STATE = 8  # a state that hh_match_join could not restore
+
+
 HH_OK = Result.HH_OK
 HH_ERROR_NULL = Result.HH_ERROR_NULL
 HH_ERROR_VERSION = Result.HH_ERROR_VERSION
@@ -295,6 +321,20 @@ HH_BODY_JOINT_COUNT = BodyJoint.HH_BODY_JOINT_COUNT
 HH_ROWS_POINT = HandRows.HH_ROWS_POINT
 HH_ROWS_WELD = HandRows.HH_ROWS_WELD
 HH_ROWS_DIRECTION = HandRows.HH_ROWS_DIRECTION
+HH_MATCH_CLIENT = MatchRole.HH_MATCH_CLIENT
+HH_MATCH_SERVER = MatchRole.HH_MATCH_SERVER
+HH_MATCH_SYNC_TEST = MatchRole.HH_MATCH_SYNC_TEST
+HH_MATCH_PREDICTED = MatchEventState.HH_MATCH_PREDICTED
+HH_MATCH_CONFIRMED = MatchEventState.HH_MATCH_CONFIRMED
+HH_MATCH_RETRACTED = MatchEventState.HH_MATCH_RETRACTED
+HH_MATCH_REFUSED_SIZE = MatchRefusal.HH_MATCH_REFUSED_SIZE
+HH_MATCH_REFUSED_CHECKSUM = MatchRefusal.HH_MATCH_REFUSED_CHECKSUM
+HH_MATCH_REFUSED_VERSION = MatchRefusal.HH_MATCH_REFUSED_VERSION
+HH_MATCH_REFUSED_SENDER = MatchRefusal.HH_MATCH_REFUSED_SENDER
+HH_MATCH_REFUSED_MALFORMED = MatchRefusal.HH_MATCH_REFUSED_MALFORMED
+HH_MATCH_REFUSED_GAP = MatchRefusal.HH_MATCH_REFUSED_GAP
+HH_MATCH_REFUSED_WINDOW = MatchRefusal.HH_MATCH_REFUSED_WINDOW
+HH_MATCH_REFUSED_STATE = MatchRefusal.HH_MATCH_REFUSED_STATE
 
 Task = CFUNCTYPE(None, c_void_p, c_size_t)
 
@@ -992,6 +1032,129 @@ class VelocityChange(Struct):
     ]
 
 
+class MatchDef(Struct):
+    """hh_match_def
+    role: default HH_MATCH_CLIENT
+    players: by slot, the same on every machine; copied. All are in the world, also while nobody plays them
+    player_count: [1, HH_MATCH_PLAYERS]
+    tick_s: length of a tick, [1e-3, 0.1]; default 1/90
+    slot: client: this machine's player; default 0
+    sync_ticks: sync test: ticks stepped again each time, [1, 62]; default 8
+    start_s: server: time on its clock at the world's present tick; default 0"""
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("role", c_int32),
+        ("players", POINTER(Player)),
+        ("player_count", c_size_t),
+        ("tick_s", c_double),
+        ("slot", c_uint32),
+        ("sync_ticks", c_uint32),
+        ("start_s", c_double),
+    ]
+    _default_ = "hh_default_match_def_sized"
+    _arrays_ = {'players': ('player_count', 1)}
+MatchGameStep = CFUNCTYPE(None, c_void_p, c_uint64, POINTER(c_uint32), c_size_t)
+MatchGameSave = CFUNCTYPE(None, c_void_p, c_uint32)
+MatchGameRestore = CFUNCTYPE(None, c_void_p, c_uint32)
+MatchGameHash = CFUNCTYPE(c_uint64, c_void_p)
+
+
+class MatchGame(Struct):
+    """Your own state of the match, such as scores and doors' codes, which goes back and forth with the world's.
+    Null functions are not called; `save` and `restore` come together. Inside of them no function of the match
+    may be called, and none that steps, restores or destroys the world.
+    context: passed to each of the functions
+    step: Called after each step of the world to `tick`, also when it is stepped again. May read the world and
+    its events, and may change its bodies, joints, grips and players; it must not add or remove any. What it
+    does may depend on the world, your state, `tick` and `buttons` only: hh_match_input.buttons of each slot,
+    of which there are `button_count`. What hosts draw, such as hh_player_pose, differs between machines.
+    save: Keeps a copy of your state in a place of yours, [0, HH_MATCH_PLACES), over the one before. A server
+    saves nothing.
+    restore: Sets your state to the copy in that place.
+    hash: Hash of your state: machines compare it together with the world's."""
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("context", c_void_p),
+        ("step", MatchGameStep),
+        ("save", MatchGameSave),
+        ("restore", MatchGameRestore),
+        ("hash", MatchGameHash),
+    ]
+    _default_ = "hh_default_match_game_sized"
+
+
+class MatchInput(Struct):
+    """A player's input for one tick. Fill by hh_default_match_input.
+    buttons: your bits, for hh_match_game.step
+    samples: As in hh_player_input, on the world's clock: a sample at the tick's end has hh_world_time plus
+    tick_s. Later ones are kept for later ticks, at most 64. Poses become integers of 0.1 mm and 1 mrad, the
+    same on every machine. Without a sample for 0.1 s devices count as not tracked.
+    is_hidden: True: the tick is not shown, as by hh_world_step_simulated. For all but the last of several
+    ticks in one frame. Default false."""
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("buttons", c_uint32),
+        ("samples", POINTER(TrackingSample)),
+        ("sample_count", c_size_t),
+        ("is_hidden", c_uint8),
+        ("commands", Commands),
+    ]
+    _default_ = "hh_default_match_input_sized"
+    _arrays_ = {'samples': ('sample_count', 1)}
+
+
+class MatchDifference(Struct):
+    """The first tick whose hash changed when it was stepped again.
+    tick: 0: none
+    in_world: hh_world_simulated_hash differs
+    in_game: hh_match_game.hash differs"""
+    _fields_ = [
+        ("tick", c_uint64),
+        ("in_world", c_uint8),
+        ("in_game", c_uint8),
+    ]
+
+
+class MatchEvent(Struct):
+    """Grows with hh_event, its last field.
+    event: `position` is that of the tracked hand, not of the shown one"""
+    _fields_ = [
+        ("tick", c_uint64),
+        ("state", c_int32),
+        ("event", Event),
+    ]
+
+
+class MatchStats(Struct):
+    """Counts since the match began, where nothing else is said.
+    tick: the world's present tick
+    confirmed: the last tick whose state is final here
+    ticks: ticks that the world advanced
+    rollbacks: clients, sync tests: times that the world went back
+    steps_again: ticks stepped again by them
+    deepest: most ticks that one of them stepped again
+    waits: clients: hh_match_advance that were too far ahead
+    filled: inputs that came too late: own ones, or on a server those of all
+    hashes: servers: compared hashes of clients
+    out_of_sync: servers: those that differed
+    refused: packets, by hh_match_refusal"""
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("tick", c_uint64),
+        ("confirmed", c_uint64),
+        ("ticks", c_uint64),
+        ("rollbacks", c_uint64),
+        ("steps_again", c_uint64),
+        ("deepest", c_uint64),
+        ("waits", c_uint64),
+        ("filled", c_uint64),
+        ("hashes", c_uint64),
+        ("out_of_sync", c_uint64),
+        ("refused", c_uint64 * 16),
+    ]
+    _default_ = "hh_default_match_stats_sized"
+
+
 # Result and parameters of each function.
 FUNCTIONS = {
     "hh_result_text": (c_char_p, [c_int32]),
@@ -1151,6 +1314,28 @@ FUNCTIONS = {
     "hh_world_end_step": (c_int32, [c_void_p, POINTER(SolvedPlayer), c_size_t]),
     "hh_world_velocity_changes": (c_int32, [c_void_p, POINTER(POINTER(VelocityChange)), POINTER(c_size_t)]),
     "hh_world_held_bodies": (c_int32, [c_void_p, POINTER(Body), c_size_t, POINTER(c_size_t)]),
+    "hh_default_match_def_sized": (c_int32, [POINTER(MatchDef), c_size_t]),
+    "hh_default_match_game_sized": (c_int32, [POINTER(MatchGame), c_size_t]),
+    "hh_match_create": (c_int32, [c_void_p, POINTER(MatchDef), POINTER(MatchGame), POINTER(c_void_p)]),
+    "hh_match_destroy": (None, [c_void_p]),
+    "hh_default_match_input_sized": (c_int32, [POINTER(MatchInput), c_size_t]),
+    "hh_match_ticks_due": (c_int32, [c_void_p, c_double, POINTER(c_uint32)]),
+    "hh_match_advance": (c_int32, [c_void_p, POINTER(MatchInput), POINTER(c_uint8)]),
+    "hh_match_receive": (c_int32, [c_void_p, c_void_p, c_size_t]),
+    "hh_match_packet": (c_int32, [c_void_p, c_void_p, c_size_t, POINTER(c_size_t)]),
+    "hh_match_join": (c_int32, [c_void_p, c_void_p, c_size_t]),
+    "hh_match_connect": (c_int32, [c_void_p, c_uint32]),
+    "hh_match_disconnect": (c_int32, [c_void_p, c_uint32]),
+    "hh_match_receive_from": (c_int32, [c_void_p, c_uint32, c_double, c_void_p, c_size_t]),
+    "hh_match_confirm": (c_int32, [c_void_p, c_double, POINTER(c_uint32)]),
+    "hh_match_packet_to": (c_int32, [c_void_p, c_uint32, c_void_p, c_size_t, POINTER(c_size_t)]),
+    "hh_match_state": (c_int32, [c_void_p, c_uint32, c_void_p, c_size_t, POINTER(c_size_t)]),
+    "hh_match_sync_test": (c_int32, [c_void_p, POINTER(MatchInput), c_size_t, POINTER(MatchDifference)]),
+    "hh_match_needs_state": (c_int32, [c_void_p, c_uint32, POINTER(c_uint8)]),
+    "hh_match_hash": (c_int32, [c_void_p, c_uint64, POINTER(c_uint64)]),
+    "hh_match_events_sized": (c_int32, [c_void_p, POINTER(POINTER(MatchEvent)), POINTER(c_size_t), c_size_t]),
+    "hh_default_match_stats_sized": (c_int32, [POINTER(MatchStats), c_size_t]),
+    "hh_match_get_stats": (c_int32, [c_void_p, POINTER(MatchStats)]),
 }
 
 

@@ -1,0 +1,302 @@
+#include "systems/match/match_messages.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/hash.hpp"
+
+namespace handhold {
+namespace {
+
+enum class PacketKind : std::uint8_t { client = 1, server = 2 };
+
+constexpr std::size_t k_checksum_bytes = 4;
+constexpr unsigned k_kind_bits = 3;
+constexpr unsigned k_version_bits = 5;
+constexpr unsigned k_slot_bits = 4;
+constexpr unsigned k_tick_bits = 32;
+constexpr unsigned k_epoch_bits = 2;
+constexpr unsigned k_wait_bits = 12;
+constexpr double k_waits_per_s = 4096.0;  // +-0.5 s
+constexpr unsigned k_tick_rice = 4;       // Rice parameter of ticks relative to the first one
+// Ticks farther back than this are not in the histories any more.
+constexpr MatchTick k_oldest = InputHistory::k_capacity - 16;
+
+void begin_packet(PacketKind kind, std::uint8_t slot, BitWriter& out) {
+    out.put(static_cast<std::uint64_t>(kind), k_kind_bits);
+    out.put(k_match_version, k_version_bits);
+    out.put(slot, k_slot_bits);
+}
+
+std::size_t end_packet(const BitWriter& out, std::span<std::byte> bytes) {
+    const std::size_t size = out.bytes();
+    const std::uint32_t sum = match_checksum(bytes.first(size));
+    for (std::size_t i = 0; i < k_checksum_bytes; ++i) {
+        bytes[size + i] = static_cast<std::byte>((sum >> (8 * i)) & 0xffU);
+    }
+    return size + k_checksum_bytes;
+}
+
+MatchRefusal open_packet(std::span<const std::byte> bytes, PacketKind kind,
+                         std::span<const std::byte>& payload) {
+    if (bytes.size() < 2 + k_checksum_bytes || bytes.size() > k_most_packet_bytes) {
+        return MatchRefusal::size;
+    }
+    payload = bytes.first(bytes.size() - k_checksum_bytes);
+    std::uint32_t sum = 0;
+    for (std::size_t i = 0; i < k_checksum_bytes; ++i) {
+        sum |= std::to_integer<std::uint32_t>(bytes[payload.size() + i]) << (8 * i);
+    }
+    if (sum != match_checksum(payload)) {
+        return MatchRefusal::checksum;
+    }
+    BitReader in(payload);
+    const auto found = in.take(k_kind_bits);
+    const auto version = in.take(k_version_bits);
+    return found == static_cast<std::uint64_t>(kind) && version == k_match_version
+               ? MatchRefusal::none
+               : MatchRefusal::version;
+}
+
+// True if nothing but the padding of the last byte is left, and that is zero.
+bool is_at_end(BitReader& in) {
+    return in.bits_left() < 8 && in.take(static_cast<unsigned>(in.bits_left())) == 0 &&
+           !in.has_failed();
+}
+
+std::int32_t behind(MatchTick reference, MatchTick tick) {
+    return static_cast<std::int32_t>(static_cast<std::int64_t>(reference) -
+                                     static_cast<std::int64_t>(tick));
+}
+// The tick so far behind the reference; 0 for one before the match.
+MatchTick tick_behind(MatchTick reference, std::uint32_t folded) {
+    const std::int64_t tick = static_cast<std::int64_t>(reference) - unfold_sign(folded);
+    return static_cast<MatchTick>(std::max<std::int64_t>(0, tick));
+}
+
+// A flag before each entry says that there is one. Stops where the message has `most_bits`.
+void write_stream(StreamSource& source, std::size_t most_bits, BitWriter& out) {
+    source.until = std::min(source.until, source.base + StreamPart::k_most);
+    InputsBefore before = {&k_away_input, &k_away_input, &k_away_input};
+    if (!source.is_fresh) {
+        before = source.history->before(source.base + 1);
+    }
+    for (MatchTick tick = source.base + 1; tick <= source.until; ++tick) {
+        const std::size_t before_bits = out.bits();
+        const InputHistory& history = *source.history;
+        out.put_flag(true);
+        const bool is_filled = history.kind_at(tick) == InputKind::filled;
+        out.put_flag(is_filled);
+        if (!is_filled && !source.is_receivers_own) {
+            write_input(before, history.at(tick), out);
+        }
+        if (out.has_failed() || out.bits() > most_bits) {
+            out.rewind(before_bits);
+            source.until = tick - 1;
+            break;
+        }
+        if (!is_filled && !source.is_receivers_own) {
+            before = {&history.at(tick), before[0], before[1]};
+        }
+    }
+    out.put_flag(false);
+}
+
+// Reads the entries of a part whose base is known.
+class StreamReader {
+  public:
+    StreamReader(const InputHistory& history, StreamPart& part)
+        : part_(part), before_(history.before(part.base + 1)) {}
+
+    // `may_fill`: the part may have filled entries. `is_own`: its other entries are not sent.
+    MatchRefusal read(bool may_fill, bool is_own, BitReader& in) {
+        part_.count = 0;
+        while (in.take_flag()) {
+            if (part_.count == StreamPart::k_most) {
+                return MatchRefusal::malformed;
+            }
+            StreamPart::Entry& entry = part_.entries[part_.count++];
+            entry.is_filled = in.take_flag();
+            entry.is_sent = !entry.is_filled && !is_own;
+            if (entry.is_filled && !may_fill) {
+                return MatchRefusal::malformed;
+            }
+            if (entry.is_sent) {
+                entry.input = read_input(before_, in);
+                before_ = {&entry.input, before_[0], before_[1]};
+            }
+            if (in.has_failed()) {
+                return MatchRefusal::malformed;
+            }
+        }
+        return in.has_failed() ? MatchRefusal::malformed : MatchRefusal::none;
+    }
+
+  private:
+    StreamPart& part_;
+    InputsBefore before_;
+};
+
+}  // namespace
+
+std::uint32_t match_checksum(std::span<const std::byte> bytes) {
+    HashStream stream;
+    stream.add(std::uint64_t{bytes.size()});
+    for (std::size_t at = 0; at < bytes.size(); at += 8) {
+        std::uint64_t word = 0;
+        for (std::size_t i = 0; i < std::min<std::size_t>(8, bytes.size() - at); ++i) {
+            word |= std::to_integer<std::uint64_t>(bytes[at + i]) << (8 * i);
+        }
+        stream.add(word);
+    }
+    return static_cast<std::uint32_t>(stream.value() >> 32);
+}
+
+std::size_t write_client_packet(const ClientPacket& header, std::size_t players, StreamSource& own,
+                                std::span<std::byte> bytes) {
+    const std::size_t room = std::min(bytes.size(), k_most_packet_bytes) - k_checksum_bytes;
+    BitWriter out(bytes.first(room));
+    begin_packet(PacketKind::client, header.slot, out);
+    MatchTick first = header.known_until[0];
+    for (std::size_t slot = 1; slot < players; ++slot) {
+        first = std::max(first, header.known_until[slot]);
+    }
+    out.put(header.state_epoch, k_epoch_bits);
+    out.put(first, k_tick_bits);
+    for (std::size_t slot = 0; slot < players; ++slot) {
+        out.put_rice(fold_sign(behind(first, header.known_until[slot])), k_tick_rice);
+    }
+    out.put(header.lead_epoch, k_epoch_bits);
+    out.put_flag(header.wants_state);
+    out.put_flag(header.is_fresh);
+    out.put_flag(header.hash_tick != 0);
+    if (header.hash_tick != 0) {
+        out.put(header.hash_tick, k_tick_bits);
+        out.put(header.hash, 64);
+    }
+    out.put_rice(fold_sign(behind(first, own.base)), k_tick_rice);
+    write_stream(own, 8 * room - 1, out);
+    return end_packet(out, bytes);
+}
+
+MatchRefusal read_client_packet(std::span<const std::byte> bytes, std::size_t players,
+                                const ClientPacketSource& source, ClientPacket& out) {
+    std::span<const std::byte> payload;
+    if (const MatchRefusal refusal = open_packet(bytes, PacketKind::client, payload);
+        refusal != MatchRefusal::none) {
+        return refusal;
+    }
+    BitReader in(payload);
+    in.take(k_kind_bits + k_version_bits);
+    out.slot = in.take_as<std::uint8_t>(k_slot_bits);
+    if (out.slot >= players || out.slot != source.slot) {
+        return MatchRefusal::sender;
+    }
+    out.state_epoch = in.take_as<std::uint8_t>(k_epoch_bits);
+    if (out.state_epoch != source.state_epochs[out.slot]) {
+        return MatchRefusal::window;
+    }
+    const MatchTick first = in.take(k_tick_bits);
+    for (std::size_t slot = 0; slot < players; ++slot) {
+        out.known_until[slot] = tick_behind(first, in.take_rice(k_tick_rice));
+        if (!in.has_failed() && out.known_until[slot] > source.histories[slot].final_until()) {
+            return MatchRefusal::window;  // nobody can know that
+        }
+    }
+    out.lead_epoch = in.take_as<std::uint8_t>(k_epoch_bits);
+    out.wants_state = in.take_flag();
+    out.is_fresh = in.take_flag();
+    out.hash_tick = 0;
+    if (in.take_flag()) {
+        out.hash_tick = in.take(k_tick_bits);
+        out.hash = in.take(64);
+    }
+    const InputHistory& history = source.sent[out.slot];
+    out.own.base = tick_behind(first, in.take_rice(k_tick_rice));
+    if (in.has_failed()) {
+        return MatchRefusal::malformed;
+    }
+    if (!out.is_fresh && out.own.base > history.final_until()) {
+        return MatchRefusal::gap;
+    }
+    if (out.own.base + k_oldest < history.final_until()) {
+        return MatchRefusal::window;
+    }
+    static const InputHistory k_nothing{};
+    const MatchRefusal refusal =
+        StreamReader(out.is_fresh ? k_nothing : history, out.own).read(false, false, in);
+    return refusal == MatchRefusal::none && !is_at_end(in) ? MatchRefusal::malformed : refusal;
+}
+
+std::size_t write_server_packet(const ServerPacket& header, std::size_t players,
+                                std::span<StreamSource> streams, std::span<std::byte> bytes) {
+    const std::size_t room = std::min(bytes.size(), k_most_packet_bytes) - k_checksum_bytes;
+    BitWriter out(bytes.first(room));
+    begin_packet(PacketKind::server, header.slot, out);
+    out.put(header.state_epoch, k_epoch_bits);
+    out.put(header.confirmed_until, k_tick_bits);
+    out.put_rice(fold_sign(behind(header.confirmed_until, header.received_until)), k_tick_rice);
+    out.put(header.lead_epoch, k_epoch_bits);
+    constexpr double k_most = (1U << (k_wait_bits - 1)) - 1;
+    const double wait =
+        std::clamp(std::floor(header.wait_s * k_waits_per_s + 0.5), -k_most, k_most);
+    out.put(static_cast<std::uint64_t>(wait + k_most), k_wait_bits);
+    out.put_flag(header.is_out_of_sync);
+    for (std::size_t slot = 0; slot < players; ++slot) {
+        StreamSource& stream = streams[slot];
+        out.put_rice(fold_sign(behind(header.confirmed_until, stream.base)), k_tick_rice);
+        // An equal share of what is left for each of the streams that are left.
+        constexpr std::size_t k_header_bits = 64;
+        const std::size_t left = 8 * room - std::min(8 * room, out.bits());
+        const std::size_t share = left / (players - slot);
+        write_stream(stream, out.bits() + share - std::min(share, k_header_bits), out);
+    }
+    return end_packet(out, bytes);
+}
+
+MatchRefusal read_server_packet(std::span<const std::byte> bytes, std::size_t players,
+                                const ServerPacketSource& source, ServerPacket& out) {
+    std::span<const std::byte> payload;
+    if (const MatchRefusal refusal = open_packet(bytes, PacketKind::server, payload);
+        refusal != MatchRefusal::none) {
+        return refusal;
+    }
+    BitReader in(payload);
+    in.take(k_kind_bits + k_version_bits);
+    out.slot = in.take_as<std::uint8_t>(k_slot_bits);
+    if (out.slot != source.own_slot) {
+        return MatchRefusal::sender;
+    }
+    out.state_epoch = in.take_as<std::uint8_t>(k_epoch_bits);
+    if (out.state_epoch != source.state_epoch) {
+        return MatchRefusal::window;
+    }
+    out.confirmed_until = in.take(k_tick_bits);
+    out.received_until = tick_behind(out.confirmed_until, in.take_rice(k_tick_rice));
+    out.lead_epoch = in.take_as<std::uint8_t>(k_epoch_bits);
+    constexpr std::int32_t k_most = (1 << (k_wait_bits - 1)) - 1;
+    out.wait_s = (in.take_as<std::int32_t>(k_wait_bits) - k_most) / k_waits_per_s;
+    out.is_out_of_sync = in.take_flag();
+    for (std::size_t slot = 0; slot < players; ++slot) {
+        StreamPart& part = out.streams[slot];
+        part.base = tick_behind(out.confirmed_until, in.take_rice(k_tick_rice));
+        if (in.has_failed()) {
+            return MatchRefusal::malformed;
+        }
+        const InputHistory& history = source.histories[slot];
+        if (part.base > history.final_until()) {
+            return MatchRefusal::gap;
+        }
+        if (part.base + k_oldest < history.final_until()) {
+            return MatchRefusal::window;
+        }
+        if (const MatchRefusal refusal =
+                StreamReader(history, part).read(true, slot == source.own_slot, in);
+            refusal != MatchRefusal::none) {
+            return refusal;
+        }
+    }
+    return is_at_end(in) ? MatchRefusal::none : MatchRefusal::malformed;
+}
+
+}  // namespace handhold

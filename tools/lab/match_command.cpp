@@ -1,0 +1,110 @@
+#include "tools/lab/match_command.hpp"
+
+#include <cstdio>
+#include <numeric>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/core/parallel.hpp"
+#include "engine/core/profile.hpp"
+#include "engine/core/text_file.hpp"
+#include "tools/lab/exit_status.hpp"
+#include "tools/lab/match_run.hpp"
+
+namespace handhold::lab {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr int k_exit_differs = 3;
+constexpr double k_mm_per_m = 1000.0;
+
+double mean_of(const Series& series) {
+    return series.values.empty()
+               ? 0.0
+               : std::accumulate(series.values.begin(), series.values.end(), 0.0) /
+                     static_cast<double>(series.values.size());
+}
+Json spread_of(const Series& series) {
+    return {
+        {"median", series.quantile(0.5)}, {"p99", series.quantile(0.99)}, {"max", series.max()}};
+}
+Json mean_and_p99_of(const Series& series) {
+    return {{"mean", mean_of(series)}, {"p99", series.quantile(0.99)}};
+}
+
+Json json_of(const MatchOptions& options, const MatchFigures& figures) {
+    const double filled_share =
+        figures.asked > 0 ? static_cast<double>(figures.filled) / static_cast<double>(figures.asked)
+                          : 0.0;
+    return {
+        {"scene", options.scene},
+        {"peers", options.peers},
+        {"network",
+         {{"rtt_ms", options.rtt_ms},
+          {"jitter_ms", options.jitter_ms},
+          {"loss", options.loss},
+          {"burst_loss", options.burst_loss},
+          {"duplicate", options.duplicate},
+          {"kbps", options.kbps},
+          {"packets_per_tick", options.packets},
+          {"overhead_bytes", options.overhead_bytes},
+          {"seed", options.seed}}},
+        {"ticks", figures.ticks},
+        {"confirmed_ticks", figures.confirmed_ticks},
+        {"hashes_compared", figures.hashes_compared},
+        {"hashes_different", figures.hashes_different},
+        {"stalls", figures.stalls},
+        {"filled_share", filled_share},
+        {"rollback",
+         {{"ticks", spread_of(figures.rollback_ticks)}, {"us", spread_of(figures.rollback_us)}}},
+        {"tick_us_client", spread_of(figures.client_tick_us)},
+        {"tick_us_server", spread_of(figures.server_tick_us)},
+        {"kbps_up", mean_and_p99_of(figures.up_kbps)},
+        {"kbps_down", mean_and_p99_of(figures.down_kbps)},
+        {"input_bytes", mean_and_p99_of(figures.input_bytes)},
+        {"largest_packet_bytes", figures.largest_packet},
+        {"others_hand_error_mm",
+         {{"median", k_mm_per_m * figures.others_hand_m.quantile(0.5)},
+          {"p95", k_mm_per_m * figures.others_hand_m.quantile(0.95)}}},
+        {"grips", figures.grips},
+        {"shared_holds", figures.shared_holds}};
+}
+
+}  // namespace
+
+int match_command(const MatchOptions& options) {
+    set_stage_clock(options.threads == 1 ? StageClock::thread_cpu : StageClock::wall);
+    set_thread_count(options.threads);
+    MatchRunOptions run;
+    run.scene = options.scene;
+    run.peers = options.peers;
+    run.network = {.delay_s = 0.0005 * options.rtt_ms,
+                   .jitter_s = 0.001 * options.jitter_ms,
+                   .loss = options.loss,
+                   .duplication = options.duplicate,
+                   .burst_loss = options.burst_loss,
+                   .bytes_per_s = 125.0 * options.kbps,
+                   .overhead_bytes = options.overhead_bytes};
+    run.seconds = options.seconds;
+    run.packets_per_tick = options.packets;
+    run.seed = options.seed;
+    const MatchFigures figures = run_match(run);
+    if (const auto error =
+            write_file_atomically(options.json, json_of(options, figures).dump(2) + "\n")) {
+        return refuse(*error);
+    }
+    if (figures.hashes_different > 0) {
+        std::fprintf(stderr, "handhold-lab: %llu of %llu hashes differ\n",
+                     static_cast<unsigned long long>(figures.hashes_different),
+                     static_cast<unsigned long long>(figures.hashes_compared));
+        return k_exit_differs;
+    }
+    if (figures.hashes_compared == 0 || figures.grips == 0 ||
+        figures.rollback_ticks.values.empty()) {
+        std::fprintf(stderr, "handhold-lab: nobody gripped, went back or compared a hash\n");
+        return k_exit_differs;
+    }
+    return 0;
+}
+
+}  // namespace handhold::lab

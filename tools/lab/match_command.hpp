@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+// `handhold-lab match`: a server and its peers in one process over a simulated network.
+namespace handhold::lab {
+
+struct MatchOptions {
+    std::string scene = "crawl";
+    int peers = 8;
+    double rtt_ms = 100.0;         // round trip without jitter
+    double jitter_ms = 20.0;       // largest extra delay, in each direction
+    double loss = 0.0;             // share of packets, in each direction
+    double burst_loss = 0.0;       // share of packets that begin a burst of eight lost ones
+    double duplicate = 0.0;        // share of packets
+    double kbps = 0.0;             // rate of each direction of each peer; 0: unlimited
+    double packets = 1.0;          // packets a tick, 1 or 0.5
+    double overhead_bytes = 28.0;  // headers of UDP and IPv4
+    double seconds = 30.0;
+    std::uint64_t seed = 1;
+    int threads = 1;
+    std::filesystem::path json;
+};
+
+// Exit status: 0; 2 with one line on standard error if the file cannot be written; 3 if a hash
+// differs, or if the run proves nothing: nobody gripped, went back or compared a hash.
+int match_command(const MatchOptions& options);
+
+}  // namespace handhold::lab
