@@ -31,7 +31,7 @@ struct ClientCounts {
 // the first wrong guess and steps again to the present, without shown stages.
 //
 // No sockets and no clock: the host hands packets in, takes packets out, and says when to advance.
-// No allocation once warm, except in join.
+// No allocation once warm, except in join. 3 MB: allocate it on the heap.
 class ClientSession {
   public:
     // How many ticks the world may be ahead of what is confirmed, at most.

@@ -15,7 +15,8 @@ constexpr unsigned k_kind_bits = 3;
 constexpr unsigned k_version_bits = 5;
 constexpr unsigned k_slot_bits = 4;
 constexpr unsigned k_tick_bits = 32;
-constexpr unsigned k_epoch_bits = 2;
+constexpr unsigned k_epoch_bits = 2;       // of states
+constexpr unsigned k_lead_epoch_bits = 8;  // of TickPacer
 constexpr unsigned k_wait_bits = 12;
 constexpr double k_waits_per_s = 4096.0;  // +-0.5 s
 constexpr unsigned k_tick_rice = 4;       // Rice parameter of ticks relative to the first one
@@ -166,7 +167,7 @@ std::size_t write_client_packet(const ClientPacket& header, std::size_t players,
     for (std::size_t slot = 0; slot < players; ++slot) {
         out.put_rice(fold_sign(behind(first, header.known_until[slot])), k_tick_rice);
     }
-    out.put(header.lead_epoch, k_epoch_bits);
+    out.put(header.lead_epoch, k_lead_epoch_bits);
     out.put_flag(header.wants_state);
     out.put_flag(header.is_fresh);
     out.put_flag(header.hash_tick != 0);
@@ -203,7 +204,7 @@ MatchRefusal read_client_packet(std::span<const std::byte> bytes, std::size_t pl
             return MatchRefusal::window;  // nobody can know that
         }
     }
-    out.lead_epoch = in.take_as<std::uint8_t>(k_epoch_bits);
+    out.lead_epoch = in.take_as<std::uint8_t>(k_lead_epoch_bits);
     out.wants_state = in.take_flag();
     out.is_fresh = in.take_flag();
     out.hash_tick = 0;
@@ -236,7 +237,7 @@ std::size_t write_server_packet(const ServerPacket& header, std::size_t players,
     out.put(header.state_epoch, k_epoch_bits);
     out.put(header.confirmed_until, k_tick_bits);
     out.put_rice(fold_sign(behind(header.confirmed_until, header.received_until)), k_tick_rice);
-    out.put(header.lead_epoch, k_epoch_bits);
+    out.put(header.lead_epoch, k_lead_epoch_bits);
     constexpr double k_most = (1U << (k_wait_bits - 1)) - 1;
     const double wait =
         std::clamp(std::floor(header.wait_s * k_waits_per_s + 0.5), -k_most, k_most);
@@ -273,7 +274,7 @@ MatchRefusal read_server_packet(std::span<const std::byte> bytes, std::size_t pl
     }
     out.confirmed_until = in.take(k_tick_bits);
     out.received_until = tick_behind(out.confirmed_until, in.take_rice(k_tick_rice));
-    out.lead_epoch = in.take_as<std::uint8_t>(k_epoch_bits);
+    out.lead_epoch = in.take_as<std::uint8_t>(k_lead_epoch_bits);
     constexpr std::int32_t k_most = (1 << (k_wait_bits - 1)) - 1;
     out.wait_s = (in.take_as<std::int32_t>(k_wait_bits) - k_most) / k_waits_per_s;
     out.is_out_of_sync = in.take_flag();

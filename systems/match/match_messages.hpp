@@ -24,7 +24,7 @@ enum class MatchRefusal : std::uint8_t {
     version,    // another version of this format, or another kind of message
     sender,     // another slot than the sender's or the receiver's
     malformed,  // fields out of range, or bits beyond them
-    gap,        // begins after inputs that have not arrived, or that were filled
+    gap,        // begins after inputs that have not arrived
     window,     // ticks that are too old or too far ahead
     state,      // the state of a joining player cannot be restored here
 };
@@ -50,7 +50,7 @@ struct ClientPacket {
     std::uint8_t state_epoch = 0;  // number of states that the client has joined with, modulo 4
     // Of each slot, the tick up to which the client has its final inputs.
     std::array<MatchTick, k_most_match_players> known_until{};
-    std::uint8_t lead_epoch = 0;  // TickPacer::epoch, [0, 3]
+    std::uint8_t lead_epoch = 0;  // TickPacer::epoch
     bool wants_state = false;
     bool is_fresh = false;    // the inputs before own.base are forgotten: they count as away
     MatchTick hash_tick = 0;  // 0: no hash

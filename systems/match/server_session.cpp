@@ -45,11 +45,9 @@ ServerSession::ServerSession(const MatchWorld& match, double start_s)
 }
 
 void ServerSession::connect(std::size_t slot) {
-    Peer& peer = peers_[slot];
-    peer.is_connected = true;
-    peer.waits = {};
-    peer.lead_epoch = 0;
-    peer.newest = 0;
+    HH_CHECK(slot < match_.player_count, "no such slot", slot);
+    peers_[slot].is_connected = true;
+    peers_[slot].forget_lead();
 }
 
 MatchRefusal ServerSession::receive(std::size_t slot, std::span<const std::byte> packet,
@@ -71,7 +69,9 @@ MatchRefusal ServerSession::receive(std::size_t slot, std::span<const std::byte>
     for (std::size_t i = 0; i < match_.player_count; ++i) {
         peer.known_until[i] = std::max(peer.known_until[i], incoming_.known_until[i]);
     }
-    peer.needs_state = peer.needs_state || incoming_.wants_state;
+    if (incoming_.wants_state) {
+        ask_for_state(peer);
+    }
     compare_hash(peer, incoming_.hash_tick, incoming_.hash);
     InputHistory& sent = sent_[slot];
     if (incoming_.is_fresh && incoming_.own.base > sent.final_until() &&
@@ -107,7 +107,8 @@ void ServerSession::take_inputs(std::size_t slot, const StreamPart& part, double
         } else if (tick <= history.final_until()) {
             ++counts_.late;
         }
-        // Older inputs of a packet come for the second time, or late because packets were lost.
+        // The newest input of a packet tells the lead. Older ones have come before, or packets were
+        // lost.
         if (tick > peer.newest && i + 1 == part.count) {
             peer.waits.add(deadline_s(tick) - now_s);
         }
@@ -125,8 +126,13 @@ void ServerSession::compare_hash(Peer& peer, MatchTick tick, std::uint64_t hash)
     ++counts_.hashes;
     if (hashes_[tick / k_hash_every_ticks % k_hashes] != hash) {
         ++counts_.out_of_sync;
-        peer.needs_state = true;
+        ask_for_state(peer);
     }
+}
+
+// A peer that asks again at once gets nothing: states are a thousand times as large as requests.
+void ServerSession::ask_for_state(Peer& peer) const {
+    peer.needs_state = peer.needs_state || confirmed() >= peer.next_state_at;
 }
 
 bool ServerSession::is_complete(MatchTick tick) const {
@@ -146,7 +152,9 @@ void ServerSession::confirm(MatchTick tick) {
     TickInputs inputs;
     for (std::size_t slot = 0; slot < match_.player_count; ++slot) {
         InputHistory& history = histories_[slot];
-        if (history.final_until() < tick) {
+        if (history.final_until() < tick && sent_[slot].kind_at(tick) == InputKind::real) {
+            history.finish_next(sent_[slot].at(tick), InputKind::real);
+        } else if (history.final_until() < tick) {
             history.finish_next(predict_input(trend_of(history), tick), InputKind::filled);
             counts_.filled += peers_[slot].is_connected ? 1U : 0U;
         }
@@ -163,7 +171,8 @@ void ServerSession::confirm(MatchTick tick) {
 void ServerSession::advance(double now_s, std::size_t most) {
     for (std::size_t i = 0; i < most; ++i) {
         const MatchTick tick = confirmed() + 1;
-        if (now_s < deadline_s(tick) && !is_complete(tick)) {
+        const double early_s = deadline_s(tick) - now_s;
+        if (early_s > k_most_early_s || (early_s > 0.0 && !is_complete(tick))) {
             return;
         }
         confirm(tick);
@@ -223,6 +232,8 @@ void ServerSession::write_state(std::size_t slot, const SnapshotAssets& assets,
         peer.marks[i].reset(histories_[i].final_until());
     }
     peer.compared_until = confirmed();
+    peer.next_state_at = confirmed() + k_state_every_ticks;
+    peer.forget_lead();
     sent_[slot].reset(confirmed());
 }
 

@@ -26,8 +26,10 @@ struct ServerCounts {
 // The machine that orders a match's inputs. Each input is passed on as soon as it arrives. A tick
 // is confirmed, and the server's world steps it, once all connected players' inputs are there, or
 // at the tick's deadline, which is its end on the server's clock: what is missing then is filled
-// with predict_input and flagged. So nobody waits for anybody. Each player learns how long their
-// inputs waited, and runs ahead by as much as their own connection needs (TickPacer).
+// with predict_input and flagged. So nobody waits for anybody, and nobody drives the match faster
+// than the clock: no tick is confirmed more than k_most_early_s before its deadline. Each player
+// learns how long their inputs waited, and runs ahead by as much as their own connection needs
+// (TickPacer).
 //
 // No sockets and no clock: the host hands packets in with their times, says what time it is, and
 // takes packets out. No allocation once warm, except in write_state.
@@ -35,6 +37,10 @@ class ServerSession {
   public:
     // Inputs may be this far ahead of the confirmed ticks.
     static constexpr MatchTick k_most_lead = 128;
+    static constexpr double k_most_early_s = 0.1;
+    // A player is sent states at most so often. The state must arrive within 448 ticks (five
+    // seconds): the inputs after it are forgotten then, and the player needs another.
+    static constexpr MatchTick k_state_every_ticks = 90;
 
     // The world is at the start of the match, at `start_s` on the host's clock.
     ServerSession(const MatchWorld& match, double start_s);
@@ -93,6 +99,13 @@ class ServerSession {
         MatchTick newest = 0;  // the newest tick of all packets
         std::uint8_t lead_epoch = 0;
         Waits waits;
+        MatchTick next_state_at = 0;  // no state is sent before this tick is confirmed
+
+        void forget_lead() {
+            newest = 0;
+            lead_epoch = 0;
+            waits = {};
+        }
     };
     std::span<InputHistory> histories() { return std::span(histories_).first(match_.player_count); }
     double deadline_s(MatchTick tick) const {
@@ -100,6 +113,7 @@ class ServerSession {
     }
     void take_inputs(std::size_t slot, const StreamPart& part, double now_s);
     void compare_hash(Peer& peer, MatchTick tick, std::uint64_t hash);
+    void ask_for_state(Peer& peer) const;
     bool is_complete(MatchTick tick) const;
     void confirm(MatchTick tick);
 

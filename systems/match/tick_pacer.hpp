@@ -31,10 +31,12 @@ class TickPacer {
     }
     // The world is so many ticks behind what is confirmed.
     void hear_behind(double ticks) {
-        debt_ticks_ = std::max(debt_ticks_, std::min(ticks, k_most_jump));
+        debt_ticks_ = std::min(ticks, k_most_jump);  // whatever was owed is part of it
         begin_epoch();
     }
-    // Counts corrections, modulo 4. The server keeps the waits of each epoch apart.
+    // Counts corrections, modulo 256. The server keeps the waits of each epoch apart. A client that
+    // is behind begins one with every packet, so fewer numbers would meet again within a round
+    // trip.
     std::uint8_t epoch() const { return epoch_; }
     // The number of ticks for so much time of the local clock.
     int ticks_due(double elapsed_s, double dt_s) {
@@ -51,7 +53,7 @@ class TickPacer {
     static constexpr double k_most_jump = 48.0;  // ticks
 
     void begin_epoch() {
-        epoch_ = static_cast<std::uint8_t>((epoch_ + 1U) % 4U);
+        epoch_ = static_cast<std::uint8_t>((epoch_ + 1U) % 256U);
         rate_ = 1.0;
     }
 

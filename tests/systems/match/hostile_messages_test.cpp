@@ -109,7 +109,6 @@ TEST(HostileMessages, ForgedFieldsAreRefusedOrInRange) {
     };
     auto server_packet = std::make_unique<ServerPacket>();
     auto client_packet = std::make_unique<ClientPacket>();
-    const std::size_t before = allocation_count();
     Bytes forged;
     forged.reserve(2 * k_most_packet_bytes);
     std::size_t allocations = 0;
@@ -155,7 +154,6 @@ TEST(HostileMessages, ForgedFieldsAreRefusedOrInRange) {
             }
         }
     }
-    EXPECT_GE(allocation_count(), before);
     EXPECT_EQ(allocations, 0U);
     EXPECT_GT(seen[static_cast<std::size_t>(MatchRefusal::none)], 100U);
     EXPECT_GT(seen[static_cast<std::size_t>(MatchRefusal::malformed)], 1000U);

@@ -93,6 +93,7 @@ TEST(MatchSessions, FrozenPlayerDelaysNobodyAndComesBack) {
     match.play(3.0);
     EXPECT_GT(frozen.session.now() + 2, match.server.confirmed());
     EXPECT_GT(frozen.session.confirmed() + 30, match.server.confirmed());
+    EXPECT_LE(frozen.session.now() - match.server.confirmed(), 30U);  // not more than needed
     const std::uint64_t filled = match.server.counts().filled;
     match.play(1.0);
     EXPECT_LE(match.server.counts().filled - filled, 5U);  // in time again
@@ -111,8 +112,8 @@ TEST(MatchSessions, LateJoinerIsEqualFromTheFirstTick) {
     match.play(4.0);
     EXPECT_GT(match.counts.compared - compared, 1200U);
     EXPECT_GT(match.machines[k_late]->session.now(), match.server.confirmed());
+    EXPECT_LE(match.machines[k_late]->session.now() - match.server.confirmed(), 30U);
     EXPECT_EQ(match.server.counts().out_of_sync, 0U);
-    // The hands of the late player do grip.
     EXPECT_GT(match.server.inputs_of(k_late).last_real(), 600U);
     match.expect_it_happened();
 }
