@@ -164,7 +164,8 @@ void add_contacts_at(const PairIo& io, const Pose& pose_ns, const Pose& from_ns)
 
 // After the touch, a may continue to rotate, as a rolling ball does, so that points that did not
 // touch become the deepest. For each contact plane found at `touch_ns`, adds a's deepest point at
-// `to_ns`.
+// `to_ns`, unless it is beyond b: the plane ends there, and a wall that a small rotating b touches
+// would seem to reach far behind it.
 void add_deepest_at_end(const PairIo& io, const Pose& touch_ns, const Pose& to_ns) {
     std::vector<NearContact>& contacts = io.scratch.contacts;
     const auto depth_at_end = [&](const NearContact& contact) {
@@ -183,7 +184,9 @@ void add_deepest_at_end(const PairIo& io, const Pose& touch_ns, const Pose& to_n
             return other.normal_ns.dot(plane.normal_ns) > k_same_normal &&
                    depth_at_end(other) < separation_m + k_deeper_m;
         });
-        if (!is_known) {
+        const Vec3 point_b_bs = deepest - separation_m * plane.normal_ns + io.to_bs.position;
+        const bool is_beyond = !io.b.empty() && point_b_bs.norm() > reach_m(io.b);
+        if (!is_known && !is_beyond) {
             const Vec3 at_touch =
                 transform_point(touch_ns, inverse_transform_point(to_ns, deepest));
             contacts.push_back({at_touch, deepest - separation_m * plane.normal_ns, plane.normal_ns,

@@ -25,7 +25,7 @@ Vec3 origin_of(std::string_view scene, std::size_t player) {
 }
 
 // Tremor of hands: about 9 Hz, another one for each axis of each device.
-Vec3 tremor(std::size_t player, std::size_t side, double t_s) {
+Vec3 hand_tremor(std::size_t player, std::size_t side, double t_s) {
     constexpr double k_size_m = 0.0003;
     Vec3 out;
     for (int axis = 0; axis < 3; ++axis) {
@@ -133,7 +133,7 @@ TrackingSample devices_at(std::string_view scene, std::size_t player, double t_s
         pull_bar(player, t_s, sample);
     }
     for (std::size_t side = 0; side < k_hand_count; ++side) {
-        sample.controllers[side].controller_ps.position += tremor(player, side, t_s);
+        sample.controllers[side].controller_ps.position += hand_tremor(player, side, t_s);
     }
     return sample;
 }
