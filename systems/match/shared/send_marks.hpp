@@ -14,7 +14,7 @@ namespace handhold {
 // receiver's acknowledgement ends, which heals longer losses.
 class SendMarks {
   public:
-    static constexpr std::size_t k_repeats = 3;
+    static constexpr std::size_t k_repeats = 4;
     static constexpr std::uint64_t k_heal_every = 8;
 
     void reset(MatchTick tick) { marks_.fill(tick); }
