@@ -71,7 +71,11 @@ void gather_contacts(hh_world& host) {
     const auto key = [](const HostContact& c) {
         return std::tuple(c.player.slot, c.side, c.held.slot, c.other.slot);
     };
-    std::ranges::stable_sort(host.contacts, {}, key);
+    // A stable sort that allocates nothing: contacts of heads and held bodies are few.
+    for (auto next = host.contacts.begin(); next != host.contacts.end(); ++next) {
+        std::rotate(std::ranges::upper_bound(host.contacts.begin(), next, key(*next), {}, key),
+                    next, next + 1);
+    }
     // Merges the points of one pair into one contact: the first point, with the sum of the
     // impulses.
     std::size_t kept = 0;

@@ -204,8 +204,8 @@ hh_result hh_match_create(hh_world* world, const hh_match_def* def, const hh_mat
 }
 
 void hh_match_destroy(hh_match* match) {
-    if (match != nullptr && match->is_in_game) {
-        report_failure(HH_ERROR_STATE, "a match cannot be destroyed by its own game's function");
+    if (match != nullptr && (match->is_in_game || match->host.surfaces.is_asking())) {
+        report_failure(HH_ERROR_STATE, "a match cannot be destroyed inside its own callbacks");
         return;
     }
     delete match;

@@ -80,7 +80,9 @@ void joined_of_game(void* context) {
     finish_restore(match.host);
     add_reports(*match.joining, match.host);
     match.joining.reset();
-    match.samplers = {};
+    for (TickSampler& sampler : match.samplers) {
+        sampler.forget();
+    }
     match.events.clear();
     retract_events(match);
     match.confirmed_events = match.host.world.clock.frame;

@@ -11,7 +11,7 @@ namespace handhold {
 class TickPacer {
   public:
     // By how much inputs should come before their deadlines, at least.
-    static constexpr double k_target_s = 0.012;
+    static constexpr double k_target_s = 0.016;
     // Advances that one call of ticks_due returns at most.
     static constexpr int k_most_ticks = 8;
 

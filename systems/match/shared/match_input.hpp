@@ -93,6 +93,13 @@ class TickSampler {
     MatchInput take(double start_s, double end_s, const PlayerCommands& commands,
                     std::uint32_t buttons = 0);
 
+    // Forgets all samples: the devices have not been heard of.
+    void forget() {
+        count_ = 0;
+        has_last_ = false;
+        grab_ = {};
+    }
+
     static constexpr std::size_t k_most_waiting = 64;
     static constexpr double k_longest_hold_s = 0.1;
 

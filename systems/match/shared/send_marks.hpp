@@ -17,7 +17,7 @@ namespace handhold {
 // again there.
 class SendMarks {
   public:
-    static constexpr std::size_t k_repeats = 3;
+    static constexpr std::size_t k_repeats = 4;
     static constexpr std::uint64_t k_heal_every = 8;
 
     void reset(MatchTick tick) {

@@ -14,7 +14,6 @@ namespace {
 using match_test::seed_of;
 using test::TableMachine;
 using test::TableMatch;
-using test::TableState;
 
 const lab::NetworkTraits k_lossy{
     .delay_s = 0.05, .jitter_s = 0.03, .loss = 0.05, .duplication = 0.05};

@@ -14,6 +14,9 @@
  * step: hh_world_step and its kin, hh_world_begin_step, hh_world_restore and hh_world_destroy
  * return or log HH_ERROR_STATE while the world is in a match.
  *
+ * Stack: calls that step or join need more than the 96 KiB that base.h promises of all others; use
+ * threads with the system's default.
+ *
  * A tick is one step of the world, hh_world_time's `frame`. A tick is confirmed once its inputs are
  * final; the state of a confirmed tick is equal on all machines, bit for bit. */
 
@@ -85,12 +88,12 @@ static inline hh_match_game hh_default_match_game(void) {
 
 /* Begins a match at the world's present tick. `game` null: no state of your own. HH_ERROR_STATE if
  * the world is in a match already, or a step has begun; HH_ERROR_HANDLE for unknown players. A
- * client that joins late calls hh_match_join before anything else. Cost: copies of the world's
- * columns, about 5 MB with 8 players. */
+ * client that joins late calls hh_match_join before anything else. Memory: 64 copies
+ * of what moves, and up to 3 MB of inputs. */
 HH_API hh_result hh_match_create(hh_world* world, const hh_match_def* def,
                                  const hh_match_game* game, hh_match** match);
 /* Ends it. The world stays as it is, and may be stepped or destroyed again. Null, or inside a
- * function of its game: nothing happens. */
+ * function of its game or a surface query: nothing happens. */
 HH_API void hh_match_destroy(hh_match* match);
 
 /* ---- Clients ---- */

@@ -28,8 +28,8 @@ static inline hh_world_def hh_default_world_def(void) {
 }
 /* Makes an empty world. A null `def`: the default. Any thread, at any time. Cost: 0.1 ms. */
 HH_API hh_result hh_world_create(const hh_world_def* def, hh_world** world);
-/* Destroys a world and everything in it. Null, or inside the world's own surface query: nothing
- * happens. */
+/* Destroys a world and everything in it. Null, inside the world's own surface query, or in a match:
+ * nothing happens. */
 HH_API void hh_world_destroy(hh_world* world);
 
 /* One reading of the headset and both controllers. A pose at exactly (0, 0, 0) counts as not
