@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "tools" / "lab" / "body_report"
 DATA = Path(os.environ.get("HANDHOLD_DATA_DIR") or ROOT.parent / "shared" / "data") / "body_eval"
 sys.path.insert(0, str(ROOT / "tools" / "lab"))
-from bodies import recordings, report, scoring, stick_figures
+from bodies import recordings, report, scoring, shown, stick_figures
 from pages import svg
 
 IN = "clip,t," + ",".join(f"h{axis}" for axis in ("x", "y", "z", "qx", "qy", "qz", "qw")) + "".join(
@@ -180,6 +180,50 @@ class Scores(unittest.TestCase):
         self.assertAlmostEqual(ours["jerk_ratio"] / theirs["jerk_ratio"], 1.0, places=6)
 
 
+class ShownBodies(unittest.TestCase):
+    """Four frames of an upright body with hanging arms."""
+
+    def setUp(self):
+        self.case = Case([1] * 4)
+        self.case.hand_xyzw = np.tile([0.0, 0.0, 0.0, 1.0], (2, 4, 1))
+        self.body = shown.Shown.__new__(shown.Shown)
+        self.body.shoulder_m, self.body.elbow_m = self.case.shoulder_m, self.case.elbow_m
+        self.body.trunk_m = [np.tile(point, (4, 1)) for point in ([0.0, 1.4, 0.0], [0.0, 1.1, 0.0], [0.0, 0.9, 0.0])]
+        self.body.chest = np.tile(np.eye(3), (4, 1, 1))
+
+    def figures(self):
+        return shown.figures(self.case, self.case, self.case.yaw_deg, self.body, np.ones(4))
+
+    def turn(self, degrees, axis):
+        c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+        return np.array({"x": [[1, 0, 0], [0, c, -s], [0, s, c]], "y": [[c, 0, s], [0, 1, 0], [-s, 0, c]]}[axis])
+
+    def test_turned_shoulders_and_chest_have_their_own_yaw(self):
+        turn = self.turn(20.0, "y")
+        self.body.shoulder_m = self.case.shoulder_m @ turn.T
+        self.body.chest = np.tile(self.turn(-7.0, "y"), (4, 1, 1))
+        yaws, _ = self.figures()
+        np.testing.assert_allclose([yaws[name][0] for name in ("scored facing", "shown shoulders", "shown chest")], [0.0, 20.0, 7.0], atol=1e-9)
+
+    def test_acceleration_is_the_second_difference(self):
+        self.case.yaw_deg = np.array([178.0, 179.0, -179.0, -176.0])  # a second difference of 1 degree
+        self.assertAlmostEqual(self.figures()[0]["true chest"][1], 90.0 ** 2)
+
+    def test_neck_bends_by_the_angle_between_head_and_chest(self):
+        self.body.chest = np.tile(self.turn(-12.0, "x"), (4, 1, 1))
+        self.assertAlmostEqual(self.figures()[1]["neck bend, deg"], 12.0)
+
+    def test_arms_in_the_trunk_and_bent_wrists_are_counted_by_frame(self):
+        self.assertEqual([value for name, value in self.figures()[1].items() if "frames" in name], [0.0, 0.0, 0.0])
+        self.body.elbow_m = self.body.elbow_m.copy()
+        self.body.elbow_m[0, 1] = [0.0, 1.2, 0.05]
+        self.case.hand_xyzw[1, 2:] = [0.0, np.sin(np.radians(85.0)), 0.0, np.cos(np.radians(85.0))]  # fingers back along the forearm, nearly
+        self.body.elbow_m[1, 2:] = self.case.hand_m[1, 2:] + [0.0, 0.0, 0.3]
+        values = self.figures()[1]
+        self.assertEqual([values["elbows in the trunk, % of frames"], values["wrists over 100 deg, % of frames"]], [25.0, 50.0])
+        self.assertGreaterEqual(values["forearms in the trunk, % of frames"], 25.0)
+
+
 class Drawings(unittest.TestCase):
     def test_each_goal_reads_its_own_figure(self):
         figures = {"yaw_deg": {"mean": 8.5}, "elbow_cm": {"mean": 7.1}, "pops_per_min": 1.6, "jerk_ratio": 1.5}
@@ -254,6 +298,18 @@ class Runs(unittest.TestCase):
         self.assertEqual((page.count("http"), page.count("src=")), (0, 0))
         self.assertEqual(page.count("from the right</text>"), 6)  # three moments of each person
         self.assertIn("wave", page)
+
+    def test_shown_body_is_printed_if_the_tool_writes_it(self):
+        self.assertNotIn("As the game shows it", self.run_report().stdout)
+        names = [f"shown_{side}{joint}{axis}" for joint in ("sh", "el") for side in "lr" for axis in "xyz"]
+        names += [part + axis for part in ("chest", "waist", "hips") for axis in "xyz"] + ["chestq" + axis for axis in "xyzw"]
+        head, *rows = (self.folder / "exact.csv").read_text().splitlines()
+        shown_cells = "-.18,1.4,0,.18,1.4,0,-.18,1.1,.1,.18,1.1,.1,0,1.4,0,0,1.1,0,0,.9,0,0,0,0,1"
+        self.write("exact.csv", [f"{head},{','.join(names)}"] + [f"{row},{shown_cells}" for row in rows])
+        run = self.run_report()
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("shown shoulders  yaw error  0.00 deg", run.stdout)
+        self.assertIn("neck bend, deg 0.0", run.stdout)
 
     def test_strict_fails_if_a_goal_is_missed(self):
         text = (self.folder / "exact.csv").read_text().replace(",0,-.18,1.4", ",30,-.18,1.4")

@@ -27,6 +27,10 @@ def text_of(path):
         raise FormatError(f"{path}: expected UTF-8 compressed with gzip: {error}") from None
 
 
+def has_column(path, name):
+    return name in text_of(path).split("\n", 1)[0].strip().split(",")
+
+
 def read_rows(path, wanted, optional=()):
     """{column: values} of a CSV with one header row, for the wanted columns, and for those of the optional ones that exist."""
     lines = text_of(path).splitlines()
