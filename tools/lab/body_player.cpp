@@ -150,8 +150,7 @@ void BodyPlayer::show(double dt_s) {
                      .state = clip_state_,
                      .pose = shown_spine_},
                     {});
-    limit_feet(
-        {.dt_s = dt_s, .origin = origin_, .memory = spine_memory_, .pose = shown_spine_});
+    limit_feet({.dt_s = dt_s, .origin = origin_, .memory = spine_memory_, .pose = shown_spine_});
 }
 
 double BodyPlayer::chest_yaw_deg() const {
