@@ -13,35 +13,28 @@ namespace handhold {
 // k_repeats packets, whatever the round trip is; every k_heal_every-th packet begins where the
 // receiver's acknowledgement ends, which heals longer losses. While the receiver is far behind,
 // each packet begins where the last one ended, so that a round trip brings more than one packet's
-// inputs; if the acknowledgement stands still, what was sent after it was lost, and they begin
-// again there.
+// inputs; every k_restart_every-th begins at the acknowledgement, where a lost one left a gap. The
+// packet's number decides for all streams, since a gap in one of them refuses the packet.
 class SendMarks {
   public:
     static constexpr std::size_t k_repeats = 4;
     static constexpr std::uint64_t k_heal_every = 8;
+    static constexpr std::uint64_t k_restart_every = 32;
 
     void reset(MatchTick tick) {
         marks_.fill(tick);
-        written_until_ = acknowledged_ = tick;
-        still_ = 0;
+        written_until_ = tick;
     }
     // The part begins after this tick. `acknowledged`: the receiver has everything up to this tick.
     // `until`: the newest input. `packet`: number of the packet.
-    MatchTick base(std::uint64_t packet, MatchTick acknowledged, MatchTick until) {
+    MatchTick base(std::uint64_t packet, MatchTick acknowledged, MatchTick until) const {
         constexpr MatchTick k_far = 64;
-        constexpr int k_most_still = 24;  // packets; about a quarter of a second
-        still_ = acknowledged == acknowledged_ ? still_ + 1 : 0;
-        acknowledged_ = acknowledged;
-        if (until > acknowledged + k_far) {
-            if (still_ > k_most_still) {
-                still_ = 0;
-                written_until_ = acknowledged;
-            }
-            return std::clamp(written_until_, acknowledged, until);
+        const bool is_far = until > acknowledged + k_far;
+        if (packet % (is_far ? k_restart_every : k_heal_every) == 0) {
+            return acknowledged;
         }
-        return packet % k_heal_every == 0
-                   ? acknowledged
-                   : std::clamp(marks_[packet % k_repeats], acknowledged, until);
+        return std::clamp(is_far ? written_until_ : marks_[packet % k_repeats], acknowledged,
+                          until);
     }
     // `written_until`: the last tick in the packet.
     void note(std::uint64_t packet, MatchTick written_until) {
@@ -52,8 +45,6 @@ class SendMarks {
   private:
     std::array<MatchTick, k_repeats> marks_{};
     MatchTick written_until_ = 0;  // the end of the last packet
-    MatchTick acknowledged_ = 0;
-    int still_ = 0;  // packets since the acknowledgement changed
 };
 
 }  // namespace handhold

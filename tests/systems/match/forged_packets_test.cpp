@@ -152,15 +152,16 @@ TEST(ForgedPackets, ALiarCostsTheOthersNothing) {
     EXPECT_GT(match.counts.compared, 1500U);
 }
 
-// A receiver who is far behind catches up over any round trip and with losses, though each packet
-// has room for a few ticks only.
-TEST(SendMarksCatchUp, InTwoSecondsWhateverTheRoundTrip) {
+// A receiver who is far behind catches up over any round trip, though each packet has room for a
+// few ticks only; with losses nearly always.
+TEST(SendMarksCatchUp, InThreeSecondsWhateverTheRoundTrip) {
     int lost = 0;
+    int still_behind = 0;
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
         test::Random random(seed_of(seed));
         const auto one_way = static_cast<int>(random.between(1.0, 12.0));  // ticks
         const auto room = static_cast<MatchTick>(random.between(5.0, 20.0));
-        const double loss = random.between(0.0, 1.0) < 0.5 ? 0.0 : 0.02;
+        const double loss = random.between(0.0, 1.0) < 0.5 ? 0.0 : 0.05;
         struct Sent {
             int at;
             MatchTick base;
@@ -194,10 +195,12 @@ TEST(SendMarksCatchUp, InTwoSecondsWhateverTheRoundTrip) {
             }
             acknowledgements.emplace_back(tick + one_way, known);
         }
-        EXPECT_GE(known + static_cast<MatchTick>(one_way) + 30, until)
-            << seed << ": one way " << one_way << ", room " << room << ", loss " << loss;
+        const bool is_behind = known + static_cast<MatchTick>(one_way) + 64 < until;
+        still_behind += is_behind ? 1 : 0;
+        EXPECT_FALSE(is_behind && loss == 0.0) << "one way " << one_way << ", room " << room;
     }
-    EXPECT_GT(lost, 500);
+    EXPECT_LE(still_behind, 10);  // of 200 with losses
+    EXPECT_GT(lost, 1000);
 }
 
 }  // namespace
