@@ -4,10 +4,7 @@
 //   R_ii = factor * r_i * s_i
 //   r_i      dimensionless, by the row's group: `relative_regularisation`
 //   s_i      A_ii; for drive rows the harmonic mean of all A_ii instead, so that two drives on
-//            bodies of different masses share an error evenly: `HarmonicMean`. The mean is taken
-//            without geometric stiffness: drives that contradict each other have multipliers in
-//            proportion to 1 / R_ii, their stiffness makes A_ii of angular rows as much smaller,
-//            and with it in the mean R_ii would shrink and the multipliers grow in every step.
+//            bodies of different masses share an error evenly: `HarmonicMean`
 //   factor   1, or larger if a step was rejected
 // RowSystem (`regularise`) and TriadSystem (`factorise`) both evaluate this formula. A row with a
 // larger r_i is less stiff: if rows contradict each other, their errors end in proportion to R_ii.

@@ -68,10 +68,10 @@ inline constexpr double k_retry_regularisation_increase = 100.0;
 // about a point ten k_angle_lever_m away moves this far.
 inline constexpr double k_max_move_ratio = 10.0;
 
-// The scale s_i of drive rows in model/regularisation.hpp, from the diagonal of J W J^T as
-// assembled.
+// Writes the system's alpha by the formula of model/regularisation.hpp.
 template <typename System>
-double drive_scale(std::span<const Row> rows, const System& system) {
+void regularise(std::span<const Row> rows, const Regularisation& regularisation, double factor,
+                System& system) {
     HarmonicMean mean;
     for (std::size_t i = 0; i < system.size();) {
         const std::size_t width = rows[i].width;
@@ -81,12 +81,7 @@ double drive_scale(std::span<const Row> rows, const System& system) {
         }
         mean.add(static_cast<double>(width), sum);
     }
-    return mean.value();
-}
-// Writes the system's alpha by the formula of model/regularisation.hpp.
-template <typename System>
-void regularise(std::span<const Row> rows, const Regularisation& regularisation, double factor,
-                double drive_scale, System& system) {
+    const double drive_scale = mean.value();
     for (std::size_t i = 0; i < system.size(); ++i) {
         const double scale = rows[i].group == RowGroup::drive ? drive_scale : system.diagonal(i);
         system.alpha()[i] = factor * relative_regularisation(rows[i], regularisation) * scale;

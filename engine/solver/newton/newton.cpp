@@ -65,8 +65,7 @@ class RowSteps {
             collect();
         }
         clear_stiffness(island_, scratch_);
-        has_stiffness_ = hints.adds_stiffness;
-        if (has_stiffness_) {
+        if (hints.adds_stiffness) {
             gather_stiffness();
         }
     }
@@ -74,10 +73,7 @@ class RowSteps {
         has_only_point_rows_ = has_only_point_rows();
         prepare_inertia(island_, scratch_);
         scratch_.system.assemble(island_.bodies, scratch_.inverse_inertia_ws, scratch_.rows);
-        if (!has_stiffness_) {
-            drive_scale_ = drive_scale(scratch_.rows, scratch_.system);
-        }
-        regularise(scratch_.rows, regularisation, factor, drive_scale_, scratch_.system);
+        regularise(scratch_.rows, regularisation, factor, scratch_.system);
         take(scratch_.system.solve(scratch_.rows));
         return {scratch_.system.work(), scratch_.system.is_active_set_unconverged()};
     }
@@ -153,8 +149,6 @@ class RowSteps {
     const IslandView& island_;
     SolveScratch& scratch_;
     double largest_rotation_ = 0.0;
-    double drive_scale_ = 0.0;  // value at the last step without geometric stiffness
-    bool has_stiffness_ = false;
     bool has_only_point_rows_ = false;
     bool reuses_jacobian_ = false;
 };

@@ -207,8 +207,7 @@ class DirectMethod {
         scratch_.system.reset_active_set();
         scratch_.system.limit_work(island.max_work);
         scratch_.system.assemble(island.bodies, scratch_.inverse_inertia_ws, scratch_.rows);
-        regularise(scratch_.rows, settings.regularisation, 1.0,
-                   drive_scale(scratch_.rows, scratch_.system), scratch_.system);
+        regularise(scratch_.rows, settings.regularisation, 1.0, scratch_.system);
     }
     // Returns false if there is no plausible solution.
     bool solve() {
@@ -303,8 +302,7 @@ class SweepMethod {
         RowSweeps& sweeps = scratch_.sweeps;
         sweeps.assemble(island.bodies, scratch_.inverse_inertia_ws, scratch_.rows,
                         scratch_.bounded);
-        regularise(scratch_.rows, settings.regularisation, 1.0, drive_scale(scratch_.rows, sweeps),
-                   sweeps);
+        regularise(scratch_.rows, settings.regularisation, 1.0, sweeps);
         sweeps.factorise();
     }
     void solve() {

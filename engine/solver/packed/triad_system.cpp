@@ -154,7 +154,7 @@ double TriadSystem::drive_scale() const {
 
 void TriadSystem::factorise(const Regularisation& regularisation, double factor) {
     kernels_->multiply_out(arrays(), factor * regularisation.joint);
-    if (has_drive_rows_ && !is_restricted_ && !has_stiffness_) {
+    if (has_drive_rows_ && !is_restricted_) {
         drive_scale_ = drive_scale();
     }
     const double drive_alpha = has_drive_rows_ ? factor * regularisation.drive * drive_scale_ : 0.0;

@@ -192,8 +192,7 @@ class TriadSystem {
     std::vector<RowNode> nodes_;
     std::vector<std::uint8_t> may_turn_;  // indexed by slot
     std::vector<std::uint8_t> uses_;      // number of triads at each slot's body
-    // Value of drive_scale() at the last factorisation of all rows without geometric stiffness.
-    double drive_scale_ = 0.0;
+    double drive_scale_ = 0.0;  // value of drive_scale() at the last unrestricted factorisation
     double longest_move_ = 0.0;
     double largest_rotation_ = 0.0;
     bool is_evaluated_ = false;  // residuals are those of the current poses
