@@ -208,9 +208,10 @@ class MatchRun {
         BitWriter out(bytes);
         write_input(peer.before, own, out);
         figures_.input_bytes.add(static_cast<double>(out.bits()) / 8.0);
-        std::ranges::rotate(peer.inputs, peer.inputs.end() - 1);
-        peer.inputs[0] = own;
-        peer.before = {&peer.inputs[0], &peer.inputs[1], &peer.inputs[2]};
+        auto& inputs = peer.inputs;
+        std::rotate(inputs.begin(), inputs.end() - 1, inputs.end());
+        inputs.front() = own;
+        peer.before = {inputs.data(), &inputs[1], &inputs[2]};
     }
 
     // Compares final ticks with the server's world, and what was first guessed of others.

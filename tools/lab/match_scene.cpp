@@ -20,8 +20,8 @@ Vec3 origin_of(std::string_view scene, std::size_t player) {
         return {k_between_m * static_cast<double>(player), 0.0, 0.0};
     }
     const double side = player % 2 == 0 ? 1.0 : -1.0;
-    const auto pair = static_cast<double>(player / 2);
-    return {k_between_m * pair, 0.0, side * k_away_from_bar_m};
+    const std::size_t pair = player / 2;
+    return {k_between_m * static_cast<double>(pair), 0.0, side * k_away_from_bar_m};
 }
 
 // Tremor of hands: about 9 Hz, another one for each axis of each device.

@@ -139,7 +139,7 @@ TickSamples unpack_samples(const MatchInput& before, const MatchInput& now, doub
 PlayerCommands unpack_commands(const MatchInput& input) {
     PlayerCommands commands;
     commands.smooth_turn = input.smooth_turn / 127.0;
-    commands.snap_turns = input.snap_turns;
+    commands.snap_turns = input.snap_turns;  // NOLINT(bugprone-signed-char-misuse): a number
     commands.brake = input.brake / 255.0;
     for (int axis = 0; axis < 3; ++axis) {
         commands.thrust_ps[axis] = input.thrust[static_cast<std::size_t>(axis)] / 127.0;

@@ -36,6 +36,7 @@ class MatchGame {
     using Step = std::function<void(State& state, std::uint64_t tick,
                                     std::span<const std::uint32_t> buttons)>;
 
+    // Begins with the state `start`, and steps it by `step`.
     explicit MatchGame(Step step, State start = {})
         : state(std::move(start)), step_(std::move(step)) {}
     MatchGame(const MatchGame&) = delete;
@@ -90,6 +91,7 @@ class Match {
     bool is_valid() const { return match_ != nullptr; }
     // The handle of the C interface; null if not valid.
     hh_match* get() { return match_; }
+    // The handle of the C interface; null if not valid.
     const hh_match* get() const { return match_; }
 
     // ---- Clients ----
@@ -124,7 +126,9 @@ class Match {
 
     // ---- Servers ----
 
+    // Somebody plays the slot.
     Status connect(std::uint32_t slot) { return hh_match_connect(match_, slot); }
+    // Nobody plays the slot: its hands let go and its body floats.
     Status disconnect(std::uint32_t slot) { return hh_match_disconnect(match_, slot); }
     // Takes a packet that came from that slot's player.
     Status receive_from(std::uint32_t slot, double now_s, std::span<const std::byte> packet) {
@@ -166,6 +170,7 @@ class Match {
 
     // ---- All ----
 
+    // True if the player needs a state of the server.
     Maybe<bool> needs_state(std::uint32_t slot) const {
         std::uint8_t needs = 0;
         const hh_result result = hh_match_needs_state(match_, slot, &needs);

@@ -35,10 +35,12 @@ class WorldHandle {
     const hh_world* get() const { return world_; }
 
   protected:
+    // The hit of a query that succeeded and found something.
     static std::optional<Hit> found(hh_result result, const Hit& hit) {
         const bool is_hit = hit.body.generation != 0 || hit.player.generation != 0;
         return result == HH_OK && is_hit ? std::optional(hit) : std::nullopt;
     }
+    // The values of a call that fills an array of the caller; none if it fails.
     template <typename T>
     std::vector<T> all(hh_result (*call)(const hh_world*, T*, std::size_t, std::size_t*)) const {
         std::size_t count = 0;
@@ -49,6 +51,7 @@ class WorldHandle {
         }
         return values;
     }
+    // The list of a call that lends one; empty if it fails.
     template <typename T>
     std::span<const T> list(hh_result (*call)(const hh_world*, const T**, std::size_t*)) const {
         const T* first = nullptr;
@@ -56,6 +59,7 @@ class WorldHandle {
         return call(world_, &first, &count) == HH_OK ? std::span(first, count)
                                                      : std::span<const T>();
     }
+    // The value that a call writes, with its result.
     template <typename T, typename Call>
     static Maybe<T> make(const Call& call) {
         T value{};
@@ -63,6 +67,7 @@ class WorldHandle {
         return {result, value};
     }
 
+    // Null if not valid.
     hh_world* world_ = nullptr;
 };
 
