@@ -73,8 +73,10 @@ void gather_contacts(hh_world& host) {
     };
     // A stable sort that allocates nothing: contacts of heads and held bodies are few.
     for (auto next = host.contacts.begin(); next != host.contacts.end(); ++next) {
-        std::rotate(std::ranges::upper_bound(host.contacts.begin(), next, key(*next), {}, key),
-                    next, next + 1);
+        const auto place = std::upper_bound(
+            host.contacts.begin(), next, *next,
+            [&key](const HostContact& a, const HostContact& b) { return key(a) < key(b); });
+        std::rotate(place, next, next + 1);
     }
     // Merges the points of one pair into one contact: the first point, with the sum of the
     // impulses.
