@@ -105,6 +105,10 @@ TEST(ForgedPackets, ALiarCostsTheOthersNothing) {
     for (int i = 0; i < 450; ++i) {
         match.play(k_tick_s);
         const MatchTick confirmed = match.server.confirmed();
+        const auto near = [&](double low, double high) {
+            return static_cast<MatchTick>(
+                std::max(0.0, static_cast<double>(confirmed) + random.between(low, high)));
+        };
         for (int k = 0; k < 4; ++k) {
             ClientPacket header;
             header.slot = k_liar;
@@ -115,11 +119,9 @@ TEST(ForgedPackets, ALiarCostsTheOthersNothing) {
             header.hash = static_cast<std::uint64_t>(k);
             header.lead_epoch = static_cast<std::uint8_t>(random.between(0.0, 256.0));
             for (MatchTick& known : header.known_until) {
-                known = static_cast<MatchTick>(static_cast<double>(confirmed) +
-                                               random.between(-400.0, 30.0));
+                known = near(-400.0, 30.0);
             }
-            const auto base = static_cast<MatchTick>(static_cast<double>(confirmed) +
-                                                     random.between(-100.0, 160.0));
+            const MatchTick base = near(-100.0, 160.0);
             forged->reset(base);
             for (int n = 0; n < 1 + 16 * k; ++n) {
                 forged->finish_next(wild_input(random), InputKind::real);
