@@ -35,7 +35,7 @@ template <std::size_t Bins>
 void see(double length_m, double dt_s, LengthHistogram<Bins>& seen) {
     const double bin = length_m / LengthHistogram<Bins>::k_bin_m;
     if (!(bin >= 0.0 && bin < static_cast<double>(Bins))) {
-        return;  // outside of what people have
+        return;  // no person has this length
     }
     seen.time_s[static_cast<std::size_t>(bin)] += dt_s;
     if (sum_s(seen) > k_most_s) {

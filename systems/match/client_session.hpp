@@ -26,15 +26,15 @@ struct ClientCounts {
     RefusalCounts refused{};
 };
 
-// One player's machine. Its world runs ahead of what is confirmed: own inputs are used at once,
-// those of others are guessed until they arrive. Each advance first goes back to the state before
-// the first wrong guess and steps again to the present, without shown stages.
+// One player's machine. Its world is later than the last confirmed tick: it uses own inputs at
+// once, and guesses those of others until they arrive. Each advance first goes back to the state
+// before the first wrong guess and steps again to the present, without shown stages.
 //
 // No sockets and no clock: the host hands packets in, takes packets out, and says when to advance.
 // No allocation once warm, except in join. 3 MB: allocate it on the heap.
 class ClientSession {
   public:
-    // How many ticks the world may be ahead of what is confirmed, at most.
+    // Number of states kept; the world is fewer ticks than this after the last confirmed one.
     static constexpr MatchTick k_window = k_match_window;
 
     // The world is at a tick at which the server's is or was equal, and before which nobody played:

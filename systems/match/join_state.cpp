@@ -12,8 +12,8 @@ namespace {
 
 // So many ticks of inputs: as far back as guesses and the encoding of later inputs look.
 constexpr MatchTick k_inputs_kept = k_away_after_ticks + 32;
-// Magic, size of the inputs, slots, checksum of what follows up to the snapshot; from here on the
-// epoch, the size of the host's part, the inputs, the host's part, the snapshot.
+// The first 16 bytes are magic, size of the inputs, number of slots and a checksum. The checksum
+// covers the rest up to the snapshot: epoch, size of the host's part, inputs, the host's part.
 constexpr std::size_t k_checked_from = 16;
 constexpr std::size_t k_header_bytes = 24;
 constexpr std::uint32_t k_magic = 0x314a4848;  // "HHJ1"

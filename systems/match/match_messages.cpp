@@ -246,7 +246,7 @@ std::size_t write_server_packet(const ServerPacket& header, std::size_t players,
     for (std::size_t slot = 0; slot < players; ++slot) {
         StreamSource& stream = streams[slot];
         out.put_rice(fold_sign(behind(header.confirmed_until, stream.base)), k_tick_rice);
-        // An equal share of what is left for each of the streams that are left.
+        // The streams that are not written yet share the rest of the packet equally.
         constexpr std::size_t k_header_bits = 64;
         const std::size_t left = 8 * room - std::min(8 * room, out.bits());
         const std::size_t share = left / (players - slot);

@@ -37,7 +37,8 @@ struct MatchHost {
     void (*joined)(void* context) = nullptr;
 };
 
-// How many ticks a client may be ahead of what is confirmed, and so many states it keeps.
+// Number of states that a client keeps, one a tick. It is fewer ticks than this after the last
+// confirmed one.
 inline constexpr std::size_t k_match_window = 64;
 
 // The world of a match on one machine. All of it must outlive the session that has it.

@@ -156,40 +156,30 @@ void TickSampler::add(const TrackingSample& sample) {
     waiting_[count_++] = sample;
 }
 
-MatchInput TickSampler::take(double start_s, double end_s, const PlayerCommands& commands,
-                             std::uint32_t buttons) {
-    const auto waiting = std::span(waiting_).first(count_);
-    const auto used = static_cast<std::size_t>(
-        std::ranges::find_if(waiting, [&](const TrackingSample& s) { return !(s.t_s <= end_s); }) -
-        waiting.begin());
-    MatchInput input;
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
-        MatchHand& hand = input.hands[side];
-        const bool grab = used > 0 ? waiting[used - 1].controllers[side].grab : grab_[side];
-        hand.grab = grab;
-        if (grab != grab_[side]) {
-            std::size_t first = used - 1;  // the first of the samples that have the new state
-            while (first > 0 && waiting[first - 1].controllers[side].grab == grab) {
-                --first;
-            }
-            const TrackingSample& edge = waiting[first];
-            const double share = (edge.t_s - start_s) / (end_s - start_s);
-            const Pose& pose_ps = edge.controllers[side].controller_ps;
-            if (share < 1.0 && is_packable(pose_ps)) {
-                hand.edge_at =
-                    static_cast<std::uint8_t>(std::clamp(round_half_up(256.0 * share), 1.0, 255.0));
-                hand.edge_pose = pack(pose_ps);
-            }
+// The button of one hand at the tick's end, and when it came to that state. `used`: the tick's
+// samples.
+void TickSampler::take_grab(std::size_t side, std::span<const TrackingSample> used, double start_s,
+                            double end_s, MatchHand& hand) {
+    const bool grab = used.empty() ? grab_[side] : used.back().controllers[side].grab;
+    hand.grab = grab;
+    if (grab != grab_[side]) {
+        std::size_t first = used.size() - 1;  // the first of the samples that have the new state
+        while (first > 0 && used[first - 1].controllers[side].grab == grab) {
+            --first;
         }
-        grab_[side] = grab;
+        const double share = (used[first].t_s - start_s) / (end_s - start_s);
+        const Pose& pose_ps = used[first].controllers[side].controller_ps;
+        if (share < 1.0 && is_packable(pose_ps)) {
+            hand.edge_at =
+                static_cast<std::uint8_t>(std::clamp(round_half_up(256.0 * share), 1.0, 255.0));
+            hand.edge_pose = pack(pose_ps);
+        }
     }
-    if (used > 0) {
-        last_ = waiting[used - 1];
-        has_last_ = true;
-        std::move(waiting_.begin() + static_cast<std::ptrdiff_t>(used),
-                  waiting_.begin() + static_cast<std::ptrdiff_t>(count_), waiting_.begin());
-        count_ -= used;
-    }
+    grab_[side] = grab;
+}
+
+// Head and hands at the tick's end, from the last sample that a tick used and the next one.
+void TickSampler::take_poses(double end_s, MatchInput& input) const {
     const TrackingSample* const later = count_ > 0 ? waiting_.data() : nullptr;
     const bool is_known = has_last_ && (later != nullptr || end_s - last_.t_s <= k_longest_hold_s);
     const double span_s = later != nullptr ? later->t_s - last_.t_s : 0.0;
@@ -221,6 +211,26 @@ MatchInput TickSampler::take(double start_s, double end_s, const PlayerCommands&
             }
         }
     }
+}
+
+MatchInput TickSampler::take(double start_s, double end_s, const PlayerCommands& commands,
+                             std::uint32_t buttons) {
+    const auto waiting = std::span(waiting_).first(count_);
+    const auto used = static_cast<std::size_t>(
+        std::ranges::find_if(waiting, [&](const TrackingSample& s) { return !(s.t_s <= end_s); }) -
+        waiting.begin());
+    MatchInput input;
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        take_grab(side, waiting.first(used), start_s, end_s, input.hands[side]);
+    }
+    if (used > 0) {
+        last_ = waiting[used - 1];
+        has_last_ = true;
+        std::move(waiting_.begin() + static_cast<std::ptrdiff_t>(used),
+                  waiting_.begin() + static_cast<std::ptrdiff_t>(count_), waiting_.begin());
+        count_ -= used;
+    }
+    take_poses(end_s, input);
     input.smooth_turn = packed_share<std::int8_t>(commands.smooth_turn, -1.0, 127.0);
     input.snap_turns = static_cast<std::int8_t>(std::clamp(commands.snap_turns, -127, 127));
     input.brake = packed_share<std::uint8_t>(commands.brake, 0.0, 255.0);

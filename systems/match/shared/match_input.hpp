@@ -104,6 +104,10 @@ class TickSampler {
     static constexpr double k_longest_hold_s = 0.1;
 
   private:
+    void take_grab(std::size_t side, std::span<const TrackingSample> used, double start_s,
+                   double end_s, MatchHand& hand);
+    void take_poses(double end_s, MatchInput& input) const;
+
     std::array<TrackingSample, k_most_waiting> waiting_;
     std::size_t count_ = 0;
     TrackingSample last_;  // the newest sample that a tick used
