@@ -39,6 +39,8 @@ void check_match_def(const hh_match_def& def) {
 
 MatchWorld match_world_of(hh_match& match) {
     hh_world& host = match.host;
+    require(host.world.clock.frame <= k_last_start_tick, HH_ERROR_STATE,
+            "a match begins before tick 2^32");
     MatchWorld out{.world = host.world,
                    .caches = host.caches,
                    .tuning = host.tuning,

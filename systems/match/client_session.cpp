@@ -17,6 +17,7 @@ ClientSession::ClientSession(const MatchWorld& match, std::size_t slot)
     HH_CHECK(match.player_count > 0 && match.player_count <= k_most_match_players,
              "a match has 1 to 16 players", match.player_count);
     HH_CHECK(slot < match.player_count, "no such slot", slot);
+    HH_CHECK(now() <= k_last_start_tick, "a match begins before tick 2^32", now());
     for (InputHistory& history : histories()) {
         history.reset(now());
     }
@@ -33,6 +34,8 @@ void ClientSession::start_here() {
     received_until_ = now();
     marks_.reset(now());
     pacer_ = {};
+    sent_until_ = now();
+    new_ticks_.fill(1.0);
     hash_tick_ = 0;
     needs_state_ = false;
 }
@@ -69,6 +72,7 @@ MatchRefusal ClientSession::receive(std::span<const std::byte> packet) {
         counts_.refused[static_cast<std::size_t>(refusal)] += 1;
         return refusal;
     }
+    counts_.refused[static_cast<std::size_t>(MatchRefusal::gap)] += incoming_.gaps;
     needs_state_ = needs_state_ || incoming_.is_out_of_sync;
     for (std::size_t slot = 0; slot < match_.player_count; ++slot) {
         take_stream(slot, incoming_.streams[slot]);
@@ -77,7 +81,9 @@ MatchRefusal ClientSession::receive(std::span<const std::byte> packet) {
     if (incoming_.confirmed_until > now()) {
         pacer_.hear_behind(static_cast<double>(incoming_.confirmed_until - now()));
     } else {
-        pacer_.hear(incoming_.wait_s, incoming_.lead_epoch, match_.dt_s);
+        // The server reports the newest input of each packet; the oldest new one is due earlier.
+        const double earlier_s = match_.dt_s * (std::ranges::max(new_ticks_) - 1.0);
+        pacer_.hear(incoming_.wait_s - earlier_s, incoming_.lead_epoch, match_.dt_s);
     }
     return MatchRefusal::none;
 }
@@ -150,7 +156,7 @@ void ClientSession::step_once(bool is_shown) {
         inputs.before[slot] = &histories_[slot].at(tick - 1);
         inputs.now[slot] = &histories_[slot].at(tick);
     }
-    step_tick(match_, inputs, is_shown, stats_);
+    step_tick(match_, inputs, is_shown, scratch_, stats_);
     keep_state();
     oldest_state_ = std::max(oldest_state_, tick >= k_window ? tick - k_window + 1 : 0);
 }
@@ -161,11 +167,11 @@ void ClientSession::go_back() {
     if (!has_wrong_ || first_wrong_ > present) {
         return;
     }
-    has_wrong_ = false;
     if (first_wrong_ <= oldest_state_) {
         needs_state_ = true;
         return;
     }
+    has_wrong_ = false;
     const std::size_t place = (first_wrong_ - 1) % k_window;
     states_[place].restore(match_.world);
     if (match_.host.restore != nullptr) {
@@ -213,7 +219,7 @@ void ClientSession::note_hash() {
 }
 
 std::size_t ClientSession::write_packet(std::span<std::byte> bytes) {
-    ClientPacket header;
+    ClientHeader header;
     header.slot = static_cast<std::uint8_t>(slot_);
     header.state_epoch = state_epoch_;
     for (std::size_t slot = 0; slot < match_.player_count; ++slot) {
@@ -232,6 +238,8 @@ std::size_t ClientSession::write_packet(std::span<std::byte> bytes) {
                             : marks_.base(packets_, received_until_, own.until);
     header.is_fresh = own.is_fresh;
     const std::size_t size = write_client_packet(header, match_.player_count, own, bytes);
+    new_ticks_[packets_ % new_ticks_.size()] = own.until > sent_until_ + 1 ? 2.0 : 1.0;
+    sent_until_ = own.until;
     marks_.note(packets_++, own.until);
     return size;
 }

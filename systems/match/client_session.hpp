@@ -110,13 +110,16 @@ class ClientSession {
     SendMarks marks_;
     std::uint64_t packets_ = 0;
     TickPacer pacer_;
+    MatchTick sent_until_ = 0;           // the newest input of the last packet
+    std::array<double, 8> new_ticks_{};  // new inputs in each of the last packets, 1 or 2
     MatchTick hash_tick_ = 0;
     std::uint64_t hash_ = 0;
     bool needs_state_ = false;
     std::uint8_t state_epoch_ = 0;
     ClientCounts counts_;
     StageStats stats_;
-    ServerPacket incoming_;  // scratch
+    ServerPacket incoming_;
+    TickScratch scratch_;
 };
 
 }  // namespace handhold

@@ -143,6 +143,9 @@ std::optional<FileError> read_join_state(std::span<const std::byte> bytes,
             restore_snapshot(bytes.subspan(snapshot_at), assets, restored, heads)) {
         return error;
     }
+    if (restored.clock.frame > k_last_start_tick) {
+        return join_refusal("the snapshot's clock", "a tick below 2^32");
+    }
     std::vector<InputHistory> read(histories.size());
     BitReader in(bytes.subspan(k_header_bytes, inputs));
     if (!read_inputs(in, restored.clock.frame, read)) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/check.hpp"
 #include "engine/core/hash.hpp"
 
 namespace handhold {
@@ -19,9 +20,15 @@ constexpr unsigned k_epoch_bits = 2;       // ClientPacket::state_epoch
 constexpr unsigned k_lead_epoch_bits = 8;  // TickPacer::epoch
 constexpr unsigned k_wait_bits = 12;
 constexpr double k_waits_per_s = 4096.0;  // +-0.5 s
-constexpr unsigned k_tick_rice = 4;       // Rice parameter of ticks relative to the first one
+constexpr unsigned k_length_bits = 14;    // of a stream, in bits
+constexpr unsigned k_tick_rice = 4;       // Rice parameter of ticks relative to another one
 // Ticks farther back than this are not in the histories any more.
 constexpr MatchTick k_oldest = InputHistory::k_capacity - 16;
+
+std::size_t room_for(std::size_t players, std::span<const std::byte> bytes) {
+    HH_CHECK(bytes.size() >= 64 * players, "a packet needs 64 bytes a player", bytes.size());
+    return std::min(bytes.size(), k_most_packet_bytes) - k_checksum_bytes;
+}
 
 void begin_packet(PacketKind kind, std::uint8_t slot, BitWriter& out) {
     out.put(static_cast<std::uint64_t>(kind), k_kind_bits);
@@ -153,19 +160,19 @@ std::uint32_t match_checksum(std::span<const std::byte> bytes) {
     return static_cast<std::uint32_t>(stream.value() >> 32);
 }
 
-std::size_t write_client_packet(const ClientPacket& header, std::size_t players, StreamSource& own,
+std::size_t write_client_packet(const ClientHeader& header, std::size_t players, StreamSource& own,
                                 std::span<std::byte> bytes) {
-    const std::size_t room = std::min(bytes.size(), k_most_packet_bytes) - k_checksum_bytes;
+    const std::size_t room = room_for(players, bytes);
     BitWriter out(bytes.first(room));
     begin_packet(PacketKind::client, header.slot, out);
-    MatchTick first = header.known_until[0];
+    MatchTick newest = header.known_until[0];
     for (std::size_t slot = 1; slot < players; ++slot) {
-        first = std::max(first, header.known_until[slot]);
+        newest = std::max(newest, header.known_until[slot]);
     }
     out.put(header.state_epoch, k_epoch_bits);
-    out.put(first, k_tick_bits);
+    out.put(newest, k_tick_bits);
     for (std::size_t slot = 0; slot < players; ++slot) {
-        out.put_rice(fold_sign(behind(first, header.known_until[slot])), k_tick_rice);
+        out.put_rice(fold_sign(behind(newest, header.known_until[slot])), k_tick_rice);
     }
     out.put(header.lead_epoch, k_lead_epoch_bits);
     out.put_flag(header.wants_state);
@@ -175,7 +182,7 @@ std::size_t write_client_packet(const ClientPacket& header, std::size_t players,
         out.put(header.hash_tick, k_tick_bits);
         out.put(header.hash, 64);
     }
-    out.put_rice(fold_sign(behind(first, own.base)), k_tick_rice);
+    out.put_rice(fold_sign(behind(newest, own.base)), k_tick_rice);
     write_stream(own, 8 * room - 1, out);
     return end_packet(out, bytes);
 }
@@ -197,9 +204,9 @@ MatchRefusal read_client_packet(std::span<const std::byte> bytes, std::size_t pl
     if (out.state_epoch != source.state_epochs[out.slot]) {
         return MatchRefusal::window;
     }
-    const MatchTick first = in.take(k_tick_bits);
+    const MatchTick newest = in.take(k_tick_bits);
     for (std::size_t slot = 0; slot < players; ++slot) {
-        out.known_until[slot] = tick_behind(first, in.take_rice(k_tick_rice));
+        out.known_until[slot] = tick_behind(newest, in.take_rice(k_tick_rice));
         if (!in.has_failed() && out.known_until[slot] > source.histories[slot].final_until()) {
             return MatchRefusal::window;  // nobody can know that
         }
@@ -213,7 +220,7 @@ MatchRefusal read_client_packet(std::span<const std::byte> bytes, std::size_t pl
         out.hash = in.take(64);
     }
     const InputHistory& history = source.sent[out.slot];
-    out.own.base = tick_behind(first, in.take_rice(k_tick_rice));
+    out.own.base = tick_behind(newest, in.take_rice(k_tick_rice));
     if (in.has_failed()) {
         return MatchRefusal::malformed;
     }
@@ -229,9 +236,9 @@ MatchRefusal read_client_packet(std::span<const std::byte> bytes, std::size_t pl
     return refusal == MatchRefusal::none && !is_at_end(in) ? MatchRefusal::malformed : refusal;
 }
 
-std::size_t write_server_packet(const ServerPacket& header, std::size_t players,
+std::size_t write_server_packet(const ServerHeader& header, std::size_t players,
                                 std::span<StreamSource> streams, std::span<std::byte> bytes) {
-    const std::size_t room = std::min(bytes.size(), k_most_packet_bytes) - k_checksum_bytes;
+    const std::size_t room = room_for(players, bytes);
     BitWriter out(bytes.first(room));
     begin_packet(PacketKind::server, header.slot, out);
     out.put(header.state_epoch, k_epoch_bits);
@@ -250,7 +257,11 @@ std::size_t write_server_packet(const ServerPacket& header, std::size_t players,
         constexpr std::size_t k_header_bits = 64;
         const std::size_t left = 8 * room - std::min(8 * room, out.bits());
         const std::size_t share = left / (players - slot);
-        write_stream(stream, out.bits() + share - std::min(share, k_header_bits), out);
+        const std::size_t length_at = out.bits();
+        out.put(0, k_length_bits);
+        const std::size_t stream_at = out.bits();
+        write_stream(stream, length_at + share - std::min(share, k_header_bits), out);
+        out.overwrite(length_at, out.bits() - stream_at, k_length_bits);
     }
     return end_packet(out, bytes);
 }
@@ -278,15 +289,22 @@ MatchRefusal read_server_packet(std::span<const std::byte> bytes, std::size_t pl
     constexpr std::int32_t k_most = (1 << (k_wait_bits - 1)) - 1;
     out.wait_s = (in.take_as<std::int32_t>(k_wait_bits) - k_most) / k_waits_per_s;
     out.is_out_of_sync = in.take_flag();
+    out.gaps = 0;
     for (std::size_t slot = 0; slot < players; ++slot) {
         StreamPart& part = out.streams[slot];
         part.base = tick_behind(out.confirmed_until, in.take_rice(k_tick_rice));
-        if (in.has_failed()) {
+        const auto length = in.take_as<std::size_t>(k_length_bits);
+        if (in.has_failed() || length > in.bits_left()) {
             return MatchRefusal::malformed;
         }
+        const std::size_t left = in.bits_left() - length;
         const InputHistory& history = source.histories[slot];
         if (part.base > history.final_until()) {
-            return MatchRefusal::gap;
+            // Its inputs are encoded against some that are missing.
+            part.count = 0;
+            ++out.gaps;
+            in.skip(length);
+            continue;
         }
         if (part.base + k_oldest < history.final_until()) {
             return MatchRefusal::window;
@@ -295,6 +313,9 @@ MatchRefusal read_server_packet(std::span<const std::byte> bytes, std::size_t pl
                 StreamReader(history, part).read(true, slot == source.own_slot, in);
             refusal != MatchRefusal::none) {
             return refusal;
+        }
+        if (in.bits_left() != left) {
+            return MatchRefusal::malformed;
         }
     }
     return is_at_end(in) ? MatchRefusal::none : MatchRefusal::malformed;

@@ -13,7 +13,9 @@
 namespace handhold {
 
 inline constexpr std::size_t k_most_packet_bytes = 1200;
-inline constexpr std::uint8_t k_match_version = 1;
+inline constexpr std::uint8_t k_match_version = 2;
+// Ticks travel as 32 bits, and no match begins after this one. 552 days at 90 Hz.
+inline constexpr MatchTick k_last_start_tick = 0xffffffff - 2 * InputHistory::k_capacity;
 // Every so many ticks the hashes of all machines are compared.
 inline constexpr MatchTick k_hash_every_ticks = 90;
 
@@ -24,7 +26,7 @@ enum class MatchRefusal : std::uint8_t {
     version,    // another version of this format, or another kind of message
     sender,     // another slot than the sender's or the receiver's
     malformed,  // fields out of range, or bits beyond them
-    gap,        // begins after inputs that have not arrived
+    gap,        // begins after inputs that have not arrived; of a server's packet, one slot's part
     window,     // ticks that are too old or too far ahead
     state,      // the state of a joining player cannot be restored here
 };
@@ -45,7 +47,7 @@ struct StreamPart {
     std::array<Entry, k_most> entries;
 };
 
-struct ClientPacket {
+struct ClientHeader {
     std::uint8_t slot = 0;
     std::uint8_t state_epoch = 0;  // number of states that the client has joined with, modulo 4
     // Of each slot, the tick up to which the client has its final inputs.
@@ -55,10 +57,12 @@ struct ClientPacket {
     bool is_fresh = false;    // the inputs before own.base are forgotten: they count as away
     MatchTick hash_tick = 0;  // 0: no hash
     std::uint64_t hash = 0;   // hash_simulated of a confirmed tick
+};
+struct ClientPacket : ClientHeader {
     StreamPart own;
 };
 
-struct ServerPacket {
+struct ServerHeader {
     std::uint8_t slot = 0;          // the receiver's
     std::uint8_t state_epoch = 0;   // ClientPacket::state_epoch that the server expects
     MatchTick confirmed_until = 0;  // no input up to this tick is missing
@@ -68,6 +72,9 @@ struct ServerPacket {
     double wait_s = 0.0;
     std::uint8_t lead_epoch = 0;  // ClientPacket::lead_epoch of these inputs
     bool is_out_of_sync = false;  // the receiver needs a new state
+};
+struct ServerPacket : ServerHeader {
+    std::uint32_t gaps = 0;  // streams that are left out, because they begin after a gap
     std::array<StreamPart, k_most_match_players> streams;
 };
 
@@ -80,11 +87,11 @@ struct StreamSource {
     bool is_fresh = false;          // ClientPacket::is_fresh
 };
 
-// Writes a message of at most bytes.size() bytes, at least 64 a player, and returns its size.
-// Inputs that do not fit are left out, the newest first.
-std::size_t write_client_packet(const ClientPacket& header, std::size_t players, StreamSource& own,
+// Writes a message of at most bytes.size() bytes and returns its size. Precondition: 64 bytes a
+// player or more. Inputs that do not fit are left out, the newest first.
+std::size_t write_client_packet(const ClientHeader& header, std::size_t players, StreamSource& own,
                                 std::span<std::byte> bytes);
-std::size_t write_server_packet(const ServerPacket& header, std::size_t players,
+std::size_t write_server_packet(const ServerHeader& header, std::size_t players,
                                 std::span<StreamSource> streams, std::span<std::byte> bytes);
 
 // What a server reads a message against.

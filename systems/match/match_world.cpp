@@ -7,11 +7,9 @@
 namespace handhold {
 
 void step_tick(const MatchWorld& match, const TickInputs& inputs, bool is_shown,
-               StageStats& stats) {
+               TickScratch& scratch, StageStats& stats) {
     const double start_s = match.world.clock.t_s;
     const double end_s = start_s + match.dt_s;
-    std::array<TickSamples, k_most_match_players> samples;
-    std::array<PlayerInput, k_most_match_players> players;
     std::size_t count = 0;
     for (std::size_t slot = 0; slot < match.player_count; ++slot) {
         const Entity player = find_by_id(match.world, match.players[slot]);
@@ -19,11 +17,11 @@ void step_tick(const MatchWorld& match, const TickInputs& inputs, bool is_shown,
             continue;
         }
         const MatchInput& now = *inputs.now[slot];
-        samples[count] = unpack_samples(*inputs.before[slot], now, start_s, end_s);
-        players[count] = {player, samples[count].view(), unpack_commands(now)};
+        scratch.samples[count] = unpack_samples(*inputs.before[slot], now, start_s, end_s);
+        scratch.players[count] = {player, scratch.samples[count].view(), unpack_commands(now)};
         ++count;
     }
-    const FrameInput input{match.dt_s, std::span(players).first(count)};
+    const FrameInput input{match.dt_s, std::span(scratch.players).first(count)};
     if (match.host.step != nullptr) {
         match.host.step(match.host.context, input, inputs, is_shown);
     } else if (is_shown) {

@@ -54,9 +54,16 @@ struct MatchWorld {
     MatchHost host{};
 };
 
+// Scratch memory of step_tick, too large for a small stack.
+struct TickScratch {
+    std::array<TickSamples, k_most_match_players> samples;
+    std::array<PlayerInput, k_most_match_players> players;
+};
+
 // Steps the world by one tick, with the host's step, step_frame or step_simulated. Players that are
 // not in the world are left out.
-void step_tick(const MatchWorld& match, const TickInputs& inputs, bool is_shown, StageStats& stats);
+void step_tick(const MatchWorld& match, const TickInputs& inputs, bool is_shown,
+               TickScratch& scratch, StageStats& stats);
 // Hash of the host's state; 0 without one.
 std::uint64_t hash_of_host(const MatchWorld& match);
 // What the machines compare: hash_simulated of the world and, if there is one, the host's hash.

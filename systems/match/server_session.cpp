@@ -32,6 +32,7 @@ ServerSession::ServerSession(const MatchWorld& match, double start_s)
     : match_(match), start_s_(start_s), start_tick_(match.world.clock.frame) {
     HH_CHECK(match.player_count > 0 && match.player_count <= k_most_match_players,
              "a match has 1 to 16 players", match.player_count);
+    HH_CHECK(start_tick_ <= k_last_start_tick, "a match begins before tick 2^32", start_tick_);
     for (std::size_t slot = 0; slot < match.player_count; ++slot) {
         histories_[slot].reset(start_tick_);
         sent_[slot].reset(start_tick_);
@@ -108,7 +109,7 @@ void ServerSession::take_inputs(std::size_t slot, const StreamPart& part, double
             ++counts_.late;
         }
         // The newest input of a packet tells the lead. Older ones have come before, or packets were
-        // lost.
+        // lost. A client that puts several new ones into a packet takes that into account.
         if (tick > peer.newest && i + 1 == part.count) {
             peer.waits.add(deadline_s(tick) - now_s);
         }
@@ -161,7 +162,7 @@ void ServerSession::confirm(MatchTick tick) {
         inputs.before[slot] = &history.at(tick - 1);
         inputs.now[slot] = &history.at(tick);
     }
-    step_tick(match_, inputs, false, stats_);
+    step_tick(match_, inputs, false, scratch_, stats_);
     ++counts_.ticks;
     if (tick % k_hash_every_ticks == 0) {
         hashes_[tick / k_hash_every_ticks % k_hashes] = hash();
@@ -181,7 +182,7 @@ void ServerSession::advance(double now_s, std::size_t most) {
 
 std::size_t ServerSession::write_packet(std::size_t slot, std::span<std::byte> bytes) {
     Peer& peer = peers_[slot];
-    ServerPacket header;
+    ServerHeader header;
     header.slot = static_cast<std::uint8_t>(slot);
     header.state_epoch = peer.state_epoch;
     header.confirmed_until = confirmed();

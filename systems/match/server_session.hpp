@@ -128,7 +128,8 @@ class ServerSession {
         hashes_{};  // indexed by tick / k_hash_every_ticks % k_hashes
     ServerCounts counts_;
     StageStats stats_;
-    ClientPacket incoming_;  // scratch
+    ClientPacket incoming_;
+    TickScratch scratch_;
 };
 
 }  // namespace handhold

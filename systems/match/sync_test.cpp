@@ -33,7 +33,7 @@ void SyncTest::step(bool is_shown) {
         inputs.before[slot] = &at(tick - 1).inputs[slot];
         inputs.now[slot] = &at(tick).inputs[slot];
     }
-    step_tick(match_, inputs, is_shown, stats_);
+    step_tick(match_, inputs, is_shown, scratch_, stats_);
 }
 
 SyncDifference SyncTest::advance(std::span<const MatchInput> inputs, bool is_shown) {

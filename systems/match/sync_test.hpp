@@ -53,6 +53,7 @@ class SyncTest {
     std::array<Kept, k_match_window> kept_;
     std::uint64_t steps_again_ = 0;
     StageStats stats_;
+    TickScratch scratch_;
 };
 
 }  // namespace handhold

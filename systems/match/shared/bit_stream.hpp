@@ -57,6 +57,15 @@ class BitWriter {
         put(value & ((1U << k) - 1U), k);
     }
 
+    // Replaces bits that were put before.
+    void overwrite(std::size_t at, std::uint64_t value, unsigned bits) {
+        for (unsigned i = 0; i < bits && at + i < at_; ++i) {
+            const auto bit = static_cast<std::byte>(1U << ((at + i) % 8));
+            std::byte& byte = bytes_[(at + i) / 8];
+            byte = ((value >> i) & 1U) != 0 ? byte | bit : byte & ~bit;
+        }
+    }
+
     std::size_t bits() const { return at_; }
     std::size_t bytes() const { return (at_ + 7) / 8; }
     bool has_failed() const { return has_failed_; }
@@ -110,6 +119,11 @@ class BitReader {
             return take_as<std::uint32_t>(32);
         }
         return (quotient << k) | take_as<std::uint32_t>(k);
+    }
+
+    void skip(std::size_t bits) {
+        has_failed_ = has_failed_ || bits > bits_left();
+        at_ += has_failed_ ? 0 : bits;
     }
 
     bool has_failed() const { return has_failed_; }

@@ -149,6 +149,9 @@ PlayerCommands unpack_commands(const MatchInput& input) {
 }
 
 void TickSampler::add(const TrackingSample& sample) {
+    if (!std::isfinite(sample.t_s)) {
+        return;
+    }
     if (count_ == k_most_waiting) {
         std::move(waiting_.begin() + 1, waiting_.end(), waiting_.begin());
         --count_;

@@ -85,7 +85,7 @@ PlayerCommands unpack_commands(const MatchInput& input);
 class TickSampler {
   public:
     // Samples in the order of their times. Later ones than the next tick's end are kept, up to
-    // k_most_waiting; beyond that the oldest are dropped.
+    // k_most_waiting; beyond that the oldest are dropped. A sample without a time is ignored.
     void add(const TrackingSample& sample);
     // The input of the tick that ends at `end_s`. Poses are interpolated if a later sample is
     // known, and held otherwise, for k_longest_hold_s at most; then the devices count as not

@@ -13,8 +13,7 @@ namespace handhold {
 // k_repeats packets, whatever the round trip is; every k_heal_every-th packet begins where the
 // receiver's acknowledgement ends, which heals longer losses. While the receiver is far behind,
 // each packet begins where the last one ended, so that a round trip brings more than one packet's
-// inputs; every k_restart_every-th begins at the acknowledgement, where a lost one left a gap. The
-// packet's number decides for all streams, since a gap in one of them refuses the packet.
+// inputs; every k_restart_every-th begins at the acknowledgement, where a lost one left a gap.
 class SendMarks {
   public:
     static constexpr std::size_t k_repeats = 4;

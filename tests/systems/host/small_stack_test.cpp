@@ -7,6 +7,7 @@
 #include <handhold/handhold.hpp>
 
 #include "tests/systems/host/host_scene.hpp"
+#include "tests/systems/host/match_table.hpp"
 
 // Frames of unoptimised code are larger.
 #if defined(__linux__) && defined(__OPTIMIZE__)
@@ -74,17 +75,46 @@ void* play_everything(void* is_good) {
     return nullptr;
 }
 
-TEST(HostSmallStack, EveryShapeIsMadeGrippedAndHeldIn112KiB) {
+// A server and two clients play, one joins again, and a sync test steps.
+void* play_match(void* is_good) {
+    lab::NetworkTraits traits;
+    traits.delay_s = 0.03;
+    TableMatch table(traits, 71);
+    table.play(1.5);
+    table.join(1, 0.05);
+    table.play(0.5);
+    TableMachine alone(HH_MATCH_SYNC_TEST);
+    bool is_equal = true;
+    for (int i = 0; i < 30; ++i) {
+        const hh::Sample sample = table_sample(0, alone.scene.world.time_s() + k_step_s);
+        std::array<hh_match_input, k_seats> inputs;
+        inputs.fill(hh::match_input({&sample, 1}, 0));
+        const hh::Maybe<hh_match_difference> found = alone.match.sync_test(inputs);
+        is_equal = is_equal && found && found->tick == 0;
+    }
+    *static_cast<bool*>(is_good) = is_equal && table.compared > 90 &&
+                                   table.server.game.state.score > 0 &&
+                                   table.clients[0]->match.stats().rollbacks > 0;
+    return nullptr;
+}
+
+void expect_good_in_112_kib(void* (*play)(void*)) {
     bool is_good = false;
     pthread_attr_t attributes;
     ASSERT_EQ(pthread_attr_init(&attributes), 0);
     ASSERT_EQ(pthread_attr_setstacksize(&attributes, k_stack_bytes), 0);
     pthread_t thread{};
-    ASSERT_EQ(pthread_create(&thread, &attributes, &play_everything, &is_good), 0);
+    ASSERT_EQ(pthread_create(&thread, &attributes, play, &is_good), 0);
     pthread_join(thread, nullptr);
     pthread_attr_destroy(&attributes);
     EXPECT_TRUE(is_good);
 }
+
+TEST(HostSmallStack, EveryShapeIsMadeGrippedAndHeldIn112KiB) {
+    expect_good_in_112_kib(&play_everything);
+}
+
+TEST(HostSmallStack, MatchesArePlayedAndJoinedIn112KiB) { expect_good_in_112_kib(&play_match); }
 
 }  // namespace
 }  // namespace handhold::host_small_stack_test
