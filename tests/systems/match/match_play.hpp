@@ -151,6 +151,7 @@ struct Machine {
     TickSampler devices;
     double next_sample_s = 0.0;
     double phase_s = 0.0;  // of the frames
+    int frames = 0;
     bool is_frozen = false;
     bool is_here = true;
     bool is_compared = true;
@@ -283,6 +284,7 @@ class MatchPlay {
     std::vector<std::unique_ptr<Machine>> machines;
     MatchCounts counts;
     double now_s = 0.0;
+    int frames_a_packet = 1;  // of the machines; 1 or 2
     std::vector<std::vector<std::byte>> recorded;  // packets, while records is set
     bool records = false;
 
@@ -322,8 +324,10 @@ class MatchPlay {
         machine.phase_s -= k_tick_s;
         machine.advance(machine.session.ticks_due(k_tick_s));
         check(person);
-        send(person, k_server,
-             [&](std::span<std::byte> out) { return machine.session.write_packet(out); });
+        if (++machine.frames % frames_a_packet == 0) {
+            send(person, k_server,
+                 [&](std::span<std::byte> out) { return machine.session.write_packet(out); });
+        }
     }
 
     // Confirmed ticks are equal to the server's, bit for bit, and so are own inputs that it did not

@@ -56,9 +56,10 @@ TEST(MatchSessions, ConfirmedTicksAreEqualOnAllMachines) {
     EXPECT_GT(overtaken, 500);
 }
 
-// On a quiet network every input is real once the players have found their lead.
-TEST(MatchSessions, OwnInputsArriveInTimeOnceTheLeadIsFound) {
+// On a quiet network nearly every input is real once the players have found their lead.
+void expect_inputs_in_time(int frames_a_packet) {
     MatchPlay match({.delay_s = 0.075, .jitter_s = 0.04, .loss = 0.05}, 7);
+    match.frames_a_packet = frames_a_packet;
     match.play(2.0);
     const std::uint64_t before = match.server.counts().filled;
     match.play(6.0);
@@ -71,6 +72,10 @@ TEST(MatchSessions, OwnInputsArriveInTimeOnceTheLeadIsFound) {
     }
     match.expect_it_happened();
 }
+
+TEST(MatchSessions, OwnInputsArriveInTimeOnceTheLeadIsFound) { expect_inputs_in_time(1); }
+
+TEST(MatchSessions, InputsOfTwoTicksAPacketArriveInTime) { expect_inputs_in_time(2); }
 
 // A player who freezes for two seconds delays nobody, is away meanwhile, and comes back.
 TEST(MatchSessions, FrozenPlayerDelaysNobodyAndComesBack) {
