@@ -246,7 +246,7 @@ void HandObjective::add_converging(std::size_t a, std::size_t b) {
     const double away_rad =
         sign * (pose_.fingers[a].opposition_rad - pose_.fingers[b].opposition_rad);
     problem_.add_row({FitTerm::apart, a, b}, unit(of_a, sign) + unit(of_b, -sign),
-                     k_max_converging_rad + away_rad, k_fan_limit * k_lever2);
+                     k_max_converging_rad + away_rad, k_joint_limit * k_lever2);
 }
 
 void HandObjective::add_alike(std::size_t a, std::size_t b) {

@@ -278,7 +278,7 @@ TEST_F(FitTermsOfHand, SpreadFingersCostWhatTheObjectiveSays) {
                     goal.first.fingers[f + 1].opposition_rad - goal.first.fingers[f].opposition_rad;
                 const double over_rad = std::max(0.0, towards_rad - 4.0 * k_degree);
                 converging += over_rad > 0.0 ? 1 : 0;
-                converging_m2 += 0.5 * 2.0 * k_lever2 * over_rad * over_rad;
+                converging_m2 += 0.5 * 500.0 * k_lever2 * over_rad * over_rad;
             }
         }
         EXPECT_NEAR(change_m2, converging_m2, 1e-12);
@@ -298,6 +298,9 @@ TEST_F(FitTermsOfHand, FitsSpreadFingersWithinTheirLimits) {
         hand.search();
         HandFitGoal goal = random_goal(hand.hands.front().wrist_bs, random);
         goal.rounds = 10;
+        for (std::size_t f = 1; f < rig.fingers.size(); ++f) {
+            goal.first.fingers[f].opposition_rad = 0.0;  // as a closing leaves them
+        }
         const HandFit fit =
             fit_hand(hand.hands.front(), hand.surface.at(k_right), goal, hand.tuning.palm, rows);
         for (std::size_t f = 1; f < rig.fingers.size(); ++f) {
