@@ -50,6 +50,11 @@ static_assert(4 * (k_max_unknowns - 6) + 2 * k_finger_count + 5 * (k_finger_coun
 
 }  // namespace
 
+double opposition_share(const FingerRig& finger, double knuckle_rad) {
+    const double bent = std::clamp(knuckle_rad / k_bent_spread_rad, 0.0, 1.0);
+    return is_thumb(finger) ? 1.0 : 1.0 - (1.0 - k_bent_spread_share) * bent;
+}
+
 double HandObjective::evaluate(const HandPose& pose) {
     pose_ = pose;
     center_ = transform_point(pose_.wrist_bs, rig_.palm_center_hs);
@@ -155,10 +160,9 @@ void HandObjective::add_spread(std::size_t f) {
     const int place = layout_.opposition(f);
     const double spread_rad = pose_.fingers[f].opposition_rad;
     const double bend_rad = pose_.fingers[f].curl_rad[0];
-    const double bent = std::clamp(bend_rad / k_bent_spread_rad, 0.0, 1.0);
-    const double share = 1.0 - (1.0 - k_bent_spread_share) * bent;
-    const double shrink_per_rad =
-        bent > 0.0 && bent < 1.0 ? -(1.0 - k_bent_spread_share) / k_bent_spread_rad : 0.0;
+    const double share = opposition_share(finger, bend_rad);
+    const bool shrinks = bend_rad > 0.0 && bend_rad < k_bent_spread_rad;
+    const double shrink_per_rad = shrinks ? -(1.0 - k_bent_spread_share) / k_bent_spread_rad : 0.0;
     problem_.add_square({FitTerm::spread, f}, k_spread * k_lever2, spread_rad, unit(place));
     const int knuckle = layout_.hinge(f, 0);
     problem_.add_row({FitTerm::joints, f},

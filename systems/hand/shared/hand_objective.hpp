@@ -9,6 +9,10 @@
 
 namespace handhold {
 
+// Share of a digit's range of opposition that its first hinge leaves: all of a thumb's; a finger's
+// spread has less the more the knuckle is bent.
+double opposition_share(const FingerRig& finger, double knuckle_rad);
+
 // The objective of hand_fit.hpp for one hand: its terms and inequalities, linearised at one pose.
 // Keeps references to its constructor's arguments.
 class HandObjective {
