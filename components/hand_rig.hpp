@@ -31,8 +31,8 @@ struct FingerRig {
     // together.
     std::array<double, k_max_links> upper_rad = {};
     std::array<double, k_max_links> rest_rad = {};  // curl in the rest pose
-    // Unit axis through the first hinge. The opposition angle turns the thumb's disc about it.
-    // Other fingers have a fixed disc and an opposition range of 0.
+    // Unit axis through the first hinge. The opposition angle turns the digit's disc about it: a
+    // thumb's opposition, a finger's spread. A range of 0 fixes the disc.
     Vec3 opposition_axis_hs = -Vec3::UnitZ();
     double lower_opposition_rad = 0.0;
     double upper_opposition_rad = 0.0;

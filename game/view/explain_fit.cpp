@@ -19,6 +19,7 @@ constexpr std::array<TermView, k_fit_term_count> k_term_views = {{
     {{0.1F, 0.85F, 1.0F}, "is off the surface"},
     {{0.5F, 0.95F, 0.95F}, "has its tip off the surface"},
     {{1.0F, 0.8F, 0.1F}, "has left the opposition it closed to"},
+    {{1.0F, 0.95F, 0.55F}, "is spread or turned to its side"},
     {{0.8F, 0.65F, 0.4F}, "has left its rest pose"},
     {{0.3F, 0.9F, 0.2F}, "bends unlike its neighbours"},
     {{0.05F, 0.6F, 0.3F}, "points unlike its neighbours"},

@@ -13,6 +13,8 @@ constexpr CurlLimits k_two_bones = {{-10.0, 0.0, 0.0}, {115.0, 110.0, 0.0}, {20.
 constexpr CurlLimits k_thumb = {{-10.0, -10.0, -10.0}, {28.0, 50.0, 65.0}, {10.0, 12.0, 10.0}};
 constexpr double k_opposition_lower_deg = -85.0;
 constexpr double k_opposition_upper_deg = 70.0;
+// Range of a finger's spread to either side. Hands spread by 20 to 30 degrees between neighbours.
+constexpr double k_spread_deg = 10.0;
 // Sideways component of the opposition axis / forward component.
 constexpr double k_opposition_lean = 0.25;
 
@@ -26,14 +28,17 @@ void set_hand_limits(HandSide side, FingerRig& finger) {
         finger.upper_rad[link] = limits.upper_deg[link] * k_degree;
         finger.rest_rad[link] = limits.relaxed_deg[link] * k_degree;
     }
+    const double sign = side == HandSide::right ? 1.0 : -1.0;
     if (!is_thumb) {
+        finger.lower_opposition_rad = -k_spread_deg * k_degree;
+        finger.upper_opposition_rad = k_spread_deg * k_degree;
+        finger.opposition_axis_hs = sign * Vec3::UnitY();
         return;
     }
     finger.lower_opposition_rad = k_opposition_lower_deg * k_degree;
     finger.upper_opposition_rad = k_opposition_upper_deg * k_degree;
     // A positive angle turns from the thumb's side to the palm's side, on either hand.
     const Vec3 right_axis = -Vec3(k_opposition_lean, 0.0, -1.0).normalized();
-    const double sign = side == HandSide::right ? 1.0 : -1.0;
     finger.opposition_axis_hs = Vec3(right_axis.x(), sign * right_axis.y(), sign * right_axis.z());
 }
 

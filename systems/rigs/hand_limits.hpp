@@ -7,8 +7,8 @@
 // more open than the rest pose.
 namespace handhold {
 
-// Sets lower_rad, upper_rad and rest_rad of all links; for a thumb, also the opposition range and
-// axis.
+// Sets lower_rad, upper_rad and rest_rad of all links, and range and axis of the opposition: a
+// finger's spread, positive towards the thumb's side, on either hand.
 void set_hand_limits(HandSide side, FingerRig& finger);
 
 // Direction of the thumb's first link at opposition 0, as an angle about the opposition axis: 0

@@ -16,6 +16,7 @@ enum class FitTerm : std::uint8_t {
     touch,        // a digit's nearest point is off the surface
     tip,          // a digit's tip is off the surface
     opposition,   // a thumb has left the opposition of the closing
+    spread,       // a finger has left its plane
     rest,         // an angle of a digit is away from its rest pose
     alike,        // neighbouring fingers bend differently
     fan,          // neighbouring fingers point differently

@@ -92,9 +92,10 @@ class Fitter {
             if (const int place = objective_.layout().opposition(f); place >= 0) {
                 const double turn_rad =
                     std::clamp(change[place], -goal_.max_flex_rad, goal_.max_flex_rad);
-                angles.opposition_rad =
-                    std::clamp(angles.opposition_rad + turn_rad, finger.lower_opposition_rad,
-                               finger.upper_opposition_rad);
+                const double share = opposition_share(finger, angles.curl_rad[0]);
+                angles.opposition_rad = std::clamp(angles.opposition_rad + turn_rad,
+                                                   share * finger.lower_opposition_rad,
+                                                   share * finger.upper_opposition_rad);
             }
         }
     }

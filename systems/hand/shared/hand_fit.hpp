@@ -28,15 +28,18 @@
 //   + 0.15 (l (q3 - q2))^2                   the same for the thumb's last two hinges
 //   + 0.01 sum_f (l (q2 - q1))^2             roll: the middle bends as far as the knuckle
 //   + 0.002 (l (o - o_closed))^2             opposition: the thumb stays where it closed
+//   + 0.2 sum_f (l s_f)^2                    spread: fingers stay in their planes; s: turn about
+//                                            the normal of the flat hand at the knuckle
 //   + 2e-5 sum (l (q - q_rest))^2            rest: keeps every angle determined; 0.002 for a thumb
 //                                            that touched nothing when the hand closed
 //   subject to
 //     every sphere's gap >= a margin of less than a millimetre
 //     gaps between thumb and fingers >= 0
-//     joint limits
+//     joint limits; the range of s shrinks to 40 % at a knuckle bent by 90 degrees
 //     q1 >= 0.6 q2 - k_claw_rad             claw: no stretched knuckle with a bent middle
 //     q1 + q2 + q3 <= k_max_bend_rad         bend: no finger folded into itself
-//     neighbours' total bends within k_max_apart_rad, and directions within k_max_fan_rad
+//     neighbours' total bends within k_max_apart_rad, and directions within k_max_fan_rad;
+//     their spreads converge by at most k_max_converging_rad
 //     the palm's limits on height and tilt (PalmTuning)
 //
 // A finger whose angles are fixed (HandFitGoal::is_fixed) has no fan and no alike term with its
@@ -59,6 +62,7 @@ inline constexpr double k_max_fan_rad = 0.5;
 inline constexpr double k_max_apart_rad = 1.6;
 inline constexpr double k_max_bend_rad = 2.75;
 inline constexpr double k_claw_rad = 20.0 * k_degree;
+inline constexpr double k_max_converging_rad = 4.0 * k_degree;
 
 struct HandFitGoal {
     HandPose first;  // where the rounds start: the closing's result, or the last fit's

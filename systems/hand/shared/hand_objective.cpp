@@ -20,6 +20,7 @@ constexpr double k_coupling = 2.0 / 3.0;
 constexpr double k_couple_thumb = 0.15;
 constexpr double k_roll = 0.01;
 constexpr double k_opposition = 0.002;
+constexpr double k_spread = 0.2;
 constexpr double k_rest = 2e-5;
 constexpr double k_rest_of_free_thumb = 0.002;
 // Stiffness of the inequalities.
@@ -33,18 +34,26 @@ constexpr double k_digit_contact = 500.0;  // weight of contacts between the thu
 constexpr double k_digit_reach_m = 0.03;   // digits farther apart need no inequality
 constexpr double k_claw_share = 0.6;
 constexpr double k_clear_m = 3e-4;  // gap that contacts aim for
+// A knuckle bent by this angle or more has this share of its range of spread.
+constexpr double k_bent_spread_rad = 90.0 * k_degree;
+constexpr double k_bent_spread_share = 0.4;
 
 constexpr double k_lever2 = k_fit_lever_m * k_fit_lever_m;
 
 bool is_thumb(const FingerRig& finger) { return finger.name == FingerName::thumb; }
 
 // Maximum number of inequalities: four per angle (limits and steps), two per finger (bend, claw),
-// four per pair of neighbours, gaps, the palm's limits.
-static_assert(4 * (k_max_unknowns - 6) + 2 * k_finger_count + 4 * (k_finger_count - 1) +
+// five per pair of neighbours, gaps, the palm's limits.
+static_assert(4 * (k_max_unknowns - 6) + 2 * k_finger_count + 5 * (k_finger_count - 1) +
                   HandSpheres::k_max_count + k_max_digit_gaps + 3 <=
               k_max_penalty_rows);
 
 }  // namespace
+
+double opposition_share(const FingerRig& finger, double knuckle_rad) {
+    const double bent = std::clamp(knuckle_rad / k_bent_spread_rad, 0.0, 1.0);
+    return is_thumb(finger) ? 1.0 : 1.0 - (1.0 - k_bent_spread_share) * bent;
+}
 
 double HandObjective::evaluate(const HandPose& pose) {
     pose_ = pose;
@@ -55,7 +64,9 @@ double HandObjective::evaluate(const HandPose& pose) {
     add_wrist();
     for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
         add_hinges(f);
-        add_opposition(f);
+        if (layout_.opposition(f) >= 0) {
+            is_thumb(rig_.fingers[f]) ? add_opposition(f) : add_spread(f);
+        }
         add_attraction(f);
     }
     add_neighbours();
@@ -135,9 +146,6 @@ void HandObjective::add_shape(std::size_t f) {
 void HandObjective::add_opposition(std::size_t f) {
     const FingerRig& finger = rig_.fingers[f];
     const int place = layout_.opposition(f);
-    if (place < 0) {
-        return;
-    }
     const double angle_rad = pose_.fingers[f].opposition_rad;
     problem_.add_square({FitTerm::opposition, f}, k_opposition * k_lever2,
                         angle_rad - goal_.closed[f].opposition_rad, unit(place));
@@ -145,6 +153,25 @@ void HandObjective::add_opposition(std::size_t f) {
                      k_joint_limit * k_lever2);
     problem_.add_row({FitTerm::joints, f}, unit(place, -1.0),
                      finger.upper_opposition_rad - angle_rad, k_joint_limit * k_lever2);
+}
+
+void HandObjective::add_spread(std::size_t f) {
+    const FingerRig& finger = rig_.fingers[f];
+    const int place = layout_.opposition(f);
+    const double spread_rad = pose_.fingers[f].opposition_rad;
+    const double bend_rad = pose_.fingers[f].curl_rad[0];
+    const double share = opposition_share(finger, bend_rad);
+    const bool shrinks = bend_rad > 0.0 && bend_rad < k_bent_spread_rad;
+    const double shrink_per_rad = shrinks ? -(1.0 - k_bent_spread_share) / k_bent_spread_rad : 0.0;
+    problem_.add_square({FitTerm::spread, f}, k_spread * k_lever2, spread_rad, unit(place));
+    const int knuckle = layout_.hinge(f, 0);
+    problem_.add_row({FitTerm::joints, f},
+                     unit(place) + unit(knuckle, -finger.lower_opposition_rad * shrink_per_rad),
+                     spread_rad - share * finger.lower_opposition_rad, k_joint_limit * k_lever2);
+    problem_.add_row(
+        {FitTerm::joints, f},
+        unit(place, -1.0) + unit(knuckle, finger.upper_opposition_rad * shrink_per_rad),
+        share * finger.upper_opposition_rad - spread_rad, k_joint_limit * k_lever2);
 }
 
 void HandObjective::add_attraction(std::size_t f) {
@@ -203,12 +230,27 @@ void HandObjective::add_neighbour(std::size_t a, std::size_t b) {
     }
     problem_.add_row({FitTerm::apart, a, b}, fan, k_max_fan_rad + fan_rad, k_fan_limit * k_lever2);
     problem_.add_row({FitTerm::apart, a, b}, -fan, k_max_fan_rad - fan_rad, k_fan_limit * k_lever2);
+    add_converging(a, b);
     const Unknowns apart = layout_.bend(b, 1.0) + layout_.bend(a, -1.0);
     const double apart_rad = along(apart);
     problem_.add_row({FitTerm::apart, a, b}, apart, k_max_apart_rad + apart_rad,
                      k_bend_limit * k_lever2);
     problem_.add_row({FitTerm::apart, a, b}, -apart, k_max_apart_rad - apart_rad,
                      k_bend_limit * k_lever2);
+}
+
+void HandObjective::add_converging(std::size_t a, std::size_t b) {
+    const int of_a = layout_.opposition(a);
+    const int of_b = layout_.opposition(b);
+    if (of_a < 0 || of_b < 0) {
+        return;
+    }
+    // Positive: away from each other. Spreads count towards the thumb's side.
+    const double sign = rig_.fingers[a].name < rig_.fingers[b].name ? 1.0 : -1.0;
+    const double away_rad =
+        sign * (pose_.fingers[a].opposition_rad - pose_.fingers[b].opposition_rad);
+    problem_.add_row({FitTerm::apart, a, b}, unit(of_a, sign) + unit(of_b, -sign),
+                     k_max_converging_rad + away_rad, k_joint_limit * k_lever2);
 }
 
 void HandObjective::add_alike(std::size_t a, std::size_t b) {

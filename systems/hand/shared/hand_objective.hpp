@@ -9,6 +9,10 @@
 
 namespace handhold {
 
+// Share of a digit's range of opposition that its first hinge leaves: all of a thumb's; a finger's
+// spread has less the more the knuckle is bent.
+double opposition_share(const FingerRig& finger, double knuckle_rad);
+
 // The objective of hand_fit.hpp for one hand: its terms and inequalities, linearised at one pose.
 // Keeps references to its constructor's arguments.
 class HandObjective {
@@ -45,7 +49,8 @@ class HandObjective {
     void add_coupling(std::size_t f);
     // Adds the roll term and the bend and claw inequalities of a finger.
     void add_shape(std::size_t f);
-    void add_opposition(std::size_t f);
+    void add_opposition(std::size_t f);  // of a thumb
+    void add_spread(std::size_t f);      // of a finger
     // Adds the touch and tip terms, which pull a digit's nearest sphere and its tip to the surface.
     // Spheres at knuckles are not pulled.
     void add_attraction(std::size_t f);
@@ -62,6 +67,8 @@ class HandObjective {
     // apart inequalities with its neighbours.
     void add_neighbour(std::size_t a, std::size_t b);
     void add_alike(std::size_t a, std::size_t b);
+    // Adds the inequality that keeps neighbours' sides out of each other.
+    void add_converging(std::size_t a, std::size_t b);
     // Sum of the pose's curls, weighted by `slope`.
     double along(const Unknowns& slope) const;
     void add_contacts();

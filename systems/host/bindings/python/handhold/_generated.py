@@ -865,7 +865,7 @@ class Finger(Struct):
     """hh_finger
     is_posed: false: the finger closes on the surface as usual
     curl_rad: of its hinges, from the knuckle; each within pi
-    opposition_rad: thumb
+    opposition_rad: thumb; other fingers: spread towards its side, within 0.17
     follows_trigger: The finger moves from these angles to the pressed ones as far as the sample's `trigger`
     is pressed. The pressed angles may reach into the body: a trigger gives way."""
     _fields_ = [
