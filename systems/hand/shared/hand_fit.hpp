@@ -35,7 +35,8 @@
 //   subject to
 //     every sphere's gap >= a margin of less than a millimetre
 //     gaps between thumb and fingers >= 0
-//     joint limits; the range of s shrinks to 40 % at a knuckle bent by 90 degrees
+//     joint limits; the range of s shrinks to k_bent_spread_share while its knuckle bends to
+//     k_bent_spread_rad
 //     q1 >= 0.6 q2 - k_claw_rad             claw: no stretched knuckle with a bent middle
 //     q1 + q2 + q3 <= k_max_bend_rad         bend: no finger folded into itself
 //     neighbours' total bends within k_max_apart_rad, and directions within k_max_fan_rad;
@@ -63,6 +64,8 @@ inline constexpr double k_max_apart_rad = 1.6;
 inline constexpr double k_max_bend_rad = 2.75;
 inline constexpr double k_claw_rad = 20.0 * k_degree;
 inline constexpr double k_max_converging_rad = 4.0 * k_degree;
+inline constexpr double k_bent_spread_rad = 90.0 * k_degree;
+inline constexpr double k_bent_spread_share = 0.4;
 
 struct HandFitGoal {
     HandPose first;  // where the rounds start: the closing's result, or the last fit's

@@ -34,9 +34,6 @@ constexpr double k_digit_contact = 500.0;  // weight of contacts between the thu
 constexpr double k_digit_reach_m = 0.03;   // digits farther apart need no inequality
 constexpr double k_claw_share = 0.6;
 constexpr double k_clear_m = 3e-4;  // gap that contacts aim for
-// A knuckle bent by this angle or more has this share of its range of spread.
-constexpr double k_bent_spread_rad = 90.0 * k_degree;
-constexpr double k_bent_spread_share = 0.4;
 
 constexpr double k_lever2 = k_fit_lever_m * k_fit_lever_m;
 

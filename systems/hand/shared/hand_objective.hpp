@@ -49,8 +49,8 @@ class HandObjective {
     void add_coupling(std::size_t f);
     // Adds the roll term and the bend and claw inequalities of a finger.
     void add_shape(std::size_t f);
-    void add_opposition(std::size_t f);  // of a thumb
-    void add_spread(std::size_t f);      // of a finger
+    void add_opposition(std::size_t f);  // a thumb's
+    void add_spread(std::size_t f);
     // Adds the touch and tip terms, which pull a digit's nearest sphere and its tip to the surface.
     // Spheres at knuckles are not pulled.
     void add_attraction(std::size_t f);
