@@ -20,7 +20,7 @@ constexpr unsigned k_epoch_bits = 2;       // ClientPacket::state_epoch
 constexpr unsigned k_lead_epoch_bits = 8;  // TickPacer::epoch
 constexpr unsigned k_wait_bits = 12;
 constexpr double k_waits_per_s = 4096.0;  // +-0.5 s
-constexpr unsigned k_length_bits = 14;    // of a stream, in bits
+constexpr unsigned k_length_bits = 14;    // length of a stream in bits
 constexpr unsigned k_tick_rice = 4;       // Rice parameter of ticks relative to another one
 // Ticks farther back than this are not in the histories any more.
 constexpr MatchTick k_oldest = InputHistory::k_capacity - 16;

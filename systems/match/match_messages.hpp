@@ -14,7 +14,7 @@ namespace handhold {
 
 inline constexpr std::size_t k_most_packet_bytes = 1200;
 inline constexpr std::uint8_t k_match_version = 2;
-// Ticks travel as 32 bits, and no match begins after this one. 552 days at 90 Hz.
+// Ticks travel as 32 bits, and no match begins after this one.
 inline constexpr MatchTick k_last_start_tick = 0xffffffff - 2 * InputHistory::k_capacity;
 // Every so many ticks the hashes of all machines are compared.
 inline constexpr MatchTick k_hash_every_ticks = 90;

@@ -284,7 +284,7 @@ class MatchPlay {
     std::vector<std::unique_ptr<Machine>> machines;
     MatchCounts counts;
     double now_s = 0.0;
-    int frames_a_packet = 1;  // of the machines; 1 or 2
+    int frames_a_packet = 1;                       // of the machines; 1 or 2
     std::vector<std::vector<std::byte>> recorded;  // packets, while records is set
     bool records = false;
 
