@@ -37,6 +37,21 @@ void solve_positive_definite(UnknownsSquare& matrix, Unknowns& vector, std::size
     }
 }
 
+// Index of the only slope that is not 0; -1: there are several, or none. About half of the rows
+// limit one unknown.
+int only_slope(const Unknowns& slope) {
+    int only = -1;
+    for (int i = 0; i < static_cast<int>(k_max_unknowns); ++i) {
+        if (slope[i] != 0.0) {
+            if (only >= 0) {
+                return -1;
+            }
+            only = i;
+        }
+    }
+    return only;
+}
+
 // Value of an inequality along a step: value + length * along.
 struct RowOnLine {
     double value;
@@ -90,17 +105,25 @@ Unknowns minimise_penalised(const UnknownsSquare& hessian, const Unknowns& gradi
     std::array<double, k_max_penalty_rows> values;   // NOLINT(*-member-init): filled as far as used
     std::array<double, k_max_penalty_rows> along;    // NOLINT(*-member-init)
     std::array<RowOnLine, k_max_penalty_rows> line;  // NOLINT(*-member-init)
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        values[i] = rows[i].value;
+    std::array<int, k_max_penalty_rows> only;        // NOLINT(*-member-init)
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        values[r] = rows[r].value;
+        only[r] = only_slope(rows[r].slope);
     }
     Unknowns x = Unknowns::Zero();
-    for (int i = 0; i < k_max_newton_steps; ++i) {
+    for (int newton = 0; newton < k_max_newton_steps; ++newton) {
         UnknownsSquare matrix = hessian;
         const Unknowns turned = hessian.lazyProduct(x);
         Unknowns step = -gradient - turned;
         for (std::size_t r = 0; r < rows.size(); ++r) {
             const auto& [slope, value, weight] = rows[r];
+            const int i = only[r];
             if (values[r] >= 0.0) {
+                continue;
+            }
+            if (i >= 0) {
+                step[i] -= weight * values[r] * slope[i];
+                matrix(i, i) += weight * slope[i] * slope[i];
                 continue;
             }
             step -= weight * values[r] * slope;
@@ -114,7 +137,8 @@ Unknowns minimise_penalised(const UnknownsSquare& hessian, const Unknowns& gradi
         solve_positive_definite(matrix, step, count);
         std::size_t line_count = 0;  // rows that are violated somewhere along the step
         for (std::size_t r = 0; r < rows.size(); ++r) {
-            along[r] = rows[r].slope.dot(step);
+            const int i = only[r];
+            along[r] = i >= 0 ? rows[r].slope[i] * step[i] : rows[r].slope.dot(step);
             if (std::min(values[r], values[r] + along[r]) < 0.0) {
                 line[line_count++] = {values[r], along[r], rows[r].weight};
             }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "engine/math/penalty_quadratic.hpp"
@@ -39,12 +41,19 @@ class FitProblem {
     }
     // Adds weight / 2 * (value + slope . x)^2.
     void add_square(const FitPart& part, double weight, double value, const Unknowns& slope) {
+        std::array<int, k_max_unknowns> used;  // NOLINT(*-member-init): filled as far as used
+        std::size_t count = 0;
         for (int i = 0; i < unknowns_; ++i) {
-            if (slope[i] != 0.0) {
-                hessian_.row(i) += weight * slope[i] * slope.transpose();
-            }
+            used[count] = i;
+            count += slope[i] != 0.0 ? 1U : 0U;
         }
-        gradient_ += weight * value * slope;
+        for (const int i : std::span(used).first(count)) {
+            const double weighted = weight * slope[i];
+            for (const int k : std::span(used).first(count)) {
+                hessian_(i, k) += weighted * slope[k];
+            }
+            gradient_[i] += weight * value * slope[i];
+        }
         add_constant(part, 0.5 * weight * value * value);
     }
     void add_constant(const FitPart& part, double cost_m2) {

@@ -54,8 +54,7 @@ double opposition_share(const FingerRig& finger, double knuckle_rad) {
 
 double HandObjective::evaluate(const HandPose& pose) {
     pose_ = pose;
-    center_ = transform_point(pose_.wrist_bs, rig_.palm_center_hs);
-    frames_ = link_frames(rig_, pose_);
+    place_links();
     spheres_.query(pose_, frames_);
     problem_.clear();
     add_wrist();
@@ -71,6 +70,17 @@ double HandObjective::evaluate(const HandPose& pose) {
     add_digit_gaps();
     add_palm_limits();
     return problem_.cost_m2();
+}
+
+void HandObjective::place_links() {
+    center_ = transform_point(pose_.wrist_bs, rig_.palm_center_hs);
+    frames_ = link_frames(rig_, pose_);
+    for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
+        for (std::size_t i = 0; i < rig_.fingers[f].link_count; ++i) {
+            hinge_axis_[f][i] = frames_[f][i].rotation * -Vec3::UnitX();
+        }
+        opposition_axis_[f] = pose_.wrist_bs.rotation * rig_.fingers[f].opposition_axis_hs;
+    }
 }
 
 Unknowns HandObjective::solve() {
@@ -172,8 +182,8 @@ void HandObjective::add_spread(std::size_t f) {
 }
 
 void HandObjective::add_attraction(std::size_t f) {
-    for (const HandSphere& sphere : spheres_.all()) {
-        if (!sphere.is_tip || sphere.finger != static_cast<std::int32_t>(f) || !sphere.has_gap) {
+    for (const HandSphere& sphere : spheres_.of_digit(f)) {
+        if (!sphere.is_tip || !sphere.has_gap) {
             continue;
         }
         if (is_thumb(rig_.fingers[f])) {
@@ -331,13 +341,12 @@ Unknowns HandObjective::slope_of(const HandSphere& sphere) const {
 void HandObjective::add_digit_slope(std::size_t f, std::size_t link, const Vec3& point,
                                     const Vec3& away, Unknowns& slope) const {
     for (std::size_t i = 0; i <= link; ++i) {
-        const Pose& frame = frames_[f][i];
-        const Vec3 axis = frame.rotation * -Vec3::UnitX();
-        slope[layout_.hinge(f, i)] += axis.cross(point - frame.position).dot(away);
+        slope[layout_.hinge(f, i)] +=
+            hinge_axis_[f][i].cross(point - frames_[f][i].position).dot(away);
     }
     if (layout_.opposition(f) >= 0) {
-        const Vec3 axis = pose_.wrist_bs.rotation * rig_.fingers[f].opposition_axis_hs;
-        slope[layout_.opposition(f)] += axis.cross(point - frames_[f][0].position).dot(away);
+        slope[layout_.opposition(f)] +=
+            opposition_axis_[f].cross(point - frames_[f][0].position).dot(away);
     }
 }
 

@@ -43,6 +43,7 @@ class HandObjective {
     double penetration_m() const { return spheres_.penetration_m(); }
 
   private:
+    void place_links();
     void add_wrist();
     void add_hinges(std::size_t f);
     // Adds the couple term: the last hinge bends with its parent.
@@ -92,6 +93,9 @@ class HandObjective {
     HandSpheres spheres_;
     Vec3 center_ = Vec3::Zero();
     HandLinkFrames frames_;
+    // Axes of the hinges and of the oppositions, unit, in the body's frame.
+    std::array<std::array<Vec3, k_max_links>, k_finger_count> hinge_axis_;
+    std::array<Vec3, k_finger_count> opposition_axis_;
     FitProblem problem_;
 };
 

@@ -71,6 +71,7 @@ HandSpheres::HandSpheres(const HandSurroundings& hand, const GripSurface& surfac
     }
     for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
         const FingerRig& finger = hand.rig->fingers[f];
+        first_[f] = count_;
         for (std::size_t link = 0; link < finger.link_count; ++link) {
             HandSphere sphere;
             sphere.finger = static_cast<std::int32_t>(f);
@@ -88,18 +89,18 @@ HandSpheres::HandSpheres(const HandSurroundings& hand, const GripSurface& surfac
             sphere.is_extra = true;
             add(sphere);
         }
+        first_[f + 1] = count_;
     }
 }
 
-std::array<double, k_finger_count + 1> HandSpheres::keep_gaps_m(
-    const HandPose& pose, const HandLinkFrames& frames) const {
+std::array<double, k_finger_count + 1> HandSpheres::keep_gaps_m() const {
     std::array<double, k_finger_count + 1> nearest_m;
     nearest_m.fill(std::numeric_limits<double>::infinity());
     nearest_m[k_finger_count] = k_extra_gap_m;
     for (const HandSphere& sphere : all()) {
         if (!sphere.is_extra && is_queried_ && group_of(sphere) < k_finger_count &&
             !is_knuckle(sphere)) {
-            const Vec3 moved = center_of(sphere, pose, frames) - sphere.searched_center;
+            const Vec3 moved = sphere.center - sphere.searched_center;
             double& least_m = nearest_m[group_of(sphere)];
             least_m =
                 std::min(least_m, std::max(sphere.searched_gap_m + moved.norm(), k_extra_gap_m));
@@ -111,11 +112,14 @@ std::array<double, k_finger_count + 1> HandSpheres::keep_gaps_m(
 void HandSpheres::query(const HandPose& pose, const HandLinkFrames& frames) {
     const HandSphere* nearest = nullptr;   // sphere of the present capsule with the smallest gap
     const HandSphere* previous = nullptr;  // sphere that was searched last
-    const auto keep_m = keep_gaps_m(pose, frames);
-    for (std::size_t i = 0; i < count_; ++i) {
-        HandSphere& sphere = spheres_[i];
+    const std::span<HandSphere> spheres = std::span(spheres_).first(count_);
+    for (HandSphere& sphere : spheres) {
+        sphere.center = center_of(sphere, pose, frames);
+    }
+    const auto keep_m = keep_gaps_m();
+    for (HandSphere& sphere : spheres) {
         if (sphere.is_extra) {
-            if (is_queried_ && keeps_gap(sphere, center_of(sphere, pose, frames))) {
+            if (is_queried_ && keeps_gap(sphere)) {
                 nearest = nullptr;
                 continue;
             }
@@ -126,21 +130,19 @@ void HandSpheres::query(const HandPose& pose, const HandLinkFrames& frames) {
             nearest = nullptr;
             continue;
         }
-        const Vec3 center = center_of(sphere, pose, frames);
-        const Vec3 moved = center - sphere.searched_center;
+        const Vec3 moved = sphere.center - sphere.searched_center;
         if (is_queried_ && sphere.has_gap && !sphere.is_tip &&
             sphere.searched_gap_m - moved.norm() > keep_m[group_of(sphere)]) {
-            sphere.center = center;
             sphere.gap_m = sphere.searched_gap_m + sphere.away.dot(moved);
             continue;
         }
-        if (is_queried_ && keeps_gap(sphere, center)) {
+        if (is_queried_ && keeps_gap(sphere)) {
             if (nearest == nullptr || sphere.gap_m < nearest->gap_m) {
                 nearest = &sphere;
             }
             continue;
         }
-        query_sphere(sphere, center, previous, !is_queried_);
+        query_sphere(sphere, previous, !is_queried_);
         previous = &sphere;
         if (sphere.has_gap && (nearest == nullptr || sphere.gap_m < nearest->gap_m)) {
             nearest = &sphere;
@@ -151,12 +153,11 @@ void HandSpheres::query(const HandPose& pose, const HandLinkFrames& frames) {
 
 // If the centre is still near the place of the last search, corrects the sphere's gap by the
 // movement of its centre and returns true.
-bool HandSpheres::keeps_gap(HandSphere& sphere, const Vec3& center) {
-    const Vec3 moved = center - sphere.searched_center;
+bool HandSpheres::keeps_gap(HandSphere& sphere) {
+    const Vec3 moved = sphere.center - sphere.searched_center;
     if (!sphere.has_gap || moved.norm() > k_keep_travel_m) {
         return false;
     }
-    sphere.center = center;
     sphere.gap_m = sphere.searched_gap_m + sphere.away.dot(moved);
     return true;
 }
@@ -177,32 +178,31 @@ void HandSpheres::query_extra(const HandSphere& nearest, HandSphere& extra, cons
         const Vec3 point_ls = inverse_transform_point(frames[f][extra.link], point);
         extra.center_ls = Vec3(0.0, 0.0, std::clamp(point_ls.z(), -length_m, 0.0));
     }
-    const Vec3 center = center_of(extra, pose, frames);
-    if ((center - nearest.center).norm() < k_same_m) {
+    extra.center = center_of(extra, pose, frames);
+    if ((extra.center - nearest.center).norm() < k_same_m) {
         return;
     }
     extra.searched_center = nearest.searched_center;
     extra.signed_m = nearest.signed_m;
-    query_sphere(extra, center, &nearest, false);
+    query_sphere(extra, &nearest, false);
 }
 
 // Side of the gripped mesh on which the centre is: 1 outside, -1 inside. `is_below`: it is clearly
 // below its nearest triangle. Reads the sphere's last search.
-double HandSpheres::side_of_gripped(const HandSphere& sphere, const Vec3& center, bool is_below,
-                                    bool is_first) const {
+double HandSpheres::side_of_gripped(const HandSphere& sphere, bool is_below, bool is_first) const {
     if (is_first) {
         const bool is_clear = sphere.finger != HandSphere::k_palm &&
                               is_clear_[static_cast<std::size_t>(sphere.finger)];
         return is_below && !is_clear ? -1.0 : 1.0;
     }
     const double side = sphere.signed_m < 0.0 ? -1.0 : 1.0;
-    if ((center - sphere.searched_center).norm() < std::abs(sphere.signed_m)) {
+    if ((sphere.center - sphere.searched_center).norm() < std::abs(sphere.signed_m)) {
         return side;  // too short a path to reach the surface
     }
     const PlacedMesh& placed = hand_.meshes.front();
     const bool crosses = placed.mesh->contact_bvh
                              .cast_ray(inverse_transform_point(placed.pose, sphere.searched_center),
-                                       inverse_transform_point(placed.pose, center))
+                                       inverse_transform_point(placed.pose, sphere.center))
                              .has_value();
     return crosses ? -side : side;
 }
@@ -220,8 +220,7 @@ double HandSpheres::bound_m(const Vec3& center_ms, double radius_m,
     return std::min(radius_m, (on_triangle - center_ms).norm() + k_slack_m);
 }
 
-void HandSpheres::query_sphere(HandSphere& sphere, const Vec3& center,
-                               const HandSphere* near_sphere, bool is_first) {
+void HandSpheres::query_sphere(HandSphere& sphere, const HandSphere* near_sphere, bool is_first) {
     // A centre at least this far below its nearest triangle's plane is inside. Beyond an edge, a
     // centre outside the solid can be slightly below one triangle's plane.
     constexpr double k_min_inside_ratio = 0.5;
@@ -232,19 +231,20 @@ void HandSpheres::query_sphere(HandSphere& sphere, const Vec3& center,
     sphere.gap_m = std::numeric_limits<double>::infinity();
     for (std::size_t m = 0; m < hand_.meshes.size(); ++m) {
         const PlacedMesh& placed = hand_.meshes[m];
-        const Vec3 center_ms = inverse_transform_point(placed.pose, center);
+        const Vec3 center_ms = inverse_transform_point(placed.pose, sphere.center);
         double within_m = radius_m;
         if (m == 0) {
             within_m = bound_m(center_ms, within_m, sphere);
-            within_m =
-                near_sphere != nullptr ? bound_m(center_ms, within_m, *near_sphere) : within_m;
+            if (near_sphere != nullptr && near_sphere->triangle != sphere.triangle) {
+                within_m = bound_m(center_ms, within_m, *near_sphere);
+            }
             sphere.triangle = k_no_triangle;
         }
         const auto near = placed.mesh->contact_bvh.closest_point(center_ms, within_m);
         if (!near) {
             continue;
         }
-        const Vec3 offset = center - transform_point(placed.pose, near->point);
+        const Vec3 offset = sphere.center - transform_point(placed.pose, near->point);
         const Vec3 outward =
             placed.pose.rotation *
             Vec3((m == 0 ? winding_ : 1.0) * placed.mesh->contact.normals[near->triangle]);
@@ -252,7 +252,7 @@ void HandSpheres::query_sphere(HandSphere& sphere, const Vec3& center,
                               outward.dot(offset) < -k_min_inside_ratio * near->distance_m;
         double side = is_below ? -1.0 : 1.0;
         if (m == 0) {
-            side = side_of_gripped(sphere, center, is_below, is_first);
+            side = side_of_gripped(sphere, is_below, is_first);
             signed_m = side * near->distance_m;
             sphere.triangle = near->triangle;
         }
@@ -264,8 +264,7 @@ void HandSpheres::query_sphere(HandSphere& sphere, const Vec3& center,
                                                             : outward;
         }
     }
-    sphere.center = center;
-    sphere.searched_center = center;
+    sphere.searched_center = sphere.center;
     sphere.searched_gap_m = sphere.gap_m;
     sphere.signed_m = signed_m;
 }
@@ -276,9 +275,8 @@ bool is_knuckle(const HandSphere& sphere) {
 
 const HandSphere* HandSpheres::nearest(std::size_t finger) const {
     const HandSphere* nearest = nullptr;
-    for (const HandSphere& sphere : all()) {
-        const bool counts = sphere.finger == static_cast<std::int32_t>(finger) && sphere.has_gap &&
-                            !is_knuckle(sphere);
+    for (const HandSphere& sphere : of_digit(finger)) {
+        const bool counts = sphere.has_gap && !is_knuckle(sphere);
         if (counts && (nearest == nullptr || sphere.gap_m < nearest->gap_m)) {
             nearest = &sphere;
         }
@@ -296,8 +294,8 @@ double HandSpheres::penetration_m() const {
 
 double HandSpheres::gap_m(std::size_t finger) const {
     double gap_m = std::numeric_limits<double>::infinity();
-    for (const HandSphere& sphere : all()) {
-        if (sphere.has_gap && sphere.finger == static_cast<std::int32_t>(finger)) {
+    for (const HandSphere& sphere : of_digit(finger)) {
+        if (sphere.has_gap) {
             gap_m = std::min(gap_m, sphere.gap_m);
         }
     }

@@ -83,6 +83,9 @@ class HandSpheres {
     void query(const HandPose& pose, const HandLinkFrames& frames);
 
     std::span<const HandSphere> all() const { return {spheres_.data(), count_}; }
+    std::span<const HandSphere> of_digit(std::size_t finger) const {
+        return all().subspan(first_[finger], first_[finger + 1] - first_[finger]);
+    }
     // The sphere of a digit with the smallest gap, knuckles left out; null: none in reach.
     const HandSphere* nearest(std::size_t finger) const;
     double penetration_m() const;  // depth of the deepest sphere, >= 0
@@ -93,17 +96,14 @@ class HandSpheres {
     void add(const HandSphere& sphere) { spheres_[count_++] = sphere; }
     // For each digit, and last for the palm: spheres whose gap is surely larger than this keep
     // their last gap. They are not the nearest of their digit and need no extra sphere.
-    std::array<double, k_finger_count + 1> keep_gaps_m(const HandPose& pose,
-                                                       const HandLinkFrames& frames) const;
+    std::array<double, k_finger_count + 1> keep_gaps_m() const;
     // `near_sphere`: a sphere nearby, whose triangle bounds the search.
-    void query_sphere(HandSphere& sphere, const Vec3& center, const HandSphere* near_sphere,
-                      bool is_first);
-    static bool keeps_gap(HandSphere& sphere, const Vec3& center);
+    void query_sphere(HandSphere& sphere, const HandSphere* near_sphere, bool is_first);
+    static bool keeps_gap(HandSphere& sphere);
     double bound_m(const Vec3& center_ms, double radius_m, const HandSphere& sphere) const;
     void query_extra(const HandSphere& nearest, HandSphere& extra, const HandPose& pose,
                      const HandLinkFrames& frames);
-    double side_of_gripped(const HandSphere& sphere, const Vec3& center, bool is_below,
-                           bool is_first) const;
+    double side_of_gripped(const HandSphere& sphere, bool is_below, bool is_first) const;
 
     const HandSurroundings& hand_;
     std::array<bool, k_finger_count> is_clear_;
@@ -111,6 +111,7 @@ class HandSpheres {
     bool is_queried_ = false;
     std::array<HandSphere, k_max_count> spheres_;
     std::size_t count_ = 0;
+    std::array<std::size_t, k_finger_count + 1> first_ = {};  // first sphere of each digit, and end
 };
 
 }  // namespace handhold

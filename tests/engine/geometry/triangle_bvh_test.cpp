@@ -130,6 +130,12 @@ void expect_nearest_and_spheres(const Mesh& mesh, const TriangleBvh& bvh, Random
             ASSERT_EQ(hit->triangle, oracle->triangle);
             ASSERT_EQ(hit->distance_m, oracle->distance_m);
             ASSERT_EQ(hit->point, oracle->point);
+            // Callers who know a bound of the distance may pass it: the hit is the same.
+            const double slack = random.between(0.0, 1.0) * away;
+            const auto bounded = bvh.closest_point(point, hit->distance_m * (1.0 + 1e-9) + slack);
+            ASSERT_TRUE(bounded.has_value());
+            ASSERT_EQ(bounded->triangle, hit->triangle);
+            ASSERT_EQ(bounded->point, hit->point);
         }
         std::set<std::uint32_t> visited;
         bvh.visit_in_sphere(point, away,

@@ -71,6 +71,28 @@ TEST(MinimisePenalised, ContradictingRowsShareTheViolation) {
     EXPECT_NEAR(x[0], 0.5, 1e-6);
 }
 
+// Rows that limit one unknown have a shorter form inside.
+TEST(MinimisePenalised, LimitsOfOneUnknownAreRowsLikeOthers) {
+    test::Random random(73);
+    std::size_t violated = 0;
+    for (int i = 0; i < 300; ++i) {
+        const auto unknowns = static_cast<std::size_t>(random.between(2.0, k_max_unknowns + 0.99));
+        Problem problem(random, unknowns, 60, 500.0);
+        for (std::size_t r = 0; r < problem.rows.size(); r += 2) {
+            const double place = random.between(0.0, static_cast<double>(unknowns));
+            problem.rows[r].slope = Unknowns::Zero();
+            problem.rows[r].slope[static_cast<int>(place)] = r % 4 == 0 ? 1.0 : -0.7;
+        }
+        const Unknowns x =
+            minimise_penalised(problem.hessian, problem.gradient, problem.rows, unknowns);
+        EXPECT_LT(problem.gradient_at(x).norm(), 1e-6 * 500.0) << i;
+        for (std::size_t r = 0; r < problem.rows.size(); r += 2) {
+            violated += problem.rows[r].value + problem.rows[r].slope.dot(x) < 0.0 ? 1U : 0U;
+        }
+    }
+    EXPECT_GT(violated, 1000U);
+}
+
 TEST(MinimisePenalised, RowsThatHoldDoNotMatter) {
     test::Random random(72);
     Problem problem(random, 5, 0, 1.0);
