@@ -65,7 +65,8 @@ class RowSteps {
             collect();
         }
         clear_stiffness(island_, scratch_);
-        if (hints.adds_stiffness) {
+        has_stiffness_ = hints.adds_stiffness;
+        if (has_stiffness_) {
             gather_stiffness();
         }
     }
@@ -73,7 +74,8 @@ class RowSteps {
         has_only_point_rows_ = has_only_point_rows();
         prepare_inertia(island_, scratch_);
         scratch_.system.assemble(island_.bodies, scratch_.inverse_inertia_ws, scratch_.rows);
-        regularise(scratch_.rows, regularisation, factor, scratch_.system);
+        drive_scale_.update(mean_diagonal(scratch_.rows, scratch_.system), has_stiffness_);
+        regularise(scratch_.rows, regularisation, factor, drive_scale_.value(), scratch_.system);
         take(scratch_.system.solve(scratch_.rows));
         return {scratch_.system.work(), scratch_.system.is_active_set_unconverged()};
     }
@@ -148,7 +150,9 @@ class RowSteps {
 
     const IslandView& island_;
     SolveScratch& scratch_;
+    DriveScale drive_scale_;
     double largest_rotation_ = 0.0;
+    bool has_stiffness_ = false;
     bool has_only_point_rows_ = false;
     bool reuses_jacobian_ = false;
 };
