@@ -10,7 +10,6 @@
 #include <limits>
 
 #include "engine/math/flush_denormals.hpp"
-#include "engine/solver/model/geometric_stiffness.hpp"
 #include "engine/solver/model/negligible.hpp"
 #include "engine/solver/newton/load_stepping.hpp"
 #include "engine/solver/newton/newton_rows.hpp"
@@ -67,7 +66,7 @@ class RowSteps {
         clear_stiffness(island_, scratch_);
         has_stiffness_ = hints.adds_stiffness;
         if (has_stiffness_) {
-            gather_stiffness();
+            gather_stiffness(island_, scratch_);
         }
     }
     StepWork solve(const Regularisation& regularisation, double factor) {
@@ -120,32 +119,6 @@ class RowSteps {
     void take(std::span<const double> lambda) {
         largest_rotation_ = gather_moves(scratch_.system.moves(), scratch_);
         scratch_.lambda.assign(lambda.begin(), lambda.end());
-    }
-
-    // Sums the geometric stiffness of all point and distance rows, from the rows and multipliers of
-    // the last step.
-    void gather_stiffness() {
-        const std::span<const double> lambda = scratch_.lambda;
-        const auto add = [&](std::uint32_t index, const Vec3& force, const Vec3& point_bs,
-                             double sign) {
-            const SolverBody& body = island_.bodies[index];
-            if (body.inverse_inertia_bs.squaredNorm() > 0.0) {
-                scratch_.stiffness[body.slot] +=
-                    positive_stiffness(force, body.pose_ws.rotation * point_bs, sign);
-            }
-        };
-        for (std::size_t i = 0; i < scratch_.previous_rows.size(); ++i) {
-            const Row& row = scratch_.previous_rows[i];
-            const RowBlock& block = island_.blocks[row.block];
-            const bool is_point = starts_point_rows(row);
-            if (!is_point && block.kind != RowKind::distance) {
-                continue;
-            }
-            const Vec3 force = is_point ? Vec3(lambda[i], lambda[i + 1], lambda[i + 2])
-                                        : Vec3(lambda[i] * row.linear_a);
-            add(row.a, force, block.point_a_bs, 1.0);
-            add(row.b, force, block.point_b_bs, -1.0);
-        }
     }
 
     const IslandView& island_;
