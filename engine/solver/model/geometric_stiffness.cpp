@@ -1,6 +1,8 @@
 // Solver, model: geometric stiffness of one body.
 #include "engine/solver/model/geometric_stiffness.hpp"
 
+#include <algorithm>
+
 namespace handhold {
 
 Mat3 positive_stiffness(const Vec3& force, const Vec3& arm, double sign) {
@@ -16,6 +18,15 @@ Mat3 positive_stiffness(const Vec3& force, const Vec3& arm, double sign) {
         sum.xy[0], sum.yy[0], sum.yz[0],           //
         sum.xz[0], sum.yz[0], sum.zz[0];
     return stiffness;
+}
+
+Mat3 cone_stiffness(double torque, const Vec3& axis, const Vec3& other) {
+    constexpr double k_min_sine = 1e-3;
+    const Vec3 normal = axis.cross(other);
+    const double sine = std::max(normal.norm(), k_min_sine);
+    const Vec3 across = normal.cross(axis) / sine;
+    const double stiffness = torque * axis.dot(other) / sine;
+    return std::max(0.0, stiffness) * across * across.transpose();
 }
 
 Mat3 stiffened(const Mat3& inverse_inertia, const Mat3& stiffness) {

@@ -63,6 +63,13 @@ HH_INLINE void add_positive_stiffness(const Wide3& force, const Wide3& arm, Wide
 // add_positive_stiffness for one force. `sign`: +1, or -1 for the positive semidefinite part of -S.
 Mat3 positive_stiffness(const Vec3& force, const Vec3& arm, double sign);
 
+// Positive semidefinite stiffness of a limit of the angle q between two axes, for the body of
+// `axis`; `torque`: multiplier of q in N m, positive if it keeps q from growing. Rotating `axis` by
+// s about t, the direction perpendicular to `axis` in the plane of both axes, changes q by
+//   1/2 s^2 cot(q)
+// so that the stiffness is torque cot(q) t t^T. It is large in narrow cones. Unit axes.
+Mat3 cone_stiffness(double torque, const Vec3& axis, const Vec3& other);
+
 // (I + stiffness)^-1, given I^-1.
 Mat3 stiffened(const Mat3& inverse_inertia, const Mat3& stiffness);
 

@@ -4,12 +4,15 @@
 //   R_ii = factor * r_i * s_i
 //   r_i      dimensionless, by the row's group: `relative_regularisation`
 //   s_i      A_ii; for drive rows the harmonic mean of all A_ii instead, so that two drives on
-//            bodies of different masses share an error evenly: `HarmonicMean`
+//            bodies of different masses share an error evenly: `HarmonicMean`. Geometric stiffness
+//            may lower the mean only to a share of its value without stiffness: `DriveScale`
 //   factor   1, or larger if a step was rejected
 // RowSystem (`regularise`) and TriadSystem (`factorise`) both evaluate this formula. A row with a
 // larger r_i is less stiff: if rows contradict each other, their errors end in proportion to R_ii.
 
 #pragma once
+
+#include <algorithm>
 
 #include "engine/solver/model/rows.hpp"
 
@@ -63,6 +66,28 @@ class HarmonicMean {
   private:
     double inverse_sum_ = 0.0;
     double count_ = 0.0;
+};
+
+// The scale s_i of drive rows over the steps of a solve. Drives that contradict each other have
+// multipliers in proportion to 1 / R_ii. The geometric stiffness grows with the multipliers and
+// lowers the A_ii of angular rows without bound. A mean that followed it would lower R_ii, and with
+// it the multipliers would grow in every step. The A_ii of point rows have a part that stiffness
+// does not change, 1 / mass, so that islands without angular rows hardly reach the bound.
+class DriveScale {
+  public:
+    // `mean`: HarmonicMean of this step. Before the first step without stiffness it has no bound.
+    void update(double mean, bool has_stiffness) {
+        if (!has_stiffness) {
+            unstiffened_ = mean;
+        }
+        value_ = std::max(mean, k_min_share * unstiffened_);
+    }
+    double value() const { return value_; }
+
+  private:
+    static constexpr double k_min_share = 0.1;
+    double value_ = 0.0;
+    double unstiffened_ = 0.0;  // mean of the last step without stiffness
 };
 
 }  // namespace handhold

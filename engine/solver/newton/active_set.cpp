@@ -134,10 +134,35 @@ bool RowSystem::block_pivot(std::span<const Row> rows) {
     return false;
 }
 
+// Shortens feasible_lambda_ where a multiplier was cut off at 0 without its counterparts, so that
+// the rest would throw the bodies: if q > 0 (descend_active_set), scales it to the least q on the
+// line to 0. Fixed multipliers stay; values_ contains their effect.
+void RowSystem::shorten_unbalanced() {
+    for (std::size_t i = 0; i < size(); ++i) {
+        lambda_[i] = fixed_[i] != 0 ? 0.0 : feasible_lambda_[i];
+    }
+    matrix_.gather_moves(lambda_);
+    double slope = 0.0;
+    double curvature = 0.0;  // q(t lambda) = t slope + t^2 curvature / 2
+    for (std::size_t i = 0; i < size(); ++i) {
+        slope += lambda_[i] * values_[i];
+        curvature += lambda_[i] * (matrix_.row_motion(i) + matrix_.alpha()[i] * lambda_[i]);
+    }
+    if (slope + 0.5 * curvature <= 0.0) {
+        return;
+    }
+    const double scale = std::max(0.0, -slope / curvature);
+    for (std::size_t i = 0; i < size(); ++i) {
+        feasible_lambda_[i] = fixed_[i] != 0 ? fixed_lambda_[i] : scale * lambda_[i];
+    }
+}
+
 // Active-set descent from a feasible point (no multiplier pulls). Each step decreases
 //   q(lambda) = 1/2 lambda^T A lambda + residual^T lambda,   A = J W J^T + R
 // so that no active set occurs twice. If the steps or the work run out, the last feasible point is
-// kept. Overlapping rows are activated all at once or, if that made no progress, only the deepest.
+// kept. It has q <= 0, as the start has (shorten_unbalanced): its moves are no larger than the
+// residuals justify. Overlapping rows are activated all at once or, if that made no progress, only
+// the deepest.
 // Returns true if the minimum was found, up to rounding noise: the deepest row became inactive
 // again as soon as it was activated, and no row overlaps by more than k_noise_m.
 bool RowSystem::descend_active_set(std::span<const Row> rows) {
@@ -148,6 +173,7 @@ bool RowSystem::descend_active_set(std::span<const Row> rows) {
             active_[i] = feasible_lambda_[i] > 0.0 ? 1 : 0;
         }
     }
+    shorten_unbalanced();
     bool moves = true;
     bool activated_one = false;
     for (int step = 0; step < k_max_descent_steps && !is_out_of_work(); ++step) {

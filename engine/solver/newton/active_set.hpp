@@ -42,9 +42,11 @@ class RowSystem {
     std::span<double> alpha() { return matrix_.alpha(); }
 
     // Solves for the multipliers of all rows. Unilateral rows push (lambda >= 0) or are inactive.
-    // If the active set does not converge, no row pulls, but inactive rows may overlap. Rows that
-    // nothing can move (zero diagonal) get lambda 0. The result is valid until the next solve or
-    // assemble.
+    // If the active set does not converge, no row pulls, but inactive rows may overlap, and
+    //   1/2 lambda^T (J W J^T + diag(alpha)) lambda + residual^T lambda <= 0
+    // so that the moves are at most about twice as long as those that satisfy the violated rows.
+    // Rows that nothing can move (zero diagonal) get lambda 0. The result is valid until the next
+    // solve or assemble.
     std::span<const double> solve(std::span<const Row> rows);
     // True if the last solve found no consistent active set: inactive rows may overlap.
     bool is_active_set_unconverged() const { return active_set_unconverged_; }
@@ -64,6 +66,7 @@ class RowSystem {
     void warm_start_active_set(std::span<const Row> rows);
     void solve_active();
     bool block_pivot(std::span<const Row> rows);
+    void shorten_unbalanced();
     bool descend_active_set(std::span<const Row> rows);
     struct Approach {
         bool reaches_solution = false;

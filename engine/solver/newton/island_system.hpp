@@ -68,10 +68,9 @@ inline constexpr double k_retry_regularisation_increase = 100.0;
 // about a point ten k_angle_lever_m away moves this far.
 inline constexpr double k_max_move_ratio = 10.0;
 
-// Writes the system's alpha by the formula of model/regularisation.hpp.
+// Harmonic mean of the diagonal of J W J^T as assembled (model/regularisation.hpp).
 template <typename System>
-void regularise(std::span<const Row> rows, const Regularisation& regularisation, double factor,
-                System& system) {
+double mean_diagonal(std::span<const Row> rows, const System& system) {
     HarmonicMean mean;
     for (std::size_t i = 0; i < system.size();) {
         const std::size_t width = rows[i].width;
@@ -81,7 +80,14 @@ void regularise(std::span<const Row> rows, const Regularisation& regularisation,
         }
         mean.add(static_cast<double>(width), sum);
     }
-    const double drive_scale = mean.value();
+    return mean.value();
+}
+
+// Writes the system's alpha by the formula of model/regularisation.hpp. `drive_scale`: s_i of drive
+// rows.
+template <typename System>
+void regularise(std::span<const Row> rows, const Regularisation& regularisation, double factor,
+                double drive_scale, System& system) {
     for (std::size_t i = 0; i < system.size(); ++i) {
         const double scale = rows[i].group == RowGroup::drive ? drive_scale : system.diagonal(i);
         system.alpha()[i] = factor * relative_regularisation(rows[i], regularisation) * scale;

@@ -10,7 +10,6 @@
 #include <limits>
 
 #include "engine/math/flush_denormals.hpp"
-#include "engine/solver/model/geometric_stiffness.hpp"
 #include "engine/solver/model/negligible.hpp"
 #include "engine/solver/newton/load_stepping.hpp"
 #include "engine/solver/newton/newton_rows.hpp"
@@ -65,15 +64,17 @@ class RowSteps {
             collect();
         }
         clear_stiffness(island_, scratch_);
-        if (hints.adds_stiffness) {
-            gather_stiffness();
+        has_stiffness_ = hints.adds_stiffness;
+        if (has_stiffness_) {
+            gather_stiffness(island_, scratch_);
         }
     }
     StepWork solve(const Regularisation& regularisation, double factor) {
         has_only_point_rows_ = has_only_point_rows();
         prepare_inertia(island_, scratch_);
         scratch_.system.assemble(island_.bodies, scratch_.inverse_inertia_ws, scratch_.rows);
-        regularise(scratch_.rows, regularisation, factor, scratch_.system);
+        drive_scale_.update(mean_diagonal(scratch_.rows, scratch_.system), has_stiffness_);
+        regularise(scratch_.rows, regularisation, factor, drive_scale_.value(), scratch_.system);
         take(scratch_.system.solve(scratch_.rows));
         return {scratch_.system.work(), scratch_.system.is_active_set_unconverged()};
     }
@@ -120,35 +121,11 @@ class RowSteps {
         scratch_.lambda.assign(lambda.begin(), lambda.end());
     }
 
-    // Sums the geometric stiffness of all point and distance rows, from the rows and multipliers of
-    // the last step.
-    void gather_stiffness() {
-        const std::span<const double> lambda = scratch_.lambda;
-        const auto add = [&](std::uint32_t index, const Vec3& force, const Vec3& point_bs,
-                             double sign) {
-            const SolverBody& body = island_.bodies[index];
-            if (body.inverse_inertia_bs.squaredNorm() > 0.0) {
-                scratch_.stiffness[body.slot] +=
-                    positive_stiffness(force, body.pose_ws.rotation * point_bs, sign);
-            }
-        };
-        for (std::size_t i = 0; i < scratch_.previous_rows.size(); ++i) {
-            const Row& row = scratch_.previous_rows[i];
-            const RowBlock& block = island_.blocks[row.block];
-            const bool is_point = starts_point_rows(row);
-            if (!is_point && block.kind != RowKind::distance) {
-                continue;
-            }
-            const Vec3 force = is_point ? Vec3(lambda[i], lambda[i + 1], lambda[i + 2])
-                                        : Vec3(lambda[i] * row.linear_a);
-            add(row.a, force, block.point_a_bs, 1.0);
-            add(row.b, force, block.point_b_bs, -1.0);
-        }
-    }
-
     const IslandView& island_;
     SolveScratch& scratch_;
+    DriveScale drive_scale_;
     double largest_rotation_ = 0.0;
+    bool has_stiffness_ = false;
     bool has_only_point_rows_ = false;
     bool reuses_jacobian_ = false;
 };

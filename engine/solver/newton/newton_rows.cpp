@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/solver/model/geometric_stiffness.hpp"
+
 namespace handhold {
 namespace {
 
@@ -27,7 +29,54 @@ double active_distance_of(const IslandView& island) {
     return std::max(k_min_active_distance_m, 2.0 * worst);
 }
 
+void add_stiffness(const IslandView& island, std::uint32_t index, const Mat3& stiffness,
+                   SolveScratch& scratch) {
+    const SolverBody& body = island.bodies[index];
+    if (body.inverse_inertia_bs.squaredNorm() > 0.0) {
+        scratch.stiffness[body.slot] += stiffness;
+    }
+}
+
+// `force`: on a at its point; b gets the opposite.
+void add_force_stiffness(const IslandView& island, const RowBlock& block, const Vec3& force,
+                         SolveScratch& scratch) {
+    const Vec3 arm_a = island.bodies[block.a].pose_ws.rotation * block.point_a_bs;
+    const Vec3 arm_b = island.bodies[block.b].pose_ws.rotation * block.point_b_bs;
+    add_stiffness(island, block.a, positive_stiffness(force, arm_a, 1.0), scratch);
+    add_stiffness(island, block.b, positive_stiffness(force, arm_b, -1.0), scratch);
+}
+
+void add_cone_stiffness(const IslandView& island, const Row& row, double lambda,
+                        SolveScratch& scratch) {
+    const RowBlock& block = island.blocks[row.block];
+    const auto axis_of = [&island](std::uint32_t body, const Quat& frame_bs) {
+        return Vec3(island.bodies[body].pose_ws.rotation * frame_bs * Vec3::UnitX());
+    };
+    const Vec3 axis_a = axis_of(row.a, block.rotation_a_bs);
+    const Vec3 axis_b = axis_of(row.b, block.rotation_b_bs);
+    // Positive if the row keeps the angle from growing.
+    const double torque = -lambda * row.angular_b.dot(axis_a.cross(axis_b).normalized());
+    add_stiffness(island, row.a, cone_stiffness(torque, axis_a, axis_b), scratch);
+    add_stiffness(island, row.b, cone_stiffness(torque, axis_b, axis_a), scratch);
+}
+
 }  // namespace
+
+void gather_stiffness(const IslandView& island, SolveScratch& scratch) {
+    const std::span<const double> lambda = scratch.lambda;
+    for (std::size_t i = 0; i < scratch.previous_rows.size(); ++i) {
+        const Row& row = scratch.previous_rows[i];
+        const RowBlock& block = island.blocks[row.block];
+        if (starts_point_rows(row)) {
+            add_force_stiffness(island, block, Vec3(lambda[i], lambda[i + 1], lambda[i + 2]),
+                                scratch);
+        } else if (block.kind == RowKind::distance) {
+            add_force_stiffness(island, block, lambda[i] * row.linear_a, scratch);
+        } else if (block.kind == RowKind::ball && row.group == RowGroup::limit) {
+            add_cone_stiffness(island, row, lambda[i], scratch);
+        }
+    }
+}
 
 bool has_unilateral_block(const IslandView& island) {
     return std::ranges::any_of(island.island_blocks, [&](std::uint32_t index) {

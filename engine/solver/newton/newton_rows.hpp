@@ -23,6 +23,10 @@ double worst_error(std::span<const Row> rows);
 // Largest error of the drives.
 double worst_drive_error(std::span<const Row> rows);
 
+// Adds the geometric stiffness of all point, distance and cone rows to the bodies', from the rows
+// and multipliers of the last step.
+void gather_stiffness(const IslandView& island, SolveScratch& scratch);
+
 // Moves the bodies by `scale` times the gathered moves. Returns the longest move, metres; rotations
 // count times k_angle_lever_m.
 double apply_moves(const IslandView& island, double scale, const SolveScratch& scratch);

@@ -47,7 +47,8 @@ class SweepSteps {
         prepare_inertia(island_, scratch_);
         RowSweeps& sweeps = scratch_.sweeps;
         sweeps.assemble(island_.bodies, scratch_.inverse_inertia_ws, scratch_.rows, {});
-        regularise(scratch_.rows, regularisation, factor, sweeps);
+        regularise(scratch_.rows, regularisation, factor, mean_diagonal(scratch_.rows, sweeps),
+                   sweeps);
         sweeps.factorise();
         gather_residuals(scratch_);
         sweeps.solve(scratch_.values,

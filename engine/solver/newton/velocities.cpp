@@ -207,7 +207,8 @@ class DirectMethod {
         scratch_.system.reset_active_set();
         scratch_.system.limit_work(island.max_work);
         scratch_.system.assemble(island.bodies, scratch_.inverse_inertia_ws, scratch_.rows);
-        regularise(scratch_.rows, settings.regularisation, 1.0, scratch_.system);
+        regularise(scratch_.rows, settings.regularisation, 1.0,
+                   mean_diagonal(scratch_.rows, scratch_.system), scratch_.system);
     }
     // Returns false if there is no plausible solution.
     bool solve() {
@@ -302,7 +303,8 @@ class SweepMethod {
         RowSweeps& sweeps = scratch_.sweeps;
         sweeps.assemble(island.bodies, scratch_.inverse_inertia_ws, scratch_.rows,
                         scratch_.bounded);
-        regularise(scratch_.rows, settings.regularisation, 1.0, sweeps);
+        regularise(scratch_.rows, settings.regularisation, 1.0,
+                   mean_diagonal(scratch_.rows, sweeps), sweeps);
         sweeps.factorise();
     }
     void solve() {

@@ -136,7 +136,7 @@ void TriadSystem::gather_stiffness() {
     kernels_->gather_stiffness(arrays());
 }
 
-double TriadSystem::drive_scale() const {
+double TriadSystem::mean_diagonal() const {
     HarmonicMean mean;
     for (const TriadPlan::Step& step : plans_.current().steps()) {
         const Rows3& block = blocks_[step.own];
@@ -155,9 +155,10 @@ double TriadSystem::drive_scale() const {
 void TriadSystem::factorise(const Regularisation& regularisation, double factor) {
     kernels_->multiply_out(arrays(), factor * regularisation.joint);
     if (has_drive_rows_ && !is_restricted_) {
-        drive_scale_ = drive_scale();
+        drive_scale_.update(mean_diagonal(), has_stiffness_);
     }
-    const double drive_alpha = has_drive_rows_ ? factor * regularisation.drive * drive_scale_ : 0.0;
+    const double drive_alpha =
+        has_drive_rows_ ? factor * regularisation.drive * drive_scale_.value() : 0.0;
     kernels_->factorise(arrays(), drive_alpha, factor * regularisation.joint);
 }
 

@@ -155,7 +155,7 @@ class TriadSystem {
     }
     bool matches_loaded_state(const IslandView& island) const;
     Quat rotation_at(const IslandView& island, std::uint32_t end) const;
-    double drive_scale() const;
+    double mean_diagonal() const;
     RowWindow active_window(const TriadPlan::StrandPack& strand_pack, const RowWindow& window,
                             double min_move_m) const;
 
@@ -192,7 +192,7 @@ class TriadSystem {
     std::vector<RowNode> nodes_;
     std::vector<std::uint8_t> may_turn_;  // indexed by slot
     std::vector<std::uint8_t> uses_;      // number of triads at each slot's body
-    double drive_scale_ = 0.0;  // value of drive_scale() at the last unrestricted factorisation
+    DriveScale drive_scale_;              // updated by every unrestricted factorisation
     double longest_move_ = 0.0;
     double largest_rotation_ = 0.0;
     bool is_evaluated_ = false;  // residuals are those of the current poses

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdint>
 #include <tuple>
 #include <utility>
@@ -50,6 +51,34 @@ TEST(GeometricStiffness, IsThePositiveSemidefinitePart) {
                 positive_stiffness(force, arm, sign) - clipped_stiffness(force, arm, sign);
             ASSERT_LE(apart.norm(), 1e-9 * size) << "case " << i << ", sign " << sign;
         }
+    }
+}
+
+// Oracle: second differences of the angle between the axes.
+TEST(GeometricStiffness, OfAConeIsTheTorqueTimesTheSecondDerivativeOfItsAngle) {
+    constexpr double k_step_rad = 1e-4;
+    Random random(2);
+    for (int i = 0; i < 1000; ++i) {
+        const double angle = random.between(0.02, 1.5);
+        const double torque = random.between(0.0, 1e3);
+        const Quat frame = random.rotation();
+        const Vec3 normal = frame * Vec3::UnitZ();
+        const Vec3 other = frame * Vec3::UnitX();
+        const Vec3 axis = rotation_about(normal, angle) * other;
+        const auto angle_after = [&](const Vec3& turn) {
+            const Vec3 turned = rotation_from_vector(turn) * axis;
+            return std::atan2(turned.cross(other).norm(), turned.dot(other));
+        };
+        const Mat3 stiffness = cone_stiffness(torque, axis, other);
+        for (const Vec3& along : {normal, axis, Vec3(normal.cross(axis))}) {
+            const Vec3 turn = k_step_rad * along;
+            const double second =
+                (angle_after(turn) + angle_after(-turn) - 2.0 * angle) / (k_step_rad * k_step_rad);
+            ASSERT_NEAR(along.dot(stiffness * along), torque * second,
+                        1e-3 * torque / std::tan(angle) + 1e-6 * torque)
+                << i;
+        }
+        ASSERT_TRUE(cone_stiffness(-torque, axis, other).isZero(0.0)) << i;
     }
 }
 
