@@ -1,135 +1,84 @@
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <utility>
 #include <vector>
 
 #include "game/commands/match_commands.hpp"
-#include "game/levels/built_in_scenes.hpp"
-#include "game/net/hmac.hpp"
-#include "game/net/match_peer.hpp"
-#include "game/net/match_scene.hpp"
+#include "game/commands/match_entry.hpp"
 #include "game/net/net_log.hpp"
 #include "game/net/peer_hands.hpp"
 #include "game/play/exit_status.hpp"
-#include "game/play/loading.hpp"
 #include "game/report/run_summary.hpp"
 #include "game/session/interrupt.hpp"
 
 namespace handhold {
 namespace {
 
-constexpr double k_offer_within_s = 5.0;
-constexpr double k_return_within_s = 60.0;
-constexpr double k_return_every_s = 1.0;
-constexpr double k_look_s = 0.002;
-constexpr double k_leave_within_s = 1.0;
+constexpr double k_join_look_s = 0.002;
 constexpr std::uint64_t k_hash_every_ticks_logged = 450;
-
-double now_s() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
 
 // One player of this process.
 struct JoinedPeer {
     MatchScene scene;
     std::unique_ptr<MatchPeer> peer;
     PeerHands hands;
-    bool plays = false;
-    std::uint64_t logged = 0;      // the last tick whose hash was logged
-    std::optional<double> lost_s;  // when the connection was lost
-    double next_return_s = 0.0;
+    MatchReturn returns;
+    bool was_playing = false;
+    std::uint64_t logged = 0;  // the last tick whose hash was logged
     bool is_over = false;
 };
 
-Result<Scene> load_match_scene(const JoinOptions& options, const MatchOffer& offer) {
-    if (!options.scene.empty()) {
-        return load_scene_with_progress(options.scene);
-    }
-    // A server must not choose which file is opened here.
-    const std::vector<std::string_view> names = built_in_scenes();
-    if (std::ranges::find(names, offer.scene) == names.end()) {
-        return FileError{options.url, "",
-                         "the server plays \"" + offer.scene +
-                             "\", which is not built in: give its file by --scene"};
-    }
-    return load_scene_with_progress(offer.scene);
-}
+// A whole program of peers.
+struct JoinedPeers {
+    MatchPlace place;
+    std::optional<Recording> recording;
+    std::uint64_t seed = 1;
+    std::vector<std::unique_ptr<JoinedPeer>> peers;
+};
 
-// A token for each peer: a line of the file.
-Result<std::vector<std::string>> load_tokens(const JoinOptions& options, const MatchOffer& offer) {
-    const auto peers = static_cast<std::size_t>(options.peers);
-    std::vector<std::string> tokens;
-    if (options.token.empty()) {
-        if (offer.wants_token) {
-            return FileError{options.url, "", refusal_text({NetRefusal::no_token})};
-        }
-        tokens.resize(peers);
-        return tokens;
-    }
-    const Result<std::string> text = read_file(options.token, peers * (k_most_text_bytes + 1));
-    if (!text) {
-        return text.error();
-    }
-    std::istringstream lines(text.value());
-    for (std::string line; std::getline(lines, line);) {
-        tokens.push_back(line);
-    }
-    if (tokens.size() < peers) {
-        return FileError{options.token, "",
-                         "expected " + std::to_string(peers) + " tokens, one a line, found " +
-                             std::to_string(tokens.size())};
-    }
-    return tokens;
-}
-
-std::optional<FileError> connect(const JoinOptions& options, JoinedPeer& joined) {
-    Result<std::unique_ptr<Link>> link = open_link(options.url);
-    if (!link) {
-        return link.error();
-    }
-    joined.peer->connect(std::move(link.value()));
-    return std::nullopt;
-}
-
-Result<std::unique_ptr<JoinedPeer>> make_peer(const JoinOptions& options, const MatchOffer& offer,
-                                              const std::string& token) {
-    Result<Scene> scene = load_match_scene(options, offer);
+std::optional<FileError> add_peer(const MatchEntry& entry, JoinedPeers& all) {
+    Result<MatchScene> scene = load_entry_scene(all.place, entry.offer);
     if (!scene) {
         return scene.error();
     }
-    Result<MatchScene> made = make_match_scene(std::move(scene.value()), offer.players, offer.seed);
-    if (!made) {
-        return made.error();
-    }
     auto joined = std::make_unique<JoinedPeer>();
-    joined->scene = std::move(made.value());
-    if (const auto digest = first_difference(offer.digests, joined->scene.digests)) {
-        return FileError{options.url, "",
-                         refusal_text({NetRefusal::level, static_cast<std::uint16_t>(*digest)})};
-    }
-    MatchPeerSettings settings;
-    settings.digests = joined->scene.digests;
-    settings.person = secret_number();
-    settings.token = token;
-    settings.tick_s = k_match_tick_s;
-    settings.clock = now_s;
-    joined->peer = std::make_unique<MatchPeer>(joined->scene.scene.host, joined->scene.players,
-                                               std::move(settings));
-    return joined;
+    joined->scene = std::move(scene.value());
+    joined->peer = std::make_unique<MatchPeer>(
+        joined->scene.scene.host, joined->scene.players,
+        make_peer_settings(joined->scene, entry.tokens[all.peers.size()]));
+    all.peers.push_back(std::move(joined));
+    return std::nullopt;
 }
 
-PeerHands choose_hands(const JoinOptions& options, std::size_t number, JoinedPeer& joined,
-                       const std::optional<Recording>& recording) {
-    if (recording) {
-        return RecordedHands(*recording);
+// Loads all that is needed, and begins to connect.
+std::optional<FileError> enter(const JoinOptions& options, JoinedPeers& all) {
+    all.place = {options.url, options.scene, options.token};
+    all.seed = options.seed;
+    const auto count = static_cast<std::size_t>(options.peers);
+    const Result<MatchEntry> entry = ask_for_entry(all.place, count);
+    if (!entry) {
+        return entry.error();
     }
-    return ClimberHands(joined.scene.scene, joined.scene.players[joined.peer->slot()],
-                        options.seed + number);
+    if (!options.input.empty()) {
+        Result<Recording> loaded = load_recording(options.input);
+        if (!loaded) {
+            return loaded.error();
+        }
+        all.recording = std::move(loaded.value());
+    }
+    while (all.peers.size() < count) {
+        if (auto error = add_peer(entry.value(), all)) {
+            return error;
+        }
+    }
+    for (const auto& joined : all.peers) {
+        if (auto error = connect_peer(all.place, *joined->peer)) {
+            return error;
+        }
+    }
+    return std::nullopt;
 }
 
 void log_confirmed(JoinedPeer& joined) {
@@ -162,107 +111,66 @@ void log_end(const JoinedPeer& joined) {
                  {"hash", format_hash(joined.peer->match().hash(stats.confirmed).value_or(0))}}));
 }
 
-// Connects again while the server may still keep the seat.
-void return_to_match(const JoinOptions& options, JoinedPeer& joined) {
-    const double at_s = now_s();
-    if (!joined.plays || !joined.peer->may_return()) {
-        joined.is_over = true;
+void log_change(JoinedPeer& joined) {
+    const bool plays = joined.peer->stage() == PeerStage::playing;
+    if (plays == joined.was_playing) {
         return;
     }
-    if (!joined.lost_s) {
-        joined.lost_s = at_s;
-        print_log_line(log_line(
-            "lost", {{"slot", std::to_string(joined.peer->slot())}, {"why", joined.peer->why()}}));
-    }
-    if (at_s - *joined.lost_s > k_return_within_s) {
-        joined.is_over = true;
-    } else if (at_s >= joined.next_return_s) {
-        joined.next_return_s = at_s + k_return_every_s;
-        joined.is_over = connect(options, joined).has_value();
-    }
+    joined.was_playing = plays;
+    print_log_line(
+        log_line(plays ? "plays" : "waits", {{"slot", std::to_string(joined.peer->slot())},
+                                             {"states", std::to_string(joined.peer->states())},
+                                             {"why", plays ? "joined" : joined.peer->why()}}));
 }
 
-void run_peer(const JoinOptions& options, std::size_t number, double wait_s,
-              const std::optional<Recording>& recording, JoinedPeer& joined) {
+void run_peer(JoinedPeers& all, std::size_t number, double wait_s) {
+    JoinedPeer& joined = *all.peers[number];
     joined.peer->poll(wait_s, [&](double end_s, PeerInput& input) {
-        if (joined.hands == nullptr) {
-            joined.hands = choose_hands(options, number, joined, recording);
+        if (joined.hands == nullptr && all.recording) {
+            joined.hands = RecordedHands(*all.recording);
+        } else if (joined.hands == nullptr) {
+            joined.hands = ClimberHands(
+                joined.scene.scene, joined.scene.players[joined.peer->slot()], all.seed + number);
         }
         joined.hands(end_s, input);
     });
-    if (joined.peer->stage() == PeerStage::playing) {
-        if (!joined.plays || joined.lost_s) {
-            print_log_line(log_line(joined.plays ? "returned" : "plays",
-                                    {{"slot", std::to_string(joined.peer->slot())}}));
-        }
-        joined.plays = true;
-        joined.lost_s.reset();
+    log_change(joined);
+    if (joined.was_playing) {
         log_confirmed(joined);
-    } else if (joined.peer->stage() == PeerStage::ended) {
-        return_to_match(options, joined);
     }
+    joined.is_over = !joined.returns.goes_on(all.place, *joined.peer);
 }
 
 }  // namespace
 
 int join_command(const JoinOptions& options) {
     const InterruptGuard interrupts;
-    const Result<MatchOffer> offer = fetch_offer(options.url, k_offer_within_s);
-    if (!offer) {
-        return refuse(offer.error());
+    JoinedPeers all;
+    if (const auto error = enter(options, all)) {
+        return refuse(*error);
     }
-    const Result<std::vector<std::string>> tokens = load_tokens(options, offer.value());
-    if (!tokens) {
-        return refuse(tokens.error());
-    }
-    std::optional<Recording> recording;
-    if (!options.input.empty()) {
-        Result<Recording> loaded = load_recording(options.input);
-        if (!loaded) {
-            return refuse(loaded.error());
-        }
-        recording = std::move(loaded.value());
-    }
-    std::vector<std::unique_ptr<JoinedPeer>> peers;
-    for (int i = 0; i < options.peers; ++i) {
-        Result<std::unique_ptr<JoinedPeer>> made =
-            make_peer(options, offer.value(), tokens.value()[peers.size()]);
-        if (!made) {
-            return refuse(made.error());
-        }
-        peers.push_back(std::move(made.value()));
-    }
-    for (const auto& joined : peers) {
-        if (const auto error = connect(options, *joined)) {
-            return refuse(*error);
-        }
-    }
-    const double begin_s = now_s();
+    const double begin_s = match_now_s();
     const auto has_time = [&] {
-        return options.seconds == 0.0 || now_s() - begin_s < options.seconds;
+        return options.seconds == 0.0 || match_now_s() - begin_s < options.seconds;
     };
     const auto is_over = [](const auto& joined) { return joined->is_over; };
-    while (!is_interrupted() && has_time() && !std::ranges::all_of(peers, is_over)) {
-        for (std::size_t i = 0; i < peers.size(); ++i) {
-            if (!peers[i]->is_over) {
-                run_peer(options, i, i == 0 ? k_look_s : 0.0, recording, *peers[i]);
+    while (!is_interrupted() && has_time() && !std::ranges::all_of(all.peers, is_over)) {
+        double wait_s = k_join_look_s;  // one peer waits for all
+        for (std::size_t i = 0; i < all.peers.size(); ++i) {
+            if (!all.peers[i]->is_over) {
+                run_peer(all, i, std::exchange(wait_s, 0.0));
             }
         }
     }
     int status = 0;
-    for (const auto& joined : peers) {
-        const bool has_ended = joined->plays && joined->peer->bye() == NetBye::draining;
+    for (const auto& joined : all.peers) {
+        const bool has_ended =
+            joined->returns.has_played() && joined->peer->bye() == NetBye::draining;
         if (joined->is_over && !has_ended && status == 0) {
             status = refuse({options.url, "", joined->peer->why()});
         }
-        joined->peer->leave();
         log_end(*joined);
-    }
-    const double end_s = now_s();
-    for (const auto& joined : peers) {
-        while (joined->peer->is_linked() && now_s() - end_s < k_leave_within_s) {
-            joined->peer->poll(k_look_s, {});
-        }
+        leave_match(*joined->peer);
     }
     return status;
 }

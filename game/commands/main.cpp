@@ -201,6 +201,7 @@ void add_play_options(CLI::App& play, handhold::PlayOptions& options) {
     add_model_options(play, options.models);
     play.add_option("--width", options.width_px, "Pixels")->check(CLI::Range(16, 8192));
     play.add_option("--height", options.height_px, "Pixels")->check(CLI::Range(16, 8192));
+    handhold::add_play_join_options(play, options);
 }
 
 void add_export_grip_options(CLI::App& command, handhold::ExportGripOptions& options) {

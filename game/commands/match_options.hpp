@@ -4,6 +4,7 @@
 
 #include "game/commands/flag_checks.hpp"
 #include "game/commands/match_commands.hpp"
+#include "game/desktop/play_options.hpp"
 
 // Command-line options of matches over a network.
 namespace handhold {
@@ -46,6 +47,24 @@ inline void add_join_options(CLI::App& run, JoinOptions& options) {
     }
     add_peer_options(run, options);
     run.get_option("--token")->needs(join);
+}
+
+// `play --join`. Call after the other options of `play`.
+inline void add_play_join_options(CLI::App& play, PlayOptions& options) {
+    CLI::Option* const join = play.add_option(
+        "--join", options.join,
+        "Play in a match: ws://HOST:PORT or wss://HOST:PORT; its server names the scene");
+    for (const char* const own : {"--xr", "--xr-headless", "--spawn", "--jets", "--distance-grab",
+                                  "--inspector", "--page", "--controllers"}) {
+        join->excludes(play.get_option(own));
+    }
+    play.add_option("--token", options.token, "A file with a token, for servers that want one")
+        ->needs(join);
+    play.parse_complete_callback([&play, &options] {
+        if (!options.join.empty() && play.get_option("--scene")->count() == 0) {
+            options.scene.clear();
+        }
+    });
 }
 
 inline void add_bots_options(CLI::App& bots, JoinOptions& options) {

@@ -1,4 +1,5 @@
 #include <stdexcept>
+#include <tuple>
 
 #include <openssl/crypto.h>
 #include <openssl/evp.h>
@@ -14,12 +15,11 @@ Sha256 hmac_sha256(std::span<const std::byte> key, std::string_view text) {
     unsigned int size = 0;
     const auto bytes = std::as_bytes(std::span(text));
     std::array<unsigned char, 1> no_bytes{};
-    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): OpenSSL's bytes are unsigned
-    // char
-    const auto* const input =
-        bytes.empty() ? no_bytes.data() : reinterpret_cast<const unsigned char*>(bytes.data());
-    if (HMAC(EVP_sha256(), key.data(), static_cast<int>(key.size()), input, bytes.size(),
-             sum.data(), &size) == nullptr ||
+    const void* const input =
+        bytes.empty() ? no_bytes.data() : static_cast<const void*>(bytes.data());
+    if (HMAC(EVP_sha256(), key.data(), static_cast<int>(key.size()),
+             static_cast<const unsigned char*>(input), bytes.size(), sum.data(),
+             &size) == nullptr ||
         size != sum.size()) {
         throw std::runtime_error("HMAC-SHA-256 is not available");
     }

@@ -68,9 +68,9 @@ std::string MatchServer::metrics() const {
     out.add("returns_total", "counter", "Of these, players who came back.",
             as_number(counts_.returns));
     out.begin("refused_total", "counter", "Peers that were not admitted, by reason.");
-    constexpr std::array<std::string_view, 9> k_reasons = {
-        "",          "version",       "level",    "full",     "no_token",
-        "bad_token", "expired_token", "draining", "malformed"};
+    constexpr std::array<std::string_view, k_net_refusals> k_reasons = {
+        "",          "version",       "level",    "full",      "no_token",
+        "bad_token", "expired_token", "draining", "malformed", "busy"};
     for (std::size_t i = 1; i < k_reasons.size(); ++i) {
         out.line("refused_total", "{why=\"" + std::string(k_reasons[i]) + "\"}",
                  as_number(counts_.refused[i]));

@@ -22,12 +22,13 @@ struct MatchServerSettings {
     MatchOffer offer;             // `players` and `wants_token` are set by the server
     std::optional<TokenKey> key;  // none: everybody is admitted
     double tick_s = 1.0 / 90.0;
-    double return_s = 60.0;               // a seat waits so long for a person who was cut off
-    double state_bytes_per_s = 500e3;     // most to one peer
-    double hello_within_s = 5.0;          // limit for a hello, and for a state
-    double silent_after_s = 10.0;         // a player without a good packet is sent away
-    double longest_wait_s = 0.01;         // limit of one poll
-    std::function<double()> clock;        // seconds, monotonic
+    double return_s = 60.0;            // a seat waits so long for a person who was cut off
+    double state_bytes_per_s = 500e3;  // most to one peer
+    double joins_per_s = 4.0;       // a state costs more than a tick; at first, 32 may join at once
+    double hello_within_s = 5.0;    // limit for a hello, and for a state
+    double silent_after_s = 10.0;   // a player without a good packet is sent away
+    double longest_wait_s = 0.01;   // limit of one poll
+    std::function<double()> clock;  // seconds, monotonic
     std::function<std::int64_t()> today;  // Unix time, for tokens
     NetLog log;
 };
@@ -42,7 +43,7 @@ struct MatchServerCounts {
     std::uint64_t bad_messages = 0;  // other messages that were none
     std::uint64_t silent = 0;        // peers that were sent away for it
     std::uint64_t late = 0;
-    std::array<std::uint64_t, 9> refused{};  // indexed by NetRefusal
+    std::array<std::uint64_t, k_net_refusals> refused{};  // indexed by NetRefusal
 };
 
 // A match that peers join over a transport: `handhold serve`. Runs in the caller's thread.
@@ -98,6 +99,7 @@ class MatchServer final : public ListenerHandler {
     std::vector<std::byte> packet_;   // reused
     std::vector<std::byte> message_;  // reused
     double polled_s_;
+    double joins_left_;  // joins that joins_per_s allows now
     double next_packets_s_ = 0.0;
     bool is_draining_ = false;
 };

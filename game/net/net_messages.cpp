@@ -124,6 +124,8 @@ std::string refusal_text(const MatchRefused& refused) {
             return "the token has expired";
         case NetRefusal::draining:
             return "the server is shutting down";
+        case NetRefusal::busy:
+            return "too many join at once: try again";
         case NetRefusal::malformed:
             break;
     }
@@ -220,7 +222,7 @@ void write_message(const MatchRefused& refused, std::vector<std::byte>& message)
 std::optional<MatchRefused> read_refused(std::span<const std::byte> message) {
     NetReader in(NetKind::refused, message);
     MatchRefused refused;
-    refused.reason = take_enum(in, NetRefusal::malformed);
+    refused.reason = take_enum(in, NetRefusal::busy);
     refused.detail = in.take_as<std::uint16_t>();
     return in.is_at_end() ? std::optional(refused) : std::nullopt;
 }

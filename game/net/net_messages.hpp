@@ -62,7 +62,9 @@ enum class NetRefusal : std::uint8_t {
     expired_token = 6,
     draining = 7,  // the server ends
     malformed = 8,
+    busy = 9,  // too many have joined of late
 };
+inline constexpr std::size_t k_net_refusals = 10;  // length of an array by NetRefusal
 struct MatchRefused {
     NetRefusal reason = NetRefusal::malformed;
     std::uint16_t detail = 0;

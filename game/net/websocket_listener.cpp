@@ -17,7 +17,6 @@ namespace {
 constexpr double k_close_within_s = 1.0;
 constexpr double k_calm_s = 5.0;  // excess is forgotten after so long without any
 constexpr int k_most_throttles = 10;
-constexpr int k_kernel_buffer_bytes = 1 << 16;
 
 struct WebSocketPeer {
     lws* wsi = nullptr;
@@ -160,8 +159,8 @@ class WebSocketListener final : public Listener {
 
     void open(lws* wsi, WebSocketSession& session) {
         // The kernel's part of the queue is bounded too.
-        setsockopt(lws_get_socket_fd(wsi), SOL_SOCKET, SO_SNDBUF, &k_kernel_buffer_bytes,
-                   sizeof(k_kernel_buffer_bytes));
+        const int& size = settings_.kernel_buffer_bytes;
+        setsockopt(lws_get_socket_fd(wsi), SOL_SOCKET, SO_SNDBUF, &size, sizeof(size));
         session.link = ++last_link_;
         links_.emplace(session.link, WebSocketPeer{.wsi = wsi,
                                                    .queue = {},

@@ -2,6 +2,7 @@
 
 usage: match_commands_test.py GAME [unittest's flags]
 """
+import os
 import re
 import signal
 import subprocess
@@ -20,11 +21,11 @@ WITHIN_S = 60.0
 class Program:
     """A program that logs lines of key=value."""
 
-    def __init__(self, folder: Path, *words):
+    def __init__(self, folder: Path, *words, env: dict[str, str] | None = None):
         self.out = folder / f"{len(list(folder.glob('*.log')))}.log"
         self.err = self.out.with_suffix(".err")
         with self.out.open("wb") as out, self.err.open("wb") as err:
-            self.process = subprocess.Popen([str(GAME), *map(str, words)], stdout=out, stderr=err, cwd=folder)
+            self.process = subprocess.Popen([str(GAME), *map(str, words)], stdout=out, stderr=err, cwd=folder, env=env)
 
     def lines(self, event: str) -> list[dict[str, str]]:
         found = []
@@ -55,8 +56,8 @@ class Matches(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name).resolve()
 
-    def start(self, *words) -> Program:
-        program = Program(self.folder, *words)
+    def start(self, *words, env: dict[str, str] | None = None) -> Program:
+        program = Program(self.folder, *words, env=env)
         self.addCleanup(lambda: program.process.poll() is None and program.process.kill())
         return program
 
@@ -108,6 +109,24 @@ class Matches(unittest.TestCase):
         self.assertEqual(bots.lines("ends")[0]["why"], '"the server is shutting down"')
         self.assertEqual(server.lines("ends")[0]["out_of_sync"], "0")
         self.assertGreater(int(server.lines("ends")[0]["hashes"]), 0)
+
+    def test_window_plays_in_a_match(self):
+        server, url = self.serve("--players", "2")
+        bot = self.start("bots", 1, "--join", url)
+        server.wait_for("plays")
+        window = self.start("play", "--join", url, "--seconds", "3", "--quality", "plain", "--width", 64, "--height", 36, "--record", "me.csv",
+                            env=dict(os.environ, SDL_VIDEODRIVER="dummy", SDL_AUDIODRIVER="dummy", LIBGL_ALWAYS_SOFTWARE="1"))
+        status = window.end()
+        if status == 3:
+            self.skipTest("no way to draw here")
+        self.assertEqual(status, 0, window.err.read_text())
+        self.assertEqual(len(server.lines("plays")), 2)
+        self.assertEqual(server.wait_for("left")[0]["why"], "leaving")
+        self.assertIn(f"handhold run --join {url} --input me.csv", window.out.read_text())
+        server.process.send_signal(signal.SIGTERM)
+        self.assertEqual((server.end(), bot.end()), (0, 0))
+        self.assertEqual(server.lines("ends")[0]["out_of_sync"], "0")
+        self.assertGreater(int(server.lines("ends")[0]["hashes"]), 3)
 
     def test_who_is_not_admitted_reads_why_in_one_line(self):
         (self.folder / "key").write_text("k" * 40 + "\n")

@@ -37,7 +37,7 @@ std::vector<Bytes> messages_from(std::uint64_t number) {
     write_message(MatchHello{.person = number, .digests = digests_from(number), .token = text},
                   all[1]);
     write_message(
-        MatchRefused{static_cast<NetRefusal>(1 + number % 8), static_cast<std::uint16_t>(number)},
+        MatchRefused{static_cast<NetRefusal>(1 + number % 9), static_cast<std::uint16_t>(number)},
         all[2]);
     write_message(MatchWelcome{static_cast<std::uint8_t>(number)}, all[3]);
     write_message(StatePiece{.number = static_cast<std::uint8_t>(number),
