@@ -106,6 +106,9 @@ int serve_command(const ServeOptions& options) {
 }
 
 int token_command(const TokenOptions& options) {
+    if (!has_network()) {
+        return refuse(open_link(options.key).error());  // says what is missing
+    }
     const Result<TokenKey> key = load_token_key(options.key);
     if (!key) {
         return refuse(key.error());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 namespace handhold {
@@ -60,6 +61,7 @@ void MatchPeer::connect(std::unique_ptr<Link> link) {
     link_ = std::move(link);
     is_linked_ = true;
     stage_ = PeerStage::connecting;
+    heard_s_ = settings_.clock();
     why_.clear();
     may_return_ = false;
     bye_.reset();
@@ -96,6 +98,7 @@ void MatchPeer::received(std::span<const std::byte> message) {
     if (stage_ == PeerStage::ended) {
         return;
     }
+    heard_s_ = settings_.clock();
     const std::optional<NetKind> kind = kind_of(message);
     if (kind == NetKind::packet) {
         if (stage_ == PeerStage::playing) {
@@ -113,7 +116,8 @@ void MatchPeer::received(std::span<const std::byte> message) {
         take_piece(message);
     } else if (kind == NetKind::bye) {
         bye_ = read_bye(message);
-        end(bye_ ? std::string(bye_text(*bye_)) : "the server's message is damaged");
+        end(bye_ ? std::string(bye_text(*bye_)) : "the server's message is damaged",
+            bye_ == NetBye::silent || bye_ == NetBye::late);
     } else {
         end("the server's message is damaged, or out of order");
     }
@@ -189,11 +193,23 @@ void MatchPeer::join(std::uint8_t number) {
 }
 
 std::uint32_t MatchPeer::poll(double wait_s, const PeerHands& hands) {
-    if (link_ == nullptr) {
+    if (!is_linked_) {
+        std::this_thread::sleep_for(std::chrono::duration<double>(wait_s));
         return 0;
     }
     link_->poll(wait_s, *this);
+    check_silence();
     return stage_ == PeerStage::playing ? step(hands) : 0;
+}
+
+// A connection may be dead without either side being told.
+void MatchPeer::check_silence() {
+    constexpr double k_more_to_connect = 3.0;
+    const double limit_s =
+        settings_.silent_after_s * (stage_ == PeerStage::connecting ? k_more_to_connect : 1.0);
+    if (stage_ != PeerStage::ended && settings_.clock() - heard_s_ > limit_s) {
+        end("nothing was heard of the server for long", true);
+    }
 }
 
 std::uint32_t MatchPeer::step(const PeerHands& hands) {

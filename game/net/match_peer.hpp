@@ -30,6 +30,7 @@ struct MatchPeerSettings {
     std::uint64_t person = 0;  // the same when the person returns
     std::string token;
     double tick_s = 1.0 / 90.0;
+    double silent_after_s = 5.0;    // a server that says nothing for so long is gone
     std::function<double()> clock;  // seconds, monotonic
 };
 
@@ -64,7 +65,7 @@ class MatchPeer final : public LinkHandler {
     bool is_linked() const { return is_linked_; }
     // Why the match has ended for this peer, in one line.
     const std::string& why() const { return why_; }
-    // True if another connection may bring the player back: the connection was lost.
+    // True if another connection may bring the player back: this one was lost, or was silent.
     bool may_return() const { return may_return_; }
     // What the server said before it ended the connection.
     std::optional<NetBye> bye() const { return bye_; }
@@ -85,6 +86,7 @@ class MatchPeer final : public LinkHandler {
     void take_piece(std::span<const std::byte> message);
     void join(std::uint8_t number);
     void end(std::string why, bool may_return = false);
+    void check_silence();
     std::uint32_t step(const PeerHands& hands);
 
     hh::World& world_;
@@ -103,6 +105,7 @@ class MatchPeer final : public LinkHandler {
     std::uint8_t state_number_ = 0;
     std::uint64_t states_ = 0;
     double stepped_s_ = 0.0;
+    double heard_s_ = 0.0;            // when the last message came
     PeerInput input_;                 // reused
     std::vector<std::byte> packet_;   // reused
     std::vector<std::byte> message_;  // reused

@@ -10,8 +10,6 @@ namespace {
 // So many bytes of states wait in a queue at once, below the packets' share.
 constexpr std::size_t k_most_state_queued = 2 * StatePiece::k_most_bytes;
 
-constexpr double k_most_joins_at_once = 2 * HH_MATCH_PLAYERS;
-
 hh::Match begin_match(hh::World& world, std::span<const hh::Player> players, double tick_s,
                       double start_s) {
     hh_match_def def = hh::match_def();
@@ -49,7 +47,7 @@ MatchServer::MatchServer(hh::World& world, std::span<const hh::Player> players,
       match_(begin_match(world, players, settings_.tick_s, start_s_)),
       seats_(players.size()),
       polled_s_(start_s_),
-      joins_left_(k_most_joins_at_once) {
+      joins_left_(settings_.joins_at_once) {
     settings_.offer.players = static_cast<std::uint8_t>(players.size());
     settings_.offer.wants_token = settings_.key.has_value();
 }
@@ -91,7 +89,8 @@ void MatchServer::send_packets() {
 void MatchServer::tend(double now_s) {
     const double elapsed_s = std::max(0.0, now_s - polled_s_);
     polled_s_ = now_s;
-    joins_left_ = std::min(joins_left_ + elapsed_s * settings_.joins_per_s, k_most_joins_at_once);
+    joins_left_ =
+        std::min(joins_left_ + elapsed_s * settings_.joins_per_s, settings_.joins_at_once);
     for (std::size_t slot = 0; slot < seats_.count(); ++slot) {
         MatchSeat& seat = seats_.at(slot);
         if (seat.stage == SeatStage::joining) {

@@ -22,13 +22,14 @@ struct MatchServerSettings {
     MatchOffer offer;             // `players` and `wants_token` are set by the server
     std::optional<TokenKey> key;  // none: everybody is admitted
     double tick_s = 1.0 / 90.0;
-    double return_s = 60.0;            // a seat waits so long for a person who was cut off
-    double state_bytes_per_s = 500e3;  // most to one peer
-    double joins_per_s = 4.0;       // a state costs more than a tick; at first, 32 may join at once
-    double hello_within_s = 5.0;    // limit for a hello, and for a state
-    double silent_after_s = 10.0;   // a player without a good packet is sent away
-    double longest_wait_s = 0.01;   // limit of one poll
-    std::function<double()> clock;  // seconds, monotonic
+    double return_s = 60.0;               // a seat waits so long for a person who was cut off
+    double state_bytes_per_s = 500e3;     // most to one peer
+    double joins_per_s = 4.0;             // a state costs more than a tick
+    double joins_at_once = 32.0;          // joins that were not used may follow at once
+    double hello_within_s = 5.0;          // limit for a hello, and for a state
+    double silent_after_s = 10.0;         // a player without a good packet is sent away
+    double longest_wait_s = 0.01;         // limit of one poll
+    std::function<double()> clock;        // seconds, monotonic
     std::function<std::int64_t()> today;  // Unix time, for tokens
     NetLog log;
 };

@@ -102,7 +102,10 @@ class Listener {
     virtual const ListenerCounts& counts() const = 0;
 };
 
-// Error: the port is taken, or this program was built without a transport.
+// False: this program was built without a transport and its cryptography.
+bool has_network();
+
+// Error: the port is taken, or there is no transport.
 Result<std::unique_ptr<Listener>> open_listener(const ListenerSettings& settings);
 
 // What a link calls during poll. Must not throw.
@@ -132,8 +135,8 @@ class Link {
     virtual void close() = 0;
 };
 
-// Begins to connect to ws://HOST:PORT or wss://HOST:PORT. Error: no such URL, or this program was
-// built without a transport.
+// Begins to connect to ws://HOST:PORT or wss://HOST:PORT. Error: no such URL, or there is no
+// transport.
 Result<std::unique_ptr<Link>> open_link(const std::string& url);
 
 }  // namespace handhold

@@ -14,6 +14,8 @@ FileError no_transport(const std::string& what) {
 
 }  // namespace
 
+bool has_network() { return false; }
+
 Result<std::unique_ptr<Listener>> open_listener(const ListenerSettings& settings) {
     return no_transport(settings.address + ":" + std::to_string(settings.port));
 }

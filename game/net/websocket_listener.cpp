@@ -320,6 +320,8 @@ class WebSocketListener final : public Listener {
 
 }  // namespace
 
+bool has_network() { return true; }
+
 Result<std::unique_ptr<Listener>> open_listener(const ListenerSettings& settings) {
     auto listener = std::make_unique<WebSocketListener>(settings);
     if (!listener->is_valid()) {

@@ -76,7 +76,7 @@ class HostileLink final : public Link {
 class HostilePeerTest : public testing::TestWithParam<Hostility> {
   protected:
     void SetUp() override {
-        if (test::has_no_transport()) {
+        if (!has_network()) {
             GTEST_SKIP() << "built without libwebsockets";
         }
     }
@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, HostilePeerTest,
 class HostileConnectionTest : public testing::Test {
   protected:
     void SetUp() override {
-        if (test::has_no_transport()) {
+        if (!has_network()) {
             GTEST_SKIP() << "built without libwebsockets";
         }
     }
@@ -230,6 +230,30 @@ TEST_F(HostileConnectionTest, MessagesThatAreNoneEndTheConnection) {
 TEST_F(HostileConnectionTest, ConnectionsThatSayNothingAreClosed) {
     LoopbackMatch match(2, [](MatchServerSettings& settings) { settings.hello_within_s = 0.5; });
     EXPECT_TRUE(is_closed_after(match, {}));
+}
+
+TEST_F(HostileConnectionTest, WhoJoinsAgainAndAgainIsRefusedAndOthersPlayOn) {
+    LoopbackMatch match(3, [](MatchServerSettings& settings) { settings.joins_at_once = 5.0; });
+    test::LoopbackPeer& other = match.add_peer(1);
+    ASSERT_TRUE(match.run_until(20.0, [&] { return match.all_play(); }));
+    test::LoopbackPeer& again = match.add_peer(2);
+    match.others = [&] {
+        if (again.plays() || again.peer->stage() == PeerStage::ended) {
+            again.connect(match.link());
+        }
+    };
+    match.run(2.0);
+    const MatchServerCounts& counts = match.server->counts();
+    EXPECT_GT(counts.refused[static_cast<std::size_t>(NetRefusal::busy)], 5U);
+    EXPECT_LE(counts.states, 15U);  // 5, and 4 a second
+    EXPECT_TRUE(other.plays());
+    EXPECT_EQ(other.different, 0U);
+    EXPECT_EQ(other.peer->states(), 1U);
+    EXPECT_GT(other.compared, 60U);
+    RecordProperty("states", static_cast<int>(counts.states));
+    RecordProperty("joins_refused",
+                   static_cast<int>(counts.refused[static_cast<std::size_t>(NetRefusal::busy)]));
+    RecordProperty("longest_poll_us", static_cast<int>(1e6 * match.longest_poll_s));
 }
 
 TEST_F(HostileConnectionTest, NoMoreConnectionsThanTheLimitAreOpened) {

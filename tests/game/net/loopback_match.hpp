@@ -204,6 +204,4 @@ class LoopbackMatch {
     std::uint64_t last_tick_ = 0;
 };
 
-inline bool has_no_transport() { return !open_listener({}).ok(); }
-
 }  // namespace handhold::test

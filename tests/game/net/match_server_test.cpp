@@ -17,7 +17,7 @@ using test::LoopbackPeer;
 class MatchServerTest : public testing::Test {
   protected:
     void SetUp() override {
-        if (test::has_no_transport()) {
+        if (!has_network()) {
             GTEST_SKIP() << "built without libwebsockets";
         }
     }
@@ -185,6 +185,28 @@ TEST_F(MatchServerTest, WhereNobodyListensThereIsNoServer) {
     EXPECT_FALSE(open_link("http://127.0.0.1:1").ok());
     EXPECT_FALSE(open_link("ws://:1").ok());
     EXPECT_FALSE(open_link("ws://127.0.0.1:99999").ok());
+}
+
+TEST_F(MatchServerTest, ServerThatFallsSilentIsLeftAndPlayerMayReturn) {
+    LoopbackMatch match(2);
+    auto made = std::make_unique<LoopbackPeer>(2, 1);
+    made->settings.silent_after_s = 0.5;
+    made->connect(match.link());
+    LoopbackPeer& peer = *made;
+    match.peers.push_back(std::move(made));
+    ASSERT_TRUE(match.run_until(20.0, [&] { return match.all_play(); }));
+    const double begin_s = test::match_clock_s();
+    while (peer.plays() && test::match_clock_s() - begin_s < 5.0) {
+        peer.poll();  // and the server does nothing
+    }
+    EXPECT_EQ(peer.peer->stage(), PeerStage::ended);
+    EXPECT_TRUE(peer.peer->may_return());
+    EXPECT_GE(test::match_clock_s() - begin_s, 0.4);  // heard just before
+    peer.connect(match.link());
+    EXPECT_TRUE(match.run_until(20.0, [&] { return match.all_play(); }));
+    EXPECT_EQ(match.server->counts().returns, 1U);
+    match.run(1.0);
+    EXPECT_EQ(peer.different, 0U);
 }
 
 TEST_F(MatchServerTest, DrainTellsEverybodyAndAdmitsNobody) {
