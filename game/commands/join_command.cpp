@@ -17,7 +17,7 @@ namespace handhold {
 namespace {
 
 constexpr double k_join_look_s = 0.002;
-constexpr std::uint64_t k_hash_every_ticks_logged = 450;
+constexpr std::uint64_t k_hash_every_ticks_logged = 180;
 
 // One player of this process.
 struct JoinedPeer {

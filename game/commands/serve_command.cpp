@@ -15,7 +15,7 @@ namespace handhold {
 namespace {
 
 constexpr double k_drain_within_s = 3.0;
-constexpr std::uint64_t k_hash_log_ticks = 450;
+constexpr std::uint64_t k_hash_log_ticks = 180;
 
 double steady_s() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())

@@ -25,10 +25,11 @@ struct MatchSeat {
     LinkId link = 0;
     std::string person;             // who plays, or played last; empty: nobody did
     double reserved_until_s = 0.0;  // while the seat is empty, it waits for that person
-    double since_s = 0.0;           // when the stage began
-    double heard_s = 0.0;           // when the last good packet came
-    std::vector<std::byte> state;   // a join state on its way
-    std::size_t state_sent = 0;     // bytes of it
+    // How long nothing has come of a player, or a state has taken. Pauses of the server do not
+    // count.
+    double waited_s = 0.0;
+    std::vector<std::byte> state;  // a join state on its way
+    std::size_t state_sent = 0;    // bytes of it
     std::uint8_t state_number = 0;
     double state_credit_bytes = 0.0;  // what pacing allows now
 };

@@ -9,6 +9,8 @@ namespace {
 
 // So many bytes of states wait in a queue at once, below the packets' share.
 constexpr std::size_t k_most_state_queued = 2 * StatePiece::k_most_bytes;
+// A longer time between two polls is the server's own pause.
+constexpr double k_longest_counted_s = 0.1;
 
 hh::Match begin_match(hh::World& world, std::span<const hh::Player> players, double tick_s,
                       double start_s) {
@@ -91,29 +93,31 @@ void MatchServer::tend(double now_s) {
     polled_s_ = now_s;
     joins_left_ =
         std::min(joins_left_ + elapsed_s * settings_.joins_per_s, settings_.joins_at_once);
+    const double waited_s = std::min(elapsed_s, k_longest_counted_s);
     for (std::size_t slot = 0; slot < seats_.count(); ++slot) {
         MatchSeat& seat = seats_.at(slot);
+        seat.waited_s += waited_s;
         if (seat.stage == SeatStage::joining) {
             send_state(seat, elapsed_s);
-            if (now_s - seat.since_s > settings_.hello_within_s) {
+            if (seat.waited_s > settings_.hello_within_s) {
                 ++counts_.late;
                 send_away(seat.link, NetBye::late);
             }
-        } else if (seat.stage == SeatStage::playing &&
-                   now_s - seat.heard_s > settings_.silent_after_s) {
+        } else if (seat.stage == SeatStage::playing && seat.waited_s > settings_.silent_after_s) {
             ++counts_.silent;
             send_away(seat.link, NetBye::silent);
         }
     }
-    for (const auto& [link, began_s] : links_) {
-        if (now_s - began_s > settings_.hello_within_s && !seats_.of_link(link)) {
+    for (auto& [link, link_waited_s] : links_) {
+        link_waited_s += waited_s;
+        if (link_waited_s > settings_.hello_within_s && !seats_.of_link(link)) {
             listener_.close(link);
         }
     }
 }
 
 void MatchServer::opened(LinkId link) {
-    links_[link] = settings_.clock();
+    links_[link] = 0.0;
     write_message(settings_.offer, message_);
     listener_.send(link, Delivery::reliable, message_);
 }
@@ -173,7 +177,7 @@ void MatchServer::take_packet(LinkId link, std::span<const std::byte> packet) {
         return;  // written before the last state arrived
     }
     if (match_.receive_from(static_cast<std::uint32_t>(*slot), settings_.clock(), packet)) {
-        seats_.at(*slot).heard_s = settings_.clock();
+        seats_.at(*slot).waited_s = 0.0;
     } else {
         ++counts_.bad_packets;
     }
@@ -266,7 +270,7 @@ void MatchServer::begin_state(std::size_t slot) {
         throw std::runtime_error(hh_last_error());
     }
     seat.stage = SeatStage::joining;
-    seat.since_s = settings_.clock();
+    seat.waited_s = 0.0;
     seat.state_sent = 0;
     seat.state_credit_bytes = static_cast<double>(StatePiece::k_most_bytes);
     ++seat.state_number;
@@ -311,7 +315,7 @@ void MatchServer::take_joined(LinkId link, std::span<const std::byte> message) {
                   {"state_bytes", std::to_string(seat.state.size())}});
     seat.stage = SeatStage::playing;
     seat.state = {};
-    seat.heard_s = settings_.clock();
+    seat.waited_s = 0.0;
     (void)match_.connect(static_cast<std::uint32_t>(*slot));
 }
 
@@ -322,7 +326,7 @@ void MatchServer::drain() {
     is_draining_ = true;
     log("drains", {{"players", std::to_string(seats_.taken())}});
     std::vector<LinkId> links;
-    for (const auto& [link, began_s] : links_) {
+    for (const auto& [link, link_waited_s] : links_) {
         links.push_back(link);
     }
     for (const LinkId link : links) {

@@ -95,7 +95,7 @@ class MatchServer final : public ListenerHandler {
     double start_s_;
     hh::Match match_;
     MatchSeats seats_;
-    std::map<LinkId, double> links_;  // when each connection began
+    std::map<LinkId, double> links_;  // how long each connection has existed, without pauses
     MatchServerCounts counts_;
     std::vector<std::byte> packet_;   // reused
     std::vector<std::byte> message_;  // reused

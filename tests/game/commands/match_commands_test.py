@@ -80,7 +80,7 @@ class Matches(unittest.TestCase):
             return error.code, error.read().decode()
 
     def test_bots_and_a_recorded_player_have_the_servers_hashes_and_sigterm_drains(self):
-        subprocess.run([str(GAME), "climb", "--scene", "reach", "--seconds", "4", "--out", "climb.csv"], check=True, capture_output=True,
+        subprocess.run([str(GAME), "climb", "--scene", "reach", "--seconds", "2", "--out", "climb.csv"], check=True, capture_output=True,
                        cwd=self.folder)
         server, url = self.serve("--players", "3")
         bots = self.start("bots", 2, "--join", url)
@@ -114,7 +114,7 @@ class Matches(unittest.TestCase):
         server, url = self.serve("--players", "2")
         bot = self.start("bots", 1, "--join", url)
         server.wait_for("plays")
-        window = self.start("play", "--join", url, "--seconds", "3", "--quality", "plain", "--width", 64, "--height", 36, "--record", "me.csv",
+        window = self.start("play", "--join", url, "--seconds", "2", "--quality", "plain", "--width", 64, "--height", 36, "--record", "me.csv",
                             env=dict(os.environ, SDL_VIDEODRIVER="dummy", SDL_AUDIODRIVER="dummy", LIBGL_ALWAYS_SOFTWARE="1"))
         status = window.end()
         if status == 3:
@@ -126,7 +126,7 @@ class Matches(unittest.TestCase):
         server.process.send_signal(signal.SIGTERM)
         self.assertEqual((server.end(), bot.end()), (0, 0))
         self.assertEqual(server.lines("ends")[0]["out_of_sync"], "0")
-        self.assertGreater(int(server.lines("ends")[0]["hashes"]), 3)
+        self.assertGreater(int(server.lines("ends")[0]["hashes"]), 1)
 
     def test_who_is_not_admitted_reads_why_in_one_line(self):
         (self.folder / "key").write_text("k" * 40 + "\n")
