@@ -97,7 +97,7 @@ class Listener {
     virtual void send(LinkId link, Delivery delivery, std::span<const std::byte> message) = 0;
     // Bytes that wait to be sent, at most SendQueue::k_most_bytes.
     virtual std::size_t queued_bytes(LinkId link) const = 0;
-    // Ends the connection once its queue is sent, or after a second.
+    // Sends the queue, and ends the connection if the other side does not within half a second.
     virtual void close(LinkId link) = 0;
     virtual const ListenerCounts& counts() const = 0;
 };
