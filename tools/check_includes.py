@@ -27,11 +27,11 @@ FRONT_DOOR = re.compile(r"systems/(frame|snapshot|match|host)/.*")
 NAMES_WORLD = re.compile(r"(systems/(frame|snapshot|match|host)/.*|components/world\w*\.[hc]pp|(game|tools|tests)/.*)")
 # Headers that a host includes: systems/host/include is an include directory, so these are named `handhold/...`.
 PUBLIC_HEADERS = "systems/host/include/"
-# Files of the game that know the library by its public headers alone, as a stranger's game would: climbers, sessions, devices, runs and the
-# loops of desktop and headset. Levels, pictures, inspector and reports use the columns.
-PLAYS_THE_INTERFACE = re.compile(r"game/(climber|session|devices|run|play|desktop|headset)/.*|game/commands/play_files\.[hc]pp")
+# Files of the game that know the library by its public headers alone, as a stranger's game would: climbers, sessions, devices, runs, matches
+# over a network and the loops of desktop and headset. Levels, pictures, inspector and reports use the columns.
+PLAYS_THE_INTERFACE = re.compile(r"game/(climber|session|devices|run|play|desktop|headset|net)/.*|game/commands/play_files\.[hc]pp")
 # The desktop and headset loops may name columns, which they draw. The other files may not.
-NAMES_NO_COLUMNS = re.compile(r"game/(climber|session|devices|run|play)/.*")
+NAMES_NO_COLUMNS = re.compile(r"game/(climber|session|devices|run|play|net)/.*")
 COLUMNS = re.compile(r"(?<!hh::)\b(World|FrameCaches|StageStats|CollisionWorld|PlayerEntities|step_frame|hash_state|columns_of|entity_of|from_host)\b"
                      r"|\bscene_?(\(\))?\.(world|tuning|shapes|grip_meshes|caches|stats)\(\)")
 # The progress of a level that loads has no place in the interface.
@@ -69,6 +69,8 @@ LIBRARIES = [
             "engine/geometry/simplify_meshopt.cpp and engine/io/gltf_meshopt.cpp"),
     library("Eigen", r"(unsupported/)?Eigen/", None, r"engine/math/math\.hpp", "engine/math/math.hpp"),
     library("OpenXR", r"openxr/", r"\b[xX]r[A-Z]\w+", r"game/xr/.*", "game/xr/"),
+    library("libwebsockets", r"libwebsockets", r"\blws_?[a-z]\w*|\bLWS_\w+", r"game/net/websocket_\w+\.[ch]pp", "game/net/websocket_*"),
+    library("OpenSSL", r"openssl/", None, r"game/net/hmac_openssl\.cpp", "game/net/hmac_openssl.cpp"),
     library("SDL", r"SDL", r"\bSDL_\w+", r"game/desktop/window\.cpp", "game/desktop/window.cpp"),
     library("Dear ImGui", r"imgui", r"\bIm(Gui|Vec2|Vec4|Draw|Font)\w*", r"game/ui/.*", "game/ui/"),
     library("OpenGL", r"(GL|GLES\d|EGL|KHR|epoxy)/", None, r"game/(render|xr)/.*", "game/render/ and game/xr/"),

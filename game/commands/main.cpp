@@ -21,6 +21,7 @@
 #include "game/commands/flag_checks.hpp"
 #include "game/commands/grip_command.hpp"
 #include "game/commands/hand_export.hpp"
+#include "game/commands/match_options.hpp"
 #include "game/commands/picture_command.hpp"
 #include "game/commands/play_command.hpp"
 #include "game/commands/run_command.hpp"
@@ -73,8 +74,8 @@ const std::map<std::string, handhold::PictureQuality> k_qualities = {
 
 void add_run_options(CLI::App& run, handhold::RunOptions& options) {
     run.add_option("--scene", options.scene,
-                   "A built-in scene, a scene file (.json) or a level (.glb, .gltf)")
-        ->required();
+                   "A built-in scene, a scene file (.json) or a level (.glb, .gltf); needed "
+                   "without --join");
     first_and_more(run, "--input", options.input, options.more_inputs,
                    "A recorded session (.csv), once for each player; default: the scene's own");
     run.add_option("--hz", options.hz, "Frames a second")->check(number_in(10.0, 1000.0));
@@ -200,6 +201,7 @@ void add_play_options(CLI::App& play, handhold::PlayOptions& options) {
     add_model_options(play, options.models);
     play.add_option("--width", options.width_px, "Pixels")->check(CLI::Range(16, 8192));
     play.add_option("--height", options.height_px, "Pixels")->check(CLI::Range(16, 8192));
+    handhold::add_play_join_options(play, options);
 }
 
 void add_export_grip_options(CLI::App& command, handhold::ExportGripOptions& options) {
@@ -235,6 +237,10 @@ struct Program {
     handhold::PictureOptions pictures;
     handhold::BuildStationOptions station;
     handhold::ExportGripOptions grip;
+    handhold::ServeOptions serve;
+    handhold::JoinOptions join;
+    handhold::JoinOptions bots;
+    handhold::TokenOptions token;
     std::string hands_folder;
     std::string body_file;
     std::string grip_file;
@@ -248,12 +254,29 @@ struct Program {
     }
 };
 
+int run_or_join(const handhold::RunOptions& run, handhold::JoinOptions join) {
+    if (join.url.empty()) {
+        return handhold::run_command(run);
+    }
+    join.scene = run.scene;
+    join.input = run.input;
+    join.seed = run.seed;
+    join.seconds = run.seconds;
+    return handhold::join_command(join);
+}
+
 // Commands that play or draw a scene.
 void add_scene_commands(Program& program) {
     Program& p = program;
-    add_run_options(p.add("run", "Play a session without a window, as fast as it can",
-                          [&p] { return handhold::run_command(p.run); }),
-                    p.run);
+    CLI::App& run = p.add("run", "Play a session without a window, as fast as it can",
+                          [&p] { return run_or_join(p.run, p.join); });
+    add_run_options(run, p.run);
+    handhold::add_join_options(run, p.join);
+    run.parse_complete_callback([&p] {
+        if (p.run.scene.empty() && p.join.url.empty()) {
+            throw CLI::RequiredError("--scene");
+        }
+    });
     add_play_options(
         p.add("play", "Play in a window with keyboard, mouse or gamepad, or in a headset",
               [&p] { return handhold::play_command(p.play); }),
@@ -265,6 +288,20 @@ void add_scene_commands(Program& program) {
                               [&p] { return handhold::picture_command(p.pictures); }),
                         p.pictures);
     p.add("scenes", "List the built-in scenes", list_scenes);
+}
+
+// Commands of matches over a network.
+void add_match_commands(Program& program) {
+    Program& p = program;
+    handhold::add_serve_options(p.add("serve", "Run a match that others join over a network",
+                                      [&p] { return handhold::serve_command(p.serve); }),
+                                p.serve);
+    handhold::add_bots_options(p.add("bots", "Join a match with scripted climbers",
+                                     [&p] { return handhold::join_command(p.bots); }),
+                               p.bots);
+    handhold::add_token_options(p.add("token", "Sign a token that admits a player to a match",
+                                      [&p] { return handhold::token_command(p.token); }),
+                                p.token);
 }
 
 // Commands that read and write assets.
@@ -302,6 +339,7 @@ int run_program(int argc, char** argv) {
     app.set_version_flag("--version", "handhold " HANDHOLD_VERSION_TEXT);
     app.require_subcommand(1);
     add_scene_commands(program);
+    add_match_commands(program);
     add_asset_commands(program);
     try {
         app.parse(argc, argv);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "game/commands/headset_command.hpp"
+#include "game/commands/match_entry.hpp"
 #include "game/commands/play_files.hpp"
 #include "game/desktop/play_loop.hpp"
 #include "game/play/exit_status.hpp"
@@ -48,20 +49,11 @@ std::optional<PlayerView> open_view(PlayProgram& program, DesktopSession& sessio
     return view;
 }
 
-// Plays the scene that the options name, until the user leaves it. Returns the exit status, or
-// nullopt if options.scene names the next scene to play.
-std::optional<int> play_scene(PlayProgram& program) {
+// Plays a session until the user leaves it, alone (`match` null) or in a match. Returns the exit
+// status, or nullopt if options.scene names the next scene to play.
+std::optional<int> play_session(PlayProgram& program, DesktopSession& session,
+                                const std::string& place, PlayedMatch* match) {
     PlayOptions& options = program.options;
-    Result<PlayedScene> loaded = load_played_scene(options);
-    if (!loaded) {
-        return refuse(loaded.error());
-    }
-    print_notes(loaded.value().scene.notes);
-    const std::string place = loaded.value().place.name;
-    DesktopSession session(std::move(loaded.value().scene), loaded.value().place.pose_ws);
-    if (const auto joints = program.models.controller_joints()) {
-        session.set_controller_joints(*joints);
-    }
     if (!options.record.empty()) {
         session.record();
     }
@@ -87,7 +79,8 @@ std::optional<int> play_scene(PlayProgram& program) {
                     options.page,
                     options.viewpoint,
                     options.seconds,
-                    program.status.get()};
+                    program.status.get(),
+                    match};
     const PlayEnd end = play(stage);
     std::printf("%s", tally.summary().c_str());
     if (const auto error = save_play(options,
@@ -102,7 +95,64 @@ std::optional<int> play_scene(PlayProgram& program) {
     }
     options.scene = end.scene;
     options.spawn.clear();
+    options.join.clear();
     return {};
+}
+
+// Plays the scene that the options name.
+std::optional<int> play_scene(PlayProgram& program) {
+    Result<PlayedScene> loaded = load_played_scene(program.options);
+    if (!loaded) {
+        return refuse(loaded.error());
+    }
+    print_notes(loaded.value().scene.notes);
+    const std::string place = loaded.value().place.name;
+    DesktopSession session(std::move(loaded.value().scene), loaded.value().place.pose_ws);
+    if (const auto joints = program.models.controller_joints()) {
+        session.set_controller_joints(*joints);
+    }
+    return play_session(program, session, place, nullptr);
+}
+
+// Plays in the match that the options name. Controllers' own joints would be another level.
+std::optional<int> play_match(PlayProgram& program) {
+    const PlayOptions& options = program.options;
+    const MatchPlace place{options.join, options.scene, options.token};
+    const Result<MatchEntry> entry = ask_for_entry(place, 1);
+    if (!entry) {
+        return refuse(entry.error());
+    }
+    Result<MatchScene> loaded = load_entry_scene(place, entry.value().offer);
+    if (!loaded) {
+        return refuse(loaded.error());
+    }
+    const MatchPeerSettings settings =
+        make_peer_settings(loaded.value(), entry.value().tokens.front());
+    const std::vector<hh::Player> players = loaded.value().players;
+    DesktopSession session(std::move(loaded.value().scene), players.front());
+    MatchPeer peer(session.world(), players, settings);
+    MatchReturn returns;
+    if (const auto error = connect_peer(place, peer)) {
+        return refuse(*error);
+    }
+    PlayedMatch match{peer, [&] {
+                          session.play_as(players[peer.slot()]);
+                          return returns.goes_on(place, peer);
+                      }};
+    program.panels.inspector = false;
+    while (peer.stage() != PeerStage::playing) {  // the window shows the match from its first tick
+        constexpr double k_look_s = 0.01;
+        peer.poll(k_look_s, [](double /*end_s*/, PeerInput& /*input*/) {});
+        if (!match.goes_on()) {
+            return refuse({place.url, "", peer.why()});
+        }
+    }
+    const std::optional<int> status =
+        play_session(program, session, "slot " + std::to_string(peer.slot()), &match);
+    const bool is_cut_off = peer.stage() == PeerStage::ended && peer.bye() != NetBye::draining;
+    const std::string why = peer.why();
+    leave_match(peer);
+    return status == 0 && is_cut_off ? refuse({place.url, "", why}) : status;
 }
 
 }  // namespace
@@ -130,7 +180,8 @@ int play_command(const PlayOptions& options) {
                         Overlay(options.width_px, options.height_px),
                         nullptr};
     for (;;) {
-        if (const auto exit_status = play_scene(program)) {
+        const bool is_match = !program.options.join.empty();
+        if (const auto exit_status = is_match ? play_match(program) : play_scene(program)) {
             return *exit_status;
         }
     }

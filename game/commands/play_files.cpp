@@ -97,10 +97,13 @@ std::optional<FileError> save_play(const PlayOptions& options, const EndedPlay& 
         if (auto error = save_recording(options.record, play.recording)) {
             return error;
         }
+        const std::string again = options.join.empty()
+                                      ? replay_command(options, play.spawn, play.hz)
+                                      : "handhold run --join " + shell_word(options.join) +
+                                            " --input " + shell_word(options.record);
         std::printf("%s: %zu samples%s; to see it again:\n%s\n", printable(options.record).c_str(),
                     play.recording.samples.size(),
-                    play.used_sticks ? ", without turns, brake and jets" : "",
-                    replay_command(options, play.spawn, play.hz).c_str());
+                    play.used_sticks ? ", without turns, brake and jets" : "", again.c_str());
     }
     if (!options.picture.empty() && image.width_px > 0) {
         if (auto error = save_png(image, options.picture)) {

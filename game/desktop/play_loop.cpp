@@ -76,6 +76,10 @@ class Loop {
     PlayEnd run() {
         while (!ends_) {
             take_events(stage_.window.poll(stage_.settings));
+            if (stage_.match != nullptr) {
+                advance_match();
+                continue;
+            }
             const int due = clock_.advance();
             if (due == 0) {
                 std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -94,6 +98,10 @@ class Loop {
 
     void take_key(PlayKey key) {
         PlayPanels& panels = stage_.panels;
+        if (stage_.match != nullptr &&
+            (key == PlayKey::inspector || key == PlayKey::pause || key == PlayKey::step)) {
+            return;
+        }
         switch (key) {
             case PlayKey::help:
                 panels.help = !panels.help;
@@ -171,7 +179,7 @@ class Loop {
                 take_key(key);
             }
         }
-        rewinds_ = events.rewinds && !types;
+        rewinds_ = events.rewinds && !types && stage_.match == nullptr;
         DesktopInput now = types ? DesktopInput{} : events.input;
         if (events.gamepad) {
             const double now_s = 1e-9 * static_cast<double>(clock_ns());
@@ -187,8 +195,11 @@ class Loop {
         const std::int64_t begin_ns = clock_ns();
         history_.step(stage_.session, input_);
         clear_momentary_input(input_);
-        stage_.tally.add_frame(world(), stage_.session.player(), us_since(begin_ns),
-                               DesktopSession::k_dt_s);
+        note_frame(us_since(begin_ns));
+    }
+
+    void note_frame(double us) {
+        stage_.tally.add_frame(world(), stage_.session.player(), us, DesktopSession::k_dt_s);
         if (stage_.status != nullptr && world().time_s() >= next_status_s_) {
             next_status_s_ = world().time_s() + k_status_s;
             const std::string line =
@@ -219,6 +230,28 @@ class Loop {
         if (paused_) {
             clear_momentary_input(input_);
         }
+    }
+
+    // The match says how many ticks are due, and steps them. Draws after them.
+    void advance_match() {
+        constexpr double k_look_s = 0.002;
+        const std::int64_t begin_ns = clock_ns();
+        const std::uint32_t ticks =
+            stage_.match->peer.poll(k_look_s, [this](double end_s, PeerInput& input) {
+                if (viewpoint_ == PlayerViewpoint::free) {
+                    free_.fly(input_, DesktopSession::k_dt_s);
+                    input_ = free_.held();
+                }
+                input.commands = stage_.session.advance_devices(input_, end_s, input.samples);
+                clear_momentary_input(input_);
+            });
+        ends_ = ends_ || !stage_.match->goes_on();
+        if (ticks > 0) {
+            note_frame(us_since(begin_ns) / ticks);
+            draw(ticks * DesktopSession::k_dt_s);
+        }
+        match_s_ += ticks * DesktopSession::k_dt_s;
+        ends_ = ends_ || (stage_.end_s > 0.0 && match_s_ >= stage_.end_s);
     }
 
     void draw(double dt_s) {
@@ -310,6 +343,7 @@ class Loop {
     int steps_ = 0;
     std::size_t rewound_ = 0;
     double next_status_s_ = 0.0;
+    double match_s_ = 0.0;  // time played in a match
     bool ends_ = false;
     PlayEnd end_;
 };

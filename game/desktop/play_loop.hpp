@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstdio>
+#include <functional>
 #include <string>
 
 #include "game/desktop/window.hpp"
 #include "game/devices/play_settings.hpp"
+#include "game/net/match_peer.hpp"
 #include "game/play/desktop_session.hpp"
 #include "game/play/play_tally.hpp"
 #include "game/play/session_history.hpp"
@@ -20,6 +22,12 @@ struct PlayPanels {
     bool help = true;
     bool inspector = false;
     bool menu = false;
+};
+
+// The match that steps the scene's world, if somebody else's is played.
+struct PlayedMatch {
+    MatchPeer& peer;
+    std::function<bool()> goes_on;  // called after each poll of `peer`; false: it is over
 };
 
 // One scene, played in a window until the user leaves it.
@@ -40,6 +48,9 @@ struct PlayStage {
     // End of the session on the scene's clock; 0: never.
     double end_s = 0.0;
     std::FILE* status = nullptr;  // gets a line every tenth of a second; may be null
+    // Null: played alone. In a match there is no pause, no rewinding and no inspector, whose tuning
+    // would differ from the others'.
+    PlayedMatch* match = nullptr;
 };
 
 // How the session ended.

@@ -10,7 +10,11 @@ namespace handhold {
 // Options of `handhold play`.
 struct PlayOptions {
     std::string scene = "station";
-    std::string spawn;    // name of the spawn; empty: the scene's first
+    std::string spawn;  // name of the spawn; empty: the scene's first
+    // A match to join: ws://HOST:PORT or wss://HOST:PORT; empty: play alone. `scene` empty: the
+    // one that its server names.
+    std::string join;
+    std::string token;    // file with a token for that match; empty: none
     std::string record;   // where the session is saved; empty: nowhere
     std::string picture;  // a PNG of the last picture; empty: none
     PlayerModelFiles models;

@@ -24,6 +24,9 @@ DesktopSession::DesktopSession(Scene scene, const hh::Pose& origin_ws)
     load_game_body_clips(scene_.host);
 }
 
+DesktopSession::DesktopSession(Scene scene, hh::Player player)
+    : scene_(std::move(scene)), player_(player) {}
+
 void DesktopSession::set_controller_joints(const std::array<hh::Pose, 2>& hand_in_grip) {
     handhold::set_controller_joints(hand_in_grip, scene_.host);
 }
@@ -34,14 +37,9 @@ void DesktopSession::step(const DesktopInput& input) {
     samples_.clear();
     if (world.frame() == 0) {  // a recording starts with a sample at the session's start
         samples_.push_back(body_.advance(world, player_, {}, start_s, 1e-9));
+        record_sample(samples_.back());
     }
-    samples_.push_back(body_.advance(world, player_, input, start_s + k_dt_s, k_dt_s));
-    if (records_) {
-        for (const hh::Sample& sample : samples_) {
-            recording_.samples.push_back(recorded(sample));
-        }
-    }
-    hh_commands commands = body_.commands(input);
+    hh_commands commands = advance_devices(input, start_s + k_dt_s, samples_);
     if (*world.tuning("locomotion.thruster_mps2") == 0.0) {
         // Jets are off, but commands are state and must be equal in every replay.
         commands.thrust = {};
@@ -49,6 +47,20 @@ void DesktopSession::step(const DesktopInput& input) {
     used_sticks_ = used_sticks_ || input.brake || input.smooth_turn != 0.0 ||
                    input.snap_turns != 0 || !(commands.thrust == hh::Vec3{});
     expect_done(world.step(k_dt_s, hh::input(player_, samples_, commands)));
+}
+
+hh_commands DesktopSession::advance_devices(const DesktopInput& input, double end_s,
+                                            std::vector<hh::Sample>& samples) {
+    samples.push_back(body_.advance(scene_.host, player_, input, end_s, k_dt_s));
+    record_sample(samples.back());
+    return body_.commands(input);
+}
+
+// A state of a match may set the world's clock back, but a recording's times increase.
+void DesktopSession::record_sample(const hh::Sample& sample) {
+    if (records_ && (recording_.samples.empty() || sample.time_s > recording_.samples.back().t_s)) {
+        recording_.samples.push_back(recorded(sample));
+    }
 }
 
 DesktopState DesktopSession::save() {

@@ -23,10 +23,19 @@ struct DesktopState {
 class DesktopSession {
   public:
     DesktopSession(Scene scene, const hh::Pose& origin_ws);
+    // In a match: the scene has its players and clips already, and the match steps its world.
+    DesktopSession(Scene scene, hh::Player player);
 
     static constexpr double k_dt_s = 1.0 / 90.0;
     // Advances one frame.
     void step(const DesktopInput& input);
+
+    // What the devices of this desktop say at the end of a frame: appends a sample, and returns the
+    // commands. `step` does it by itself; for worlds that a match steps.
+    hh_commands advance_devices(const DesktopInput& input, double end_s,
+                                std::vector<hh::Sample>& samples);
+    // The desktop's player is this one from now on.
+    void play_as(hh::Player player) { player_ = player; }
 
     // Call save() and restore() between frames. A state can be restored to the session that
     // saved it, or to one with the same scene and start pose. The session then continues bit
@@ -53,6 +62,8 @@ class DesktopSession {
     bool used_sticks() const { return used_sticks_; }
 
   private:
+    void record_sample(const hh::Sample& sample);
+
     Scene scene_;
     hh::Player player_;
     DesktopBody body_;

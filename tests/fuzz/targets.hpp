@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <span>
 
-// Fuzz targets, one for each file format. Each passes the bytes to the reader and, if they are
-// accepted, uses the result as the runtime would; a broken promise aborts. The ordinary tests
-// replay the corpus.
+// Fuzz targets, one for each file format, and one for messages. Each passes the bytes to the reader
+// and, if they are accepted, uses the result as the runtime would; a broken promise aborts. The
+// ordinary tests replay the corpus.
 namespace handhold::fuzz {
 
 using Bytes = std::span<const std::uint8_t>;
@@ -19,6 +19,7 @@ void run_shots(Bytes bytes);
 void run_station(Bytes bytes);     // a station's description
 void run_controller(Bytes bytes);  // a controller's profile
 void run_csv(Bytes bytes);         // a table of the lab
+void run_net(Bytes bytes);         // a message between servers and peers of a match
 // The first byte selects the meaning of the rest: 0 patches of a valid snapshot, 1 a payload, 2 a
 // whole snapshot. Most inputs thus pass the checksum, and seeds survive changes of the schema.
 void run_snapshot(Bytes bytes);

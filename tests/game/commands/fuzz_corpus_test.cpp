@@ -37,7 +37,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Target{"recording", fuzz::run_recording}, Target{"tuning", fuzz::run_tuning},
                     Target{"shots", fuzz::run_shots}, Target{"snapshot", fuzz::run_snapshot},
                     Target{"station", fuzz::run_station},
-                    Target{"controller", fuzz::run_controller}, Target{"csv", fuzz::run_csv}));
+                    Target{"controller", fuzz::run_controller}, Target{"csv", fuzz::run_csv},
+                    Target{"net", fuzz::run_net}));
 
 }  // namespace
 }  // namespace handhold::fuzz_corpus_test

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <handhold/match.hpp>
+
+#include "game/net/match_seats.hpp"
+#include "game/net/net_log.hpp"
+#include "game/net/net_messages.hpp"
+#include "game/net/token.hpp"
+#include "game/net/transport.hpp"
+
+namespace handhold {
+
+struct MatchServerSettings {
+    MatchOffer offer;             // `players` and `wants_token` are set by the server
+    std::optional<TokenKey> key;  // none: everybody is admitted
+    double tick_s = 1.0 / 90.0;
+    double return_s = 60.0;               // a seat waits so long for a person who was cut off
+    double state_bytes_per_s = 500e3;     // most to one peer
+    double joins_per_s = 4.0;             // a state costs more than a tick
+    double joins_at_once = 32.0;          // joins that were not used may follow at once
+    double hello_within_s = 5.0;          // limit for a hello, and for a state
+    double silent_after_s = 10.0;         // a player without a good packet is sent away
+    double longest_wait_s = 0.01;         // limit of one poll
+    std::function<double()> clock;        // seconds, monotonic
+    std::function<std::int64_t()> today;  // Unix time, for tokens
+    NetLog log;
+};
+
+// Sums since the server began.
+struct MatchServerCounts {
+    std::uint64_t joins = 0;
+    std::uint64_t returns = 0;  // joins of a person who had played before
+    std::uint64_t states = 0;
+    std::uint64_t state_bytes = 0;
+    std::uint64_t bad_packets = 0;   // packets of the match that it refused as damaged or forged
+    std::uint64_t bad_messages = 0;  // other messages that were none
+    std::uint64_t silent = 0;        // peers that were sent away for it
+    std::uint64_t late = 0;
+    std::array<std::uint64_t, k_net_refusals> refused{};  // indexed by NetRefusal
+};
+
+// A match that peers join over a transport: `handhold serve`. Runs in the caller's thread.
+class MatchServer final : public ListenerHandler {
+  public:
+    // The match begins now, at the world's present tick. World and listener must outlive it.
+    MatchServer(hh::World& world, std::span<const hh::Player> players, MatchServerSettings settings,
+                Listener& listener);
+    ~MatchServer() = default;
+    MatchServer(const MatchServer&) = delete;
+    MatchServer& operator=(const MatchServer&) = delete;
+
+    // Receives, steps what is due, and sends. Waits at most until the next tick is due.
+    void poll();
+    // Admits nobody any more, and tells all peers that the server ends. Poll until is_drained.
+    void drain();
+    bool is_drained() const { return is_draining_ && links_.empty(); }
+
+    const hh::Match& match() const { return match_; }
+    const MatchSeats& seats() const { return seats_; }
+    const MatchServerCounts& counts() const { return counts_; }
+    // Prometheus' text format.
+    std::string metrics() const;
+
+    void opened(LinkId link) override;
+    void received(LinkId link, std::span<const std::byte> message) override;
+    void closed(LinkId link, LinkEnd why) override;
+    HttpAnswer get(std::string_view path) override;
+
+  private:
+    void take_hello(LinkId link, std::span<const std::byte> message);
+    // Who says so, or why not.
+    std::optional<MatchRefused> check_hello(const MatchHello& hello, std::string& person) const;
+    void refuse_link(LinkId link, const MatchRefused& refused);
+    void seat(LinkId link, std::size_t slot, const std::string& person);
+    void begin_state(std::size_t slot);
+    void send_state(MatchSeat& seat, double elapsed_s);
+    void take_packet(LinkId link, std::span<const std::byte> packet);
+    void take_joined(LinkId link, std::span<const std::byte> message);
+    void empty_seat(std::size_t slot, double reserved_s);
+    void send_away(LinkId link, NetBye why);
+    void tend(double now_s);
+    void send_packets();
+    void log(std::string_view event, std::initializer_list<NetField> fields) const;
+
+    MatchServerSettings settings_;
+    Listener& listener_;
+    double start_s_;
+    hh::Match match_;
+    MatchSeats seats_;
+    std::map<LinkId, double> links_;  // how long each connection has existed, without pauses
+    MatchServerCounts counts_;
+    std::vector<std::byte> packet_;   // reused
+    std::vector<std::byte> message_;  // reused
+    double polled_s_;
+    double joins_left_;  // joins that joins_per_s allows now
+    double next_packets_s_ = 0.0;
+    bool is_draining_ = false;
+};
+
+}  // namespace handhold

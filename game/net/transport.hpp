@@ -1,0 +1,142 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "game/files/file_tools.hpp"
+
+// Connections that carry a match's messages, whatever they are made of. Everything runs on the
+// caller's thread, in poll.
+namespace handhold {
+
+// Number of a connection to a listener; never used twice.
+using LinkId = std::uint64_t;
+
+enum class Delivery : std::uint8_t {
+    reliable,  // never lost, and in order
+    newest,    // old ones are dropped while the receiver does not read
+};
+
+// Why a connection ended.
+enum class LinkEnd : std::uint8_t {
+    closed,    // ended by the other side, or by us
+    message,   // sent what is no message: too long, or text
+    flooding,  // sent more than LinkBudget allows, for seconds
+    slow,      // did not read for seconds
+};
+
+// What one connection may send. Beyond it nothing is read from it until it has waited.
+struct LinkBudget {
+    double messages_per_s = 250.0;
+    double bytes_per_s = 100e3;
+    double burst_s = 0.5;  // both rates may be exceeded by so much
+};
+
+struct ListenerSettings {
+    std::string address = "127.0.0.1";  // address of the interface that is listened on
+    int port = 0;                       // 0: any that is free
+    std::size_t most_links = 64;        // further connections are refused
+    std::size_t most_message_bytes = 1500;
+    int kernel_buffer_bytes = 1 << 16;  // what the kernel may hold of what is sent
+    double slow_after_s = 5.0;          // a connection that reads nothing for so long ends
+    LinkBudget budget;
+};
+
+// Sums over all connections since the start.
+struct ListenerCounts {
+    std::uint64_t opened = 0;
+    std::uint64_t refused = 0;  // beyond most_links
+    std::uint64_t received_messages = 0;
+    std::uint64_t received_bytes = 0;
+    std::uint64_t sent_messages = 0;
+    std::uint64_t sent_bytes = 0;
+    std::uint64_t dropped = 0;    // messages of Delivery::newest that were never sent
+    std::uint64_t throttled = 0;  // times that a connection was not read for a while
+    std::uint64_t bad_messages = 0;
+    std::uint64_t ended_flooding = 0;
+    std::uint64_t ended_slow = 0;
+    std::size_t most_queued_bytes = 0;  // largest queue of one connection
+};
+
+struct HttpAnswer {
+    int status = 200;
+    std::string body;  // plain text
+};
+
+// What a listener calls during poll. Must not throw.
+class ListenerHandler {
+  public:
+    virtual void opened(LinkId link) = 0;
+    virtual void received(LinkId link, std::span<const std::byte> message) = 0;
+    // The link does not exist any more.
+    virtual void closed(LinkId link, LinkEnd why) = 0;
+    // The answer to an HTTP GET.
+    virtual HttpAnswer get(std::string_view path) = 0;
+
+  protected:
+    ~ListenerHandler() = default;
+};
+
+// A server's end of all its connections.
+class Listener {
+  public:
+    Listener() = default;
+    virtual ~Listener() = default;
+    Listener(const Listener&) = delete;
+    Listener& operator=(const Listener&) = delete;
+
+    virtual int port() const = 0;
+    // Sends and receives what is possible; waits for that at most `wait_s`.
+    virtual void poll(double wait_s, ListenerHandler& handler) = 0;
+    // Queues a message. Nothing happens for links that do not exist.
+    virtual void send(LinkId link, Delivery delivery, std::span<const std::byte> message) = 0;
+    // Bytes that wait to be sent, at most SendQueue::k_most_bytes.
+    virtual std::size_t queued_bytes(LinkId link) const = 0;
+    // Sends the queue, and ends the connection if the other side does not within half a second.
+    virtual void close(LinkId link) = 0;
+    virtual const ListenerCounts& counts() const = 0;
+};
+
+// False: this program was built without a transport and its cryptography.
+bool has_network();
+
+// Error: the port is taken, or there is no transport.
+Result<std::unique_ptr<Listener>> open_listener(const ListenerSettings& settings);
+
+// What a link calls during poll. Must not throw.
+class LinkHandler {
+  public:
+    virtual void opened() = 0;
+    virtual void received(std::span<const std::byte> message) = 0;
+    // The connection has ended, or there was none. `why`: one line.
+    virtual void closed(std::string_view why) = 0;
+
+  protected:
+    ~LinkHandler() = default;
+};
+
+// A peer's connection to a server.
+class Link {
+  public:
+    Link() = default;
+    virtual ~Link() = default;
+    Link(const Link&) = delete;
+    Link& operator=(const Link&) = delete;
+
+    virtual void poll(double wait_s, LinkHandler& handler) = 0;
+    virtual void send(Delivery delivery, std::span<const std::byte> message) = 0;
+    virtual std::size_t queued_bytes() const = 0;
+    // Ends the connection once its queue is sent.
+    virtual void close() = 0;
+};
+
+// Begins to connect to ws://HOST:PORT or wss://HOST:PORT. Error: no such URL, or there is no
+// transport.
+Result<std::unique_ptr<Link>> open_link(const std::string& url);
+
+}  // namespace handhold

@@ -1,0 +1,229 @@
+// A peer's WebSocket connection to a server, by libwebsockets.
+#include <charconv>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "game/net/net_messages.hpp"
+#include "game/net/send_queue.hpp"
+#include "game/net/transport.hpp"
+#include "game/net/websocket_context.hpp"
+
+namespace handhold {
+namespace {
+
+// A server's message has a piece of a state at most.
+constexpr std::size_t k_most_from_server = StatePiece::k_most_bytes + 64;
+
+struct WebSocketUrl {
+    bool is_secure = false;
+    std::string host;
+    int port = 0;
+    std::string path;
+};
+
+std::optional<WebSocketUrl> parse_url(std::string_view url) {
+    WebSocketUrl out;
+    out.is_secure = url.starts_with("wss://");
+    if (!out.is_secure && !url.starts_with("ws://")) {
+        return std::nullopt;
+    }
+    url.remove_prefix(out.is_secure ? 6 : 5);
+    const std::size_t slash = std::min(url.find('/'), url.size());
+    out.path = slash < url.size() ? std::string(url.substr(slash)) : "/";
+    const std::string_view place = url.substr(0, slash);
+    const std::size_t colon = place.find(':');
+    out.host = std::string(place.substr(0, colon));
+    out.port = out.is_secure ? 443 : 80;
+    if (colon != std::string_view::npos) {
+        const std::string_view digits = place.substr(colon + 1);
+        const char* const end = digits.data() + digits.size();
+        const auto [stop, error] = std::from_chars(digits.data(), end, out.port);
+        if (error != std::errc{} || stop != end) {
+            return std::nullopt;
+        }
+    }
+    const bool is_good = !out.host.empty() && out.port >= 1 && out.port <= 65535;
+    return is_good ? std::optional(out) : std::nullopt;
+}
+
+class WebSocketLink final : public Link {
+  public:
+    explicit WebSocketLink(WebSocketUrl url)
+        : url_(std::move(url)), protocols_(protocols()), context_(info(url_, this, protocols_)) {
+        if (context_.get() == nullptr) {
+            is_closed_ = true;
+            why_ = "no connection can be made";
+            return;
+        }
+        lws_client_connect_info connect{};
+        connect.context = context_.get();
+        connect.address = url_.host.c_str();
+        connect.host = connect.address;
+        connect.origin = connect.address;
+        connect.port = url_.port;
+        connect.path = url_.path.c_str();
+        connect.protocol = k_websocket_protocol;
+        connect.ssl_connection = url_.is_secure ? LCCSCF_USE_SSL : 0;
+        connect.pwsi = &wsi_;
+        if (lws_client_connect_via_info(&connect) == nullptr) {
+            end("no connection");
+        }
+    }
+
+    void poll(double wait_s, LinkHandler& handler) override {
+        handler_ = &handler;
+        if (!is_closed_) {
+            context_.service(wait_s);
+        }
+        handler_ = nullptr;
+        if (is_closed_ && !is_told_) {
+            is_told_ = true;
+            handler.closed(why_);
+        }
+    }
+
+    void send(Delivery delivery, std::span<const std::byte> message) override {
+        if (is_closed_ || closes_) {
+            return;
+        }
+        if (!queue_.push(delivery, message)) {
+            closes_ = true;
+        }
+        ask_to_write();
+    }
+
+    std::size_t queued_bytes() const override { return queue_.bytes(); }
+
+    void close() override {
+        closes_ = true;
+        ask_to_write();
+    }
+
+  private:
+    static std::array<lws_protocols, 2> protocols() {
+        std::array<lws_protocols, 2> out{};
+        out[0].name = k_websocket_protocol;
+        out[0].callback = &WebSocketLink::on_event;
+        return out;
+    }
+    static lws_context_creation_info info(const WebSocketUrl& url, WebSocketLink* self,
+                                          const std::array<lws_protocols, 2>& protocols) {
+        lws_context_creation_info info{};
+        info.port = CONTEXT_PORT_NO_LISTEN;
+        info.protocols = protocols.data();
+        info.user = self;
+        info.options = LWS_SERVER_OPTION_DISABLE_IPV6;
+        if (url.is_secure) {
+            info.options |= LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT;
+        }
+        info.fd_limit_per_thread = 8;
+        info.timeout_secs = 10;
+        return info;
+    }
+
+    static int on_event(lws* wsi, lws_callback_reasons reason, void* /*user*/, void* in,
+                        std::size_t size) {
+        auto* const self = static_cast<WebSocketLink*>(lws_context_user(lws_get_context(wsi)));
+        if (self == nullptr) {
+            return 0;
+        }
+        try {
+            switch (reason) {
+                case LWS_CALLBACK_CLIENT_CONNECTION_ERROR:
+                    self->end(in != nullptr ? std::string(static_cast<const char*>(in), size)
+                                            : "no connection");
+                    return 0;
+                case LWS_CALLBACK_CLIENT_ESTABLISHED:
+                    self->is_open_ = true;
+                    self->ask_to_write();
+                    if (self->handler_ != nullptr) {
+                        self->handler_->opened();
+                    }
+                    return 0;
+                case LWS_CALLBACK_CLIENT_RECEIVE:
+                    return self->receive({static_cast<const std::byte*>(in), size});
+                case LWS_CALLBACK_CLIENT_WRITEABLE:
+                    return self->write();
+                case LWS_CALLBACK_CLIENT_CLOSED:
+                    self->end("the connection was lost");
+                    return 0;
+                default:
+                    return 0;
+            }
+        } catch (const std::exception&) {
+            return -1;
+        }
+    }
+
+    void end(std::string why) {
+        is_open_ = false;
+        if (!is_closed_) {
+            is_closed_ = true;
+            why_ = printable(why);
+        }
+    }
+
+    void ask_to_write() {
+        if (is_open_ && !is_closed_) {
+            lws_callback_on_writable(wsi_);
+        }
+    }
+
+    int receive(std::span<const std::byte> bytes) {
+        if (incoming_.size() + bytes.size() > k_most_from_server) {
+            return -1;
+        }
+        incoming_.insert(incoming_.end(), bytes.begin(), bytes.end());
+        if (lws_remaining_packet_payload(wsi_) == 0 && lws_is_final_fragment(wsi_) != 0) {
+            if (handler_ != nullptr) {
+                handler_->received(incoming_);
+            }
+            incoming_.clear();
+        }
+        return 0;
+    }
+
+    int write() {
+        if (!queue_.is_empty()) {
+            const std::span<const std::byte> message = queue_.front();
+            outgoing_.resize(LWS_PRE + message.size());
+            std::ranges::transform(message, outgoing_.begin() + LWS_PRE,
+                                   [](std::byte byte) { return static_cast<unsigned char>(byte); });
+            if (lws_write(wsi_, &outgoing_[LWS_PRE], message.size(), LWS_WRITE_BINARY) < 0) {
+                return -1;
+            }
+            queue_.pop();
+        }
+        if (!queue_.is_empty()) {
+            lws_callback_on_writable(wsi_);
+        }
+        return queue_.is_empty() && closes_ ? -1 : 0;
+    }
+
+    WebSocketUrl url_;
+    std::array<lws_protocols, 2> protocols_;
+    LinkHandler* handler_ = nullptr;
+    lws* wsi_ = nullptr;
+    SendQueue queue_;
+    std::vector<std::byte> incoming_;
+    std::vector<unsigned char> outgoing_;
+    bool is_open_ = false;
+    bool closes_ = false;
+    bool is_closed_ = false;
+    bool is_told_ = false;
+    std::string why_;
+    WebSocketContext context_;  // the last one: it calls on_event while it ends
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Link>> open_link(const std::string& url) {
+    std::optional<WebSocketUrl> parsed = parse_url(url);
+    if (!parsed) {
+        return FileError{url, "", "expected ws://HOST:PORT or wss://HOST:PORT"};
+    }
+    return std::unique_ptr<Link>(std::make_unique<WebSocketLink>(std::move(*parsed)));
+}
+
+}  // namespace handhold

@@ -1,0 +1,167 @@
+"""Runs matches as processes: a server, bots and a recorded player over the loopback interface, and every way of not being admitted.
+
+usage: match_commands_test.py GAME [unittest's flags]
+"""
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import urllib.error
+import urllib.request
+from pathlib import Path
+
+GAME = Path(sys.argv.pop(1)).resolve()
+WITHIN_S = 60.0
+
+
+class Program:
+    """A program that logs lines of key=value."""
+
+    def __init__(self, folder: Path, *words, env: dict[str, str] | None = None):
+        self.out = folder / f"{len(list(folder.glob('*.log')))}.log"
+        self.err = self.out.with_suffix(".err")
+        with self.out.open("wb") as out, self.err.open("wb") as err:
+            self.process = subprocess.Popen([str(GAME), *map(str, words)], stdout=out, stderr=err, cwd=folder, env=env)
+
+    def lines(self, event: str) -> list[dict[str, str]]:
+        found = []
+        for line in self.out.read_text(encoding="utf-8").splitlines():
+            fields = dict(re.findall(r'(\w+)=("(?:[^"\\]|\\.)*"|\S+)', line))
+            if fields.get("event") == event:
+                found.append(fields)
+        return found
+
+    def wait_for(self, event: str, count: int = 1) -> list[dict[str, str]]:
+        until = time.monotonic() + WITHIN_S
+        while len(self.lines(event)) < count:
+            if self.process.poll() is not None or time.monotonic() > until:
+                raise AssertionError(f"no {event}: {self.out.read_text()}{self.err.read_text()}")
+            time.sleep(0.02)
+        return self.lines(event)
+
+    def end(self) -> int:
+        try:
+            return self.process.wait(WITHIN_S)
+        finally:
+            self.process.kill()
+
+
+class Matches(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name).resolve()
+
+    def start(self, *words, env: dict[str, str] | None = None) -> Program:
+        program = Program(self.folder, *words, env=env)
+        self.addCleanup(lambda: program.process.poll() is None and program.process.kill())
+        return program
+
+    def serve(self, *words) -> tuple[Program, str]:
+        server = self.start("serve", "--scene", "reach", *words)
+        return server, server.wait_for("serves")[0]["url"]
+
+    def assert_refused(self, words: list, what: str):
+        ended = subprocess.run([str(GAME), *map(str, words)], capture_output=True, timeout=WITHIN_S, check=False, cwd=self.folder)
+        error = ended.stderr.decode()
+        self.assertEqual(ended.returncode, 2, error)
+        self.assertEqual(error.count("\n"), 1, error)
+        self.assertIn(what, error)
+
+    def get(self, url: str, path: str) -> tuple[int, str]:
+        try:
+            with urllib.request.urlopen(url.replace("ws://", "http://") + path, timeout=5) as answer:
+                return answer.status, answer.read().decode()
+        except urllib.error.HTTPError as error:
+            return error.code, error.read().decode()
+
+    def test_bots_and_a_recorded_player_have_the_servers_hashes_and_sigterm_drains(self):
+        subprocess.run([str(GAME), "climb", "--scene", "reach", "--seconds", "2", "--out", "climb.csv"], check=True, capture_output=True,
+                       cwd=self.folder)
+        server, url = self.serve("--players", "3")
+        bots = self.start("bots", 2, "--join", url)
+        player = self.start("run", "--join", url, "--input", "climb.csv")
+        server.wait_for("plays", 3)
+        self.assertEqual(self.get(url, "/health"), (200, "ok\n"))
+        self.assertEqual(self.get(url, "/nothing")[0], 404)
+        status, metrics = self.get(url, "/metrics")
+        self.assertEqual(status, 200)
+        self.assertRegex(metrics, r"(?m)^handhold_players 3$")
+        self.assertRegex(metrics, r"(?m)^handhold_out_of_sync_total 0$")
+        for line in metrics.splitlines():
+            self.assertRegex(line, r'^(# (HELP|TYPE) handhold_\w+ .+|handhold_\w+(\{\w+="\w+"\})? -?[\d.e+-]+)$')
+        bots.wait_for("confirmed", 2)
+        player.wait_for("confirmed")
+        server.process.send_signal(signal.SIGTERM)
+        for program in (server, bots, player):
+            self.assertEqual(program.end(), 0, program.err.read_text())
+        hashes = {}
+        for program in (server, bots, player):
+            for line in program.lines("confirmed"):
+                hashes.setdefault(line["tick"], []).append(line["hash"])
+        compared = [set(found) for found in hashes.values() if len(found) >= 3]
+        self.assertTrue(compared, hashes)
+        self.assertTrue(all(len(found) == 1 for found in compared), hashes)
+        self.assertEqual(bots.lines("ends")[0]["why"], '"the server is shutting down"')
+        self.assertEqual(server.lines("ends")[0]["out_of_sync"], "0")
+        self.assertGreater(int(server.lines("ends")[0]["hashes"]), 0)
+
+    def test_window_plays_in_a_match(self):
+        server, url = self.serve("--players", "2")
+        bot = self.start("bots", 1, "--join", url)
+        server.wait_for("plays")
+        window = self.start("play", "--join", url, "--seconds", "2", "--quality", "plain", "--width", 64, "--height", 36, "--record", "me.csv",
+                            env=dict(os.environ, SDL_VIDEODRIVER="dummy", SDL_AUDIODRIVER="dummy", LIBGL_ALWAYS_SOFTWARE="1"))
+        status = window.end()
+        if status == 3:
+            self.skipTest("no way to draw here")
+        self.assertEqual(status, 0, window.err.read_text())
+        self.assertEqual(len(server.lines("plays")), 2)
+        self.assertEqual(server.wait_for("left")[0]["why"], "leaving")
+        self.assertIn(f"handhold run --join {url} --input me.csv", window.out.read_text())
+        server.process.send_signal(signal.SIGTERM)
+        self.assertEqual((server.end(), bot.end()), (0, 0))
+        self.assertEqual(server.lines("ends")[0]["out_of_sync"], "0")
+        self.assertGreater(int(server.lines("ends")[0]["hashes"]), 1)
+
+    def test_who_is_not_admitted_reads_why_in_one_line(self):
+        (self.folder / "key").write_text("k" * 40 + "\n")
+        (self.folder / "short").write_text("k" * 31)
+        (self.folder / "other").write_text("x" * 40)
+        token = ["token", "--name", "ann", "--token-key"]
+        for name, words in {"good": ["key"], "old": ["key", "--minutes", "0"], "forged": ["other"]}.items():
+            made = subprocess.run([str(GAME), *token, *words], check=True, capture_output=True, cwd=self.folder)
+            (self.folder / name).write_bytes(made.stdout)
+        server, url = self.serve("--players", "1", "--token-key", "key")
+        join = ["run", "--join", url]
+        self.assert_refused(join, "the server wants a token (--token)")
+        self.assert_refused([*join, "--token", "old"], "the token has expired")
+        self.assert_refused([*join, "--token", "forged"], "the token is not one of this server")
+        self.assert_refused([*join, "--token", "good", "--scene", "together"], 'other level: "scene" differs')
+        player = self.start(*join, "--token", "good")
+        server.wait_for("plays")
+        bob = subprocess.run([str(GAME), "token", "--token-key", "key", "--name", "bob"], check=True, capture_output=True, cwd=self.folder)
+        (self.folder / "bob").write_bytes(bob.stdout)
+        self.assert_refused([*join, "--token", "bob"], "the match is full")
+        self.assert_refused(["bots", 2, "--join", url, "--token", "bob"], "expected 2 tokens, one a line, found 1")
+        self.assert_refused(["serve", "--scene", "reach", "--token-key", "short"], "expected a secret of 32 to 4096 bytes, found 31 bytes")
+        self.assert_refused(["serve", "--scene", "reach", "--port", url.rpartition(":")[2]], "expected an address and a port that are free")
+        player.process.send_signal(signal.SIGINT)
+        self.assertEqual(player.end(), 0)
+        self.assertEqual(server.wait_for("left")[0]["why"], "leaving")
+        server.process.send_signal(signal.SIGTERM)
+        self.assertEqual(server.end(), 0)
+        self.assert_refused(join, "no server")
+        self.assert_refused(["run", "--join", "http://localhost"], "expected ws://HOST:PORT or wss://HOST:PORT")
+
+
+if __name__ == "__main__":
+    probe = subprocess.run([str(GAME), "run", "--join", "ws://127.0.0.1:1"], capture_output=True, check=False)
+    if b"built with libwebsockets" in probe.stderr:
+        print("built without libwebsockets")
+        sys.exit(77)
+    unittest.main()
