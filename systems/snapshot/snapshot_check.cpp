@@ -15,7 +15,6 @@ namespace {
 
 // Latest clock time. Beyond it, rounding would swallow part of a frame's length.
 constexpr double k_max_time_s = 1e9;
-
 constexpr double k_min_bone_ratio = 0.01;
 
 bool is_duration(double seconds) { return seconds >= 1e-3 && seconds <= k_max_time_s; }

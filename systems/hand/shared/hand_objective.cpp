@@ -60,8 +60,10 @@ double HandObjective::evaluate(const HandPose& pose) {
     add_wrist();
     for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
         add_hinges(f);
-        if (layout_.opposition(f) >= 0) {
-            is_thumb(rig_.fingers[f]) ? add_opposition(f) : add_spread(f);
+        if (layout_.opposition(f) >= 0 && is_thumb(rig_.fingers[f])) {
+            add_opposition(f);
+        } else if (layout_.opposition(f) >= 0) {
+            add_spread(f);
         }
         add_attraction(f);
     }
