@@ -22,7 +22,7 @@ constexpr std::int64_t k_max_priority = 100;
 constexpr std::array<const char*, k_hand_count> k_side_keys = {"left", "right"};
 constexpr std::array<const char*, 3> k_axes = {"x", "y", "z"};
 
-// Keys of a digit's angles; only the thumb has an opposition.
+// Keys of a digit's angles. Scene files have an opposition of the thumb only.
 struct AngleKeys {
     const char* curl;
     const char* opposition;

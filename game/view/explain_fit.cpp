@@ -30,7 +30,7 @@ constexpr std::array<TermView, k_fit_term_count> k_term_views = {{
     {{0.8F, 0.1F, 0.6F}, "is beyond its joint limits"},
     {{1.0F, 0.45F, 0.1F}, "is folded into itself"},
     {{0.75F, 0.0F, 0.25F}, "is a claw: knuckle stretched, middle bent"},
-    {{0.7F, 0.8F, 0.1F}, "is too far apart from its neighbour"},
+    {{0.7F, 0.8F, 0.1F}, "is too far from its neighbour, or crosses it"},
     {{1.0F, 0.3F, 0.9F}, "is outside its height or tilt limits"},
 }};
 

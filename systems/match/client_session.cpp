@@ -35,7 +35,7 @@ void ClientSession::start_here() {
     marks_.reset(now());
     pacer_ = {};
     sent_until_ = now();
-    new_ticks_.fill(1.0);
+    had_two_.fill(false);
     hash_tick_ = 0;
     needs_state_ = false;
 }
@@ -81,8 +81,9 @@ MatchRefusal ClientSession::receive(std::span<const std::byte> packet) {
     if (incoming_.confirmed_until > now()) {
         pacer_.hear_behind(static_cast<double>(incoming_.confirmed_until - now()));
     } else {
-        // The server reports the newest input of each packet; the oldest new one is due earlier.
-        const double earlier_s = match_.dt_s * (std::ranges::max(new_ticks_) - 1.0);
+        // The server reports the newest input of each packet; the other one is due a tick earlier.
+        const bool has_two = std::ranges::count(had_two_, true) > 1;
+        const double earlier_s = has_two ? match_.dt_s : 0.0;
         pacer_.hear(incoming_.wait_s - earlier_s, incoming_.lead_epoch, match_.dt_s);
     }
     return MatchRefusal::none;
@@ -238,7 +239,7 @@ std::size_t ClientSession::write_packet(std::span<std::byte> bytes) {
                             : marks_.base(packets_, received_until_, own.until);
     header.is_fresh = own.is_fresh;
     const std::size_t size = write_client_packet(header, match_.player_count, own, bytes);
-    new_ticks_[packets_ % new_ticks_.size()] = own.until > sent_until_ + 1 ? 2.0 : 1.0;
+    had_two_[packets_ % had_two_.size()] = own.until > sent_until_ + 1;
     sent_until_ = own.until;
     marks_.note(packets_++, own.until);
     return size;

@@ -8,8 +8,8 @@
 #include "engine/geometry/hinge_chain.hpp"
 #include "systems/hand/shared/hand_spheres.hpp"
 
-// Clearance between a hand's own thumb and fingers. Neighbouring fingers are not tested: their
-// discs are farther apart than their capsules are thick.
+// Clearance between a hand's own thumb and fingers. Neighbouring fingers are not tested:
+// k_max_converging_rad (hand_fit.hpp) keeps them apart.
 namespace handhold {
 
 using DigitCapsules = std::array<std::array<Capsule, k_max_links>, k_finger_count>;

@@ -27,7 +27,7 @@ enum class FitTerm : std::uint8_t {
     joints,       // an angle is outside its joint's limits
     bend,         // a finger is folded into itself
     claw,         // a knuckle is stretched and the middle joint bent
-    apart,        // neighbouring fingers bend or point too differently
+    apart,        // neighbours bend or point too differently, or cross
     palm_limits,  // the palm is outside its limits on height and tilt
     count
 };

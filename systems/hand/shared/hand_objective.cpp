@@ -173,6 +173,9 @@ void HandObjective::add_spread(std::size_t f) {
     const bool shrinks = bend_rad > 0.0 && bend_rad < k_bent_spread_rad;
     const double shrink_per_rad = shrinks ? -(1.0 - k_bent_spread_share) / k_bent_spread_rad : 0.0;
     problem_.add_square({FitTerm::spread, f}, k_spread * k_lever2, spread_rad, unit(place));
+    if (goal_.is_fixed[f]) {
+        return;  // authored angles are kept, whatever their range
+    }
     const int knuckle = layout_.hinge(f, 0);
     problem_.add_row({FitTerm::joints, f},
                      unit(place) + unit(knuckle, -finger.lower_opposition_rad * shrink_per_rad),
@@ -251,7 +254,7 @@ void HandObjective::add_neighbour(std::size_t a, std::size_t b) {
 void HandObjective::add_converging(std::size_t a, std::size_t b) {
     const int of_a = layout_.opposition(a);
     const int of_b = layout_.opposition(b);
-    if (of_a < 0 || of_b < 0) {
+    if (of_a < 0 || of_b < 0 || (goal_.is_fixed[a] && goal_.is_fixed[b])) {
         return;
     }
     // Positive: away from each other. Spreads count towards the thumb's side.

@@ -1,6 +1,7 @@
 #include "systems/hand/shared/digit_gaps.hpp"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include <gtest/gtest.h>

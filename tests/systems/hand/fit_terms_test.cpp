@@ -264,6 +264,12 @@ TEST_F(FitTermsOfHand, SpreadFingersCostWhatTheObjectiveSays) {
             EXPECT_NEAR(cost_of(terms, f, FitTerm::joints),
                         0.5 * 500.0 * k_lever2 * beyond_rad * beyond_rad, 1e-12);
         }
+        HandFitGoal authored = goal;
+        authored.is_fixed.fill(true);
+        const FitTerms kept = terms_of(hand, authored);
+        for (std::size_t f = 1; f < rig.fingers.size(); ++f) {
+            EXPECT_EQ(cost_of(kept, f, FitTerm::joints), 0.0);
+        }
         HandFitGoal parallel = goal;
         for (std::size_t f = 1; f < rig.fingers.size(); ++f) {
             parallel.first.fingers[f].opposition_rad = 0.0;
@@ -287,8 +293,7 @@ TEST_F(FitTermsOfHand, SpreadFingersCostWhatTheObjectiveSays) {
     EXPECT_GT(converging, 20);
 }
 
-// Fits of random hands use their fingers' spread, and stay within its limits but for what the
-// penalties allow.
+// Fits of random hands use their fingers' spread, never leave its range, and seldom cross.
 TEST_F(FitTermsOfHand, FitsSpreadFingersWithinTheirLimits) {
     Random random(2609);
     std::vector<PenaltyRow> rows;

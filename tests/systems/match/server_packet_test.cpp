@@ -1,4 +1,7 @@
+#include <array>
+#include <cstddef>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>

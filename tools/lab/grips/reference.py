@@ -119,7 +119,7 @@ def reached(surface, fingers, positions, rotations):
     result = np.zeros((len(positions), len(FINGERS)), bool)
     for name, finger in fingers.items():
         low, high = finger.oppositions
-        for opposition in np.linspace(low, high, OPPOSITIONS) if high > low else (low,):
+        for opposition in np.linspace(low, high, OPPOSITIONS) if name == "thumb" and high > low else (0.0,):
             todo = np.nonzero(~result[:, FINGERS.index(name)])[0]
             if len(todo):
                 hit = Sweep(surface, finger, positions[todo], rotations[todo], opposition).run()

@@ -864,7 +864,7 @@ namespace Handhold {
         public Flag is_posed;
         /// <summary>of its hinges, from the knuckle; each within pi</summary>
         public DoubleArray3 curl_rad;
-        /// <summary>thumb; other fingers: spread towards its side, within 0.17</summary>
+        /// <summary>thumb; of a finger: spread towards the thumb, clamped to 0.17</summary>
         public double opposition_rad;
         /// <summary>The finger moves from these angles to the pressed ones as far as the sample's `trigger` is pressed. The pressed angles may reach into the body: a trigger gives way.</summary>
         public Flag follows_trigger;
@@ -1124,7 +1124,7 @@ namespace Handhold {
         public ulong hashes;
         /// <summary>servers: those that differed</summary>
         public ulong out_of_sync;
-        /// <summary>packets, by hh_match_refusal</summary>
+        /// <summary>packets, by hh_match_refusal; on clients, GAP counts their parts</summary>
         public UlongArray16 refused;
 
         /// <summary>The library's defaults.</summary>

@@ -579,7 +579,7 @@ export interface hh_finger {
     is_posed: boolean;
     /** of its hinges, from the knuckle; each within pi */
     curl_rad: number[];
-    /** thumb; other fingers: spread towards its side, within 0.17 */
+    /** thumb; of a finger: spread towards the thumb, clamped to 0.17 */
     opposition_rad: number;
     /** The finger moves from these angles to the pressed ones as far as the sample's `trigger` is pressed. The pressed angles may reach into the body: a trigger gives way. */
     follows_trigger: boolean;
@@ -772,7 +772,7 @@ export interface hh_match_stats {
     hashes: bigint;
     /** servers: those that differed */
     out_of_sync: bigint;
-    /** packets, by hh_match_refusal */
+    /** packets, by hh_match_refusal; on clients, GAP counts their parts */
     refused: bigint[];
 }
 

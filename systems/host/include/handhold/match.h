@@ -14,9 +14,6 @@
  * step: hh_world_step and its kin, hh_world_begin_step, hh_world_restore and hh_world_destroy
  * return or log HH_ERROR_STATE while the world is in a match.
  *
- * Stack: calls that step or join need more than the 96 KiB that base.h promises of all others; use
- * threads with the system's default.
- *
  * A tick is one step of the world, hh_world_time's `frame`. A tick is confirmed once its inputs are
  * final; the state of a confirmed tick is equal on all machines, bit for bit. */
 
@@ -237,7 +234,7 @@ typedef struct hh_match_stats {
     uint64_t filled;      /* inputs that came too late: own ones, or on a server those of all */
     uint64_t hashes;      /* servers: compared hashes of clients */
     uint64_t out_of_sync; /* servers: those that differed */
-    uint64_t refused[16]; /* packets, by hh_match_refusal */
+    uint64_t refused[16]; /* packets, by hh_match_refusal; on clients, GAP counts their parts */
 } hh_match_stats;
 HH_API hh_result hh_default_match_stats_sized(hh_match_stats* filled, size_t size);
 static inline hh_match_stats hh_default_match_stats(void) {

@@ -361,7 +361,7 @@ HH_API hh_result hh_player_skeleton_joint(const hh_world* world, hh_player playe
 typedef struct hh_finger {
     uint8_t is_posed;      /* false: the finger closes on the surface as usual */
     double curl_rad[3];    /* of its hinges, from the knuckle; each within pi */
-    double opposition_rad; /* thumb; other fingers: spread towards its side, within 0.17 */
+    double opposition_rad; /* thumb; of a finger: spread towards the thumb, clamped to 0.17 */
     /* The finger moves from these angles to the pressed ones as far as the sample's `trigger` is
      * pressed. The pressed angles may reach into the body: a trigger gives way. */
     uint8_t follows_trigger;

@@ -865,7 +865,7 @@ class Finger(Struct):
     """hh_finger
     is_posed: false: the finger closes on the surface as usual
     curl_rad: of its hinges, from the knuckle; each within pi
-    opposition_rad: thumb; other fingers: spread towards its side, within 0.17
+    opposition_rad: thumb; of a finger: spread towards the thumb, clamped to 0.17
     follows_trigger: The finger moves from these angles to the pressed ones as far as the sample's `trigger`
     is pressed. The pressed angles may reach into the body: a trigger gives way."""
     _fields_ = [
@@ -1137,7 +1137,7 @@ class MatchStats(Struct):
     filled: inputs that came too late: own ones, or on a server those of all
     hashes: servers: compared hashes of clients
     out_of_sync: servers: those that differed
-    refused: packets, by hh_match_refusal"""
+    refused: packets, by hh_match_refusal; on clients, GAP counts their parts"""
     _fields_ = [
         ("struct_size", c_uint32),
         ("tick", c_uint64),
