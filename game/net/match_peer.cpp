@@ -108,7 +108,8 @@ void MatchPeer::received(std::span<const std::byte> message) {
         take_offer(message);
     } else if (kind == NetKind::refused) {
         const std::optional<MatchRefused> refused = read_refused(message);
-        end(refused ? refusal_text(*refused) : "the server's message is damaged");
+        end(refused ? refusal_text(*refused) : "the server's message is damaged",
+            refused && refused->reason == NetRefusal::busy);
     } else if (kind == NetKind::welcome && stage_ == PeerStage::offered) {
         take_welcome(message);
     } else if (kind == NetKind::state &&

@@ -126,7 +126,9 @@ void MatchServer::closed(LinkId link, LinkEnd why) {
     links_.erase(link);
     if (const std::optional<std::size_t> slot = seats_.of_link(link)) {
         log("left", {{"slot", std::to_string(*slot)}, {"why", std::string(name_of(why))}});
-        empty_seat(*slot, settings_.return_s);
+        // Nobody reserves a seat without having played.
+        const bool has_played = seats_.at(*slot).stage == SeatStage::playing;
+        empty_seat(*slot, has_played ? settings_.return_s : 0.0);
     } else if (why != LinkEnd::closed) {
         log("cut_off", {{"link", std::to_string(link)}, {"why", std::string(name_of(why))}});
     }

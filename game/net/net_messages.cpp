@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <handhold/match.h>
+
 namespace handhold {
 namespace {
 
@@ -181,6 +183,7 @@ std::optional<MatchOffer> read_offer(std::span<const std::byte> message) {
         return offer;
     }
     offer.players = in.take_as<std::uint8_t>();
+    in.expect(offer.players >= 1 && offer.players <= HH_MATCH_PLAYERS);
     offer.seed = in.take_as<std::uint64_t>();
     const auto wants_token = in.take_as<std::uint8_t>();
     in.expect(wants_token <= 1);

@@ -1,6 +1,7 @@
 // A server's end of WebSocket connections, by libwebsockets.
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,7 +17,8 @@ namespace {
 
 constexpr double k_close_within_s = 0.5;
 constexpr double k_calm_s = 5.0;  // excess is forgotten after so long without any
-constexpr int k_most_throttles = 10;
+// A network that was away for five seconds delivers what takes 15.
+constexpr int k_most_throttles = 40;
 
 struct WebSocketPeer {
     lws* wsi = nullptr;
@@ -49,8 +51,8 @@ class WebSocketListener final : public Listener {
 
     void poll(double wait_s, ListenerHandler& handler) override {
         handler_ = &handler;
-        tend_links();
         context_.service(wait_s);
+        tend_links();  // after what has waited while nobody polled
         handler_ = nullptr;
     }
 
@@ -129,6 +131,12 @@ class WebSocketListener final : public Listener {
                 case LWS_CALLBACK_CLOSED_HTTP:
                     self->answers_.erase(wsi);
                     return 0;
+                case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
+                    // HTTP/2 would bypass the flow control.
+                    return in != nullptr &&
+                                   std::string_view(static_cast<const char*>(in)) == "websocket"
+                               ? 0
+                               : -1;
                 case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION:
                     return self->admit();
                 case LWS_CALLBACK_ESTABLISHED:

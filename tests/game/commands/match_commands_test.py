@@ -15,6 +15,8 @@ import urllib.request
 from pathlib import Path
 
 GAME = Path(sys.argv.pop(1)).resolve()
+if "HANDHOLD_REALTIME_TESTS" not in os.environ:  # bounds of the wall's clock: .ci/long sets it
+    sys.exit(77)
 WITHIN_S = 60.0
 
 

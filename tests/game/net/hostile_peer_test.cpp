@@ -83,6 +83,7 @@ class HostilePeerTest : public testing::TestWithParam<Hostility> {
 };
 
 TEST_P(HostilePeerTest, OthersPlayOnUnharmed) {
+    HH_NEEDS_REAL_TIME();
     LoopbackMatch match(3, [](MatchServerSettings& settings) { settings.silent_after_s = 0.8; });
     match.add_peer(1);
     match.add_peer(2);
@@ -173,6 +174,7 @@ class DeafSocket {
 };
 
 TEST_F(HostileConnectionTest, PeersThatReadNothingAreCutOff) {
+    HH_NEEDS_REAL_TIME();
     LoopbackMatch match(
         2,
         [](MatchServerSettings& settings) {
@@ -233,6 +235,7 @@ TEST_F(HostileConnectionTest, ConnectionsThatSayNothingAreClosed) {
 }
 
 TEST_F(HostileConnectionTest, WhoJoinsAgainAndAgainIsRefusedAndOthersPlayOn) {
+    HH_NEEDS_REAL_TIME();
     LoopbackMatch match(3, [](MatchServerSettings& settings) { settings.joins_at_once = 5.0; });
     test::LoopbackPeer& other = match.add_peer(1);
     ASSERT_TRUE(match.run_until(20.0, [&] { return match.all_play(); }));

@@ -52,6 +52,7 @@ TEST_F(MatchServerTest, ServerAndThreePeersAreEqualBitForBitForTenSeconds) {
 }
 
 TEST_F(MatchServerTest, PlayerWhoLostTheConnectionComesBackToTheirSlot) {
+    HH_NEEDS_REAL_TIME();
     LoopbackMatch match(3);
     match.add_peer(1);
     LoopbackPeer& lost = match.add_peer(2);
@@ -124,6 +125,7 @@ TEST_F(MatchServerTest, OtherTuningOrBodiesHaveOtherDigests) {
 }
 
 TEST_F(MatchServerTest, TokensAdmitOneSlotEachUntilTheyExpire) {
+    HH_NEEDS_REAL_TIME();
     LoopbackMatch match(3, [](MatchServerSettings& settings) { settings.key = test_key(); });
     EXPECT_EQ(refusal_of(match, match.add_peer(1)), "the server wants a token (--token)");
     EXPECT_EQ(refusal_of(match, match.add_peer(2, issue_token(test_key(), "ann", 1000))),
@@ -188,6 +190,7 @@ TEST_F(MatchServerTest, WhereNobodyListensThereIsNoServer) {
 }
 
 TEST_F(MatchServerTest, ServerThatFallsSilentIsLeftAndPlayerMayReturn) {
+    HH_NEEDS_REAL_TIME();
     LoopbackMatch match(2);
     auto made = std::make_unique<LoopbackPeer>(2, 1);
     made->settings.silent_after_s = 0.5;
@@ -210,6 +213,7 @@ TEST_F(MatchServerTest, ServerThatFallsSilentIsLeftAndPlayerMayReturn) {
 }
 
 TEST_F(MatchServerTest, DrainTellsEverybodyAndAdmitsNobody) {
+    HH_NEEDS_REAL_TIME();
     LoopbackMatch match(3);
     LoopbackPeer& first = match.add_peer(1);
     match.add_peer(2);

@@ -28,7 +28,7 @@ std::vector<Bytes> messages_from(std::uint64_t number) {
     const std::string text(number % 40, 'a');
     const Bytes payload(1 + number % 100, static_cast<std::byte>(number));
     std::vector<Bytes> all(7);
-    write_message(MatchOffer{.players = static_cast<std::uint8_t>(number % 16),
+    write_message(MatchOffer{.players = static_cast<std::uint8_t>(1 + number % 16),
                              .seed = number,
                              .wants_token = number % 2 == 1,
                              .digests = digests_from(number),
