@@ -52,7 +52,7 @@ class WebSocketListener final : public Listener {
     void poll(double wait_s, ListenerHandler& handler) override {
         handler_ = &handler;
         context_.service(wait_s);
-        tend_links();  // after what has waited while nobody polled
+        tend_links();  // Later than service, which takes what came while nobody polled.
         handler_ = nullptr;
     }
 

@@ -111,7 +111,7 @@ class ClientSession {
     std::uint64_t packets_ = 0;
     TickPacer pacer_;
     MatchTick sent_until_ = 0;       // the newest input of the last packet
-    std::array<bool, 8> had_two_{};  // which of the last packets had more than one new input
+    std::array<bool, 8> had_two_{};  // packets with more than one new input
     MatchTick hash_tick_ = 0;
     std::uint64_t hash_ = 0;
     bool needs_state_ = false;
