@@ -156,7 +156,7 @@ class WebSocketLink final : public Link {
         }
     }
 
-    void end(std::string why) {
+    void end(const std::string& why) {
         is_open_ = false;
         if (!is_closed_) {
             is_closed_ = true;
