@@ -130,6 +130,11 @@ class LoopbackMatch {
                                                std::move(settings), *listener_);
     }
 
+    // A world in a match is not destroyed, so the match goes first.
+    ~LoopbackMatch() { server.reset(); }
+    LoopbackMatch(const LoopbackMatch&) = delete;
+    LoopbackMatch& operator=(const LoopbackMatch&) = delete;
+
     std::string url() const { return "ws://127.0.0.1:" + std::to_string(listener_->port()); }
     std::unique_ptr<Link> link() const { return std::move(open_link(url()).value()); }
     const Listener& listener() const { return *listener_; }
