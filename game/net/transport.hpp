@@ -42,8 +42,9 @@ struct ListenerSettings {
     int port = 0;                       // 0: any that is free
     std::size_t most_links = 64;        // further connections are refused
     std::size_t most_message_bytes = 1500;
-    int kernel_buffer_bytes = 1 << 16;  // what the kernel may hold of what is sent
-    double slow_after_s = 5.0;          // a connection that reads nothing for so long ends
+    int kernel_buffer_bytes =
+        1 << 16;                // size of the kernel's send buffer; Linux takes twice as much
+    double slow_after_s = 5.0;  // a connection that reads nothing for so long ends
     LinkBudget budget;
 };
 

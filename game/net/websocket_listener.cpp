@@ -17,7 +17,8 @@ namespace {
 
 constexpr double k_close_within_s = 0.5;
 constexpr double k_calm_s = 5.0;  // excess is forgotten after so long without any
-// A network that was away for five seconds delivers what takes 15.
+// Pauses of reading before a connection is cut off as flooding. A peer whose network was away for
+// five seconds delivers at once what it kept meanwhile: by estimate 15 pauses.
 constexpr int k_most_throttles = 40;
 
 struct WebSocketPeer {

@@ -18,10 +18,10 @@ std::array<Pose, k_max_links> finger_link_frames(const FingerRig& finger,
 std::array<Vec3, k_max_links + 1> finger_points(const FingerRig& finger,
                                                 const FingerAngles& angles);
 
-// Inverse of finger_link_frames, for the rotations, but for the spread of fingers: it is 0, so that
-// authored fingers stay in their planes. If the finger cannot reach the rotations, picks
+// Inverse of finger_link_frames, for the rotations. If the finger cannot reach the rotations, picks
 // the closest opposition, and then, link by link, the closest hinge angle. Does not apply the
-// finger's limits.
+// finger's limits. Fingers other than the thumb get a spread of 0: authored ones stay in their
+// planes.
 FingerAngles angles_of_links(const FingerRig& finger, std::span<const Quat> rotations_hs);
 
 // Angles with all hinges at the same share of their range: 0 fully open, 1 fully curled. Opposition

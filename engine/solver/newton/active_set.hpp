@@ -44,6 +44,7 @@ class RowSystem {
     // Solves for the multipliers of all rows. Unilateral rows push (lambda >= 0) or are inactive.
     // If the active set does not converge, no row pulls, but inactive rows may overlap, and
     //   1/2 lambda^T (J W J^T + diag(alpha)) lambda + residual^T lambda <= 0
+    // over the rows whose multipliers are not fixed (residual: with the effect of the fixed ones),
     // so that the moves are at most about twice as long as those that satisfy the violated rows.
     // Rows that nothing can move (zero diagonal) get lambda 0. The result is valid until the next
     // solve or assemble.

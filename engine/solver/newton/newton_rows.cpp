@@ -29,21 +29,25 @@ double active_distance_of(const IslandView& island) {
     return std::max(k_min_active_distance_m, 2.0 * worst);
 }
 
-void add_stiffness(const IslandView& island, std::uint32_t index, const Mat3& stiffness,
-                   SolveScratch& scratch) {
+// Adds make(body), a stiffness, to a body that can rotate.
+template <typename Make>
+void add_stiffness(const IslandView& island, std::uint32_t index, SolveScratch& scratch,
+                   const Make& make) {
     const SolverBody& body = island.bodies[index];
     if (body.inverse_inertia_bs.squaredNorm() > 0.0) {
-        scratch.stiffness[body.slot] += stiffness;
+        scratch.stiffness[body.slot] += make(body);
     }
 }
 
 // `force`: on a at its point; b gets the opposite.
 void add_force_stiffness(const IslandView& island, const RowBlock& block, const Vec3& force,
                          SolveScratch& scratch) {
-    const Vec3 arm_a = island.bodies[block.a].pose_ws.rotation * block.point_a_bs;
-    const Vec3 arm_b = island.bodies[block.b].pose_ws.rotation * block.point_b_bs;
-    add_stiffness(island, block.a, positive_stiffness(force, arm_a, 1.0), scratch);
-    add_stiffness(island, block.b, positive_stiffness(force, arm_b, -1.0), scratch);
+    add_stiffness(island, block.a, scratch, [&](const SolverBody& a) {
+        return positive_stiffness(force, a.pose_ws.rotation * block.point_a_bs, 1.0);
+    });
+    add_stiffness(island, block.b, scratch, [&](const SolverBody& b) {
+        return positive_stiffness(force, b.pose_ws.rotation * block.point_b_bs, -1.0);
+    });
 }
 
 void add_cone_stiffness(const IslandView& island, const Row& row, double lambda,
@@ -56,8 +60,10 @@ void add_cone_stiffness(const IslandView& island, const Row& row, double lambda,
     const Vec3 axis_b = axis_of(row.b, block.rotation_b_bs);
     // Positive if the row keeps the angle from growing.
     const double torque = -lambda * row.angular_b.dot(axis_a.cross(axis_b).normalized());
-    add_stiffness(island, row.a, cone_stiffness(torque, axis_a, axis_b), scratch);
-    add_stiffness(island, row.b, cone_stiffness(torque, axis_b, axis_a), scratch);
+    add_stiffness(island, row.a, scratch,
+                  [&](const SolverBody&) { return cone_stiffness(torque, axis_a, axis_b); });
+    add_stiffness(island, row.b, scratch,
+                  [&](const SolverBody&) { return cone_stiffness(torque, axis_b, axis_a); });
 }
 
 }  // namespace

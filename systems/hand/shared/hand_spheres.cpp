@@ -89,8 +89,9 @@ HandSpheres::HandSpheres(const HandSurroundings& hand, const GripSurface& surfac
             sphere.is_extra = true;
             add(sphere);
         }
-        first_[f + 1] = count_;
     }
+    std::fill(first_.begin() + static_cast<std::ptrdiff_t>(hand.rig->fingers.size()), first_.end(),
+              count_);
 }
 
 std::array<double, k_finger_count + 1> HandSpheres::keep_gaps_m() const {

@@ -1,4 +1,4 @@
-// Bounds of what one connection costs a server.
+// The bytes that wait for one connection, and what it may send, stay within their limits.
 #include "game/net/send_queue.hpp"
 
 #include <vector>
