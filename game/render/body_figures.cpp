@@ -24,6 +24,7 @@ Region region_of(const BodyRig& rig, const Vec3& position_ms, const SkinWeights&
         case BodyBone::neck:
             return Region::head;
         case BodyBone::hand:
+        case BodyBone::finger:
             return Region::hand;
         case BodyBone::trunk: {
             const Pose& shoulders_ms = rig.carriers[BodyRig::k_chest].rest_ms;
@@ -111,7 +112,9 @@ Result<BodyModel> choose_body_model(const std::string& figure_file, const std::s
     }
     Result<BodyRig> rig = fit_body_rig(figure.value(), map.value());
     if (!rig) {
-        return rig.error();
+        FileError error = rig.error();
+        error.expected += " (--body-map)";
+        return error;
     }
     BodyModel model{std::move(figure.value()), std::move(rig.value())};
     spread_arm_twist(model.figure, model.rig);
@@ -123,30 +126,37 @@ BodyFigures::BodyFigures(BodyModel model, Renderer& renderer) : model_(std::move
     copies_.push_back(make_copy(renderer));
 }
 
+bool BodyFigures::has_hands() const {
+    return model_.rig.finger_count(HandSide::left) > 1 &&
+           model_.rig.finger_count(HandSide::right) > 1;
+}
+
 // Splits the figure into pieces: each triangle belongs to the region of most of its corners. The
-// hands' triangles are left out.
+// triangles of hands without fingers are left out.
 void BodyFigures::cut_pieces() {
     const SkinnedMesh& figure = model_.figure;
     std::vector<Region> regions;
     for (std::size_t i = 0; i < figure.positions.size(); ++i) {
         regions.push_back(region_of(model_.rig, figure.positions[i], figure.weights[i]));
     }
-    bind_wrists_to_forearms(model_.rig, model_.figure);
+    if (!has_hands()) {
+        bind_wrists_to_forearms(model_.rig, model_.figure);
+    }
     for (std::size_t run = 0; run < figure.color_runs.size(); ++run) {
         const ColorRun& color = figure.color_runs[run];
         const std::size_t to = run + 1 < figure.color_runs.size()
                                    ? figure.color_runs[run + 1].first_triangle
                                    : figure.triangles.size();
-        std::array<Piece, 2> parts;  // body, head
-        std::array<std::map<std::uint32_t, std::uint32_t>, 2> places;
+        std::array<Piece, 3> parts;  // indexed by Region
+        std::array<std::map<std::uint32_t, std::uint32_t>, 3> places;
         for (std::size_t i = color.first_triangle; i < to; ++i) {
             const auto& corners = figure.triangles[i];
             const Region second = regions[corners[1]];
             const Region region = second == regions[corners[2]] ? second : regions[corners[0]];
-            if (region == Region::hand) {
+            if (region == Region::hand && !has_hands()) {
                 continue;
             }
-            const std::size_t part = region == Region::head ? 1 : 0;
+            const auto part = static_cast<std::size_t>(region);
             std::array<std::uint32_t, 3> triangle{};
             for (std::size_t corner = 0; corner < 3; ++corner) {
                 const auto [place, is_new] = places[part].try_emplace(
@@ -165,7 +175,7 @@ void BodyFigures::cut_pieces() {
             parts[part].color = color.color;
             parts[part].look.gloss = color.gloss;
             parts[part].look.emissive = color.emissive;
-            parts[part].is_head = part == 1;
+            parts[part].is_head = part == static_cast<std::size_t>(Region::head);
             pieces_.push_back(std::move(parts[part]));
         }
     }
@@ -181,13 +191,14 @@ BodyFigures::Copy BodyFigures::make_copy(Renderer& renderer) const {
 
 void BodyFigures::begin() { used_ = 0; }
 
-void BodyFigures::add(const BodyMeasures& measures, const RenderPose& render, Seen seen,
+void BodyFigures::add(const BodyMeasures& measures, const RenderPose& render,
+                      const std::array<PosedHandJoints, k_hand_count>& hands, Seen seen,
                       Renderer& renderer, RenderFrame& frame) {
     if (used_ == copies_.size()) {
         copies_.push_back(make_copy(renderer));
     }
     const SkinnedMesh& figure = model_.figure;
-    pose_skeleton(model_.rig, measures, render, pose_);
+    pose_skeleton(model_.rig, measures, render, hands, pose_);
     // Vertices are relative to the head, to keep float precision far from the origin.
     const Pose origin_ws{render.head_ws.position, Quat::Identity()};
     for (Affine& carry : pose_.carry_ws) {

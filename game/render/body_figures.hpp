@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,7 +24,8 @@ BodyModel builtin_body_model();
 Result<BodyModel> choose_body_model(const std::string& figure_file, const std::string& map_file);
 
 // Meshes of one body model in one renderer. For each picture, call begin(), then add() for every
-// player. The figure's own hands are not drawn: HandFigures draws hands.
+// player. The figure's own hands are drawn if the fingers of both are recognised; else they are
+// left out, and HandFigures draws hands.
 class BodyFigures {
   public:
     // by_himself: the picture is from the player's eyes; head, neck and collar are not drawn.
@@ -32,8 +34,12 @@ class BodyFigures {
     BodyFigures(BodyModel model, Renderer& renderer);
 
     void begin();  // starts a new picture
-    void add(const BodyMeasures& measures, const RenderPose& render, Seen seen, Renderer& renderer,
+    // `hands`: joints of the shown hands, which the figure's fingers follow.
+    void add(const BodyMeasures& measures, const RenderPose& render,
+             const std::array<PosedHandJoints, k_hand_count>& hands, Seen seen, Renderer& renderer,
              RenderFrame& frame);
+    // True if the figure's hands are the player's hands.
+    bool has_hands() const;
 
   private:
     // Triangles of one material with their own vertices.

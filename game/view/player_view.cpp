@@ -63,12 +63,18 @@ ControlValues PlayerView::controls_of(std::size_t index, HandSide side) const {
     return k_controls_at_rest;
 }
 
+bool PlayerView::holds_controller(const RenderPose::Hand& hand) const {
+    return controllers_.has_value() && hand.grip == GripKind::none;
+}
+
 void PlayerView::add_hand(HandSide side, const RenderPose::Hand& hand, const Quat& forearm_ws,
                           const ControlValues& controls, RenderFrame& frame) {
-    const bool holds_controller = controllers_.has_value() && hand.grip == GripKind::none;
-    hands_.add(side, hand.shown_ws, forearm_ws,
-               holds_controller ? controllers_->fingers(side) : hand.fingers, renderer_, frame);
-    if (holds_controller) {
+    if (!body_.has_hands()) {
+        hands_.add(side, hand.shown_ws, forearm_ws,
+                   holds_controller(hand) ? controllers_->fingers(side) : hand.fingers, renderer_,
+                   frame);
+    }
+    if (holds_controller(hand)) {
         controllers_->add(side, hand.shown_ws, controls, frame);
     }
 }
@@ -153,7 +159,14 @@ void PlayerView::add_player(std::size_t index, BodyFigures::Seen seen, RenderFra
     const Entity player = world.render_pose.owners()[index];
     const RenderPose& render = world.render_pose.elements()[index];
     const std::size_t first_own = frame.instances.size();
-    body_.add(world.body_measures.at(player), render, seen, renderer_, frame);
+    std::array<PosedHandJoints, k_hand_count> joints;
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const RenderPose::Hand& hand = render.hands[index_of(side)];
+        joints[index_of(side)] = pose_hand_joints(
+            hands_.rig(side), world.player_origin.at(player).scale,
+            holds_controller(hand) ? controllers_->fingers(side) : hand.fingers, hand.shown_ws);
+    }
+    body_.add(world.body_measures.at(player), render, joints, seen, renderer_, frame);
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const RenderPose::Hand& hand = render.hands[index_of(side)];
         const bool grips = hand.grip != GripKind::none;

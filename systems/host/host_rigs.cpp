@@ -3,6 +3,8 @@
 
 #include "components/world_edit.hpp"
 #include "engine/io/gltf_skin.hpp"
+#include "engine/io/vrm_humanoid.hpp"
+#include "systems/host/host_skeleton.hpp"
 #include "systems/host/host_world.hpp"
 #include "systems/rigs/body_clips_json.hpp"
 #include "systems/rigs/body_rig_fit.hpp"
@@ -65,6 +67,11 @@ BodyRigSlot& rig_of(hh_world& host, Entity player) {
     return *slot;
 }
 
+void set_rig(hh_world& host, Entity player, BodyRig rig) {
+    host.body_rigs.remove(player);
+    host.body_rigs.add(player, {std::make_unique<BodyRig>(std::move(rig)), {}});
+}
+
 }  // namespace
 }  // namespace handhold
 
@@ -98,11 +105,38 @@ hh_result hh_player_set_body_rig(hh_world* world, hh_player player, const void* 
             host.body_rigs.remove(entity);
             return;
         }
-        const SkinnedMesh figure =
-            value_or_throw(parse_gltf_figure(text_of_bytes(gltf, size), {}), "body rig");
-        auto rig = std::make_unique<BodyRig>(value_or_throw(fit_body_rig(figure), "body rig"));
-        host.body_rigs.remove(entity);
-        host.body_rigs.add(entity, {std::move(rig), {}});
+        const std::string_view bytes = text_of_bytes(gltf, size);
+        const SkinnedMesh figure = value_or_throw(parse_gltf_figure(bytes, {}), "body rig");
+        const BodyMap map =
+            body_map_of_vrm(value_or_throw(parse_vrm_humanoid(bytes, {}), "body rig"));
+        set_rig(host, entity, value_or_throw(fit_body_rig(figure, map), "body rig"));
+    });
+}
+
+hh_result hh_player_set_body_skeleton(hh_world* world, hh_player player,
+                                      const hh_skeleton_joint* joints, size_t count,
+                                      hh_space space) {
+    return call([&] {
+        hh_world& host = world_of(world);
+        const Entity entity = player_of(host, player);
+        if (count == 0) {
+            host.body_rigs.remove(entity);
+            return;
+        }
+        require(joints != nullptr, HH_ERROR_NULL, "the joints are null");
+        require(count <= k_max_skin_joints, HH_ERROR_VALUE, "a skeleton has 1 to 1024 joints");
+        set_rig(host, entity, fit_skeleton({joints, count}, space));
+    });
+}
+
+hh_result hh_player_skeleton_fingers(const hh_world* world, hh_player player, hh_side side,
+                                     size_t* count) {
+    return call([&] {
+        const hh_world& host = world_of(world);
+        require(count != nullptr, HH_ERROR_NULL, "the output is null");
+        const BodyRigSlot* const slot = host.body_rigs.find(player_of(host, player));
+        require(slot != nullptr, HH_ERROR_STATE, "the player has no body rig");
+        *count = slot->rig->finger_count(side_of(side));
     });
 }
 
@@ -125,7 +159,8 @@ hh_result hh_player_skeleton(hh_world* world, hh_player player, hh_space space, 
         const Entity entity = player_of(host, player);
         BodyRigSlot& slot = rig_of(host, entity);
         pose_skeleton(*slot.rig, host.world.body_measures.at(entity),
-                      host.world.render_pose.at(entity), slot.pose);
+                      host.world.render_pose.at(entity), shown_hand_joints(host, entity),
+                      slot.pose);
         const std::vector<Pose>& posed =
             space == HH_SPACE_WORLD ? slot.pose.joint_ws : slot.pose.joint_ls;
         write_list(posed.size(), joints, capacity, count,

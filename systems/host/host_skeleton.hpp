@@ -3,30 +3,21 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "systems/host/host_world.hpp"
+#include "systems/rigs/hand_joints.hpp"
 
 // Joints of hands and bodies with the names that other engines give them.
 namespace handhold {
 
-struct PosedHandJoint {
-    Pose pose_ws;
-    double radius_m = 0.0;
-    bool is_valid = false;
-};
-using PosedHandJoints = std::array<PosedHandJoint, HH_HAND_JOINT_COUNT>;
-
 // The rig with which the hand is shown.
 const HandRig& hand_rig_of(const hh_world& host, Entity hand, HandSide side);
-// The joints of a hand whose wrist is shown at `wrist_ws`, in the order and with the axes of
-// XR_EXT_hand_tracking: -Z from a joint to the next one, +Y to the back of the hand. Joints that
-// the rig lacks are not valid and have the pose of their parent. The hand has `scale` times the
-// rig's lengths.
-PosedHandJoints pose_hand_joints(const HandRig& rig, double scale,
-                                 const std::array<FingerAngles, k_finger_count>& angles,
-                                 const Pose& wrist_ws);
-// Index of the joint's parent; -1 for the wrist.
-std::int32_t hand_joint_parent(std::size_t joint);
+// The joints of both shown hands of a player.
+std::array<PosedHandJoints, k_hand_count> shown_hand_joints(const hh_world& host, Entity player);
+
+// Fits a body rig to the skeleton of hh_player_set_body_skeleton, or throws HostError.
+BodyRig fit_skeleton(std::span<const hh_skeleton_joint> joints, hh_space space);
 
 struct BodyJointInfo {
     const char* name;

@@ -13,14 +13,16 @@ constexpr std::array k_sides = {HandSide::left, HandSide::right};
 // Finds bones by the map, by names and by shape.
 class BoneFinder {
   public:
-    BoneFinder(const SkinnedMesh& figure, const BodyMap& map)
-        : figure_(figure), map_(map), tree_(figure), prefix_(shared_name_prefix(figure)) {}
+    BoneFinder(const SkinnedMesh& figure, const BodyBones& mapped)
+        : figure_(figure),
+          mapped_(mapped),
+          tree_(figure),
+          prefix_(shared_name_prefix(figure)),
+          bones_(mapped) {
+        mark_used(mapped, is_mapped_);
+    }
 
     Result<BodyBones> find() {
-        if (const auto error = find_mapped()) {
-            return *error;
-        }
-        const BodyBones mapped = bones_;
         find_named();
         for (const HandSide side : k_sides) {
             use_last_joints(side);
@@ -31,53 +33,43 @@ class BoneFinder {
         if (wrong.empty()) {
             return bones_;
         }
-        bones_ = mapped;
+        bones_ = mapped_;
         fill_bones_by_shape(figure_, bones_);
         if (what_is_wrong(bones_).empty()) {
             return bones_;
         }
-        return FileError{figure_.file, "/nodes", wrong + "; name the joints with --body-map"};
+        return FileError{figure_.file, "/nodes", wrong + "; a map can name the joints"};
     }
 
   private:
-    std::optional<FileError> find_mapped() {
-        for (std::size_t bone = 0; bone < k_body_bone_count; ++bone) {
-            for (const HandSide side : k_sides) {
-                if (auto error = look_up({static_cast<BodyBone>(bone), side})) {
-                    return error;
+    void mark_used(const BodyBones& bones, std::vector<bool>& is_used) const {
+        is_used.assign(figure_.joints.size(), false);
+        const auto mark = [&](const auto& joints) {
+            for (const auto& joint : joints) {
+                if (joint) {
+                    is_used[*joint] = true;
                 }
             }
+        };
+        mark(bones.middle);
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            mark(bones.sides[side]);
+            std::ranges::for_each(bones.fingers[side], mark);
         }
-        return std::nullopt;
-    }
-    std::optional<FileError> look_up(const BodyJointName& name) {
-        const auto entry = map_.find(body_joint_text(name));
-        if (entry == map_.end()) {
-            return std::nullopt;
-        }
-        for (std::size_t i = 0; i < figure_.joints.size(); ++i) {
-            if (figure_.joints[i].name == entry->second) {
-                bones_.at(name) = i;
-                return std::nullopt;
-            }
-        }
-        return FileError{figure_.file, "/nodes",
-                         "expected a joint \"" + entry->second + "\" for " + entry->first};
     }
     bool is_mapped(const BodyJointName& name) const {
-        return map_.find(body_joint_text(name)) != map_.end();
+        return (is_limb(name.bone) ? mapped_.limb(name.side, name.bone)
+                                   : mapped_.of_middle(name.bone))
+            .has_value();
     }
 
     // Returns the bone that a joint's name indicates; none for twist and helper joints and for
     // joints that are in the map.
     std::optional<BodyNameGuess> guess_of(std::size_t joint) const {
-        const std::string& name = figure_.joints[joint].name;
-        for (const auto& [bone, mapped] : map_) {
-            if (mapped == name) {
-                return std::nullopt;
-            }
+        if (is_mapped_[joint]) {
+            return std::nullopt;
         }
-        auto guess = parse_body_joint_name(bare_name(name, prefix_));
+        auto guess = parse_body_joint_name(bare_name(figure_.joints[joint].name, prefix_));
         return guess && !guess->is_part ? guess : std::nullopt;
     }
 
@@ -190,17 +182,8 @@ class BoneFinder {
     // Assigns joints by the second meaning of their name (BodyNameGuess::other): "Shoulder" is the
     // upper arm if there is a scapula too, "Leg" the thigh if there is a knee.
     void find_second_meanings() {
-        std::vector<bool> is_used(figure_.joints.size(), false);
-        const auto mark = [&](const SideBones& side) {
-            for (const auto& joint : side) {
-                if (joint) {
-                    is_used[*joint] = true;
-                }
-            }
-        };
-        mark(bones_.middle);
-        mark(bones_.sides[0]);
-        mark(bones_.sides[1]);
+        std::vector<bool> is_used;
+        mark_used(bones_, is_used);
         for (std::size_t i = 0; i < figure_.joints.size(); ++i) {
             const auto guess = guess_of(i);
             if (guess && guess->other != guess->name && !is_used[i] && !bones_.at(guess->other)) {
@@ -263,10 +246,11 @@ class BoneFinder {
     }
 
     const SkinnedMesh& figure_;
-    const BodyMap& map_;
+    const BodyBones& mapped_;
     JointTree tree_;
     std::string prefix_;
     BodyBones bones_;
+    std::vector<bool> is_mapped_;  // by joint
 };
 
 }  // namespace
@@ -345,8 +329,43 @@ std::vector<std::size_t> JointTree::path_to(std::size_t joint) const {
     return path;
 }
 
-Result<BodyBones> find_body_bones(const SkinnedMesh& figure, const BodyMap& map) {
-    return BoneFinder(figure, map).find();
+Result<BodyBones> find_mapped_bones(const SkinnedMesh& figure, const BodyMap& map) {
+    BodyBones bones;
+    std::optional<FileError> error;
+    const auto look_up = [&](const std::string& key, std::optional<std::size_t>& bone) {
+        const auto entry = map.find(key);
+        if (entry == map.end() || error) {
+            return;
+        }
+        const auto joint = std::ranges::find(figure.joints, entry->second, &SkinJoint::name);
+        if (joint == figure.joints.end()) {
+            error = FileError{figure.file, "/nodes",
+                              "expected a joint \"" + entry->second + "\" for " + key};
+            return;
+        }
+        bone = static_cast<std::size_t>(joint - figure.joints.begin());
+    };
+    for (const HandSide side : k_sides) {
+        for (std::size_t bone = 0; bone < k_body_bone_count; ++bone) {
+            const BodyJointName name{static_cast<BodyBone>(bone), side};
+            look_up(body_joint_text(name), bones.at(name));
+        }
+        for (std::size_t finger = 0; finger < k_finger_count; ++finger) {
+            for (std::size_t bone = 0; bone < k_hand_bone_count; ++bone) {
+                look_up(finger_joint_text(side, static_cast<FingerName>(finger),
+                                          static_cast<HandBone>(bone)),
+                        bones.fingers[index_of(side)][finger][bone]);
+            }
+        }
+    }
+    if (error) {
+        return *error;
+    }
+    return bones;
+}
+
+Result<BodyBones> find_body_bones(const SkinnedMesh& figure, const BodyBones& mapped) {
+    return BoneFinder(figure, mapped).find();
 }
 
 }  // namespace handhold

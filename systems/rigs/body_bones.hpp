@@ -10,16 +10,21 @@
 #include "engine/io/gltf_skin.hpp"
 #include "systems/rigs/body_joint_names.hpp"
 #include "systems/rigs/body_map.hpp"
+#include "systems/rigs/hand_joint_names.hpp"
 
 // First step of fit_body_rig: finds the joint of each bone.
 namespace handhold {
 
 using SideBones = std::array<std::optional<std::size_t>, k_body_bone_count>;
+// Joints of a hand's fingers that the map names, by FingerName and HandBone.
+using SideFingers =
+    std::array<std::array<std::optional<std::size_t>, k_hand_bone_count>, k_finger_count>;
 // The joint of each bone, as an index into SkinnedMesh::joints. `middle` holds trunk, neck and
 // head.
 struct BodyBones {
     SideBones middle;
     std::array<SideBones, k_hand_count> sides;
+    std::array<SideFingers, k_hand_count> fingers = {};
 
     std::optional<std::size_t>& at(const BodyJointName& name) {
         SideBones& side = is_limb(name.bone) ? sides[index_of(name.side)] : middle;
@@ -33,10 +38,13 @@ struct BodyBones {
     }
 };
 
-// Finds the bones: first by the map, then by the joints' names, then by shape
+// Finds the joints that a map names.
+Result<BodyBones> find_mapped_bones(const SkinnedMesh& figure, const BodyMap& map);
+
+// Finds the bones: those in `mapped`, then by the joints' names, then by shape
 // (fill_bones_by_shape). If the result is not plausible, repeats this without the names. Returns
 // the errors that fit_body_rig lists.
-Result<BodyBones> find_body_bones(const SkinnedMesh& figure, const BodyMap& map);
+Result<BodyBones> find_body_bones(const SkinnedMesh& figure, const BodyBones& mapped);
 
 // Finds the missing bones from the joints' hierarchy and positions: feet are lowest, hands farthest
 // to the sides, the head above the arms, and elbows and knees in the middle of their limbs. Changes

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <charconv>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "systems/rigs/hand_kinematics.hpp"
+#include "systems/rigs/joint_words.hpp"
 
 namespace handhold {
 namespace {
@@ -17,16 +18,17 @@ struct NamedBone {
     BodyBone bone;
     const char* text;
 };
-constexpr std::array<NamedBone, k_body_bone_count> k_bones = {{{BodyBone::trunk, "pelvis"},
-                                                               {BodyBone::neck, "neck"},
-                                                               {BodyBone::head, "head"},
-                                                               {BodyBone::clavicle, "clavicle"},
-                                                               {BodyBone::upper_arm, "upper_arm"},
-                                                               {BodyBone::forearm, "forearm"},
-                                                               {BodyBone::hand, "hand"},
-                                                               {BodyBone::thigh, "thigh"},
-                                                               {BodyBone::shin, "shin"},
-                                                               {BodyBone::foot, "foot"}}};
+constexpr std::array<NamedBone, k_body_bone_count> k_bone_texts = {
+    {{BodyBone::trunk, "pelvis"},
+     {BodyBone::neck, "neck"},
+     {BodyBone::head, "head"},
+     {BodyBone::clavicle, "clavicle"},
+     {BodyBone::upper_arm, "upper_arm"},
+     {BodyBone::forearm, "forearm"},
+     {BodyBone::hand, "hand"},
+     {BodyBone::thigh, "thigh"},
+     {BodyBone::shin, "shin"},
+     {BodyBone::foot, "foot"}}};
 
 // A text that indicates a bone if a joint's name contains the text.
 struct Word {
@@ -122,98 +124,6 @@ constexpr std::array<const char*, 11> k_fillers = {"joint", "jnt", "bone", "bn",
 // A joint whose name contains one of these words gets BodyNameGuess::is_part.
 constexpr std::array<const char*, 3> k_parts = {"part", "share", "corrective"};
 
-template <std::size_t N>
-bool contains(const std::array<const char*, N>& list, const std::string& word) {
-    return std::find(list.begin(), list.end(), word) != list.end();
-}
-
-bool is_latin(char c) { return static_cast<unsigned char>(c) < 0x80; }
-bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
-bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
-bool is_word_letter(char c) {
-    return !is_latin(c) || is_upper(c) || is_lower(c) || (c >= '0' && c <= '9');
-}
-
-// True if a word begins at `i`: "leftArm" at A, "LArm" at A, "左腕IK" at I.
-bool begins_word(std::string_view name, std::size_t i) {
-    const char before = name[i - 1];
-    const char c = name[i];
-    if (is_latin(before) != is_latin(c)) {
-        return true;
-    }
-    const bool ends_capitals = is_upper(before) && i + 1 < name.size() && is_lower(name[i + 1]);
-    return is_upper(c) && (is_lower(before) || ends_capitals);
-}
-
-// Splits a name into words, in lower case and without namespaces ("mixamorig:", "Armature|").
-std::vector<std::string> cut_words(std::string_view name) {
-    const std::size_t space = name.find_last_of(":|");
-    if (space != std::string_view::npos) {
-        name.remove_prefix(space + 1);
-    }
-    std::vector<std::string> words;
-    bool is_open = false;
-    for (std::size_t i = 0; i < name.size(); ++i) {
-        const char c = name[i];
-        if (!is_word_letter(c)) {
-            is_open = false;
-            continue;
-        }
-        if (!is_open || begins_word(name, i)) {
-            words.emplace_back();
-        }
-        is_open = true;
-        words.back() += is_upper(c) ? static_cast<char>(c - 'A' + 'a') : c;
-    }
-    return words;
-}
-
-// Removes `text` from the front of `word`, unless nothing would be left. Returns true if it was
-// removed.
-bool remove_prefix(std::string& word, std::string_view text) {
-    if (word.size() > text.size() && word.starts_with(text)) {
-        word.erase(0, text.size());
-        return true;
-    }
-    return false;
-}
-
-// Returns the side that a word indicates, and removes that side from the word.
-std::optional<HandSide> take_side(std::string& word) {
-    constexpr std::array<const char*, 4> k_left = {"l", "left", "lf", "lft"};
-    constexpr std::array<const char*, 4> k_right = {"r", "right", "rt", "rgt"};
-    if (contains(k_left, word)) {
-        word.clear();
-        return HandSide::left;
-    }
-    if (contains(k_right, word)) {
-        word.clear();
-        return HandSide::right;
-    }
-    if (remove_prefix(word, "left") || remove_prefix(word, "左")) {
-        return HandSide::left;
-    }
-    if (remove_prefix(word, "right") || remove_prefix(word, "右")) {
-        return HandSide::right;
-    }
-    return std::nullopt;
-}
-
-// Returns the number at the end of a word, and removes it from the word.
-std::optional<int> take_number(std::string& word) {
-    std::size_t begin = word.size();
-    while (begin > 0 && word[begin - 1] >= '0' && word[begin - 1] <= '9') {
-        --begin;
-    }
-    if (begin == word.size()) {
-        return std::nullopt;
-    }
-    int number = 0;
-    std::from_chars(word.data() + begin, word.data() + word.size(), number);
-    word.resize(begin);
-    return number;
-}
-
 BodyNameGuess guess_of(const Word& word) {
     return {{word.bone, HandSide::left}, word.doubt, {word.other, HandSide::left}, false};
 }
@@ -306,6 +216,15 @@ void count_from_body(int number, BodyNameGuess& guess) {
 
 }  // namespace
 
+bool is_eye_name(const std::string& name) {
+    std::string low = name;
+    std::transform(low.begin(), low.end(), low.begin(), [](unsigned char c) {
+        return static_cast<char>(c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c);
+    });
+    return low.ends_with("eye") || low.ends_with("eyes") || low.ends_with("eye_l") ||
+           low.ends_with("eye_r") || low.ends_with("eye.l") || low.ends_with("eye.r");
+}
+
 bool is_digit_name(std::string_view name) {
     std::string words;
     for (const std::string& word : cut_words(name)) {
@@ -342,11 +261,17 @@ bool is_spare_name(std::string_view name) {
 }
 
 std::string body_joint_text(const BodyJointName& joint) {
-    const char* const text = k_bones[static_cast<std::size_t>(joint.bone)].text;
+    const char* const text = k_bone_texts[static_cast<std::size_t>(joint.bone)].text;
     if (!is_limb(joint.bone)) {
         return text;
     }
     return std::string(joint.side == HandSide::left ? "left_" : "right_") + text;
+}
+
+std::string finger_joint_text(HandSide side, FingerName finger, HandBone bone) {
+    constexpr std::array k_texts = {"metacarpal", "proximal", "intermediate", "distal", "tip"};
+    return std::string(side == HandSide::left ? "left_" : "right_") + finger_text(finger) + "_" +
+           k_texts[static_cast<std::size_t>(bone)];
 }
 
 }  // namespace handhold

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "systems/rigs/body_rig.hpp"
+#include "systems/rigs/hand_joint_names.hpp"
 
 // Guesses the bone of a body from a joint's name.
 namespace handhold {
@@ -35,6 +36,9 @@ struct BodyNameGuess {
 // for fingers, toes, faces, IK targets, end joints and names that mean no bone.
 std::optional<BodyNameGuess> parse_body_joint_name(std::string_view name);
 
+// True for the name of an eye: "LeftEye", "eye.L".
+bool is_eye_name(const std::string& name);
+
 // True for thumbs, fingers and toes.
 bool is_digit_name(std::string_view name);
 
@@ -43,5 +47,7 @@ bool is_spare_name(std::string_view name);
 
 // The bone's key in a BodyMap file, such as "left_upper_arm" or "pelvis".
 std::string body_joint_text(const BodyJointName& joint);
+// The key of a finger's joint, such as "left_index_proximal".
+std::string finger_joint_text(HandSide side, FingerName finger, HandBone bone);
 
 }  // namespace handhold

@@ -22,6 +22,13 @@ Result<BodyMap> read_body_map(Result<JsonDocument> document) {
             keys.push_back(body_joint_text({static_cast<BodyBone>(bone), side}));
         }
     }
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        for (std::size_t joint = 0; joint < k_finger_count * k_hand_bone_count; ++joint) {
+            keys.push_back(finger_joint_text(side,
+                                             static_cast<FingerName>(joint / k_hand_bone_count),
+                                             static_cast<HandBone>(joint % k_hand_bone_count)));
+        }
+    }
     const std::vector<std::string_view> allowed(keys.begin(), keys.end());
     const JsonValue joints = root["joints"];
     joints.allow_only(allowed);
@@ -35,6 +42,35 @@ Result<BodyMap> read_body_map(Result<JsonDocument> document) {
         return document.value().error();
     }
     return map;
+}
+
+// VRM 1 names the joints of a thumb metacarpal, proximal, distal; VRM 0 names the same joints
+// proximal, intermediate, distal.
+void add_vrm_fingers(const std::map<std::string, std::string>& humanoid, BodyMap& map) {
+    constexpr std::array k_vrm_fingers = {"Thumb", "Index", "Middle", "Ring", "Little"};
+    constexpr std::array<std::pair<const char*, HandBone>, 4> k_vrm_bones = {
+        {{"Metacarpal", HandBone::metacarpal},
+         {"Proximal", HandBone::proximal},
+         {"Intermediate", HandBone::intermediate},
+         {"Distal", HandBone::distal}}};
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const std::string of = side == HandSide::left ? "left" : "right";
+        const bool is_vrm_0 = humanoid.contains(of + "ThumbIntermediate");
+        for (std::size_t finger = 0; finger < k_finger_count; ++finger) {
+            for (const auto& [text, bone] : k_vrm_bones) {
+                const auto entry = humanoid.find(of + k_vrm_fingers[finger] + text);
+                if (entry == humanoid.end()) {
+                    continue;
+                }
+                const auto name = static_cast<FingerName>(finger);
+                const bool is_one_further = is_vrm_0 && name == FingerName::thumb &&
+                                            bone > HandBone::metacarpal && bone < HandBone::distal;
+                const auto named =
+                    is_one_further ? static_cast<HandBone>(static_cast<int>(bone) - 1) : bone;
+                map[finger_joint_text(side, name, named)] = entry->second;
+            }
+        }
+    }
 }
 
 }  // namespace
@@ -71,6 +107,7 @@ BodyMap body_map_of_vrm(const std::map<std::string, std::string>& humanoid) {
         add(std::string("left") + text, {bone, HandSide::left});
         add(std::string("right") + text, {bone, HandSide::right});
     }
+    add_vrm_fingers(humanoid, map);
     return map;
 }
 

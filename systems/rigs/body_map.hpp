@@ -11,7 +11,8 @@ namespace handhold {
 
 // The user's assignment of bones to joints, for figures whose joint names do not determine them.
 // Other bones are looked for among the joints that the map does not contain.
-using BodyMap = std::map<std::string, std::string>;  // body_joint_text -> joint's name in the file
+using BodyMap = std::map<std::string, std::string>;  // body_joint_text or finger_joint_text ->
+                                                     // joint's name in the file
 // Reads a file such as {"joints": {"pelvis": "Hips", "left_upper_arm": "arm_l_01"}}. Other keys,
 // and values that are not text, are errors.
 Result<BodyMap> load_body_map(const std::filesystem::path& path);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace handhold {
 namespace {
@@ -105,6 +106,7 @@ PlacedBone place_bone(const BodyRig::Carrier& carrier, const RenderPose& render,
         case BodyBone::thigh:
         case BodyBone::shin:
         case BodyBone::foot:
+        case BodyBone::finger:  // see place_finger
             break;
     }
     return place_leg(render.spine.legs[index_of(carrier.side)], carrier.bone);
@@ -123,6 +125,55 @@ PlacedBone place_neck(const Vec3& from_ws, const Vec3& to_ws, const Quat& chest,
     return {{from_ws, (onto * between).normalized()}, length};
 }
 
+// The first valid joint of the shown hand's finger from `joint` on; none if all are missing.
+std::optional<std::size_t> valid_from(const PosedHandJoints& hand, FingerName finger,
+                                      std::size_t joint) {
+    const std::size_t tip = hand_joint_index(finger, HandBone::tip);
+    for (; joint <= tip; ++joint) {
+        if (hand[joint].is_valid) {
+            return joint;
+        }
+    }
+    return std::nullopt;
+}
+
+// Axes of a bone of the shown hand: -Z from one joint to the next, +X along the hinge.
+std::optional<Quat> bone_axes(const PosedHandJoints& hand, FingerName finger, std::size_t from,
+                              std::size_t to) {
+    const auto start = valid_from(hand, finger, from);
+    const auto end = start ? valid_from(hand, finger, std::max(to, *start + 1)) : start;
+    if (!end) {
+        return std::nullopt;
+    }
+    const Pose& start_ws = hand[*start].pose_ws;
+    return hinge_rotation(hand[*end].pose_ws.position - start_ws.position,
+                          start_ws.rotation * Vec3::UnitX());
+}
+
+// Rotation of a finger's bone: that of the shown hand's bone, or of a neighbour if the shown hand
+// lacks the finger. None if it has no fingers.
+std::optional<Quat> turn_of_finger(const PosedHandJoints& hand, std::size_t from, std::size_t to) {
+    const FingerName own = finger_of_hand_joint(from);
+    if (own == FingerName::thumb) {
+        return bone_axes(hand, own, from, to);
+    }
+    const auto turn_of = [&](int finger) {
+        const auto name = static_cast<FingerName>(finger);
+        const std::size_t there = hand_joint_index(name, HandBone::metacarpal);
+        const std::size_t here = hand_joint_index(own, HandBone::metacarpal);
+        return bone_axes(hand, name, there + (from - here), there + (to - here));
+    };
+    std::optional<Quat> turn;
+    for (int finger = static_cast<int>(own); !turn && finger > 0; --finger) {
+        turn = turn_of(finger);
+    }
+    for (int finger = static_cast<int>(own) + 1; !turn && finger < static_cast<int>(k_finger_count);
+         ++finger) {
+        turn = turn_of(finger);
+    }
+    return turn;
+}
+
 // Thickness of the player's body parts / thickness of the rig's.
 struct Girth {
     double legs = 1.0;
@@ -130,7 +181,8 @@ struct Girth {
     double others = 1.0;
 
     double of(BodyBone bone) const {
-        return bone == BodyBone::trunk ? trunk : bone >= BodyBone::thigh ? legs : others;
+        const bool is_leg = bone >= BodyBone::thigh && bone <= BodyBone::foot;
+        return bone == BodyBone::trunk ? trunk : is_leg ? legs : others;
     }
 };
 
@@ -199,8 +251,15 @@ Pose trunk_at(const SpinePose& spine, double along) {
     return at;
 }
 
+std::size_t BodyRig::finger_count(HandSide side) const {
+    return static_cast<std::size_t>(std::ranges::count_if(carriers, [&](const Carrier& carrier) {
+        return carrier.bone == BodyBone::finger && carrier.side == side &&
+               carriers[carrier.above].bone == BodyBone::hand;
+    }));
+}
+
 void pose_skeleton(const BodyRig& rig, const BodyMeasures& measures, const RenderPose& render,
-                   SkeletonPose& out) {
+                   const std::array<PosedHandJoints, k_hand_count>& hands, SkeletonPose& out) {
     Girth girth;
     girth.legs = measures.eye_height_m / rig.eye_height_m;
     girth.trunk = measures.shoulder_width_m / rig.shoulder_width_m;
@@ -209,17 +268,29 @@ void pose_skeleton(const BodyRig& rig, const BodyMeasures& measures, const Rende
                                  rig.carriers[BodyRig::k_chest].rest_ms.rotation.conjugate();
     out.carrier_ws.resize(rig.carriers.size());
     out.stretched.resize(rig.carriers.size());
+    const auto place = [&](const BodyRig::Carrier& carrier) -> PlacedBone {
+        if (carrier.bone == BodyBone::neck) {
+            return place_neck(
+                transform_point(out.stretched[BodyRig::k_chest], carrier.rest_ms.position),
+                transform_point(out.stretched[BodyRig::k_head], rig.head_joint_ms),
+                out.carrier_ws[BodyRig::k_chest].rotation, render.head_ws.rotation);
+        }
+        if (carrier.bone == BodyBone::finger) {
+            const Quat& above_ms = rig.carriers[carrier.above].rest_ms.rotation;
+            const Quat with_above = out.carrier_ws[carrier.above].rotation *
+                                    (above_ms.conjugate() * carrier.rest_ms.rotation);
+            const auto turn =
+                turn_of_finger(hands[index_of(carrier.side)], carrier.from_joint, carrier.to_joint);
+            return {{transform_point(out.stretched[carrier.above], carrier.rest_ms.position),
+                     turn.value_or(with_above.normalized())},
+                    0.0};
+        }
+        return place_bone(carrier, render, chest_from_file);
+    };
     for (std::size_t i = 0; i < rig.carriers.size(); ++i) {
-        const BodyRig::Carrier& carrier = rig.carriers[i];
-        const PlacedBone placed =
-            carrier.bone == BodyBone::neck
-                ? place_neck(
-                      transform_point(out.stretched[BodyRig::k_chest], carrier.rest_ms.position),
-                      transform_point(out.stretched[BodyRig::k_head], rig.head_joint_ms),
-                      out.carrier_ws[BodyRig::k_chest].rotation, render.head_ws.rotation)
-                : place_bone(carrier, render, chest_from_file);
+        const PlacedBone placed = place(rig.carriers[i]);
         out.carrier_ws[i] = placed.frame_ws;
-        out.stretched[i] = stretch_onto(carrier, placed, girth);
+        out.stretched[i] = stretch_onto(rig.carriers[i], placed, girth);
     }
     const std::size_t joints = rig.joints.size();
     out.joint_ws.resize(joints);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "components/render.hpp"
+#include "systems/rigs/hand_joints.hpp"
 
 // Body rigs: the joints of a humanoid figure, and for each joint the bone of the player's body that
 // it follows.
@@ -22,9 +23,10 @@ enum class BodyBone : std::uint8_t {
     hand,
     thigh,
     shin,
-    foot
+    foot,
+    finger  // of carriers only: a bone of a finger
 };
-inline constexpr std::size_t k_body_bone_count = 10;
+inline constexpr std::size_t k_body_bone_count = 10;  // without fingers
 inline bool is_limb(BodyBone bone) { return bone >= BodyBone::clavicle; }
 
 // A body rig; made by fit_body_rig. Bones have the same frames as in RenderPose. Arm bones lie
@@ -42,6 +44,12 @@ struct BodyRig {
         Pose rest_ms;            // the bone's frame in the file
         double length_m = 0.0;   // length of the bone; 0: it has no end joint (head and hands)
         double twist_rad = 0.0;  // forearm: arm_twist of the hand in the file
+        // Fingers: the bone has the direction from one joint of the shown hand to another (indices
+        // into PosedHandJoints), and begins where the carrier `above` (index into carriers) ends.
+        // The rest frame has -Z along the bone and +X along the hinge.
+        std::size_t from_joint = 0;
+        std::size_t to_joint = 0;
+        std::size_t above = 0;
     };
     struct Joint {
         std::string name;
@@ -55,8 +63,11 @@ struct BodyRig {
     static constexpr std::size_t k_chest = 0;
     static constexpr std::size_t k_head = 1;
 
-    std::vector<Joint> joints;  // joints in the file's order
-    std::vector<Carrier> carriers;
+    // Number of fingers of this hand that follow the shown hand's.
+    std::size_t finger_count(HandSide side) const;
+
+    std::vector<Joint> joints;          // joints in the file's order
+    std::vector<Carrier> carriers;      // a finger's carriers follow those above them
     Vec3 head_joint_ms = Vec3::Zero();  // upper end of the neck
     double eye_height_m = 1.6;          // height of the eyes above the figure's soles; > 0
     double shoulder_width_m = 0.4;      // distance between the upper arms' joints; > 0
@@ -78,8 +89,17 @@ struct SkeletonPose {
 // smaller of these ratios. Joints along an arm take their share of its twist. A hand
 // joint whose axes are those of hand space equals RenderPose's hand exactly. Allocates only when
 // the vectors of `out` grow.
+//
+// Bones of fingers get the directions and hinges of the shown hands' joints, `hands`, and keep the
+// file's lengths, scaled like the hand. A finger that the shown hand lacks follows its neighbour
+// towards the index finger, else towards the little one. Without valid joints, fingers keep the
+// file's pose.
 void pose_skeleton(const BodyRig& rig, const BodyMeasures& measures, const RenderPose& render,
-                   SkeletonPose& out);
+                   const std::array<PosedHandJoints, k_hand_count>& hands, SkeletonPose& out);
+inline void pose_skeleton(const BodyRig& rig, const BodyMeasures& measures,
+                          const RenderPose& render, SkeletonPose& out) {
+    pose_skeleton(rig, measures, render, {}, out);
+}
 
 // Angle by which `child` is twisted about the Z axis of `parent`, in (-pi, pi], whatever the bend
 // between both. 0 if the bend is half a turn.
@@ -93,6 +113,11 @@ inline constexpr double k_wholly_followed_rad = 2.0 / 3.0 * k_pi;
 // decreases to 0 at half a turn, so that the result is continuous. Fades out if the bend exceeds
 // k_wholly_followed_rad.
 double followed_twist(const Quat& parent, const Quat& child, double rest_rad);
+
+// Rotation of a finger's bone: -Z along it, +X as close to its hinge's axis as possible.
+inline Quat hinge_rotation(const Vec3& along, const Vec3& hinge) {
+    return look_rotation(along, hinge.cross(along));
+}
 
 // Pose of the player's trunk at `along`: 0 is the pelvis, 1 midway between the shoulders.
 Pose trunk_at(const SpinePose& spine, double along);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "systems/rigs/body_bones.hpp"
+#include "systems/rigs/body_fingers.hpp"
 #include "systems/rigs/body_joint_names.hpp"
 
 namespace handhold {
@@ -173,8 +174,11 @@ class BodyFitter {
         add_bone(BodyBone::upper_arm, BodyBone::forearm, back(), outwards);
         add_bone(BodyBone::forearm, BodyBone::hand, back(), outwards);
         const std::size_t hand = joint(BodyBone::hand);
-        const Vec3 fingers = hand_direction(side);
-        const Quat turn = look_rotation(fingers, choose_aside(fingers, stance_.up_ms, outwards));
+        const Vec3 ahead = hand_direction(side);
+        const auto fingers = find_figure_fingers(figure_, bones_, side);
+        const Quat turn =
+            figure_hand_axes(figure_, hand, fingers, side)
+                .value_or(look_rotation(ahead, choose_aside(ahead, stance_.up_ms, outwards)));
         add_for(hand, {BodyBone::hand, side, 0.0, {place(hand), turn}, 0.0});
         BodyRig::Carrier& forearm = rig_.carriers[carrier_of_[joint(BodyBone::forearm)]];
         forearm.twist_rad = arm_twist(forearm.rest_ms.rotation, turn);
@@ -184,6 +188,28 @@ class BodyFitter {
                                  is_digit_name(name_of(i));
             if (is_hand && is_below(figure_, i, joint(BodyBone::forearm))) {
                 carrier_of_[i] = carrier_of_[hand];
+            }
+        }
+        add_fingers(side, fingers, {place(hand), turn}, carrier_of_[hand]);
+    }
+
+    // Joints of a finger follow its bones; all joints below them follow the nearest of these.
+    void add_fingers(HandSide side, const std::vector<FigureFinger>& fingers, const Pose& hand_ms,
+                     std::size_t hand) {
+        for (const FigureFinger& finger : fingers) {
+            const std::size_t first = rig_.carriers.size();
+            for (const BodyRig::Carrier& bone :
+                 finger_carriers(figure_, finger, hand_ms, side, first, hand)) {
+                const std::size_t joint = finger.hinges[rig_.carriers.size() - first].joint;
+                for (std::size_t i = 0; i < figure_.joints.size(); ++i) {
+                    if (i == joint || is_below(figure_, i, joint)) {
+                        carrier_of_[i] = rig_.carriers.size();
+                    }
+                }
+                add(bone);
+            }
+            if (finger.tip) {
+                carrier_of_[*finger.tip] = rig_.carriers.size() - 1;
             }
         }
     }
@@ -313,15 +339,6 @@ class BodyFitter {
         return above_pelvis > shortest_m_;
     }
 
-    static bool is_eye_name(const std::string& name) {
-        std::string low = name;
-        std::transform(low.begin(), low.end(), low.begin(), [](unsigned char c) {
-            return static_cast<char>(c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c);
-        });
-        return low.ends_with("eye") || low.ends_with("eyes") || low.ends_with("eye_l") ||
-               low.ends_with("eye_r") || low.ends_with("eye.l") || low.ends_with("eye.r");
-    }
-
     // Returns the middle of the front of the head's skin.
     Vec3 eyes_from_skin() const {
         Vec3 low = Vec3::Constant(1e30);
@@ -370,7 +387,12 @@ class BodyFitter {
 }  // namespace
 
 Result<BodyRig> fit_body_rig(const SkinnedMesh& figure, const BodyMap& map) {
-    const Result<BodyBones> bones = find_body_bones(figure, map);
+    const Result<BodyBones> mapped = find_mapped_bones(figure, map);
+    return mapped ? fit_body_rig_with(figure, mapped.value()) : mapped.error();
+}
+
+Result<BodyRig> fit_body_rig_with(const SkinnedMesh& figure, const BodyBones& mapped) {
+    const Result<BodyBones> bones = find_body_bones(figure, mapped);
     if (!bones) {
         return bones.error();
     }

@@ -15,7 +15,9 @@ namespace handhold {
 // - Every joint follows a bone. A joint that is no bone itself follows the nearest limb, neck or
 //   head above it; else the limb in its name; else the trunk at the joint's height.
 // - Joints along a forearm follow a share of the hand's twist, by their position.
-// - Joints named as hands, palms or fingers below a forearm follow the hand.
+// - Joints named as hands, palms or fingers below a forearm follow the hand; joints of fingers that
+//   are recognised (find_figure_fingers), and all below them, the shown hand's fingers. Two fingers
+//   determine the hand's axes: wrist and knuckles lie as those of the built-in hand.
 // - The trunk extends from a little above the hips to midway between the shoulders. Without thighs
 //   it starts at the pelvis joint.
 // - The eyes are at the joints named as eyes that follow the head, else at the front of the skin
@@ -25,5 +27,8 @@ namespace handhold {
 // implausible proportions (find_implausible_bone); joints in the map that do not exist; bones
 // without length; figures that are not upright.
 Result<BodyRig> fit_body_rig(const SkinnedMesh& figure, const BodyMap& map = {});
+// fit_body_rig with known joints instead of a map.
+struct BodyBones;
+Result<BodyRig> fit_body_rig_with(const SkinnedMesh& figure, const BodyBones& mapped);
 
 }  // namespace handhold

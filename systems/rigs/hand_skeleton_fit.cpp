@@ -68,15 +68,14 @@ Vec3 bind_position(const SkinnedMesh& skin, std::size_t joint) {
 }
 
 // First hinges of the fingers. Includes the thumb's only if there is just one other finger.
-template <typename Fingers, typename PlaceOf>
-std::vector<Vec3> knuckles_of(const Fingers& fingers, const PlaceOf& place_of) {
+std::vector<Vec3> knuckles_of(std::span<const Knuckle> fingers) {
     std::vector<Vec3> knuckles;
     std::optional<Vec3> thumb;
-    for (const auto& finger : fingers) {
+    for (const Knuckle& finger : fingers) {
         if (finger.name == FingerName::thumb) {
-            thumb = place_of(finger);
+            thumb = finger.place;
         } else {
-            knuckles.push_back(place_of(finger));
+            knuckles.push_back(finger.place);
         }
     }
     if (knuckles.size() < 2 && thumb) {
@@ -105,29 +104,13 @@ std::optional<Quat> palm_axes(const Vec3& wrist, const std::vector<Vec3>& knuckl
     return Quat(axes).normalized();
 }
 
-// Axes of hand space in the file's frame. The rotation between hand space and palm_axes is taken
-// from the built-in hand with the same fingers. Ignores the axes of the joints.
+// Axes of hand space in the file's frame. Ignores the axes of the joints.
 std::optional<Quat> hand_axes(const SkinnedMesh& skin, const HandBones& bones, HandSide side) {
-    const double to_right = side == HandSide::right ? 1.0 : -1.0;
-    const auto found = palm_axes(bind_position(skin, bones.wrist),
-                                 knuckles_of(bones.fingers,
-                                             [&](const FingerBones& finger) {
-                                                 return bind_position(skin, finger.hinges.front());
-                                             }),
-                                 to_right);
-    std::vector<FingerRig> usual_fingers;
-    for (const FingerRig& finger : builtin_hand_rig(side).fingers) {
-        if (std::any_of(bones.fingers.begin(), bones.fingers.end(),
-                        [&](const FingerBones& own) { return own.name == finger.name; })) {
-            usual_fingers.push_back(finger);
-        }
+    std::vector<Knuckle> knuckles;
+    for (const FingerBones& finger : bones.fingers) {
+        knuckles.push_back({finger.name, bind_position(skin, finger.hinges.front())});
     }
-    const auto usual = palm_axes(
-        Vec3::Zero(),
-        knuckles_of(usual_fingers, [](const FingerRig& finger) { return finger.base_hs.position; }),
-        to_right);
-    return found && usual ? std::optional((*found * usual->conjugate()).normalized())
-                          : std::nullopt;
+    return find_hand_axes(bind_position(skin, bones.wrist), knuckles, side);
 }
 
 // How far fingers and thumb bend towards the palm's side (-Y): a sum of offsets / lengths. Negative
@@ -191,6 +174,31 @@ Vec3 fit_hinge_axis(const std::vector<Vec3>& points_hs, const Vec3& usual_axis) 
 }
 
 }  // namespace
+
+std::optional<Quat> find_hand_axes(const Vec3& wrist, std::span<const Knuckle> knuckles,
+                                   HandSide side) {
+    const double to_right = side == HandSide::right ? 1.0 : -1.0;
+    std::vector<Knuckle> usual_knuckles;
+    for (const FingerRig& finger : builtin_hand_rig(side).fingers) {
+        if (std::any_of(knuckles.begin(), knuckles.end(),
+                        [&](const Knuckle& own) { return own.name == finger.name; })) {
+            usual_knuckles.push_back({finger.name, finger.base_hs.position});
+        }
+    }
+    const std::vector<Vec3> places = knuckles_of(knuckles);
+    if (places.size() < 2) {
+        return std::nullopt;
+    }
+    const auto found = palm_axes(wrist, places, to_right);
+    const auto usual = palm_axes(Vec3::Zero(), knuckles_of(usual_knuckles), to_right);
+    return found && usual ? std::optional((*found * usual->conjugate()).normalized())
+                          : std::nullopt;
+}
+
+Vec3 find_hinge_axis(FingerName name, const std::vector<Vec3>& joints_hs, HandSide side) {
+    return fit_hinge_axis(joints_hs,
+                          usual_hinge_axis(name, (joints_hs[1] - joints_hs[0]).normalized(), side));
+}
 
 Result<HandBones> find_hand_bones(const SkinnedMesh& skin) {
     HandBones bones;
@@ -268,8 +276,7 @@ FingerRig fit_finger(const FingerBones& bones, const std::vector<Vec3>& joints_h
     finger.link_count = static_cast<std::uint32_t>(bones.hinges.size());
     set_hand_limits(side, finger);
     const bool is_thumb = finger.name == FingerName::thumb;
-    const Vec3 hinge = fit_hinge_axis(
-        joints_hs, usual_hinge_axis(bones.name, (joints_hs[1] - joints_hs[0]).normalized(), side));
+    const Vec3 hinge = find_hinge_axis(bones.name, joints_hs, side);
     // Projects the joints onto the plane through their mean that is perpendicular to the hinge
     // axis.
     Vec3 middle = Vec3::Zero();

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "systems/rigs/hand_joint_names.hpp"
 #include "systems/rigs/hand_rig_fit.hpp"
@@ -22,6 +24,20 @@ struct HandBones {
     std::vector<FingerBones> fingers;  // fingers in the order of FingerName
 };
 Result<HandBones> find_hand_bones(const SkinnedMesh& skin);
+
+// A finger's first hinge, in any frame.
+struct Knuckle {
+    FingerName name = FingerName::index;
+    Vec3 place = Vec3::Zero();
+};
+// Finds the axes of hand space in the frame of wrist and knuckles, in metres: turned so that the
+// knuckles lie like those of the built-in hand with the same fingers. `knuckles` are in the order
+// of FingerName. None if there are fewer than two, or if they are in line with the wrist.
+std::optional<Quat> find_hand_axes(const Vec3& wrist, std::span<const Knuckle> knuckles,
+                                   HandSide side);
+// Finds a finger's hinge axis from its joints' positions (at least two, no two in one place): a
+// compromise between perpendicular to the bones and the usual axis. Unit length, in hand space.
+Vec3 find_hinge_axis(FingerName name, const std::vector<Vec3>& joints_hs, HandSide side);
 
 // Finds the pose of hand space in the file's frame. Errors: hands of the other side or of
 // implausible size, and bones that are too short.

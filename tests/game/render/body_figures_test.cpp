@@ -63,7 +63,7 @@ TEST_F(BodyFiguresTest, OwnHeadIsHiddenAndOthersSeeIt) {
     for (const auto seen : {BodyFigures::Seen::by_others, BodyFigures::Seen::by_himself}) {
         RenderFrame frame;
         figures.begin();
-        figures.add({}, player, seen, *renderer_, frame);
+        figures.add({}, player, {}, seen, *renderer_, frame);
         frame.camera.pose_ws = look_along(Vec3(0.0, 1.6, -2.0), Vec3::UnitZ(), Vec3::UnitY());
         Image image;
         renderer_->draw(frame, image);
@@ -81,7 +81,7 @@ TEST_F(BodyFiguresTest, PlayersHaveSeparateMeshesThatTheNextPictureReuses) {
         RenderFrame frame;
         figures.begin();
         for (int i = 0; i < players; ++i) {
-            figures.add({}, player, BodyFigures::Seen::by_others, *renderer_, frame);
+            figures.add({}, player, {}, BodyFigures::Seen::by_others, *renderer_, frame);
         }
         std::vector<MeshId> meshes;
         for (const Instance& instance : frame.instances) {

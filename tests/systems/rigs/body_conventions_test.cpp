@@ -22,7 +22,8 @@ using test::Random;
 
 // Every expected bone is found at its joint.
 void expect_bones(const Humanoid& humanoid, const BodyMap& map = {}) {
-    const Result<BodyBones> found = find_body_bones(humanoid.figure, map);
+    const Result<BodyBones> found =
+        find_body_bones(humanoid.figure, find_mapped_bones(humanoid.figure, map).value());
     ASSERT_TRUE(found.ok()) << found.error().message();
     BodyBones bones = found.value();
     for (std::size_t bone = 0; bone < k_body_bone_count; ++bone) {
@@ -224,7 +225,7 @@ TEST_P(EveryConvention, ShapeGivesTheLimbsOrTheFigureIsRefused) {
         SCOPED_TRACE(humanoid.figure.file);
         const Result<BodyBones> found = find_body_bones(humanoid.figure, {});
         if (!found) {
-            EXPECT_NE(found.error().expected.find("--body-map"), std::string::npos);
+            EXPECT_NE(found.error().expected.find("a map can name"), std::string::npos);
             continue;
         }
         BodyBones bones = found.value();
@@ -282,8 +283,9 @@ TEST(FindBodyBones, MapsWithWrongJointsAreRefused) {
     const HumanoidConvention convention = test::humanoid_conventions()[1];
     const Humanoid humanoid = make_humanoid(convention);
     const auto refused = [&](const BodyMap& map) {
-        const Result<BodyBones> found = find_body_bones(humanoid.figure, map);
-        return !found && found.error().expected.find("--body-map") != std::string::npos;
+        const Result<BodyBones> found =
+            find_body_bones(humanoid.figure, find_mapped_bones(humanoid.figure, map).value());
+        return !found && found.error().expected.find("a map can name") != std::string::npos;
     };
     EXPECT_TRUE(refused({{"left_upper_arm", "mixamorig:LeftShoulder"},
                          {"right_upper_arm", "mixamorig:RightShoulder"}}));

@@ -210,6 +210,17 @@ namespace Handhold {
         BodyJointCount = 20,
     }
 
+    /// <summary>Which joint of ours a joint of a skeleton is, for hh_skeleton_joint.is.</summary>
+    public enum SkeletonIs {
+        /// <summary>found by names, hierarchy and places</summary>
+        ByName = 0,
+        /// <summary>plus an hh_body_joint</summary>
+        Body = 100,
+        /// <summary>plus an hh_hand_joint_name</summary>
+        LeftHand = 200,
+        RightHand = 300,
+    }
+
     /// <summary>What a hand asks of the host's solver. The player is a body of the host's: a point mass at the play space's origin that cannot turn: at hh_player_pose.origin until a recentring, which does not move it. At the end of the step, with origin and body solved: POINT origin + target.position = body * anchor.position WELD the same, and the body's rotation is body_rotation DIRECTION the body's rotation is body_rotation: the second of two hands on one body</summary>
     public enum HandRows {
         Point = 0,
@@ -856,6 +867,18 @@ namespace Handhold {
         public double radius_m;
         /// <summary>false: the hand's rig has no such joint</summary>
         public Flag is_valid;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct SkeletonJoint {
+        /// <summary>as in the engine's file; null: none</summary>
+        public byte* name;
+        /// <summary>index; -1: a root</summary>
+        public int parent;
+        /// <summary>An hh_skeleton_is, for names that nobody can guess. Spine and palms need none: joints of the trunk follow by their height, joints of the palm follow the hand.</summary>
+        public int @is;
+        /// <summary>In the space given, without scale: T-pose or A-pose, +Y up, of any size and heading.</summary>
+        public HhPose bind;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1720,9 +1743,13 @@ namespace Handhold {
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_player_set_body_rig(IntPtr world, Player player, void* gltf, UIntPtr size);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_player_set_body_skeleton(IntPtr world, Player player, SkeletonJoint* joints, UIntPtr count, HhSpace space);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_player_skeleton(IntPtr world, Player player, HhSpace space, HhPose* joints, UIntPtr capacity, UIntPtr* count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_player_skeleton_joint(IntPtr world, Player player, UIntPtr joint, byte** name, int* parent);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_player_skeleton_fingers(IntPtr world, Player player, Side side, UIntPtr* count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_default_grip_def_sized(GripDef* filled, UIntPtr size);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
@@ -2822,7 +2849,7 @@ namespace Handhold {
             }
         }
 
-        /// <summary>The player's body drives a humanoid skeleton from a glTF file. Null bytes: none.</summary>
+        /// <summary>The player's body drives a humanoid skeleton from a glTF file; the table of a VRM file says which joint is which. Null bytes: none.</summary>
         public unsafe void PlayerSetBodyRig(Player player, byte[] gltf) {
             fixed (byte* gltf_at = gltf) {
                 Library.Check(Native.hh_player_set_body_rig(Handle, player, gltf_at, Library.Count(gltf)));
@@ -2830,7 +2857,15 @@ namespace Handhold {
             }
         }
 
-        /// <summary>Joints of the player's body rig, in the file's order. HH_ERROR_STATE without a rig.</summary>
+        /// <summary>hh_player_set_body_rig for a skeleton as an array, of an engine that has no glTF file: 1 to 1024 joints, in any order. In other axes: handhold/convert.h. No joints: none. HH_ERROR_VALUE for parents that do not exist or form a ring; HH_ERROR_DATA says by name or index which joints are missing or implausible.</summary>
+        public unsafe void PlayerSetBodySkeleton(Player player, SkeletonJoint[] joints, HhSpace space) {
+            fixed (SkeletonJoint* joints_at = joints) {
+                Library.Check(Native.hh_player_set_body_skeleton(Handle, player, joints_at, Library.Count(joints), space));
+                GC.KeepAlive(this);
+            }
+        }
+
+        /// <summary>Joints of the player's body rig, in the order in which they were given. Fingers follow the shown hand's; a figure with both hands' fingers needs no second pair of hands (hh_player_skeleton_fingers). HH_ERROR_STATE without a rig.</summary>
         public unsafe HhPose[] PlayerSkeleton(Player player, HhSpace space) {
             HhPose[] joints;
             UIntPtr count_at;
@@ -2850,6 +2885,16 @@ namespace Handhold {
             name = Library.Text(name_at);
             parent = parent_at;
             GC.KeepAlive(this);
+        }
+
+        /// <summary>Number of fingers of a hand of the body rig that follow the shown hand's, 0 to 5: 0 is a figure whose hands the host draws by hh_player_hand_joints.</summary>
+        public unsafe long PlayerSkeletonFingers(Player player, Side side) {
+            long count;
+            UIntPtr count_at;
+            Library.Check(Native.hh_player_skeleton_fingers(Handle, player, side, &count_at));
+            count = (long)count_at;
+            GC.KeepAlive(this);
+            return count;
         }
 
         /// <summary>Adds an authored grip to a body: hands that close near it take it. HH_ERROR_STATE if the body has 4 already.</summary>

@@ -165,6 +165,13 @@ export declare const HH_RIGHT_UPPER_LEG: 17;
 export declare const HH_RIGHT_LOWER_LEG: 18;
 export declare const HH_RIGHT_FOOT: 19;
 export declare const HH_BODY_JOINT_COUNT: 20;
+/** found by names, hierarchy and places */
+export declare const HH_IS_BY_NAME: 0;
+/** plus an hh_body_joint */
+export declare const HH_IS_BODY: 100;
+/** plus an hh_hand_joint_name */
+export declare const HH_IS_LEFT_HAND: 200;
+export declare const HH_IS_RIGHT_HAND: 300;
 export declare const HH_ROWS_POINT: 0;
 export declare const HH_ROWS_WELD: 1;
 export declare const HH_ROWS_DIRECTION: 2;
@@ -572,6 +579,17 @@ export interface hh_hand_joint {
     radius_m: number;
     /** false: the hand's rig has no such joint */
     is_valid: boolean;
+}
+
+export interface hh_skeleton_joint {
+    /** as in the engine's file; null: none */
+    name: string | null;
+    /** index; -1: a root */
+    parent: number;
+    /** An hh_skeleton_is, for names that nobody can guess. Spine and palms need none: joints of the trunk follow by their height, joints of the palm follow the hand. */
+    is: number;
+    /** In the space given, without scale: T-pose or A-pose, +Y up, of any size and heading. */
+    bind: hh_pose;
 }
 
 export interface hh_finger {
@@ -990,12 +1008,16 @@ export declare class WorldCalls {
     playerBodyJoints(player: Given<hh_player>, space: number): hh_pose[];
     /** The player's hand gets the proportions of the skeleton in a glTF file (.glb, or .gltf with its data inside) whose joints have WebXR's or OpenXR's names. Null bytes: the built-in hand. HH_ERROR_DATA says what the file lacks. */
     playerSetHandRig(player: Given<hh_player>, side: number, gltf: Uint8Array | string | null): void;
-    /** The player's body drives a humanoid skeleton from a glTF file. Null bytes: none. */
+    /** The player's body drives a humanoid skeleton from a glTF file; the table of a VRM file says which joint is which. Null bytes: none. */
     playerSetBodyRig(player: Given<hh_player>, gltf: Uint8Array | string | null): void;
-    /** Joints of the player's body rig, in the file's order. HH_ERROR_STATE without a rig. */
+    /** hh_player_set_body_rig for a skeleton as an array, of an engine that has no glTF file: 1 to 1024 joints, in any order. In other axes: handhold/convert.h. No joints: none. HH_ERROR_VALUE for parents that do not exist or form a ring; HH_ERROR_DATA says by name or index which joints are missing or implausible. */
+    playerSetBodySkeleton(player: Given<hh_player>, joints: Given<hh_skeleton_joint>[], space: number): void;
+    /** Joints of the player's body rig, in the order in which they were given. Fingers follow the shown hand's; a figure with both hands' fingers needs no second pair of hands (hh_player_skeleton_fingers). HH_ERROR_STATE without a rig. */
     playerSkeleton(player: Given<hh_player>, space: number): hh_pose[];
     /** Name and parent (-1: none) of one of these joints. The name is valid while the rig is set. */
     playerSkeletonJoint(player: Given<hh_player>, joint: number): { name: string; parent: number };
+    /** Number of fingers of a hand of the body rig that follow the shown hand's, 0 to 5: 0 is a figure whose hands the host draws by hh_player_hand_joints. */
+    playerSkeletonFingers(player: Given<hh_player>, side: number): number;
     /** Adds an authored grip to a body: hands that close near it take it. HH_ERROR_STATE if the body has 4 already. */
     bodyAddGrip(body: Given<hh_body>, def: Given<hh_grip_def> | null): void;
     /** From now on hands, trunks and legs ask the host, not the world's shapes. Null: back to the shapes. HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. */

@@ -110,6 +110,10 @@ export const HH_RIGHT_UPPER_LEG = 17;
 export const HH_RIGHT_LOWER_LEG = 18;
 export const HH_RIGHT_FOOT = 19;
 export const HH_BODY_JOINT_COUNT = 20;
+export const HH_IS_BY_NAME = 0;
+export const HH_IS_BODY = 100;
+export const HH_IS_LEFT_HAND = 200;
+export const HH_IS_RIGHT_HAND = 300;
 export const HH_ROWS_POINT = 0;
 export const HH_ROWS_WELD = 1;
 export const HH_ROWS_DIRECTION = 2;
@@ -156,6 +160,7 @@ export const structs = {
     hh_player_pose: [["origin", "hh_pose"], ["head", "hh_pose"], ["velocity_mps", "hh_vec3"], ["hands", "hh_hand_state", 2]],
     hh_event: [["kind", "i32"], ["reason", "i32"], ["player", "hh_player"], ["side", "i32"], ["body", "hh_body"], ["other", "hh_player"], ["held", "hh_body"], ["joint", "hh_joint"], ["position", "hh_vec3"], ["impulse_ns", "f64"]],
     hh_hand_joint: [["pose", "hh_pose"], ["radius_m", "f64"], ["is_valid", "bool"]],
+    hh_skeleton_joint: [["name", "text"], ["parent", "i32"], ["is", "i32"], ["bind", "hh_pose"]],
     hh_finger: [["is_posed", "bool"], ["curl_rad", "f64", 3], ["opposition_rad", "f64"], ["follows_trigger", "bool"], ["pressed_curl_rad", "f64", 3], ["pressed_opposition_rad", "f64"]],
     hh_grip_hand: [["is_used", "bool"], ["wrist", "hh_pose"], ["fingers", "hh_finger", 5]],
     hh_grip_def: [["struct_size", "u32"], ["hands", "hh_grip_hand", 2], ["priority", "i32"], ["snap_radius_m", "f64"], ["snap_angle_rad", "f64"]],

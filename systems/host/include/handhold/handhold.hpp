@@ -110,6 +110,18 @@ class World : public Level {
             return hh_player_body_joints(world_, player, space, joints->data());
         });
     }
+    // The body drives a skeleton given as an array: the joints of an engine's avatar.
+    Status set_body_skeleton(Player player, std::span<const hh_skeleton_joint> joints,
+                             hh_space space) {
+        return hh_player_set_body_skeleton(world_, player, joints.data(), joints.size(), space);
+    }
+    // Joints of the body rig, in the order in which they were given. `joints` is at least as long
+    // as the rig; returns the number of joints.
+    Maybe<std::size_t> skeleton(Player player, hh_space space, std::span<Pose> joints) {
+        return make<std::size_t>([&](std::size_t* count) {
+            return hh_player_skeleton(world_, player, space, joints.data(), joints.size(), count);
+        });
+    }
     // In the next step the hand grips the body where both are, at any distance.
     Status grip(Player player, Side side, Body body) {
         return hh_hand_grip(world_, player, side, body);

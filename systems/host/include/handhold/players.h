@@ -348,15 +348,47 @@ HH_API hh_result hh_player_body_joints(const hh_world* world, hh_player player, 
  * HH_ERROR_DATA says what the file lacks. */
 HH_API hh_result hh_player_set_hand_rig(hh_world* world, hh_player player, hh_side side,
                                         const void* gltf, size_t size);
-/* The player's body drives a humanoid skeleton from a glTF file. Null bytes: none. */
+/* The player's body drives a humanoid skeleton from a glTF file; the table of a VRM file says which
+ * joint is which. Null bytes: none. */
 HH_API hh_result hh_player_set_body_rig(hh_world* world, hh_player player, const void* gltf,
                                         size_t size);
-/* Joints of the player's body rig, in the file's order. HH_ERROR_STATE without a rig. */
+
+/* Which joint of ours a joint of a skeleton is, for hh_skeleton_joint.is. */
+typedef enum hh_skeleton_is {
+    HH_IS_BY_NAME = 0,     /* found by names, hierarchy and places */
+    HH_IS_BODY = 100,      /* plus an hh_body_joint */
+    HH_IS_LEFT_HAND = 200, /* plus an hh_hand_joint_name */
+    HH_IS_RIGHT_HAND = 300,
+    HH_SKELETON_IS_32_BITS = 0x7fffffff
+} hh_skeleton_is;
+typedef struct hh_skeleton_joint {
+    const char* name; /* as in the engine's file; null: none */
+    int32_t parent;   /* index; -1: a root */
+    /* An hh_skeleton_is, for names that nobody can guess. Spine and palms need none: joints of the
+     * trunk follow by their height, joints of the palm follow the hand. */
+    int32_t is;
+    /* In the space given, without scale: T-pose or A-pose, +Y up, of any size and heading. */
+    hh_pose bind;
+} hh_skeleton_joint;
+/* hh_player_set_body_rig for a skeleton as an array, of an engine that has no glTF file: 1 to 1024
+ * joints, in any order. In other axes: handhold/convert.h. No joints: none. HH_ERROR_VALUE for
+ * parents that do not exist or form a ring; HH_ERROR_DATA says by name or index which joints are
+ * missing or implausible. */
+HH_API hh_result hh_player_set_body_skeleton(hh_world* world, hh_player player,
+                                             const hh_skeleton_joint* joints, size_t count,
+                                             hh_space space);
+/* Joints of the player's body rig, in the order in which they were given. Fingers follow the shown
+ * hand's; a figure with both hands' fingers needs no second pair of hands
+ * (hh_player_skeleton_fingers). HH_ERROR_STATE without a rig. */
 HH_API hh_result hh_player_skeleton(hh_world* world, hh_player player, hh_space space,
                                     hh_pose* joints, size_t capacity, size_t* count);
 /* Name and parent (-1: none) of one of these joints. The name is valid while the rig is set. */
 HH_API hh_result hh_player_skeleton_joint(const hh_world* world, hh_player player, size_t joint,
                                           const char** name, int32_t* parent);
+/* Number of fingers of a hand of the body rig that follow the shown hand's, 0 to 5: 0 is a figure
+ * whose hands the host draws by hh_player_hand_joints. */
+HH_API hh_result hh_player_skeleton_fingers(const hh_world* world, hh_player player, hh_side side,
+                                            size_t* count);
 
 typedef struct hh_finger {
     uint8_t is_posed;      /* false: the finger closes on the surface as usual */

@@ -175,6 +175,14 @@ class BodyJoint(enum.IntEnum):
     HH_BODY_JOINT_COUNT = 20
 
 
+class SkeletonIs(enum.IntEnum):
+    """Which joint of ours a joint of a skeleton is, for hh_skeleton_joint.is."""
+    HH_IS_BY_NAME = 0  # found by names, hierarchy and places
+    HH_IS_BODY = 100  # plus an hh_body_joint
+    HH_IS_LEFT_HAND = 200  # plus an hh_hand_joint_name
+    HH_IS_RIGHT_HAND = 300
+
+
 class HandRows(enum.IntEnum):
     """What a hand asks of the host's solver. The player is a body of the host's: a point mass at the play
     space's origin that cannot turn: at hh_player_pose.origin until a recentring, which does not move it. At
@@ -318,6 +326,10 @@ HH_RIGHT_UPPER_LEG = BodyJoint.HH_RIGHT_UPPER_LEG
 HH_RIGHT_LOWER_LEG = BodyJoint.HH_RIGHT_LOWER_LEG
 HH_RIGHT_FOOT = BodyJoint.HH_RIGHT_FOOT
 HH_BODY_JOINT_COUNT = BodyJoint.HH_BODY_JOINT_COUNT
+HH_IS_BY_NAME = SkeletonIs.HH_IS_BY_NAME
+HH_IS_BODY = SkeletonIs.HH_IS_BODY
+HH_IS_LEFT_HAND = SkeletonIs.HH_IS_LEFT_HAND
+HH_IS_RIGHT_HAND = SkeletonIs.HH_IS_RIGHT_HAND
 HH_ROWS_POINT = HandRows.HH_ROWS_POINT
 HH_ROWS_WELD = HandRows.HH_ROWS_WELD
 HH_ROWS_DIRECTION = HandRows.HH_ROWS_DIRECTION
@@ -861,6 +873,21 @@ class HandJoint(Struct):
     ]
 
 
+class SkeletonJoint(Struct):
+    """hh_skeleton_joint
+    name: as in the engine's file; null: none
+    parent: index; -1: a root
+    is: An hh_skeleton_is, for names that nobody can guess. Spine and palms need none: joints of the trunk
+    follow by their height, joints of the palm follow the hand.
+    bind: In the space given, without scale: T-pose or A-pose, +Y up, of any size and heading."""
+    _fields_ = [
+        ("name", c_char_p),
+        ("parent", c_int32),
+        ("is", c_int32),
+        ("bind", Pose),
+    ]
+
+
 class Finger(Struct):
     """hh_finger
     is_posed: false: the finger closes on the surface as usual
@@ -1296,8 +1323,10 @@ FUNCTIONS = {
     "hh_player_body_joints": (c_int32, [c_void_p, Player, c_int32, POINTER(Pose)]),
     "hh_player_set_hand_rig": (c_int32, [c_void_p, Player, c_int32, c_void_p, c_size_t]),
     "hh_player_set_body_rig": (c_int32, [c_void_p, Player, c_void_p, c_size_t]),
+    "hh_player_set_body_skeleton": (c_int32, [c_void_p, Player, POINTER(SkeletonJoint), c_size_t, c_int32]),
     "hh_player_skeleton": (c_int32, [c_void_p, Player, c_int32, POINTER(Pose), c_size_t, POINTER(c_size_t)]),
     "hh_player_skeleton_joint": (c_int32, [c_void_p, Player, c_size_t, POINTER(c_char_p), POINTER(c_int32)]),
+    "hh_player_skeleton_fingers": (c_int32, [c_void_p, Player, c_int32, POINTER(c_size_t)]),
     "hh_default_grip_def_sized": (c_int32, [POINTER(GripDef), c_size_t]),
     "hh_body_add_grip": (c_int32, [c_void_p, Body, POINTER(GripDef)]),
     "hh_default_surface_query_sized": (c_int32, [POINTER(SurfaceQuery), c_size_t]),
@@ -2064,12 +2093,23 @@ class WorldCalls:
         check(lib().hh_player_set_hand_rig(self._handle, value(Player, player), side, gltf, size_))
 
     def player_set_body_rig(self, player, gltf):
-        """The player's body drives a humanoid skeleton from a glTF file. Null bytes: none."""
+        """The player's body drives a humanoid skeleton from a glTF file; the table of a VRM file says which
+        joint is which. Null bytes: none."""
         gltf, size_ = raw(gltf)
         check(lib().hh_player_set_body_rig(self._handle, value(Player, player), gltf, size_))
 
+    def player_set_body_skeleton(self, player, joints, space):
+        """hh_player_set_body_rig for a skeleton as an array, of an engine that has no glTF file: 1 to 1024
+        joints, in any order. In other axes: handhold/convert.h. No joints: none. HH_ERROR_VALUE for parents
+        that do not exist or form a ring; HH_ERROR_DATA says by name or index which joints are missing or
+        implausible."""
+        joints, count_ = array(SkeletonJoint, joints)
+        check(lib().hh_player_set_body_skeleton(self._handle, value(Player, player), joints, count_, space))
+
     def player_skeleton(self, player, space):
-        """Joints of the player's body rig, in the file's order. HH_ERROR_STATE without a rig."""
+        """Joints of the player's body rig, in the order in which they were given. Fingers follow the shown
+        hand's; a figure with both hands' fingers needs no second pair of hands (hh_player_skeleton_fingers).
+        HH_ERROR_STATE without a rig."""
         return listed(Pose, lambda buffer, capacity, count: lib().hh_player_skeleton(self._handle, value(Player, player), space, buffer, capacity, count))
 
     def player_skeleton_joint(self, player, joint):
@@ -2078,6 +2118,13 @@ class WorldCalls:
         parent = c_int32()
         check(lib().hh_player_skeleton_joint(self._handle, value(Player, player), joint, byref(name), byref(parent)))
         return shown(name.value), parent.value
+
+    def player_skeleton_fingers(self, player, side):
+        """Number of fingers of a hand of the body rig that follow the shown hand's, 0 to 5: 0 is a figure whose
+        hands the host draws by hh_player_hand_joints."""
+        count = c_size_t()
+        check(lib().hh_player_skeleton_fingers(self._handle, value(Player, player), side, byref(count)))
+        return count.value
 
     def body_add_grip(self, body, definition=None, **fields):
         """Adds an authored grip to a body: hands that close near it take it. HH_ERROR_STATE if the body has 4
