@@ -92,6 +92,14 @@ void visit_fields(const GrabOrder& c, V&& visit) {
     visit("body", c.body);
 }
 template <typename V>
+void visit_fields(const JointMotor& c, V&& visit) {
+    visit("kind", c.kind);
+    visit("speed", c.speed);
+    visit("position", c.position);
+    visit("time_s", c.time_s);
+    visit("strength", c.strength);
+}
+template <typename V>
 void visit_fields(const Joint& c, V&& visit) {
     visit("kind", c.kind);
     visit("a", c.a);
@@ -106,6 +114,7 @@ void visit_fields(const Joint& c, V&& visit) {
     visit("detent_spacing", c.detent_spacing);
     visit("detent_strength", c.detent_strength);
     visit("latch", c.latch);
+    visit("motor", c.motor);
 }
 template <typename V>
 void visit_fields(const JointState& c, V&& visit) {

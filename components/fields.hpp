@@ -38,6 +38,8 @@ inline constexpr std::uint32_t k_value_count<BodyPart> = k_gripped_parts;
 template <>
 inline constexpr std::uint32_t k_value_count<JointKind> = 5;
 template <>
+inline constexpr std::uint32_t k_value_count<MotorKind> = 3;
+template <>
 inline constexpr std::uint32_t k_value_count<LegBone> = 2;
 template <>
 inline constexpr std::uint32_t k_value_count<ArmGoal> = 3;

@@ -29,6 +29,19 @@ struct JointLatch {
     double handle_at = 0.0;    // open while |handle's coordinate| is at least this, rad or m
 };
 
+enum class MotorKind : std::uint8_t { none, speed, position };
+
+// Drives the coordinate of a hinge or slider with limited force, in the velocity solve, as friction
+// acts.
+struct JointMotor {
+    MotorKind kind = MotorKind::none;
+    double speed = 0.0;     // speed: wanted speed of the coordinate, rad/s or m/s
+    double position = 0.0;  // position: wanted coordinate, rad or m
+    // Position: the joint moves so fast that it would be there after this, s; at least a frame.
+    double time_s = 0.1;
+    double strength = 0.0;  // largest force, N or N m, >= 0
+};
+
 // Written by the host.
 struct Joint {
     JointKind kind = JointKind::ball;
@@ -47,6 +60,7 @@ struct Joint {
     double detent_spacing = 0.0;   // detents lie at multiples of this, rad or m; 0: no detents
     double detent_strength = 0.0;  // maximum force towards the nearest detent, N or N m
     JointLatch latch;
+    JointMotor motor;  // replaces the detents while it is on
 };
 
 // Written by update_joints.

@@ -156,16 +156,23 @@ Entity add_body(World& world, const BodyDescription& description, const ShapeLib
     return add_body(world, description);
 }
 
-Entity add_joint(World& world, const JointDescription& description) {
-    const Joint& joint = description.joint;
-    HH_CHECK(world.body.contains(joint.b), "a joint's second body does not exist", joint.b.slot);
-    HH_CHECK(is_null(joint.a) || world.body.contains(joint.a),
-             "a joint's first body must exist, or be null for the world", joint.a.slot);
-    HH_CHECK(joint.a != joint.b, "a joint needs two bodies", joint.b.slot);
-    HH_CHECK(is_in_world(joint.frame_a_bs), "a joint's frame is not valid",
-             wrong_number_of(joint.frame_a_bs));
-    HH_CHECK(is_in_world(joint.frame_b_bs), "a joint's frame is not valid",
-             wrong_number_of(joint.frame_b_bs));
+void check_motor(const Joint& joint) {
+    const JointMotor& motor = joint.motor;
+    HH_CHECK(motor.kind == MotorKind::none || joint.kind == JointKind::hinge ||
+                 joint.kind == JointKind::slider,
+             "only hinges and sliders have motors", static_cast<int>(joint.kind));
+    for (const double number : {motor.speed, motor.position}) {
+        HH_CHECK(is_in(number, -world_limits::k_max_joint_coordinate,
+                       world_limits::k_max_joint_coordinate),
+                 "a motor's speed and position must lie within 1e9", number);
+    }
+    HH_CHECK(is_in(motor.time_s, 0.0, world_limits::k_max_joint_coordinate),
+             "a motor's time must lie in [0, 1e9] s", motor.time_s);
+    HH_CHECK(is_in(motor.strength, 0.0, world_limits::k_max_joint_strength),
+             "a motor's strength must lie in [0, 1e15]", motor.strength);
+}
+
+void check_joint_numbers(const Joint& joint) {
     const JointLatch& latch = joint.latch;
     for (const double coordinate : {joint.lower, joint.upper, latch.at, latch.handle_at}) {
         HH_CHECK(is_in(coordinate, -world_limits::k_max_joint_coordinate,
@@ -178,8 +185,22 @@ Entity add_joint(World& world, const JointDescription& description) {
         HH_CHECK(is_in(number, 0.0, world_limits::k_max_joint_strength),
                  "friction, detents and latches must lie in [0, 1e15]", number);
     }
-    HH_CHECK(is_null(latch.handle) || world.joint.contains(latch.handle),
-             "a latch's handle must be a joint, or null", latch.handle.slot);
+    check_motor(joint);
+}
+
+Entity add_joint(World& world, const JointDescription& description) {
+    const Joint& joint = description.joint;
+    HH_CHECK(world.body.contains(joint.b), "a joint's second body does not exist", joint.b.slot);
+    HH_CHECK(is_null(joint.a) || world.body.contains(joint.a),
+             "a joint's first body must exist, or be null for the world", joint.a.slot);
+    HH_CHECK(joint.a != joint.b, "a joint needs two bodies", joint.b.slot);
+    HH_CHECK(is_in_world(joint.frame_a_bs), "a joint's frame is not valid",
+             wrong_number_of(joint.frame_a_bs));
+    HH_CHECK(is_in_world(joint.frame_b_bs), "a joint's frame is not valid",
+             wrong_number_of(joint.frame_b_bs));
+    check_joint_numbers(joint);
+    HH_CHECK(is_null(joint.latch.handle) || world.joint.contains(joint.latch.handle),
+             "a latch's handle must be a joint, or null", joint.latch.handle.slot);
     check_name_is_unique(world, description.name);
     const Entity entity = add_named(world, description.name);
     world.joint.add(entity, joint);

@@ -244,9 +244,12 @@ struct JointDescription {
     std::string_view name;  // unique in the world
     Joint joint;
 };
+// Throws PreconditionError for limits, friction, detents, latch and motor that add_joint refuses.
+void check_joint_numbers(const Joint& joint);
 // Adds a joint between two bodies, or between the world and a body. A joint's bodies never change.
 // Throws PreconditionError, and adds nothing, for: a duplicate name; a missing body; a lower limit
-// above the upper one; negative friction, detent or latch numbers; a number outside world_limits.
+// above the upper one; negative friction, detent, latch or motor
+// numbers; a motor of another kind than hinge and slider; a number outside world_limits.
 Entity add_joint(World& world, const JointDescription& description);
 // Returns a copy of `joint` whose two frames coincide at `frame_ws` when the bodies are at their
 // current poses.

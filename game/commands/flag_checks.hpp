@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -28,6 +29,27 @@ inline CLI::Validator whole_number() {
                 return is_whole ? std::string() : "expected a whole number from 0, found " + text;
             },
             "UINT"};
+}
+
+// Adds an option that takes one of the words of `values`. Help shows the words alone.
+template <typename Enum>
+CLI::Option* add_choice(CLI::App& app, const std::string& name, Enum& chosen,
+                        const std::map<std::string, Enum>& values, const std::string& help) {
+    std::string words;
+    for (const auto& [word, value] : values) {
+        words += (words.empty() ? "" : "|") + word;
+    }
+    const auto read = [=](std::string& text) {
+        const auto found = values.find(text);
+        if (found == values.end()) {
+            return "expected " + words + ", found " + text;
+        }
+        text = std::to_string(static_cast<int>(found->second));
+        return std::string();
+    };
+    return app.add_option(name, chosen, help)
+        ->transform(CLI::Validator(read, ""))
+        ->type_name(words);
 }
 
 }  // namespace handhold

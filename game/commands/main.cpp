@@ -31,6 +31,7 @@
 
 namespace {
 
+using handhold::add_choice;
 using handhold::number_in;
 using handhold::whole_number;
 
@@ -116,8 +117,7 @@ void add_run_options(CLI::App& run, handhold::RunOptions& options) {
     run.add_option("--shot-height", options.shot_height_px, "Pixels")
         ->check(CLI::Range(16, 8192))
         ->needs(shots);
-    run.add_option("--shot-quality", options.shot_quality, "plain, quick or fine")
-        ->transform(CLI::CheckedTransformer(k_qualities))
+    add_choice(run, "--shot-quality", options.shot_quality, k_qualities, "plain, quick or fine")
         ->needs(shots);
     run.add_flag("--distance-grab", options.distance_grab, "As in play, to see a session again");
     add_model_options(run, options.models);
@@ -174,13 +174,11 @@ void add_play_options(CLI::App& play, handhold::PlayOptions& options) {
                     "Save what was climbed and what it cost (.json) at the end");
     play.add_option("--status", options.status,
                     "Write a line of how it stands every tenth of a second (.jsonl)");
-    play.add_option("--quality", options.settings.quality,
-                    "plain (no graphics card), quick, or fine (four samples a pixel)")
-        ->transform(CLI::CheckedTransformer(k_qualities));
+    add_choice(play, "--quality", options.settings.quality, k_qualities,
+               "plain (no graphics card), quick, or fine (four samples a pixel)");
     const std::map<std::string, handhold::TurnKind> turns = {
         {"snap", handhold::TurnKind::snap}, {"smooth", handhold::TurnKind::smooth}};
-    play.add_option("--turn", options.settings.turn, "snap or smooth: how Z and C turn")
-        ->transform(CLI::CheckedTransformer(turns));
+    add_choice(play, "--turn", options.settings.turn, turns, "snap or smooth: how Z and C turn");
     play.add_option("--vignette", options.settings.vignette,
                     "How much the edges darken at speed, 0 to 1")
         ->check(number_in(0.0, 1.0));
@@ -193,8 +191,7 @@ void add_play_options(CLI::App& play, handhold::PlayOptions& options) {
         {"eyes", handhold::PlayerViewpoint::eyes},
         {"mirror", handhold::PlayerViewpoint::mirror},
         {"behind", handhold::PlayerViewpoint::behind}};
-    play.add_option("--view", options.viewpoint, "eyes, mirror or behind (F4)")
-        ->transform(CLI::CheckedTransformer(viewpoints));
+    add_choice(play, "--view", options.viewpoint, viewpoints, "eyes, mirror or behind (F4)");
     play.add_flag("--menu", options.panels.menu, "Open scenes and settings at once (F3)");
     play.add_option("--seconds", options.seconds, "Stop after so many; default: never")
         ->check(number_in(0.01, 1e6));

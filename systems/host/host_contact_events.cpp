@@ -40,6 +40,28 @@ bool was_in_contact(const hh_world& host, Entity a, Entity b) {
     });
 }
 
+// Adds one contact to the list of all contacts.
+void list_contact(hh_world& host, const RowBlock& block, double impulse_ns) {
+    const FrameGraph& frame = host.caches.graph;
+    const auto name = [&](std::uint32_t index, hh_body& body, hh_player& player) {
+        const Entity entity = frame.entities[index];
+        if (host.world.player.contains(entity)) {
+            player = id_of<hh_player>(entity);
+        } else {
+            body = id_of<hh_body>(entity);
+        }
+    };
+    hh_contact contact{};
+    name(block.a, contact.body_a, contact.player_a);
+    name(block.b, contact.body_b, contact.player_b);
+    const std::vector<SolverBody>& bodies = frame.graph.bodies;
+    contact.point = to_c(transform_point(bodies[block.a].pose_ws, block.point_a_bs));
+    contact.normal = to_c(bodies[block.b].pose_ws.rotation * block.normal_b_bs);
+    contact.depth_m = -contact_separation_m(bodies, block);
+    contact.impulse_ns = impulse_ns;
+    host.contact_list.push_back(contact);
+}
+
 }  // namespace
 
 void gather_contacts(hh_world& host) {
@@ -49,6 +71,7 @@ void gather_contacts(hh_world& host) {
     const FrameGraph& frame = host.caches.graph;
     host.last_contacts.swap(host.contacts);
     host.contacts.clear();
+    host.contact_list.clear();
     for (std::size_t i = 0; i < frame.graph.blocks.size(); ++i) {
         const RowBlock& block = frame.graph.blocks[i];
         if (!is_contact(block) || block.a >= frame.entities.size() ||
@@ -59,6 +82,9 @@ void gather_contacts(hh_world& host) {
         const Entity b = frame.entities[block.b];
         const double impulse_ns = reported_impulse_ns(host, i).norm();
         const double separation_m = contact_separation_m(frame.graph.bodies, block);
+        if (impulse_ns >= k_least_impulse_ns || separation_m <= k_begin_m) {
+            list_contact(host, block, impulse_ns);
+        }
         const double near_m = was_in_contact(host, a, b) ? k_end_m : k_begin_m;
         if (impulse_ns < k_least_impulse_ns && separation_m > near_m) {
             continue;
@@ -115,3 +141,13 @@ void add_contact_events(hh_world& host, hh_event_kind kind,
 }
 
 }  // namespace handhold
+
+hh_result hh_world_contacts(const hh_world* world, hh_contact* contacts, size_t capacity,
+                            size_t* count) {
+    using namespace handhold;
+    return call([&] {
+        const hh_world& host = world_of(world);
+        write_list(host.contact_list.size(), contacts, capacity, count,
+                   [&](std::size_t i) { return host.contact_list[i]; });
+    });
+}

@@ -220,6 +220,7 @@ void finish_events(hh_world& host) {
 void forget_events(hh_world& host) {
     host.events.clear();
     host.contacts.clear();
+    host.contact_list.clear();
     host.last_contacts.clear();
     drop_stale(host.hands, host.world.grab);
     drop_stale(host.joints, host.world.joint);

@@ -54,6 +54,17 @@ Joint read_joint(const hh_world& host, const hh_joint_def& def) {
     return joint;
 }
 
+// Changes a joint's numbers, or throws and changes nothing.
+template <typename Change>
+void change_joint(hh_world& host, hh_joint joint, const Change& change) {
+    require_idle(host);
+    const Entity entity = joint_of(host, joint);
+    Joint changed = host.world.joint.at(entity);
+    change(changed);
+    check_joint_numbers(changed);
+    host.world.joint.at(entity) = changed;
+}
+
 }  // namespace
 }  // namespace handhold
 
@@ -72,6 +83,60 @@ hh_result hh_joint_add(hh_world* world, const hh_joint_def* wanted, hh_joint* jo
         require(joint != nullptr, HH_ERROR_NULL, "the output is null");
         const std::string name = new_name(host, def.name, "joint");
         *joint = id_of<hh_joint>(add_joint(host.world, {name, read_joint(host, def)}));
+    });
+}
+
+hh_result hh_default_motor_def_sized(hh_motor_def* filled, size_t size) {
+    hh_motor_def def{};
+    def.time_s = JointMotor{}.time_s;
+    return write_default(filled, size, def);
+}
+
+hh_result hh_joint_set_motor(hh_world* world, hh_joint joint, const hh_motor_def* wanted) {
+    return call([&] {
+        hh_world& host = world_of(world);
+        const hh_motor_def def = read_def(wanted, hh_default_motor_def());
+        require(def.kind >= HH_MOTOR_NONE && def.kind <= HH_MOTOR_POSITION, HH_ERROR_VALUE,
+                "no such kind of motor");
+        change_joint(host, joint, [&](Joint& changed) {
+            changed.motor = {.kind = static_cast<MotorKind>(def.kind),
+                             .speed = def.speed,
+                             .position = def.position,
+                             .time_s = def.time_s,
+                             .strength = def.strength};
+        });
+    });
+}
+
+hh_result hh_joint_set_limits(hh_world* world, hh_joint joint, uint8_t limited, double lower,
+                              double upper) {
+    return call([&] {
+        change_joint(world_of(world), joint, [&](Joint& changed) {
+            changed.limited = limited != 0;
+            changed.lower = lower;
+            changed.upper = upper;
+        });
+    });
+}
+
+hh_result hh_joint_set_latch(hh_world* world, hh_joint joint, double at, double range,
+                             double strength) {
+    return call([&] {
+        hh_world& host = world_of(world);
+        JointState& state = host.world.joint_state.at(joint_of(host, joint));
+        const bool is_moved = host.world.joint.at(joint_of(host, joint)).latch.at != at;
+        change_joint(host, joint, [&](Joint& changed) {
+            changed.latch.at = at;
+            changed.latch.catch_range = range;
+            changed.latch.strength = strength;
+        });
+        state.latched = state.latched && range > 0.0 && !is_moved;
+    });
+}
+
+hh_result hh_joint_set_friction(hh_world* world, hh_joint joint, double friction) {
+    return call([&] {
+        change_joint(world_of(world), joint, [&](Joint& changed) { changed.friction = friction; });
     });
 }
 

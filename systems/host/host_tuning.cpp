@@ -208,6 +208,16 @@ hh_result hh_world_get_stats(const hh_world* world, hh_world_stats* stats) {
             read.momentum.linear_kgmps[i] = to_c(last.ledger.linear_kgmps[i]);
             read.momentum.angular_kgm2ps[i] = to_c(last.ledger.angular_kgm2ps[i]);
         }
+        const hh_contact* deepest = nullptr;
+        for (const hh_contact& contact : host.contact_list) {
+            if (contact.depth_m > (deepest == nullptr ? 0.0 : deepest->depth_m)) {
+                deepest = &contact;
+            }
+        }
+        if (deepest != nullptr) {
+            read.deepest_a = deepest->body_a;
+            read.deepest_b = deepest->body_b;
+        }
         write_out(stats, read, offsetof(hh_world_stats, joint_error_rad));
     });
 }

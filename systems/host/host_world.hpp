@@ -111,6 +111,7 @@ struct hh_world {
     handhold::Column<handhold::SpaceReport> spaces;    // indexed by player
     std::vector<handhold::HostContact> contacts;       // contacts of the last step
     std::vector<handhold::HostContact> last_contacts;  // contacts of the step before
+    std::vector<hh_contact> contact_list;              // all contacts of the last step
     std::vector<hh_event> events;
     mutable std::vector<std::byte> packed_events;  // copies for hosts that know a shorter hh_event
 

@@ -212,9 +212,19 @@ void write_joint_rows(const Joint& joint, const JointState& state, double dt_s, 
     // Uses the predicted angle, because the joint may rotate fast.
     rows.previous = state.coordinate + state.speed * dt_s;
     rows.friction_impulse = joint.friction * dt_s;
-    rows.motor_target = rows.motor_time_s = rows.motor_max_impulse = 0.0;
+    rows.motor_target = rows.motor_time_s = rows.motor_speed = 0.0;
+    rows.motor_frame_s = rows.motor_max_impulse = 0.0;
     rows.lock_limit_impulse = rows.lock_impulse = 0.0;
-    if (joint.detent_spacing > 0.0) {
+    if (joint.motor.kind != MotorKind::none) {
+        rows.motor_max_impulse = joint.motor.strength * dt_s;
+        rows.motor_frame_s = dt_s;
+        if (joint.motor.kind == MotorKind::speed) {
+            rows.motor_speed = joint.motor.speed;
+        } else {
+            rows.motor_target = joint.motor.position;
+            rows.motor_time_s = std::max(joint.motor.time_s, dt_s);
+        }
+    } else if (joint.detent_spacing > 0.0) {
         rows.motor_target =
             joint.detent_spacing * std::round(state.coordinate / joint.detent_spacing);
         rows.motor_time_s = std::max(k_detent_s, dt_s);

@@ -250,7 +250,7 @@ class BoneFinder {
     JointTree tree_;
     std::string prefix_;
     BodyBones bones_;
-    std::vector<bool> is_mapped_;  // by joint
+    std::vector<bool> is_mapped_;  // indexed by joint
 };
 
 }  // namespace

@@ -24,9 +24,9 @@ enum class BodyBone : std::uint8_t {
     thigh,
     shin,
     foot,
-    finger  // of carriers only: a bone of a finger
+    finger  // a bone of a finger; only carriers have it
 };
-inline constexpr std::size_t k_body_bone_count = 10;  // without fingers
+inline constexpr std::size_t k_body_bone_count = 10;  // fingers do not count
 inline bool is_limb(BodyBone bone) { return bone >= BodyBone::clavicle; }
 
 // A body rig; made by fit_body_rig. Bones have the same frames as in RenderPose. Arm bones lie

@@ -170,6 +170,11 @@ class BreachFinder {
                       joint.detent_strength >= 0.0 && latch.catch_range >= 0.0 &&
                       latch.strength >= 0.0,
                   "joint", owner, "", "friction, detents and latches >= 0");
+            const bool may_move = joint.kind == JointKind::hinge || joint.kind == JointKind::slider;
+            check(joint.motor.kind <= MotorKind::position &&
+                      (may_move || joint.motor.kind == MotorKind::none) &&
+                      joint.motor.time_s >= 0.0 && joint.motor.strength >= 0.0,
+                  "joint", owner, ".motor", "a motor of a hinge or slider, numbers >= 0");
         }
     }
 

@@ -33,6 +33,52 @@ bool use_files(hh::World& world, hh::Player player, const char* hand, const char
 }
 // [file]
 
+// [array]
+// One joint of the engine's skeleton, in its bind pose (T-pose or A-pose).
+struct EngineBone {
+    const char* name;
+    int parent;  // -1: a root
+    hh::Pose bind;
+};
+
+bool use_skeleton(hh::World& world, hh::Player player, const std::vector<EngineBone>& bones) {
+    std::vector<hh_skeleton_joint> joints;
+    for (const EngineBone& bone : bones) {
+        joints.push_back({bone.name, bone.parent, HH_IS_BY_NAME, bone.bind});
+    }
+    // A name that nobody can guess: joints[i].is = HH_IS_BODY + HH_LEFT_UPPER_ARM, or
+    // HH_IS_LEFT_HAND + HH_INDEX_PROXIMAL.
+    if (!world.set_body_skeleton(player, joints, HH_SPACE_PARENT)) {
+        return false;  // hh_last_error() names the joints
+    }
+    // After each step: the poses of your joints, in the order in which you gave them.
+    std::vector<hh::Pose> posed(bones.size());
+    return static_cast<bool>(world.skeleton(player, HH_SPACE_PARENT, posed));
+}
+// [array]
+
+// A figure with the names of Unreal's mannequin.
+std::vector<EngineBone> any_bones() {
+    const auto at = [](double x, double y) { return hh::pose_at({x, y, 0.0}); };
+    std::vector<EngineBone> bones = {{"pelvis", -1, at(0.0, 1.0)}, {"head", 0, at(0.0, 0.65)}};
+    for (const double out : {-1.0, 1.0}) {
+        const bool is_left = out < 0.0;
+        int above = 0;
+        const auto add = [&](const char* left, const char* right, hh::Pose bind) {
+            bones.push_back({is_left ? left : right, above, bind});
+            above = static_cast<int>(bones.size()) - 1;
+        };
+        add("upperarm_l", "upperarm_r", at(0.2 * out, 0.45));
+        add("lowerarm_l", "lowerarm_r", at(0.28 * out, 0.0));
+        add("hand_l", "hand_r", at(0.26 * out, 0.0));
+        above = 0;
+        add("thigh_l", "thigh_r", at(0.1 * out, -0.08));
+        add("calf_l", "calf_r", at(0.0, -0.42));
+        add("foot_l", "foot_r", at(0.0, -0.42));
+    }
+    return bones;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -66,6 +112,10 @@ int main(int argc, char** argv) {
     const hh::World::HandJoints hand = *world.hand_joints(player, HH_RIGHT, HH_SPACE_WORLD);
     // [joints]
     if (argc > 2 && !use_files(world, player, argv[1], argv[2])) {
+        std::printf("%s\n", hh_last_error());
+        return 1;
+    }
+    if (!use_skeleton(world, player, any_bones())) {
         std::printf("%s\n", hh_last_error());
         return 1;
     }

@@ -72,15 +72,20 @@ struct JointRows {
     bool limited = false;
     double lower = 0.0;
     double upper = 0.0;
-    // Hinge: q is known only up to whole turns; the value closest to `previous` is taken.
+    // q as expected from the last frame's q and speed. Hinge: q is known only up to whole turns;
+    // the value closest to `previous` is taken.
     double previous = 0.0;
     // The fields below apply to the velocity solve only; impulses are in N s or N m s per frame.
     // Largest friction impulse about the axis (ball: about all axes) or along it.
     double friction_impulse = 0.0;
-    // Motor: moves q towards `motor_target`, at the speed that reaches it within `motor_time_s`,
-    // with an impulse of at most `motor_max_impulse` (0: no motor).
+    // Motor: moves q at `motor_speed`, or towards `motor_target` at the speed that reaches it
+    // within `motor_time_s`, with an impulse of at most `motor_max_impulse` (0: no motor).
     double motor_target = 0.0;  // m or rad
-    double motor_time_s = 0.0;  // s; > 0 if there is a motor
+    double motor_time_s = 0.0;  // s; 0: the motor has a speed, not a target
+    double motor_speed = 0.0;   // m/s or rad/s
+    // Duration of the frame, s: adds the speed that forces such as gravity took from q since the
+    // last frame, (previous - q) / motor_frame_s. 0: adds nothing.
+    double motor_frame_s = 0.0;
     double motor_max_impulse = 0.0;
     // Impulse at which a lock gives way; 0: it never does.
     double lock_limit_impulse = 0.0;

@@ -28,6 +28,15 @@ bool has_motor(const RowBlock& block) {
            block.joint.motor_max_impulse > 0.0;
 }
 
+// The speed that the motor wants for a coordinate q after this solve.
+double motor_speed(const JointRows& joint, double q) {
+    const double wanted = joint.motor_time_s > 0.0 ? (joint.motor_target - q) / joint.motor_time_s
+                                                   : joint.motor_speed;
+    const double lost =
+        joint.motor_frame_s > 0.0 ? (joint.previous - q) / joint.motor_frame_s : 0.0;
+    return wanted + lost;
+}
+
 // Appends the friction and motor rows of a block, and their bounds.
 void collect_frictions(const IslandView& island, const RowBlock& block, std::uint32_t index,
                        SolveScratch& scratch) {
@@ -81,8 +90,7 @@ void collect_velocity_rows(const IslandView& island, const VelocitySettings& set
         scratch.approach_mps.resize(scratch.rows.size(), 0.0);
         if (has_motor(block)) {
             scratch.approach_mps.back() =
-                (joint_coordinate(island.bodies, block) - block.joint.motor_target) /
-                block.joint.motor_time_s;
+                -motor_speed(block.joint, joint_coordinate(island.bodies, block));
         }
     }
 }

@@ -51,12 +51,13 @@ export class Avatar {
         scene.add(...this.hands.flat(), ...this.arms, ...this.tracked, ...this.anchors, ...this.pulls);
     }
 
-    update(world, player, pose, showsGizmos, dt_s) {
+    /** `figure`: what loadFigure returned for the player, if anything; its own hands are then the only ones. */
+    update(world, player, pose, showsGizmos, dt_s, figure) {
         for (const side of [HH_LEFT, HH_RIGHT]) {
             const joints = world.handJoints(player, side, HH_SPACE_WORLD);
             handBones.forEach(([a, b], i) => {
                 const mesh = this.hands[side][i];
-                mesh.visible = joints[a].is_valid && joints[b].is_valid;
+                mesh.visible = !figure?.hasHands && joints[a].is_valid && joints[b].is_valid;
                 if (mesh.visible) {
                     stretch(mesh, joints[a].pose.position, joints[b].pose.position, Math.max(joints[b].radius_m, 0.006));
                 }
@@ -76,11 +77,14 @@ export class Avatar {
             }
         }
         const body = world.bodyJoints(player, HH_SPACE_WORLD);
-        armBones.forEach(([a, b], i) => stretch(this.arms[i], body[a].position, body[b].position, 0.035));
+        armBones.forEach(([a, b], i) => {
+            this.arms[i].visible = !figure?.hasHands;
+            stretch(this.arms[i], body[a].position, body[b].position, 0.035);
+        });
     }
 }
 
-/** The robot's body (handhold export-body), whose joints the library poses. */
+/** A figure such as the robot's body (handhold export-body), whose joints the library poses. hasHands: its fingers follow the shown hands. */
 export async function loadFigure(scene, world, player, url) {
     const bytes = await (await fetch(url)).arrayBuffer();
     world.setBodyRig(player, new Uint8Array(bytes));
@@ -91,5 +95,6 @@ export async function loadFigure(scene, world, player, url) {
         const { name } = world.skeletonJoint(player, i);
         return model.getObjectByName(THREE.PropertyBinding.sanitizeNodeName(name));
     });
-    return { update: () => world.skeleton(player, HH_SPACE_PARENT).forEach((pose, i) => place(bones[i], pose)) };
+    const hasHands = [HH_LEFT, HH_RIGHT].every((side) => world.skeletonFingers(player, side) > 1);
+    return { hasHands, update: () => world.skeleton(player, HH_SPACE_PARENT).forEach((pose, i) => place(bones[i], pose)) };
 }

@@ -83,7 +83,7 @@ async function addClimber() {
     let begin_s = 0;
     return { id, read, update: (showsGizmos, dt_s) => {
         figure.update();
-        avatar.update(world, id, world.playerPose(id), showsGizmos, dt_s);
+        avatar.update(world, id, world.playerPose(id), showsGizmos, dt_s, figure);
     } };
 }
 function resize() {

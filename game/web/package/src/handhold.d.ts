@@ -82,6 +82,8 @@ export declare class World extends WorldBase {
     /** Poses of that skeleton's joints, in the file's order. */
     skeleton(player: hh_player, space: number): hh_pose[];
     skeletonJoint(player: hh_player, joint: number): { name: string; parent: number };
+    /** Number of fingers of a hand of the body rig that follow the shown hand's. */
+    skeletonFingers(player: hh_player, side: number): number;
 
     step(dt_s: number, inputs?: PlayerInput[]): void;
     stepPoseOnly(dt_s: number, inputs?: PlayerInput[]): void;

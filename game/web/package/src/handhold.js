@@ -191,7 +191,7 @@ const shortNames = {
     addJoint: 'jointAdd', removeJoint: 'jointRemove', addPlayer: 'playerAdd', removePlayer: 'playerRemove',
     teleportPlayer: 'playerTeleport', setHandInController: 'playerSetHandInController', handJoints: 'playerHandJoints',
     grip: 'handGrip', releaseHand: 'handRelease', setHandRig: 'playerSetHandRig', setBodyRig: 'playerSetBodyRig',
-    skeleton: 'playerSkeleton', skeletonJoint: 'playerSkeletonJoint', stats: 'getStats',
+    skeleton: 'playerSkeleton', skeletonJoint: 'playerSkeletonJoint', skeletonFingers: 'playerSkeletonFingers', stats: 'getStats',
 };
 for (const [short, name] of Object.entries(shortNames)) {
     World.prototype[short] = World.prototype[name];

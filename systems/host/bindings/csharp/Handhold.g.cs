@@ -12,6 +12,9 @@ namespace Handhold {
         public const int HandholdVersionPatch = 0;
         public const string HandholdVersionText = "0.2.0";
         public const int HandJointCount = 26;
+        public const int IsBody = 100;
+        public const int IsLeftHand = 200;
+        public const int IsRightHand = 300;
     }
 
     public enum Result {
@@ -90,6 +93,14 @@ namespace Handhold {
         Fixed = 3,
         /// <summary>coordinate: distance of two points, m; lower 0: a rope; equal limits: a rod</summary>
         Distance = 4,
+    }
+
+    public enum MotorKind {
+        None = 0,
+        /// <summary>towards a speed of the coordinate</summary>
+        Speed = 1,
+        /// <summary>towards a coordinate</summary>
+        Position = 2,
     }
 
     public enum GripKind {
@@ -208,17 +219,6 @@ namespace Handhold {
         RightLowerLeg = 18,
         RightFoot = 19,
         BodyJointCount = 20,
-    }
-
-    /// <summary>Which joint of ours a joint of a skeleton is, for hh_skeleton_joint.is.</summary>
-    public enum SkeletonIs {
-        /// <summary>found by names, hierarchy and places</summary>
-        ByName = 0,
-        /// <summary>plus an hh_body_joint</summary>
-        Body = 100,
-        /// <summary>plus an hh_hand_joint_name</summary>
-        LeftHand = 200,
-        RightHand = 300,
     }
 
     /// <summary>What a hand asks of the host's solver. The player is a body of the host's: a point mass at the play space's origin that cannot turn: at hh_player_pose.origin until a recentring, which does not move it. At the end of the step, with origin and body solved: POINT origin + target.position = body * anchor.position WELD the same, and the body's rotation is body_rotation DIRECTION the body's rotation is body_rotation: the second of two hands on one body</summary>
@@ -578,6 +578,10 @@ namespace Handhold {
         /// <summary>grips that began</summary>
         public ulong hands_gripped;
         public Momentum momentum;
+        /// <summary>The two of `overlap_m`; null: a player's head, or no overlap.</summary>
+        public Body deepest_a;
+        /// <summary>The two of `overlap_m`; null: a player's head, or no overlap.</summary>
+        public Body deepest_b;
 
         /// <summary>The library's defaults.</summary>
         public static WorldStats Default() {
@@ -733,6 +737,45 @@ namespace Handhold {
         }
     }
 
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct MotorDef {
+        public uint struct_size;
+        /// <summary>default HH_MOTOR_NONE</summary>
+        public MotorKind kind;
+        /// <summary>HH_MOTOR_SPEED: rad/s or m/s, within 1e9</summary>
+        public double speed;
+        /// <summary>HH_MOTOR_POSITION: rad or m, within 1e9; a hinge counts full turns</summary>
+        public double position;
+        /// <summary>HH_MOTOR_POSITION: the joint moves so fast that it would be there after this; a step at least, 1e9 at most, s; default 0.1</summary>
+        public double time_s;
+        /// <summary>largest force, N or N m, [0, 1e15]; default 0</summary>
+        public double strength;
+
+        /// <summary>The library's defaults.</summary>
+        public static MotorDef Default() {
+            MotorDef filled;
+            Library.Check(Native.hh_default_motor_def_sized(&filled, (UIntPtr)sizeof(MotorDef)));
+            return filled;
+        }
+    }
+
+    /// <summary>Two surfaces that touched in the last step. Whichever of body and player is not null it is: a player's head, or a body.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct Contact {
+        public Body body_a;
+        public Body body_b;
+        public Player player_a;
+        public Player player_b;
+        /// <summary>on the surface of a, in the world</summary>
+        public Vec3 point;
+        /// <summary>unit, from b to a</summary>
+        public Vec3 normal;
+        /// <summary>how deep they overlap; negative: apart</summary>
+        public double depth_m;
+        /// <summary>that the step applied, &gt;= 0</summary>
+        public double impulse_ns;
+    }
+
     /// <summary>Queries test the shapes of all bodies, whatever their layers, and the tracked heads of players, at their present poses. Bodies without a shape, and surfaces of hh_world_set_surface_query, are not found. HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds; the first query after a change of the world also compares every body with its place before.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct Hit {
@@ -875,7 +918,7 @@ namespace Handhold {
         public byte* name;
         /// <summary>index; -1: a root</summary>
         public int parent;
-        /// <summary>An hh_skeleton_is, for names that nobody can guess. Spine and palms need none: joints of the trunk follow by their height, joints of the palm follow the hand.</summary>
+        /// <summary>HH_IS_..., for names that nobody can guess. Spine and palms need none: joints of the trunk follow by their height, joints of the palm follow the hand.</summary>
         public int @is;
         /// <summary>In the space given, without scale: T-pose or A-pose, +Y up, of any size and heading.</summary>
         public HhPose bind;
@@ -1655,6 +1698,8 @@ namespace Handhold {
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_body_user_data(IntPtr world, Body body, ulong* user_data);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_world_add_gltf_level(IntPtr world, void* gltf, UIntPtr size, HhPose pose, Body* bodies, UIntPtr capacity, UIntPtr* count);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_default_joint_def_sized(JointDef* filled, UIntPtr size);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_joint_add(IntPtr world, JointDef* def, HhJoint* joint);
@@ -1665,7 +1710,19 @@ namespace Handhold {
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_body_joints(IntPtr world, Body body, HhJoint* joints, UIntPtr capacity, UIntPtr* count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_default_motor_def_sized(MotorDef* filled, UIntPtr size);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_joint_set_motor(IntPtr world, HhJoint joint, MotorDef* def);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_joint_set_limits(IntPtr world, HhJoint joint, byte limited, double lower, double upper);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_joint_set_latch(IntPtr world, HhJoint joint, double at, double range, double strength);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_joint_set_friction(IntPtr world, HhJoint joint, double friction);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_joint_state(IntPtr world, HhJoint joint, double* coordinate, double* speed, byte* latched);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_world_contacts(IntPtr world, Contact* contacts, UIntPtr capacity, UIntPtr* count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_world_cast_ray(IntPtr world, Vec3 from, Vec3 to, Player skip, Hit* hit);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
@@ -1726,6 +1783,10 @@ namespace Handhold {
         public static extern Result hh_hand_grip(IntPtr world, Player player, Side side, Body body);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_hand_release(IntPtr world, Player player, Side side);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern byte* hh_event_kind_name(EventKind kind);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern byte* hh_reason_name(Reason reason);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_world_events_sized(IntPtr world, HhEvent** events, UIntPtr* count, UIntPtr event_size);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
@@ -1975,6 +2036,17 @@ namespace Handhold {
             Library.Check(Native.hh_tuning_describe((UIntPtr)(ulong)index, &info_at));
             info = info_at;
             return info;
+        }
+
+        /// <summary>"grabbed", "no_surface"; null for numbers that this version does not know. Any thread.</summary>
+        public static unsafe string EventKindName(EventKind kind) {
+            string answer = Library.Text(Native.hh_event_kind_name(kind));
+            return answer;
+        }
+
+        public static unsafe string ReasonName(Reason reason) {
+            string answer = Library.Text(Native.hh_reason_name(reason));
+            return answer;
         }
 
         /// <summary>How far the fingers of a tracked hand are bent, for hh_tracking_sample.curls. `joints`: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name, in any one space; only positions are read. Curl is the sum of a finger's bends over that of a fist; -1 if a joint of the finger is not valid. Any thread.</summary>
@@ -2502,6 +2574,20 @@ namespace Handhold {
             return user_data;
         }
 
+        /// <summary>Adds a level from the bytes of a glTF file (.glb, or .gltf with its data inside): a static body with a mesh for each node that has triangles, where the file has them, moved by `pose`. Its name is the node's, with a number if the world has that name. `bodies` may be null; `count` gets their number. HH_ERROR_CAPACITY and HH_ERROR_DATA, which says what the file lacks: nothing is added. Cost: that of hh_mesh_create for every triangle.</summary>
+        public unsafe Body[] AddGltfLevel(byte[] gltf, HhPose pose) {
+            Body[] bodies;
+            UIntPtr count_at;
+            fixed (byte* gltf_at = gltf) {
+                Library.Check(Native.hh_world_add_gltf_level(Handle, gltf_at, Library.Count(gltf), pose, null, UIntPtr.Zero, &count_at));
+                Body[] made = new Body[(long)count_at];
+                fixed (Body* made_at = made) { Library.Check(Native.hh_world_add_gltf_level(Handle, gltf_at, Library.Count(gltf), pose, made_at, count_at, &count_at)); }
+                bodies = made;
+                GC.KeepAlive(this);
+            }
+            return bodies;
+        }
+
         public unsafe HhJoint JointAdd(JointDef? def, string name = null) {
             HhJoint joint;
             JointDef def_at = def.GetValueOrDefault();
@@ -2538,6 +2624,30 @@ namespace Handhold {
             return joints;
         }
 
+        /// <summary>Drives a hinge or slider from the next step on, with a limited force, as friction acts; replaces its detents. A position's target moves a stiff drive: a load below the strength does not deflect it. Part of the state. HH_ERROR_VALUE for other kinds of joints. Cost: that of a joint with friction.</summary>
+        public unsafe void JointSetMotor(HhJoint joint, MotorDef? def) {
+            MotorDef def_at = def.GetValueOrDefault();
+            Library.Check(Native.hh_joint_set_motor(Handle, joint, def.HasValue ? &def_at : null));
+            GC.KeepAlive(this);
+        }
+
+        /// <summary>New limits of the coordinate, as in hh_joint_def; equal ones lock the joint there. A joint beyond them is moved within. Bodies move at once: hands that held on may slip.</summary>
+        public unsafe void JointSetLimits(HhJoint joint, bool limited, double lower, double upper) {
+            Library.Check(Native.hh_joint_set_limits(Handle, joint, (byte)(limited ? 1 : 0), lower, upper));
+            GC.KeepAlive(this);
+        }
+
+        /// <summary>A new latch, as in hh_joint_def; range 0: none. The handle stays. A closed latch stays closed if it is at the same place.</summary>
+        public unsafe void JointSetLatch(HhJoint joint, double at, double range, double strength) {
+            Library.Check(Native.hh_joint_set_latch(Handle, joint, at, range, strength));
+            GC.KeepAlive(this);
+        }
+
+        public unsafe void JointSetFriction(HhJoint joint, double friction) {
+            Library.Check(Native.hh_joint_set_friction(Handle, joint, friction));
+            GC.KeepAlive(this);
+        }
+
         /// <summary>State after the last step; null outputs are skipped. A hinge counts full turns.</summary>
         public unsafe void JointState(HhJoint joint, out double coordinate, out double speed, out bool latched) {
             double coordinate_at;
@@ -2548,6 +2658,18 @@ namespace Handhold {
             speed = speed_at;
             latched = latched_at != 0;
             GC.KeepAlive(this);
+        }
+
+        /// <summary>The contacts of the last step, in a fixed order: pairs that have come within 0.1 mm, or between which an impulse acted. Empty after a restore and after hh_world_step_simulated. `count` gets their number; HH_ERROR_CAPACITY if it is more than `capacity`.</summary>
+        public unsafe Contact[] Contacts() {
+            Contact[] contacts;
+            UIntPtr count_at;
+            Library.Check(Native.hh_world_contacts(Handle, null, UIntPtr.Zero, &count_at));
+            Contact[] made = new Contact[(long)count_at];
+            fixed (Contact* made_at = made) { Library.Check(Native.hh_world_contacts(Handle, made_at, count_at, &count_at)); }
+            contacts = made;
+            GC.KeepAlive(this);
+            return contacts;
         }
 
         /// <summary>First surface that the segment hits, from outside or inside; distance_m: from `from`. `skip`: a player whose head counts as not there; null: none. Coordinates within 1e9 m.</summary>

@@ -12,6 +12,9 @@ export declare const HANDHOLD_VERSION_MINOR: 2;
 export declare const HANDHOLD_VERSION_PATCH: 0;
 export declare const HANDHOLD_VERSION_TEXT: "0.2.0";
 export declare const HH_HAND_JOINT_COUNT: 26;
+export declare const HH_IS_BODY: 100;
+export declare const HH_IS_LEFT_HAND: 200;
+export declare const HH_IS_RIGHT_HAND: 300;
 export declare const HH_OK: 0;
 /** a pointer that is needed is null */
 export declare const HH_ERROR_NULL: 1;
@@ -67,6 +70,11 @@ export declare const HH_SLIDER: 2;
 export declare const HH_FIXED: 3;
 /** coordinate: distance of two points, m; lower 0: a rope; equal limits: a rod */
 export declare const HH_DISTANCE: 4;
+export declare const HH_MOTOR_NONE: 0;
+/** towards a speed of the coordinate */
+export declare const HH_MOTOR_SPEED: 1;
+/** towards a coordinate */
+export declare const HH_MOTOR_POSITION: 2;
 export declare const HH_GRIP_NONE: 0;
 /** something static, kinematic or heavy: the player moves */
 export declare const HH_GRIP_SURFACE: 1;
@@ -165,13 +173,6 @@ export declare const HH_RIGHT_UPPER_LEG: 17;
 export declare const HH_RIGHT_LOWER_LEG: 18;
 export declare const HH_RIGHT_FOOT: 19;
 export declare const HH_BODY_JOINT_COUNT: 20;
-/** found by names, hierarchy and places */
-export declare const HH_IS_BY_NAME: 0;
-/** plus an hh_body_joint */
-export declare const HH_IS_BODY: 100;
-/** plus an hh_hand_joint_name */
-export declare const HH_IS_LEFT_HAND: 200;
-export declare const HH_IS_RIGHT_HAND: 300;
 export declare const HH_ROWS_POINT: 0;
 export declare const HH_ROWS_WELD: 1;
 export declare const HH_ROWS_DIRECTION: 2;
@@ -359,6 +360,10 @@ export interface hh_world_stats {
     /** grips that began */
     hands_gripped: bigint;
     momentum: hh_momentum;
+    /** The two of `overlap_m`; null: a player's head, or no overlap. */
+    deepest_a: hh_body;
+    /** The two of `overlap_m`; null: a player's head, or no overlap. */
+    deepest_b: hh_body;
 }
 
 /** A tunable number, or a vector of three. Texts live as long as the process. */
@@ -465,6 +470,35 @@ export interface hh_joint_def {
     latch_handle: hh_joint;
     /** open while |handle's coordinate| is at least this */
     latch_handle_at: number;
+}
+
+export interface hh_motor_def {
+    /** default HH_MOTOR_NONE */
+    kind: number;
+    /** HH_MOTOR_SPEED: rad/s or m/s, within 1e9 */
+    speed: number;
+    /** HH_MOTOR_POSITION: rad or m, within 1e9; a hinge counts full turns */
+    position: number;
+    /** HH_MOTOR_POSITION: the joint moves so fast that it would be there after this; a step at least, 1e9 at most, s; default 0.1 */
+    time_s: number;
+    /** largest force, N or N m, [0, 1e15]; default 0 */
+    strength: number;
+}
+
+/** Two surfaces that touched in the last step. Whichever of body and player is not null it is: a player's head, or a body. */
+export interface hh_contact {
+    body_a: hh_body;
+    body_b: hh_body;
+    player_a: hh_player;
+    player_b: hh_player;
+    /** on the surface of a, in the world */
+    point: hh_vec3;
+    /** unit, from b to a */
+    normal: hh_vec3;
+    /** how deep they overlap; negative: apart */
+    depth_m: number;
+    /** that the step applied, >= 0 */
+    impulse_ns: number;
 }
 
 /** Queries test the shapes of all bodies, whatever their layers, and the tracked heads of players, at their present poses. Bodies without a shape, and surfaces of hh_world_set_surface_query, are not found. HH_ERROR_STATE between hh_world_begin_step and hh_world_end_step. Cost: microseconds; the first query after a change of the world also compares every body with its place before. */
@@ -586,7 +620,7 @@ export interface hh_skeleton_joint {
     name: string | null;
     /** index; -1: a root */
     parent: number;
-    /** An hh_skeleton_is, for names that nobody can guess. Spine and palms need none: joints of the trunk follow by their height, joints of the palm follow the hand. */
+    /** HH_IS_..., for names that nobody can guess. Spine and palms need none: joints of the trunk follow by their height, joints of the palm follow the hand. */
     is: number;
     /** In the space given, without scale: T-pose or A-pose, +Y up, of any size and heading. */
     bind: hh_pose;
@@ -836,6 +870,9 @@ export declare class LibraryCalls {
     fallbackName(fallback: number): string | null;
     /** The number with this index; HH_ERROR_VALUE beyond the last. Any thread. */
     tuningDescribe(index: number): hh_tuning_info;
+    /** "grabbed", "no_surface"; null for numbers that this version does not know. Any thread. */
+    eventKindName(kind: number): string | null;
+    reasonName(reason: number): string | null;
     /** How far the fingers of a tracked hand are bent, for hh_tracking_sample.curls. `joints`: HH_HAND_JOINT_COUNT elements, by hh_hand_joint_name, in any one space; only positions are read. Curl is the sum of a finger's bends over that of a fist; -1 if a joint of the finger is not valid. Any thread. */
     fingerCurlsOf(joints: Given<hh_hand_joint>[]): hh_finger_curls;
     /** "leftUpperArm"; null beyond the last. Any thread. */
@@ -943,13 +980,24 @@ export declare class WorldCalls {
     bodySetShape(body: Given<hh_body>, shape: Given<hh_shape>): void;
     bodySetUserData(body: Given<hh_body>, user_data: bigint): void;
     bodyUserData(body: Given<hh_body>): bigint;
+    /** Adds a level from the bytes of a glTF file (.glb, or .gltf with its data inside): a static body with a mesh for each node that has triangles, where the file has them, moved by `pose`. Its name is the node's, with a number if the world has that name. `bodies` may be null; `count` gets their number. HH_ERROR_CAPACITY and HH_ERROR_DATA, which says what the file lacks: nothing is added. Cost: that of hh_mesh_create for every triangle. */
+    addGltfLevel(gltf: Uint8Array | string | null, pose: Given<hh_pose>): hh_body[];
     jointAdd(def: Given<hh_joint_def> | null): hh_joint;
     jointRemove(joint: Given<hh_joint>): void;
     jointIsValid(joint: Given<hh_joint>): boolean;
     /** Ids of the joints of a body; `count` gets their number. HH_ERROR_CAPACITY if it is more than `capacity`. A null buffer of capacity 0: the number only. */
     bodyJoints(body: Given<hh_body>): hh_joint[];
+    /** Drives a hinge or slider from the next step on, with a limited force, as friction acts; replaces its detents. A position's target moves a stiff drive: a load below the strength does not deflect it. Part of the state. HH_ERROR_VALUE for other kinds of joints. Cost: that of a joint with friction. */
+    jointSetMotor(joint: Given<hh_joint>, def: Given<hh_motor_def> | null): void;
+    /** New limits of the coordinate, as in hh_joint_def; equal ones lock the joint there. A joint beyond them is moved within. Bodies move at once: hands that held on may slip. */
+    jointSetLimits(joint: Given<hh_joint>, limited: boolean, lower: number, upper: number): void;
+    /** A new latch, as in hh_joint_def; range 0: none. The handle stays. A closed latch stays closed if it is at the same place. */
+    jointSetLatch(joint: Given<hh_joint>, at: number, range: number, strength: number): void;
+    jointSetFriction(joint: Given<hh_joint>, friction: number): void;
     /** State after the last step; null outputs are skipped. A hinge counts full turns. */
     jointState(joint: Given<hh_joint>): { coordinate: number; speed: number; latched: boolean };
+    /** The contacts of the last step, in a fixed order: pairs that have come within 0.1 mm, or between which an impulse acted. Empty after a restore and after hh_world_step_simulated. `count` gets their number; HH_ERROR_CAPACITY if it is more than `capacity`. */
+    contacts(): hh_contact[];
     /** First surface that the segment hits, from outside or inside; distance_m: from `from`. `skip`: a player whose head counts as not there; null: none. Coordinates within 1e9 m. */
     castRay(from: Given<hh_vec3>, to: Given<hh_vec3>, skip: Given<hh_player>): hh_hit;
     /** First impact of a sphere that moves along the segment. Radius in [1e-6, 1e4] m; distance_m: how far its centre has moved, 0 if it touches something at the start. */

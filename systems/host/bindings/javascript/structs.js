@@ -4,6 +4,9 @@ export const HANDHOLD_VERSION_MINOR = 2;
 export const HANDHOLD_VERSION_PATCH = 0;
 export const HANDHOLD_VERSION_TEXT = "0.2.0";
 export const HH_HAND_JOINT_COUNT = 26;
+export const HH_IS_BODY = 100;
+export const HH_IS_LEFT_HAND = 200;
+export const HH_IS_RIGHT_HAND = 300;
 export const HH_OK = 0;
 export const HH_ERROR_NULL = 1;
 export const HH_ERROR_VERSION = 2;
@@ -35,6 +38,9 @@ export const HH_HINGE = 1;
 export const HH_SLIDER = 2;
 export const HH_FIXED = 3;
 export const HH_DISTANCE = 4;
+export const HH_MOTOR_NONE = 0;
+export const HH_MOTOR_SPEED = 1;
+export const HH_MOTOR_POSITION = 2;
 export const HH_GRIP_NONE = 0;
 export const HH_GRIP_SURFACE = 1;
 export const HH_GRIP_HELD = 2;
@@ -110,10 +116,6 @@ export const HH_RIGHT_UPPER_LEG = 17;
 export const HH_RIGHT_LOWER_LEG = 18;
 export const HH_RIGHT_FOOT = 19;
 export const HH_BODY_JOINT_COUNT = 20;
-export const HH_IS_BY_NAME = 0;
-export const HH_IS_BODY = 100;
-export const HH_IS_LEFT_HAND = 200;
-export const HH_IS_RIGHT_HAND = 300;
 export const HH_ROWS_POINT = 0;
 export const HH_ROWS_WELD = 1;
 export const HH_ROWS_DIRECTION = 2;
@@ -147,12 +149,14 @@ export const structs = {
     hh_commands: [["smooth_turn", "f64"], ["snap_turns", "i32"], ["brake", "f64"], ["thrust", "hh_vec3"], ["calibrate", "bool"]],
     hh_player_input: [["struct_size", "u32"], ["player", "hh_player"], ["samples", "list", 0, {"of": "hh_tracking_sample", "count": "sample_count", "each": 1}], ["sample_count", "u32"], ["repeats_samples", "bool"], ["commands", "hh_commands"]],
     hh_momentum: [["linear_kgmps", "hh_vec3", 4], ["angular_kgm2ps", "hh_vec3", 4]],
-    hh_world_stats: [["struct_size", "u32"], ["bodies", "u64"], ["joints", "u64"], ["players", "u64"], ["shapes", "u64"], ["contacts", "u64"], ["islands", "u64"], ["newton_iterations", "u64"], ["hand_error_m", "f64"], ["overlap_m", "f64"], ["joint_error_m", "f64"], ["step_us", "f64"], ["joint_error_rad", "f64"], ["islands_pushed", "u64"], ["contact_rounds", "u64"], ["hands_closed", "u64"], ["hands_gripped", "u64"], ["momentum", "hh_momentum"]],
+    hh_world_stats: [["struct_size", "u32"], ["bodies", "u64"], ["joints", "u64"], ["players", "u64"], ["shapes", "u64"], ["contacts", "u64"], ["islands", "u64"], ["newton_iterations", "u64"], ["hand_error_m", "f64"], ["overlap_m", "f64"], ["joint_error_m", "f64"], ["step_us", "f64"], ["joint_error_rad", "f64"], ["islands_pushed", "u64"], ["contact_rounds", "u64"], ["hands_closed", "u64"], ["hands_gripped", "u64"], ["momentum", "hh_momentum"], ["deepest_a", "hh_body"], ["deepest_b", "hh_body"]],
     hh_tuning_info: [["struct_size", "u32"], ["name", "text"], ["unit", "text"], ["what", "text"], ["low", "f64"], ["high", "f64"], ["count", "u32"], ["scales", "bool"]],
     hh_compound_part: [["shape", "hh_shape"], ["pose", "hh_pose"], ["mass_kg", "f64"]],
     hh_mesh_def: [["struct_size", "u32"], ["positions", "list", 0, {"of": "f32", "count": "vertex_count", "each": 3}], ["vertex_count", "u32"], ["vertex_stride", "u32"], ["indices", "list", 0, {"of": "u32", "count": "index_count", "each": 1}], ["index_count", "u32"], ["fits_hands", "bool"]],
     hh_body_def: [["struct_size", "u32"], ["name", "text"], ["kind", "i32"], ["shape", "hh_shape"], ["pose", "hh_pose"], ["velocity_mps", "hh_vec3"], ["angular_velocity_radps", "hh_vec3"], ["mass_kg", "f64"], ["inertia_kgm2", "hh_vec3"], ["restitution", "f64"], ["friction", "f64"], ["gravity_scale", "f64"], ["layers", "u32"], ["mask", "u32"], ["grab_left", "bool"], ["grab_right", "bool"], ["grab_two_hands", "bool"], ["grab_priority", "i32"], ["user_data", "u64"]],
     hh_joint_def: [["struct_size", "u32"], ["name", "text"], ["kind", "i32"], ["body_a", "hh_body"], ["body_b", "hh_body"], ["frame", "hh_pose"], ["point_b", "hh_vec3"], ["collides", "bool"], ["limited", "bool"], ["lower", "f64"], ["upper", "f64"], ["friction", "f64"], ["detent_spacing", "f64"], ["detent_strength", "f64"], ["latch_at", "f64"], ["latch_range", "f64"], ["latch_strength", "f64"], ["latch_handle", "hh_joint"], ["latch_handle_at", "f64"]],
+    hh_motor_def: [["struct_size", "u32"], ["kind", "i32"], ["speed", "f64"], ["position", "f64"], ["time_s", "f64"], ["strength", "f64"]],
+    hh_contact: [["body_a", "hh_body"], ["body_b", "hh_body"], ["player_a", "hh_player"], ["player_b", "hh_player"], ["point", "hh_vec3"], ["normal", "hh_vec3"], ["depth_m", "f64"], ["impulse_ns", "f64"]],
     hh_hit: [["body", "hh_body"], ["player", "hh_player"], ["point", "hh_vec3"], ["normal", "hh_vec3"], ["distance_m", "f64"]],
     hh_measures: [["eye_height_m", "f64"], ["shoulder_width_m", "f64"], ["upper_arm_m", "f64"], ["forearm_m", "f64"]],
     hh_player_def: [["struct_size", "u32"], ["name", "text"], ["origin", "hh_pose"], ["velocity_mps", "hh_vec3"], ["mass_kg", "f64"], ["measures", "hh_measures"], ["scale", "f64"], ["head_collides", "bool"], ["layers", "u32"], ["mask", "u32"], ["grab_layers", "u32"], ["user_data", "u64"]],

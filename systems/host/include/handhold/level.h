@@ -188,6 +188,15 @@ HH_API hh_result hh_body_set_shape(hh_world* world, hh_body body, hh_shape shape
 HH_API hh_result hh_body_set_user_data(hh_world* world, hh_body body, uint64_t user_data);
 HH_API hh_result hh_body_user_data(const hh_world* world, hh_body body, uint64_t* user_data);
 
+/* Adds a level from the bytes of a glTF file (.glb, or .gltf with its data inside): a static body
+ * with a mesh for each node that has triangles, where the file has them, moved by `pose`. Its name is
+ * the node's, with a number if the world has that name. `bodies` may be null; `count` gets their
+ * number. HH_ERROR_CAPACITY and HH_ERROR_DATA, which says what the file lacks: nothing is added.
+ * Cost: that of hh_mesh_create for every triangle. */
+HH_API hh_result hh_world_add_gltf_level(hh_world* world, const void* gltf, size_t size,
+                                         hh_pose pose, hh_body* bodies, size_t capacity,
+                                         size_t* count);
+
 /* ---- Joints --------------------------------------------------------------------------------- */
 
 /* Each kind has a coordinate, on which limits, friction, detents and latches act. */
@@ -234,9 +243,63 @@ HH_API uint8_t hh_joint_is_valid(const hh_world* world, hh_joint joint);
  * `capacity`. A null buffer of capacity 0: the number only. */
 HH_API hh_result hh_body_joints(const hh_world* world, hh_body body, hh_joint* joints,
                                 size_t capacity, size_t* count);
+typedef enum hh_motor_kind {
+    HH_MOTOR_NONE = 0,
+    HH_MOTOR_SPEED = 1,    /* towards a speed of the coordinate */
+    HH_MOTOR_POSITION = 2, /* towards a coordinate */
+    HH_MOTOR_KIND_32_BITS = 0x7fffffff
+} hh_motor_kind;
+typedef struct hh_motor_def {
+    uint32_t struct_size;
+    hh_motor_kind kind; /* default HH_MOTOR_NONE */
+    double speed;       /* HH_MOTOR_SPEED: rad/s or m/s, within 1e9 */
+    double position;    /* HH_MOTOR_POSITION: rad or m, within 1e9; a hinge counts full turns */
+    /* HH_MOTOR_POSITION: the joint moves so fast that it would be there after this; a step at least,
+     * 1e9 at most, s; default 0.1 */
+    double time_s;
+    double strength; /* largest force, N or N m, [0, 1e15]; default 0 */
+} hh_motor_def;
+HH_API hh_result hh_default_motor_def_sized(hh_motor_def* filled, size_t size);
+static inline hh_motor_def hh_default_motor_def(void) {
+    hh_motor_def filled;
+    hh_default_motor_def_sized(&filled, sizeof(filled));
+    return filled;
+}
+/* Drives a hinge or slider from the next step on, with a limited force, as friction acts; replaces
+ * its detents. A position's target moves a stiff drive: a load below the strength does not deflect
+ * it. Part of the state. HH_ERROR_VALUE for other kinds of joints. Cost: that of a joint with
+ * friction. */
+HH_API hh_result hh_joint_set_motor(hh_world* world, hh_joint joint, const hh_motor_def* def);
+/* New limits of the coordinate, as in hh_joint_def; equal ones lock the joint there. A joint beyond
+ * them is moved within. Bodies move at once: hands that held on may slip. */
+HH_API hh_result hh_joint_set_limits(hh_world* world, hh_joint joint, uint8_t limited, double lower,
+                                     double upper);
+/* A new latch, as in hh_joint_def; range 0: none. The handle stays. A closed latch stays closed if
+ * it is at the same place. */
+HH_API hh_result hh_joint_set_latch(hh_world* world, hh_joint joint, double at, double range,
+                                    double strength);
+HH_API hh_result hh_joint_set_friction(hh_world* world, hh_joint joint, double friction);
 /* State after the last step; null outputs are skipped. A hinge counts full turns. */
 HH_API hh_result hh_joint_state(const hh_world* world, hh_joint joint, double* coordinate,
                                 double* speed, uint8_t* latched);
+
+/* ---- Contacts ------------------------------------------------------------------------------- */
+
+/* Two surfaces that touched in the last step. Whichever of body and player is not null it is: a
+ * player's head, or a body. */
+typedef struct hh_contact {
+    hh_body body_a, body_b;
+    hh_player player_a, player_b;
+    hh_vec3 point;     /* on the surface of a, in the world */
+    hh_vec3 normal;    /* unit, from b to a */
+    double depth_m;    /* how deep they overlap; negative: apart */
+    double impulse_ns; /* that the step applied, >= 0 */
+} hh_contact;
+/* The contacts of the last step, in a fixed order: pairs that have come within 0.1 mm, or between
+ * which an impulse acted. Empty after a restore and after hh_world_step_simulated. `count` gets
+ * their number; HH_ERROR_CAPACITY if it is more than `capacity`. */
+HH_API hh_result hh_world_contacts(const hh_world* world, hh_contact* contacts, size_t capacity,
+                                   size_t* count);
 
 /* ---- Queries -------------------------------------------------------------------------------- */
 

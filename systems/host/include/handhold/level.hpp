@@ -69,6 +69,27 @@ class Level : public WorldHandle {
     Maybe<Player> add(const hh_player_def& def) {
         return make<Player>([&](Player* p) { return hh_player_add(world_, &def, p); });
     }
+    // Drives a hinge or slider from the next step on.
+    Status set_motor(Joint joint, const hh_motor_def& motor) {
+        return hh_joint_set_motor(world_, joint, &motor);
+    }
+    // New limits of a joint's coordinate; equal ones lock it.
+    Status set_limits(Joint joint, double lower, double upper) {
+        return hh_joint_set_limits(world_, joint, 1, lower, upper);
+    }
+    // Adds a static body for each node of a glTF file that has triangles; returns their number.
+    Maybe<std::size_t> add_gltf_level(std::span<const std::byte> gltf, Pose pose = k_origin) {
+        return make<std::size_t>([&](std::size_t* count) {
+            return hh_world_add_gltf_level(world_, gltf.data(), gltf.size(), pose, nullptr, 0,
+                                           count);
+        });
+    }
+    // Writes the contacts of the last step and returns their number.
+    Maybe<std::size_t> contacts(std::span<hh_contact> written) const {
+        return make<std::size_t>([&](std::size_t* count) {
+            return hh_world_contacts(world_, written.data(), written.size(), count);
+        });
+    }
     // Removes a body with its joints. Hands that grip it are empty at once.
     Status remove(Body body) { return hh_body_remove(world_, body); }
     // Removes a joint; its bodies stay.

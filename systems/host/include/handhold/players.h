@@ -228,6 +228,10 @@ typedef enum hh_reason {
     HH_REASON_32_BITS = 0x7fffffff
 } hh_reason;
 
+/* "grabbed", "no_surface"; null for numbers that this version does not know. Any thread. */
+HH_API const char* hh_event_kind_name(hh_event_kind kind);
+HH_API const char* hh_reason_name(hh_reason reason);
+
 /* Grows: see base.h. Later versions also have more kinds and reasons: ignore those you do not know.
  */
 typedef struct hh_event {
@@ -353,18 +357,16 @@ HH_API hh_result hh_player_set_hand_rig(hh_world* world, hh_player player, hh_si
 HH_API hh_result hh_player_set_body_rig(hh_world* world, hh_player player, const void* gltf,
                                         size_t size);
 
-/* Which joint of ours a joint of a skeleton is, for hh_skeleton_joint.is. */
-typedef enum hh_skeleton_is {
-    HH_IS_BY_NAME = 0,     /* found by names, hierarchy and places */
-    HH_IS_BODY = 100,      /* plus an hh_body_joint */
-    HH_IS_LEFT_HAND = 200, /* plus an hh_hand_joint_name */
-    HH_IS_RIGHT_HAND = 300,
-    HH_SKELETON_IS_32_BITS = 0x7fffffff
-} hh_skeleton_is;
+/* Which joint of ours a joint of a skeleton is, for hh_skeleton_joint.is: one of the lower three
+ * plus an hh_body_joint or an hh_hand_joint_name. */
+#define HH_IS_BY_NAME 0 /* found by names, hierarchy and places */
+#define HH_IS_BODY 100
+#define HH_IS_LEFT_HAND 200
+#define HH_IS_RIGHT_HAND 300
 typedef struct hh_skeleton_joint {
     const char* name; /* as in the engine's file; null: none */
     int32_t parent;   /* index; -1: a root */
-    /* An hh_skeleton_is, for names that nobody can guess. Spine and palms need none: joints of the
+    /* HH_IS_..., for names that nobody can guess. Spine and palms need none: joints of the
      * trunk follow by their height, joints of the palm follow the hand. */
     int32_t is;
     /* In the space given, without scale: T-pose or A-pose, +Y up, of any size and heading. */

@@ -190,6 +190,8 @@ typedef struct hh_world_stats {
     uint64_t hands_closed;      /* hands that closed */
     uint64_t hands_gripped;     /* grips that began */
     hh_momentum momentum;
+    /* The two of `overlap_m`; null: a player's head, or no overlap. */
+    hh_body deepest_a, deepest_b;
 } hh_world_stats;
 HH_API hh_result hh_default_world_stats_sized(hh_world_stats* filled, size_t size);
 static inline hh_world_stats hh_default_world_stats(void) {

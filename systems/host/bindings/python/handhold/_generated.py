@@ -13,6 +13,9 @@ HANDHOLD_VERSION_MINOR = 2
 HANDHOLD_VERSION_PATCH = 0
 HANDHOLD_VERSION_TEXT = '0.2.0'
 HH_HAND_JOINT_COUNT = 26
+HH_IS_BODY = 100
+HH_IS_LEFT_HAND = 200
+HH_IS_RIGHT_HAND = 300
 
 
 class Result(enum.IntEnum):
@@ -72,6 +75,13 @@ class JointKind(enum.IntEnum):
     HH_SLIDER = 2  # moves along the axis; coordinate: displacement, m
     HH_FIXED = 3  # no coordinate
     HH_DISTANCE = 4  # coordinate: distance of two points, m; lower 0: a rope; equal limits: a rod
+
+
+class MotorKind(enum.IntEnum):
+    """hh_motor_kind"""
+    HH_MOTOR_NONE = 0
+    HH_MOTOR_SPEED = 1  # towards a speed of the coordinate
+    HH_MOTOR_POSITION = 2  # towards a coordinate
 
 
 class GripKind(enum.IntEnum):
@@ -175,14 +185,6 @@ class BodyJoint(enum.IntEnum):
     HH_BODY_JOINT_COUNT = 20
 
 
-class SkeletonIs(enum.IntEnum):
-    """Which joint of ours a joint of a skeleton is, for hh_skeleton_joint.is."""
-    HH_IS_BY_NAME = 0  # found by names, hierarchy and places
-    HH_IS_BODY = 100  # plus an hh_body_joint
-    HH_IS_LEFT_HAND = 200  # plus an hh_hand_joint_name
-    HH_IS_RIGHT_HAND = 300
-
-
 class HandRows(enum.IntEnum):
     """What a hand asks of the host's solver. The player is a body of the host's: a point mass at the play
     space's origin that cannot turn: at hh_player_pose.origin until a recentring, which does not move it. At
@@ -251,6 +253,9 @@ HH_HINGE = JointKind.HH_HINGE
 HH_SLIDER = JointKind.HH_SLIDER
 HH_FIXED = JointKind.HH_FIXED
 HH_DISTANCE = JointKind.HH_DISTANCE
+HH_MOTOR_NONE = MotorKind.HH_MOTOR_NONE
+HH_MOTOR_SPEED = MotorKind.HH_MOTOR_SPEED
+HH_MOTOR_POSITION = MotorKind.HH_MOTOR_POSITION
 HH_GRIP_NONE = GripKind.HH_GRIP_NONE
 HH_GRIP_SURFACE = GripKind.HH_GRIP_SURFACE
 HH_GRIP_HELD = GripKind.HH_GRIP_HELD
@@ -326,10 +331,6 @@ HH_RIGHT_UPPER_LEG = BodyJoint.HH_RIGHT_UPPER_LEG
 HH_RIGHT_LOWER_LEG = BodyJoint.HH_RIGHT_LOWER_LEG
 HH_RIGHT_FOOT = BodyJoint.HH_RIGHT_FOOT
 HH_BODY_JOINT_COUNT = BodyJoint.HH_BODY_JOINT_COUNT
-HH_IS_BY_NAME = SkeletonIs.HH_IS_BY_NAME
-HH_IS_BODY = SkeletonIs.HH_IS_BODY
-HH_IS_LEFT_HAND = SkeletonIs.HH_IS_LEFT_HAND
-HH_IS_RIGHT_HAND = SkeletonIs.HH_IS_RIGHT_HAND
 HH_ROWS_POINT = HandRows.HH_ROWS_POINT
 HH_ROWS_WELD = HandRows.HH_ROWS_WELD
 HH_ROWS_DIRECTION = HandRows.HH_ROWS_DIRECTION
@@ -568,7 +569,9 @@ class WorldStats(Struct):
     islands_pushed: islands in which something pushed a player back
     contact_rounds: searches for contacts inside the solve
     hands_closed: hands that closed
-    hands_gripped: grips that began"""
+    hands_gripped: grips that began
+    deepest_a: The two of `overlap_m`; null: a player's head, or no overlap.
+    deepest_b: The two of `overlap_m`; null: a player's head, or no overlap."""
     _fields_ = [
         ("struct_size", c_uint32),
         ("bodies", c_uint64),
@@ -588,6 +591,8 @@ class WorldStats(Struct):
         ("hands_closed", c_uint64),
         ("hands_gripped", c_uint64),
         ("momentum", Momentum),
+        ("deepest_a", Body),
+        ("deepest_b", Body),
     ]
     _default_ = "hh_default_world_stats_sized"
 
@@ -722,6 +727,44 @@ class JointDef(Struct):
         ("latch_handle_at", c_double),
     ]
     _default_ = "hh_default_joint_def_sized"
+
+
+class MotorDef(Struct):
+    """hh_motor_def
+    kind: default HH_MOTOR_NONE
+    speed: HH_MOTOR_SPEED: rad/s or m/s, within 1e9
+    position: HH_MOTOR_POSITION: rad or m, within 1e9; a hinge counts full turns
+    time_s: HH_MOTOR_POSITION: the joint moves so fast that it would be there after this; a step at least, 1e9
+    at most, s; default 0.1
+    strength: largest force, N or N m, [0, 1e15]; default 0"""
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("kind", c_int32),
+        ("speed", c_double),
+        ("position", c_double),
+        ("time_s", c_double),
+        ("strength", c_double),
+    ]
+    _default_ = "hh_default_motor_def_sized"
+
+
+class Contact(Struct):
+    """Two surfaces that touched in the last step. Whichever of body and player is not null it is: a player's
+    head, or a body.
+    point: on the surface of a, in the world
+    normal: unit, from b to a
+    depth_m: how deep they overlap; negative: apart
+    impulse_ns: that the step applied, >= 0"""
+    _fields_ = [
+        ("body_a", Body),
+        ("body_b", Body),
+        ("player_a", Player),
+        ("player_b", Player),
+        ("point", Vec3),
+        ("normal", Vec3),
+        ("depth_m", c_double),
+        ("impulse_ns", c_double),
+    ]
 
 
 class Hit(Struct):
@@ -877,8 +920,8 @@ class SkeletonJoint(Struct):
     """hh_skeleton_joint
     name: as in the engine's file; null: none
     parent: index; -1: a root
-    is: An hh_skeleton_is, for names that nobody can guess. Spine and palms need none: joints of the trunk
-    follow by their height, joints of the palm follow the hand.
+    is: HH_IS_..., for names that nobody can guess. Spine and palms need none: joints of the trunk follow by
+    their height, joints of the palm follow the hand.
     bind: In the space given, without scale: T-pose or A-pose, +Y up, of any size and heading."""
     _fields_ = [
         ("name", c_char_p),
@@ -1279,12 +1322,19 @@ FUNCTIONS = {
     "hh_body_set_shape": (c_int32, [c_void_p, Body, Shape]),
     "hh_body_set_user_data": (c_int32, [c_void_p, Body, c_uint64]),
     "hh_body_user_data": (c_int32, [c_void_p, Body, POINTER(c_uint64)]),
+    "hh_world_add_gltf_level": (c_int32, [c_void_p, c_void_p, c_size_t, Pose, POINTER(Body), c_size_t, POINTER(c_size_t)]),
     "hh_default_joint_def_sized": (c_int32, [POINTER(JointDef), c_size_t]),
     "hh_joint_add": (c_int32, [c_void_p, POINTER(JointDef), POINTER(Joint)]),
     "hh_joint_remove": (c_int32, [c_void_p, Joint]),
     "hh_joint_is_valid": (c_uint8, [c_void_p, Joint]),
     "hh_body_joints": (c_int32, [c_void_p, Body, POINTER(Joint), c_size_t, POINTER(c_size_t)]),
+    "hh_default_motor_def_sized": (c_int32, [POINTER(MotorDef), c_size_t]),
+    "hh_joint_set_motor": (c_int32, [c_void_p, Joint, POINTER(MotorDef)]),
+    "hh_joint_set_limits": (c_int32, [c_void_p, Joint, c_uint8, c_double, c_double]),
+    "hh_joint_set_latch": (c_int32, [c_void_p, Joint, c_double, c_double, c_double]),
+    "hh_joint_set_friction": (c_int32, [c_void_p, Joint, c_double]),
     "hh_joint_state": (c_int32, [c_void_p, Joint, POINTER(c_double), POINTER(c_double), POINTER(c_uint8)]),
+    "hh_world_contacts": (c_int32, [c_void_p, POINTER(Contact), c_size_t, POINTER(c_size_t)]),
     "hh_world_cast_ray": (c_int32, [c_void_p, Vec3, Vec3, Player, POINTER(Hit)]),
     "hh_world_cast_sphere": (c_int32, [c_void_p, c_double, Vec3, Vec3, Player, POINTER(Hit)]),
     "hh_world_closest_point": (c_int32, [c_void_p, Vec3, c_double, Player, POINTER(Hit)]),
@@ -1315,6 +1365,8 @@ FUNCTIONS = {
     "hh_world_player_poses_sized": (c_int32, [c_void_p, POINTER(Player), c_size_t, POINTER(PlayerPose), c_size_t, c_size_t]),
     "hh_hand_grip": (c_int32, [c_void_p, Player, c_int32, Body]),
     "hh_hand_release": (c_int32, [c_void_p, Player, c_int32]),
+    "hh_event_kind_name": (c_char_p, [c_int32]),
+    "hh_reason_name": (c_char_p, [c_int32]),
     "hh_world_events_sized": (c_int32, [c_void_p, POINTER(POINTER(Event)), POINTER(c_size_t), c_size_t]),
     "hh_finger_curls_of": (c_int32, [POINTER(HandJoint), POINTER(FingerCurls)]),
     "hh_player_hand_joints": (c_int32, [c_void_p, Player, c_int32, c_int32, POINTER(HandJoint)]),
@@ -1508,6 +1560,15 @@ def tuning_describe(index):
     info = TuningInfo()
     check(lib().hh_tuning_describe(index, byref(info)))
     return info
+
+
+def event_kind_name(kind):
+    """"grabbed", "no_surface"; null for numbers that this version does not know. Any thread."""
+    return shown(lib().hh_event_kind_name(kind))
+
+
+def reason_name(reason):
+    return shown(lib().hh_reason_name(reason))
 
 
 def finger_curls_of(joints):
@@ -1864,6 +1925,15 @@ class WorldCalls:
         check(lib().hh_body_user_data(self._handle, value(Body, body), byref(user_data)))
         return user_data.value
 
+    def add_gltf_level(self, gltf, pose):
+        """Adds a level from the bytes of a glTF file (.glb, or .gltf with its data inside): a static body with a
+        mesh for each node that has triangles, where the file has them, moved by `pose`. Its name is the
+        node's, with a number if the world has that name. `bodies` may be null; `count` gets their number.
+        HH_ERROR_CAPACITY and HH_ERROR_DATA, which says what the file lacks: nothing is added. Cost: that of
+        hh_mesh_create for every triangle."""
+        gltf, size_ = raw(gltf)
+        return listed(Body, lambda buffer, capacity, count: lib().hh_world_add_gltf_level(self._handle, gltf, size_, value(Pose, pose), buffer, capacity, count))
+
     def joint_add(self, definition=None, **fields):
         joint = Joint()
         check(lib().hh_joint_add(self._handle, optional(JointDef, definition, fields), byref(joint)))
@@ -1880,6 +1950,25 @@ class WorldCalls:
         `capacity`. A null buffer of capacity 0: the number only."""
         return listed(Joint, lambda buffer, capacity, count: lib().hh_body_joints(self._handle, value(Body, body), buffer, capacity, count))
 
+    def joint_set_motor(self, joint, definition=None, **fields):
+        """Drives a hinge or slider from the next step on, with a limited force, as friction acts; replaces its
+        detents. A position's target moves a stiff drive: a load below the strength does not deflect it. Part
+        of the state. HH_ERROR_VALUE for other kinds of joints. Cost: that of a joint with friction."""
+        check(lib().hh_joint_set_motor(self._handle, value(Joint, joint), optional(MotorDef, definition, fields)))
+
+    def joint_set_limits(self, joint, limited, lower, upper):
+        """New limits of the coordinate, as in hh_joint_def; equal ones lock the joint there. A joint beyond them
+        is moved within. Bodies move at once: hands that held on may slip."""
+        check(lib().hh_joint_set_limits(self._handle, value(Joint, joint), limited, lower, upper))
+
+    def joint_set_latch(self, joint, at, range, strength):
+        """A new latch, as in hh_joint_def; range 0: none. The handle stays. A closed latch stays closed if it is
+        at the same place."""
+        check(lib().hh_joint_set_latch(self._handle, value(Joint, joint), at, range, strength))
+
+    def joint_set_friction(self, joint, friction):
+        check(lib().hh_joint_set_friction(self._handle, value(Joint, joint), friction))
+
     def joint_state(self, joint):
         """State after the last step; null outputs are skipped. A hinge counts full turns."""
         coordinate = c_double()
@@ -1887,6 +1976,12 @@ class WorldCalls:
         latched = c_uint8()
         check(lib().hh_joint_state(self._handle, value(Joint, joint), byref(coordinate), byref(speed), byref(latched)))
         return coordinate.value, speed.value, bool(latched.value)
+
+    def contacts(self):
+        """The contacts of the last step, in a fixed order: pairs that have come within 0.1 mm, or between which
+        an impulse acted. Empty after a restore and after hh_world_step_simulated. `count` gets their number;
+        HH_ERROR_CAPACITY if it is more than `capacity`."""
+        return listed(Contact, lambda buffer, capacity, count: lib().hh_world_contacts(self._handle, buffer, capacity, count))
 
     def cast_ray(self, start, end, skip):
         """First surface that the segment hits, from outside or inside; distance_m: from `from`. `skip`: a player
