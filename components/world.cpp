@@ -156,37 +156,44 @@ Entity add_body(World& world, const BodyDescription& description, const ShapeLib
     return add_body(world, description);
 }
 
-void check_motor(const Joint& joint) {
-    const JointMotor& motor = joint.motor;
-    HH_CHECK(motor.kind == MotorKind::none || joint.kind == JointKind::hinge ||
-                 joint.kind == JointKind::slider,
-             "only hinges and sliders have motors", static_cast<int>(joint.kind));
-    for (const double number : {motor.speed, motor.position}) {
-        HH_CHECK(is_in(number, -world_limits::k_max_joint_coordinate,
-                       world_limits::k_max_joint_coordinate),
-                 "a motor's speed and position must lie within 1e9", number);
-    }
-    HH_CHECK(is_in(motor.time_s, 0.0, world_limits::k_max_joint_coordinate),
-             "a motor's time must lie in [0, 1e9] s", motor.time_s);
-    HH_CHECK(is_in(motor.strength, 0.0, world_limits::k_max_joint_strength),
-             "a motor's strength must lie in [0, 1e15]", motor.strength);
-}
+namespace {
 
-void check_joint_numbers(const Joint& joint) {
+void check_numbers_of(const Joint& joint, const char* caller) {
+    const auto check = [caller](bool is_good, const char* what, double value) {
+        if (!is_good) {
+            fail_precondition(caller, what, std::to_string(value));
+        }
+    };
+    const auto is_coordinate = [](double number) {
+        return is_in(number, -world_limits::k_max_joint_coordinate,
+                     world_limits::k_max_joint_coordinate);
+    };
     const JointLatch& latch = joint.latch;
     for (const double coordinate : {joint.lower, joint.upper, latch.at, latch.handle_at}) {
-        HH_CHECK(is_in(coordinate, -world_limits::k_max_joint_coordinate,
-                       world_limits::k_max_joint_coordinate),
-                 "a joint's coordinates must lie within 1e9", coordinate);
+        check(is_coordinate(coordinate), "a joint's coordinates must lie within 1e9", coordinate);
     }
-    HH_CHECK(joint.lower <= joint.upper, "a joint's lower limit is above its upper", joint.lower);
+    check(joint.lower <= joint.upper, "a joint's lower limit is above its upper", joint.lower);
     for (const double number : {joint.friction, joint.detent_spacing, joint.detent_strength,
                                 latch.catch_range, latch.strength}) {
-        HH_CHECK(is_in(number, 0.0, world_limits::k_max_joint_strength),
-                 "friction, detents and latches must lie in [0, 1e15]", number);
+        check(is_in(number, 0.0, world_limits::k_max_joint_strength),
+              "friction, detents and latches must lie in [0, 1e15]", number);
     }
-    check_motor(joint);
+    const JointMotor& motor = joint.motor;
+    check(motor.kind == MotorKind::none || joint.kind == JointKind::hinge ||
+              joint.kind == JointKind::slider,
+          "only hinges and sliders have motors", static_cast<double>(joint.kind));
+    for (const double number : {motor.speed, motor.position}) {
+        check(is_coordinate(number), "a motor's speed and position must lie within 1e9", number);
+    }
+    check(is_in(motor.time_s, 0.0, world_limits::k_max_joint_coordinate),
+          "a motor's time must lie in [0, 1e9] s", motor.time_s);
+    check(is_in(motor.strength, 0.0, world_limits::k_max_joint_strength),
+          "a motor's strength must lie in [0, 1e15]", motor.strength);
 }
+
+}  // namespace
+
+void check_joint_numbers(const Joint& joint) { check_numbers_of(joint, __func__); }
 
 Entity add_joint(World& world, const JointDescription& description) {
     const Joint& joint = description.joint;
@@ -198,7 +205,7 @@ Entity add_joint(World& world, const JointDescription& description) {
              wrong_number_of(joint.frame_a_bs));
     HH_CHECK(is_in_world(joint.frame_b_bs), "a joint's frame is not valid",
              wrong_number_of(joint.frame_b_bs));
-    check_joint_numbers(joint);
+    check_numbers_of(joint, __func__);
     HH_CHECK(is_null(joint.latch.handle) || world.joint.contains(joint.latch.handle),
              "a latch's handle must be a joint, or null", joint.latch.handle.slot);
     check_name_is_unique(world, description.name);
