@@ -122,6 +122,32 @@ TEST(JointMotors, SpeedHoldsUnderGravity) {
     }
 }
 
+// An arm whose weight has a lever: m g r = 5.9 N m.
+TEST(JointMotors, AHingeHoldsAnArmLevel) {
+    HostScene scene;
+    hh_world* const world = scene.world.get();
+    ASSERT_EQ(hh_world_set_gravity(world, {0.0, -9.81, 0.0}), HH_OK);
+    hh_joint_def def = hh::joint_def();
+    def.kind = HH_HINGE;
+    def.body_b = *scene.world.add(crate(scene.world, {5.0, 5.0, 0.3}));
+    def.frame = hh::pose_at({5.0, 5.0, 0.0});
+    const hh::Joint joint = *scene.world.add(def);
+    hh_motor_def motor = hh_default_motor_def();
+    motor.kind = HH_MOTOR_POSITION;
+    motor.position = -0.4;
+    motor.strength = 40.0;
+    ASSERT_EQ(hh_joint_set_motor(world, joint, &motor), HH_OK);
+    scene.step(270);
+    double angle_rad = 0.0;
+    ASSERT_EQ(hh_joint_state(world, joint, &angle_rad, nullptr, nullptr), HH_OK);
+    EXPECT_NEAR(angle_rad, -0.4, 1e-6);
+    motor.strength = 2.0;  // too weak: it falls
+    ASSERT_EQ(hh_joint_set_motor(world, joint, &motor), HH_OK);
+    scene.step(60);
+    ASSERT_EQ(hh_joint_state(world, joint, &angle_rad, nullptr, nullptr), HH_OK);
+    EXPECT_GT(angle_rad, 0.0);
+}
+
 TEST(JointMotors, AreRefusedForOtherJointsAndNumbers) {
     Machine ball(HH_BALL);
     EXPECT_EQ(ball.drive(HH_MOTOR_SPEED, 1.0, 1.0), HH_ERROR_VALUE);
