@@ -229,6 +229,7 @@ std::vector<BodyRig::Carrier> finger_carriers(const SkinnedMesh& figure, const F
                                               const Pose& hand_ms, HandSide side, std::size_t first,
                                               std::size_t hand) {
     std::vector<Vec3> points_ms;
+    points_ms.reserve(finger.hinges.size() + 1);
     for (const FigureHinge& hinge : finger.hinges) {
         points_ms.push_back(place_of(figure, hinge.joint));
     }
@@ -238,11 +239,13 @@ std::vector<BodyRig::Carrier> finger_carriers(const SkinnedMesh& figure, const F
         points_ms.push_back(2.0 * points_ms.back() - points_ms[points_ms.size() - 2]);
     }
     std::vector<Vec3> points_hs;
+    points_hs.reserve(points_ms.size());
     for (const Vec3& point : points_ms) {
         points_hs.push_back(inverse_transform_point(hand_ms, point));
     }
     const Vec3 hinge_ms = hand_ms.rotation * find_hinge_axis(finger.name, points_hs, side);
     std::vector<BodyRig::Carrier> carriers;
+    carriers.reserve(finger.hinges.size());
     for (std::size_t i = 0; i < finger.hinges.size(); ++i) {
         const HandBone next =
             i + 1 < finger.hinges.size() ? finger.hinges[i + 1].bone : HandBone::tip;
