@@ -7,6 +7,7 @@
 #include "game/climber/climber_body.hpp"
 #include "game/climber/climber_plan.hpp"
 #include "game/climber/climber_steer.hpp"
+#include "game/climber/play_disc.hpp"
 #include "game/scene/player_defaults.hpp"
 
 namespace handhold {
@@ -86,6 +87,10 @@ void feel_hands(const ClimberMind& mind) {
             }
         } else if (hand.mode == ClimberHandMode::carrying) {
             if (now.grip == HH_GRIP_NONE || mind.now.t_s >= hand.change_s) {
+                let_go(mind.state, side);
+            }
+        } else if (hand.mode == ClimberHandMode::throwing) {
+            if (now.grip == HH_GRIP_NONE || mind.state.last.time_s >= hand.until_s) {
                 let_go(mind.state, side);
             }
         } else if (hand.mode == ClimberHandMode::reaching && !(hand.hold.body == hh::Body{}) &&
@@ -270,7 +275,9 @@ void drift(const ClimberMind& mind) {
 
 void decide(const ClimberMind& mind) {
     mind.state.thrust_ps = {};
-    if (mind.now.carried) {
+    if (mind.sight.arena != nullptr && mind.task.team) {
+        play_disc(mind);
+    } else if (mind.now.carried) {
         const hh::Vec3 wanted_mps = steer(mind);
         if (!mind.state.leaping) {
             go_on(mind, wanted_mps);
@@ -284,7 +291,7 @@ void decide(const ClimberMind& mind) {
 
 ClimberSight sight_of(Scene& scene) {
     return {scene.host, scene.rails, *scene.host.tuning_vector("hand.palm_center_m"),
-            *scene.host.tuning("phases.heavy_body_kg")};
+            *scene.host.tuning("phases.heavy_body_kg"), scene.arena ? &scene.arena->plan : nullptr};
 }
 
 ClimberState begin_climber(const hh::World& world, const ClimberTask& task, std::uint64_t seed) {

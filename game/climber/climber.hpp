@@ -2,12 +2,14 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include <handhold/handhold.hpp>
 #include <handhold/math.hpp>
 
+#include "game/arena/arena_game.hpp"
 #include "game/scene/random.hpp"
 #include "game/scene/scene.hpp"
 
@@ -35,6 +37,8 @@ struct ClimberTask {
     double cruise_mps = 0.6;      // speed along the heading, [0.2, 1]
     bool may_leap = true;         // true: pushes off if no hold is in reach
     bool picks_up_bodies = true;  // picks up free bodies and throws them
+    // Plays for this team where the scene has a game; nullopt: climbs.
+    std::optional<ArenaTeam> team;
     // Releases one hand before the other closes, so both never hold at once.
     bool single_hand = false;
 };
@@ -45,6 +49,7 @@ enum class ClimberHandMode : std::uint8_t {
     closing,   // hand at its hold, button just pressed; the runtime has not gripped yet
     holding,   // holds a support: a body that the climber pulls on
     carrying,  // holds a free body, at the rest pose or moving there
+    throwing,  // draws back with a free body, swings, and lets go at the end
 };
 
 // A place where a hand can grip.
@@ -63,8 +68,9 @@ struct ClimberHand {
     hh::Pose from_ps = hh::k_origin;
     hh::Vec3 from_velocity_ps_mps = hh::Vec3{};
     double from_s = 0.0;
-    double until_s = 0.0;   // end of the movement; closing: when the button was pressed
-    double change_s = 0.0;  // holding: start of the hold; carrying: when to release
+    double until_s = 0.0;            // end of the movement; closing: when the button was pressed
+    hh::Vec3 swing_ps = hh::Vec3{};  // throwing: unit direction
+    double change_s = 0.0;           // holding: start of the hold; carrying: when to release
 };
 
 // A climber's complete state. Copies of this state and of the world continue identically.
@@ -107,8 +113,9 @@ struct ClimberState {
 struct ClimberSight {
     hh::World& world;
     std::span<const SceneRail> rails;
-    hh::Vec3 palm_center_m{};    // centre of the right palm, in the frame of the wrist
-    double heavy_body_kg = 0.0;  // lighter dynamic bodies cannot carry a climber
+    hh::Vec3 palm_center_m{};          // centre of the right palm, in the frame of the wrist
+    double heavy_body_kg = 0.0;        // lighter dynamic bodies cannot carry a climber
+    const ArenaPlan* arena = nullptr;  // the scene's game; null: none
 };
 ClimberSight sight_of(Scene& scene);
 

@@ -30,6 +30,8 @@ constexpr double k_turn_radps = 1.2;  // maximum turn rate of the chest
 // Distance of a reaching hand from the straight path at half time, along the hold's normal.
 constexpr double k_climber_lift_m = 0.06;
 constexpr double k_rest_s = 0.5;
+constexpr double k_throw_s = 0.6;  // drawing back and swinging
+constexpr double k_swing_m = 0.55;
 constexpr double k_tremor_m = 0.0005;  // amplitude of the hands' tremor
 
 double outward(hh::Side side) { return side == HH_RIGHT ? 1.0 : -1.0; }
@@ -62,6 +64,25 @@ hh::Pose on_the_way(const ClimberHand& hand, const hh::Pose& to_ps, const hh::Ve
     pose.position += (seconds * u * left * left * left) * hand.from_velocity_ps_mps;
     pose.position += (16.0 * u * u * left * left) * bow_ps;
     return pose;
+}
+
+// The wrist in a throw: draws back beside the shoulder, then swings at constant acceleration.
+hh::Pose swing(const ClimberState& state, hh::Side side, double t_s) {
+    const ClimberHand& hand = state.hands[side];
+    constexpr double k_drawn_share = 0.65;
+    const double u =
+        std::clamp((t_s - hand.from_s) / std::max(hand.until_s - hand.from_s, 1e-3), 0.0, 1.0);
+    const hh::Vec3 drawn = shoulder_ps(state, side) +
+                           chest(state) * hh::Vec3{0.12 * outward(side), -0.12, 0.0} +
+                           0.05 * hand.swing_ps;
+    if (u < k_drawn_share) {
+        hh::Pose pose = hand.from_ps;
+        const double part = minimum_jerk(u / k_drawn_share);
+        pose.position += part * (drawn - pose.position);
+        return pose;
+    }
+    const double part = (u - k_drawn_share) / (1.0 - k_drawn_share);
+    return {drawn + (k_swing_m * part * part) * hand.swing_ps, hand.from_ps.rotation};
 }
 
 void keep_in_reach(const hh::Vec3& shoulder, hh::Vec3& wrist) {
@@ -185,6 +206,9 @@ void move_hand(const hh::World& world, const ClimberMoment& now, double t_s, dou
             }
             break;
         }
+        case ClimberHandMode::throwing:
+            hand.wrist_ps = swing(state, side, t_s);
+            break;
         case ClimberHandMode::closing:
         case ClimberHandMode::holding:
             hand.wrist_ps.position -= dt_s * state.velocity_ps_mps;
@@ -266,6 +290,12 @@ void begin_reach(const ClimberHold& hold, double seconds, ClimberState& state, h
 
 void begin_rest(ClimberState& state, hh::Side side) {
     begin_move(state, state.hands[side], k_rest_s);
+}
+
+void begin_throw(const hh::Vec3& along_ps, ClimberState& state, hh::Side side) {
+    begin_move(state, state.hands[side], k_throw_s);
+    state.hands[side].mode = ClimberHandMode::throwing;
+    state.hands[side].swing_ps = along_ps;
 }
 
 void let_go(ClimberState& state, hh::Side side) {

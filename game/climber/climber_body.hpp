@@ -35,6 +35,8 @@ void place_body(ClimberState& state);
 // These functions start a movement at the time of the newest sample.
 void begin_reach(const ClimberHold& hold, double seconds, ClimberState& state, hh::Side side);
 void begin_rest(ClimberState& state, hh::Side side);
+// Precondition: the hand carries a body. It flies off along `along_ps` (unit).
+void begin_throw(const hh::Vec3& along_ps, ClimberState& state, hh::Side side);
 void let_go(ClimberState& state, hh::Side side);  // opens the hand and moves it to rest
 
 // The time of the next sample: the next regular time, or an earlier time at which a reaching hand

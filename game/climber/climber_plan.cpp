@@ -254,6 +254,23 @@ std::optional<FoundHold> find_hold(const ClimberSight& sight, const HoldSearch& 
     return FoundHold{make_hold(search, *best), best->reach_s};
 }
 
+std::optional<FoundHold> find_hold_on(const ClimberSight& sight, const HoldSearch& ask,
+                                      hh::Body body, const ClimberState& state) {
+    const Search search = begin_search(sight, ask, state);
+    const hh::Vec3 center_ws = sight.world.pose(body)->position;
+    const hh::Vec3 beyond_ws =
+        center_ws + 0.05 * normalized(center_ws - search.eyes_ws + 1e-6 * hh::k_y);
+    const auto hit = sight.world.cast_ray(search.eyes_ws, beyond_ws, ask.task.player);
+    if (!hit || !(hit->body == body)) {
+        return std::nullopt;
+    }
+    const auto candidate = evaluate(search, {hit->body, hit->point, hit->normal}, 0.0);
+    if (!candidate) {
+        return std::nullopt;
+    }
+    return FoundHold{make_hold(search, *candidate), candidate->reach_s};
+}
+
 std::optional<ClimberHold> find_shore(const ClimberSight& sight, hh::Player player,
                                       const hh::Vec3& from_ws, Random& random) {
     constexpr int k_directions = 12;

@@ -36,6 +36,10 @@ struct FoundHold {
 std::optional<FoundHold> find_hold(const ClimberSight& sight, const HoldSearch& ask,
                                    ClimberState& state);
 
+// The hold on one visible body that will be within reach when the hand arrives. nullopt: none.
+std::optional<FoundHold> find_hold_on(const ClimberSight& sight, const HoldSearch& ask,
+                                      hh::Body body, const ClimberState& state);
+
 // A place to return to if nothing is within reach: the nearest surface in a dozen random
 // directions, else the nearest surface within 100 m. nullopt if there is none.
 std::optional<ClimberHold> find_shore(const ClimberSight& sight, hh::Player player,

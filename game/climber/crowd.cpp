@@ -87,6 +87,7 @@ Crowd::Crowd(const hh::World& world, std::span<const hh::Player> players, std::u
         ClimberTask task;
         task.player = player;
         task.cruise_mps = random.between(0.4, 0.8);
+        task.team = team_of(world, player);
         tasks_.push_back(task);
         states_.push_back(begin_climber(world, task, random.bits()));
     }

@@ -92,13 +92,14 @@ double match_now_s() {
         .count();
 }
 
-MatchPeerSettings make_peer_settings(const MatchScene& scene, const std::string& token) {
+MatchPeerSettings make_peer_settings(MatchScene& scene, const std::string& token) {
     MatchPeerSettings settings;
     settings.digests = scene.digests;
     settings.person = secret_number();
     settings.token = token;
     settings.tick_s = k_match_tick_s;
     settings.clock = match_now_s;
+    settings.arena = scene.scene.arena ? &*scene.scene.arena : nullptr;
     return settings;
 }
 

@@ -32,7 +32,7 @@ Result<MatchScene> load_entry_scene(const MatchPlace& place, const MatchOffer& o
 // Seconds of a clock that only runs forward.
 double match_now_s();
 // A peer for the world of `scene`, which must outlive it.
-MatchPeerSettings make_peer_settings(const MatchScene& scene, const std::string& token);
+MatchPeerSettings make_peer_settings(MatchScene& scene, const std::string& token);
 std::optional<FileError> connect_peer(const MatchPlace& place, MatchPeer& peer);
 
 // Connects again after the connection was lost, every second for a minute.

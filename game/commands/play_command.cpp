@@ -126,10 +126,10 @@ std::optional<int> play_match(PlayProgram& program) {
     if (!loaded) {
         return refuse(loaded.error());
     }
-    const MatchPeerSettings settings =
-        make_peer_settings(loaded.value(), entry.value().tokens.front());
+    MatchPeerSettings settings = make_peer_settings(loaded.value(), entry.value().tokens.front());
     const std::vector<hh::Player> players = loaded.value().players;
     DesktopSession session(std::move(loaded.value().scene), players.front());
+    settings.arena = session.scene().arena ? &*session.scene().arena : nullptr;
     MatchPeer peer(session.world(), players, settings);
     MatchReturn returns;
     if (const auto error = connect_peer(place, peer)) {

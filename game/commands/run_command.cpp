@@ -166,6 +166,9 @@ int play_and_report(const RunOptions& options, PreparedRun& run) {
     if (is_interrupted()) {
         std::printf("interrupted: the files are of the frames played so far\n");
     }
+    if (run.scene.arena) {
+        std::printf("score: %s\n", score_text(run.scene.arena->state).c_str());
+    }
     std::printf("state_hash %s\n", format_hash(log.state_hash).c_str());
     return is_interrupted() ? k_exit_interrupted : 0;
 }

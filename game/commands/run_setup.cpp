@@ -122,6 +122,10 @@ Result<std::vector<PlayerEntities>> add_players(Scene& scene, const std::vector<
     if (scene.players.size() >= recorded_players(session) && options.spawn.empty() &&
         options.players == 0) {
         starts = scene.players;
+    } else if (scene.arena && options.spawn.empty() && options.players == 0 && !session.recording) {
+        for (std::size_t i = 0; i < scene.spawns.size(); ++i) {
+            starts.push_back({"player" + std::to_string(i), from_host(scene.spawns[i].pose_ws)});
+        }
     } else {
         const auto count =
             options.players > 0
@@ -152,7 +156,12 @@ Result<std::vector<PlayerEntities>> add_players(Scene& scene, const std::vector<
 RunSettings choose_settings(const RunOptions& options, const RunSession& session,
                             std::size_t players, Scene& scene) {
     RunSettings settings{options.hz, options.seconds, options.threads};
-    settings.climbers_from = options.climbers ? 0 : recorded_players(session);
+    const bool bots_only = options.climbers || (scene.arena && !session.recording);
+    settings.climbers_from = bots_only ? 0 : recorded_players(session);
+    constexpr double k_arena_s = 40.0;
+    if (scene.arena && !session.recording && settings.seconds == 0.0) {
+        settings.seconds = k_arena_s;
+    }
     settings.seed = options.seed;
     settings.keep_frames = !options.out.empty();
     if (options.distance_grab) {

@@ -41,6 +41,9 @@ std::optional<FileError> resume_from_snapshot(const RunOptions& options,
             load_snapshot_file(options.resume, assets, scene.world())) {
         return error;
     }
+    if (scene.arena) {
+        scene.arena->read_boards(scene.host);
+    }
     bool all_there = scene.world().player.size() == players.size();
     const auto find_again = [&](Entity& entity) {
         entity = find_by_id(scene.world(), before.persistent_id.at(entity));

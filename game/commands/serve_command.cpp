@@ -22,8 +22,7 @@ double steady_s() {
         .count();
 }
 
-Result<MatchServerSettings> choose_server_settings(const ServeOptions& options,
-                                                   const MatchScene& scene) {
+Result<MatchServerSettings> choose_server_settings(const ServeOptions& options, MatchScene& scene) {
     MatchServerSettings settings;
     settings.offer.scene = scene.scene.name.substr(0, k_most_text_bytes);
     settings.offer.seed = options.seed;
@@ -33,6 +32,7 @@ Result<MatchServerSettings> choose_server_settings(const ServeOptions& options,
     settings.clock = steady_s;
     settings.today = [] { return static_cast<std::int64_t>(std::time(nullptr)); };
     settings.log = print_log_line;
+    settings.arena = scene.scene.arena ? &*scene.scene.arena : nullptr;
     if (!options.token_key.empty()) {
         Result<TokenKey> key = load_token_key(options.token_key);
         if (!key) {
@@ -43,12 +43,14 @@ Result<MatchServerSettings> choose_server_settings(const ServeOptions& options,
     return settings;
 }
 
-void log_hash(const hh::Match& match, std::uint64_t& logged) {
+void log_hash(const hh::Match& match, const Scene& scene, std::uint64_t& logged) {
     const std::uint64_t tick = match.stats().tick;
     if (tick > logged && tick % k_hash_log_ticks == 0) {
         logged = tick;
-        print_log_line(log_line("confirmed", {{"tick", std::to_string(tick)},
-                                              {"hash", format_hash(*match.hash(tick))}}));
+        print_log_line(
+            log_line("confirmed", {{"tick", std::to_string(tick)},
+                                   {"hash", format_hash(*match.hash(tick))},
+                                   {"score", scene.arena ? score_text(scene.arena->state) : ""}}));
     }
 }
 
@@ -89,7 +91,7 @@ int serve_command(const ServeOptions& options) {
     while (!is_interrupted() &&
            (options.seconds == 0.0 || steady_s() - begin_s < options.seconds)) {
         server.poll();
-        log_hash(server.match(), logged);
+        log_hash(server.match(), scene.value().scene, logged);
     }
     server.drain();
     const double drain_s = steady_s();
@@ -97,8 +99,11 @@ int serve_command(const ServeOptions& options) {
         server.poll();
     }
     const hh_match_stats stats = server.match().stats();
+    const std::optional<ArenaGame>& arena = scene.value().scene.arena;
+    const std::string score = arena ? score_text(arena->state) : "";
     print_log_line(log_line("ends", {{"tick", std::to_string(stats.tick)},
                                      {"hash", format_hash(*server.match().hash(stats.tick))},
+                                     {"score", score},
                                      {"joins", std::to_string(server.counts().joins)},
                                      {"hashes", std::to_string(stats.hashes)},
                                      {"out_of_sync", std::to_string(stats.out_of_sync)}}));

@@ -286,6 +286,9 @@ class Loop {
         hud.paused = paused_;
         hud.rewound_s = static_cast<double>(rewound_) * DesktopSession::k_dt_s;
         hud.vignette = vignette_of(world(), stage_.session.player(), stage_.settings.vignette);
+        if (const auto& arena = stage_.session.scene().arena) {
+            hud.score = score_text(arena->state);
+        }
         hud.footer = stage_.panels.inspector ? cost_line() : "";
         show_hud(hud);
         if (stage_.panels.inspector) {

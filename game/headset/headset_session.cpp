@@ -57,6 +57,9 @@ void HeadsetSession::step(hh::Sample sample, hh_commands commands, double dt_s) 
         !stepped) {
         throw std::logic_error(std::string(stepped.text()));
     }
+    if (scene_.arena) {
+        scene_.arena->step(world, world.frame());
+    }
     feel();
 }
 

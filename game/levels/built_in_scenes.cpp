@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "engine/core/check.hpp"
+#include "game/levels/arena_scene.hpp"
 #include "game/levels/crowd_scene.hpp"
 #include "game/levels/playground.hpp"
 #include "game/levels/reach.hpp"
@@ -253,13 +254,16 @@ std::optional<Scene> make_bodies_of(std::string_view name) {
     if (name == "together") {
         return make_together_scene();
     }
+    if (name == "arena") {
+        return make_arena_scene();
+    }
     return std::nullopt;
 }
 
 }  // namespace
 
 std::vector<std::string_view> built_in_scenes() {
-    return {"station", "ship", "playground", "robot", "crowd", "reach", "together"};
+    return {"station", "ship", "playground", "robot", "crowd", "reach", "together", "arena"};
 }
 
 std::optional<Scene> make_built_in_scene(std::string_view name) {

@@ -155,7 +155,12 @@ void MatchPeer::take_welcome(std::span<const std::byte> message) {
         hh_match_def def = hh::match_def();
         def.slot = welcome->slot;
         def.tick_s = settings_.tick_s;
-        match_ = hh::Match(world_, players_, def);
+        if (settings_.arena != nullptr) {
+            arena_ = std::make_unique<ArenaMatch>(world_, *settings_.arena);
+        }
+        const hh_match_game game =
+            arena_ != nullptr ? arena_->callbacks() : hh_default_match_game();
+        match_ = hh::Match(world_, players_, def, arena_ != nullptr ? &game : nullptr);
         if (!match_.is_valid()) {
             throw std::runtime_error(hh_last_error());
         }
@@ -181,9 +186,19 @@ void MatchPeer::take_piece(std::span<const std::byte> message) {
 }
 
 void MatchPeer::join(std::uint8_t number) {
-    if (const hh::Status joined = match_.join(state_); !joined) {
+    // The rules' state is at the end.
+    std::span<const std::byte> of_match = state_;
+    std::optional<ArenaState> of_rules;
+    if (arena_ != nullptr && of_match.size() >= k_arena_state_bytes) {
+        of_rules = read_arena_state(of_match.last(k_arena_state_bytes));
+        of_match = of_match.first(of_match.size() - k_arena_state_bytes);
+    }
+    if (const hh::Status joined = match_.join(of_match); !joined) {
         end("the server's state cannot be restored: " + printable(joined.text()));
         return;
+    }
+    if (of_rules) {
+        arena_->set(*of_rules);
     }
     state_ = {};
     ++states_;

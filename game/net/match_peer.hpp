@@ -10,6 +10,7 @@
 
 #include <handhold/match.hpp>
 
+#include "game/arena/arena_match.hpp"
 #include "game/net/net_messages.hpp"
 #include "game/net/transport.hpp"
 
@@ -32,6 +33,7 @@ struct MatchPeerSettings {
     double tick_s = 1.0 / 90.0;
     double silent_after_s = 5.0;    // a server that says nothing for so long is gone
     std::function<double()> clock;  // seconds, monotonic
+    ArenaGame* arena = nullptr;     // rules of the scene; must outlive the peer. Null: none
 };
 
 enum class PeerStage : std::uint8_t {
@@ -93,6 +95,7 @@ class MatchPeer final : public LinkHandler {
     std::vector<hh::Player> players_;
     MatchPeerSettings settings_;
     std::unique_ptr<Link> link_;
+    std::unique_ptr<ArenaMatch> arena_;  // null: the scene has no rules
     hh::Match match_;
     PeerStage stage_ = PeerStage::ended;
     std::string why_;

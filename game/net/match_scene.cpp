@@ -91,7 +91,16 @@ Result<MatchScene> make_match_scene(Scene scene, std::size_t count, std::uint64_
     }
     const hh::Pose first_ws =
         out.scene.spawns.empty() ? hh::k_origin : out.scene.spawns.front().pose_ws;
-    for (const hh::Pose& origin_ws : spread_players(out.scene, first_ws, count, seed)) {
+    // Teams begin at their own goals.
+    const bool has_teams = out.scene.arena && count <= out.scene.spawns.size();
+    std::vector<hh::Pose> places;
+    for (std::size_t i = 0; has_teams && i < count; ++i) {
+        places.push_back(out.scene.spawns[i].pose_ws);
+    }
+    if (!has_teams) {
+        places = spread_players(out.scene, first_ws, count, seed);
+    }
+    for (const hh::Pose& origin_ws : places) {
         const std::string name = "player" + std::to_string(out.players.size());
         out.players.push_back(add_scene_player(out.scene, name, origin_ws));
     }

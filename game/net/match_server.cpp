@@ -12,13 +12,18 @@ constexpr std::size_t k_most_state_queued = 2 * StatePiece::k_most_bytes;
 // A longer time between two polls is the server's own pause.
 constexpr double k_longest_counted_s = 0.1;
 
-hh::Match begin_match(hh::World& world, std::span<const hh::Player> players, double tick_s,
-                      double start_s) {
+std::unique_ptr<ArenaMatch> make_rules(hh::World& world, ArenaGame* arena) {
+    return arena != nullptr ? std::make_unique<ArenaMatch>(world, *arena) : nullptr;
+}
+
+hh::Match begin_match(hh::World& world, std::span<const hh::Player> players, ArenaMatch* rules,
+                      double tick_s, double start_s) {
     hh_match_def def = hh::match_def();
     def.role = HH_MATCH_SERVER;
     def.tick_s = tick_s;
     def.start_s = start_s;
-    hh::Match match(world, players, def);
+    const hh_match_game game = rules != nullptr ? rules->callbacks() : hh_default_match_game();
+    hh::Match match(world, players, def, rules != nullptr ? &game : nullptr);
     if (!match.is_valid()) {
         throw std::runtime_error(hh_last_error());
     }
@@ -46,7 +51,8 @@ MatchServer::MatchServer(hh::World& world, std::span<const hh::Player> players,
     : settings_(std::move(settings)),
       listener_(listener),
       start_s_(settings_.clock()),
-      match_(begin_match(world, players, settings_.tick_s, start_s_)),
+      arena_(make_rules(world, settings_.arena)),
+      match_(begin_match(world, players, arena_.get(), settings_.tick_s, start_s_)),
       seats_(players.size()),
       polled_s_(start_s_),
       joins_left_(settings_.joins_at_once) {
@@ -270,6 +276,9 @@ void MatchServer::begin_state(std::size_t slot) {
     MatchSeat& seat = seats_.at(slot);
     if (!match_.state(static_cast<std::uint32_t>(slot), seat.state)) {
         throw std::runtime_error(hh_last_error());
+    }
+    if (arena_ != nullptr) {
+        write_arena_state(arena_->state(), seat.state);
     }
     seat.stage = SeatStage::joining;
     seat.waited_s = 0.0;

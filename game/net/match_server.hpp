@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include <handhold/match.hpp>
 
+#include "game/arena/arena_match.hpp"
 #include "game/net/match_seats.hpp"
 #include "game/net/net_log.hpp"
 #include "game/net/net_messages.hpp"
@@ -32,6 +34,7 @@ struct MatchServerSettings {
     std::function<double()> clock;        // seconds, monotonic
     std::function<std::int64_t()> today;  // Unix time, for tokens
     NetLog log;
+    ArenaGame* arena = nullptr;  // rules of the scene; must outlive the server. Null: none
 };
 
 // Sums since the server began.
@@ -93,6 +96,7 @@ class MatchServer final : public ListenerHandler {
     MatchServerSettings settings_;
     Listener& listener_;
     double start_s_;
+    std::unique_ptr<ArenaMatch> arena_;  // null: the scene has no rules
     hh::Match match_;
     MatchSeats seats_;
     std::map<LinkId, double> links_;  // how long each connection has existed, without pauses

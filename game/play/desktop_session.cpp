@@ -47,6 +47,9 @@ void DesktopSession::step(const DesktopInput& input) {
     used_sticks_ = used_sticks_ || input.brake || input.smooth_turn != 0.0 ||
                    input.snap_turns != 0 || !(commands.thrust == hh::Vec3{});
     expect_done(world.step(k_dt_s, hh::input(player_, samples_, commands)));
+    if (scene_.arena) {
+        scene_.arena->step(world, world.frame());
+    }
 }
 
 hh_commands DesktopSession::advance_devices(const DesktopInput& input, double end_s,
@@ -72,6 +75,9 @@ DesktopState DesktopSession::save() {
 void DesktopSession::restore(const DesktopState& state) {
     if (!scene_.host.restore(state.world)) {
         throw std::invalid_argument("the state belongs to another session");
+    }
+    if (scene_.arena) {
+        scene_.arena->read_boards(scene_.host);
     }
     body_ = state.body;
     recording_.samples.resize(std::min(recording_.samples.size(), state.recorded));

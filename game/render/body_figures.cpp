@@ -8,6 +8,7 @@
 #include "engine/core/check.hpp"
 #include "engine/core/text_file.hpp"
 #include "engine/io/vrm_humanoid.hpp"
+#include "game/render/figure_kit.hpp"
 #include "game/render/robot_body.hpp"
 #include "systems/rigs/arm_twist.hpp"
 
@@ -218,7 +219,9 @@ void BodyFigures::add(const BodyMeasures& measures, const RenderPose& render,
             piece_normals_.push_back(normals_[vertex]);
         }
         renderer.move_mesh(copies_[used_][i], piece_positions_, piece_normals_);
-        frame.instances.push_back({copies_[used_][i], origin_ws, std::nullopt, piece.look});
+        const bool is_shell = piece.color == figure_color(FigureMaterial::shell);
+        frame.instances.push_back(
+            {copies_[used_][i], origin_ws, is_shell ? shell_ : std::nullopt, piece.look});
     }
     ++used_;
 }

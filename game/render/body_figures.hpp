@@ -34,6 +34,8 @@ class BodyFigures {
     BodyFigures(BodyModel model, Renderer& renderer);
 
     void begin();  // starts a new picture
+    // Colour of the robot's shell from now on; nullopt: its own. Loaded figures keep theirs.
+    void paint_shell(const std::optional<Color>& color) { shell_ = color; }
     // `hands`: joints of the shown hands, which the figure's fingers follow.
     void add(const BodyMeasures& measures, const RenderPose& render,
              const std::array<PosedHandJoints, k_hand_count>& hands, Seen seen, Renderer& renderer,
@@ -56,6 +58,7 @@ class BodyFigures {
     Copy make_copy(Renderer& renderer) const;
 
     BodyModel model_;
+    std::optional<Color> shell_;
     std::vector<Piece> pieces_;
     std::vector<Copy> copies_;
     std::size_t used_ = 0;  // copies used in this picture

@@ -88,8 +88,8 @@ HandFigures::HandFigures(HandModels models, Renderer& renderer) : models_(std::m
         for (const HandPart& part : make_robot_hand(models_[side].rig)) {
             Look look;
             look.gloss = figure_gloss(part.material);
-            parts_[side].push_back(
-                {part.finger, part.link, renderer.add_mesh(part.mesh), look, part.is_cuff});
+            parts_[side].push_back({part.finger, part.link, renderer.add_mesh(part.mesh), look,
+                                    part.is_cuff, part.material == FigureMaterial::shell});
         }
     }
 }
@@ -123,7 +123,8 @@ void HandFigures::add_parts(HandSide side, const Pose& wrist_ws, const Quat& for
                          : part.finger == RigJoint::k_palm
                              ? wrist_ws
                              : links_ws[static_cast<std::size_t>(part.finger)][part.link];
-        frame.instances.push_back({part.mesh, at, std::nullopt, part.look});
+        frame.instances.push_back(
+            {part.mesh, at, part.is_shell ? shell_ : std::nullopt, part.look});
     }
 }
 

@@ -41,6 +41,8 @@ class HandFigures {
     HandFigures(HandModels models, Renderer& renderer);
 
     void begin();  // starts a new picture
+    // Colour of the robot's shell from now on; nullopt: its own. Loaded skins keep theirs.
+    void paint_shell(const std::optional<Color>& color) { shell_ = color; }
     void add(HandSide side, const Pose& wrist_ws,
              const std::array<FingerAngles, k_finger_count>& fingers, Renderer& renderer,
              RenderFrame& frame) {
@@ -61,6 +63,7 @@ class HandFigures {
         MeshId mesh{};
         Look look;
         bool is_cuff = false;
+        bool is_shell = false;
     };
     // Meshes of one drawn hand, one per colour of its skin. A skin deforms, so hands share no mesh.
     using SkinCopy = std::vector<MeshId>;
@@ -73,6 +76,7 @@ class HandFigures {
                   RenderFrame& frame);
 
     HandModels models_;
+    std::optional<Color> shell_;
     std::array<std::vector<Part>, k_hand_count> parts_;
     std::array<std::vector<SkinCopy>, k_hand_count> copies_;
     std::array<std::size_t, k_hand_count> used_ = {};  // copies used in this picture

@@ -198,6 +198,9 @@ RunLog run_session(Scene& scene, std::span<const hh::Player> players, const Reco
         if (const hh::Status stepped = world.step(dt_s, inputs); !stepped) {
             throw std::runtime_error(std::string(stepped.text()));
         }
+        if (scene.arena) {
+            scene.arena->step(world, world.frame());
+        }
         log.wall_s +=
             std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         if (settings.keep_frames || log.frames.empty()) {

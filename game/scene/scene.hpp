@@ -14,6 +14,7 @@
 #include <handhold/handhold.hpp>
 
 #include "engine/io/gltf.hpp"
+#include "game/arena/arena_game.hpp"
 #include "game/mesh/render_frame.hpp"
 #include "game/scene/scene_file.hpp"
 #include "systems/host/host_columns.hpp"
@@ -86,6 +87,7 @@ struct Scene {
     std::map<std::string, Pose> body_in_file;
     std::optional<SceneSession> session;  // recording that demonstrates the scene
     std::vector<std::string> notes;       // remarks about the loaded files; see GltfLevel::notes
+    std::optional<ArenaGame> arena;       // rules of the game that is played here
     int climbers = 0;  // scripted climbers besides the first player; --players overrides it
 };
 

@@ -134,6 +134,11 @@ void show_hud(const Hud& hud) {
         }
         ImGui::End();
     }
+    if (!hud.score.empty()) {
+        begin_note("score", ImVec2(0.5F * size.x, 0.02F * size.y), ImVec2(0.5F, 0.0F));
+        ImGui::TextUnformatted(hud.score.c_str());
+        ImGui::End();
+    }
     if (!hud.footer.empty()) {
         begin_note("cost", ImVec2(4.0F, size.y - 4.0F), ImVec2(0.0F, 1.0F));
         ImGui::TextUnformatted(hud.footer.c_str());

@@ -12,6 +12,7 @@ struct Hud {
     bool paused = false;
     double rewound_s = 0.0;  // time by which the paused session is rewound
     double vignette = 0.0;   // [0, 1]; darkness of the edges
+    std::string score;       // score of the game that is played; empty: none
     std::string footer;      // one line of costs
 };
 void show_hud(const Hud& hud);

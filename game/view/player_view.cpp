@@ -1,5 +1,6 @@
 #include "game/view/player_view.hpp"
 
+#include "game/levels/arena.hpp"
 #include "game/view/scene_picture.hpp"
 #include "game/view/snap_hint.hpp"
 #include "systems/rigs/authored_hand.hpp"
@@ -159,6 +160,11 @@ void PlayerView::add_player(std::size_t index, BodyFigures::Seen seen, RenderFra
     const Entity player = world.render_pose.owners()[index];
     const RenderPose& render = world.render_pose.elements()[index];
     const std::size_t first_own = frame.instances.size();
+    if (scene_->arena) {
+        const bool is_blue = team_of(index) == ArenaTeam::blue;
+        body_.paint_shell(is_blue ? k_blue_team : k_orange_team);
+        hands_.paint_shell(is_blue ? k_blue_team : k_orange_team);
+    }
     std::array<PosedHandJoints, k_hand_count> joints;
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const RenderPose::Hand& hand = render.hands[index_of(side)];

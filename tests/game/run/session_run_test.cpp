@@ -26,6 +26,15 @@ RunLog play(Scene& scene, const Recording& recording, const hh::Pose& origin_ws,
 
 RunLog play_built_in(std::string_view name, int threads, double hz = 90.0) {
     Scene scene = *make_built_in_scene(name);
+    if (!scene.session) {  // climbers play
+        std::vector<hh::Player> players;
+        for (const SceneSpawnPoint& spawn : scene.spawns) {
+            players.push_back(add_scene_player(scene, "player", spawn.pose_ws));
+        }
+        RunSettings settings{hz, 5.0, threads};
+        settings.climbers_from = 0;
+        return run_session(scene, players, nullptr, settings);
+    }
     const Recording recording = *make_built_in_session(scene.session->built_in);
     return play(scene, recording, scene.spawns.front().pose_ws, threads, hz);
 }
@@ -42,12 +51,13 @@ bool is_finite_run(const RunLog& log) {
     });
 }
 
-// Scenes whose closing hands all grip; in "reach" some are meant to miss, and "together" needs two
-// players.
+// Scenes whose closing hands all grip; in "reach" some are meant to miss, "together" needs two
+// players, and "arena" is played by climbers.
 std::vector<std::string_view> climbed_scenes() {
     std::vector<std::string_view> names = built_in_scenes();
     std::erase(names, "reach");
     std::erase(names, "together");
+    std::erase(names, "arena");
     return names;
 }
 
