@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/anim/two_bone_ik.hpp"
+#include "systems/body/shared/fold_body.hpp"
 
 namespace handhold {
 namespace {
@@ -21,7 +22,7 @@ Vec3 at_most(const Vec3& v, double most) {
     return length > most ? Vec3(v * (most / length)) : v;
 }
 
-// The hip relative to the chest, and the length of the straight leg.
+// The hip relative to the chest, and the longest distance from there to the ankle.
 struct Reach {
     Vec3 hip_m;
     double leg_m = 0.0;
@@ -65,6 +66,17 @@ Vec3 limited(const Vec3& wanted_m, const Reach& reach, double scale, double dt_s
                : Vec3(foot.shown_m + dt_s * stepped(braked(next_mps, step_mps, dt_s, reach, foot)));
 }
 
+// Distance between hip and ankle of a leg whose knee is bent least.
+double longest_m(double thigh_m, double shin_m) {
+    static const double k_cosine = [] {
+        double sine = 0.0;
+        double cosine = 1.0;
+        sin_cos(k_least_knee_rad, sine, cosine);
+        return cosine;
+    }();
+    return std::sqrt(thigh_m * thigh_m + shin_m * shin_m + 2.0 * thigh_m * shin_m * k_cosine);
+}
+
 Quat turned(const Vec3& from, const Vec3& to, const Quat& rotation) {
     return (rotation_between(from.normalized(), to.normalized()) * rotation).normalized();
 }
@@ -84,7 +96,7 @@ Vec3 move_ankle(const Vec3& ankle_ws, SpinePose::Leg& leg) {
     const Vec3 axis = line * (1.0 / length_m);
     const double shortest_m =
         std::max(std::abs(thigh_m - shin_m), k_shortest_leg * (thigh_m + shin_m));
-    const double reach_m = std::clamp(length_m, shortest_m, thigh_m + shin_m);
+    const double reach_m = std::clamp(length_m, shortest_m, longest_m(thigh_m, shin_m));
     const MiddleJoint knee = middle_joint(reach_m, thigh_m, shin_m);
     // A straight leg bends forwards.
     Vec3 aside = thigh - axis * axis.dot(thigh);
@@ -123,8 +135,8 @@ void limit_feet(const LimitFeetIo& io) {
                 continue;
             }
             const Reach reach{to_ps * (leg.thigh_ws.position - chest_ws),
-                              (leg.shin_ws.position - leg.thigh_ws.position).norm() +
-                                  (leg.foot_ws.position - leg.shin_ws.position).norm()};
+                              longest_m((leg.shin_ws.position - leg.thigh_ws.position).norm(),
+                                        (leg.foot_ws.position - leg.shin_ws.position).norm())};
             Vec3 shown_m = limited(wanted_m, reach, scale, io.dt_s, foot);
             if (shown_m != wanted_m) {
                 const Vec3 ankle_ws = move_ankle(chest_ws + to_ps.transpose() * shown_m, leg);
