@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/anim/two_bone_ik.hpp"
+#include "engine/math/scalar_rotation.hpp"
 #include "systems/body/shared/fold_body.hpp"
 
 namespace handhold {
@@ -14,6 +15,8 @@ constexpr double k_catch_up_mps2 = 30.0;
 // Share of the change of velocity in a frame with which a lagging foot brakes as its leg becomes
 // straight.
 constexpr double k_brake_share = 0.6;
+// Distance between knees and between ankles, along the pelvis, in distances between the hips.
+constexpr double k_legs_apart = 0.75;
 // Least share of the leg's length between hip and ankle that a lagging foot may take.
 constexpr double k_shortest_leg = 0.05;
 
@@ -116,6 +119,39 @@ Vec3 move_ankle(const Vec3& ankle_ws, SpinePose::Leg& leg) {
     return leg.foot_ws.position;
 }
 
+// Turns a leg about its hip.
+void turn_leg(const Quat& turn, SpinePose::Leg& leg) {
+    const Vec3 hip = leg.thigh_ws.position;
+    for (Pose* const bone : {&leg.thigh_ws, &leg.shin_ws, &leg.foot_ws}) {
+        *bone = {hip + turn * (bone->position - hip), (turn * bone->rotation).normalized()};
+    }
+}
+
+// Legs do not cross: turns both away from each other until the right knee and ankle are to the
+// right of the left ones. `apart_m`: how far.
+void part_legs(double apart_m, SpinePose& pose) {
+    const Vec3 right = pose.pelvis_ws.rotation * Vec3::UnitX();
+    for (const auto joint : {&SpinePose::Leg::shin_ws, &SpinePose::Leg::foot_ws}) {
+        const Vec3 between =
+            (pose.legs[1].*joint).position - (pose.legs[0].*joint).position;
+        const double missing_m = apart_m - right.dot(between);
+        if (missing_m <= 0.0) {
+            continue;
+        }
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            SpinePose::Leg& leg = pose.legs[side];
+            const Vec3 line = (leg.*joint).position - leg.thigh_ws.position;
+            const double length_m = line.norm();
+            const Vec3 axis = line.cross(side == 0 ? Vec3(-right) : right);
+            const double square = axis.norm() / std::max(length_m, 1e-9);
+            if (square > 0.1) {
+                const double turn_rad = std::min(0.5 * missing_m / (length_m * square), 1.0);
+                turn_leg(rotation_about(axis.normalized(), turn_rad), leg);
+            }
+        }
+    }
+}
+
 }  // namespace
 
 void limit_feet(const LimitFeetIo& io) {
@@ -124,6 +160,9 @@ void limit_feet(const LimitFeetIo& io) {
         SpinePose& pose = io.pose.elements()[index];
         SpineMemory& memory = io.memory.at(player);
         const auto& [origin_ws, scale] = io.origin.at(player);
+        part_legs(k_legs_apart * (pose.legs[1].thigh_ws.position -
+                                  pose.legs[0].thigh_ws.position).norm(),
+                  pose);
         const Mat3 to_ps = origin_ws.rotation.toRotationMatrix().transpose();
         for (std::size_t side = 0; side < k_hand_count; ++side) {
             SpinePose::Leg& leg = pose.legs[side];

@@ -83,18 +83,8 @@ double reached_limit(SpineLinkKind kind, double limit_rad, bool touches, double 
     return std::max(limit_rad, touches ? widest_rad : angle_rad - k_back_radps * k_spine_tick_s);
 }
 
-constexpr std::size_t k_left_thigh = k_spine_links;
-
-// Legs do not cross: turns the right thigh until its knee is to the right of the left knee.
-// `towards`: in the pelvis' frame; base_m: the right hip relative to the chest.
-Vec3 beside_left_knee(const Vec3& towards, const SpineFrame& pelvis, const Vec3& base_m,
-                      double scale, const SpineMemory& memory) {
-    constexpr double k_apart_m = 0.16;
-    const double left_m =
-        Vec3(pelvis.axes.transpose() * (memory.offset_m[k_left_thigh] - base_m)).x();
-    return deflect_outward(towards, Vec3::UnitX(), left_m / (scale * k_thigh_m) + k_apart_m / k_thigh_m,
-                           2.0);
-}
+// Least part of a thigh's direction along the pelvis' -Z: hips extend backwards by 30 degrees.
+constexpr double k_hip_back = -0.5;
 
 // Applies drag, then the speed limit.
 void slow_down(double drag, double speed_max_mps, BodyLinkVectors& velocity_mps) {
@@ -146,15 +136,15 @@ void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemor
                                  : before_surface({returned, base - now.ahead_m,
                                                    scale * link.length_m, now.origin_scale},
                                                   above, *contact);
-        const Vec3 apart = i > k_left_thigh && link.kind == SpineLinkKind::thigh
-                               ? beside_left_knee(outside, above, base, scale, memory)
-                               : outside;
+        const Vec3 before = link.kind == SpineLinkKind::thigh
+                                ? deflect_outward(outside, -Vec3::UnitZ(), k_hip_back, 2.0)
+                                : outside;
         JointRange range = shares.range[static_cast<std::size_t>(link.kind)];
         range.high_rad =
             reached_limit(link.kind, range.high_rad, contact != nullptr, memory.angle_rad[i]);
         const Vec3 allowed = link.kind == SpineLinkKind::shin
-                                 ? clamp_to_hinge(apart, range, memory.angle_rad[i])
-                                 : clamp_to_cone(apart, link.rest, range, memory.angle_rad[i]);
+                                 ? clamp_to_hinge(before, range, memory.angle_rad[i])
+                                 : clamp_to_cone(before, link.rest, range, memory.angle_rad[i]);
         memory.offset_m[i] = base + above.axes * ((scale * link.length_m) * allowed);
         // The correction includes the return to rest, so the velocity overshoots the rest pose.
         // Subtracting a share from the parent's velocity (hand_back) damps this.
