@@ -55,8 +55,7 @@ double clear_angle(const Trunk& trunk, const Vec3& shoulder, const Vec3& elbow, 
             const Vec3 push = apart * (1.0 / std::max(distance, 1e-6));
             const Vec3 biased = push + k_bias * (depth / trunk.radius_m) * outward;
             const double rate = (1.0 - share) * tangent.dot(biased);
-            const double by =
-                std::clamp(depth / std::max(std::abs(rate), 1e-3), 0.0, k_step_rad);
+            const double by = std::clamp(depth / std::max(std::abs(rate), 1e-3), 0.0, k_step_rad);
             if (by > std::abs(wanted)) {
                 wanted = rate < 0.0 ? -by : by;
             }
@@ -77,8 +76,8 @@ void clear_arm(const Trunk& trunk, const Vec3& outward, ArmPose::Arm& arm) {
         return;
     }
     const Vec3 axis = line * (1.0 / length);
-    const double angle = clear_angle(trunk, shoulder, arm.forearm_ws.position, arm.hand_ws.position,
-                                     axis, outward);
+    const double angle =
+        clear_angle(trunk, shoulder, arm.forearm_ws.position, arm.hand_ws.position, axis, outward);
     if (angle != 0.0) {
         const Quat turn = rotation_about(axis, angle);
         arm.upper_ws.rotation = (turn * arm.upper_ws.rotation).normalized();
@@ -93,9 +92,9 @@ void clear_arms(const ClearArmsIo& io) {
     join(
         io.arms,
         [](Entity, ArmPose& arms, const SpinePose& spine, const BodyMeasures& measures) {
-            const Trunk trunk{{spine.chest_ws.position, spine.spine_ws.back().position,
-                               spine.pelvis_ws.position},
-                              k_trunk_clearance_m * measures.eye_height_m / k_scale_eye_m};
+            const Trunk trunk{
+                {spine.chest_ws.position, spine.spine_ws.back().position, spine.pelvis_ws.position},
+                k_trunk_clearance_m * measures.eye_height_m / k_scale_eye_m};
             const Vec3 right = spine.chest_ws.rotation * Vec3::UnitX();
             clear_arm(trunk, -right, arms.arms[0]);
             clear_arm(trunk, right, arms.arms[1]);

@@ -132,8 +132,7 @@ void turn_leg(const Quat& turn, SpinePose::Leg& leg) {
 void part_legs(double apart_m, SpinePose& pose) {
     const Vec3 right = pose.pelvis_ws.rotation * Vec3::UnitX();
     for (const auto joint : {&SpinePose::Leg::shin_ws, &SpinePose::Leg::foot_ws}) {
-        const Vec3 between =
-            (pose.legs[1].*joint).position - (pose.legs[0].*joint).position;
+        const Vec3 between = (pose.legs[1].*joint).position - (pose.legs[0].*joint).position;
         const double missing_m = apart_m - right.dot(between);
         if (missing_m <= 0.0) {
             continue;
@@ -160,9 +159,9 @@ void limit_feet(const LimitFeetIo& io) {
         SpinePose& pose = io.pose.elements()[index];
         SpineMemory& memory = io.memory.at(player);
         const auto& [origin_ws, scale] = io.origin.at(player);
-        part_legs(k_legs_apart * (pose.legs[1].thigh_ws.position -
-                                  pose.legs[0].thigh_ws.position).norm(),
-                  pose);
+        part_legs(
+            k_legs_apart * (pose.legs[1].thigh_ws.position - pose.legs[0].thigh_ws.position).norm(),
+            pose);
         const Mat3 to_ps = origin_ws.rotation.toRotationMatrix().transpose();
         for (std::size_t side = 0; side < k_hand_count; ++side) {
             SpinePose::Leg& leg = pose.legs[side];

@@ -83,8 +83,16 @@ double reached_limit(SpineLinkKind kind, double limit_rad, bool touches, double 
     return std::max(limit_rad, touches ? widest_rad : angle_rad - k_back_radps * k_spine_tick_s);
 }
 
-// Least part of a thigh's direction along the pelvis' -Z: hips extend backwards by 30 degrees.
-constexpr double k_hip_back = -0.5;
+// Turns a thigh into the range of a person's hip: it extends backwards by 30 degrees, and swings
+// outward by 35 and inward by 15. `outward`: its sign is that of the leg's side.
+Vec3 within_hip(const Vec3& towards, double outward) {
+    constexpr double k_back = -0.5;
+    constexpr double k_outward = -0.57;
+    constexpr double k_inward = -0.26;
+    const Vec3 aside = outward < 0.0 ? Vec3(-Vec3::UnitX()) : Vec3(Vec3::UnitX());
+    const Vec3 ahead = deflect_outward(towards, -Vec3::UnitZ(), k_back, 2.0);
+    return deflect_outward(deflect_outward(ahead, aside, k_inward, 2.0), -aside, k_outward, 2.0);
+}
 
 // Applies drag, then the speed limit.
 void slow_down(double drag, double speed_max_mps, BodyLinkVectors& velocity_mps) {
@@ -136,9 +144,8 @@ void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemor
                                  : before_surface({returned, base - now.ahead_m,
                                                    scale * link.length_m, now.origin_scale},
                                                   above, *contact);
-        const Vec3 before = link.kind == SpineLinkKind::thigh
-                                ? deflect_outward(outside, -Vec3::UnitZ(), k_hip_back, 2.0)
-                                : outside;
+        const Vec3 before =
+            link.kind == SpineLinkKind::thigh ? within_hip(outside, link.base_m.x()) : outside;
         JointRange range = shares.range[static_cast<std::size_t>(link.kind)];
         range.high_rad =
             reached_limit(link.kind, range.high_rad, contact != nullptr, memory.angle_rad[i]);

@@ -232,8 +232,7 @@ void limit_feet(const FrameContext& f) {
 void clear_arms(const FrameContext& f) {
     const StageTimer timer(Stage::pose_arms, f.stats);
     World& w = f.w;
-    handhold::clear_arms(
-        {.measures = w.body_measures, .spine = w.spine_pose, .arms = w.arm_pose});
+    handhold::clear_arms({.measures = w.body_measures, .spine = w.spine_pose, .arms = w.arm_pose});
 }
 
 void publish_pose(const FrameContext& f) {

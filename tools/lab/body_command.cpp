@@ -118,8 +118,7 @@ int body_command(const BodyOptions& options) {
         return refuse(*error);
     }
     if (!options.looks.empty()) {
-        if (const auto error =
-                write_file_atomically(options.looks, looks.json().dump(1) + "\n")) {
+        if (const auto error = write_file_atomically(options.looks, looks.json().dump(1) + "\n")) {
             return refuse(*error);
         }
     }

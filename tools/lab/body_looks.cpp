@@ -47,8 +47,8 @@ double between_legs_m(const SpinePose& spine) {
 
 }  // namespace
 
-void BodyLooks::take(const SpinePose& spine, const ArmPose& arms, double scale,
-                     const Quat& to_ps, double dt_s) {
+void BodyLooks::take(const SpinePose& spine, const ArmPose& arms, double scale, const Quat& to_ps,
+                     double dt_s) {
     const Vec3& chest = spine.chest_ws.position;
     const Vec3& hips = spine.pelvis_ws.position;
     const Vec3& waist = spine.spine_ws.back().position;
@@ -62,12 +62,12 @@ void BodyLooks::take(const SpinePose& spine, const ArmPose& arms, double scale,
     for (const SpinePose::Leg& leg : spine.legs) {
         const Vec3& knee = leg.shin_ws.position;
         const Vec3& ankle = leg.foot_ws.position;
-        frame.straight = frame.straight ||
-                         angle_rad(knee - leg.thigh_ws.position, ankle - knee) < k_straight_knee_rad;
+        frame.straight = frame.straight || angle_rad(knee - leg.thigh_ws.position, ankle - knee) <
+                                               k_straight_knee_rad;
         frame.high = frame.high || up.dot(ankle - chest) > 0.0;
         for (const ArmPose::Arm& arm : arms.arms) {
-            frame.ball = frame.ball ||
-                         (knee - arm.upper_ws.position).norm() < scale * k_knee_at_shoulder_m;
+            frame.ball =
+                frame.ball || (knee - arm.upper_ws.position).norm() < scale * k_knee_at_shoulder_m;
         }
     }
     for (const ArmPose::Arm& arm : arms.arms) {
@@ -86,8 +86,7 @@ void BodyLooks::take(const SpinePose& spine, const ArmPose& arms, double scale,
 
 void BodyLooks::take_feet(const SpinePose& spine, const Quat& to_ps, double dt_s) {
     for (std::size_t side = 0; side < k_hand_count; ++side) {
-        const Vec3 foot_m =
-            to_ps * (spine.legs[side].foot_ws.position - spine.chest_ws.position);
+        const Vec3 foot_m = to_ps * (spine.legs[side].foot_ws.position - spine.chest_ws.position);
         Before& before = before_[side];
         const Vec3 mps = (foot_m - before.foot_m) / dt_s;
         if (before.known) {
@@ -101,7 +100,7 @@ void BodyLooks::take_feet(const SpinePose& spine, const Quat& to_ps, double dt_s
 }
 
 nlohmann::ordered_json BodyLooks::json() const {
-    const auto percent = [&](bool Frame::* look) {
+    const auto percent = [&](bool Frame::*look) {
         const auto count = std::count_if(frames_.begin(), frames_.end(),
                                          [&](const Frame& frame) { return frame.*look; });
         return 100.0 * static_cast<double>(count) /

@@ -15,15 +15,15 @@ namespace handhold::lab {
 
 // Limits; lengths are for an eye height of k_scale_eye_m.
 inline constexpr double k_straight_knee_rad = 0.12;   // a leg bent less than this is a plank
-inline constexpr double k_crossed_legs_m = 0.08;      // between the bones of two legs
-inline constexpr double k_knee_at_shoulder_m = 0.22;  // between the joints
-inline constexpr double k_inside_trunk_m = 0.11;      // from the line chest, waist, hips
+inline constexpr double k_crossed_legs_m = 0.08;      // distance between the bones of two legs
+inline constexpr double k_knee_at_shoulder_m = 0.22;  // distance between the joints
+inline constexpr double k_inside_trunk_m = 0.11;      // distance from the line chest, waist, hips
 inline constexpr double k_bent_wrist_rad = 100.0 / 180.0 * k_pi;
 
 class BodyLooks {
   public:
-    // Takes the next frame. scale: eye height / k_scale_eye_m. to_ps: rotation from the world to the
-    // play space.
+    // Takes the next frame. scale: eye height / k_scale_eye_m. to_ps: rotation from the world to
+    // the play space.
     void take(const SpinePose& spine, const ArmPose& arms, double scale, const Quat& to_ps,
               double dt_s);
     void restart() { before_ = {}; }  // the next frame does not continue the last one

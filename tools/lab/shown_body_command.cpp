@@ -13,8 +13,8 @@
 #include "engine/core/text_file.hpp"
 #include "game/assets/body_clips_asset.hpp"
 #include "game/levels/built_in_scenes.hpp"
-#include "game/run/session_run.hpp"
 #include "game/play/loading.hpp"
+#include "game/run/session_run.hpp"
 #include "game/run/spawn.hpp"
 #include "game/scene/player_defaults.hpp"
 #include "tools/lab/body_looks.hpp"
@@ -124,8 +124,9 @@ class ShownBody {
 
     // One line for each frame.
     std::string csv() const {
-        std::string text = "frame,trunk_mm,pelvis_mm,thigh_mm,shin_mm,foot_mps,straight,crossed,high,ball,elbow,"
-                           "forearm,wrist\n";
+        std::string text =
+            "frame,trunk_mm,pelvis_mm,thigh_mm,shin_mm,foot_mps,straight,crossed,high,ball,elbow,"
+            "forearm,wrist\n";
         for (std::size_t i = 0; i < trunk_mm_.values.size(); ++i) {
             const BodyLooks::Frame& look = looks_.frames()[i];
             std::array<char, 128> row{};
@@ -264,8 +265,7 @@ int shown_body_command(const ShownBodyOptions& options) {
     auto& [scene, recording, origin_ws] = loaded.value();
     scene.tuning().spine.hang = options.hang.value_or(scene.tuning().spine.hang);
     load_game_body_clips(scene.host);
-    const PlayerEntities player =
-        add_scene_player(scene, {"player0", from_host(origin_ws), 80.0});
+    const PlayerEntities player = add_scene_player(scene, {"player0", from_host(origin_ws), 80.0});
     ShownBody body(scene.world(), player, options.hz);
     const auto observe = [&](const Scene& played, const FrameLog&) {
         body.take(played.world(), played.caches().collision);

@@ -174,7 +174,7 @@ const BodyContact* contact_of(const SpineMemory& memory, std::size_t link) {
 }
 
 Vec3 before_surface(const TouchingLink& link, const SpineFrame& above, const BodyContact& contact) {
-    constexpr double k_out_mps = 1.2;  // length in the player's metres
+    constexpr double k_out_mps = 2.0;  // length in the player's metres
     constexpr double k_any_lift = 2.0;
     const double least_m = contact.surface_m - contact.normal_ps.dot(link.base_m);
     const Vec3 outside = deflect_outward(link.towards, above.axes.transpose() * contact.normal_ps,

@@ -102,8 +102,9 @@ Vec3 free_body(const Quat& chest_ps, double lying) {
 Vec3 surface_pull(const BodyContact& contact, const Vec3& free_ps, const Vec3& back_ps,
                   double length_m) {
     constexpr double k_back = 0.6;
-    constexpr double k_strength = 3.0;  // in arm lengths; stronger than two hands
-    constexpr double k_full = 0.15;     // share of the length behind the surface from which it acts fully
+    constexpr double k_strength = 3.0;  // length in arm lengths; more than two hands pull
+    constexpr double k_full =
+        0.15;  // share of the length behind the surface from which it acts fully
     if (!contact.touches) {
         return Vec3::Zero();
     }
