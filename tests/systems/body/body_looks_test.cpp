@@ -19,8 +19,9 @@ TEST(BodyLooks, BodiesLieAlongASurfaceBelow) {
     for (int i = 0; i < 40; ++i) {
         HangingBody body;
         const double below_m = random.between(0.45, 1.1);
-        const Quat tilt = rotation_from_vector(
-            Vec3(random.between(-0.25, 0.25), 0.0, random.between(-0.25, 0.25)));
+        const double pitch_rad = random.between(-0.25, 0.25);
+        const double roll_rad = random.between(-0.25, 0.25);
+        const Quat tilt = rotation_from_vector(Vec3(pitch_rad, 0.0, roll_rad));
         const Vec3 up = tilt * Vec3::UnitY();
         body.put_box(Vec3(6.0, 0.5, 6.0), {Vec3(0.0, 1.4 - below_m, 0.0) - 0.5 * up, tilt});
         // The tracked floor is far below.
@@ -54,9 +55,10 @@ TEST(BodyLooks, ElbowsLeaveTheTrunk) {
             arm.upper_ws.position = shoulder;
             arm.forearm_ws.position = shoulder + 0.3 * random.direction();
             // Not beyond the trunk: no turn about the arm's line keeps such a forearm outside.
-            arm.hand_ws.position =
-                shoulder + Vec3(side * random.between(0.05, 0.3), random.between(-0.4, 0.1),
-                                random.between(-0.4, -0.25));
+            const double aside_m = side * random.between(0.05, 0.3);
+            const double up_m = random.between(-0.4, 0.1);
+            const double back_m = random.between(-0.4, -0.25);
+            arm.hand_ws.position = shoulder + Vec3(aside_m, up_m, back_m);
         }
         const ArmPose before = arms;
         clear_arms({.measures = body.measures, .spine = body.spine_pose, .arms = body.arm_pose});
