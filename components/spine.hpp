@@ -24,6 +24,9 @@ inline BodyLinkVectors zero_vectors() {
 // Parts of the body that are kept outside of surfaces: the trunk, left thigh, left shin, right
 // thigh, right shin.
 inline constexpr std::size_t k_body_parts = 1 + 2 * k_hand_count;
+// Also searched: the line along which trunk and thighs would hang in empty space.
+inline constexpr std::size_t k_free_body = k_body_parts;
+inline constexpr std::size_t k_body_searches = k_body_parts + 1;
 inline constexpr std::size_t body_part_of(std::size_t link) {
     return link < k_spine_links ? 0 : link - k_spine_links + 1;
 }
@@ -55,7 +58,8 @@ struct BodyPull {
     Vec3 now = Vec3::Zero();  // pull at the last tick; follows `hands` with a lag; length in [0, 1)
     Vec3 before = Vec3::Zero();      // one tick earlier
     Vec3 rate_per_s = Vec3::Zero();  // rate of change of `now`
-    // Sum of the vectors from the chest to the gripping hands in the last frame, in arm lengths.
+    // In the last frame: sum of the vectors from the chest to the gripping hands, in arm lengths,
+    // and the pull of a surface below the body (surface_pull).
     Vec3 hands = Vec3::Zero();
     Vec3 hands_before = Vec3::Zero();  // one frame earlier
 };
@@ -92,8 +96,8 @@ struct SpineMemory {
     std::array<double, k_spine_links> twist_rad{};
     // Angle of each link from its rest direction; shins: from the thigh's line.
     std::array<double, k_body_links> angle_rad{};
-    std::array<BodyContact, k_body_parts> contacts;  // indexed by body_part_of
-    std::array<BodySearch, k_body_parts> searches;   // indexed by body_part_of
+    std::array<BodyContact, k_body_searches> contacts;  // indexed by body_part_of, then k_free_body
+    std::array<BodySearch, k_body_searches> searches;   // likewise
     BodyPull pull;
     std::array<FootMemory, k_hand_count> feet;  // indexed by HandSide
 };

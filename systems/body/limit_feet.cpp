@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "engine/anim/two_bone_ik.hpp"
+#include "engine/math/scalar_rotation.hpp"
+#include "systems/body/shared/fold_body.hpp"
 
 namespace handhold {
 namespace {
@@ -13,6 +15,8 @@ constexpr double k_catch_up_mps2 = 30.0;
 // Share of the change of velocity in a frame with which a lagging foot brakes as its leg becomes
 // straight.
 constexpr double k_brake_share = 0.6;
+// Distance between knees and between ankles, along the pelvis, in distances between the hips.
+constexpr double k_legs_apart = 0.75;
 // Least share of the leg's length between hip and ankle that a lagging foot may take.
 constexpr double k_shortest_leg = 0.05;
 
@@ -21,7 +25,7 @@ Vec3 at_most(const Vec3& v, double most) {
     return length > most ? Vec3(v * (most / length)) : v;
 }
 
-// The hip relative to the chest, and the length of the straight leg.
+// The hip relative to the chest, and the longest distance from there to the ankle.
 struct Reach {
     Vec3 hip_m;
     double leg_m = 0.0;
@@ -65,6 +69,17 @@ Vec3 limited(const Vec3& wanted_m, const Reach& reach, double scale, double dt_s
                : Vec3(foot.shown_m + dt_s * stepped(braked(next_mps, step_mps, dt_s, reach, foot)));
 }
 
+// Distance between hip and ankle of a leg whose knee is bent least.
+double longest_m(double thigh_m, double shin_m) {
+    static const double k_cosine = [] {
+        double sine = 0.0;
+        double cosine = 1.0;
+        sin_cos(k_least_knee_rad, sine, cosine);
+        return cosine;
+    }();
+    return std::sqrt(thigh_m * thigh_m + shin_m * shin_m + 2.0 * thigh_m * shin_m * k_cosine);
+}
+
 Quat turned(const Vec3& from, const Vec3& to, const Quat& rotation) {
     return (rotation_between(from.normalized(), to.normalized()) * rotation).normalized();
 }
@@ -84,7 +99,7 @@ Vec3 move_ankle(const Vec3& ankle_ws, SpinePose::Leg& leg) {
     const Vec3 axis = line * (1.0 / length_m);
     const double shortest_m =
         std::max(std::abs(thigh_m - shin_m), k_shortest_leg * (thigh_m + shin_m));
-    const double reach_m = std::clamp(length_m, shortest_m, thigh_m + shin_m);
+    const double reach_m = std::clamp(length_m, shortest_m, longest_m(thigh_m, shin_m));
     const MiddleJoint knee = middle_joint(reach_m, thigh_m, shin_m);
     // A straight leg bends forwards.
     Vec3 aside = thigh - axis * axis.dot(thigh);
@@ -104,6 +119,38 @@ Vec3 move_ankle(const Vec3& ankle_ws, SpinePose::Leg& leg) {
     return leg.foot_ws.position;
 }
 
+// Turns a leg about its hip.
+void turn_leg(const Quat& turn, SpinePose::Leg& leg) {
+    const Vec3 hip = leg.thigh_ws.position;
+    for (Pose* const bone : {&leg.thigh_ws, &leg.shin_ws, &leg.foot_ws}) {
+        *bone = {hip + turn * (bone->position - hip), (turn * bone->rotation).normalized()};
+    }
+}
+
+// Legs do not cross: turns both away from each other until the right knee and ankle are to the
+// right of the left ones. `apart_m`: how far.
+void part_legs(double apart_m, SpinePose& pose) {
+    const Vec3 right = pose.pelvis_ws.rotation * Vec3::UnitX();
+    for (const auto joint : {&SpinePose::Leg::shin_ws, &SpinePose::Leg::foot_ws}) {
+        const Vec3 between = (pose.legs[1].*joint).position - (pose.legs[0].*joint).position;
+        const double missing_m = apart_m - right.dot(between);
+        if (missing_m <= 0.0) {
+            continue;
+        }
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            SpinePose::Leg& leg = pose.legs[side];
+            const Vec3 line = (leg.*joint).position - leg.thigh_ws.position;
+            const double length_m = line.norm();
+            const Vec3 axis = line.cross(side == 0 ? Vec3(-right) : right);
+            const double square = axis.norm() / std::max(length_m, 1e-9);
+            if (square > 0.1) {
+                const double turn_rad = std::min(0.5 * missing_m / (length_m * square), 1.0);
+                turn_leg(rotation_about(axis.normalized(), turn_rad), leg);
+            }
+        }
+    }
+}
+
 }  // namespace
 
 void limit_feet(const LimitFeetIo& io) {
@@ -112,6 +159,9 @@ void limit_feet(const LimitFeetIo& io) {
         SpinePose& pose = io.pose.elements()[index];
         SpineMemory& memory = io.memory.at(player);
         const auto& [origin_ws, scale] = io.origin.at(player);
+        part_legs(
+            k_legs_apart * (pose.legs[1].thigh_ws.position - pose.legs[0].thigh_ws.position).norm(),
+            pose);
         const Mat3 to_ps = origin_ws.rotation.toRotationMatrix().transpose();
         for (std::size_t side = 0; side < k_hand_count; ++side) {
             SpinePose::Leg& leg = pose.legs[side];
@@ -123,8 +173,8 @@ void limit_feet(const LimitFeetIo& io) {
                 continue;
             }
             const Reach reach{to_ps * (leg.thigh_ws.position - chest_ws),
-                              (leg.shin_ws.position - leg.thigh_ws.position).norm() +
-                                  (leg.foot_ws.position - leg.shin_ws.position).norm()};
+                              longest_m((leg.shin_ws.position - leg.thigh_ws.position).norm(),
+                                        (leg.foot_ws.position - leg.shin_ws.position).norm())};
             Vec3 shown_m = limited(wanted_m, reach, scale, io.dt_s, foot);
             if (shown_m != wanted_m) {
                 const Vec3 ankle_ws = move_ankle(chest_ws + to_ps.transpose() * shown_m, leg);

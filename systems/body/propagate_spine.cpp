@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/anim/deflect_outward.hpp"
 #include "engine/anim/joint_range.hpp"
 #include "engine/anim/quadratic_path.hpp"
 #include "engine/core/parallel.hpp"
@@ -30,7 +31,7 @@ JointRange range_of(SpineLinkKind kind, const SpineTuning& tuning) {
         case SpineLinkKind::shin:
             break;
     }
-    return {0.0, tuning.knee_limit_rad, share};
+    return {k_least_knee_rad, tuning.knee_limit_rad, share};
 }
 
 Quat between(const Quat& a, const Quat& b, double share) {
@@ -72,7 +73,7 @@ TickShares tick_shares(const SpineTuning& tuning) {
 // Upper limit of a joint. At a surface, legs may be pushed beyond their swing limit, up to a human
 // range. Afterwards the limit follows the joint back at a limited speed.
 double reached_limit(SpineLinkKind kind, double limit_rad, bool touches, double angle_rad) {
-    constexpr double k_hip_rad = 1.9;
+    constexpr double k_hip_rad = 1.3;
     constexpr double k_knee_rad = 2.4;
     constexpr double k_back_radps = 2.0;
     if (kind == SpineLinkKind::spine) {
@@ -80,6 +81,17 @@ double reached_limit(SpineLinkKind kind, double limit_rad, bool touches, double 
     }
     const double widest_rad = kind == SpineLinkKind::thigh ? k_hip_rad : k_knee_rad;
     return std::max(limit_rad, touches ? widest_rad : angle_rad - k_back_radps * k_spine_tick_s);
+}
+
+// Turns a thigh into the range of a person's hip: it extends backwards by 30 degrees, and swings
+// outward by 35 and inward by 15. `outward`: its sign is that of the leg's side.
+Vec3 within_hip(const Vec3& towards, double outward) {
+    constexpr double k_back = -0.5;
+    constexpr double k_outward = -0.57;
+    constexpr double k_inward = -0.26;
+    const Vec3 aside = outward < 0.0 ? Vec3(-Vec3::UnitX()) : Vec3(Vec3::UnitX());
+    const Vec3 ahead = deflect_outward(towards, -Vec3::UnitZ(), k_back, 2.0);
+    return deflect_outward(deflect_outward(ahead, aside, k_inward, 2.0), -aside, k_outward, 2.0);
 }
 
 // Applies drag, then the speed limit.
@@ -132,12 +144,14 @@ void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemor
                                  : before_surface({returned, base - now.ahead_m,
                                                    scale * link.length_m, now.origin_scale},
                                                   above, *contact);
+        const Vec3 before =
+            link.kind == SpineLinkKind::thigh ? within_hip(outside, link.base_m.x()) : outside;
         JointRange range = shares.range[static_cast<std::size_t>(link.kind)];
         range.high_rad =
             reached_limit(link.kind, range.high_rad, contact != nullptr, memory.angle_rad[i]);
         const Vec3 allowed = link.kind == SpineLinkKind::shin
-                                 ? clamp_to_hinge(outside, range, memory.angle_rad[i])
-                                 : clamp_to_cone(outside, link.rest, range, memory.angle_rad[i]);
+                                 ? clamp_to_hinge(before, range, memory.angle_rad[i])
+                                 : clamp_to_cone(before, link.rest, range, memory.angle_rad[i]);
         memory.offset_m[i] = base + above.axes * ((scale * link.length_m) * allowed);
         // The correction includes the return to rest, so the velocity overshoots the rest pose.
         // Subtracting a share from the parent's velocity (hand_back) damps this.
@@ -211,10 +225,14 @@ void touch_surfaces(const PropagateSpineIo& io, Entity player, const Motion& mot
                                   io.origin.at(player).pose_ws,
                                   transform_point(io.head.at(player).pose_ps, in_head_m),
                                   motion.chest_ps.position,
+                                  free_body(motion.chest_ps.rotation, motion.lying),
                                   floor,
                                   origin_scale,
                                   io.pose.at(player)};
     find_body_contacts(around, io.t_s, io.dt_s, motion.chest_moved_m, memory);
+    memory.pull.hands +=
+        surface_pull(memory.contacts[k_free_body], around.free_ps,
+                     motion.chest_ps.rotation * Vec3::UnitZ(), floor.scale * k_free_body_m);
 }
 
 // Whether another player's hand holds the trunk or a leg.

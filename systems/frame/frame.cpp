@@ -85,6 +85,7 @@ void show(const FrameContext& f) {
     propagate_spine(f);
     layer_additives(f);
     limit_feet(f);
+    clear_arms(f);
 
     // Writes the poses that hosts draw.
     publish_pose(f);

@@ -1,6 +1,7 @@
 // Stages of frame_stages.hpp that compute the shown hands and bodies.
 #include <algorithm>
 
+#include "systems/body/clear_arms.hpp"
 #include "systems/body/estimate_arms.hpp"
 #include "systems/body/layer_additives.hpp"
 #include "systems/body/limit_feet.hpp"
@@ -226,6 +227,12 @@ void limit_feet(const FrameContext& f) {
                           .origin = w.player_origin,
                           .memory = w.spine_memory,
                           .pose = w.spine_pose});
+}
+
+void clear_arms(const FrameContext& f) {
+    const StageTimer timer(Stage::pose_arms, f.stats);
+    World& w = f.w;
+    handhold::clear_arms({.measures = w.body_measures, .spine = w.spine_pose, .arms = w.arm_pose});
 }
 
 void publish_pose(const FrameContext& f) {

@@ -78,6 +78,7 @@ void propagate_spine(const FrameContext& f);
 void layer_additives(const FrameContext& f);
 // Its time counts as that of layer_additives.
 void limit_feet(const FrameContext& f);
+void clear_arms(const FrameContext& f);
 void publish_pose(const FrameContext& f);
 void publish_body(const FrameContext& f);
 

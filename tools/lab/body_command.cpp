@@ -7,6 +7,7 @@
 #include "game/play/progress.hpp"
 #include "systems/rigs/body_clips_json.hpp"
 #include "tools/lab/body_files.hpp"
+#include "tools/lab/body_looks.hpp"
 #include "tools/lab/body_player.hpp"
 #include "tools/lab/exit_status.hpp"
 
@@ -91,6 +92,7 @@ int body_command(const BodyOptions& options) {
     }
     std::string text = k_header;
     BodyPlayer player(options.estimator, std::move(clips.value()));
+    BodyLooks looks;
     Progress progress("body");
     const std::vector<BodySample>& rows = samples.value();
     for (std::size_t row = 0; row < rows.size(); ++row) {
@@ -103,13 +105,22 @@ int body_command(const BodyOptions& options) {
                                    std::to_string(rows[row].clip)});
             }
             player.start(found->second);
+            looks.restart();
         }
-        player.step(rows[row], first ? k_first_frame_s : rows[row].t_s - rows[row - 1].t_s);
+        const double dt_s = first ? k_first_frame_s : rows[row].t_s - rows[row - 1].t_s;
+        player.step(rows[row], dt_s);
         append_row(rows[row], player, text);
+        looks.take(player.shown_spine(), player.shown_arms(),
+                   player.measures().eye_height_m / k_scale_eye_m, Quat::Identity(), dt_s);
         progress.show(static_cast<double>(row + 1) / static_cast<double>(rows.size()));
     }
     if (const auto error = write_file_atomically(options.out, text)) {
         return refuse(*error);
+    }
+    if (!options.looks.empty()) {
+        if (const auto error = write_file_atomically(options.looks, looks.json().dump(1) + "\n")) {
+            return refuse(*error);
+        }
     }
     return 0;
 }

@@ -11,6 +11,7 @@ struct BodyOptions {
     std::filesystem::path in;
     std::filesystem::path calib;
     std::filesystem::path out;
+    std::filesystem::path looks;  // empty: none
     std::string estimator = "full";
 };
 

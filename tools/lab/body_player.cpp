@@ -3,6 +3,7 @@
 #include <numbers>
 #include <utility>
 
+#include "systems/body/clear_arms.hpp"
 #include "systems/body/estimate_arms.hpp"
 #include "systems/body/estimate_sizes.hpp"
 #include "systems/body/layer_additives.hpp"
@@ -151,6 +152,7 @@ void BodyPlayer::show(double dt_s) {
                      .pose = shown_spine_},
                     {});
     limit_feet({.dt_s = dt_s, .origin = origin_, .memory = spine_memory_, .pose = shown_spine_});
+    clear_arms({.measures = measures_, .spine = shown_spine_, .arms = shown_arms_});
 }
 
 double BodyPlayer::chest_yaw_deg() const {

@@ -40,6 +40,7 @@ class BodyPlayer {
 
     // Arms, trunk and legs as the game shows them in a frame without surfaces.
     const ArmPose& shown_arms() const { return shown_arms_.at(player_); }
+    const BodyMeasures& measures() const { return measures_.at(player_); }
     const SpinePose& shown_spine() const { return shown_spine_.at(player_); }
 
   private:

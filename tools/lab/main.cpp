@@ -112,16 +112,19 @@ void add_body_options(CLI::App& body, lab::BodyOptions& options) {
     body.add_option("--in", options.in, "Heads and hands over time")->required();
     body.add_option("--calib", options.calib, "Body measures by clip")->required();
     body.add_option("--out", options.out, "Output: chest, shoulders and elbows")->required();
+    body.add_option("--looks", options.looks, "Output: how the shown body looks (.json)");
     body.add_option("--estimator", options.estimator, "The runtime's estimator or a baseline")
         ->check(CLI::IsMember(lab::estimator_names()));
 }
 
 void add_shown_body_options(CLI::App& shown, lab::ShownBodyOptions& options) {
-    shown.add_option("--scene", options.scene, "A built-in scene with a session");
+    shown.add_option("--scene", options.scene,
+                     "A built-in scene with a session; with --input also a scene file or level");
+    shown.add_option("--input", options.input, "A recorded session (.csv)");
     shown.add_option("--hz", options.hz, "Frames per second")->check(number_in(10.0, 1000.0));
     shown.add_option("--hang", options.hang, "Overrides spine.hang")->check(number_in(0.0, 10.0));
     shown.add_option("--json", options.json, "Output: figures")->required();
-    shown.add_option("--csv", options.csv, "Output: depths in every frame");
+    shown.add_option("--csv", options.csv, "Output: depths and looks in every frame");
 }
 
 void add_recorded_grips_options(CLI::App& recorded, lab::RecordedGripsOptions& options) {
@@ -182,7 +185,7 @@ int main(int argc, char** argv) {
     add_body_options(*body, body_options);
     lab::ShownBodyOptions shown_options;
     CLI::App* const shown =
-        app.add_subcommand("shown-body", "Measures trunk and legs in a scene's own session");
+        app.add_subcommand("shown-body", "Measures the shown body in a session");
     add_shown_body_options(*shown, shown_options);
     lab::RecordedGripsOptions recorded_options;
     CLI::App* const recorded = app.add_subcommand(

@@ -13,8 +13,11 @@
 #include "engine/core/text_file.hpp"
 #include "game/assets/body_clips_asset.hpp"
 #include "game/levels/built_in_scenes.hpp"
+#include "game/play/loading.hpp"
 #include "game/run/session_run.hpp"
 #include "game/run/spawn.hpp"
+#include "game/scene/player_defaults.hpp"
+#include "tools/lab/body_looks.hpp"
 #include "tools/lab/exit_status.hpp"
 #include "tools/lab/measure.hpp"
 
@@ -114,16 +117,24 @@ class ShownBody {
         take_depths(world, collision, spine);
         take_angles(world, spine);
         take_speeds(spine);
+        looks_.take(spine, world.render_pose.at(player_).arms,
+                    world.body_measures.at(player_).eye_height_m / k_scale_eye_m,
+                    world.player_origin.at(player_).pose_ws.rotation.conjugate(), 1.0 / hz_);
     }
 
     // One line for each frame.
     std::string csv() const {
-        std::string text = "frame,trunk_mm,pelvis_mm,thigh_mm,shin_mm,foot_mps\n";
+        std::string text =
+            "frame,trunk_mm,pelvis_mm,thigh_mm,shin_mm,foot_mps,straight,crossed,high,ball,elbow,"
+            "forearm,wrist\n";
         for (std::size_t i = 0; i < trunk_mm_.values.size(); ++i) {
-            std::array<char, 96> row{};
-            std::snprintf(row.data(), row.size(), "%zu,%.2f,%.2f,%.2f,%.2f,%.2f\n", i + 1,
+            const BodyLooks::Frame& look = looks_.frames()[i];
+            std::array<char, 128> row{};
+            std::snprintf(row.data(), row.size(),
+                          "%zu,%.2f,%.2f,%.2f,%.2f,%.2f,%d,%d,%d,%d,%d,%d,%d\n", i + 1,
                           trunk_mm_.values[i], pelvis_mm_.values[i], thigh_mm_.values[i],
-                          shin_mm_.values[i], i == 0 ? 0.0 : foot_mps_.values[i - 1]);
+                          shin_mm_.values[i], i == 0 ? 0.0 : foot_mps_.values[i - 1], look.straight,
+                          look.crossed, look.high, look.ball, look.elbow, look.forearm, look.wrist);
             text += row.data();
         }
         return text;
@@ -142,7 +153,8 @@ class ShownBody {
                 {"trunk_from_grips_deg", spread(from_grips_)},
                 {"pelvis_mps", spread(pelvis_mps_)},
                 {"foot_mps", spread(foot_mps_)},
-                {"foot_step_mps", spread(foot_step_mps_)}};
+                {"foot_step_mps", spread(foot_step_mps_)},
+                {"looks", looks_.json()}};
     }
 
   private:
@@ -206,31 +218,59 @@ class ShownBody {
     Entity player_;
     std::array<Entity, k_hand_count> hands_;
     double hz_;
+    BodyLooks looks_;
     Series trunk_mm_, pelvis_mm_, thigh_mm_, shin_mm_;
     Series from_grips_;
     Series pelvis_mps_, foot_mps_, foot_step_mps_;
     std::optional<Vec3> last_pelvis_, last_foot_, last_velocity_;
 };
 
+// A scene, its session, and where the player begins.
+struct Session {
+    Scene scene;
+    Recording recording;
+    hh::Pose origin_ws;
+};
+Result<Session> load_session(const ShownBodyOptions& options) {
+    if (!options.input.empty()) {
+        Result<Recording> recording = load_recording(options.input);
+        if (!recording) {
+            return recording.error();
+        }
+        Result<Scene> scene = load_scene_with_progress(options.scene);
+        if (!scene) {
+            return scene.error();
+        }
+        const hh::Pose origin_ws =
+            find_spawn(scene.value(), recording.value(), options.hz).origin_ws;
+        scene.value().tuning().pull.reach_m = k_pull_reach_m;
+        return Session{std::move(scene.value()), std::move(recording.value()), origin_ws};
+    }
+    std::optional<Scene> scene = make_built_in_scene(options.scene);
+    if (!scene || !scene->session || scene->session->built_in.empty()) {
+        return FileError{options.scene, "", "expected a built-in scene with a session, or --input"};
+    }
+    Recording recording = *make_built_in_session(scene->session->built_in);
+    const hh::Pose origin_ws = scene->spawns.front().pose_ws;
+    return Session{std::move(*scene), std::move(recording), origin_ws};
+}
+
 }  // namespace
 
 int shown_body_command(const ShownBodyOptions& options) {
-    std::optional<Scene> scene = make_built_in_scene(options.scene);
-    if (!scene || !scene->session || scene->session->built_in.empty()) {
-        std::fprintf(stderr, "scene %s: expected a built-in scene with a session\n",
-                     options.scene.c_str());
-        return k_exit_usage;
+    Result<Session> loaded = load_session(options);
+    if (!loaded) {
+        return refuse(loaded.error());
     }
-    const Recording recording = *make_built_in_session(scene->session->built_in);
-    scene->tuning().spine.hang = options.hang.value_or(scene->tuning().spine.hang);
-    load_game_body_clips(scene->host);
-    const PlayerEntities player =
-        add_scene_player(*scene, {"player0", from_host(scene->spawns.front().pose_ws), 80.0});
-    ShownBody body(scene->world(), player, options.hz);
+    auto& [scene, recording, origin_ws] = loaded.value();
+    scene.tuning().spine.hang = options.hang.value_or(scene.tuning().spine.hang);
+    load_game_body_clips(scene.host);
+    const PlayerEntities player = add_scene_player(scene, {"player0", from_host(origin_ws), 80.0});
+    ShownBody body(scene.world(), player, options.hz);
     const auto observe = [&](const Scene& played, const FrameLog&) {
         body.take(played.world(), played.caches().collision);
     };
-    run_session(*scene, player_ids({&player, 1}), &recording, {options.hz, 0.0, 1}, observe);
+    run_session(scene, player_ids({&player, 1}), &recording, {options.hz, 0.0, 1}, observe);
     const Json json = {{"scene", options.scene}, {"hz", options.hz}, {"body", body.json()}};
     if (const auto error = write_file_atomically(options.json, json.dump(1) + "\n")) {
         return refuse(*error);

@@ -7,7 +7,6 @@
 
 #include "engine/anim/deflect_outward.hpp"
 #include "engine/core/hash.hpp"
-#include "systems/body/shared/fold_body.hpp"
 
 namespace handhold {
 namespace {
@@ -31,7 +30,7 @@ constexpr double k_ahead_m = 0.15;
 bool searches_now(double t_s, double dt_s, std::uint64_t player, std::size_t part) {
     constexpr std::uint64_t k_phases = 8;
     const double phase = static_cast<double>(player % k_phases) / static_cast<double>(k_phases) +
-                         static_cast<double>(part) / static_cast<double>(k_body_parts);
+                         static_cast<double>(part) / static_cast<double>(k_body_searches);
     return std::floor(t_s * k_body_searches_per_s + phase) !=
            std::floor((t_s - dt_s) * k_body_searches_per_s + phase);
 }
@@ -49,6 +48,10 @@ PartLine line_of(const BodySurroundings& around, std::size_t part) {
         return Vec3(around.origin_ws.rotation.conjugate() *
                     (point_ws - around.shown.chest_ws.position));
     };
+    if (part == k_free_body) {
+        return {around.head_ps - around.chest_ps, scale * k_free_body_m * around.free_ps,
+                scale * k_trunk_radius_m, 0.0};
+    }
     const Vec3 pelvis_m = from_chest(around.shown.pelvis_ws.position);
     if (part == 0) {
         return {around.head_ps - around.chest_ps, pelvis_m, scale * k_trunk_radius_m, 0.0};
@@ -115,7 +118,7 @@ BodyContact find_contact(const BodySurroundings& around, std::size_t part, Spine
     // A cast that begins behind the trunk's surface would hit the surface from behind. The part
     // then uses the trunk's contact.
     const BodyContact& trunk = memory.contacts[0];
-    if (part > 0 && trunk.touches &&
+    if (part > 0 && part != k_free_body && trunk.touches &&
         trunk.normal_ps.dot(line.from_m) < trunk.surface_m - line.radius_m) {
         return trunk;
     }
@@ -143,7 +146,8 @@ BodyContact find_contact(const BodySurroundings& around, std::size_t part, Spine
     // Height of the pelvis above the floor before the chain is folded.
     const double pelvis_m =
         (around.floor.chest_m + memory.offset_m[k_spine_links - 1].y()) / around.floor.scale;
-    if (legs_fold(pelvis_m) && is_tracked_floor(normal_ps, surface_m, around)) {
+    if ((part == k_free_body || legs_fold(pelvis_m)) &&
+        is_tracked_floor(normal_ps, surface_m, around)) {
         return {};
     }
     const double thickness_m = std::max(line.radius_m, -line.beyond_m * normal_ps.dot(along));
@@ -154,7 +158,7 @@ BodyContact find_contact(const BodySurroundings& around, std::size_t part, Spine
 
 void find_body_contacts(const BodySurroundings& around, double t_s, double dt_s,
                         const Vec3& moved_m, SpineMemory& memory) {
-    for (std::size_t part = 0; part < k_body_parts; ++part) {
+    for (std::size_t part = 0; part < k_body_searches; ++part) {
         BodyContact& contact = memory.contacts[part];
         if (searches_now(t_s, dt_s, around.own_id, part)) {
             contact = find_contact(around, part, memory);

@@ -3,6 +3,7 @@
 #include "components/spine.hpp"
 #include "engine/collision/surface_query.hpp"
 #include "engine/math/math.hpp"
+#include "systems/body/shared/fold_body.hpp"
 #include "systems/body/shared/pose_spine.hpp"
 #include "systems/body/shared/spine_chain.hpp"
 
@@ -17,6 +18,7 @@ struct BodySurroundings {
     Pose origin_ws;
     Vec3 head_ps = Vec3::Zero();  // a point well inside the head's collider
     Vec3 chest_ps = Vec3::Zero();
+    Vec3 free_ps = -Vec3::UnitY();  // free_body
     TrackedFloor floor;
     double origin_scale = 1.0;  // PlayerOrigin::scale
     // The body as it was shown in the last frame, with clips: surfaces are searched at the parts
@@ -26,6 +28,10 @@ struct BodySurroundings {
 
 inline constexpr double k_body_searches_per_s = 15.0;
 inline constexpr double k_part_moved_m = 0.005;  // length in the player's metres
+
+// Length of trunk and thighs, for an eye height of k_scale_eye_m.
+inline constexpr double k_free_body_m =
+    k_spine_link_m[0] + k_spine_link_m[1] + k_spine_link_m[2] + k_thigh_m;
 
 // Updates SpineMemory::contacts for one frame that ends at t_s. Each part is searched at most
 // k_body_searches_per_s times a second of the world's clock: a sphere is cast along it, from the

@@ -62,7 +62,8 @@ LegFold fold_legs(double pelvis_m, const Vec3& up_pelvis, double lean_rad);
 // True if the legs of an upright pelvis at this height fold.
 bool legs_fold(double pelvis_m);
 
-// Maximum bend of a knee.
+// Range of a knee's bend. A straight leg looks like a plank.
+inline constexpr double k_least_knee_rad = 0.15;
 inline constexpr double k_knee_max_rad = 2.8;
 
 }  // namespace handhold

@@ -1,6 +1,9 @@
 #include "systems/body/shared/hang_body.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "engine/anim/deflect_outward.hpp"
 
 namespace handhold {
 namespace {
@@ -89,6 +92,31 @@ Vec3 upright_turn(const Vec3& up_cs, double lying) {
     const double fade = 1.0 - smooth_step(angle, 1.2, 2.6);
     const double turn = (1.0 - lying) * fade * smooth_min(angle, k_neck_rad, k_width_rad);
     return Vec3(up_cs.z(), 0.0, -up_cs.x()) * (turn / aside);
+}
+
+Vec3 free_body(const Quat& chest_ps, double lying) {
+    const Vec3 up_cs = chest_ps.conjugate() * Vec3::UnitY();
+    return chest_ps * turned_down(upright_turn(up_cs, lying));
+}
+
+Vec3 surface_pull(const BodyContact& contact, const Vec3& free_ps, const Vec3& back_ps,
+                  double length_m) {
+    constexpr double k_back = 0.6;
+    constexpr double k_strength = 3.0;  // length in arm lengths; more than two hands pull
+    constexpr double k_full =
+        0.15;  // share of the length behind the surface from which it acts fully
+    if (!contact.touches) {
+        return Vec3::Zero();
+    }
+    const double least = std::min(contact.surface_m / length_m, 0.0);
+    const double behind = least - contact.normal_ps.dot(free_ps);
+    if (behind <= 0.0) {
+        return Vec3::Zero();
+    }
+    // A body square to the surface swings backwards.
+    const Vec3 aside = (free_ps + k_back * back_ps).normalized();
+    const Vec3 along = deflect_outward(aside, contact.normal_ps, least, 2.0);
+    return (-k_strength * smooth_step(behind, 0.0, k_full)) * along;
 }
 
 }  // namespace handhold

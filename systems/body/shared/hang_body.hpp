@@ -39,6 +39,17 @@ TrunkLean lean_of(const Vec3& pull_cs, const Vec3& upright_rad = Vec3::Zero());
 // ArmEstimate::lying; a trunk that lies is not turned.
 Vec3 upright_turn(const Vec3& up_cs, double lying);
 
+// Where trunk and legs point without a pull and without surfaces: a unit vector, play space.
+Vec3 free_body(const Quat& chest_ps, double lying);
+
+// Pull (BodyPull::hands) of a surface that trunk and thighs would meet if they hung along
+// `free_ps`, a unit vector: the body swings out to lie along the surface, because legs that rise
+// out of it would end beside the head. `contact`: of SpineMemory, k_free_body. `length_m`: of trunk
+// and thighs. `back_ps`: backwards in the chest's axes; the body swings this way if the surface
+// prefers no other.
+Vec3 surface_pull(const BodyContact& contact, const Vec3& free_ps, const Vec3& back_ps,
+                  double length_m);
+
 inline Quat leaning_chest(const Quat& chest, const TrunkLean& lean) {
     return lean.chest_rad == 0.0 ? chest
                                  : product(chest, rotation_about(Vec3::UnitX(), lean.chest_rad));

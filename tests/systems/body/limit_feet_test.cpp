@@ -37,6 +37,7 @@ struct Legs {
         const Pose& origin_ws = origin.at(k_player).pose_ws;
         SpinePose& out = pose.at(k_player);
         out.chest_ws = origin_ws;
+        out.pelvis_ws = origin_ws;
         for (std::size_t side = 0; side < k_hand_count; ++side) {
             const double sign = side == 0 ? -1.0 : 1.0;
             const Quat thigh = rotation_about(Vec3::UnitZ(), sign * aside_rad) *
@@ -60,6 +61,12 @@ struct Legs {
     }
 };
 
+// From hip to ankle of a leg whose knee is bent least.
+double longest_leg_m() {
+    return std::sqrt(k_thigh_m * k_thigh_m + k_shin_m * k_shin_m +
+                     2.0 * k_thigh_m * k_shin_m * std::cos(k_least_knee_rad));
+}
+
 // Sums over all sessions, in frames of a foot.
 struct Counts {
     std::size_t limited = 0;
@@ -80,11 +87,12 @@ void throw_legs_about(Counts& counts) {
     for (int frame = 0; frame < 600; ++frame) {
         if (random.between(0.0, 1.0) < 0.03 * wild) {
             const double swing = random.between(-0.4, 1.5);
-            const double knee = random.between(0.1, 2.0);
-            angles = Vec3(swing, knee, random.between(-0.1, 0.4));
+            const double knee = random.between(0.2, 2.0);
+            angles = Vec3(swing, knee, random.between(0.0, 0.4));
         }
         angles += random.vector(0.02 * wild);
-        angles.y() = std::clamp(angles.y(), 0.05, 2.2);
+        angles.y() = std::clamp(angles.y(), 0.2, 2.2);
+        angles.z() = std::max(angles.z(), 0.0);  // legs apart are not turned
         legs.put(angles.x(), angles.y(), angles.z());
         const std::array<Vec3, k_hand_count> wanted = {legs.foot(0), legs.foot(1)};
         legs.step(1.0 / hz);
@@ -107,7 +115,7 @@ void throw_legs_about(Counts& counts) {
             }
             if (frame > 1) {
                 const double leg_m = length_of(leg.thigh_ws, leg.foot_ws);
-                const bool is_at_end = leg_m > (1.0 - k_rounding) * (k_thigh_m + k_shin_m) ||
+                const bool is_at_end = leg_m > (1.0 - k_rounding) * longest_leg_m() ||
                                        leg_m < 0.05 * (k_thigh_m + k_shin_m) + k_rounding;
                 const bool is_stopped =
                     (mps - before_mps[side]).norm() > k_foot_step_mps + k_rounding;
