@@ -121,6 +121,35 @@ RunLog begin_log(const Scene& scene, std::span<const hh::Player> players,
     return log;
 }
 
+// One playback for each recording. Those of a world that has run already begin at its time.
+std::vector<Playback> begin_playbacks(const hh::World& world, const Recording* recording,
+                                      const RunSettings& settings) {
+    std::vector<Playback> playbacks;
+    if (recording == nullptr) {
+        return playbacks;
+    }
+    playbacks.emplace_back(*recording);
+    for (const Recording* const one : settings.more_recordings) {
+        playbacks.emplace_back(*one);
+    }
+    for (Playback& playback : playbacks) {
+        if (world.frame() > 0) {
+            playback.window(world.time_s());  // skips what was played before the snapshot
+        }
+    }
+    return playbacks;
+}
+
+// Number of frames of the session, at least 1.
+std::uint64_t frame_count(const hh::World& world, const Recording* recording,
+                          const RunSettings& settings) {
+    // Tolerance as a share of a frame, because the clock is a sum with rounding errors.
+    constexpr double k_rounding = 1e-3;
+    const double seconds = session_length_s(recording, settings) - world.time_s();
+    return static_cast<std::uint64_t>(
+        std::max(1.0, std::floor(seconds * settings.hz + k_rounding)));
+}
+
 }  // namespace
 
 RunStats::RunStats()
@@ -150,25 +179,8 @@ RunLog run_session(Scene& scene, std::span<const hh::Player> players, const Reco
         throw std::invalid_argument(hh_last_error());
     }
     const double dt_s = 1.0 / settings.hz;
-    std::vector<Playback> playbacks;
-    if (recording != nullptr) {
-        playbacks.emplace_back(*recording);
-        for (const Recording* const one : settings.more_recordings) {
-            playbacks.emplace_back(*one);
-        }
-    }
-    const double begin_s = world.time_s();
-    const double seconds = session_length_s(recording, settings) - begin_s;
-    // Tolerance as a share of a frame, because the clock is a sum with rounding errors.
-    constexpr double k_rounding = 1e-3;
-    const auto frames =
-        static_cast<std::uint64_t>(std::max(1.0, std::floor(seconds * settings.hz + k_rounding)));
-    if (world.frame() > 0) {
-        for (Playback& playback : playbacks) {
-            playback.window(begin_s);  // skips the samples that were played before the snapshot
-        }
-    }
-
+    std::vector<Playback> playbacks = begin_playbacks(world, recording, settings);
+    const std::uint64_t frames = frame_count(world, recording, settings);
     const LoggedBodies bodies(world);
     RunLog log = begin_log(scene, players, bodies, settings);
     // Reserves memory for at most k_frames_reserved frames (about two minutes at 90 Hz), because a

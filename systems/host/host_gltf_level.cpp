@@ -49,21 +49,50 @@ std::string free_name(const hh_world& host, const std::string& name) {
     return free;
 }
 
-hh_body add_mesh_body(hh_world& host, const NewMesh& part, const hh_pose& pose) {
+struct Added {
+    hh_shape shape{};
+    hh_body body{};
+};
+
+// Throws, and adds nothing, for what hh_body_add refuses.
+Added add_mesh_body(hh_world& host, const NewMesh& part, const hh_pose& pose) {
     hh_body_def def = hh_default_body_def();
     const std::string name = free_name(host, part.name);
     def.name = name.c_str();
     def.kind = HH_STATIC;
     def.pose = pose;
-    hh_body body{};
+    Added added;
     hh_result result = hh_shape_add_mesh(&host, part.mesh.get(), {1.0, 1.0, 1.0}, &def.shape);
-    if (result == HH_OK) {
-        result = hh_body_add(&host, &def, &body);
-    }
     if (result != HH_OK) {
         throw HostError{result, hh_last_error()};
     }
-    return body;
+    added.shape = def.shape;
+    result = hh_body_add(&host, &def, &added.body);
+    if (result != HH_OK) {
+        const HostError error{result, hh_last_error()};
+        hh_shape_remove(&host, added.shape);
+        throw error;
+    }
+    return added;
+}
+
+// Adds all bodies, or throws and adds none.
+std::vector<Added> add_all(hh_world& host, const std::vector<NewMesh>& meshes,
+                           const hh_pose& pose) {
+    std::vector<Added> added;
+    added.reserve(meshes.size());
+    try {
+        for (const NewMesh& mesh : meshes) {
+            added.push_back(add_mesh_body(host, mesh, pose));
+        }
+    } catch (...) {
+        for (const Added& one : added) {
+            hh_body_remove(&host, one.body);
+            hh_shape_remove(&host, one.shape);
+        }
+        throw;
+    }
+    return added;
 }
 
 }  // namespace
@@ -89,11 +118,9 @@ hh_result hh_world_add_gltf_level(hh_world* world, const void* gltf, size_t size
         return read;
     }
     return call([&] {
-        for (std::size_t i = 0; i < meshes.size(); ++i) {
-            const hh_body body = add_mesh_body(*world, meshes[i], pose);
-            if (bodies != nullptr) {
-                bodies[i] = body;
-            }
+        const std::vector<Added> added = add_all(*world, meshes, pose);
+        for (std::size_t i = 0; bodies != nullptr && i < added.size(); ++i) {
+            bodies[i] = added[i].body;
         }
     });
 }

@@ -103,8 +103,8 @@ Vec3 surface_pull(const BodyContact& contact, const Vec3& free_ps, const Vec3& b
                   double length_m) {
     constexpr double k_back = 0.6;
     constexpr double k_strength = 3.0;  // length in arm lengths; more than two hands pull
-    constexpr double k_full =
-        0.15;  // share of the length behind the surface from which it acts fully
+    // Share of the length behind the surface from which the pull is full.
+    constexpr double k_full = 0.15;
     if (!contact.touches) {
         return Vec3::Zero();
     }

@@ -93,6 +93,15 @@ TEST(HostLevels, AGltfFileBecomesStaticBodiesInOneCall) {
     EXPECT_EQ(hh_world_add_gltf_level(world, "{}", 2, hh_identity_pose(), nullptr, 0, &count),
               HH_ERROR_DATA);
     EXPECT_EQ(std::string_view(hh_last_error()).substr(0, 6), "level:") << hh_last_error();
+    // A level that is refused adds neither bodies nor shapes.
+    std::size_t before = 0;
+    ASSERT_EQ(hh_world_shape_count(world, &before), HH_OK);
+    EXPECT_NE(hh_world_add_gltf_level(world, level.data(), level.size(), hh::pose_at({0, 0, -1e12}),
+                                      nullptr, 0, &count),
+              HH_OK);
+    std::size_t after = 0;
+    ASSERT_EQ(hh_world_shape_count(world, &after), HH_OK);
+    EXPECT_EQ(after, before);
 }
 
 }  // namespace
