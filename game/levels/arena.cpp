@@ -11,13 +11,13 @@
 namespace handhold {
 namespace {
 
-constexpr int k_sides = 16;
+constexpr int k_hall_sides = 16;
 constexpr double k_bay_m = 4.0;
 constexpr int k_bays = 10;
 
 // On the wall at one of its sides; +Y points to the axis, Z along it.
 Pose wall_frame(int side, double z_m) {
-    const Quat turn = rotation_about(Vec3::UnitZ(), k_two_pi * side / k_sides);
+    const Quat turn = rotation_about(Vec3::UnitZ(), k_two_pi * side / k_hall_sides);
     return {turn * Vec3(0.0, -k_arena_radius_m, 0.0) + Vec3(0.0, 0.0, z_m), turn};
 }
 
@@ -25,9 +25,9 @@ void add_bay(StationKit& kit, int bay) {
     const double z_m = -k_arena_half_length_m + (bay + 0.5) * k_bay_m;
     double sine = 0.0;
     double cosine = 1.0;
-    sin_cos(0.5 * k_two_pi / k_sides, sine, cosine);
+    sin_cos(0.5 * k_two_pi / k_hall_sides, sine, cosine);
     const double half_width_m = (k_arena_radius_m + 0.12) * sine / cosine;
-    for (int side = 0; side < k_sides; ++side) {
+    for (int side = 0; side < k_hall_sides; ++side) {
         const Pose frame = wall_frame(side, z_m);
         const bool is_window = side % 4 == 2 && bay % 2 == 1;
         const bool is_lamp = side % 4 == 0;
