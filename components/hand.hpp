@@ -35,7 +35,9 @@ struct GripSurface {
     // the hand has travelled by k_search_again_m from there, or the signature has changed.
     Pose wrist_bs;
     std::uint64_t surroundings_signature = 0;
-    Pose fitted_wrist_bs;  // the palm within its limits here; not set in an authored grip
+    // The palm within its limits here; without a surface, outside of solids. Not set in an authored
+    // grip.
+    Pose fitted_wrist_bs;
 };
 
 // The shown palm relative to the tracked hand: shown wrist = tracked wrist * offset. An offset is a

@@ -3,8 +3,8 @@
 namespace handhold {
 namespace {
 
-void hold_at(const HandSurroundings& hand, const Pose& wrist_bs, PalmOffset& offset) {
-    const Pose held = inverse(hand.wrist_bs) * wrist_bs;
+// `held`: the held wrist relative to the tracked one.
+void hold(const Pose& held, PalmOffset& offset) {
     offset.held_m = held.position;
     offset.held_turn_rad = rotation_to_vector(held.rotation);
 }
@@ -16,12 +16,11 @@ void constrain_palms(const ConstrainPalmsIo& io) {
         const GripSurface& surface = io.surface.at(hand.hand);
         PalmOffset& offset = io.offset.at(hand.hand);
         if (hand.authored != nullptr) {
-            hold_at(hand, hand.authored_wrist_bs(), offset);
+            hold(inverse(hand.wrist_bs) * hand.authored_wrist_bs(), offset);
         } else if (surface.triangle != GripSurface::k_none) {
-            hold_at(hand, surface.fitted_wrist_bs, offset);
+            hold(inverse(hand.wrist_bs) * surface.fitted_wrist_bs, offset);
         } else {
-            offset.held_m = Vec3::Zero();
-            offset.held_turn_rad = Vec3::Zero();
+            hold(inverse(surface.wrist_bs) * surface.fitted_wrist_bs, offset);
         }
     }
 }

@@ -34,6 +34,9 @@ struct SearchGripIo {
 //    their closed-form costs, while these are below the best full cost. At most
 //    SurfaceCandidates::k_max_count are evaluated.
 //
+// A palm that could only lie inside a solid, or that has no surface, keeps its tracked pose; one
+// that is inside a solid is held outside of it (shared/buried_palm.hpp).
+//
 // A hand searches when its grip begins, when its surroundings change, and after k_search_again_m of
 // travel (hand_travel_m). In other frames it keeps what it found, also if that was no surface.
 //

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "components/play_space.hpp"
+#include "engine/math/scalar_rotation.hpp"
 #include "systems/grab/shared/grab_sight.hpp"
 #include "systems/rigs/authored_hand.hpp"
 
@@ -48,13 +49,33 @@ std::optional<FoundSurface> nearer(const std::optional<ColliderHit>& collider,
                     : std::nullopt;
 }
 
+// Fingers can go round a body that is at least this far from a point beside and below its surface.
+constexpr double k_round_beside_m = 0.05;
+constexpr double k_round_below_m = 0.005;
+constexpr double k_round_free_m = 0.015;
+
+// A hand grips the surface of highest rank.
+struct SurfaceRank {
+    std::int32_t priority = 0;  // GrabRule::priority
+    bool is_round = false;      // fingers can go round it: a rail, a handle, an edge
+    auto operator<=>(const SurfaceRank&) const = default;
+};
+
 // Searches along the palm ray, then around the palm, without testing visibility. Skips surfaces
-// that refuse the hand. Takes the first other surface, or one of a higher GrabRule::priority that
-// no other surface hides from the palm. Other players' heads and bodies count as surfaces.
+// that refuse the hand. Takes the first other surface, or one of a higher rank that no other
+// surface hides from the palm. Only a surface within k_round_reach_m is preferred because fingers
+// can go round it. Other players' heads and bodies count as surfaces.
 class SurfaceFinder {
   public:
-    SurfaceFinder(const GrabSearch& io, const HandOwner& owner, const PalmRay& ray)
-        : io_(io), owner_(owner), ray_(ray), continues_(any_priority(io.rules)) {
+    // `fingers_ws`: direction of the straight fingers.
+    SurfaceFinder(const GrabSearch& io, const HandOwner& owner, const PalmRay& ray,
+                  const Vec3& fingers_ws)
+        : io_(io),
+          owner_(owner),
+          ray_(ray),
+          fingers_ws_(fingers_ws),
+          scale_(io.origin.at(owner.player).scale),
+          continues_(any_priority(io.rules)) {
         const std::uint64_t own_head = io.persistent_id.at(owner.player).value;
         skipped_.add(own_head);
         refusing_.add(own_head);
@@ -62,9 +83,9 @@ class SurfaceFinder {
 
     // Nullopt if nothing is in reach, or only bodies that refuse the hand (refused_by).
     std::optional<GrabTarget> find(double reach_m) {
-        while (offer(on_ray())) {
+        while (needs_any() && offer(on_ray())) {
         }
-        while (!is_done() && !skipped_.is_full() && offer(near_palm(reach_m))) {
+        while (!is_done() && offer(near_palm(needs_any() ? reach_m : scale_ * k_round_reach_m))) {
         }
         return best_;
     }
@@ -90,7 +111,34 @@ class SurfaceFinder {
                       io_.bodies().closest_point(ray_.palm_ws, reach_m, skip));
     }
 
-    bool is_done() const { return best_.has_value() && !continues_; }
+    // False: only a nearby surface that fingers can go round would be better than the best one.
+    bool needs_any() const { return !best_ || continues_; }
+    bool is_done() const { return skipped_.is_full() || (!needs_any() && rank_.is_round); }
+
+    // True if the body ends beside the point in the fingers' direction or across it.
+    bool is_round(const FoundSurface& found) const {
+        if (found.part) {
+            return true;
+        }
+        const Vec3& normal = found.normal_ws;
+        const Vec3 across = normal.cross(fingers_ws_);
+        const Vec3 sideways =
+            across.norm() > 0.1 ? Vec3(across.normalized()) : Vec3(any_perpendicular(normal));
+        const Vec3 ahead = sideways.cross(normal);
+        return std::ranges::any_of(
+            std::array{ahead, Vec3(-ahead), sideways, Vec3(-sideways)}, [&](const Vec3& way) {
+                const Vec3 beside = found.point_ws + scale_ * k_round_beside_m * way;
+                const auto near = io_.surfaces.closest_point_on(
+                    found.id, beside - scale_ * k_round_below_m * normal);
+                return near && near->distance_m > scale_ * k_round_free_m;
+            });
+    }
+
+    SurfaceRank rank_of(const FoundSurface& found, Entity body) const {
+        const GrabRule* const rule = io_.rules.rule_of(body);
+        const bool is_near = (found.point_ws - ray_.palm_ws).norm() <= scale_ * k_round_reach_m;
+        return {rule != nullptr ? rule->priority : 0, (!best_ || is_near) && is_round(found)};
+    }
 
     bool is_hidden(std::uint64_t id, const Vec3& point_ws) const {
         const auto hit = io_.surfaces.cast_ray(ray_.palm_ws, point_ws, refusing_.view());
@@ -103,39 +151,42 @@ class SurfaceFinder {
         if (is_null(body)) {
             return false;
         }
-        const GrabRule* const rule = io_.rules.rule_of(body);
-        const std::int32_t priority = rule != nullptr ? rule->priority : 0;
+        skipped_.add(found->id);
         if (!io_.rules.allow(owner_, body)) {
             refused_by_ = body;
             refusing_.add(found->id);
-        } else if (!best_ || (priority > priority_ && !is_hidden(found->id, found->point_ws))) {
-            best_ = GrabTarget{body, found->point_ws, found->normal_ws, {}, found->part};
-            priority_ = priority;
+            return !is_done();
         }
-        skipped_.add(found->id);
-        return !is_done() && !skipped_.is_full();
+        const SurfaceRank rank = rank_of(*found, body);
+        if (!best_ || (rank > rank_ && !is_hidden(found->id, found->point_ws))) {
+            best_ = GrabTarget{body, found->point_ws, found->normal_ws, {}, found->part};
+            rank_ = rank;
+        }
+        return !is_done();
     }
 
     const GrabSearch& io_;
     const HandOwner& owner_;
     const PalmRay& ray_;
+    Vec3 fingers_ws_;
+    double scale_;
     bool continues_;  // true: searches past the first surface for one of higher priority
     Ids skipped_;     // already offered
     Ids refusing_;    // own head, and those of skipped_ that refuse the hand
     std::optional<GrabTarget> best_;
-    std::int32_t priority_ = 0;
+    SurfaceRank rank_;  // rank of the best one
     Entity refused_by_ = k_no_entity;
 };
 
 // Returns the surface at the palm if the hand can reach it without crossing a wall. If the palm was
 // pushed through a surface, returns that surface.
 GrabSearchResult find_visible_surface(const GrabSearch& io, const HandOwner& owner,
-                                      const PalmRay& ray, const SightLines& sight,
-                                      const HandTuning& tuning) {
+                                      const PalmRay& ray, const Vec3& fingers_ws,
+                                      const SightLines& sight, const HandTuning& tuning) {
     const auto refused_by = [](Entity body) {
         return GrabSearchResult{{}, Fallback::grab_refused_by_rule, body};
     };
-    SurfaceFinder finder(io, owner, ray);
+    SurfaceFinder finder(io, owner, ray, fingers_ws);
     const auto surface = finder.find(tuning.reach_m);
     if (!surface) {
         return is_null(finder.refused_by()) ? GrabSearchResult{} : refused_by(finder.refused_by());
@@ -285,7 +336,8 @@ GrabSearchResult find_grab_target(const GrabSearch& io, Entity hand, const Pose&
     if (const auto snap = SnapFinder(io, hand, hand_ws, sight, tuning, stats).find(only)) {
         return {snap->target};
     }
-    return find_visible_surface(io, owner, ray, sight, tuning.hand);
+    return find_visible_surface(io, owner, ray, hand_ws.rotation * -Vec3::UnitZ(), sight,
+                                tuning.hand);
 }
 
 }  // namespace handhold

@@ -56,6 +56,10 @@ struct GrabSearch {
     }
 };
 
+// Greatest distance from the palm, times the player's scale, of a surface that is preferred because
+// fingers can go round it.
+inline constexpr double k_round_reach_m = 0.03;
+
 // A point on a body, or on another player, that a hand grips.
 struct GrabTarget {
     Entity body;

@@ -49,7 +49,7 @@ GripSurface SurfaceCandidates::best(const GripSurface& last) {
             evaluate(candidates[i], fit(candidates[i]));
         }
     }
-    return best_.surface;
+    return best_.is_inside ? GripSurface{} : best_.surface;
 }
 
 // Searches from the triangles nearest to six points around the palm. Does not stop early when it
@@ -86,9 +86,11 @@ bool SurfaceCandidates::is_eligible(const Candidate& candidate) const {
 
 // Evaluates a candidate; `held` is its fit.
 void SurfaceCandidates::evaluate(const Candidate& candidate, FittedPalm held) {
-    const double placement_m = placement_cost_m(candidate, held);
+    const bool is_inside = fitter_.is_backface(candidate) && fitter_.is_inside(candidate);
+    const double placement_m = placement_cost_m(candidate, held, is_inside);
     add_crossing_depth(placement_m, held);
-    const Evaluated evaluated = scored(held, placement_m);
+    Evaluated evaluated = scored(held, placement_m);
+    evaluated.is_inside = is_inside;
     if (is_cheaper(evaluated.cost_m)) {
         best_ = evaluated;
         has_best_ = true;
@@ -115,11 +117,11 @@ void SurfaceCandidates::add_crossing_depth(double placement_m, FittedPalm& held)
 
 // Returns the penalty `placement` of the class comment. Only a lower bound if the candidate already
 // costs more than the best one.
-double SurfaceCandidates::placement_cost_m(const Candidate& candidate,
-                                           const FittedPalm& held) const {
+double SurfaceCandidates::placement_cost_m(const Candidate& candidate, const FittedPalm& held,
+                                           bool is_inside) const {
     double cost_m = 0.0;
     if (fitter_.is_backface(candidate)) {
-        cost_m += tuning_.backface_cost_m + (fitter_.is_inside(candidate) ? k_inside_cost_m : 0.0);
+        cost_m += tuning_.backface_cost_m + (is_inside ? k_inside_cost_m : 0.0);
     }
     if (is_cheaper(held.sync_m + cost_m) && fitter_.enters_solid(held)) {
         cost_m += k_enters_solid_cost_m;

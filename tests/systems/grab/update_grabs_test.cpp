@@ -51,6 +51,49 @@ TEST(UpdateGrabs, WhereTheRayMissesTheNearestSurfaceInReachIsGripped) {
     EXPECT_LT((grab.hit_normal_bs - Vec3::UnitY()).norm(), 1e-9);
 }
 
+// A bar beside the palm, off the palm ray, which hits the panel behind it.
+struct BarBesideThePalm {
+    Grabs grabs;
+    double distance_m;  // of the bar from the palm
+
+    BarBesideThePalm(Random& random, double half_m, double from_m, double to_m)
+        : grabs(random.pose(5.0)), distance_m(random.between(from_m, to_m)) {
+        constexpr Entity k_bar = k_rock;
+        grabs.add_floor(1.0);
+        const double x = random.between(-0.5, 0.5);
+        const Vec3 palm(x, 1.03, random.between(-0.5, 0.5));
+        const Quat turn = rotation_about(Vec3::UnitY(), random.between(-k_pi, k_pi));
+        const Vec3 center = palm + turn * Vec3((distance_m + half_m), 0.0, 0.0);
+        grabs.add_body(k_bar, {BodyKind::fixed, 0.0, Vec3::Zero(), 0.0},
+                       grabs.shapes.add_box(Vec3(half_m, half_m, 0.6)), {center, turn});
+        const double yaw = random.between(-k_pi, k_pi);
+        grabs.close(k_right, palm, rotation_about(Vec3::UnitY(), yaw));
+    }
+};
+
+TEST(UpdateGrabs, RailWithinThreeCentimetresIsPreferredToThePanelUnderThePalm) {
+    Random random(4901);
+    for (int i = 0; i < 200; ++i) {
+        BarBesideThePalm near(random, 0.016, 0.004, 0.0299);
+        near.grabs.run();
+        EXPECT_EQ(near.grabs.grab.at(k_right).body, k_rock) << near.distance_m;
+        BarBesideThePalm far(random, 0.016, 0.0301, 0.06);
+        far.grabs.run();
+        EXPECT_EQ(far.grabs.grab.at(k_right).body, k_wall) << far.distance_m;
+        BarBesideThePalm block(random, 0.07, 0.004, 0.03);
+        block.grabs.run();
+        EXPECT_EQ(block.grabs.grab.at(k_right).body, k_wall) << "fingers cannot go round a block";
+    }
+}
+
+TEST(UpdateGrabs, PanelOfHigherPriorityIsPreferredToARail) {
+    Random random(4902);
+    BarBesideThePalm bar(random, 0.016, 0.01, 0.02);
+    bar.grabs.grab_rule.add(k_wall).priority = 1;
+    bar.grabs.run();
+    EXPECT_EQ(bar.grabs.grab.at(k_right).body, k_wall);
+}
+
 TEST(UpdateGrabs, NothingInReachIsCountedAndGripsNothing) {
     Grabs grabs;
     grabs.add_floor(1.0);

@@ -1,0 +1,90 @@
+#include "systems/hand/shared/buried_palm.hpp"
+
+#include <gtest/gtest.h>
+
+#include "beam.hpp"
+#include "held_hand.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
+
+namespace handhold::search_grip_test {
+namespace {
+
+using test::k_unlimited_s;
+
+// A block of two metres with its top in the plane y = 0.
+GripMesh make_block() {
+    Mesh mesh;
+    for (int corner = 0; corner < 8; ++corner) {
+        mesh.positions.emplace_back((corner & 1) != 0 ? 1.0 : -1.0, (corner & 2) != 0 ? 0.0 : -0.5,
+                                    (corner & 4) != 0 ? 1.0 : -1.0);
+    }
+    mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 4, 2}, {2, 4, 6},
+                      {1, 3, 5}, {3, 7, 5}, {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7}};
+    return build_grip_mesh(mesh);
+}
+
+Pose buried_wrist(Random& random, const HandRig& rig) {
+    const double x = random.between(-0.5, 0.5);
+    const double y = random.between(-0.08, 0.005);
+    const Vec3 palm(x, y, random.between(-0.5, 0.5));
+    const Quat rotation = random.rotation();
+    return {palm - rotation * rig.palm_center_hs, rotation};
+}
+
+double lowest_m(FittedHand& hand) {
+    const Pose wrist = hand.shown_bs();
+    double lowest = 1.0;
+    const auto add = [&](const Vec3& at_hs, double radius_m) {
+        lowest = std::min(lowest, transform_point(wrist, at_hs).y() - radius_m);
+    };
+    for (const PalmCapsule& capsule : hand.rig.palm) {
+        add(capsule.a_hs, capsule.radius_m);
+        add(capsule.b_hs, capsule.radius_m);
+    }
+    for (std::size_t f = 0; f < hand.rig.fingers.size(); ++f) {
+        const FingerRig& finger = hand.rig.fingers[f];
+        const auto points = finger_points(finger, hand.pose().shown[f]);
+        for (std::size_t i = 0; i < finger.link_count; ++i) {
+            add(points[i], finger.radius_m[i]);
+            add(points[i + 1], finger.radius_m[i]);
+        }
+    }
+    return lowest;
+}
+
+// Whatever way the palm faces. Without this a hand in a wall cannot be seen.
+TEST(BuriedPalm, HandTrackedInsideAWallIsShownOutside) {
+    const GripMesh block = make_block();
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    Random random(4903);
+    int without_surface = 0;
+    for (int i = 0; i < 300; ++i) {
+        FittedHand hand(block, buried_wrist(random, rig));
+        for (int frame = 0; frame < 30; ++frame) {
+            hand.frame(k_unlimited_s);
+        }
+        EXPECT_GT(lowest_m(hand), -2e-3) << i;
+        without_surface += hand.surface.at(k_right).triangle == GripSurface::k_none ? 1 : 0;
+    }
+    EXPECT_GT(without_surface, 60);
+}
+
+TEST(BuriedPalm, HandOutsideOrBehindASheetStaysWhereItIsTracked) {
+    const GripMesh block = make_block();
+    const GripMesh sheet = build_grip_mesh(test::make_floor_mesh());
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    Random random(4904);
+    for (int i = 0; i < 300; ++i) {
+        Pose wrist = buried_wrist(random, rig);
+        const FittedHand behind_sheet(sheet, wrist);
+        EXPECT_EQ(wrist_outside_bs(behind_sheet.hands.front(), behind_sheet.tuning.palm).position,
+                  wrist.position);
+        wrist.position.y() += 0.3;
+        const FittedHand above(block, wrist);
+        EXPECT_EQ(wrist_outside_bs(above.hands.front(), above.tuning.palm).position,
+                  wrist.position);
+    }
+}
+
+}  // namespace
+}  // namespace handhold::search_grip_test
