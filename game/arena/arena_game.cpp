@@ -64,6 +64,7 @@ void write_arena_state(const ArenaState& state, std::vector<std::byte>& bytes) {
     put(state.score[1], 4, bytes);
     put(state.goal_tick, 8, bytes);
     put(state.reset_tick, 8, bytes);
+    put(state.hash(), 8, bytes);
 }
 
 std::optional<ArenaState> read_arena_state(std::span<const std::byte> bytes) {
@@ -75,7 +76,7 @@ std::optional<ArenaState> read_arena_state(std::span<const std::byte> bytes) {
                    static_cast<std::uint32_t>(take(bytes, 4, 4))};
     state.goal_tick = take(bytes, 8, 8);
     state.reset_tick = take(bytes, 16, 8);
-    return state;
+    return take(bytes, 24, 8) == state.hash() ? std::optional(state) : std::nullopt;
 }
 
 hh::Pose drum_pose(const ArenaDrum& drum, std::uint32_t score) {

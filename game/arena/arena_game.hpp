@@ -39,9 +39,10 @@ struct ArenaState {
     std::uint64_t hash() const;
     friend bool operator==(const ArenaState&, const ArenaState&) = default;
 };
-inline constexpr std::size_t k_arena_state_bytes = 24;
+// Score, ticks and a checksum.
+inline constexpr std::size_t k_arena_state_bytes = 32;
 void write_arena_state(const ArenaState& state, std::vector<std::byte>& bytes);
-// nullopt unless `bytes` are those of a state.
+// nullopt for bytes that write_arena_state has not written.
 std::optional<ArenaState> read_arena_state(std::span<const std::byte> bytes);
 
 // A digit of a score board: a kinematic drum about X with ten faces.

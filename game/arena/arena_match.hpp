@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,5 +39,25 @@ class ArenaMatch {
     ArenaGame& game_;
     hh::MatchGame<ArenaState> match_;
 };
+
+// A match's state as it is sent and recorded: that of the library, then that of the rules.
+struct JoinedState {
+    std::span<const std::byte> of_match;
+    ArenaState of_rules;  // the default, if the scene has no rules
+};
+// nullopt: the end is no state of rules.
+inline std::optional<JoinedState> split_join_state(std::span<const std::byte> bytes,
+                                                   bool has_rules) {
+    if (!has_rules) {
+        return JoinedState{bytes, {}};
+    }
+    if (bytes.size() < k_arena_state_bytes) {
+        return std::nullopt;
+    }
+    const std::optional<ArenaState> rules = read_arena_state(bytes.last(k_arena_state_bytes));
+    return rules
+               ? std::optional(JoinedState{bytes.first(bytes.size() - k_arena_state_bytes), *rules})
+               : std::nullopt;
+}
 
 }  // namespace handhold

@@ -102,6 +102,7 @@ struct ClimberState {
     std::uint32_t waypoint = 0;
     double waypoint_since_s = 0.0;
     double detour_until_s = 0.0;
+    double yields_until_s = 0.0;  // arena: leaves the disc to others
     bool leaping = false;
     double leap_until_s = 0.0;
     double carried_s = 0.0;  // when the climber last had a support

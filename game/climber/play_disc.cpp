@@ -19,6 +19,9 @@ constexpr double k_near_disc_m =
     1.3;  // distance within which a climber matches the disc's velocity
 constexpr double k_throw_from_m = 6.5;  // distance of the goal at which a climber throws
 constexpr double k_longest_carry_s = 8.0;
+// Of two who pull at the disc for long, one yields, by chance, and stays away for a while.
+constexpr double k_longest_pull_s = 1.5;
+constexpr double k_yield_s = 2.0;
 constexpr double k_disc_throw_mps = 4.5;  // speed of a swing at release
 constexpr double k_aim_error = 0.06;      // largest error of a throw, as the tangent
 constexpr std::array<hh::Side, 2> k_both_sides = {HH_LEFT, HH_RIGHT};
@@ -63,6 +66,24 @@ std::size_t rank_in_team(const DiscPlay& play, const hh::Vec3& point_ws) {
         }
     }
     return rank;
+}
+
+// True if a player of the other team holds the disc.
+bool is_contested(const DiscPlay& play) {
+    const hh::World& world = play.mind.world();
+    std::size_t index = 0;
+    for (const hh::Player player : world.players()) {
+        if (team_of(index++) == play.team) {
+            continue;
+        }
+        for (const hh::Side side : k_both_sides) {
+            const auto hand = world.hand(player, side);
+            if (hand && hand->body == play.mind.sight.arena->disc) {
+                return true;
+            }
+        }
+    }
+    return false;
 }
 
 // Thrusts towards a velocity, round what is in the way.
@@ -123,6 +144,11 @@ void carry(const DiscPlay& play, hh::Side side) {
     ClimberHand& hand = mind.hand(side);
     constexpr double k_never_s = 1e9;  // feel_hands lets go otherwise
     const double since_s = mind.now.t_s - hand.from_s;
+    if (since_s > k_longest_pull_s && is_contested(play) && mind.state.random.chance(0.1)) {
+        mind.state.yields_until_s = mind.now.t_s + k_yield_s;
+        let_go(mind.state, side);
+        return;
+    }
     hand.change_s = k_never_s;
     look_to(play, play.target_ws);
     const hh::Vec3 goal_way = play.target_ws - mind.now.head_ws;
@@ -187,7 +213,8 @@ void play_disc(const ClimberMind& mind) {
     constexpr std::size_t k_fetchers = 1;
     if (with_disc) {
         carry(play, *with_disc);
-    } else if (rank_in_team(play, play.disc_ws) < k_fetchers) {
+    } else if (mind.now.t_s >= mind.state.yields_until_s &&
+               rank_in_team(play, play.disc_ws) < k_fetchers) {
         fetch(play);
     } else {
         const bool guards = rank_in_team(play, play.guarded_ws) == 0;

@@ -22,6 +22,7 @@ constexpr std::uint64_t k_hash_every_ticks_logged = 180;
 // One player of this process.
 struct JoinedPeer {
     MatchScene scene;
+    std::unique_ptr<MatchRecorder> recorder;
     std::unique_ptr<MatchPeer> peer;
     PeerHands hands;
     MatchReturn returns;
@@ -38,16 +39,24 @@ struct JoinedPeers {
     std::vector<std::unique_ptr<JoinedPeer>> peers;
 };
 
-std::optional<FileError> add_peer(const MatchEntry& entry, JoinedPeers& all) {
+std::optional<FileError> add_peer(const JoinOptions& options, const MatchEntry& entry,
+                                  JoinedPeers& all) {
     Result<MatchScene> scene = load_entry_scene(all.place, entry.offer);
     if (!scene) {
         return scene.error();
     }
     auto joined = std::make_unique<JoinedPeer>();
     joined->scene = std::move(scene.value());
-    joined->peer = std::make_unique<MatchPeer>(
-        joined->scene.scene.host, joined->scene.players,
-        make_peer_settings(joined->scene, entry.tokens[all.peers.size()]));
+    Result<std::unique_ptr<MatchRecorder>> recorder = open_recorder(options.record, entry.offer);
+    if (!recorder) {
+        return recorder.error();
+    }
+    joined->recorder = std::move(recorder.value());
+    MatchPeerSettings settings = make_peer_settings(joined->scene, entry.tokens[all.peers.size()]);
+    settings.watches = options.watches;
+    settings.recorder = joined->recorder.get();
+    joined->peer = std::make_unique<MatchPeer>(joined->scene.scene.host, joined->scene.players,
+                                               std::move(settings));
     all.peers.push_back(std::move(joined));
     return std::nullopt;
 }
@@ -69,7 +78,7 @@ std::optional<FileError> enter(const JoinOptions& options, JoinedPeers& all) {
         all.recording = std::move(loaded.value());
     }
     while (all.peers.size() < count) {
-        if (auto error = add_peer(entry.value(), all)) {
+        if (auto error = add_peer(options, entry.value(), all)) {
             return error;
         }
     }
@@ -81,6 +90,11 @@ std::optional<FileError> enter(const JoinOptions& options, JoinedPeers& all) {
     return std::nullopt;
 }
 
+std::string slot_text(const JoinedPeer& joined) {
+    const std::size_t slot = joined.peer->slot();
+    return slot == MatchWelcome::k_no_slot ? "none" : std::to_string(slot);
+}
+
 void log_confirmed(JoinedPeer& joined) {
     const hh_match_stats stats = joined.peer->match().stats();
     const std::uint64_t tick =
@@ -88,7 +102,7 @@ void log_confirmed(JoinedPeer& joined) {
     if (tick > joined.logged && tick + HH_MATCH_PLACES > stats.tick) {
         if (const auto hash = joined.peer->match().hash(tick)) {
             joined.logged = tick;
-            print_log_line(log_line("confirmed", {{"slot", std::to_string(joined.peer->slot())},
+            print_log_line(log_line("confirmed", {{"slot", slot_text(joined)},
                                                   {"tick", std::to_string(tick)},
                                                   {"hash", format_hash(*hash)}}));
         }
@@ -101,7 +115,7 @@ void log_end(const JoinedPeer& joined) {
     }
     const hh_match_stats stats = joined.peer->match().stats();
     print_log_line(log_line(
-        "ends", {{"slot", std::to_string(joined.peer->slot())},
+        "ends", {{"slot", slot_text(joined)},
                  {"why", joined.peer->why()},
                  {"ticks", std::to_string(stats.ticks)},
                  {"rollbacks", std::to_string(stats.rollbacks)},
@@ -117,10 +131,12 @@ void log_change(JoinedPeer& joined) {
         return;
     }
     joined.was_playing = plays;
-    print_log_line(
-        log_line(plays ? "plays" : "waits", {{"slot", std::to_string(joined.peer->slot())},
-                                             {"states", std::to_string(joined.peer->states())},
-                                             {"why", plays ? "joined" : joined.peer->why()}}));
+    print_log_line(log_line(!plays                   ? "waits"
+                            : joined.peer->watches() ? "watches"
+                                                     : "plays",
+                            {{"slot", slot_text(joined)},
+                             {"states", std::to_string(joined.peer->states())},
+                             {"why", plays ? "joined" : joined.peer->why()}}));
 }
 
 void run_peer(JoinedPeers& all, std::size_t number, double wait_s) {
@@ -170,6 +186,8 @@ int join_command(const JoinOptions& options) {
             status = refuse({options.url, "", joined->peer->why()});
         }
         log_end(*joined);
+        const int recorded = finish_recording(joined->recorder.get(), joined->peer->match());
+        status = status == 0 ? recorded : status;
         leave_match(*joined->peer);
     }
     return status;

@@ -76,7 +76,7 @@ const std::map<std::string, handhold::PictureQuality> k_qualities = {
 void add_run_options(CLI::App& run, handhold::RunOptions& options) {
     run.add_option("--scene", options.scene,
                    "A built-in scene, a scene file (.json) or a level (.glb, .gltf); needed "
-                   "without --join");
+                   "without --join or --match");
     first_and_more(run, "--input", options.input, options.more_inputs,
                    "A recorded session (.csv), once for each player; default: the scene's own");
     run.add_option("--hz", options.hz, "Frames a second")->check(number_in(10.0, 1000.0));
@@ -236,6 +236,7 @@ struct Program {
     handhold::ExportGripOptions grip;
     handhold::ServeOptions serve;
     handhold::JoinOptions join;
+    handhold::ReplayOptions replay;
     handhold::JoinOptions bots;
     handhold::TokenOptions token;
     std::string hands_folder;
@@ -251,7 +252,13 @@ struct Program {
     }
 };
 
-int run_or_join(const handhold::RunOptions& run, handhold::JoinOptions join) {
+int run_or_join(const handhold::RunOptions& run, handhold::JoinOptions join,
+                handhold::ReplayOptions replay) {
+    if (!replay.file.empty()) {
+        replay.scene = run.scene;
+        replay.seconds = run.seconds;
+        return handhold::replay_command(replay);
+    }
     if (join.url.empty()) {
         return handhold::run_command(run);
     }
@@ -266,11 +273,12 @@ int run_or_join(const handhold::RunOptions& run, handhold::JoinOptions join) {
 void add_scene_commands(Program& program) {
     Program& p = program;
     CLI::App& run = p.add("run", "Play a session without a window, as fast as it can",
-                          [&p] { return run_or_join(p.run, p.join); });
+                          [&p] { return run_or_join(p.run, p.join, p.replay); });
     add_run_options(run, p.run);
     handhold::add_join_options(run, p.join);
+    handhold::add_replay_options(run, p.replay);
     run.parse_complete_callback([&p] {
-        if (p.run.scene.empty() && p.join.url.empty()) {
+        if (p.run.scene.empty() && p.join.url.empty() && p.replay.file.empty()) {
             throw CLI::RequiredError("--scene");
         }
     });

@@ -15,6 +15,9 @@ struct ServeOptions {
     std::string token_key;   // file with a secret; empty: everybody is admitted
     double return_s = 60.0;  // MatchServerSettings::return_s
     double seconds = 0.0;    // 0: until a signal
+    int spectators = 8;      // places for them
+    std::string record;      // file of the match; empty: none
+    bool agones = false;     // tells Agones' sidecar on this machine
 };
 // Runs a match for peers that join over a network. Prints lines of a log. After SIGTERM or SIGINT,
 // or `seconds`, tells the peers and ends with 0; k_exit_bad_file, after one line on standard error,
@@ -28,6 +31,8 @@ struct JoinOptions {
     std::string input;       // recorded session; empty: a scripted climber
     std::string token;       // file with a token for each peer, one a line; empty: none
     int peers = 1;           // each with a world of its own
+    bool watches = false;    // a spectator
+    std::string record;      // file of the match; empty: none. With one peer only
     std::uint64_t seed = 1;  // seed of the climbers
     double seconds = 0.0;    // 0: until a signal, or until the server ends
 };
@@ -35,6 +40,17 @@ struct JoinOptions {
 // peer's last confirmed tick. Returns 0, or k_exit_bad_file after one line on standard error: no
 // server, not admitted, or cut off. A server that ends is no error.
 int join_command(const JoinOptions& options);
+
+// Options of `handhold run --match`.
+struct ReplayOptions {
+    std::string file;      // the recording
+    std::string scene;     // empty: the built-in scene that the recording names
+    double seconds = 0.0;  // 0: to its end
+};
+// Plays a recorded match again, without a network and as fast as it can. The last line on standard
+// output is "state_hash 0x<16 hex digits>". Returns 0, or k_exit_bad_file after one line on
+// standard error; k_exit_interrupted after a signal.
+int replay_command(const ReplayOptions& options);
 
 // Options of `handhold token`.
 struct TokenOptions {

@@ -7,6 +7,8 @@
 
 #include "game/levels/built_in_scenes.hpp"
 #include "game/net/hmac.hpp"
+#include "game/net/net_log.hpp"
+#include "game/play/exit_status.hpp"
 #include "game/play/loading.hpp"
 
 namespace handhold {
@@ -51,7 +53,7 @@ Result<Scene> load_named_scene(const MatchPlace& place, const MatchOffer& offer)
     const std::vector<std::string_view> names = built_in_scenes();
     if (std::ranges::find(names, offer.scene) == names.end()) {
         return FileError{place.url, "",
-                         "the server plays \"" + offer.scene +
+                         "the match is in \"" + offer.scene +
                              "\", which is not built in: give its file by --scene"};
     }
     return load_scene_with_progress(offer.scene);
@@ -133,6 +135,25 @@ bool MatchReturn::goes_on(const MatchPlace& place, MatchPeer& peer) {
         return !connect_peer(place, peer).has_value();
     }
     return true;
+}
+
+Result<std::unique_ptr<MatchRecorder>> open_recorder(const std::string& path,
+                                                     const MatchOffer& level) {
+    if (path.empty()) {
+        return std::unique_ptr<MatchRecorder>();
+    }
+    return MatchRecorder::open(path, level);
+}
+
+int finish_recording(MatchRecorder* recorder, const hh::Match& match) {
+    if (recorder == nullptr) {
+        return 0;
+    }
+    if (const auto error = recorder->finish(match)) {
+        return refuse(*error);
+    }
+    print_log_line(log_line("recorded", {{"bytes", std::to_string(recorder->bytes())}}));
+    return 0;
 }
 
 void leave_match(MatchPeer& peer) {

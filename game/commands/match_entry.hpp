@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,7 @@ struct MatchEntry {
 Result<MatchEntry> ask_for_entry(const MatchPlace& place, std::size_t peers);
 
 // Loads the scene that is played and adds its players. Error: it differs from the server's.
+// `place.url` is for errors: a server, or a recording.
 Result<MatchScene> load_entry_scene(const MatchPlace& place, const MatchOffer& offer);
 
 // Seconds of a clock that only runs forward.
@@ -50,6 +52,12 @@ class MatchReturn {
     std::optional<double> lost_s_;
     double next_s_ = 0.0;
 };
+
+// Null for an empty path.
+Result<std::unique_ptr<MatchRecorder>> open_recorder(const std::string& path,
+                                                     const MatchOffer& level);
+// Finishes the recording, if there is one, and logs it. Returns the exit status.
+int finish_recording(MatchRecorder* recorder, const hh::Match& match);
 
 // Leaves the match, and waits a second at most until the server knows.
 void leave_match(MatchPeer& peer);

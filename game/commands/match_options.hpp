@@ -26,6 +26,13 @@ inline void add_serve_options(CLI::App& serve, ServeOptions& options) {
         .add_option("--return-seconds", options.return_s,
                     "How long a slot waits for a player who was cut off; default: 60")
         ->check(number_in(0.0, 3600.0));
+    serve.add_option("--spectators", options.spectators, "Places for those who watch; default: 8")
+        ->check(CLI::Range(0, 64));
+    serve.add_option("--record", options.record,
+                     "Save the match (.hhm): run --match plays it again");
+    serve.add_flag("--agones", options.agones,
+                   "Tell Agones' sidecar on this machine when the server is ready, played, and "
+                   "ends (AGONES_SDK_HTTP_PORT, or 9358)");
     serve.add_option("--seconds", options.seconds, "Stop after so many; default: never")
         ->check(number_in(0.01, 1e9));
 }
@@ -47,6 +54,23 @@ inline void add_join_options(CLI::App& run, JoinOptions& options) {
     }
     add_peer_options(run, options);
     run.get_option("--token")->needs(join);
+    run.add_flag("--watch", options.watches, "With --join: watch, without a slot")
+        ->needs(join)
+        ->excludes(run.get_option("--input"));
+    run.add_option("--record", options.record,
+                   "With --join: save the match (.hhm), as it is confirmed here")
+        ->needs(join);
+}
+
+// `run --match`: a recorded match. Call after add_join_options.
+inline void add_replay_options(CLI::App& run, ReplayOptions& options) {
+    CLI::Option* const match = run.add_option(
+        "--match", options.file, "Play a recorded match (.hhm) again, without a network");
+    for (const char* const own :
+         {"--hz", "--players", "--climbers", "--spawn", "--trace", "--out", "--snapshot",
+          "--resume", "--distance-grab", "--input", "--seed", "--join"}) {
+        match->excludes(run.get_option(own));
+    }
 }
 
 // `play --join`. Call after the other options of `play`.

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "game/commands/match_commands.hpp"
+#include "game/commands/match_entry.hpp"
+#include "game/net/agones.hpp"
 #include "game/net/match_scene.hpp"
 #include "game/net/match_server.hpp"
 #include "game/play/exit_status.hpp"
@@ -29,6 +31,7 @@ Result<MatchServerSettings> choose_server_settings(const ServeOptions& options, 
     settings.offer.digests = scene.digests;
     settings.tick_s = k_match_tick_s;
     settings.return_s = options.return_s;
+    settings.spectators = static_cast<std::size_t>(options.spectators);
     settings.clock = steady_s;
     settings.today = [] { return static_cast<std::int64_t>(std::time(nullptr)); };
     settings.log = print_log_line;
@@ -52,6 +55,18 @@ void log_hash(const hh::Match& match, const Scene& scene, std::uint64_t& logged)
                                    {"hash", format_hash(*match.hash(tick))},
                                    {"score", scene.arena ? score_text(scene.arena->state) : ""}}));
     }
+}
+
+// Whoever was cut off may return for a while: until then the server is not free for others.
+void report_to_agones(const MatchServer& server, double return_s, double& played_s,
+                      AgonesReporter& agones) {
+    const double now_s = steady_s();
+    if (server.seats().taken() > 0) {
+        played_s = now_s;
+    }
+    agones.beat();
+    agones.set(now_s - played_s < return_s ? AgonesReporter::State::allocated
+                                           : AgonesReporter::State::ready);
 }
 
 }  // namespace
@@ -79,6 +94,13 @@ int serve_command(const ServeOptions& options) {
     if (!settings) {
         return refuse(settings.error());
     }
+    MatchOffer level = settings.value().offer;
+    level.players = static_cast<std::uint8_t>(options.players);
+    Result<std::unique_ptr<MatchRecorder>> recorder = open_recorder(options.record, level);
+    if (!recorder) {
+        return refuse(recorder.error());
+    }
+    settings.value().recorder = recorder.value().get();
     MatchServer server(scene.value().scene.host, scene.value().players, std::move(settings.value()),
                        *listener.value());
     print_log_line(log_line("serves", {{"url", "ws://" + options.address + ":" +
@@ -87,16 +109,28 @@ int serve_command(const ServeOptions& options) {
                                        {"players", std::to_string(options.players)},
                                        {"tokens", options.token_key.empty() ? "0" : "1"}}));
     const double begin_s = steady_s();
+    std::optional<AgonesReporter> agones;
+    if (options.agones) {
+        agones.emplace(agones_port(), print_log_line);
+    }
+    double played_s = begin_s - options.return_s;
     std::uint64_t logged = 0;
     while (!is_interrupted() &&
            (options.seconds == 0.0 || steady_s() - begin_s < options.seconds)) {
         server.poll();
+        if (agones) {
+            report_to_agones(server, options.return_s, played_s, *agones);
+        }
         log_hash(server.match(), scene.value().scene, logged);
     }
     server.drain();
     const double drain_s = steady_s();
     while (!server.is_drained() && steady_s() - drain_s < k_drain_within_s) {
         server.poll();
+    }
+    if (agones) {
+        agones->set(AgonesReporter::State::shutdown);
+        agones.reset();
     }
     const hh_match_stats stats = server.match().stats();
     const std::optional<ArenaGame>& arena = scene.value().scene.arena;
@@ -107,7 +141,7 @@ int serve_command(const ServeOptions& options) {
                                      {"joins", std::to_string(server.counts().joins)},
                                      {"hashes", std::to_string(stats.hashes)},
                                      {"out_of_sync", std::to_string(stats.out_of_sync)}}));
-    return 0;
+    return finish_recording(recorder.value().get(), server.match());
 }
 
 int token_command(const TokenOptions& options) {

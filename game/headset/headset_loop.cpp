@@ -19,13 +19,13 @@ constexpr double k_between_lines_s = 0.1;
 constexpr auto k_retry_interval = std::chrono::milliseconds(500);
 constexpr int k_max_find_attempts = 60;
 
-std::int64_t clock_ns() {
+std::int64_t headset_clock_ns() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(
                std::chrono::steady_clock::now().time_since_epoch())
         .count();
 }
 double microseconds_since(std::int64_t begin_ns) {
-    return 1e-3 * static_cast<double>(clock_ns() - begin_ns);
+    return 1e-3 * static_cast<double>(headset_clock_ns() - begin_ns);
 }
 
 // Copies an eye's picture into a half of `both`. `which`: 0 left, 1 right.
@@ -143,14 +143,14 @@ class HeadsetLoop {
             step(clock_.frame_ns(i));
         }
         if (frame.is_seen && frames_ > 0) {
-            const std::int64_t begin_ns = clock_ns();
+            const std::int64_t begin_ns = headset_clock_ns();
             lay_out_panel();
             const UiPicture& ui = darken_edges(due * clock_.dt_s());
             if (!headset_->end_frame(frame, [&](const EyePicture& eye) { draw(eye, ui); })) {
                 return;
             }
             const double draw_us = microseconds_since(begin_ns);
-            const std::int64_t shown_ns = clock_ns();
+            const std::int64_t shown_ns = headset_clock_ns();
             show_mirror();
             ++figures_.pictures;
             stage_.tally.add_picture(draw_us, microseconds_since(shown_ns));
@@ -164,7 +164,7 @@ class HeadsetLoop {
         panel_.follow(figures_.reading);
         figures_.shows_panel = panel_.shows();
         HeadsetSession& session = stage_.session;
-        const std::int64_t begin_ns = clock_ns();
+        const std::int64_t begin_ns = headset_clock_ns();
         const hh::Sample sample =
             read_headset(figures_.reading, session.t_s(), hand_shape(session.world()), memory_,
                          session.controller_joints());

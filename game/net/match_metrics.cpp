@@ -64,6 +64,7 @@ std::string MatchServer::metrics() const {
             settings_.clock() - start_s_ - as_number(stats.ticks) * settings_.tick_s);
     out.add("slots", "gauge", "Slots of the match.", static_cast<double>(seats_.count()));
     out.add("players", "gauge", "Slots that somebody plays.", static_cast<double>(seats_.taken()));
+    out.add("spectators", "gauge", "Peers that watch.", static_cast<double>(seats_.watching()));
     out.add("joins_total", "counter", "Players who joined.", as_number(counts_.joins));
     out.add("returns_total", "counter", "Of these, players who came back.",
             as_number(counts_.returns));
@@ -83,6 +84,8 @@ std::string MatchServer::metrics() const {
             as_number(stats.out_of_sync));
     out.add("bad_packets_total", "counter", "Packets that were damaged or forged.",
             as_number(counts_.bad_packets));
+    out.add("failed_total", "counter", "Connections that ended by a fault of this program.",
+            as_number(counts_.failed));
     out.add("states_total", "counter", "States sent to players.", as_number(counts_.states));
     add_traffic(listener_.counts(), out);
     return out.take();
@@ -93,6 +96,10 @@ HttpAnswer MatchServer::get(std::string_view path) {
         return is_draining_ ? HttpAnswer{503, "draining\n"} : HttpAnswer{200, "ok\n"};
     }
     if (path == "/metrics") {
+        if (metrics_left_ < 1.0) {
+            return {429, "too many requests\n"};
+        }
+        metrics_left_ -= 1.0;
         return {200, metrics()};
     }
     return {404, "not found: there are /health and /metrics\n"};

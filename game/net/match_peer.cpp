@@ -100,7 +100,8 @@ void MatchPeer::received(std::span<const std::byte> message) {
     }
     heard_s_ = settings_.clock();
     const std::optional<NetKind> kind = kind_of(message);
-    if (kind == NetKind::packet) {
+    const NetKind wanted = settings_.watches ? NetKind::inputs : NetKind::packet;
+    if (kind == wanted) {
         if (stage_ == PeerStage::playing) {
             (void)match_.receive(packet_in(message));  // refused ones are counted there
         }
@@ -136,6 +137,7 @@ void MatchPeer::take_offer(std::span<const std::byte> message) {
     }
     MatchHello hello;
     hello.person = settings_.person;
+    hello.watches = settings_.watches;
     hello.digests = settings_.digests;
     hello.token = settings_.token.substr(0, k_most_text_bytes);
     write_message(hello, message_);
@@ -145,27 +147,33 @@ void MatchPeer::take_offer(std::span<const std::byte> message) {
 
 void MatchPeer::take_welcome(std::span<const std::byte> message) {
     const std::optional<MatchWelcome> welcome = read_welcome(message);
-    if (!welcome || welcome->slot >= players_.size()) {
+    const bool is_right = welcome && (settings_.watches ? welcome->slot == MatchWelcome::k_no_slot
+                                                        : welcome->slot < players_.size());
+    if (!is_right) {
         end("the server's message is damaged");
         return;
     }
     if (!match_.is_valid() || slot_ != welcome->slot) {
-        match_ = hh::Match();  // ends the one before: a world has one match
-        slot_ = welcome->slot;
-        hh_match_def def = hh::match_def();
-        def.slot = welcome->slot;
-        def.tick_s = settings_.tick_s;
-        if (settings_.arena != nullptr) {
-            arena_ = std::make_unique<ArenaMatch>(world_, *settings_.arena);
-        }
-        const hh_match_game game =
-            arena_ != nullptr ? arena_->callbacks() : hh_default_match_game();
-        match_ = hh::Match(world_, players_, def, arena_ != nullptr ? &game : nullptr);
-        if (!match_.is_valid()) {
-            throw std::runtime_error(hh_last_error());
-        }
+        begin_match(welcome->slot);
     }
     stage_ = PeerStage::joining;
+}
+
+void MatchPeer::begin_match(std::size_t slot) {
+    match_ = hh::Match();  // ends the one before: a world has one match
+    slot_ = slot;
+    hh_match_def def = hh::match_def();
+    def.role = settings_.watches ? HH_MATCH_SPECTATOR : HH_MATCH_CLIENT;
+    def.slot = static_cast<std::uint32_t>(slot);
+    def.tick_s = settings_.tick_s;
+    if (settings_.arena != nullptr) {
+        arena_ = std::make_unique<ArenaMatch>(world_, *settings_.arena);
+    }
+    const hh_match_game game = arena_ != nullptr ? arena_->callbacks() : hh_default_match_game();
+    match_ = hh::Match(world_, players_, def, arena_ != nullptr ? &game : nullptr);
+    if (!match_.is_valid()) {
+        throw std::runtime_error(hh_last_error());
+    }
 }
 
 // Memory grows with the bytes that arrive, not with what they say.
@@ -186,19 +194,24 @@ void MatchPeer::take_piece(std::span<const std::byte> message) {
 }
 
 void MatchPeer::join(std::uint8_t number) {
-    // The rules' state is at the end.
-    std::span<const std::byte> of_match = state_;
-    std::optional<ArenaState> of_rules;
-    if (arena_ != nullptr && of_match.size() >= k_arena_state_bytes) {
-        of_rules = read_arena_state(of_match.last(k_arena_state_bytes));
-        of_match = of_match.first(of_match.size() - k_arena_state_bytes);
+    const std::optional<JoinedState> state = split_join_state(state_, arena_ != nullptr);
+    if (!state) {
+        end("the server's state cannot be restored: the rules' state is damaged");
+        return;
     }
-    if (const hh::Status joined = match_.join(of_match); !joined) {
+    MatchRecorder* const recorder = settings_.recorder;
+    if (recorder != nullptr) {
+        recorder->follow(match_, true);
+    }
+    if (const hh::Status joined = match_.join(state->of_match); !joined) {
         end("the server's state cannot be restored: " + printable(joined.text()));
         return;
     }
-    if (of_rules) {
-        arena_->set(*of_rules);
+    if (arena_ != nullptr) {
+        arena_->set(state->of_rules);
+    }
+    if (recorder != nullptr) {
+        recorder->begin(match_.stats().tick, state_);
     }
     state_ = {};
     ++states_;
@@ -235,7 +248,9 @@ std::uint32_t MatchPeer::step(const PeerHands& hands) {
     std::uint32_t advanced = 0;
     for (std::uint32_t i = 0; i < due; ++i) {
         input_.samples.clear();
-        hands(world_.time_s() + settings_.tick_s, input_);
+        if (!settings_.watches) {
+            hands(world_.time_s() + settings_.tick_s, input_);
+        }
         hh_match_input input = hh::match_input(input_.samples, input_.buttons);
         input.commands = input_.commands;
         input.is_hidden = i + 1 < due ? 1 : 0;
@@ -248,7 +263,14 @@ std::uint32_t MatchPeer::step(const PeerHands& hands) {
         }
         ++advanced;
     }
-    if (due > 0 && match_.packet(packet_)) {
+    if (settings_.recorder != nullptr) {
+        settings_.recorder->follow(match_);
+    }
+    if (settings_.watches) {
+        if (match_.needs_state(0).value_or(false)) {
+            end("this world differs from the server's", true);
+        }
+    } else if (due > 0 && match_.packet(packet_)) {
         write_packet_message(packet_, message_);
         link_->send(Delivery::newest, message_);
     }

@@ -11,6 +11,7 @@
 #include <handhold/match.hpp>
 
 #include "game/arena/arena_match.hpp"
+#include "game/net/match_recording.hpp"
 #include "game/net/net_messages.hpp"
 #include "game/net/transport.hpp"
 
@@ -31,9 +32,11 @@ struct MatchPeerSettings {
     std::uint64_t person = 0;  // the same when the person returns
     std::string token;
     double tick_s = 1.0 / 90.0;
-    double silent_after_s = 5.0;    // a server that says nothing for so long is gone
-    std::function<double()> clock;  // seconds, monotonic
-    ArenaGame* arena = nullptr;     // rules of the scene; must outlive the peer. Null: none
+    double silent_after_s = 5.0;        // a server that says nothing for so long is gone
+    std::function<double()> clock;      // seconds, monotonic
+    ArenaGame* arena = nullptr;         // rules of the scene; must outlive the peer. Null: none
+    bool watches = false;               // a spectator: the peer has no slot, and no hands
+    MatchRecorder* recorder = nullptr;  // must outlive the peer. Null: nothing is recorded
 };
 
 enum class PeerStage : std::uint8_t {
@@ -71,7 +74,8 @@ class MatchPeer final : public LinkHandler {
     bool may_return() const { return may_return_; }
     // What the server said before it ended the connection.
     std::optional<NetBye> bye() const { return bye_; }
-    std::size_t slot() const { return slot_; }
+    std::size_t slot() const { return slot_; }  // no meaning for spectators
+    bool watches() const { return settings_.watches; }
     // Not valid before the first state is restored.
     const hh::Match& match() const { return match_; }
     // States that were restored.
@@ -86,6 +90,7 @@ class MatchPeer final : public LinkHandler {
     void take_offer(std::span<const std::byte> message);
     void take_welcome(std::span<const std::byte> message);
     void take_piece(std::span<const std::byte> message);
+    void begin_match(std::size_t slot);
     void join(std::uint8_t number);
     void end(std::string why, bool may_return = false);
     void check_silence();

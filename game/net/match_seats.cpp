@@ -3,34 +3,50 @@
 namespace handhold {
 
 std::optional<std::size_t> MatchSeats::of_link(LinkId link) const {
-    for (std::size_t slot = 0; slot < count_; ++slot) {
-        if (seats_[slot].stage != SeatStage::empty && seats_[slot].link == link) {
-            return slot;
+    for (std::size_t seat = 0; seat < count_; ++seat) {
+        if (seats_[seat].stage != SeatStage::empty && seats_[seat].link == link) {
+            return seat;
         }
     }
     return std::nullopt;
 }
 
-std::optional<std::size_t> MatchSeats::find_for(const std::string& person, double now_s) const {
+std::optional<std::size_t> MatchSeats::find_for(const std::string& person, bool watches,
+                                                double now_s) const {
     std::optional<std::size_t> found;
-    for (std::size_t slot = 0; slot < count_; ++slot) {
-        const MatchSeat& seat = seats_[slot];
+    for (std::size_t at = first(watches); at < last(watches); ++at) {
+        const MatchSeat& seat = seats_[at];
         if (seat.person == person) {
-            return slot;
+            return at;
         }
         if (!found && seat.stage == SeatStage::empty && now_s >= seat.reserved_until_s) {
-            found = slot;
+            found = at;
         }
     }
     return found;
 }
 
-std::size_t MatchSeats::taken() const {
+bool MatchSeats::has(const std::string& person, std::uint64_t number, bool watches,
+                     double now_s) const {
+    for (std::size_t at = first(watches); at < last(watches); ++at) {
+        const MatchSeat& seat = seats_[at];
+        if (seat.person == person && seat.number == number &&
+            (seat.stage != SeatStage::empty || now_s < seat.reserved_until_s)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+std::size_t MatchSeats::taken_of(bool watches) const {
     std::size_t count = 0;
-    for (std::size_t slot = 0; slot < count_; ++slot) {
-        count += seats_[slot].stage != SeatStage::empty ? 1U : 0U;
+    for (std::size_t at = first(watches); at < last(watches); ++at) {
+        count += seats_[at].stage != SeatStage::empty ? 1U : 0U;
     }
     return count;
 }
+
+std::size_t MatchSeats::taken() const { return taken_of(false); }
+std::size_t MatchSeats::watching() const { return taken_of(true); }
 
 }  // namespace handhold

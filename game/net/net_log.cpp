@@ -10,7 +10,7 @@
 namespace handhold {
 namespace {
 
-bool is_plain(std::string_view value) {
+bool is_plain_value(std::string_view value) {
     return !value.empty() && std::ranges::none_of(value, [](char c) {
         return c == ' ' || c == '"' || c == '=' || c == '\\';
     });
@@ -23,7 +23,7 @@ std::string log_line(std::string_view event, std::initializer_list<NetField> fie
     for (const auto& [name, value] : fields) {
         const std::string shown = printable(value);
         line += " " + std::string(name) + "=";
-        if (is_plain(shown)) {
+        if (is_plain_value(shown)) {
             line += shown;
             continue;
         }

@@ -92,6 +92,12 @@ Enum take_enum(NetReader& in, Enum last) {
     return static_cast<Enum>(value);
 }
 
+bool take_bool(NetReader& in) {
+    const auto value = in.take_as<std::uint8_t>();
+    in.expect(value <= 1);
+    return value == 1;
+}
+
 }  // namespace
 
 std::string_view digest_name(std::size_t digest) {
@@ -152,7 +158,7 @@ std::string_view bye_text(NetBye bye) {
 
 std::optional<NetKind> kind_of(std::span<const std::byte> message) {
     const auto value = message.empty() ? 0U : std::to_integer<unsigned>(message[0]);
-    if ((value >= 1 && value <= 6) || value == 16 || value == 17) {
+    if ((value >= 1 && value <= 7) || value == 16 || value == 17) {
         return static_cast<NetKind>(value);
     }
     return std::nullopt;
@@ -161,6 +167,11 @@ std::optional<NetKind> kind_of(std::span<const std::byte> message) {
 void write_packet_message(std::span<const std::byte> packet, std::vector<std::byte>& message) {
     const NetWriter out(NetKind::packet, message);
     message.insert(message.end(), packet.begin(), packet.end());
+}
+
+void write_inputs_message(std::span<const std::byte> inputs, std::vector<std::byte>& message) {
+    const NetWriter out(NetKind::inputs, message);
+    message.insert(message.end(), inputs.begin(), inputs.end());
 }
 
 void write_message(const MatchOffer& offer, std::vector<std::byte>& message) {
@@ -185,9 +196,7 @@ std::optional<MatchOffer> read_offer(std::span<const std::byte> message) {
     offer.players = in.take_as<std::uint8_t>();
     in.expect(offer.players >= 1 && offer.players <= HH_MATCH_PLAYERS);
     offer.seed = in.take_as<std::uint64_t>();
-    const auto wants_token = in.take_as<std::uint8_t>();
-    in.expect(wants_token <= 1);
-    offer.wants_token = wants_token == 1;
+    offer.wants_token = take_bool(in);
     in.take_digests(offer.digests);
     offer.scene = in.take_text();
     return in.is_at_end() ? std::optional(offer) : std::nullopt;
@@ -198,6 +207,7 @@ void write_message(const MatchHello& hello, std::vector<std::byte>& message) {
     out.put(k_net_magic, 4);
     out.put(hello.version, 2);
     out.put(hello.person, 8);
+    out.put(hello.watches ? 1 : 0, 1);
     out.put_digests(hello.digests);
     out.put_text(hello.token);
 }
@@ -211,6 +221,7 @@ std::optional<MatchHello> read_hello(std::span<const std::byte> message) {
         return hello;
     }
     hello.person = in.take_as<std::uint64_t>();
+    hello.watches = take_bool(in);
     in.take_digests(hello.digests);
     hello.token = in.take_text();
     return in.is_at_end() ? std::optional(hello) : std::nullopt;

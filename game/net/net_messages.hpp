@@ -14,7 +14,7 @@
 // read as a whole or not at all, and no number in it leads to more memory.
 namespace handhold {
 
-inline constexpr std::uint16_t k_net_version = 1;
+inline constexpr std::uint16_t k_net_version = 2;
 
 // What must be equal on all machines, in the order in which differences are reported.
 enum class MatchDigest : std::uint8_t { library, scene, tick, tuning, clips, bodies, shapes };
@@ -33,6 +33,7 @@ enum class NetKind : std::uint8_t {
     state = 4,    // server: a piece of a join state
     packet = 5,   // both: a packet of the match
     bye = 6,      // both: the connection ends
+    inputs = 7,   // server, to spectators: hh_match_confirmed_inputs
     hello = 16,   // peer: wants to play
     joined = 17,  // peer: the state is restored
 };
@@ -48,7 +49,8 @@ struct MatchOffer {
 
 struct MatchHello {
     std::uint16_t version = k_net_version;
-    std::uint64_t person = 0;  // random, the same when the person returns; without tokens
+    std::uint64_t person = 0;  // random, the same when the person returns
+    bool watches = false;      // a spectator, who has no slot
     MatchDigests digests{};
     std::string token;
 };
@@ -73,6 +75,8 @@ struct MatchRefused {
 std::string refusal_text(const MatchRefused& refused);
 
 struct MatchWelcome {
+    static constexpr std::uint8_t k_no_slot = 255;  // a spectator's
+
     std::uint8_t slot = 0;
 };
 
@@ -98,8 +102,11 @@ std::string_view bye_text(NetBye bye);
 
 // The kind of a message; nullopt for other bytes.
 std::optional<NetKind> kind_of(std::span<const std::byte> message);
-// A packet's message, and the packet in it. Precondition of the latter: kind_of is packet.
+// A packet's message, and the packet in it. Precondition of the latter: kind_of is packet or
+// inputs.
 void write_packet_message(std::span<const std::byte> packet, std::vector<std::byte>& message);
+// Likewise for confirmed inputs.
+void write_inputs_message(std::span<const std::byte> inputs, std::vector<std::byte>& message);
 inline std::span<const std::byte> packet_in(std::span<const std::byte> message) {
     return message.subspan(1);
 }

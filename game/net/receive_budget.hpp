@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 #include "game/net/transport.hpp"
 
@@ -15,10 +16,10 @@ class ReceiveBudget {
           messages_(budget.messages_per_s * budget.burst_s),
           bytes_(budget.bytes_per_s * budget.burst_s) {}
 
-    // Counts a message. False: nothing more should be read until may_read.
-    bool take(std::size_t bytes, double now_s) {
+    // Counts what came. False: nothing more should be read until may_read.
+    bool take(std::size_t messages, std::uint64_t bytes, double now_s) {
         refill(now_s);
-        messages_ -= 1.0;
+        messages_ -= static_cast<double>(messages);
         bytes_ -= static_cast<double>(bytes);
         return messages_ > 0.0 && bytes_ > 0.0;
     }

@@ -92,10 +92,7 @@ TokenCheck check_token(const TokenKey& key, std::string_view token, std::int64_t
     if (!expires || !is_token_name(name)) {
         return {};
     }
-    if (now_unix_s >= *expires) {
-        return {TokenState::expired, {}};
-    }
-    return {TokenState::good, std::string(name)};
+    return {now_unix_s >= *expires ? TokenState::expired : TokenState::good, std::string(name)};
 }
 
 }  // namespace handhold

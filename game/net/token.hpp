@@ -28,7 +28,7 @@ std::string issue_token(const TokenKey& key, std::string_view name, std::int64_t
 enum class TokenState : std::uint8_t { good, bad, expired };
 struct TokenCheck {
     TokenState state = TokenState::bad;
-    std::string name;  // empty unless the token is good
+    std::string name;  // empty if the token is bad
 };
 // Tolerates any text.
 TokenCheck check_token(const TokenKey& key, std::string_view token, std::int64_t now_unix_s);

@@ -30,7 +30,8 @@ enum class LinkEnd : std::uint8_t {
     slow,      // did not read for seconds
 };
 
-// What one connection may send. Beyond it nothing is read from it until it has waited.
+// What one connection may send: bytes as they arrive, with headers, pings and pieces; pieces count
+// as messages. Beyond it nothing is read from it until it has waited.
 struct LinkBudget {
     double messages_per_s = 250.0;
     double bytes_per_s = 100e3;
@@ -41,6 +42,7 @@ struct ListenerSettings {
     std::string address = "127.0.0.1";  // address of the interface that is listened on
     int port = 0;                       // 0: any that is free
     std::size_t most_links = 64;        // further connections are refused
+    std::size_t most_of_address = 48;   // likewise, connections of one address; HTTP counts too
     std::size_t most_message_bytes = 1500;
     int kernel_buffer_bytes =
         1 << 16;                // size of the kernel's send buffer; Linux takes twice as much
@@ -51,13 +53,14 @@ struct ListenerSettings {
 // Sums over all connections since the start.
 struct ListenerCounts {
     std::uint64_t opened = 0;
-    std::uint64_t refused = 0;  // beyond most_links
+    std::uint64_t refused = 0;  // beyond most_links or most_of_address
     std::uint64_t received_messages = 0;
     std::uint64_t received_bytes = 0;
     std::uint64_t sent_messages = 0;
     std::uint64_t sent_bytes = 0;
     std::uint64_t dropped = 0;    // messages of Delivery::newest that were never sent
     std::uint64_t throttled = 0;  // times that a connection was not read for a while
+    std::uint64_t failed = 0;     // ListenerHandler::failed
     std::uint64_t bad_messages = 0;
     std::uint64_t ended_flooding = 0;
     std::uint64_t ended_slow = 0;
@@ -72,12 +75,15 @@ struct HttpAnswer {
 // What a listener calls during poll. Must not throw.
 class ListenerHandler {
   public:
-    virtual void opened(LinkId link) = 0;
+    // `address`: of the other side, without its port.
+    virtual void opened(LinkId link, std::string_view address) = 0;
     virtual void received(LinkId link, std::span<const std::byte> message) = 0;
     // The link does not exist any more.
     virtual void closed(LinkId link, LinkEnd why) = 0;
     // The answer to an HTTP GET.
     virtual HttpAnswer get(std::string_view path) = 0;
+    // One of these functions has thrown, or there was no memory. `link`: 0 if it is not known.
+    virtual void failed(LinkId link, std::string_view what) = 0;
 
   protected:
     ~ListenerHandler() = default;

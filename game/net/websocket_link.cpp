@@ -1,5 +1,6 @@
 // A peer's WebSocket connection to a server, by libwebsockets.
 #include <charconv>
+#include <exception>
 #include <string>
 #include <utility>
 #include <vector>
@@ -151,7 +152,8 @@ class WebSocketLink final : public Link {
                 default:
                     return 0;
             }
-        } catch (const std::exception&) {
+        } catch (const std::exception& error) {
+            self->end(std::string("this program failed: ") + error.what());
             return -1;
         }
     }

@@ -1,4 +1,6 @@
 // A server's end of WebSocket connections, by libwebsockets.
+#include <algorithm>
+#include <exception>
 #include <map>
 #include <string>
 #include <string_view>
@@ -11,11 +13,13 @@
 #include "game/net/send_queue.hpp"
 #include "game/net/transport.hpp"
 #include "game/net/websocket_context.hpp"
+#include "game/net/websocket_socket.hpp"
 
 namespace handhold {
 namespace {
 
 constexpr double k_close_within_s = 0.5;
+constexpr double k_look_s = 0.02;
 constexpr double k_calm_s = 5.0;  // excess is forgotten after so long without any
 // Pauses of reading before a connection is cut off as flooding. A peer whose network was away for
 // five seconds delivers at once what it kept meanwhile: by estimate 15 pauses.
@@ -27,6 +31,8 @@ struct WebSocketPeer {
     ReceiveBudget budget;
     std::vector<std::byte> incoming;  // a message that is not complete
     bool is_read = true;              // false: over its budget
+    std::uint64_t counted_bytes = 0;  // part of bytes_read_from that the budget has
+    double looked_s = 0.0;            // when these were last compared
     int throttles = 0;
     double throttled_s = 0.0;     // the last time
     double waits_since_s = 0.0;   // since when the queue's first message waits
@@ -125,6 +131,11 @@ class WebSocketListener final : public Listener {
         auto* const session = static_cast<WebSocketSession*>(user);
         try {
             switch (reason) {
+                case LWS_CALLBACK_SERVER_NEW_CLIENT_INSTANTIATED:
+                    return self->admit_socket(wsi);
+                case LWS_CALLBACK_WSI_DESTROY:
+                    self->sockets_.erase(wsi);
+                    return 0;
                 case LWS_CALLBACK_HTTP:
                     return self->answer(wsi, {static_cast<const char*>(in), size});
                 case LWS_CALLBACK_HTTP_WRITEABLE:
@@ -153,9 +164,25 @@ class WebSocketListener final : public Listener {
                 default:
                     return 0;
             }
-        } catch (const std::exception&) {
-            return -1;  // no memory: the connection ends
+        } catch (const std::exception& error) {
+            // The connection ends.
+            ++self->counts_.failed;
+            const bool is_link = session != nullptr && self->links_.contains(session->link);
+            self->handler_->failed(is_link ? session->link : 0, error.what());
+            return -1;
         }
+    }
+
+    int admit_socket(lws* wsi) {
+        std::string address = address_of(wsi);
+        const auto same = std::ranges::count(
+            sockets_, address, [](const auto& one) -> const std::string& { return one.second; });
+        if (static_cast<std::size_t>(same) >= settings_.most_of_address) {
+            ++counts_.refused;
+            return -1;
+        }
+        sockets_[wsi] = std::move(address);
+        return 0;
     }
 
     int admit() {
@@ -170,6 +197,7 @@ class WebSocketListener final : public Listener {
         // The kernel's part of the queue is bounded too.
         const int& size = settings_.kernel_buffer_bytes;
         setsockopt(lws_get_socket_fd(wsi), SOL_SOCKET, SO_SNDBUF, &size, sizeof(size));
+        setsockopt(lws_get_socket_fd(wsi), SOL_SOCKET, SO_RCVBUF, &size, sizeof(size));
         session.link = ++last_link_;
         links_.emplace(session.link, WebSocketPeer{.wsi = wsi,
                                                    .queue = {},
@@ -177,7 +205,7 @@ class WebSocketListener final : public Listener {
                                                    .incoming = {},
                                                    .outgoing = {}});
         ++counts_.opened;
-        handler_->opened(session.link);
+        handler_->opened(session.link, address_of(wsi));
     }
 
     void forget(const WebSocketSession& session) {
@@ -214,11 +242,11 @@ class WebSocketListener final : public Listener {
         }
         peer.incoming.insert(peer.incoming.end(), bytes.begin(), bytes.end());
         counts_.received_bytes += bytes.size();
+        take_budget(peer, 1);
         if (lws_remaining_packet_payload(peer.wsi) > 0 || lws_is_final_fragment(peer.wsi) == 0) {
             return 0;
         }
         ++counts_.received_messages;
-        throttle(peer);
         if (peer.close_before_s == 0.0) {
             handler_->received(session.link, peer.incoming);
         }
@@ -227,9 +255,12 @@ class WebSocketListener final : public Listener {
     }
 
     // Stops reading from a connection that is over its budget. TCP makes its sender wait.
-    void throttle(WebSocketPeer& peer) {
+    void take_budget(WebSocketPeer& peer, std::size_t messages) {
         const double now_s = monotonic_s();
-        if (peer.budget.take(peer.incoming.size(), now_s) || !peer.is_read) {
+        const std::uint64_t read = bytes_read_from(peer.wsi);
+        const std::uint64_t bytes = read - std::min(read, peer.counted_bytes);
+        peer.counted_bytes = std::max(peer.counted_bytes, read);
+        if (peer.budget.take(messages, bytes, now_s) || !peer.is_read) {
             return;
         }
         ++counts_.throttled;
@@ -245,6 +276,10 @@ class WebSocketListener final : public Listener {
     void tend_links() {
         const double now_s = monotonic_s();
         for (auto& [link, peer] : links_) {
+            if (now_s > peer.looked_s + k_look_s) {
+                peer.looked_s = now_s;
+                take_budget(peer, 0);  // what came without a message
+            }
             if (!peer.is_read && peer.budget.may_read(now_s)) {
                 peer.is_read = true;
                 lws_rx_flow_control(peer.wsi, 1 | LWS_RXFLOW_REASON_FLAG_PROCESS_NOW);
@@ -313,10 +348,8 @@ class WebSocketListener final : public Listener {
         body.push_back(0);  // never written: an empty body has an address too
         const std::size_t size = found->second.size();
         answers_.erase(found);
-        if (lws_write(wsi, &body[LWS_PRE], size, LWS_WRITE_HTTP_FINAL) < 0) {
-            return -1;
-        }
-        return lws_http_transaction_completed(wsi) != 0 ? -1 : 0;
+        (void)lws_write(wsi, &body[LWS_PRE], size, LWS_WRITE_HTTP_FINAL);
+        return -1;  // one answer a connection
     }
 
     ListenerSettings settings_;
@@ -324,6 +357,7 @@ class WebSocketListener final : public Listener {
     ListenerHandler* handler_ = nullptr;
     std::map<LinkId, WebSocketPeer> links_;
     std::map<lws*, std::string> answers_;  // bodies that wait to be written
+    std::map<lws*, std::string> sockets_;  // addresses of all connections
     LinkId last_link_ = 0;
     ListenerCounts counts_;
     WebSocketContext context_;  // the last one: it calls on_event while it ends

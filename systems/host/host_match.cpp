@@ -18,6 +18,7 @@ constexpr double k_longest_tick_s = 0.1;
 constexpr double k_farthest_sample_s = 0.5;
 static_assert(HH_MATCH_PLAYERS == k_most_match_players);
 static_assert(HH_MATCH_PACKET_BYTES == k_most_packet_bytes);
+static_assert(HH_MATCH_INPUTS_BYTES == k_most_confirmed_bytes);
 static_assert(HH_MATCH_PLACES == k_match_window);
 static_assert(HH_MATCH_REFUSALS >= k_match_refusals);
 
@@ -28,8 +29,8 @@ void check_match_def(const hh_match_def& def) {
     checked(def.tick_s, k_shortest_tick_s, k_longest_tick_s, "tick_s must lie in [1e-3, 0.1]");
     require(std::isfinite(def.start_s), HH_ERROR_VALUE, "start_s is not a number");
     require(def.role == HH_MATCH_CLIENT || def.role == HH_MATCH_SERVER ||
-                def.role == HH_MATCH_SYNC_TEST,
-            HH_ERROR_VALUE, "a role is client, server or sync test");
+                def.role == HH_MATCH_SYNC_TEST || def.role == HH_MATCH_SPECTATOR,
+            HH_ERROR_VALUE, "a role is client, server, sync test or spectator");
     require(def.role != HH_MATCH_CLIENT || def.slot < def.player_count, HH_ERROR_VALUE,
             "the slot is not below player_count");
     require(def.role != HH_MATCH_SYNC_TEST ||
@@ -100,6 +101,12 @@ hh_match_stats stats_of(const hh_match& match) {
         stats.hashes = counts.hashes;
         stats.out_of_sync = counts.out_of_sync;
         refused = counts.refused;
+    } else if (match.spectator != nullptr) {
+        const SpectatorCounts& counts = match.spectator->counts();
+        stats.ticks = counts.ticks;
+        stats.hashes = counts.hashes;
+        stats.out_of_sync = counts.out_of_sync;
+        refused = counts.refused;
     } else {
         stats.ticks = match.sync->ticks();
         stats.rollbacks = match.sync->ticks();
@@ -139,6 +146,17 @@ ServerSession& server_of(hh_match* match) {
 
 using namespace handhold;
 
+namespace {
+
+// Clients and spectators.
+void require_no_server(hh_match* match) {
+    const hh_match& of_host = match_of(match);
+    require(of_host.client != nullptr || of_host.spectator != nullptr, HH_ERROR_STATE,
+            "the match is neither a client's nor a spectator's");
+}
+
+}  // namespace
+
 hh_match::hh_match(hh_world& of_world, const hh_match_def& wanted, const hh_match_game& of_game)
     : host(of_world), def(wanted), game(of_game) {
     const MatchWorld world = match_world_of(*this);
@@ -147,10 +165,12 @@ hh_match::hh_match(hh_world& of_world, const hh_match_def& wanted, const hh_matc
         server = std::make_unique<ServerSession>(world, def.start_s);
     } else if (def.role == HH_MATCH_CLIENT) {
         client = std::make_unique<ClientSession>(world, def.slot);
+    } else if (def.role == HH_MATCH_SPECTATOR) {
+        spectator = std::make_unique<SpectatorSession>(world);
     } else {
         sync = std::make_unique<SyncTest>(world, def.sync_ticks);
     }
-    if (server == nullptr) {
+    if (goes_back()) {
         // More events than a tick usually has: ticks allocate nothing from the start.
         constexpr std::size_t k_usual_events = 32;
         reports.resize(k_match_window);
@@ -215,18 +235,26 @@ void hh_match_destroy(hh_match* match) {
 
 hh_result hh_match_ticks_due(hh_match* match, double elapsed_s, uint32_t* ticks) {
     return call([&] {
-        ClientSession& client = client_of(match);
+        require_no_server(match);
         require(ticks != nullptr, HH_ERROR_NULL, "the output is null");
         require(std::isfinite(elapsed_s), HH_ERROR_VALUE, "elapsed_s is not a number");
-        *ticks = static_cast<std::uint32_t>(client.ticks_due(elapsed_s));
+        const int due = match->spectator != nullptr ? match->spectator->ticks_due(elapsed_s)
+                                                    : match->client->ticks_due(elapsed_s);
+        *ticks = static_cast<std::uint32_t>(due);
     });
 }
 
 hh_result hh_match_advance(hh_match* match, const hh_match_input* input, uint8_t* advanced) {
     return call([&] {
-        ClientSession& client = client_of(match);
+        require_no_server(match);
         require(advanced != nullptr, HH_ERROR_NULL, "the output is null");
         const hh_match_input read = read_def(input, hh_default_match_input());
+        if (match->spectator != nullptr) {
+            match->events.clear();
+            *advanced = match->spectator->advance(read.is_hidden == 0) ? 1 : 0;
+            return;
+        }
+        ClientSession& client = *match->client;
         const MatchInput own = take_input(*match, match->def.slot, read);
         match->events.clear();
         *advanced = client.advance(own, read.is_hidden == 0) ? 1 : 0;
@@ -236,9 +264,11 @@ hh_result hh_match_advance(hh_match* match, const hh_match_input* input, uint8_t
 
 hh_result hh_match_receive(hh_match* match, const void* packet, size_t size) {
     return call([&] {
-        ClientSession& client = client_of(match);
-        take_packet(packet, size,
-                    [&](std::span<const std::byte> bytes) { return client.receive(bytes); });
+        require_no_server(match);
+        take_packet(packet, size, [&](std::span<const std::byte> bytes) {
+            return match->spectator != nullptr ? match->spectator->receive(bytes)
+                                               : match->client->receive(bytes);
+        });
     });
 }
 
@@ -252,11 +282,14 @@ hh_result hh_match_packet(hh_match* match, void* buffer, size_t capacity, size_t
 
 hh_result hh_match_join(hh_match* match, const void* bytes, size_t size) {
     return call([&] {
-        ClientSession& client = client_of(match);
+        require_no_server(match);
         require(bytes != nullptr, HH_ERROR_NULL, "the bytes are null");
         hh_world& host = match->host;
-        if (const auto error = client.join({static_cast<const std::byte*>(bytes), size},
-                                           assets_of(host), missing_heads(host))) {
+        const std::span<const std::byte> state(static_cast<const std::byte*>(bytes), size);
+        const auto error = match->spectator != nullptr
+                               ? match->spectator->join(state, assets_of(host), missing_heads(host))
+                               : match->client->join(state, assets_of(host), missing_heads(host));
+        if (error) {
             throw HostError{HH_ERROR_DATA, error->message()};
         }
     });
@@ -288,6 +321,10 @@ hh_result hh_match_needs_state(const hh_match* match, uint32_t slot, uint8_t* ne
     return call([&] {
         const hh_match& of_host = match_of(match);
         require(needs != nullptr, HH_ERROR_NULL, "the output is null");
+        if (of_host.spectator != nullptr) {
+            *needs = of_host.spectator->needs_state() ? 1 : 0;
+            return;
+        }
         const std::size_t wanted = slot_of(of_host, slot);
         const bool is_needed = of_host.server != nullptr ? of_host.server->needs_state(wanted)
                                : of_host.client != nullptr
@@ -306,7 +343,8 @@ hh_result hh_match_hash(const hh_match* match, uint64_t tick, uint64_t* hash) {
         require(is_kept, HH_ERROR_VALUE, "the state after this tick is not kept");
         *hash = of_host.client != nullptr   ? of_host.client->hash_at(tick)
                 : of_host.server != nullptr ? of_host.server->hash()
-                                            : of_host.sync->hash();
+                : of_host.sync != nullptr   ? of_host.sync->hash()
+                                            : of_host.spectator->hash();
     });
 }
 

@@ -13,6 +13,7 @@
 #include "systems/host/host_world.hpp"
 #include "systems/match/client_session.hpp"
 #include "systems/match/server_session.hpp"
+#include "systems/match/spectator_session.hpp"
 #include "systems/match/sync_test.hpp"
 
 // The object behind hh_match, and what it adds to the ticks of a session.
@@ -52,6 +53,9 @@ struct TickEvents {
 
 // NOLINTNEXTLINE(readability-identifier-naming): the name of the C interface
 struct hh_match {
+    // Servers and spectators step each tick once.
+    bool goes_back() const { return client != nullptr || sync != nullptr; }
+
     hh_match(hh_world& of_world, const hh_match_def& wanted, const hh_match_game& of_game);
     ~hh_match();
     hh_match(const hh_match&) = delete;
@@ -60,12 +64,13 @@ struct hh_match {
     hh_world& host;
     hh_match_def def;
     hh_match_game game;
-    std::unique_ptr<handhold::ClientSession> client;  // one of these three, by the role
+    std::unique_ptr<handhold::ClientSession> client;  // one of these four, by the role
     std::unique_ptr<handhold::ServerSession> server;
+    std::unique_ptr<handhold::SpectatorSession> spectator;
     std::unique_ptr<handhold::SyncTest> sync;
 
     std::array<handhold::TickSampler, handhold::k_most_match_players> samplers;  // index: slot
-    std::vector<handhold::EventReports> reports;     // index: place; empty on servers
+    std::vector<handhold::EventReports> reports;     // index: place; empty if it never goes back
     std::vector<handhold::TickEvents> told;          // index: place; what the host was told of
     handhold::MatchTick confirmed_events = 0;        // events up to this tick were confirmed
     std::optional<handhold::JoinedReports> joining;  // set between MatchHost::read and joined

@@ -110,7 +110,7 @@ MatchHost host_of(hh_match& match) {
                    .write = &write_of_game,
                    .read = &read_of_game,
                    .joined = &joined_of_game};
-    if (match.def.role != HH_MATCH_SERVER) {  // a server never goes back
+    if (match.def.role == HH_MATCH_CLIENT || match.def.role == HH_MATCH_SYNC_TEST) {
         host.keep = &keep_of_game;
         host.restore = &restore_of_game;
     }

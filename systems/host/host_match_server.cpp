@@ -81,15 +81,53 @@ hh_result hh_match_state(hh_match* match, uint32_t slot, void* buffer, size_t ca
                          size_t* size) {
     return call([&] {
         ServerSession& server = server_of(match);
-        const std::size_t to = slot_of(*match, slot);
+        const bool has_slot = slot != HH_MATCH_NO_SLOT;
+        const std::size_t to = has_slot ? slot_of(*match, slot) : 0;
         require(size != nullptr, HH_ERROR_NULL, "the size is null");
         const SnapshotAssets& assets = assets_of(match->host);
-        server.preview_state(to, assets, match->state);
+        if (has_slot) {
+            server.preview_state(to, assets, match->state);
+        } else {
+            server.write_state_to_watch(assets, match->state);
+        }
         *size = match->state.size();
         if (buffer != nullptr) {
             require(match->state.size() <= capacity, HH_ERROR_CAPACITY, "the buffer is too small");
-            server.write_state(to, assets, match->state);
+            if (has_slot) {
+                server.write_state(to, assets, match->state);
+            }
             std::memcpy(buffer, match->state.data(), match->state.size());
+        }
+    });
+}
+
+hh_result hh_match_confirmed_inputs(const hh_match* match, uint64_t after, void* buffer,
+                                    size_t capacity, size_t* size, uint64_t* until) {
+    return call([&] {
+        const hh_match& of_host = match_of(match);
+        require(of_host.sync == nullptr, HH_ERROR_STATE, "a sync test confirms nothing");
+        require(size != nullptr && until != nullptr, HH_ERROR_NULL, "an output is null");
+        *size = HH_MATCH_INPUTS_BYTES;
+        if (buffer == nullptr) {
+            return;
+        }
+        const auto write = [&](const auto& session) {
+            require(session.can_write_after(after), HH_ERROR_VALUE,
+                    "the inputs after this tick are not kept");
+            require(capacity >= HH_MATCH_INPUTS_BYTES, HH_ERROR_CAPACITY,
+                    "the buffer is too small");
+            MatchTick last = after;
+            *size = session.write_watched(
+                after, last,
+                std::span(static_cast<std::byte*>(buffer), std::size_t{HH_MATCH_INPUTS_BYTES}));
+            *until = last;
+        };
+        if (of_host.server != nullptr) {
+            write(*of_host.server);
+        } else if (of_host.client != nullptr) {
+            write(*of_host.client);
+        } else {
+            write(*of_host.spectator);
         }
     });
 }

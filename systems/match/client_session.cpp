@@ -37,6 +37,7 @@ void ClientSession::start_here() {
     sent_until_ = now();
     had_two_.fill(false);
     hash_tick_ = 0;
+    hashes_.forget();
     needs_state_ = false;
 }
 
@@ -215,8 +216,18 @@ void ClientSession::note_hash() {
     const MatchTick tick = final_state() / k_hash_every_ticks * k_hash_every_ticks;
     if (tick > hash_tick_ && tick >= oldest_state_ && tick > 0) {
         hash_tick_ = tick;
-        hash_ = hash_at(tick);
+        hashes_.set(tick, hash_at(tick));
     }
+}
+
+bool ClientSession::can_write_after(MatchTick after) const {
+    return can_write_confirmed(histories(), after, final_state());
+}
+
+std::size_t ClientSession::write_watched(MatchTick after, MatchTick& until,
+                                         std::span<std::byte> bytes) const {
+    until = final_state();
+    return write_confirmed(histories(), hashes_, after, until, bytes);
 }
 
 std::size_t ClientSession::write_packet(std::span<std::byte> bytes) {
@@ -230,7 +241,7 @@ std::size_t ClientSession::write_packet(std::span<std::byte> bytes) {
     constexpr std::uint64_t k_hash_packets = 16;
     if (packets_ % k_hash_packets == 0) {
         header.hash_tick = hash_tick_;
-        header.hash = hash_;
+        header.hash = hashes_.at(hash_tick_).value_or(0);
     }
     header.lead_epoch = pacer_.epoch();
     StreamSource own{.history = &sent_, .until = sent_.final_until()};

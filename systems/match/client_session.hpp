@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "systems/match/confirmed_inputs.hpp"
 #include "systems/match/join_state.hpp"
 #include "systems/match/match_messages.hpp"
 #include "systems/match/match_world.hpp"
@@ -70,6 +71,11 @@ class ClientSession {
     bool has_state(MatchTick tick) const {
         return is_start_kept_ && tick >= oldest_state_ && tick <= now();
     }
+    // Writes the inputs of ticks after `after` whose state is final, as write_confirmed; `until`
+    // gets the last tick written. Returns the size. Precondition: can_write_after.
+    std::size_t write_watched(MatchTick after, MatchTick& until, std::span<std::byte> bytes) const;
+    // False for later ticks than final_state(), and where inputs after the tick are forgotten.
+    bool can_write_after(MatchTick after) const;
     // The match's hash (match_hash) after a tick. Equal on all machines up to final_state().
     // Precondition: has_state.
     std::uint64_t hash_at(MatchTick tick) const {
@@ -84,6 +90,9 @@ class ClientSession {
 
   private:
     std::span<InputHistory> histories() { return std::span(histories_).first(match_.player_count); }
+    std::span<const InputHistory> histories() const {
+        return std::span(histories_).first(match_.player_count);
+    }
     void start_here();
     void take_stream(std::size_t slot, const StreamPart& part);
     void finish_tick(std::size_t slot, const MatchInput& input, InputKind kind);
@@ -112,8 +121,8 @@ class ClientSession {
     TickPacer pacer_;
     MatchTick sent_until_ = 0;       // the newest input of the last packet
     std::array<bool, 8> had_two_{};  // packets with more than one new input
-    MatchTick hash_tick_ = 0;
-    std::uint64_t hash_ = 0;
+    MatchTick hash_tick_ = 0;        // the last tick that all machines compare
+    HashMarks hashes_;
     bool needs_state_ = false;
     std::uint8_t state_epoch_ = 0;
     ClientCounts counts_;

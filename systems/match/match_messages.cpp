@@ -4,16 +4,11 @@
 #include <cmath>
 
 #include "engine/core/check.hpp"
-#include "engine/core/hash.hpp"
+#include "systems/match/packet_frame.hpp"
 
 namespace handhold {
 namespace {
 
-enum class PacketKind : std::uint8_t { client = 1, server = 2 };
-
-constexpr std::size_t k_checksum_bytes = 4;
-constexpr unsigned k_kind_bits = 3;
-constexpr unsigned k_version_bits = 5;
 constexpr unsigned k_slot_bits = 4;
 constexpr unsigned k_tick_bits = 32;
 constexpr unsigned k_epoch_bits = 2;       // ClientPacket::state_epoch
@@ -28,48 +23,6 @@ constexpr MatchTick k_oldest = InputHistory::k_capacity - 16;
 std::size_t room_for(std::size_t players, std::span<const std::byte> bytes) {
     HH_CHECK(bytes.size() >= 64 * players, "a packet needs 64 bytes a player", bytes.size());
     return std::min(bytes.size(), k_most_packet_bytes) - k_checksum_bytes;
-}
-
-void begin_packet(PacketKind kind, std::uint8_t slot, BitWriter& out) {
-    out.put(static_cast<std::uint64_t>(kind), k_kind_bits);
-    out.put(k_match_version, k_version_bits);
-    out.put(slot, k_slot_bits);
-}
-
-std::size_t end_packet(const BitWriter& out, std::span<std::byte> bytes) {
-    const std::size_t size = out.bytes();
-    const std::uint32_t sum = match_checksum(bytes.first(size));
-    for (std::size_t i = 0; i < k_checksum_bytes; ++i) {
-        bytes[size + i] = static_cast<std::byte>((sum >> (8 * i)) & 0xffU);
-    }
-    return size + k_checksum_bytes;
-}
-
-MatchRefusal open_packet(std::span<const std::byte> bytes, PacketKind kind,
-                         std::span<const std::byte>& payload) {
-    if (bytes.size() < 2 + k_checksum_bytes || bytes.size() > k_most_packet_bytes) {
-        return MatchRefusal::size;
-    }
-    payload = bytes.first(bytes.size() - k_checksum_bytes);
-    std::uint32_t sum = 0;
-    for (std::size_t i = 0; i < k_checksum_bytes; ++i) {
-        sum |= std::to_integer<std::uint32_t>(bytes[payload.size() + i]) << (8 * i);
-    }
-    if (sum != match_checksum(payload)) {
-        return MatchRefusal::checksum;
-    }
-    BitReader in(payload);
-    const auto found = in.take(k_kind_bits);
-    const auto version = in.take(k_version_bits);
-    return found == static_cast<std::uint64_t>(kind) && version == k_match_version
-               ? MatchRefusal::none
-               : MatchRefusal::version;
-}
-
-// True if nothing but the padding of the last byte is left, and that is zero.
-bool is_at_end(BitReader& in) {
-    return in.bits_left() < 8 && in.take(static_cast<unsigned>(in.bits_left())) == 0 &&
-           !in.has_failed();
 }
 
 std::int32_t behind(MatchTick reference, MatchTick tick) {
@@ -147,24 +100,12 @@ class StreamReader {
 
 }  // namespace
 
-std::uint32_t match_checksum(std::span<const std::byte> bytes) {
-    HashStream stream;
-    stream.add(std::uint64_t{bytes.size()});
-    for (std::size_t at = 0; at < bytes.size(); at += 8) {
-        std::uint64_t word = 0;
-        for (std::size_t i = 0; i < std::min<std::size_t>(8, bytes.size() - at); ++i) {
-            word |= std::to_integer<std::uint64_t>(bytes[at + i]) << (8 * i);
-        }
-        stream.add(word);
-    }
-    return static_cast<std::uint32_t>(stream.value() >> 32);
-}
-
 std::size_t write_client_packet(const ClientHeader& header, std::size_t players, StreamSource& own,
                                 std::span<std::byte> bytes) {
     const std::size_t room = room_for(players, bytes);
     BitWriter out(bytes.first(room));
-    begin_packet(PacketKind::client, header.slot, out);
+    begin_packet(PacketKind::client, out);
+    out.put(header.slot, k_slot_bits);
     MatchTick newest = header.known_until[0];
     for (std::size_t slot = 1; slot < players; ++slot) {
         newest = std::max(newest, header.known_until[slot]);
@@ -190,12 +131,12 @@ std::size_t write_client_packet(const ClientHeader& header, std::size_t players,
 MatchRefusal read_client_packet(std::span<const std::byte> bytes, std::size_t players,
                                 const ClientPacketSource& source, ClientPacket& out) {
     std::span<const std::byte> payload;
-    if (const MatchRefusal refusal = open_packet(bytes, PacketKind::client, payload);
+    if (const MatchRefusal refusal =
+            open_packet(bytes, PacketKind::client, k_most_packet_bytes, payload);
         refusal != MatchRefusal::none) {
         return refusal;
     }
-    BitReader in(payload);
-    in.take(k_kind_bits + k_version_bits);
+    BitReader in = read_frame(payload);
     out.slot = in.take_as<std::uint8_t>(k_slot_bits);
     if (out.slot >= players || out.slot != source.slot) {
         return MatchRefusal::sender;
@@ -240,7 +181,8 @@ std::size_t write_server_packet(const ServerHeader& header, std::size_t players,
                                 std::span<StreamSource> streams, std::span<std::byte> bytes) {
     const std::size_t room = room_for(players, bytes);
     BitWriter out(bytes.first(room));
-    begin_packet(PacketKind::server, header.slot, out);
+    begin_packet(PacketKind::server, out);
+    out.put(header.slot, k_slot_bits);
     out.put(header.state_epoch, k_epoch_bits);
     out.put(header.confirmed_until, k_tick_bits);
     out.put_rice(fold_sign(behind(header.confirmed_until, header.received_until)), k_tick_rice);
@@ -269,12 +211,12 @@ std::size_t write_server_packet(const ServerHeader& header, std::size_t players,
 MatchRefusal read_server_packet(std::span<const std::byte> bytes, std::size_t players,
                                 const ServerPacketSource& source, ServerPacket& out) {
     std::span<const std::byte> payload;
-    if (const MatchRefusal refusal = open_packet(bytes, PacketKind::server, payload);
+    if (const MatchRefusal refusal =
+            open_packet(bytes, PacketKind::server, k_most_packet_bytes, payload);
         refusal != MatchRefusal::none) {
         return refusal;
     }
-    BitReader in(payload);
-    in.take(k_kind_bits + k_version_bits);
+    BitReader in = read_frame(payload);
     out.slot = in.take_as<std::uint8_t>(k_slot_bits);
     if (out.slot != source.own_slot) {
         return MatchRefusal::sender;

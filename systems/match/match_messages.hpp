@@ -5,6 +5,7 @@
 #include <span>
 
 #include "systems/match/shared/bit_stream.hpp"
+#include "systems/match/shared/hash_marks.hpp"
 #include "systems/match/shared/input_history.hpp"
 #include "systems/match/shared/match_input.hpp"
 
@@ -16,8 +17,6 @@ inline constexpr std::size_t k_most_packet_bytes = 1200;
 inline constexpr std::uint8_t k_match_version = 2;
 // Ticks travel as 32 bits, and no match begins after this one.
 inline constexpr MatchTick k_last_start_tick = 0xffffffff - 2 * InputHistory::k_capacity;
-// Every so many ticks the hashes of all machines are compared.
-inline constexpr MatchTick k_hash_every_ticks = 90;
 
 enum class MatchRefusal : std::uint8_t {
     none,
@@ -26,7 +25,7 @@ enum class MatchRefusal : std::uint8_t {
     version,    // another version of this format, or another kind of message
     sender,     // another slot than the sender's or the receiver's
     malformed,  // fields out of range, or bits beyond them
-    gap,        // begins after inputs that have not arrived; of a server's packet, one slot's part
+    gap,        // begins after inputs that are not here; of a server's packet, one slot's part
     window,     // ticks that are too old or too far ahead
     state,      // the state of a joining player cannot be restored here
 };

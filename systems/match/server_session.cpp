@@ -117,15 +117,13 @@ void ServerSession::take_inputs(std::size_t slot, const StreamPart& part, double
 }
 
 void ServerSession::compare_hash(Peer& peer, MatchTick tick, std::uint64_t hash) {
-    const bool is_kept = tick % k_hash_every_ticks == 0 && tick > peer.compared_until &&
-                         tick > start_tick_ && tick <= confirmed() &&
-                         tick + k_hashes * k_hash_every_ticks > confirmed();
-    if (!is_kept) {
+    const std::optional<std::uint64_t> own = hashes_.at(tick);
+    if (!own || tick <= peer.compared_until) {
         return;
     }
     peer.compared_until = tick;
     ++counts_.hashes;
-    if (hashes_[tick / k_hash_every_ticks % k_hashes] != hash) {
+    if (*own != hash) {
         ++counts_.out_of_sync;
         ask_for_state(peer);
     }
@@ -165,7 +163,7 @@ void ServerSession::confirm(MatchTick tick) {
     step_tick(match_, inputs, false, scratch_, stats_);
     ++counts_.ticks;
     if (tick % k_hash_every_ticks == 0) {
-        hashes_[tick / k_hash_every_ticks % k_hashes] = hash();
+        hashes_.set(tick, hash());
     }
 }
 
@@ -220,6 +218,21 @@ void ServerSession::preview_state(std::size_t slot, const SnapshotAssets& assets
                                   std::vector<std::byte>& bytes) const {
     write_join_state(match_, assets, std::span(histories_).first(match_.player_count),
                      next_epoch(peers_[slot].state_epoch), bytes);
+}
+
+void ServerSession::write_state_to_watch(const SnapshotAssets& assets,
+                                         std::vector<std::byte>& bytes) const {
+    write_join_state(match_, assets, histories(), 0, bytes);
+}
+
+bool ServerSession::can_write_after(MatchTick after) const {
+    return can_write_confirmed(histories(), after, confirmed());
+}
+
+std::size_t ServerSession::write_watched(MatchTick after, MatchTick& until,
+                                         std::span<std::byte> bytes) const {
+    until = confirmed();
+    return write_confirmed(histories(), hashes_, after, until, bytes);
 }
 
 void ServerSession::write_state(std::size_t slot, const SnapshotAssets& assets,

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "systems/match/confirmed_inputs.hpp"
 #include "systems/match/join_state.hpp"
 #include "systems/match/match_messages.hpp"
 #include "systems/match/match_world.hpp"
@@ -68,6 +69,14 @@ class ServerSession {
     void preview_state(std::size_t slot, const SnapshotAssets& assets,
                        std::vector<std::byte>& bytes) const;
 
+    // The state for a spectator to join.
+    void write_state_to_watch(const SnapshotAssets& assets, std::vector<std::byte>& bytes) const;
+    // Writes the inputs of confirmed ticks after `after`, as write_confirmed; `until` gets the last
+    // tick written. Returns the size. Precondition: can_write_after.
+    std::size_t write_watched(MatchTick after, MatchTick& until, std::span<std::byte> bytes) const;
+    // False for later ticks than confirmed(), and where inputs after the tick are forgotten.
+    bool can_write_after(MatchTick after) const;
+
     // The match's hash (match_hash) after the last confirmed tick.
     std::uint64_t hash() const;
 
@@ -77,7 +86,6 @@ class ServerSession {
     const InputHistory& inputs_of(std::size_t slot) const { return histories_[slot]; }
 
   private:
-    static constexpr std::size_t k_hashes = 8;
     // Least wait of a player's inputs, over the last one to two spans of k_span inputs.
     struct Waits {
         static constexpr int k_span = 45;
@@ -108,6 +116,9 @@ class ServerSession {
         }
     };
     std::span<InputHistory> histories() { return std::span(histories_).first(match_.player_count); }
+    std::span<const InputHistory> histories() const {
+        return std::span(histories_).first(match_.player_count);
+    }
     double deadline_s(MatchTick tick) const {
         return start_s_ + static_cast<double>(tick - start_tick_) * match_.dt_s;
     }
@@ -124,8 +135,7 @@ class ServerSession {
     // What each player sent, in order, also if it came after its tick was filled.
     std::array<InputHistory, k_most_match_players> sent_;
     std::array<Peer, k_most_match_players> peers_;
-    std::array<std::uint64_t, k_hashes>
-        hashes_{};  // indexed by tick / k_hash_every_ticks % k_hashes
+    HashMarks hashes_;
     ServerCounts counts_;
     StageStats stats_;
     ClientPacket incoming_;

@@ -20,6 +20,10 @@ void run_station(Bytes bytes);     // a station's description
 void run_controller(Bytes bytes);  // a controller's profile
 void run_csv(Bytes bytes);         // a table of the lab
 void run_net(Bytes bytes);         // a message between servers and peers of a match
+// A packet, a state or a recording of a match, or a whole course of messages. Both change examples
+// that they make themselves, so seeds survive changes of the formats.
+void run_match(Bytes bytes);
+void run_peers(Bytes bytes);
 // The first byte selects the meaning of the rest: 0 patches of a valid snapshot, 1 a payload, 2 a
 // whole snapshot. Most inputs thus pass the checksum, and seeds survive changes of the schema.
 void run_snapshot(Bytes bytes);

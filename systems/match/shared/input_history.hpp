@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -74,6 +75,21 @@ class InputHistory {
         set(final_until_, input, kind);
         if (kind == InputKind::real) {
             last_real_ = final_until_;
+        }
+    }
+
+    // Ticks after `tick`, which is final, are final no more: nothing is known of them.
+    void forget_after(MatchTick tick) {
+        for (Entry& entry : entries_) {
+            if (entry.tick > tick) {
+                entry = {};
+            }
+        }
+        final_until_ = tick;
+        last_real_ = 0;
+        for (const Entry& entry : entries_) {
+            last_real_ =
+                entry.kind == InputKind::real ? std::max(last_real_, entry.tick) : last_real_;
         }
     }
 

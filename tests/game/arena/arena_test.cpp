@@ -69,12 +69,17 @@ TEST(Arena, BoardsShowAnyScore) {
     }
 }
 
-TEST(Arena, StateIsReadAsWrittenAndOtherSizesAreRefused) {
+TEST(Arena, StateIsReadAsWrittenAndOtherBytesAreRefused) {
     const ArenaState state{{3, 0xfffffffe}, 0x123456789abcULL, ~std::uint64_t{0}};
     std::vector<std::byte> bytes;
     write_arena_state(state, bytes);
     ASSERT_EQ(bytes.size(), k_arena_state_bytes);
     EXPECT_EQ(read_arena_state(bytes), state);
+    for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+        std::vector<std::byte> flipped = bytes;
+        flipped[bit / 8] ^= static_cast<std::byte>(1U << (bit % 8));
+        EXPECT_FALSE(read_arena_state(flipped)) << bit;
+    }
     bytes.pop_back();
     EXPECT_FALSE(read_arena_state(bytes));
 }

@@ -2,12 +2,15 @@
 
 usage: match_commands_test.py GAME [unittest's flags]
 """
+import http.server
+import json
 import os
 import re
 import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 import urllib.error
@@ -111,6 +114,90 @@ class Matches(unittest.TestCase):
         self.assertEqual(bots.lines("ends")[0]["why"], '"the server is shutting down"')
         self.assertEqual(server.lines("ends")[0]["out_of_sync"], "0")
         self.assertGreater(int(server.lines("ends")[0]["hashes"]), 0)
+
+    def replay(self, name: str) -> tuple[str, int]:
+        """The last hash of a recording that was played again, and the number of hashes in it that were compared."""
+        ended = subprocess.run([str(GAME), "run", "--match", name], capture_output=True, timeout=WITHIN_S, check=False, cwd=self.folder)
+        self.assertEqual(ended.returncode, 0, ended.stderr.decode())
+        lines = ended.stdout.decode().splitlines()
+        return lines[-1].removeprefix("state_hash "), int(re.search(r"(\d+) hashes", ended.stdout.decode())[1])
+
+    def test_recorded_matches_play_again_with_equal_hashes_and_cut_ones_are_refused(self):
+        server, url = self.serve("--players", "3", "--record", "server.hhm")
+        bots = self.start("bots", 2, "--join", url)
+        server.wait_for("plays", 2)
+        player = self.start("run", "--join", url, "--record", "player.hhm")
+        watcher = self.start("run", "--join", url, "--watch", "--record", "watcher.hhm")
+        server.wait_for("watches")
+        player.wait_for("confirmed", 2)
+        watcher.wait_for("confirmed", 2)
+        self.assertRegex(self.get(url, "/metrics")[1], r"(?m)^handhold_spectators 1$")
+        server.process.send_signal(signal.SIGTERM)
+        for program in (server, bots, player, watcher):
+            self.assertEqual(program.end(), 0, program.err.read_text())
+        for name, program in {"server.hhm": server, "player.hhm": player, "watcher.hhm": watcher}.items():
+            last, compared = self.replay(name)
+            self.assertEqual(last, program.lines("ends")[0]["hash"], name)
+            self.assertGreater(compared, 2, name)
+        whole = (self.folder / "server.hhm").read_bytes()
+        (self.folder / "cut.hhm").write_bytes(whole[:len(whole) // 2])
+        (self.folder / "flipped.hhm").write_bytes(whole[:1000] + bytes([whole[1000] ^ 4]) + whole[1001:])
+        self.assert_refused(["run", "--match", "cut.hhm"], "expected the rest of the recording: it was cut off")
+        self.assert_refused(["run", "--match", "flipped.hhm"], "the file is damaged")
+        self.assert_refused(["run", "--match", "server.hhm", "--scene", "together"], 'other level: "scene" differs')
+        self.assert_refused(["run", "--match", "none.hhm"], "expected a readable file, found none")
+        self.assert_refused(["serve", "--scene", "reach", "--record", "none/x.hhm"], "expected a writable place in an existing folder")
+
+    def test_players_behind_a_slow_network_have_equal_hashes(self):
+        server, url = self.serve("--players", "2")
+        proxy = subprocess.Popen([sys.executable, str(Path(__file__).with_name("delay_proxy.py")), url.rpartition(":")[2], "--delay-ms", "75"],
+                                 stdout=subprocess.PIPE)
+        self.addCleanup(proxy.stdout.close)
+        self.addCleanup(proxy.wait)
+        self.addCleanup(proxy.kill)
+        slow = f"ws://127.0.0.1:{int(proxy.stdout.readline())}"
+        bots = self.start("bots", 1, "--join", url)
+        far = self.start("run", "--join", slow)
+        server.wait_for("plays", 2)
+        far.wait_for("confirmed", 4)
+        server.process.send_signal(signal.SIGTERM)
+        for program in (server, bots, far):
+            self.assertEqual(program.end(), 0, program.err.read_text())
+        ours = {line["tick"]: line["hash"] for line in server.lines("confirmed")}
+        compared = [line["hash"] == ours[line["tick"]] for line in far.lines("confirmed") if line["tick"] in ours]
+        self.assertGreater(len(compared), 2)
+        self.assertTrue(all(compared))
+        self.assertEqual(server.lines("ends")[0]["out_of_sync"], "0")
+        self.assertGreater(int(far.lines("ends")[0]["rollbacks"]), 60)
+
+    def test_agones_is_told_when_the_server_is_ready_played_and_ends(self):
+        calls = []
+
+        class Sidecar(http.server.BaseHTTPRequestHandler):
+            def do_POST(self):
+                body = self.rfile.read(int(self.headers["Content-Length"]))
+                is_json = self.headers["Content-Type"] == "application/json" and json.loads(body) == {}
+                calls.append(self.path if is_json else "not JSON")
+                self.send_response(200)
+                self.end_headers()
+
+            def log_message(self, *_):
+                pass
+
+        with http.server.ThreadingHTTPServer(("127.0.0.1", 0), Sidecar) as sidecar:
+            threading.Thread(target=sidecar.serve_forever, daemon=True).start()
+            server = self.start("serve", "--scene", "reach", "--agones", "--return-seconds", "1",
+                                env=dict(os.environ, AGONES_SDK_HTTP_PORT=str(sidecar.server_address[1])))
+            url = server.wait_for("serves")[0]["url"]
+            server.wait_for("agones")
+            bots = self.start("bots", 1, "--join", url, "--seconds", "5")
+            server.wait_for("agones", 3)  # ready, allocated, ready again
+            self.assertEqual(bots.end(), 0)
+            server.process.send_signal(signal.SIGTERM)
+            self.assertEqual(server.end(), 0)
+            sidecar.shutdown()
+        self.assertEqual([call for call in calls if call != "/health"], ["/ready", "/allocate", "/ready", "/shutdown"])
+        self.assertGreaterEqual(calls.count("/health"), 3)
 
     def test_window_plays_in_a_match(self):
         server, url = self.serve("--players", "2")

@@ -4,18 +4,17 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include "game/net/send_queue.hpp"
 #include "tests/game/net/loopback_match.hpp"
+#include "tests/game/net/raw_socket.hpp"
 #include "tests/random.hpp"
 
 namespace handhold::hostile_peer_test {
 namespace {
 
 using test::LoopbackMatch;
+using test::RawSocket;
 
 enum class Hostility : std::uint8_t { truncated, flipped, replayed, flooding, garbage };
 
@@ -133,46 +132,6 @@ class HostileConnectionTest : public testing::Test {
     }
 };
 
-// A client that speaks WebSocket just well enough to say hello, and then reads nothing.
-class DeafSocket {
-  public:
-    explicit DeafSocket(int port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-        const int small = 2048;
-        ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &small, sizeof(small));
-        sockaddr_in address{};
-        address.sin_family = AF_INET;
-        address.sin_port = htons(static_cast<std::uint16_t>(port));
-        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        is_connected =
-            ::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
-        const std::string request =
-            "GET / HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-            "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n"
-            "Sec-WebSocket-Protocol: handhold-match\r\n\r\n";
-        write(std::as_bytes(std::span(request)));
-    }
-    ~DeafSocket() { ::close(socket_); }
-    DeafSocket(const DeafSocket&) = delete;
-    DeafSocket& operator=(const DeafSocket&) = delete;
-
-    // A binary frame, with a mask of zeros. `size` below 126.
-    void write_frame(std::span<const std::byte> message) {
-        std::vector<std::byte> frame = {std::byte{0x82},
-                                        static_cast<std::byte>(0x80U | message.size())};
-        frame.resize(6);
-        frame.insert(frame.end(), message.begin(), message.end());
-        write(frame);
-    }
-    bool is_connected = false;
-
-  private:
-    void write(std::span<const std::byte> bytes) {
-        is_connected = is_connected && ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) ==
-                                           static_cast<ssize_t>(bytes.size());
-    }
-    int socket_;
-};
-
 TEST_F(HostileConnectionTest, PeersThatReadNothingAreCutOff) {
     HH_NEEDS_REAL_TIME();
     LoopbackMatch match(
@@ -187,7 +146,7 @@ TEST_F(HostileConnectionTest, PeersThatReadNothingAreCutOff) {
         });
     test::LoopbackPeer& other = match.add_peer(1);
     ASSERT_TRUE(match.run_until(20.0, [&] { return match.all_play(); }));
-    DeafSocket deaf(match.listener().port());
+    RawSocket deaf(match.listener().port());
     ASSERT_TRUE(deaf.is_connected);
     std::vector<std::byte> hello;
     write_message(MatchHello{.person = 9, .digests = other.settings.digests, .token = {}}, hello);
@@ -236,7 +195,7 @@ TEST_F(HostileConnectionTest, ConnectionsThatSayNothingAreClosed) {
 
 TEST_F(HostileConnectionTest, WhoJoinsAgainAndAgainIsRefusedAndOthersPlayOn) {
     HH_NEEDS_REAL_TIME();
-    LoopbackMatch match(3, [](MatchServerSettings& settings) { settings.joins_at_once = 5.0; });
+    LoopbackMatch match(3, [](MatchServerSettings& settings) { settings.joins.at_once = 5.0; });
     test::LoopbackPeer& other = match.add_peer(1);
     ASSERT_TRUE(match.run_until(20.0, [&] { return match.all_play(); }));
     test::LoopbackPeer& again = match.add_peer(2);
@@ -261,9 +220,9 @@ TEST_F(HostileConnectionTest, WhoJoinsAgainAndAgainIsRefusedAndOthersPlayOn) {
 
 TEST_F(HostileConnectionTest, NoMoreConnectionsThanTheLimitAreOpened) {
     LoopbackMatch match(2, {}, [](ListenerSettings& settings) { settings.most_links = 4; });
-    std::vector<std::unique_ptr<DeafSocket>> sockets;
+    std::vector<std::unique_ptr<RawSocket>> sockets;
     for (int i = 0; i < 12; ++i) {
-        sockets.push_back(std::make_unique<DeafSocket>(match.listener().port()));
+        sockets.push_back(std::make_unique<RawSocket>(match.listener().port()));
     }
     EXPECT_TRUE(match.run_until(4.0, [&] { return match.listener().counts().refused > 0; }));
     EXPECT_EQ(match.listener().counts().opened, 4U);

@@ -68,11 +68,15 @@ inline MatchScene tunnel_match(std::size_t players) {
     return std::move(make_match_scene(tunnel_with_loose_boxes(), players, 7).value());
 }
 
+using MakeMatch = std::function<MatchScene(std::size_t players)>;
+
 // One player with a world of its own. Compares each confirmed tick with the server's.
 struct LoopbackPeer {
-    explicit LoopbackPeer(std::size_t players, std::uint64_t number, std::string token = {})
-        : scene(tunnel_match(players)), seed(number) {
+    explicit LoopbackPeer(std::size_t players, std::uint64_t number, std::string token = {},
+                          const MakeMatch& make = tunnel_match)
+        : scene(make(players)), seed(number) {
         settings.digests = scene.digests;
+        settings.arena = scene.scene.arena ? &*scene.scene.arena : nullptr;
         settings.person = number;
         settings.token = std::move(token);
         settings.clock = match_clock_s;
@@ -107,8 +111,9 @@ class LoopbackMatch {
   public:
     explicit LoopbackMatch(std::size_t players,
                            const std::function<void(MatchServerSettings&)>& change = {},
-                           const std::function<void(ListenerSettings&)>& change_listener = {})
-        : scene_(tunnel_match(players)) {
+                           const std::function<void(ListenerSettings&)>& change_listener = {},
+                           MakeMatch make = tunnel_match)
+        : make_(std::move(make)), scene_(make_(players)) {
         ListenerSettings listening;
         listening.budget.messages_per_s *= k_clock_rate;
         listening.budget.bytes_per_s *= k_clock_rate;
@@ -119,6 +124,7 @@ class LoopbackMatch {
         MatchServerSettings settings;
         settings.offer.scene = scene_.scene.name;
         settings.offer.digests = scene_.digests;
+        settings.arena = scene_.scene.arena ? &*scene_.scene.arena : nullptr;
         settings.clock = match_clock_s;
         settings.today = [] { return std::int64_t{1000}; };
         settings.longest_wait_s = 0.001;
@@ -138,9 +144,10 @@ class LoopbackMatch {
     std::string url() const { return "ws://127.0.0.1:" + std::to_string(listener_->port()); }
     std::unique_ptr<Link> link() const { return std::move(open_link(url()).value()); }
     const Listener& listener() const { return *listener_; }
+    MatchScene& scene() { return scene_; }
     LoopbackPeer& add_peer(std::uint64_t number, std::string token = {}) {
         peers.push_back(
-            std::make_unique<LoopbackPeer>(scene_.players.size(), number, std::move(token)));
+            std::make_unique<LoopbackPeer>(scene_.players.size(), number, std::move(token), make_));
         peers.back()->connect(link());
         return *peers.back();
     }
@@ -161,6 +168,8 @@ class LoopbackMatch {
         const double until_s = match_clock_s() + seconds;
         run_until(seconds + 1.0, [&] { return match_clock_s() >= until_s; });
     }
+    // Of the server's ticks that were the last ones of a poll.
+    const std::map<std::uint64_t, std::uint64_t>& hashes() const { return hashes_; }
     bool all_play() {
         return std::ranges::all_of(peers, [](const auto& peer) { return peer->plays(); });
     }
@@ -214,6 +223,7 @@ class LoopbackMatch {
         peer.compared_until = std::max(peer.compared_until, stats.confirmed);
     }
 
+    MakeMatch make_;
     MatchScene scene_;
     std::unique_ptr<Listener> listener_;
     std::map<std::uint64_t, std::uint64_t> hashes_;

@@ -173,7 +173,8 @@ TEST_F(MatchServerTest, OtherVersionIsToldBoth) {
     EXPECT_EQ(raw.refused->reason, NetRefusal::version);
     EXPECT_EQ(raw.refused->detail, k_net_version);
     EXPECT_EQ(refusal_text({NetRefusal::version, k_net_version + 1}),
-              "other version: the server speaks 2, this program 1");
+              "other version: the server speaks " + std::to_string(k_net_version + 1) +
+                  ", this program " + std::to_string(k_net_version));
 }
 
 TEST_F(MatchServerTest, WhereNobodyListensThereIsNoServer) {

@@ -86,7 +86,7 @@ TEST(ReceiveBudget, LetsUsualPeersThroughAndNoMoreThanItsRate) {
     const LinkBudget limits{.messages_per_s = 200.0, .bytes_per_s = 20e3, .burst_s = 0.5};
     ReceiveBudget usual(limits);
     for (int i = 1; i <= 900; ++i) {
-        EXPECT_TRUE(usual.take(120, i / 90.0));
+        EXPECT_TRUE(usual.take(1, 120, i / 90.0));
     }
     ReceiveBudget flooded(limits);
     int taken = 0;
@@ -96,7 +96,7 @@ TEST(ReceiveBudget, LetsUsualPeersThroughAndNoMoreThanItsRate) {
         is_read = is_read || flooded.may_read(now_s);
         if (is_read) {
             ++taken;
-            is_read = flooded.take(20, now_s);
+            is_read = flooded.take(1, 20, now_s);
         }
     }
     EXPECT_GT(taken, 1500);

@@ -233,6 +233,8 @@ namespace Handhold {
         Server = 1,
         /// <summary>No network: every tick is stepped again from `sync_ticks` before, and must give the same hashes. Finds state that your game forgets to restore.</summary>
         SyncTest = 2,
+        /// <summary>Nobody's machine: steps confirmed ticks only, from hh_match_confirmed_inputs. For those who watch, and for recordings of matches. Has no slot and sends no packets.</summary>
+        Spectator = 3,
     }
 
     public enum MatchEventState {
@@ -1186,9 +1188,9 @@ namespace Handhold {
         public ulong waits;
         /// <summary>inputs that came too late: own ones, or on a server those of all</summary>
         public ulong filled;
-        /// <summary>servers: compared hashes of clients</summary>
+        /// <summary>servers, spectators: compared hashes</summary>
         public ulong hashes;
-        /// <summary>servers: those that differed</summary>
+        /// <summary>servers, spectators: those that differed</summary>
         public ulong out_of_sync;
         /// <summary>packets, by hh_match_refusal; on clients, GAP counts their parts</summary>
         public UlongArray16 refused;
@@ -1877,6 +1879,8 @@ namespace Handhold {
         public static extern Result hh_match_state(IntPtr match, uint slot, void* buffer, UIntPtr capacity, UIntPtr* size);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_match_sync_test(IntPtr match, MatchInput* inputs, UIntPtr input_count, MatchDifference* difference);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_match_confirmed_inputs(IntPtr match, ulong after, void* buffer, UIntPtr capacity, UIntPtr* size, ulong* until);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_match_needs_state(IntPtr match, uint slot, byte* needs);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]

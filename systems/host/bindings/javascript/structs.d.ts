@@ -180,6 +180,8 @@ export declare const HH_MATCH_CLIENT: 0;
 export declare const HH_MATCH_SERVER: 1;
 /** No network: every tick is stepped again from `sync_ticks` before, and must give the same hashes. Finds state that your game forgets to restore. */
 export declare const HH_MATCH_SYNC_TEST: 2;
+/** Nobody's machine: steps confirmed ticks only, from hh_match_confirmed_inputs. For those who watch, and for recordings of matches. Has no slot and sends no packets. */
+export declare const HH_MATCH_SPECTATOR: 3;
 /** It happened in a tick that may change. Each such event is confirmed or retracted later. */
 export declare const HH_MATCH_PREDICTED: 0;
 /** its tick is final. Each event of a confirmed tick comes so once */
@@ -820,9 +822,9 @@ export interface hh_match_stats {
     waits: bigint;
     /** inputs that came too late: own ones, or on a server those of all */
     filled: bigint;
-    /** servers: compared hashes of clients */
+    /** servers, spectators: compared hashes */
     hashes: bigint;
-    /** servers: those that differed */
+    /** servers, spectators: those that differed */
     out_of_sync: bigint;
     /** packets, by hh_match_refusal; on clients, GAP counts their parts */
     refused: bigint[];

@@ -122,6 +122,7 @@ export const HH_ROWS_DIRECTION = 2;
 export const HH_MATCH_CLIENT = 0;
 export const HH_MATCH_SERVER = 1;
 export const HH_MATCH_SYNC_TEST = 2;
+export const HH_MATCH_SPECTATOR = 3;
 export const HH_MATCH_PREDICTED = 0;
 export const HH_MATCH_CONFIRMED = 1;
 export const HH_MATCH_RETRACTED = 2;

@@ -26,6 +26,8 @@ typedef struct hh_match hh_match;
 
 #define HH_MATCH_PLAYERS 16        /* most players of a match */
 #define HH_MATCH_PACKET_BYTES 1200 /* most bytes of a packet */
+#define HH_MATCH_INPUTS_BYTES 8192 /* most bytes of hh_match_confirmed_inputs */
+#define HH_MATCH_NO_SLOT 0xffffffffu
 #define HH_MATCH_PLACES 64         /* copies of its own state that a game keeps */
 #define HH_MATCH_REFUSALS 16       /* length of hh_match_stats.refused */
 
@@ -35,6 +37,9 @@ typedef enum hh_match_role {
     /* No network: every tick is stepped again from `sync_ticks` before, and must give the same
      * hashes. Finds state that your game forgets to restore. */
     HH_MATCH_SYNC_TEST = 2,
+    /* Nobody's machine: steps confirmed ticks only, from hh_match_confirmed_inputs. For those who
+     * watch, and for recordings of matches. Has no slot and sends no packets. */
+    HH_MATCH_SPECTATOR = 3,
     HH_MATCH_ROLE_32_BITS = 0x7fffffff
 } hh_match_role;
 
@@ -93,7 +98,7 @@ HH_API hh_result hh_match_create(hh_world* world, const hh_match_def* def,
  * function of its game or a surface query: nothing happens. */
 HH_API void hh_match_destroy(hh_match* match);
 
-/* ---- Clients ---- */
+/* ---- Clients and spectators ---- */
 
 /* A player's input for one tick. Fill by hh_default_match_input. */
 typedef struct hh_match_input {
@@ -119,18 +124,19 @@ static inline hh_match_input hh_default_match_input(void) {
 
 /* How often to call hh_match_advance for so much time of the local clock since the last call, [0,
  * 8]: a little more or less than its share, so that inputs reach the server just before they are
- * needed. */
+ * needed. A spectator stays 9 ticks behind what has come. */
 HH_API hh_result hh_match_ticks_due(hh_match* match, double elapsed_s, uint32_t* ticks);
 /* Goes back to the first wrong guess, if there is one, steps again to the present, and then one
  * tick on. `input`, not null. `advanced` gets false, and the input is dropped, while the world is
  * 62 ticks ahead of what is confirmed. Cost: a step, and a quarter of one for each tick stepped
- * again: docs/reference/matches.md has figures. */
+ * again: docs/reference/matches.md has figures. A spectator steps the next confirmed tick, or gets
+ * false if its inputs have not come; of `input` it takes only is_hidden. */
 HH_API hh_result hh_match_advance(hh_match* match, const hh_match_input* input, uint8_t* advanced);
-/* Takes a packet of the server. HH_ERROR_DATA, and no change, for bytes that are damaged or not of
+/* Takes a packet of the server; a spectator those of hh_match_confirmed_inputs. HH_ERROR_DATA, and no change, for bytes that are damaged or not of
  * this match. Packets that came too late or out of order are HH_OK: what they lack comes again.
  * Both are counted in hh_match_stats.refused. Tolerates any bytes. */
 HH_API hh_result hh_match_receive(hh_match* match, const void* packet, size_t size);
-/* Writes the next packet to the server, `size` bytes. Call once a tick or once in two. A null
+/* Clients only. Writes the next packet to the server, `size` bytes. Call once a tick or once in two. A null
  * `buffer` asks for the most bytes that a packet has, HH_MATCH_PACKET_BYTES; HH_ERROR_CAPACITY for
  * a smaller `capacity`. */
 HH_API hh_result hh_match_packet(hh_match* match, void* buffer, size_t capacity, size_t* size);
@@ -159,7 +165,8 @@ HH_API hh_result hh_match_packet_to(hh_match* match, uint32_t slot, void* buffer
                                     size_t* size);
 /* Writes the state that a player joins with, `size` bytes, for hh_match_join; send your own state
  * of this tick with it. From now on the player is sent the inputs after it. As hh_world_save; with
- * a null `buffer` nothing changes. */
+ * a null `buffer` nothing changes. HH_MATCH_NO_SLOT: the state for a spectator, who is sent the
+ * confirmed inputs after the present tick. */
 HH_API hh_result hh_match_state(hh_match* match, uint32_t slot, void* buffer, size_t capacity,
                                 size_t* size);
 
@@ -175,10 +182,21 @@ typedef struct hh_match_difference {
 HH_API hh_result hh_match_sync_test(hh_match* match, const hh_match_input* inputs,
                                     size_t input_count, hh_match_difference* difference);
 
+/* ---- Servers, clients and spectators ---- */
+
+/* Writes the inputs of all slots in the confirmed ticks after `after`, for hh_match_receive of
+ * spectators: over a reliable stream of yours, or into a file, which then has the whole match.
+ * `until` gets the last tick written, `after` if there is nothing new: 128 ticks at most, and fewer
+ * if the buffer is full. Every 90th tick carries its hash, which the reader compares.
+ * HH_ERROR_VALUE if `after` is later than what is confirmed, or 448 ticks earlier; a spectator then
+ * needs a state. A null `buffer` asks for HH_MATCH_INPUTS_BYTES; HH_ERROR_CAPACITY for less. */
+HH_API hh_result hh_match_confirmed_inputs(const hh_match* match, uint64_t after, void* buffer,
+                                           size_t capacity, size_t* size, uint64_t* until);
+
 /* ---- All ---- */
 
 /* A player needs hh_match_state and hh_match_join: the world differs from the server's, or inputs
- * are lost for good. A client answers for its own slot only. */
+ * are lost for good. A client answers for its own slot only, a spectator for any. */
 HH_API hh_result hh_match_needs_state(const hh_match* match, uint32_t slot, uint8_t* needs);
 /* Hash of world and game after a tick: equal on all machines if the tick is confirmed.
  * HH_ERROR_VALUE unless it is the present one or, on a client, one of the 63 before that it has
@@ -232,8 +250,8 @@ typedef struct hh_match_stats {
     uint64_t deepest;     /* most ticks that one of them stepped again */
     uint64_t waits;       /* clients: hh_match_advance that were too far ahead */
     uint64_t filled;      /* inputs that came too late: own ones, or on a server those of all */
-    uint64_t hashes;      /* servers: compared hashes of clients */
-    uint64_t out_of_sync; /* servers: those that differed */
+    uint64_t hashes;      /* servers, spectators: compared hashes */
+    uint64_t out_of_sync; /* servers, spectators: those that differed */
     uint64_t refused[16]; /* packets, by hh_match_refusal; on clients, GAP counts their parts */
 } hh_match_stats;
 HH_API hh_result hh_default_match_stats_sized(hh_match_stats* filled, size_t size);

@@ -94,7 +94,7 @@ class Match {
     // The handle of the C interface; null if not valid.
     const hh_match* get() const { return match_; }
 
-    // ---- Clients ----
+    // ---- Clients and spectators ----
 
     // How often to call advance for so much time of the local clock.
     Maybe<std::uint32_t> ticks_due(double elapsed_s) {
@@ -156,6 +156,21 @@ class Match {
         if (result == HH_OK) {
             result = hh_match_state(match_, slot, state.data(), state.size(), &size);
         }
+        return result;
+    }
+
+    // The state that a spectator joins with.
+    Status state_to_watch(std::vector<std::byte>& out) { return state(HH_MATCH_NO_SLOT, out); }
+
+    // ---- Servers, clients and spectators ----
+
+    // Replaces `packet` by the confirmed inputs after `after`, which becomes the last tick in it.
+    Status confirmed_inputs(std::uint64_t& after, std::vector<std::byte>& packet) const {
+        packet.resize(HH_MATCH_INPUTS_BYTES);
+        std::size_t size = 0;
+        const hh_result result =
+            hh_match_confirmed_inputs(match_, after, packet.data(), packet.size(), &size, &after);
+        packet.resize(result == HH_OK ? size : 0);
         return result;
     }
 

@@ -201,6 +201,7 @@ class MatchRole(enum.IntEnum):
     HH_MATCH_CLIENT = 0
     HH_MATCH_SERVER = 1
     HH_MATCH_SYNC_TEST = 2  # No network: every tick is stepped again from `sync_ticks` before, and must give the same hashes. Finds state that your game forgets to restore.
+    HH_MATCH_SPECTATOR = 3  # Nobody's machine: steps confirmed ticks only, from hh_match_confirmed_inputs. For those who watch, and for recordings of matches. Has no slot and sends no packets.
 
 
 class MatchEventState(enum.IntEnum):
@@ -337,6 +338,7 @@ HH_ROWS_DIRECTION = HandRows.HH_ROWS_DIRECTION
 HH_MATCH_CLIENT = MatchRole.HH_MATCH_CLIENT
 HH_MATCH_SERVER = MatchRole.HH_MATCH_SERVER
 HH_MATCH_SYNC_TEST = MatchRole.HH_MATCH_SYNC_TEST
+HH_MATCH_SPECTATOR = MatchRole.HH_MATCH_SPECTATOR
 HH_MATCH_PREDICTED = MatchEventState.HH_MATCH_PREDICTED
 HH_MATCH_CONFIRMED = MatchEventState.HH_MATCH_CONFIRMED
 HH_MATCH_RETRACTED = MatchEventState.HH_MATCH_RETRACTED
@@ -1205,8 +1207,8 @@ class MatchStats(Struct):
     deepest: most ticks that one of them stepped again
     waits: clients: hh_match_advance that were too far ahead
     filled: inputs that came too late: own ones, or on a server those of all
-    hashes: servers: compared hashes of clients
-    out_of_sync: servers: those that differed
+    hashes: servers, spectators: compared hashes
+    out_of_sync: servers, spectators: those that differed
     refused: packets, by hh_match_refusal; on clients, GAP counts their parts"""
     _fields_ = [
         ("struct_size", c_uint32),
@@ -1412,6 +1414,7 @@ FUNCTIONS = {
     "hh_match_packet_to": (c_int32, [c_void_p, c_uint32, c_void_p, c_size_t, POINTER(c_size_t)]),
     "hh_match_state": (c_int32, [c_void_p, c_uint32, c_void_p, c_size_t, POINTER(c_size_t)]),
     "hh_match_sync_test": (c_int32, [c_void_p, POINTER(MatchInput), c_size_t, POINTER(MatchDifference)]),
+    "hh_match_confirmed_inputs": (c_int32, [c_void_p, c_uint64, c_void_p, c_size_t, POINTER(c_size_t), POINTER(c_uint64)]),
     "hh_match_needs_state": (c_int32, [c_void_p, c_uint32, POINTER(c_uint8)]),
     "hh_match_hash": (c_int32, [c_void_p, c_uint64, POINTER(c_uint64)]),
     "hh_match_events_sized": (c_int32, [c_void_p, POINTER(POINTER(MatchEvent)), POINTER(c_size_t), c_size_t]),

@@ -1,0 +1,39 @@
+// A level whose state is large: whoever joins gets it before the inputs after it are forgotten.
+#include <gtest/gtest.h>
+
+#include "tests/game/net/loopback_match.hpp"
+
+namespace handhold::large_state_test {
+namespace {
+
+// Shelves far from everybody.
+MatchScene crowded_match(std::size_t players) {
+    Scene scene = test::tunnel_with_loose_boxes();
+    hh_body_def box = hh::body_def();
+    box.shape = *scene.host.add_box({0.1, 0.1, 0.1});
+    for (int i = 0; i < 12000; ++i) {
+        box.pose.position = {100.0 + i % 30, 0.5 * (i / 30 % 30), 0.5 * (i / 900)};
+        (void)scene.host.add(box);
+    }
+    return std::move(make_match_scene(std::move(scene), players, 7).value());
+}
+
+TEST(LargeState, OfMoreThanTwoAndAHalfMegabytesIsJoined) {
+    if (!has_network()) {
+        GTEST_SKIP() << "built without libwebsockets";
+    }
+    HH_NEEDS_REAL_TIME();
+    test::LoopbackMatch match(
+        2, [](MatchServerSettings& settings) { settings.tick_s = 1.0 / 90.0; }, {}, crowded_match);
+    test::LoopbackPeer& peer = match.add_peer(1);
+    EXPECT_TRUE(match.run_until(30.0, [&] { return peer.plays(); })) << peer.peer->why();
+    EXPECT_GT(match.server->counts().state_bytes, 2'500'000U);
+    match.run(1.0);
+    EXPECT_EQ(peer.peer->states(), 1U);
+    EXPECT_EQ(peer.different, 0U);
+    EXPECT_GT(peer.compared, 5U);
+    RecordProperty("state_bytes", static_cast<int>(match.server->counts().state_bytes));
+}
+
+}  // namespace
+}  // namespace handhold::large_state_test
