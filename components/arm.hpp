@@ -73,6 +73,8 @@ struct ArmMemory {
         Vec3 elbow_ts = Vec3::Zero();   // elbow relative to the shoulder
         Pose hand_ps;                   // shown hand at the end of the last frame
         HandRest rest;
+        // Turn of the shown elbow about the line from shoulder to hand, rad. Of clear_arms.
+        double cleared_rad = 0.0;
     };
     bool known = false;  // false: the next frame re-initialises this state
     // The head's look direction after low-pass filters of different time constants, the shortest

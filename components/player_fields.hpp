@@ -117,6 +117,7 @@ void visit_fields(const ArmMemory::Arm& c, V&& visit) {
     visit("elbow_ts", c.elbow_ts);
     visit("hand_ps", c.hand_ps);
     visit("rest", c.rest);
+    visit("cleared_rad", c.cleared_rad);
 }
 template <typename V>
 void visit_fields(const ChestOffset& c, V&& visit) {
@@ -185,7 +186,7 @@ void visit_fields(const BodyPull& c, V&& visit) {
     visit("hands_before", c.hands_before);
 }
 template <typename V>
-void visit_fields(const FootMemory& c, V&& visit) {
+void visit_fields(const ShownJoint& c, V&& visit) {
     visit("known", c.known);
     visit("wanted_m", c.wanted_m);
     visit("shown_m", c.shown_m);
@@ -211,7 +212,9 @@ void visit_fields(const SpineMemory& c, V&& visit) {
     visit("contacts", c.contacts);
     visit("searches", c.searches);
     visit("pull", c.pull);
+    visit("pelvis", c.pelvis);
     visit("feet", c.feet);
+    visit("hips_m", c.hips_m);
 }
 template <typename V>
 void visit_fields(const BodyClipState& c, V&& visit) {

@@ -64,19 +64,19 @@ struct BodyPull {
     Vec3 hands_before = Vec3::Zero();  // one frame earlier
 };
 
-// A foot as it was shown last, relative to the chest in play-space axes. Written by limit_feet;
-// reset by propagate_spine when the chain starts from rest.
-struct FootMemory {
-    bool known = false;                // false: the next frame shows the foot where the leg puts it
-    Vec3 wanted_m = Vec3::Zero();      // where the leg put it
+// The pelvis or a foot as it was shown last, relative to the chest in play-space axes. Written by
+// limit_pelvis and limit_feet; reset by propagate_spine when the chain starts from rest.
+struct ShownJoint {
+    bool known = false;                // false: the next frame shows the joint where it is wanted
+    Vec3 wanted_m = Vec3::Zero();      // where the earlier stages put it
     Vec3 shown_m = Vec3::Zero();       // where it was shown
-    Vec3 velocity_mps = Vec3::Zero();  // velocity of the shown foot
+    Vec3 velocity_mps = Vec3::Zero();  // velocity of the shown joint
 };
 
-// State of propagate_spine, and `feet` of limit_feet: the hanging chain, before pose_spine folds it
-// for a crouch. Offsets lead from the chest to each link's lower end, in play-space axes.
-// Velocities and displacements are relative to the reference velocity `reference_ws_mps`. The chain
-// advances in fixed time steps, called ticks (k_spine_tick_s).
+// State of propagate_spine, limit_pelvis (`pelvis`) and limit_feet (`feet`, `hips_m`): the hanging
+// chain, before pose_spine folds it for a crouch. Offsets lead from the chest to each link's lower
+// end, in play-space axes. Velocities and displacements are relative to the reference velocity
+// `reference_ws_mps`. The chain advances in fixed time steps, called ticks (k_spine_tick_s).
 struct SpineMemory {
     bool known = false;           // false: the next frame starts from rest
     double since_tick_s = 0.0;    // time since the last tick; [0, k_spine_tick_s)
@@ -99,11 +99,14 @@ struct SpineMemory {
     std::array<BodyContact, k_body_searches> contacts;  // indexed by body_part_of, then k_free_body
     std::array<BodySearch, k_body_searches> searches;   // likewise
     BodyPull pull;
-    std::array<FootMemory, k_hand_count> feet;  // indexed by HandSide
+    ShownJoint pelvis;
+    std::array<ShownJoint, k_hand_count> feet;  // indexed by HandSide
+    // Hips relative to the chest as shown last, play-space axes; valid if `feet` are known.
+    std::array<Vec3, k_hand_count> hips_m = {Vec3::Zero(), Vec3::Zero()};
 };
 
 // World poses of trunk and legs. Written by propagate_spine; layer_additives adds the
-// clips, limit_feet slows the feet.
+// clips, limit_pelvis and limit_feet slow pelvis and feet.
 struct SpinePose {
     struct Leg {
         Pose thigh_ws;  // origin: hip

@@ -1,6 +1,7 @@
 #include "game/commands/shot_film.hpp"
 
 #include <algorithm>
+#include <array>
 #include <tuple>
 
 #include "game/mesh/primitives.hpp"
@@ -79,9 +80,36 @@ struct ShotFilm::Impl {
         }
         const Quat& play_space = scene.world().player_origin.elements()[0].pose_ws.rotation;
         const Vec3 middle_ws = looked_at(shot);
-        const Vec3 eye_ws = middle_ws + play_space * shot.from_m;
-        return look_along(eye_ws, middle_ws + play_space * shot.target_m - eye_ws,
-                          play_space * Vec3::UnitY());
+        const Vec3 target_ws = middle_ws + play_space * shot.target_m;
+        const Vec3 up_ws = play_space * Vec3::UnitY();
+        Vec3 eye_ws = middle_ws + play_space * shot.from_m;
+        if (shot.free) {
+            eye_ws = free_eye(middle_ws, eye_ws, up_ws);
+        }
+        return look_along(eye_ws, target_ws - eye_ws, up_ws);
+    }
+
+    // Shot::free. A body that the player holds counts as a surface too.
+    Vec3 free_eye(const Vec3& middle_ws, const Vec3& eye_ws, const Vec3& up_ws) const {
+        constexpr double k_camera_m = 0.06;
+        constexpr double k_step_rad = 0.4;
+        constexpr int k_sides = 8;  // steps to each side: half a turn
+        const std::array<std::uint64_t, 1> skip = {
+            scene.world().persistent_id.at(scene.world().render_pose.owners()[0]).value};
+        Vec3 best_ws = middle_ws;
+        for (int i = 0; i <= 2 * k_sides; ++i) {
+            const double turn_rad = k_step_rad * ((i + 1) / 2) * (i % 2 == 0 ? 1.0 : -1.0);
+            const Vec3 way = rotation_about(up_ws, turn_rad) * (eye_ws - middle_ws);
+            const auto hit =
+                scene.caches().collision.cast_sphere(k_camera_m, middle_ws, middle_ws + way, skip);
+            if (!hit) {
+                return middle_ws + way;
+            }
+            if (hit->distance_m > (best_ws - middle_ws).norm()) {
+                best_ws = middle_ws + way * (hit->distance_m / way.norm());
+            }
+        }
+        return best_ws == middle_ws ? eye_ws : best_ws;
     }
 
     void draw(const Shot& shot) {

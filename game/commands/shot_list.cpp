@@ -60,7 +60,7 @@ bool is_plain_name(const std::string& name) {
 
 Shot read_shot(const JsonValue& value) {
     value.allow_only({"name", "scene", "caption", "at_s", "until_s", "view", "side", "body",
-                      "from_m", "target_m", "fov_deg", "marks", "through", "gizmos"});
+                      "from_m", "target_m", "free", "fov_deg", "marks", "through", "gizmos"});
     Shot shot;
     shot.name = value["name"].text();
     if (!is_plain_name(shot.name)) {
@@ -82,6 +82,7 @@ Shot read_shot(const JsonValue& value) {
     }
     shot.from_m = value["from_m"].vector_or(shot.from_m, {-1e4, 1e4});
     shot.target_m = value["target_m"].vector_or(shot.target_m, {-1e4, 1e4});
+    shot.free = value["free"].flag_or(shot.free);
     shot.fov_deg = value["fov_deg"].number_or(shot.fov_deg, {5.0, 130.0});
     shot.marks = value["marks"].flag_or(shot.marks);
     shot.through = value["through"].number_or(shot.through, k_unit_interval);

@@ -43,6 +43,9 @@ struct Shot {
     // Offset of the point that the camera looks at from the point that `view` names, in the same
     // axes. ShotView::place: the point itself, in the world.
     Vec3 target_m = Vec3::Zero();
+    // For views with `from_m`: a camera that surfaces separate from its target moves around the
+    // target to the nearest side that is free, or as near to the target as they allow.
+    bool free = false;
     double fov_deg = 60.0;  // vertical
     bool marks = true;      // lines of palms, grips and heads
     double through = 0.22;  // [0, 1]; opacity of lines behind geometry

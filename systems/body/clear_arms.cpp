@@ -32,28 +32,82 @@ Vec3 from_trunk(const Trunk& trunk, const Vec3& point) {
     return nearest;
 }
 
-// Returns the angle about the unit vector `axis` through `shoulder` by which the elbow is turned.
-double clear_angle(const Trunk& trunk, const Vec3& shoulder, const Vec3& elbow, const Vec3& hand,
-                   const Vec3& axis, const Vec3& outward) {
+constexpr double k_step_rad = 0.35;  // largest step of a search
+
+// An arm whose elbow turns about the line from shoulder to hand.
+struct Arm {
+    Vec3 shoulder;
+    Vec3 elbow;
+    Vec3 hand;
+    Vec3 axis;     // unit, from the shoulder to the hand
+    Vec3 ahead;    // unit, to the middle finger
+    Vec3 outward;  // unit, to the arm's side of the body
+
+    Vec3 elbow_at(double angle) const {
+        return shoulder + rotation_about(axis, angle) * (elbow - shoulder);
+    }
+};
+
+double clamped(double angle) { return std::clamp(angle, -k_most_clear_rad, k_most_clear_rad); }
+
+// Returns `angle`, changed until the wrist is bent by at most k_wrist_follow_rad, or as little as a
+// turn of the elbow can.
+double follow_wrist(const Arm& arm, double angle) {
+    constexpr int k_steps = 6;
+    static const double k_least_cosine = [] {
+        double sine = 0.0;
+        double cosine = 1.0;
+        sin_cos(k_wrist_follow_rad, sine, cosine);
+        return cosine;
+    }();
+    for (int step = 0; step < k_steps; ++step) {
+        const Vec3 turned = arm.elbow_at(angle);
+        const Vec3 forearm = arm.hand - turned;
+        const double length = forearm.norm();
+        const double missing = k_least_cosine * length - forearm.dot(arm.ahead);
+        if (missing <= 0.0 || length < 1e-6) {
+            break;
+        }
+        // d forearm / d angle = axis x forearm, because the hand is on the axis.
+        const double rate = arm.axis.cross(forearm).dot(arm.ahead);
+        const double by = std::min(missing / std::max(std::abs(rate), 1e-3), k_step_rad);
+        // At the worst angle, both ways are as good.
+        constexpr double k_flat = 0.02;
+        const bool outward = arm.axis.cross(turned - arm.shoulder).dot(arm.outward) > 0.0;
+        const bool rises = std::abs(rate) < k_flat * length ? outward : rate > 0.0;
+        angle = clamped(angle + (rises ? by : -by));
+    }
+    return angle;
+}
+
+// An angle, and how deep elbow or forearm are then in the trunk.
+struct Cleared {
+    double angle = 0.0;
+    double depth_m = 0.0;
+};
+
+// Changes `angle` until elbow and forearm are outside of the trunk.
+Cleared leave_trunk(const Trunk& trunk, const Arm& arm, double angle) {
     // Points of the forearm by their distance from the elbow. The rest of it goes with the hand.
     constexpr std::array<double, 4> k_points = {0.0, 0.25, 0.5, 0.75};
     constexpr int k_steps = 8;
-    constexpr double k_step_rad = 0.35;
     constexpr double k_bias = 0.4;  // an elbow in the middle of the trunk leaves to its own side
-    double angle = 0.0;
+    double deepest_m = 0.0;
     for (int step = 0; step < k_steps; ++step) {
-        const Vec3 turned = shoulder + rotation_about(axis, angle) * (elbow - shoulder);
-        const Vec3 tangent = axis.cross(turned - shoulder);  // d turned / d angle
+        const Vec3 turned = arm.elbow_at(angle);
+        const Vec3 tangent = arm.axis.cross(turned - arm.shoulder);  // d turned / d angle
         double wanted = 0.0;
+        deepest_m = 0.0;
         for (const double share : k_points) {
-            const Vec3 apart = from_trunk(trunk, turned + share * (hand - turned));
+            const Vec3 apart = from_trunk(trunk, turned + share * (arm.hand - turned));
             const double distance = apart.norm();
             const double depth = trunk.radius_m - distance;
             if (depth <= 0.0) {
                 continue;
             }
+            deepest_m = std::max(deepest_m, depth);
             const Vec3 push = apart * (1.0 / std::max(distance, 1e-6));
-            const Vec3 biased = push + k_bias * (depth / trunk.radius_m) * outward;
+            const Vec3 biased = push + k_bias * (depth / trunk.radius_m) * arm.outward;
             const double rate = (1.0 - share) * tangent.dot(biased);
             const double by = std::clamp(depth / std::max(std::abs(rate), 1e-3), 0.0, k_step_rad);
             if (by > std::abs(wanted)) {
@@ -63,26 +117,52 @@ double clear_angle(const Trunk& trunk, const Vec3& shoulder, const Vec3& elbow, 
         if (wanted == 0.0) {
             break;
         }
-        angle = std::clamp(angle + wanted, -k_most_clear_rad, k_most_clear_rad);
+        angle = clamped(angle + wanted);
     }
-    return angle;
+    return {angle, deepest_m};
 }
 
-void clear_arm(const Trunk& trunk, const Vec3& outward, ArmPose::Arm& arm) {
-    const Vec3 shoulder = arm.upper_ws.position;
-    const Vec3 line = arm.hand_ws.position - shoulder;
+// Returns an angle near `angle` at which the arm is outside of the trunk. If a search from there
+// ends inside, tries others, and returns the one that ends least deep.
+double clear_angle(const Trunk& trunk, const Arm& arm, double angle) {
+    constexpr double k_same_m = 0.01;
+    Cleared best = leave_trunk(trunk, arm, angle);
+    for (const double from : {0.0, 0.8 * k_most_clear_rad, -0.8 * k_most_clear_rad}) {
+        if (best.depth_m < k_same_m) {
+            break;
+        }
+        const Cleared other = leave_trunk(trunk, arm, from);
+        if (other.depth_m < best.depth_m - k_same_m) {
+            best = other;
+        }
+    }
+    return best.angle;
+}
+
+void clear_arm(const Trunk& trunk, const Vec3& outward, double dt_s, double& cleared_rad,
+               ArmPose::Arm& out) {
+    const Vec3 shoulder = out.upper_ws.position;
+    const Vec3 line = out.hand_ws.position - shoulder;
     const double length = line.norm();
     if (length < 1e-6) {
         return;
     }
-    const Vec3 axis = line * (1.0 / length);
-    const double angle =
-        clear_angle(trunk, shoulder, arm.forearm_ws.position, arm.hand_ws.position, axis, outward);
-    if (angle != 0.0) {
-        const Quat turn = rotation_about(axis, angle);
-        arm.upper_ws.rotation = (turn * arm.upper_ws.rotation).normalized();
-        arm.forearm_ws.position = shoulder + turn * (arm.forearm_ws.position - shoulder);
-        arm.forearm_ws.rotation = (turn * arm.forearm_ws.rotation).normalized();
+    const Arm arm{shoulder,
+                  out.forearm_ws.position,
+                  out.hand_ws.position,
+                  line * (1.0 / length),
+                  out.hand_ws.rotation * -Vec3::UnitZ(),
+                  outward};
+    const double back = k_clear_back_radps * dt_s;
+    const double from = cleared_rad - std::clamp(cleared_rad, -back, back);
+    const double wanted = clear_angle(trunk, arm, follow_wrist(arm, from));
+    const double most = k_clear_radps * dt_s;
+    cleared_rad = std::clamp(wanted, cleared_rad - most, cleared_rad + most);
+    if (cleared_rad != 0.0) {
+        const Quat turn = rotation_about(arm.axis, cleared_rad);
+        out.upper_ws.rotation = (turn * out.upper_ws.rotation).normalized();
+        out.forearm_ws.position = shoulder + turn * (arm.elbow - shoulder);
+        out.forearm_ws.rotation = (turn * out.forearm_ws.rotation).normalized();
     }
 }
 
@@ -91,15 +171,16 @@ void clear_arm(const Trunk& trunk, const Vec3& outward, ArmPose::Arm& arm) {
 void clear_arms(const ClearArmsIo& io) {
     join(
         io.arms,
-        [](Entity, ArmPose& arms, const SpinePose& spine, const BodyMeasures& measures) {
+        [&](Entity, ArmPose& arms, ArmMemory& memory, const SpinePose& spine,
+            const BodyMeasures& measures) {
             const Trunk trunk{
                 {spine.chest_ws.position, spine.spine_ws.back().position, spine.pelvis_ws.position},
                 k_trunk_clearance_m * measures.eye_height_m / k_scale_eye_m};
             const Vec3 right = spine.chest_ws.rotation * Vec3::UnitX();
-            clear_arm(trunk, -right, arms.arms[0]);
-            clear_arm(trunk, right, arms.arms[1]);
+            clear_arm(trunk, -right, io.dt_s, memory.arms[0].cleared_rad, arms.arms[0]);
+            clear_arm(trunk, right, io.dt_s, memory.arms[1].cleared_rad, arms.arms[1]);
         },
-        io.spine, io.measures);
+        io.memory, io.spine, io.measures);
 }
 
 }  // namespace handhold

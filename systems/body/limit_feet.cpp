@@ -10,8 +10,6 @@
 namespace handhold {
 namespace {
 
-// Deceleration with which a lagging foot comes to rest at its place.
-constexpr double k_catch_up_mps2 = 30.0;
 // Share of the change of velocity in a frame with which a lagging foot brakes as its leg becomes
 // straight.
 constexpr double k_brake_share = 0.6;
@@ -20,14 +18,10 @@ constexpr double k_legs_apart = 0.75;
 // Least share of the leg's length between hip and ankle that a lagging foot may take.
 constexpr double k_shortest_leg = 0.05;
 
-Vec3 at_most(const Vec3& v, double most) {
-    const double length = v.norm();
-    return length > most ? Vec3(v * (most / length)) : v;
-}
-
 // The hip relative to the chest, and the longest distance from there to the ankle.
 struct Reach {
-    Vec3 hip_m;
+    Vec3 hip_m;    // position at the frame's end
+    Vec3 hip_mps;  // velocity in this frame
     double leg_m = 0.0;
 };
 
@@ -36,11 +30,12 @@ struct Reach {
 // `step_mps`: how much the velocity may change in this frame. If each frame brakes by b, a foot at
 // the distance d from its end may move by v = sqrt(b^2 + 2 b d / dt) - b.
 Vec3 braked(const Vec3& velocity_mps, double step_mps, double dt_s, const Reach& reach,
-            const FootMemory& foot) {
-    const Vec3 from_hip = foot.shown_m - reach.hip_m;
+            const ShownJoint& foot) {
+    const Vec3 from_hip = foot.shown_m - (reach.hip_m - dt_s * reach.hip_mps);
     const double distance_m = from_hip.norm();
     const double room_m = std::max(0.0, reach.leg_m - distance_m);
-    const double outward_mps = velocity_mps.dot(from_hip) / std::max(distance_m, 1e-9);
+    const double outward_mps =
+        (velocity_mps - reach.hip_mps).dot(from_hip) / std::max(distance_m, 1e-9);
     const double brake_mps = k_brake_share * step_mps;
     const double most_mps = std::sqrt(brake_mps * (brake_mps + 2.0 * room_m / dt_s)) - brake_mps;
     return outward_mps > most_mps
@@ -51,22 +46,15 @@ Vec3 braked(const Vec3& velocity_mps, double step_mps, double dt_s, const Reach&
 
 // Where the foot is shown, relative to the chest. `wanted_m`: where the leg puts it.
 Vec3 limited(const Vec3& wanted_m, const Reach& reach, double scale, double dt_s,
-             const FootMemory& foot) {
-    const Vec3 wanted_mps = (wanted_m - foot.wanted_m) / dt_s;
-    const Vec3 lag_m = foot.wanted_m - foot.shown_m;
-    const double catch_up_mps = std::sqrt(2.0 * scale * k_catch_up_mps2 * lag_m.norm());
-    const Vec3 free_mps = wanted_mps + at_most(lag_m / dt_s, catch_up_mps);
-    const double step_mps = scale * std::min(k_foot_step_mps, k_foot_mps2 * dt_s);
-    const auto stepped = [&](const Vec3& to_mps) {
-        return Vec3(foot.velocity_mps + at_most(to_mps - foot.velocity_mps, step_mps));
-    };
-    const Vec3 next_mps = stepped(at_most(free_mps, scale * k_foot_mps));
-    // Exactly the wanted place if nothing is limited, without rounding.
-    const Vec3 shown_m = foot.shown_m + dt_s * next_mps;
-    constexpr double k_same_m = 1e-9;
-    return (shown_m - wanted_m).norm() < k_same_m
-               ? wanted_m
-               : Vec3(foot.shown_m + dt_s * stepped(braked(next_mps, step_mps, dt_s, reach, foot)));
+             const ShownJoint& foot) {
+    const Vec3 next_mps = limited_mps(wanted_m, k_foot_limits, scale, dt_s, foot);
+    const Vec3 next_m = shown_at(wanted_m, next_mps, dt_s, foot);
+    if (next_m == wanted_m) {
+        return wanted_m;
+    }
+    const double step_mps = step_mps_of(k_foot_limits, scale, dt_s);
+    const Vec3 change_mps = braked(next_mps, step_mps, dt_s, reach, foot) - foot.velocity_mps;
+    return foot.shown_m + dt_s * (foot.velocity_mps + shortened_to(change_mps, step_mps));
 }
 
 // Distance between hip and ankle of a leg whose knee is bent least.
@@ -165,14 +153,17 @@ void limit_feet(const LimitFeetIo& io) {
         const Mat3 to_ps = origin_ws.rotation.toRotationMatrix().transpose();
         for (std::size_t side = 0; side < k_hand_count; ++side) {
             SpinePose::Leg& leg = pose.legs[side];
-            FootMemory& foot = memory.feet[side];
+            ShownJoint& foot = memory.feet[side];
             const Vec3& chest_ws = pose.chest_ws.position;
             const Vec3 wanted_m = to_ps * (leg.foot_ws.position - chest_ws);
+            const Vec3 hip_m = to_ps * (leg.thigh_ws.position - chest_ws);
+            const Vec3 hip_mps = (hip_m - memory.hips_m[side]) / io.dt_s;
+            memory.hips_m[side] = hip_m;
             if (!foot.known) {
                 foot = {true, wanted_m, wanted_m, Vec3::Zero()};
                 continue;
             }
-            const Reach reach{to_ps * (leg.thigh_ws.position - chest_ws),
+            const Reach reach{hip_m, hip_mps,
                               longest_m((leg.shin_ws.position - leg.thigh_ws.position).norm(),
                                         (leg.foot_ws.position - leg.shin_ws.position).norm())};
             Vec3 shown_m = limited(wanted_m, reach, scale, io.dt_s, foot);

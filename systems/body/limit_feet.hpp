@@ -3,19 +3,19 @@
 #include "components/player.hpp"
 #include "components/spine.hpp"
 #include "engine/ecs/column.hpp"
+#include "systems/body/shared/limit_joint.hpp"
 
 namespace handhold {
 
-// Limits of a shown foot's motion relative to the chest, in the player's metres and the axes of the
-// play space: its speed, the change of its velocity in a frame, and its acceleration.
-inline constexpr double k_foot_mps = 2.9;
-inline constexpr double k_foot_step_mps = 0.9;
-inline constexpr double k_foot_mps2 = 80.0;
+// Limits of a shown foot's motion relative to the chest. A straight leg that its hip pulls along
+// (k_pelvis_limits) exceeds them by as much as the hip moves across the foot's way.
+inline constexpr JointLimits k_foot_limits = {
+    .speed_mps = 2.5, .step_mps = 0.8, .acceleration_mps2 = 80.0, .catch_up_mps2 = 30.0};
 
 struct LimitFeetIo {
     double dt_s;                         // in: > 0
     const Column<PlayerOrigin>& origin;  // in
-    Column<SpineMemory>& memory;         // in/out: feet
+    Column<SpineMemory>& memory;         // in/out: feet, hips
     Column<SpinePose>& pose;             // in/out: legs
 };
 

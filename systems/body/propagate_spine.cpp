@@ -5,6 +5,7 @@
 #include "systems/body/propagate_spine.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/anim/deflect_outward.hpp"
@@ -70,16 +71,13 @@ TickShares tick_shares(const SpineTuning& tuning) {
              range_of(SpineLinkKind::shin, tuning)}};
 }
 
-// Upper limit of a joint. At a surface, legs may be pushed beyond their swing limit, up to a human
-// range. Afterwards the limit follows the joint back at a limited speed.
+// Upper limit of a joint. A surface may push it beyond the limit of its swing, up to a human range.
+// Afterwards the limit follows the joint back at a limited speed.
 double reached_limit(SpineLinkKind kind, double limit_rad, bool touches, double angle_rad) {
-    constexpr double k_hip_rad = 1.3;
-    constexpr double k_knee_rad = 2.4;
+    // The index is a SpineLinkKind.
+    constexpr std::array<double, 3> k_widest_rad = {0.7, 1.3, 2.4};
     constexpr double k_back_radps = 2.0;
-    if (kind == SpineLinkKind::spine) {
-        return limit_rad;
-    }
-    const double widest_rad = kind == SpineLinkKind::thigh ? k_hip_rad : k_knee_rad;
+    const double widest_rad = k_widest_rad[static_cast<std::size_t>(kind)];
     return std::max(limit_rad, touches ? widest_rad : angle_rad - k_back_radps * k_spine_tick_s);
 }
 

@@ -84,6 +84,7 @@ void show(const FrameContext& f) {
     pose_arms(f);
     propagate_spine(f);
     layer_additives(f);
+    limit_pelvis(f);
     limit_feet(f);
     clear_arms(f);
 

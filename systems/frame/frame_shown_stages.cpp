@@ -5,6 +5,7 @@
 #include "systems/body/estimate_arms.hpp"
 #include "systems/body/layer_additives.hpp"
 #include "systems/body/limit_feet.hpp"
+#include "systems/body/limit_pelvis.hpp"
 #include "systems/body/pose_arms.hpp"
 #include "systems/body/propagate_spine.hpp"
 #include "systems/body/publish_body.hpp"
@@ -220,6 +221,15 @@ void layer_additives(const FrameContext& f) {
                               f.tuning.additive);
 }
 
+void limit_pelvis(const FrameContext& f) {
+    const StageTimer timer(Stage::layer_additives, f.stats);
+    World& w = f.w;
+    handhold::limit_pelvis({.dt_s = f.dt_s(),
+                            .origin = w.player_origin,
+                            .memory = w.spine_memory,
+                            .pose = w.spine_pose});
+}
+
 void limit_feet(const FrameContext& f) {
     const StageTimer timer(Stage::layer_additives, f.stats);
     World& w = f.w;
@@ -232,7 +242,11 @@ void limit_feet(const FrameContext& f) {
 void clear_arms(const FrameContext& f) {
     const StageTimer timer(Stage::pose_arms, f.stats);
     World& w = f.w;
-    handhold::clear_arms({.measures = w.body_measures, .spine = w.spine_pose, .arms = w.arm_pose});
+    handhold::clear_arms({.dt_s = f.dt_s(),
+                          .measures = w.body_measures,
+                          .spine = w.spine_pose,
+                          .memory = w.arm_memory,
+                          .arms = w.arm_pose});
 }
 
 void publish_pose(const FrameContext& f) {

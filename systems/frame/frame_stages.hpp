@@ -77,6 +77,7 @@ void pose_arms(const FrameContext& f);
 void propagate_spine(const FrameContext& f);
 void layer_additives(const FrameContext& f);
 // Its time counts as that of layer_additives.
+void limit_pelvis(const FrameContext& f);
 void limit_feet(const FrameContext& f);
 void clear_arms(const FrameContext& f);
 void publish_pose(const FrameContext& f);

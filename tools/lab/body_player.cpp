@@ -8,6 +8,7 @@
 #include "systems/body/estimate_sizes.hpp"
 #include "systems/body/layer_additives.hpp"
 #include "systems/body/limit_feet.hpp"
+#include "systems/body/limit_pelvis.hpp"
 #include "systems/body/pose_arms.hpp"
 #include "systems/body/propagate_spine.hpp"
 #include "tools/lab/body_baselines.hpp"
@@ -151,8 +152,13 @@ void BodyPlayer::show(double dt_s) {
                      .state = clip_state_,
                      .pose = shown_spine_},
                     {});
+    limit_pelvis({.dt_s = dt_s, .origin = origin_, .memory = spine_memory_, .pose = shown_spine_});
     limit_feet({.dt_s = dt_s, .origin = origin_, .memory = spine_memory_, .pose = shown_spine_});
-    clear_arms({.measures = measures_, .spine = shown_spine_, .arms = shown_arms_});
+    clear_arms({.dt_s = dt_s,
+                .measures = measures_,
+                .spine = shown_spine_,
+                .memory = memory_,
+                .arms = shown_arms_});
 }
 
 double BodyPlayer::chest_yaw_deg() const {

@@ -53,8 +53,8 @@ void follow_pull(const Vec3& hands, double tick_s, const SpineTuning& tuning, Bo
 TrunkLean lean_of(const Vec3& pull_cs, const Vec3& upright_rad) {
     // Shares of upright_rad that the chest and the links take. The chest takes no turn about Z,
     // because the line of the shoulders must not tilt.
-    constexpr double k_chest = 0.5;
-    constexpr double k_first = 0.4;
+    constexpr double k_chest = 0.9;
+    constexpr double k_first = 0.08;
     constexpr double k_second = 1.0 - k_chest - k_first;
     TrunkLean lean;
     lean.rest_above.fill(-Vec3::UnitY());

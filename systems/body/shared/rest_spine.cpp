@@ -44,6 +44,7 @@ void rest_spine(const Quat& chest, double lying, double scale, double t_s, Spine
         chain.links[i] = frame_at(link_frame(above.rotation, rest, 0.0));
     }
     memory.before_m = memory.offset_m;
+    memory.pelvis = {};
     memory.feet = {};
 }
 

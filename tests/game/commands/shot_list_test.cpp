@@ -14,7 +14,7 @@ TEST(ShotList, ReadsMembersAndFillsInDefaults) {
     const auto shots = parse_shots(R"({"shots": [
         {"name": "a_1", "scene": "ship", "at_s": 2},
         {"name": "b", "scene": "ship", "at_s": 3, "until_s": 4.5, "view": "hand", "side": "left",
-         "from_m": [1, 2, 3], "fov_deg": 40, "gizmos": ["fingers", "palm rays"], "marks": false,
+         "from_m": [1, 2, 3], "free": true, "fov_deg": 40, "gizmos": ["fingers", "palm rays"], "marks": false,
          "caption": "Fingers"}]})",
                                    "list.json");
     ASSERT_TRUE(shots.ok());
@@ -23,6 +23,7 @@ TEST(ShotList, ReadsMembersAndFillsInDefaults) {
     EXPECT_EQ(picture.view, ShotView::eyes);
     EXPECT_EQ(picture.until_s, picture.at_s);
     EXPECT_EQ(picture.gizmos, k_no_gizmos);
+    EXPECT_FALSE(picture.free);
     EXPECT_TRUE(picture.marks);
     const Shot& film = shots.value()[1];
     EXPECT_EQ(film.until_s, 4.5);
@@ -31,6 +32,7 @@ TEST(ShotList, ReadsMembersAndFillsInDefaults) {
     EXPECT_TRUE(film.gizmos[static_cast<std::size_t>(Gizmo::fingers)]);
     EXPECT_TRUE(film.gizmos[static_cast<std::size_t>(Gizmo::palm_rays)]);
     EXPECT_FALSE(film.gizmos[static_cast<std::size_t>(Gizmo::arms)]);
+    EXPECT_TRUE(film.free);
     EXPECT_FALSE(film.marks);
 }
 

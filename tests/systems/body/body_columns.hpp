@@ -3,8 +3,11 @@
 #include <vector>
 
 #include "components/body_clip_state.hpp"
+#include "systems/body/clear_arms.hpp"
 #include "systems/body/estimate_arms.hpp"
 #include "systems/body/layer_additives.hpp"
+#include "systems/body/limit_feet.hpp"
+#include "systems/body/limit_pelvis.hpp"
 #include "systems/body/pose_arms.hpp"
 #include "systems/body/propagate_spine.hpp"
 #include "tests/systems/frame/column_scene.hpp"
@@ -103,6 +106,21 @@ struct BodyColumns {
                                    .memory = spine_memory,
                                    .pose = spine_pose},
                                   spine_tuning);
+    }
+    void limit_pelvis(double dt_s) {
+        handhold::limit_pelvis(
+            {.dt_s = dt_s, .origin = origin, .memory = spine_memory, .pose = spine_pose});
+    }
+    void limit_feet(double dt_s) {
+        handhold::limit_feet(
+            {.dt_s = dt_s, .origin = origin, .memory = spine_memory, .pose = spine_pose});
+    }
+    void clear_arms(double dt_s) {
+        handhold::clear_arms({.dt_s = dt_s,
+                              .measures = measures,
+                              .spine = spine_pose,
+                              .memory = arm_memory,
+                              .arms = arm_pose});
     }
     // `grips`: hands whose release counts as a push-off. They may differ from `grab`, which the
     // trunk hangs from.

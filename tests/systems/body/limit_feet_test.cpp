@@ -111,14 +111,14 @@ void throw_legs_about(Counts& counts) {
             counts.limited += (now - wanted[side]).norm() > 1e-6 ? std::size_t{1} : std::size_t{0};
             const Vec3 mps = hz * (now - before[side]);
             if (frame > 0) {
-                RC_ASSERT(mps.norm() < k_foot_mps + k_rounding);
+                RC_ASSERT(mps.norm() < k_foot_limits.speed_mps + k_rounding);
             }
             if (frame > 1) {
                 const double leg_m = length_of(leg.thigh_ws, leg.foot_ws);
                 const bool is_at_end = leg_m > (1.0 - k_rounding) * longest_leg_m() ||
                                        leg_m < 0.05 * (k_thigh_m + k_shin_m) + k_rounding;
                 const bool is_stopped =
-                    (mps - before_mps[side]).norm() > k_foot_step_mps + k_rounding;
+                    (mps - before_mps[side]).norm() > k_foot_limits.step_mps + k_rounding;
                 RC_ASSERT(is_at_end || !is_stopped);
                 counts.stopped += is_stopped ? std::size_t{1} : std::size_t{0};
             }

@@ -77,12 +77,12 @@ TEST_F(SnapshotRefuses, AnyDamagedByte) {
 }
 
 TEST_F(SnapshotRefuses, AnotherFormatVersion) {
-    for (const std::uint32_t version :
-         {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 10U, 12U}) {  // earlier field names; a later build
+    for (const std::uint32_t version : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 10U, 11U,
+                                        13U}) {  // earlier field names; a later build
         SnapshotBytes other(bytes_);
         other.put(8, version);
         expect_refused(other,
-                       "byte 8: expected format version 11, found " + std::to_string(version));
+                       "byte 8: expected format version 12, found " + std::to_string(version));
     }
 }
 
