@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "game/devices/comfort.hpp"
+#include "game/play/real_clock.hpp"
 #include "game/ui/hud.hpp"
 #include "game/ui/inspector.hpp"
 #include "game/ui/menu.hpp"
@@ -18,13 +19,6 @@ namespace {
 // Maximum delay behind real time; beyond it, simulated time runs slower.
 constexpr double k_max_behind_s = 0.1;
 constexpr double k_status_s = 0.1;
-
-std::int64_t clock_ns() {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(
-               std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
-double us_since(std::int64_t begin_ns) { return 1e-3 * static_cast<double>(clock_ns() - begin_ns); }
 
 // Converts real time to a number of simulation steps.
 class Clock {
