@@ -26,4 +26,15 @@ struct Calibration {
     Vec3 right_ps = Vec3::Zero();
 };
 
+// Whether poses within TPoseRange, held for `held_s`, can have these sums.
+inline bool has_possible_sums(const Calibration& calibration) {
+    constexpr double k_rounding = 1e-9;
+    const auto is_sum_of = [&](double sum_s_m, double min_m, double max_m) {
+        return sum_s_m >= (min_m - k_rounding) * calibration.held_s - k_rounding &&
+               sum_s_m <= (max_m + k_rounding) * calibration.held_s + k_rounding;
+    };
+    return is_sum_of(calibration.eyes_s_m, TPoseRange::k_min_eyes_m, TPoseRange::k_max_eyes_m) &&
+           is_sum_of(calibration.span_s_m, TPoseRange::k_min_span_m, TPoseRange::k_max_span_m);
+}
+
 }  // namespace handhold

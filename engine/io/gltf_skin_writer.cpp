@@ -96,6 +96,9 @@ void add_object(const GltfObject& object, std::size_t materials, GltfBufferWrite
     const std::size_t own = nodes.size();
     nodes.push_back(posed_node(object.name, object.pose_ms));
     root["scenes"][0]["nodes"].push_back(own);
+    for (const auto& [name, numbers] : object.numbers) {
+        nodes[own]["extras"][name] = numbers;
+    }
     for (const GltfSurface& surface : object.surfaces) {
         check_surface(materials, surface.vertices.size(), surface.material, surface.indices);
         const int positions = buffer.add_vertices(surface.vertices, false);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,7 +30,8 @@ struct GltfSkin {
 struct GltfObject {
     std::string name;
     Pose pose_ms;
-    std::vector<GltfSurface> surfaces;  // vertices are in the object's frame
+    std::vector<GltfSurface> surfaces = {};                   // vertices are in the object's frame
+    std::map<std::string, std::vector<double>> numbers = {};  // extras of the node
 };
 
 // The bytes of a .glb whose joints are in their bind pose. Equal input gives equal bytes.

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "engine/core/text_file.hpp"
+#include "game/commands/exported_objects.hpp"
 #include "game/commands/grip_file.hpp"
 #include "game/levels/load_scene.hpp"
-#include "game/mesh/shading_mesh.hpp"
 #include "game/play/exit_status.hpp"
 #include "game/scene/scene.hpp"
 #include "game/view/grip_fit.hpp"
@@ -23,22 +23,9 @@ void add_object(const Scene& scene, Entity body, const Pose& body_in_file, GripS
         if (visual.body != body) {
             continue;
         }
-        Mesh mesh = *visual.mesh;
-        for (Vec3& position : mesh.positions) {
-            position = transform_point(body_in_file, position);
-        }
-        const ShadingMesh shading = make_shading_mesh(mesh);
-        GltfSurface surface;
-        surface.name = mesh.name.empty() ? "part" : mesh.name;
-        surface.material = out.materials.size();
-        for (std::size_t i = 0; i + 5 < shading.vertices.size(); i += 6) {
-            const float* const v = shading.vertices.data() + i;
-            const Vec3 at = Eigen::Vector3f(v[0], v[1], v[2]).cast<double>() + shading.center;
-            const Eigen::Vector3f position = at.cast<float>();
-            surface.vertices.push_back(
-                {{position.x(), position.y(), position.z()}, {v[3], v[4], v[5]}});
-        }
-        surface.indices = shading.indices;
+        const Mesh& mesh = *visual.mesh;
+        GltfSurface surface = exported_surface(mesh.name.empty() ? "part" : mesh.name, mesh,
+                                               body_in_file, out.materials.size());
         if (!surface.indices.empty()) {
             out.materials.push_back({surface.name, visual.color.value_or(mesh.color),
                                      visual.look.emissive, visual.look.opacity, visual.look.gloss});
@@ -124,7 +111,16 @@ int export_grip_command(const ExportGripOptions& options) {
     GripScene out;
     out.side = options.hand == "left" ? HandSide::left : HandSide::right;
     out.grip.name = options.grip;
-    out.controller_in_hand = inverse(default_controller_to_hand(out.side, scene.tuning().hand));
+    out.controller = {
+        {"controller", inverse(default_controller_to_hand(out.side, scene.tuning().hand))}};
+    if (!options.controllers.empty()) {
+        const Result<ControllerModels> models = choose_controllers(options.controllers);
+        if (!models) {
+            return refuse(models.error());
+        }
+        out.controller =
+            controller_objects(models.value().sides[index_of(out.side)], out.materials);
+    }
     const HandRig rig = builtin_hand_rig(out.side);
     std::optional<FileError> error;
     bool is_known = false;

@@ -13,6 +13,7 @@ struct ExportGripOptions {
     // New grip only: pose of the wrist where the hand closes and the fit starts, in the frame of
     // the body's shape in the scene file: x, y, z, then the quaternion's x, y, z, w.
     std::vector<double> wrist;
+    std::string controllers;  // name or file for choose_controllers; empty: no model
     std::string out;
 };
 // `handhold export-grip`: writes hand, controller and object to a .glb. Returns the exit status: 0,

@@ -16,9 +16,10 @@ namespace handhold {
 namespace {
 
 constexpr const char* k_object_name = "object";
-constexpr const char* k_controller_name = "controller";
 constexpr std::string_view k_grip_prefix = "grip/";
 constexpr double k_max_coordinate_m = 1e3;
+// A smaller spread is rounding of the file's single precision.
+constexpr double k_no_spread_rad = 1e-5;
 // Names of the extras (glTF's custom properties) of the wrist's node.
 constexpr const char* k_priority_key = "grip_priority";
 constexpr const char* k_radius_key = "grip_snap_radius_m";
@@ -191,6 +192,9 @@ void read_fingers(GripNodes& nodes, const HandRig& rig, const Pose& wrist_ms, Au
         }
         FingerAngles& angles = hand.fingers[name];
         angles = angles_of_links(finger, links);
+        if (finger.name != FingerName::thumb && std::abs(angles.opposition_rad) < k_no_spread_rad) {
+            angles.opposition_rad = 0.0;
+        }
         for (std::size_t link = 0; link < finger.link_count; ++link) {
             angles.curl_rad[link] =
                 std::clamp(angles.curl_rad[link], finger.lower_rad[link], finger.upper_rad[link]);
@@ -229,11 +233,15 @@ std::string write_grip_glb(const GripScene& scene, const HandRig& rig) {
     }
     const std::size_t of_hand = made.materials.size();
     made.materials.insert(made.materials.end(), scene.materials.begin(), scene.materials.end());
-    std::vector<GltfObject> objects = {
-        {k_object_name, {}, scene.object},
-        {k_controller_name, hand.wrist_bs * scene.controller_in_hand, {}}};
-    for (GltfSurface& surface : objects.front().surfaces) {
-        surface.material += of_hand;
+    std::vector<GltfObject> objects = {{k_object_name, {}, scene.object}};
+    for (GltfObject controller : scene.controller) {
+        controller.pose_ms = hand.wrist_bs * controller.pose_ms;
+        objects.push_back(std::move(controller));
+    }
+    for (GltfObject& object : objects) {
+        for (GltfSurface& surface : object.surfaces) {
+            surface.material += of_hand;
+        }
     }
     return write_skinned_glb(made.materials, made.skin, objects);
 }

@@ -8,7 +8,7 @@
 
 #include "components/hand_rig.hpp"
 #include "engine/core/result.hpp"
-#include "engine/io/gltf_writer.hpp"
+#include "game/commands/exported_objects.hpp"
 #include "game/scene/scene_grip.hpp"
 
 // Authored grips for animation software: a .glb of hand, controller and object. Talk rows 9 and 10.
@@ -17,16 +17,17 @@ namespace handhold {
 // The content of the file. Its nodes:
 // - "grip/<name>/right" (or "left"): the hand's skeleton, with WebXR's joint names
 // - "object": the held object
-// - "controller": an empty node at the pose of that hand's controller
+// - "controller": an empty node at the pose of that hand's controller; nodes
+//   "controller-part-0" and so on have its model
 // Authors move and turn joints, or the hand and the object as a whole.
 struct GripScene {
     SceneGrip
         grip;  // the grip; of its hands only that of `side` is used, with `fingers` as shown pose
     HandSide side = HandSide::right;
     std::array<FingerAngles, k_finger_count> fingers;  // shown pose, by index in HandRig::fingers
-    Pose controller_in_hand;
     std::vector<GltfMaterial> materials;
-    std::vector<GltfSurface> object;  // surfaces of the held object, in the frame of wrist_bs
+    std::vector<GltfSurface> object;     // surfaces of the held object, in the frame of wrist_bs
+    std::vector<GltfObject> controller;  // poses in hand space; first the node "controller"
 };
 // Returns the bytes of a .glb file. Its hand is the mesh of the game's robot, built for `rig`.
 std::string write_grip_glb(const GripScene& scene, const HandRig& rig);

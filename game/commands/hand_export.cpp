@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "engine/core/check.hpp"
 #include "engine/core/text_file.hpp"
+#include "game/commands/exported_objects.hpp"
 #include "game/commands/output_folder.hpp"
 #include "game/play/exit_status.hpp"
 #include "game/render/figure_skin.hpp"
@@ -108,16 +110,28 @@ RobotHandSkin make_robot_hand_skin(const HandRig& rig,
     return {FigureSkin::materials(), skin.finish(std::move(joints))};
 }
 
-std::string export_robot_hand(const HandRig& rig) {
+std::string export_robot_hand(const HandRig& rig, const ControllerModel* controller) {
     std::array<FingerAngles, k_finger_count> at_ease;
     for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
         at_ease[i] = relaxed_angles(rig.fingers[i]);
     }
-    const RobotHandSkin hand = make_robot_hand_skin(rig, at_ease, {});
-    return write_skinned_glb(hand.materials, hand.skin);
+    RobotHandSkin hand = make_robot_hand_skin(rig, at_ease, {});
+    std::vector<GltfObject> objects;
+    if (controller != nullptr) {
+        objects = controller_objects(*controller, hand.materials);
+    }
+    return write_skinned_glb(hand.materials, hand.skin, objects);
 }
 
-int export_hands_command(const std::string& folder) {
+int export_hands_command(const std::string& folder, const std::string& controllers) {
+    std::optional<ControllerModels> models;
+    if (!controllers.empty()) {
+        Result<ControllerModels> chosen = choose_controllers(controllers);
+        if (!chosen) {
+            return refuse(chosen.error());
+        }
+        models = std::move(chosen.value());
+    }
     const Result<OutputFolder> out = OutputFolder::open(folder);
     if (!out) {
         return refuse(out.error());
@@ -126,8 +140,9 @@ int export_hands_command(const std::string& folder) {
         const std::filesystem::path file =
             std::filesystem::path(folder) /
             (side == HandSide::left ? "robot_hand_left.glb" : "robot_hand_right.glb");
-        if (const auto error =
-                write_file_atomically(file, export_robot_hand(builtin_hand_rig(side)))) {
+        if (const auto error = write_file_atomically(
+                file, export_robot_hand(builtin_hand_rig(side),
+                                        models ? &models->sides[index_of(side)] : nullptr))) {
             return refuse(*error);
         }
     }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "components/hand_rig.hpp"
-#include "engine/io/gltf_skin_writer.hpp"
+#include "game/commands/exported_objects.hpp"
 
 namespace handhold {
 
@@ -20,12 +20,13 @@ RobotHandSkin make_robot_hand_skin(const HandRig& rig,
                                    const std::array<FingerAngles, k_finger_count>& fingers,
                                    const Pose& wrist_ms);
 
-// A .glb of the robot's hand in the rest pose, for animation software. hand_rig_from_skin gives the
-// same rig back. Precondition: the rig has joints.
-std::string export_robot_hand(const HandRig& rig);
+// A .glb of the robot's hand in the rest pose, for animation software, with the controller in it if
+// one is given. hand_rig_from_skin gives the same rig back. Precondition: the rig has joints.
+std::string export_robot_hand(const HandRig& rig, const ControllerModel* controller = nullptr);
 
 // `handhold export-hands`: writes robot_hand_left.glb and robot_hand_right.glb for the built-in
-// rig. Returns the exit status: 0, or 2 after one line on standard error.
-int export_hands_command(const std::string& folder);
+// rig. `controllers`: a name or file for choose_controllers; empty: none. Returns the exit status:
+// 0, or 2 after one line on standard error.
+int export_hands_command(const std::string& folder, const std::string& controllers);
 
 }  // namespace handhold

@@ -214,6 +214,8 @@ void add_export_grip_options(CLI::App& command, handhold::ExportGripOptions& opt
                     "frame of the body's shape")
         ->expected(7)
         ->check(number_in(-1e6, 1e6));
+    command.add_option("--controllers", options.controllers,
+                       "The controller in the hand: builtin, or a profile's .json");
     command.add_option("--out", options.out, "The .glb")->required();
 }
 
@@ -240,6 +242,7 @@ struct Program {
     handhold::JoinOptions bots;
     handhold::TokenOptions token;
     std::string hands_folder;
+    std::string hands_controllers;
     std::string body_file;
     std::string grip_file;
     std::string grip_json;
@@ -318,10 +321,12 @@ void add_asset_commands(Program& program) {
     build_station.add_option("description", p.station.description,
                              "A .json; default: the game's own station");
     build_station.add_option("--out", p.station.out, "A folder")->required();
-    p.add("export-hands", "Write the robot's hands for an animation package",
-          [&p] { return handhold::export_hands_command(p.hands_folder); })
-        .add_option("--out", p.hands_folder, "A folder")
-        ->required();
+    CLI::App& export_hands =
+        p.add("export-hands", "Write the robot's hands for an animation package",
+              [&p] { return handhold::export_hands_command(p.hands_folder, p.hands_controllers); });
+    export_hands.add_option("--controllers", p.hands_controllers,
+                            "Controllers in them: builtin, or a profile's .json");
+    export_hands.add_option("--out", p.hands_folder, "A folder")->required();
     p.add("export-body", "Write the robot's body for an animation package",
           [&p] { return handhold::export_body_command(p.body_file); })
         .add_option("--out", p.body_file, "A file (.glb)")

@@ -63,8 +63,9 @@ void add_hands(const std::string& shape, const Pose& eyes_ws, HandFigures& figur
             fingers[i].opposition_rad = shape == "fist" && is_thumb ? 0.9 : 0.0;
         }
         if (controllers) {
-            fingers = controllers->fingers(side);
-            controllers->add(side, eyes_ws * wrist, closing_values(shape == "fist"), frame);
+            const ControlValues controls = closing_values(shape == "fist");
+            fingers = controllers->fingers(side, controls);
+            controllers->add(side, eyes_ws * wrist, controls, frame);
         }
         figures.add(side, eyes_ws * wrist, fingers, renderer, frame);
     }

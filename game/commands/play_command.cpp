@@ -108,6 +108,9 @@ std::optional<int> play_scene(PlayProgram& program) {
     print_notes(loaded.value().scene.notes);
     const std::string place = loaded.value().place.name;
     DesktopSession session(std::move(loaded.value().scene), loaded.value().place.pose_ws);
+    if (program.options.spawn.empty()) {  // a named place has its own direction
+        session.face_nearest_surface();
+    }
     if (const auto joints = program.models.controller_joints()) {
         session.set_controller_joints(*joints);
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "game/devices/comfort.hpp"
+#include "game/play/real_clock.hpp"
 #include "game/ui/hud.hpp"
 #include "game/ui/inspector.hpp"
 #include "game/ui/menu.hpp"
@@ -18,13 +19,6 @@ namespace {
 // Maximum delay behind real time; beyond it, simulated time runs slower.
 constexpr double k_max_behind_s = 0.1;
 constexpr double k_status_s = 0.1;
-
-std::int64_t clock_ns() {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(
-               std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
-double us_since(std::int64_t begin_ns) { return 1e-3 * static_cast<double>(clock_ns() - begin_ns); }
 
 // Converts real time to a number of simulation steps.
 class Clock {
@@ -61,6 +55,28 @@ void accumulate_input(const DesktopInput& now, DesktopInput& input) {
     input.snap_turns += before.snap_turns;
     for (std::size_t side = 0; side < 2; ++side) {
         input.opened[side] = input.opened[side] || before.opened[side];
+    }
+}
+
+// A green ring on the surface that a reaching hand would grip.
+void add_aim_ring(const hh::Pose& origin_ws, const PalmTarget& aim_ps, std::vector<Line>& marks) {
+    constexpr int k_parts = 20;
+    constexpr double k_radius_m = 0.03;
+    constexpr double k_above_m = 0.004;  // keeps the ring out of the surface
+    constexpr Color k_green = {0.27F, 1.0F, 0.43F};
+    const hh::Vec3 across =
+        hh::normalized(aim_ps.fingers - aim_ps.away * hh::dot(aim_ps.away, aim_ps.fingers));
+    const hh::Vec3 aside = hh::cross(aim_ps.away, across);
+    const auto at = [&](int part) {
+        double sine = 0.0;
+        double cosine = 0.0;
+        sin_cos(2.0 * k_pi * part / k_parts, sine, cosine);
+        const hh::Vec3 out_ps = k_radius_m * (cosine * across + sine * aside);
+        return from_host(
+            hh::transform_point(origin_ws, aim_ps.palm + k_above_m * aim_ps.away + out_ps));
+    };
+    for (int part = 0; part < k_parts; ++part) {
+        marks.push_back({at(part), at(part + 1), k_green, 3.0});
     }
 }
 
@@ -262,12 +278,16 @@ class Loop {
             ui_.buttons = {};
         }
         stage_.overlay.begin(ui_, dt_s);
+        advance_hint(dt_s);
         show_panels();
         const UiPicture& ui = stage_.overlay.end();
         const std::int64_t begin_ns = clock_ns();
         marks_.clear();
         add_gizmos(scene().world(), scene().caches(), scene().tuning(), inspector_.gizmos, marks_);
         const bool own_eyes = viewpoint_ == PlayerViewpoint::eyes;
+        if (const auto& aim_ps = stage_.session.body().aim_ps(); own_eyes && aim_ps) {
+            add_aim_ring(world().pose(stage_.session.player())->origin, *aim_ps, marks_);
+        }
         stage_.view.draw(camera_ws(), stage_.settings.fov_rad,
                          own_eyes ? std::optional(scene().world().render_pose.find_index(player()))
                                   : std::nullopt,
@@ -278,8 +298,20 @@ class Loop {
         stage_.tally.add_picture(draw_us, us_since(shown_ns));
     }
 
+    void advance_hint(double dt_s) {
+        const hh::Player player = stage_.session.player();
+        const hh::Vec3 at_ws = world().pose(player)->origin.position;
+        stage_.panels.hint.advance(
+            {stage_.session.body().can_reach(),
+             world().moves_player(player, HH_LEFT) || world().moves_player(player, HH_RIGHT),
+             hh::length(at_ws - last_ws_.value_or(at_ws))},
+            dt_s);
+        last_ws_ = at_ws;
+    }
+
     void show_panels() {
         Hud hud;
+        hud.hint = viewpoint_ == PlayerViewpoint::eyes ? stage_.panels.hint.text() : "";
         hud.can_reach = stage_.session.body().can_reach();
         hud.shows_mark = holds_mouse_ && viewpoint_ == PlayerViewpoint::eyes;
         hud.shows_help = stage_.panels.help && !stage_.panels.inspector && !stage_.panels.menu;
@@ -331,7 +363,8 @@ class Loop {
     FreeCamera free_;
     PlayerViewpoint viewpoint_;
     InspectorMemory inspector_;
-    std::vector<Line> marks_;  // reused memory
+    std::optional<hh::Vec3> last_ws_;  // place of the play space in the last picture
+    std::vector<Line> marks_;          // reused memory
     Clock clock_;
     DesktopInput input_;
     DesktopInput held_;  // grips held at the last poll

@@ -11,6 +11,7 @@
 #include "game/play/desktop_session.hpp"
 #include "game/play/play_tally.hpp"
 #include "game/play/session_history.hpp"
+#include "game/ui/first_hint.hpp"
 #include "game/ui/overlay.hpp"
 #include "game/view/gizmos.hpp"
 #include "game/view/outside_camera.hpp"
@@ -19,9 +20,10 @@
 namespace handhold {
 
 struct PlayPanels {
-    bool help = true;
+    bool help = false;
     bool inspector = false;
     bool menu = false;
+    FirstHint hint;  // is gone once somebody has pulled, in later scenes too
 };
 
 // The match that steps the scene's world, if somebody else's is played.

@@ -25,6 +25,8 @@ constexpr double k_steepest_rad = 1.5;
 constexpr double k_look_m = 0.85;
 // A surface this near to the line of sight counts as in view.
 constexpr double k_near_look_m = 0.08;
+constexpr double k_hand_radius_m = 0.04;  // radius of an open hand, for surfaces that stop it
+constexpr double k_fingers_m = 0.08;      // distance of the fingers' middle from the palm's centre
 constexpr double k_no_surface_m = 0.6;
 constexpr double k_reach_mps = 3.5;
 constexpr double k_hand_return_mps = 2.5;
@@ -54,6 +56,24 @@ hh::Pose DesktopBody::rest_ps(hh::Side side, hh::Vec3 palm_center_m) const {
     const PalmTarget place{mirrored({0.2, -0.24, -0.42}, side),
                            normalized(mirrored({0.5, 0.85, 0.0}, side)), -hh::k_z};
     return head_ps_ * hand_on(place, side, palm_center_m);
+}
+
+// Moves an open hand back towards the head until neither palm nor fingers are in a surface.
+void DesktopBody::stop_at_surface(hh::World& world, hh::Player player, hh::Side side,
+                                  hh::Vec3 palm_center_m, hh::Pose& hand_ps) const {
+    const hh::Pose origin_ws = world.pose(player)->origin;
+    const hh::Vec3 head_ws = transform_point(origin_ws, head_ps_.position);
+    for (const hh::Vec3 ahead_m : {hh::Vec3{}, hh::Vec3{0.0, 0.0, -k_fingers_m}}) {
+        const hh::Vec3 part_hs = mirrored(palm_center_m, side) + ahead_m;
+        const hh::Vec3 part_ws = transform_point(origin_ws * hand_ps, part_hs);
+        const auto hit = world.cast_sphere(k_hand_radius_m, head_ws, part_ws, player);
+        if (hit && hit->distance_m > 0.0) {  // 0: the head itself touches something
+            const hh::Vec3 way_ws = part_ws - head_ws;
+            const double back_m = std::max(length(way_ws) - hit->distance_m, 0.0);
+            hand_ps.position -=
+                conjugate(origin_ws.rotation) * (back_m / std::max(length(way_ws), 1e-9) * way_ws);
+        }
+    }
 }
 
 // Finds the surface on or near the line of sight and sets aim_ps_.
@@ -152,6 +172,7 @@ hh::Sample DesktopBody::advance(hh::World& world, hh::Player player, const Deskt
             const double share =
                 std::min(1.0, k_hand_return_mps * dt_s / std::max(distance_m, 1e-9));
             hand.hand_ps = interpolate(hand.hand_ps, rest, share);
+            stop_at_surface(world, player, side, palm_center_m, hand.hand_ps);
         } else if (uses_[i] == Use::reaches) {
             reach(target_ps(side, palm_center_m), dt_s, hand);
         } else if (uses_[i] == Use::carries) {
@@ -184,6 +205,19 @@ hh::Sample DesktopBody::advance(hh::World& world, hh::Player player, const Deskt
         sample.squeeze[side] = hands_[side].closed ? 1.0 : 0.0;
     }
     return sample;
+}
+
+void DesktopBody::face_nearest_surface(hh::World& world, hh::Player player) {
+    const hh::Pose origin_ws = world.pose(player)->origin;
+    const hh::Vec3 from_ws = transform_point(origin_ws, k_head_place_ps);
+    const auto hit = world.closest_point(from_ws, k_look_m, player);
+    if (!hit || hit->distance_m == 0.0) {
+        return;
+    }
+    const hh::Vec3 way_ps = conjugate(origin_ws.rotation) * (hit->point - from_ws);
+    const double level_m = length(hh::Vec3{way_ps.x, 0.0, way_ps.z});
+    yaw_rad_ = level_m > 0.0 ? hh_atan2(-way_ps.x, -way_ps.z) : 0.0;
+    pitch_rad_ = std::clamp(hh_atan2(way_ps.y, level_m), -k_steepest_rad, k_steepest_rad);
 }
 
 hh_commands DesktopBody::commands(const DesktopInput& input) const {

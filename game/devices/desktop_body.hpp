@@ -33,10 +33,16 @@ class DesktopBody {
     hh::Sample advance(hh::World& world, hh::Player player, const DesktopInput& input, double t_s,
                        double dt_s);
 
+    // Turns the view to the nearest surface within reach, if there is one: before the first frame,
+    // so that somebody who plays for the first time begins with a green mark.
+    void face_nearest_surface(hh::World& world, hh::Player player);
+
     // The commands of the same frame: brake, turns and jets.
     hh_commands commands(const DesktopInput& input) const;
     // Whether a surface in view was within reach in the last frame.
     bool can_reach() const { return aim_ps_.has_value(); }
+    // Where a hand that reaches now would lie, in play space; nullopt: no surface is in view.
+    const std::optional<PalmTarget>& aim_ps() const { return aim_ps_; }
 
   private:
     struct Hand {
@@ -49,6 +55,8 @@ class DesktopBody {
     enum class Use { opens, reaches, carries, pulls };
 
     hh::Pose rest_ps(hh::Side side, hh::Vec3 palm_center_m) const;
+    void stop_at_surface(hh::World& world, hh::Player player, hh::Side side, hh::Vec3 palm_center_m,
+                         hh::Pose& hand_ps) const;
     void aim(hh::World& world, hh::Player player);
     hh::Pose target_ps(hh::Side side, hh::Vec3 palm_center_m) const;
     static void reach(const hh::Pose& target_ps, double dt_s, Hand& hand);

@@ -8,6 +8,7 @@
 #include "game/devices/comfort.hpp"
 #include "game/devices/headset_hands.hpp"
 #include "game/headset/headset_panel.hpp"
+#include "game/play/real_clock.hpp"
 #include "game/ui/headset_help.hpp"
 #include "game/ui/hud.hpp"
 #include "game/ui/overlay.hpp"
@@ -18,15 +19,6 @@ namespace {
 constexpr double k_between_lines_s = 0.1;
 constexpr auto k_retry_interval = std::chrono::milliseconds(500);
 constexpr int k_max_find_attempts = 60;
-
-std::int64_t headset_clock_ns() {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(
-               std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
-double microseconds_since(std::int64_t begin_ns) {
-    return 1e-3 * static_cast<double>(headset_clock_ns() - begin_ns);
-}
 
 // Copies an eye's picture into a half of `both`. `which`: 0 left, 1 right.
 void put_beside(const Image& eye, std::size_t which, Image& both) {
@@ -143,17 +135,17 @@ class HeadsetLoop {
             step(clock_.frame_ns(i));
         }
         if (frame.is_seen && frames_ > 0) {
-            const std::int64_t begin_ns = headset_clock_ns();
+            const std::int64_t begin_ns = clock_ns();
             lay_out_panel();
             const UiPicture& ui = darken_edges(due * clock_.dt_s());
             if (!headset_->end_frame(frame, [&](const EyePicture& eye) { draw(eye, ui); })) {
                 return;
             }
-            const double draw_us = microseconds_since(begin_ns);
-            const std::int64_t shown_ns = headset_clock_ns();
+            const double draw_us = us_since(begin_ns);
+            const std::int64_t shown_ns = clock_ns();
             show_mirror();
             ++figures_.pictures;
-            stage_.tally.add_picture(draw_us, microseconds_since(shown_ns));
+            stage_.tally.add_picture(draw_us, us_since(shown_ns));
         } else {
             headset_->end_frame({frame.display_ns, frame.period_ns, false}, {});
         }
@@ -164,7 +156,7 @@ class HeadsetLoop {
         panel_.follow(figures_.reading);
         figures_.shows_panel = panel_.shows();
         HeadsetSession& session = stage_.session;
-        const std::int64_t begin_ns = headset_clock_ns();
+        const std::int64_t begin_ns = clock_ns();
         const hh::Sample sample =
             read_headset(figures_.reading, session.t_s(), hand_shape(session.world()), memory_,
                          session.controller_joints());
@@ -172,8 +164,7 @@ class HeadsetLoop {
                      read_headset_commands(figures_.reading, stage_.options.settings.turn, memory_),
                      clock_.dt_s());
         ++frames_;
-        stage_.tally.add_frame(world(), session.player(), microseconds_since(begin_ns),
-                               clock_.dt_s());
+        stage_.tally.add_frame(world(), session.player(), us_since(begin_ns), clock_.dt_s());
         const std::array<HapticPulse, 2> pulses = session.pulses();
         for (std::size_t side = 0; side < 2; ++side) {
             const bool shook = headset_->shake(static_cast<hh::Side>(side), pulses[side]);

@@ -26,6 +26,9 @@ class DesktopSession {
     // In a match: the scene has its players and clips already, and the match steps its world.
     DesktopSession(Scene scene, hh::Player player);
 
+    // See DesktopBody. Call before the first frame.
+    void face_nearest_surface() { body_.face_nearest_surface(scene_.host, player_); }
+
     static constexpr double k_dt_s = 1.0 / 90.0;
     // Advances one frame.
     void step(const DesktopInput& input);

@@ -14,6 +14,7 @@ namespace {
 constexpr NumberRange k_wrist_m = {-1e3, 1e3, false};
 constexpr NumberRange k_curl_deg = {-30.0, 130.0, false};
 constexpr NumberRange k_opposition_deg = {-180.0, 180.0, false};
+constexpr NumberRange k_spread_deg = {-30.0, 30.0, false};
 constexpr NumberRange k_snap_radius_m = {0.0, 1.0, true};
 constexpr NumberRange k_snap_angle_deg = {0.0, 180.0, true};
 constexpr std::int64_t k_max_priority = 100;
@@ -22,18 +23,27 @@ constexpr std::int64_t k_max_priority = 100;
 constexpr std::array<const char*, k_hand_count> k_side_keys = {"left", "right"};
 constexpr std::array<const char*, 3> k_axes = {"x", "y", "z"};
 
-// Keys of a digit's angles. Scene files have an opposition of the thumb only.
+// Keys of a digit's angles.
 struct AngleKeys {
     const char* curl;
-    const char* opposition;
+    const char* opposition;  // thumb
+    const char* spread;      // fingers
+
+    const char* sideways(FingerName name) const {
+        return name == FingerName::thumb ? opposition : spread;
+    }
 };
-constexpr AngleKeys k_released_keys = {"curl_deg", "opposition_deg"};
-constexpr AngleKeys k_pressed_keys = {"pressed_curl_deg", "pressed_opposition_deg"};
+constexpr AngleKeys k_released_keys = {"curl_deg", "opposition_deg", "spread_deg"};
+constexpr AngleKeys k_pressed_keys = {"pressed_curl_deg", "pressed_opposition_deg",
+                                      "pressed_spread_deg"};
 
 void read_angles(const JsonValue& value, const AngleKeys& keys, FingerName name,
                  FingerAngles& angles) {
+    const JsonValue sideways = value[keys.sideways(name)];
     if (name == FingerName::thumb) {
-        angles.opposition_rad = k_degree * value[keys.opposition].number(k_opposition_deg);
+        angles.opposition_rad = k_degree * sideways.number(k_opposition_deg);
+    } else if (sideways.exists()) {
+        angles.opposition_rad = k_degree * sideways.number(k_spread_deg);
     }
     const std::vector<JsonValue> curls = value[keys.curl].items();
     if (curls.size() < 2 || curls.size() > k_max_links) {
@@ -47,15 +57,11 @@ void read_angles(const JsonValue& value, const AngleKeys& keys, FingerName name,
 
 void read_finger(const JsonValue& value, std::size_t finger, AuthoredHand& hand) {
     const auto name = static_cast<FingerName>(finger);
-    if (name == FingerName::thumb) {
-        value.allow_only({k_released_keys.curl, k_released_keys.opposition, k_pressed_keys.curl,
-                          k_pressed_keys.opposition});
-    } else {
-        value.allow_only({k_released_keys.curl, k_pressed_keys.curl});
-    }
+    value.allow_only({k_released_keys.curl, k_released_keys.sideways(name), k_pressed_keys.curl,
+                      k_pressed_keys.sideways(name)});
     hand.is_posed[finger] = true;
     read_angles(value, k_released_keys, name, hand.fingers[finger]);
-    if (value[k_pressed_keys.curl].exists() || value[k_pressed_keys.opposition].exists()) {
+    if (value[k_pressed_keys.curl].exists() || value[k_pressed_keys.sideways(name)].exists()) {
         hand.follows_trigger[finger] = true;
         read_angles(value, k_pressed_keys, name, hand.pressed[finger]);
     }
@@ -116,8 +122,8 @@ void write_angles(const FingerAngles& angles, const AngleKeys& keys, FingerName 
         curls.push_back(curl_rad / k_degree);
     }
     finger[keys.curl] = std::move(curls);
-    if (name == FingerName::thumb) {
-        finger[keys.opposition] = angles.opposition_rad / k_degree;
+    if (name == FingerName::thumb || angles.opposition_rad != 0.0) {
+        finger[keys.sideways(name)] = angles.opposition_rad / k_degree;
     }
 }
 

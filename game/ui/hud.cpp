@@ -17,7 +17,7 @@ struct HelpLine {
     const char* what;
 };
 constexpr std::array<HelpLine, 13> k_help = {{
-    {"Mouse", "look around; the mark is green where a hand can reach"},
+    {"Mouse", "look around; the mark is green where a hand can reach, a ring shows the place"},
     {"Left, right button", "that hand reaches, and grips while you hold it"},
     {"W A S D  Q E", "pull yourself by what you grip"},
     {"Wheel", "farther, nearer"},
@@ -137,6 +137,11 @@ void show_hud(const Hud& hud) {
     if (!hud.score.empty()) {
         begin_note("score", ImVec2(0.5F * size.x, 0.02F * size.y), ImVec2(0.5F, 0.0F));
         ImGui::TextUnformatted(hud.score.c_str());
+        ImGui::End();
+    }
+    if (!hud.hint.empty() && !hud.paused) {
+        begin_note("hint", ImVec2(0.5F * size.x, 0.86F * size.y), ImVec2(0.5F, 1.0F));
+        ImGui::TextUnformatted(hud.hint.c_str());
         ImGui::End();
     }
     if (!hud.footer.empty()) {

@@ -9,6 +9,7 @@ struct Hud {
     bool can_reach = false;  // true: highlights the mark in the centre
     bool shows_mark = true;
     bool shows_help = true;
+    std::string hint;  // what somebody who plays for the first time may do next; empty: nothing
     bool paused = false;
     double rewound_s = 0.0;  // time by which the paused session is rewound
     double vignette = 0.0;   // [0, 1]; darkness of the edges

@@ -17,6 +17,9 @@ constexpr HandleGrip k_wand_grip = {HandleGrip{}.radius_m, HandleGrip{}.slant_ra
 // Replaces white. The renderer has no textures, so a material whose colour is in a texture would be
 // white.
 constexpr Color k_textured_color = {0.045F, 0.048F, 0.055F};
+// Least sum of the bends of the index finger while the trigger is pressed. A finger that does not
+// rest on the trigger waits so far above its closed pose, outer hinges first, as far as they open.
+constexpr double k_press_rad = 0.28;
 constexpr Color k_white = {1.0F, 1.0F, 1.0F};
 
 Result<ControllerModel> load_controller(const ControllerSide& side,
@@ -89,13 +92,16 @@ void add_wand(ControllerModel& model) {
                               turn_of_wand(Control::stick_y, k_wand_pad_m, -back, back)});
 }
 
-Mesh whole_mesh(const ControllerModel& model) {
+Mesh whole_mesh(const ControllerModel& model, const ControlValues& values) {
     Mesh whole;
-    for (const LevelMesh& part : model.meshes) {
+    for (std::size_t i = 0; i < model.meshes.size(); ++i) {
+        const Mesh& part = model.meshes[i].mesh;
+        const Pose moved = from_host(moved_by(model.moves[i], values));
         const auto first = static_cast<std::uint32_t>(whole.positions.size());
-        whole.positions.insert(whole.positions.end(), part.mesh.positions.begin(),
-                               part.mesh.positions.end());
-        for (const auto& [a, b, c] : part.mesh.triangles) {
+        for (const Vec3& position : part.positions) {
+            whole.positions.push_back(transform_point(moved, position));
+        }
+        for (const auto& [a, b, c] : part.triangles) {
             whole.triangles.push_back({first + a, first + b, first + c});
         }
     }
@@ -151,11 +157,60 @@ Result<ControllerModels> choose_controllers(const std::string& name_or_file) {
 }
 
 std::array<FingerAngles, k_finger_count> fingers_around(const ControllerModel& model,
-                                                        const HandRig& rig) {
+                                                        const HandRig& rig,
+                                                        const ControlValues& values) {
     AuthoredHand held;
     held.is_there = true;
     held.wrist_bs = from_host(hh::inverse(controller_in_hand(model.fit)));
-    return fit_grip(build_grip_mesh(whole_mesh(model)), rig, held.wrist_bs, {}, &held).fingers;
+    return fit_grip(build_grip_mesh(whole_mesh(model, values)), rig, held.wrist_bs, {}, &held)
+        .fingers;
+}
+
+FollowingFingers::FollowingFingers(const ControllerModel& model, const HandRig& rig)
+    : rest_(fingers_around(model, rig)) {
+    const auto pressed = [&](Control control) {
+        ControlValues values = k_controls_at_rest;
+        values[static_cast<std::size_t>(control)] = 1.0;
+        return fingers_around(model, rig, values);
+    };
+    trigger_ = pressed(Control::trigger);
+    squeeze_ = pressed(Control::squeeze);
+    for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+        const FingerRig& finger = rig.fingers[f];
+        if (finger.name != FingerName::index) {
+            continue;
+        }
+        double missing_rad = k_press_rad;
+        for (std::size_t link = 0; link < finger.link_count; ++link) {
+            missing_rad -= trigger_[f].curl_rad[link] - rest_[f].curl_rad[link];
+        }
+        for (std::size_t link = finger.link_count; link-- > 0;) {
+            double& curl_rad = rest_[f].curl_rad[link];
+            const double room_rad = std::max(curl_rad - finger.lower_rad[link], 0.0);
+            const double lift_rad =
+                std::clamp(missing_rad, 0.0, std::min(room_rad, 0.5 * k_press_rad));
+            curl_rad -= lift_rad;
+            missing_rad -= lift_rad;
+        }
+    }
+}
+
+std::array<FingerAngles, k_finger_count> FollowingFingers::at(const ControlValues& values) const {
+    std::array<FingerAngles, k_finger_count> angles = rest_;
+    const auto add = [&](Control control, const std::array<FingerAngles, k_finger_count>& pressed) {
+        const double share = values[static_cast<std::size_t>(control)];
+        for (std::size_t f = 0; f < k_finger_count; ++f) {
+            for (std::size_t link = 0; link < k_max_links; ++link) {
+                angles[f].curl_rad[link] +=
+                    share * (pressed[f].curl_rad[link] - rest_[f].curl_rad[link]);
+            }
+            angles[f].opposition_rad +=
+                share * (pressed[f].opposition_rad - rest_[f].opposition_rad);
+        }
+    };
+    add(Control::trigger, trigger_);
+    add(Control::squeeze, squeeze_);
+    return angles;
 }
 
 ControllerFigures::ControllerFigures(const ControllerModels& models, const HandFigures& hands,
@@ -168,7 +223,7 @@ ControllerFigures::ControllerFigures(const ControllerModels& models, const HandF
                 {renderer.add_mesh(model.meshes[i].mesh), model.meshes[i].look, model.moves[i]});
         }
         made.in_hand = from_host(controller_in_hand(model.fit));
-        made.fingers = fingers_around(model, hands.rig(side));
+        made.fingers = FollowingFingers(model, hands.rig(side));
     }
 }
 

@@ -37,9 +37,28 @@ ControllerModels builtin_controllers(const HandShape& shape);
 // place in it, and what was expected.
 Result<ControllerModels> choose_controllers(const std::string& name_or_file);
 
-// Closes a rig's fingers on the controller until they touch it.
-std::array<FingerAngles, k_finger_count> fingers_around(const ControllerModel& model,
-                                                        const HandRig& rig);
+// Closes a rig's fingers on the controller, with its controls at `values`, until they touch it.
+std::array<FingerAngles, k_finger_count> fingers_around(
+    const ControllerModel& model, const HandRig& rig,
+    const ControlValues& values = k_controls_at_rest);
+
+// Fingers that follow the parts on which they rest; the index finger bends with the trigger
+// wherever it is. Angles are indexed as HandRig::fingers.
+class FollowingFingers {
+  public:
+    FollowingFingers() = default;
+    // Fits the hand three times: on the controller at rest, with its trigger pressed, and with its
+    // squeeze button pressed.
+    FollowingFingers(const ControllerModel& model, const HandRig& rig);
+    // The pose at rest plus, for trigger and squeeze button, the pressed angles' difference times
+    // the control's value.
+    std::array<FingerAngles, k_finger_count> at(const ControlValues& values) const;
+
+  private:
+    std::array<FingerAngles, k_finger_count> rest_;
+    std::array<FingerAngles, k_finger_count> trigger_;
+    std::array<FingerAngles, k_finger_count> squeeze_;
+};
 
 // The meshes of both sides in one renderer.
 class ControllerFigures {
@@ -49,8 +68,9 @@ class ControllerFigures {
     void add(HandSide side, const Pose& wrist_ws, const ControlValues& values,
              RenderFrame& frame) const;
     // Fingers of the hand that holds the controller.
-    const std::array<FingerAngles, k_finger_count>& fingers(HandSide side) const {
-        return sides_[index_of(side)].fingers;
+    std::array<FingerAngles, k_finger_count> fingers(HandSide side,
+                                                     const ControlValues& values) const {
+        return sides_[index_of(side)].fingers.at(values);
     }
 
   private:
@@ -62,7 +82,7 @@ class ControllerFigures {
     struct Side {
         std::vector<Part> parts;
         Pose in_hand;
-        std::array<FingerAngles, k_finger_count> fingers;
+        FollowingFingers fingers;
     };
     std::array<Side, k_hand_count> sides_;
 };

@@ -68,11 +68,15 @@ bool PlayerView::holds_controller(const RenderPose::Hand& hand) const {
     return controllers_.has_value() && hand.grip == GripKind::none;
 }
 
+std::array<FingerAngles, k_finger_count> PlayerView::fingers_of(
+    HandSide side, const RenderPose::Hand& hand, const ControlValues& controls) const {
+    return holds_controller(hand) ? controllers_->fingers(side, controls) : hand.fingers;
+}
+
 void PlayerView::add_hand(HandSide side, const RenderPose::Hand& hand, const Quat& forearm_ws,
                           const ControlValues& controls, RenderFrame& frame) {
     if (!body_.has_hands()) {
-        hands_.add(side, hand.shown_ws, forearm_ws,
-                   holds_controller(hand) ? controllers_->fingers(side) : hand.fingers, renderer_,
+        hands_.add(side, hand.shown_ws, forearm_ws, fingers_of(side, hand, controls), renderer_,
                    frame);
     }
     if (holds_controller(hand)) {
@@ -168,9 +172,9 @@ void PlayerView::add_player(std::size_t index, BodyFigures::Seen seen, RenderFra
     std::array<PosedHandJoints, k_hand_count> joints;
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const RenderPose::Hand& hand = render.hands[index_of(side)];
-        joints[index_of(side)] = pose_hand_joints(
-            hands_.rig(side), world.player_origin.at(player).scale,
-            holds_controller(hand) ? controllers_->fingers(side) : hand.fingers, hand.shown_ws);
+        joints[index_of(side)] =
+            pose_hand_joints(hands_.rig(side), world.player_origin.at(player).scale,
+                             fingers_of(side, hand, controls_of(index, side)), hand.shown_ws);
     }
     body_.add(world.body_measures.at(player), render, joints, seen, renderer_, frame);
     for (const HandSide side : {HandSide::left, HandSide::right}) {

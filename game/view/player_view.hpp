@@ -53,6 +53,8 @@ class PlayerView {
     void add_player(std::size_t index, BodyFigures::Seen seen, RenderFrame& frame);
     void add_hand(HandSide side, const RenderPose::Hand& hand, const Quat& forearm_ws,
                   const ControlValues& controls, RenderFrame& frame);
+    std::array<FingerAngles, k_finger_count> fingers_of(HandSide side, const RenderPose::Hand& hand,
+                                                        const ControlValues& controls) const;
     bool holds_controller(const RenderPose::Hand& hand) const;
     ControlValues controls_of(std::size_t index, HandSide side) const;
     void add_pull(Entity hand, const RenderPose::Hand& shown, RenderFrame& frame) const;

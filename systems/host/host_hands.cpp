@@ -1,4 +1,5 @@
-// Hands of the C interface: state, orders, joints of hands and bodies (handhold/players.h).
+// Hands of the C interface: state, orders, joints of hands and bodies (handhold/players.h,
+// handhold/skeletons.h).
 #include <algorithm>
 #include <array>
 

@@ -1,4 +1,4 @@
-// Rigs, body clips and authored grips of the C interface (handhold/players.h, handhold/world.h).
+// Rigs, body clips and authored grips of the C interface (handhold/skeletons.h, handhold/world.h).
 #include <filesystem>
 
 #include "components/world_edit.hpp"

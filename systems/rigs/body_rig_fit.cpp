@@ -9,6 +9,7 @@
 #include "systems/rigs/body_bones.hpp"
 #include "systems/rigs/body_fingers.hpp"
 #include "systems/rigs/body_joint_names.hpp"
+#include "systems/rigs/bone_axes.hpp"
 
 namespace handhold {
 namespace {
@@ -26,20 +27,6 @@ struct Stance {
     Vec3 up_ms = Vec3::UnitY();
     double trunk_m = 0.0;
 };
-
-// Returns `aside`, or `other` if the bone is nearly parallel to `aside`.
-const Vec3& choose_aside(const Vec3& along, const Vec3& aside, const Vec3& other) {
-    constexpr double k_nearly = 0.98;
-    return std::abs(along.normalized().dot(aside)) < k_nearly ? aside : other;
-}
-// Returns the rotation with +Y along the bone and +Z as close to `back` as possible.
-Quat along_y(const Vec3& along, const Vec3& back) {
-    Mat3 axes;
-    axes.col(1) = along.normalized();
-    axes.col(0) = Vec3(axes.col(1)).cross(back).normalized();
-    axes.col(2) = Vec3(axes.col(0)).cross(Vec3(axes.col(1)));
-    return Quat(axes).normalized();
-}
 
 class BodyFitter {
   public:

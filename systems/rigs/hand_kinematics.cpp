@@ -30,7 +30,7 @@ FingerAngles angles_of_links(const FingerRig& finger, std::span<const Quat> rota
     FingerAngles angles;
     Quat at = finger.base_hs.rotation;
     const bool turns = finger.lower_opposition_rad < finger.upper_opposition_rad;
-    if (turns && finger.name == FingerName::thumb && !rotations_hs.empty()) {
+    if (turns && !rotations_hs.empty()) {
         // A curl does not change the hinge axis, so the hinge axis' turn about the opposition axis
         // is the opposition angle.
         const Vec3& axis = finger.opposition_axis_hs;

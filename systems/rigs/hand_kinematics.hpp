@@ -19,9 +19,8 @@ std::array<Vec3, k_max_links + 1> finger_points(const FingerRig& finger,
                                                 const FingerAngles& angles);
 
 // Inverse of finger_link_frames, for the rotations. If the finger cannot reach the rotations, picks
-// the closest opposition, and then, link by link, the closest hinge angle. Does not apply the
-// finger's limits. Fingers other than the thumb get a spread of 0: authored ones stay in their
-// planes.
+// the closest opposition or spread, and then, link by link, the closest hinge angle. Does not apply
+// the finger's limits.
 FingerAngles angles_of_links(const FingerRig& finger, std::span<const Quat> rotations_hs);
 
 // Angles with all hinges at the same share of their range: 0 fully open, 1 fully curled. Opposition

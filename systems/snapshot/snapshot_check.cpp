@@ -55,9 +55,9 @@ class BreachFinder {
                  const Column<B>& required) {
         for (const Entity owner : column.owners()) {
             if (!required.contains(owner)) {
-                check(
-                    false, name, owner, "",
-                    (std::string("an element in ") + required_name + " of the same owner").c_str());
+                const std::string expected =
+                    std::string("an element in ") + required_name + " of the same owner";
+                check(false, name, owner, "", expected.c_str());
             }
         }
     }
@@ -194,13 +194,11 @@ class BreachFinder {
                   "a number in [0.01, 100]");
         }
         check_figures();
-        for (std::size_t index = 0; index < w_.player.size(); ++index) {
-            check(w_.player.elements()[index].mass_kg > 0.0, "player", w_.player.owners()[index],
-                  ".mass_kg", "a mass > 0");
-        }
-        for (std::size_t index = 0; index < w_.head_ignores.size(); ++index) {
-            check(w_.head_ignores.elements()[index].next < HeadIgnores::k_capacity, "head_ignores",
-                  w_.head_ignores.owners()[index], ".next", "an index into the array");
+        for (const Entity player : w_.player.owners()) {
+            check(w_.player.at(player).mass_kg > 0.0, "player", player, ".mass_kg", "a mass > 0");
+            const HeadIgnores* const ignores = w_.head_ignores.find(player);
+            check(ignores == nullptr || ignores->next < HeadIgnores::k_capacity, "head_ignores",
+                  player, ".next", "an index into the array");
         }
     }
 
@@ -246,14 +244,8 @@ class BreachFinder {
             const Entity player = w_.calibration.owners()[index];
             check(c.held_s >= 0.0 && c.held_s <= 10.0, "calibration", player, ".held_s",
                   "0 to 10 s");
-            const auto is_sum_of = [&c](double sum_s_m, double min_m, double max_m) {
-                constexpr double k_rounding = 1e-9;
-                return sum_s_m >= (min_m - k_rounding) * c.held_s - k_rounding &&
-                       sum_s_m <= (max_m + k_rounding) * c.held_s + k_rounding;
-            };
-            check(is_sum_of(c.eyes_s_m, TPoseRange::k_min_eyes_m, TPoseRange::k_max_eyes_m) &&
-                      is_sum_of(c.span_s_m, TPoseRange::k_min_span_m, TPoseRange::k_max_span_m),
-                  "calibration", player, "", "sums that T-poses held for held_s can have");
+            check(has_possible_sums(c), "calibration", player, "",
+                  "sums that T-poses held for held_s can have");
         }
         for (std::size_t index = 0; index < w_.size_estimate.size(); ++index) {
             const SizeEstimate& size = w_.size_estimate.elements()[index];
@@ -284,14 +276,14 @@ class BreachFinder {
 
     void check_spine_memories() {
         for (std::size_t index = 0; index < w_.spine_memory.size(); ++index) {
-            const double since_s = w_.spine_memory.elements()[index].since_tick_s;
-            check(since_s >= 0.0 && since_s <= 1.0, "spine_memory", w_.spine_memory.owners()[index],
+            const SpineMemory& memory = w_.spine_memory.elements()[index];
+            const Entity owner = w_.spine_memory.owners()[index];
+            check(memory.since_tick_s >= 0.0 && memory.since_tick_s <= 1.0, "spine_memory", owner,
                   ".since_tick_s", "a time in [0, 1] s");
-            check(w_.spine_memory.elements()[index].rate_span_s >= 0.0, "spine_memory",
-                  w_.spine_memory.owners()[index], ".rate_span_s", "a time >= 0");
-            for (const BodyContact& contact : w_.spine_memory.elements()[index].contacts) {
-                check(std::abs(contact.normal_ps.norm() - 1.0) < 1e-3, "spine_memory",
-                      w_.spine_memory.owners()[index], ".contacts", "unit normals");
+            check(memory.rate_span_s >= 0.0, "spine_memory", owner, ".rate_span_s", "a time >= 0");
+            for (const BodyContact& contact : memory.contacts) {
+                check(std::abs(contact.normal_ps.norm() - 1.0) < 1e-3, "spine_memory", owner,
+                      ".contacts", "unit normals");
             }
         }
     }
@@ -310,13 +302,15 @@ class BreachFinder {
         require("recenter_guess", w_.recenter_guess, "player", w_.player);
         for (std::size_t index = 0; index < w_.hand_tracking.size(); ++index) {
             const HandTracking& hand = w_.hand_tracking.elements()[index];
+            const Entity owner = w_.hand_tracking.owners()[index];
             const auto is_share = [](double share) { return share >= 0.0 && share <= 1.0; };
-            check(is_share(hand.squeeze) && is_share(hand.trigger), "hand_tracking",
-                  w_.hand_tracking.owners()[index], "", "squeeze and trigger in [0, 1]");
-            check(std::ranges::all_of(
-                      hand.curls,
-                      [&](double curl) { return is_share(curl) || curl == k_unknown_curl; }),
-                  "hand_tracking", w_.hand_tracking.owners()[index], ".curls", "-1 or in [0, 1]");
+            const auto is_curl = [&](double curl) {
+                return is_share(curl) || curl == k_unknown_curl;
+            };
+            check(is_share(hand.squeeze) && is_share(hand.trigger), "hand_tracking", owner, "",
+                  "squeeze and trigger in [0, 1]");
+            check(std::ranges::all_of(hand.curls, is_curl), "hand_tracking", owner, ".curls",
+                  "-1 or in [0, 1]");
         }
         for (std::size_t index = 0; index < w_.head_tracking.size(); ++index) {
             check(w_.head_tracking.elements()[index].state != TrackingState::inferred,

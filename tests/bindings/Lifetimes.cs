@@ -100,6 +100,37 @@ internal static class Lifetimes {
             }
         }
     }
+    // A T-pose of 1.7 m, with names that only their texts tell.
+    private static void NamesOfASkeletonArrive() {
+        string[] names = { "Hips", "Spine", "Head", "LeftUpperArm", "LeftLowerArm", "LeftHand", "RightUpperArm", "RightLowerArm", "RightHand",
+                           "LeftUpperLeg", "LeftLowerLeg", "LeftFoot", "RightUpperLeg", "RightLowerLeg", "RightFoot", null };
+        int[] parents = { -1, 0, 1, 1, 3, 4, 1, 6, 7, 0, 9, 10, 0, 12, 13, 2 };
+        double[,] places = { { 0, 0.95, 0 }, { 0, 1.1, 0 }, { 0, 1.5, 0 }, { -0.18, 1.4, 0 }, { -0.46, 1.4, 0.01 }, { -0.71, 1.4, 0 },
+                             { 0.18, 1.4, 0 }, { 0.46, 1.4, 0.01 }, { 0.71, 1.4, 0 }, { -0.09, 0.9, 0 }, { -0.09, 0.5, -0.01 }, { -0.09, 0.08, 0 },
+                             { 0.09, 0.9, 0 }, { 0.09, 0.5, -0.01 }, { 0.09, 0.08, 0 }, { 0, 1.7, 0 } };
+        SkeletonJoint[] joints = new SkeletonJoint[names.Length];
+        for (int i = 0; i < joints.Length; ++i) {
+            joints[i].parent = parents[i];
+            joints[i].bind.position = new Vec3(places[i, 0], places[i, 1], places[i, 2]);
+            joints[i].bind.rotation = new Quat(0.0, 0.0, 0.0, 1.0);
+        }
+        using (World world = new World()) {
+            Player player = world.PlayerAdd(PlayerDef.Default(), "you");
+            world.PlayerSetBodySkeleton(player, joints, HhSpace.World, names);
+            GC.Collect();
+            for (int i = 0; i < joints.Length; ++i) {
+                string name;
+                int parent;
+                world.PlayerSkeletonJoint(player, i, out name, out parent);
+                Require((name ?? "") == (names[i] ?? "") && parent == parents[i], "joint " + i + " is " + name);
+            }
+            try {
+                world.PlayerSetBodySkeleton(player, joints, HhSpace.World, new[] { "Hips" });
+                Require(false, "fewer names than joints are refused");
+            } catch (ArgumentException) {
+            }
+        }
+    }
     private static int logged;
     private static void SetLog() { Library.SetLog((level, text) => ++logged); }
     private static void TheLogOutlivesCollections() {
@@ -134,6 +165,7 @@ internal static class Lifetimes {
             return 0;
         }
         FingersNeedAllJointsOfAHand();
+        NamesOfASkeletonArrive();
         QueriesOutliveCollectionsAndRefuseWhatEndsThem();
         SurfacesThatKnowTheirWorldDoNotKeepIt();
         TheLogOutlivesCollections();

@@ -33,7 +33,7 @@ class Game:
         self.offset = 0
         self.last = None
         self.process = subprocess.Popen(
-            [binary, "play", "--scene", scene, "--width", "320", "--height", "180", "--quality", "plain", "--status", str(self.status_file), "--report",
+            [binary, "play", "--scene", scene, "--spawn", "end", "--width", "320", "--height", "180", "--quality", "plain", "--status", str(self.status_file), "--report",
              str(self.report_file), "--record", str(work / "session.csv"), "--picture", str(work / "last.png")], env=self.env)
 
     def do(self, *words: str) -> None:

@@ -6,64 +6,205 @@ import { HH_LEFT, HH_RIGHT } from 'handhold';
 const sides = [HH_LEFT, HH_RIGHT];
 const plain = ({ position: p, quaternion: q }) => ({ position: { x: p.x, y: p.y, z: p.z }, rotation: { x: q.x, y: q.y, z: q.z, w: q.w } });
 
-/** Mouse and keyboard: the hands float before the eyes; while one is closed, the mouse moves the hands. */
+// As game/devices/desktop_body.cpp.
+const k_head = { x: 0, y: 1.6, z: 0 };
+const k_arm_m = 0.78; // from the shoulder
+const k_face_m = 0.15; // a pulling hand comes no nearer to the head
+const k_look_m = 0.85;
+const k_near_look_m = 0.08; // a surface so near to the line of sight counts as in view
+const k_no_surface_m = 0.6;
+const k_reach_mps = 3.5;
+const k_return_mps = 2.5;
+const k_longest_reach_s = 0.5;
+const k_hand_radius_m = 0.04;
+const k_fingers_m = 0.08;
+const k_pull_m = 1.2e-3; // of a hand, for a pixel of the mouse
+const vector = ({ x, y, z }) => new THREE.Vector3(x, y, z);
+const numbers = ({ x, y, z }) => ({ x, y, z });
+const mirroredTo = (side, { x, y, z }) => new THREE.Vector3(side === HH_LEFT ? -x : x, y, z);
+
+/** Mouse and keyboard: a hand whose button is down reaches for the surface in view, closes there, and then moves with the mouse. */
 export class Desktop {
-    constructor(element) {
+    #world;
+    #player;
+    #palmCenter;
+    #hands = [HH_LEFT, HH_RIGHT].map((side) => ({ side, position: null, rotation: new THREE.Quaternion(), reaches_s: 0, closed: false }));
+    constructor(element, world, player) {
+        this.#world = world;
+        this.#player = player;
+        const [x, y, z] = world.getTuning('hand.palm_center_m', 3);
+        this.#palmCenter = { x, y, z };
         this.yaw = 0;
         this.pitch = 0;
-        this.offset = new THREE.Vector3(); // of the hands from their rest
-        this.closed = [false, false];
+        this.aim = null; // {point, away} in play space: what a hand that reaches now grips
+        this.pressed = [false, false];
         this.keys = new Set();
         element.addEventListener('click', () => element.requestPointerLock?.());
         element.addEventListener('contextmenu', (event) => event.preventDefault());
         addEventListener('keydown', (event) => this.keys.add(event.code));
         addEventListener('keyup', (event) => this.keys.delete(event.code));
-        addEventListener('blur', () => { this.keys.clear(); this.closed.fill(false); });
+        addEventListener('blur', () => { this.keys.clear(); this.pressed.fill(false); });
         const button = (event, down) => {
             const side = { 0: HH_LEFT, 2: HH_RIGHT }[event.button];
             if (side !== undefined && (document.pointerLockElement === element || !down)) {
-                this.closed[side] = down;
+                this.pressed[side] = down;
             }
         };
         addEventListener('mousedown', (event) => button(event, true));
         addEventListener('mouseup', (event) => button(event, false));
-        addEventListener('wheel', (event) => { this.offset.z = THREE.MathUtils.clamp(this.offset.z + 5e-4 * event.deltaY, -0.25, 0.3); });
+        addEventListener('wheel', (event) => this.#pull(0, 0, 5e-4 * event.deltaY));
         addEventListener('mousemove', (event) => {
             if (document.pointerLockElement === element) {
                 this.move(event.movementX, event.movementY);
             }
         });
     }
+    /** The mouse has moved by so many pixels: it looks, or moves the closed hands. */
     move(x, y) {
-        if (this.closed.includes(true)) {
-            this.offset.x = THREE.MathUtils.clamp(this.offset.x + 1.2e-3 * x, -0.45, 0.45);
-            this.offset.y = THREE.MathUtils.clamp(this.offset.y - 1.2e-3 * y, -0.5, 0.45);
+        if (this.#hands.some((hand) => hand.closed)) {
+            this.#pull(k_pull_m * x, -k_pull_m * y, 0);
         } else {
             this.yaw -= 2.5e-3 * x;
             this.pitch = THREE.MathUtils.clamp(this.pitch - 2.5e-3 * y, -1.4, 1.4);
         }
     }
+    /** What the devices say, `dt_s` after the last time. */
     read(dt_s) {
-        if (!this.closed.includes(true)) {
-            this.offset.x *= Math.exp(-4 * dt_s); // open hands come back before the eyes
-            this.offset.y *= Math.exp(-4 * dt_s);
+        this.#lookForSurface();
+        for (const hand of this.#hands) {
+            const rest = this.#handOn(this.#atHead(mirroredTo(hand.side, { x: 0.2, y: -0.24, z: -0.42 })),
+                mirroredTo(hand.side, { x: 0.5, y: 0.85, z: 0 }).normalize(), new THREE.Vector3(0, 0, -1), hand.side);
+            if (hand.position === null) {
+                Object.assign(hand, { position: rest.position, rotation: rest.rotation });
+            }
+            if (!this.pressed[hand.side]) {
+                Object.assign(hand, { closed: false, reaches_s: 0 });
+                this.#approach(hand, rest, k_return_mps * dt_s);
+                this.#stopAtSurface(hand);
+            } else if (!hand.closed) {
+                hand.reaches_s += dt_s;
+                const arrived = this.#approach(hand, this.#target(hand.side), k_reach_mps * dt_s);
+                hand.closed = arrived || hand.reaches_s > k_longest_reach_s;
+            }
         }
-        const head = new THREE.Object3D();
-        head.position.set(0, 1.6, 0);
-        head.rotation.set(this.pitch, this.yaw, 0, 'YXZ');
-        const hands = sides.map((side) => {
-            const hand = new THREE.Object3D();
-            hand.position.set(side === HH_LEFT ? -0.2 : 0.2, -0.22, -0.42).add(this.offset).applyQuaternion(head.quaternion).add(head.position);
-            hand.quaternion.copy(head.quaternion).multiply(new THREE.Quaternion().setFromAxisAngle(new THREE.Vector3(1, 0, 0), 0.9));
-            return hand;
-        });
         const axis = (plus, minus) => Number(this.keys.has(plus)) - Number(this.keys.has(minus));
-        const thrust = new THREE.Vector3(axis('KeyD', 'KeyA'), axis('KeyE', 'KeyQ'), axis('KeyS', 'KeyW')).applyQuaternion(head.quaternion);
+        const thrust = new THREE.Vector3(axis('KeyD', 'KeyA'), axis('KeyE', 'KeyQ'), axis('KeyS', 'KeyW')).applyQuaternion(this.#view());
         return {
             usesWrists: [true, true],
-            sample: { head: plain(head), hands: hands.map(plain), grab: [...this.closed] },
-            commands: { thrust: { x: thrust.x, y: thrust.y, z: thrust.z }, brake: this.keys.has('KeyX') ? 1 : 0 },
+            sample: {
+                head: plain({ position: k_head, quaternion: this.#view() }),
+                hands: this.#hands.map((hand) => plain({ position: hand.position, quaternion: hand.rotation })),
+                grab: this.#hands.map((hand) => hand.closed),
+            },
+            commands: { thrust: numbers(thrust), brake: this.keys.has('KeyX') ? 1 : 0 },
         };
+    }
+
+    #view() {
+        return new THREE.Quaternion().setFromEuler(new THREE.Euler(this.pitch, this.yaw, 0, 'YXZ'));
+    }
+    #atHead(place) {
+        return place.applyQuaternion(this.#view()).add(vector(k_head));
+    }
+    // The play space in the world, as a matrix.
+    #origin() {
+        const { position, rotation } = this.#world.playerPose(this.#player).origin;
+        return new THREE.Matrix4().compose(vector(position), new THREE.Quaternion(rotation.x, rotation.y, rotation.z, rotation.w), new THREE.Vector3(1, 1, 1));
+    }
+    #lookForSurface() {
+        const origin = this.#origin();
+        const eyes = vector(k_head).applyMatrix4(origin);
+        const end = this.#atHead(new THREE.Vector3(0, 0, -k_look_m)).applyMatrix4(origin);
+        const query = [numbers(eyes), numbers(end), this.#player];
+        const hit = found(this.#world.castRay(...query)) ?? found(this.#world.castSphere(k_near_look_m, ...query));
+        this.aim = hit && { point: vector(hit.point).applyMatrix4(origin.clone().invert()), away: vector(hit.normal).transformDirection(origin.clone().invert()) };
+    }
+    #target(side) {
+        const view = this.#view();
+        if (this.aim === null) {
+            return this.#handOn(this.#atHead(new THREE.Vector3(0, 0, -k_no_surface_m)), new THREE.Vector3(0, 1, 0).applyQuaternion(view),
+                new THREE.Vector3(0, 0, -1), side);
+        }
+        return this.#handOn(this.aim.point, this.aim.away, new THREE.Vector3(0, 1, -0.3), side);
+    }
+    // The wrist of a hand whose palm is at `palm`, its back to `away`, its fingers towards `ahead` in the view. game/session/hand_pose.hpp
+    #handOn(palm, away, ahead, side) {
+        const view = this.#view();
+        const backwards = ahead.clone().applyQuaternion(view).projectOnPlane(away).negate();
+        if (backwards.length() < 0.1) {
+            backwards.set(-1, 0, 0).applyQuaternion(view).projectOnPlane(away);
+        }
+        backwards.normalize();
+        const rotation = new THREE.Quaternion().setFromRotationMatrix(
+            new THREE.Matrix4().makeBasis(new THREE.Vector3().crossVectors(away, backwards), away, backwards));
+        return { position: palm.clone().sub(this.#palm(side).applyQuaternion(rotation)), rotation };
+    }
+    #palm(side) {
+        return mirroredTo(side, this.#palmCenter);
+    }
+    // True at the target.
+    #approach(hand, target, step_m) {
+        const distance_m = hand.position.distanceTo(target.position);
+        const share = distance_m > 0.005 ? Math.min(1, step_m / distance_m) : 1;
+        hand.position.lerp(target.position, share);
+        hand.rotation.slerp(target.rotation, share);
+        return share === 1;
+    }
+    // Moves an open hand back towards the head until neither palm nor fingers are in a surface.
+    #stopAtSurface(hand) {
+        const origin = this.#origin();
+        const eyes = vector(k_head);
+        for (const ahead_m of [0, k_fingers_m]) {
+            const part = this.#palm(hand.side).add(new THREE.Vector3(0, 0, -ahead_m)).applyQuaternion(hand.rotation).add(hand.position);
+            const hit = found(this.#world.castSphere(k_hand_radius_m, numbers(eyes.clone().applyMatrix4(origin)), numbers(part.clone().applyMatrix4(origin)), this.#player));
+            if (hit !== null && hit.distance_m > 0) {
+                const way = part.sub(eyes);
+                hand.position.addScaledVector(way, -Math.max(0, 1 - hit.distance_m / way.length()));
+            }
+        }
+    }
+    // Moves all closed hands, if none leaves its arm's reach or comes too near to the face.
+    #pull(x, y, z) {
+        const step = new THREE.Vector3(x, y, z).applyQuaternion(this.#view());
+        const closed = this.#hands.filter((hand) => hand.closed);
+        const may = closed.every((hand) => {
+            const next = hand.position.clone().add(step);
+            const shoulder = this.#atHead(mirroredTo(hand.side, { x: 0.18, y: -0.2, z: 0.05 }));
+            const away = (place, from) => place.distanceTo(from);
+            const out = away(next, shoulder) > k_arm_m && away(next, shoulder) > away(hand.position, shoulder);
+            const near = away(next, vector(k_head)) < k_face_m && away(next, vector(k_head)) < away(hand.position, vector(k_head));
+            return !out && !near;
+        });
+        if (may) {
+            closed.forEach((hand) => hand.position.add(step));
+        }
+    }
+}
+// A query's answer; null: nothing is there.
+const found = (hit) => (hit.body.generation === 0 && hit.player.generation === 0 ? null : hit);
+
+/** Says what to do next until somebody who plays for the first time has gripped and pulled once. As game/ui/first_hint.cpp. */
+export class FirstHint {
+    #step = 'look';
+    #pulled_m = 0;
+    #again_s = 0;
+    advance({ canReach, grips, moved_m }, dt_s) {
+        if (this.#step === 'again' || this.#step === 'gone') {
+            this.#again_s += dt_s;
+            this.#step = this.#again_s < 6 ? 'again' : 'gone';
+            return;
+        }
+        this.#pulled_m = grips ? this.#pulled_m + moved_m : 0;
+        this.#step = this.#pulled_m > 0.3 ? 'again' : grips ? 'pull' : canReach ? 'press' : 'look';
+    }
+    get text() {
+        return {
+            look: 'Click, then look at something near with the mouse: the mark turns green where a hand can reach',
+            press: 'Hold the left or the right mouse button: that hand grips at the ring',
+            pull: 'Hold on, and move the mouse: you pull yourself along',
+            again: 'Let go to float, grip again to stop',
+            gone: '',
+        }[this.#step];
     }
 }
 

@@ -169,6 +169,17 @@ function addLights(scene, lamps) {
     }
 }
 
+/** Moves a spawn so that the player begins with a rail of the station, or a handle of the playground, within reach in front. */
+export function startBeforeSomethingToGrip(spawn, sceneName) {
+    if (sceneName === 'station') {
+        spawn.position.x += 0.45;
+        spawn.position.y -= 0.6;
+        spawn.rotation = { x: 0, y: -Math.SQRT1_2, z: 0, w: Math.SQRT1_2 }; // to the rail at the side
+    } else {
+        spawn.position.z += 0.2;
+    }
+}
+
 export function place(object, { position, rotation }) {
     object.position.set(position.x, position.y, position.z);
     object.quaternion.set(rotation.x, rotation.y, rotation.z, rotation.w);

@@ -7,8 +7,8 @@
 import * as THREE from 'three';
 import { HH_LEFT, HH_RIGHT, loadHandhold } from 'handhold';
 import { Avatar, loadFigure } from './avatar.js';
-import { Desktop, Headset } from './devices.js';
-import { loadLevel, place } from './level.js';
+import { Desktop, FirstHint, Headset } from './devices.js';
+import { loadLevel, place, startBeforeSomethingToGrip } from './level.js';
 import { Panel } from './panel.js';
 import { parseRecording, Playback } from './playback.js';
 
@@ -32,11 +32,11 @@ const recorded = recording && new Playback(recording);
 // Recordings and the climber begin at the first spawn, you beside it.
 const spawnName = query.get('spawn') ?? (recorded ? '' : { station: 'hab', playground: 'locker' }[sceneName]);
 const spawn = level.spawns.find((one) => one.name === spawnName) ?? level.spawns[0];
+if (!recorded && !query.has('spawn')) {
+    startBeforeSomethingToGrip(spawn, sceneName);
+}
 if (!recorded) {
     world.setTuning('locomotion.thruster_mps2', 1.5);
-}
-if (!recorded && sceneName === 'playground') {
-    spawn.position.z += 0.5; // the native game's sessions begin within reach of the drawers
 }
 const startOf = ({ position, rotation }) => ({ position, rotation });
 const player = world.addPlayer({ name: 'player0', origin: startOf(spawn) });
@@ -53,7 +53,9 @@ level.scene.add(rig);
 const vignette = makeVignette();
 camera.add(vignette);
 const avatar = new Avatar(level.scene);
-const desktop = new Desktop(renderer.domElement);
+const desktop = new Desktop(renderer.domElement, world, player);
+const hint = new FirstHint();
+const ring = makeRing();
 const headset = new Headset();
 const panel = new Panel(level.names);
 
@@ -63,6 +65,29 @@ function makeVignette() {
     ring.position.z = -0.2;
     ring.renderOrder = 10;
     return ring;
+}
+// On the surface that a reaching hand would grip.
+function makeRing() {
+    const mesh = new THREE.Mesh(new THREE.RingGeometry(0.026, 0.032, 32), new THREE.MeshBasicMaterial({ color: 0x46ff6e, side: THREE.DoubleSide }));
+    rig.add(mesh);
+    return mesh;
+}
+let lastOrigin;
+function showAim(pose, dt_s, isShown) {
+    const { aim } = desktop;
+    element('mark').hidden = !isShown;
+    element('mark').classList.toggle('reaches', aim !== null);
+    ring.visible = isShown && aim !== null;
+    if (ring.visible) {
+        ring.position.copy(aim.point).addScaledVector(aim.away, 0.004);
+        ring.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), aim.away);
+    }
+    const grips = [HH_LEFT, HH_RIGHT].some((side) => world.handMovesPlayer(player, side));
+    const at = new THREE.Vector3().copy(pose.origin.position);
+    hint.advance({ canReach: aim !== null, grips, moved_m: at.distanceTo(lastOrigin ?? at) }, dt_s);
+    lastOrigin = at;
+    element('help').textContent = isShown ? hint.text : '';
+    element('help').hidden = element('help').textContent === '';
 }
 // The second player: a scripted climber's session, again and again from its spawn. (handhold climb)
 async function addClimber() {
@@ -166,6 +191,9 @@ function onFrame(now_ms, frame) {
         }
     }
     const pose = show(dt_s, frame_ms);
+    if (!recorded) {
+        showAim(pose, dt_s, !inHeadset);
+    }
     if (recorded) { // by the recorded eyes; the camera is at the rig's origin
         place(rig, pose.head);
     }
@@ -218,8 +246,8 @@ async function offerHeadset() {
 
 element('loading').remove();
 element('panel').hidden = false;
-element('help').hidden = false;
-window.demo = { handhold, world, player, climber, desktop, level, panel, renderer, path, advance, show };
+element('help').hidden = recorded === null;
+window.demo = { handhold, world, player, climber, desktop, hint, level, panel, renderer, path, advance, show };
 renderer.setAnimationLoop(onFrame);
 await offerHeadset();
 if ('serviceWorker' in navigator) { // not on plain http

@@ -25,7 +25,7 @@ async function crawl() {
     const state = () => demo.world.playerPose(demo.player);
     const say = (hand) => ({ grip: hand.grip, name: demo.level.names.get(hand.body.index), error_m: hand.error_m });
     await frames(3);
-    // The play space has the world's axes at the first spawn.
+    // The play space has the world's axes at this spawn.
     const { position } = state().origin;
     const from = new Vector3(position.x + 0.25, position.y + 1.35, position.z - 0.3);
     const hit = new Raycaster(from, new Vector3(1, 0, 0)).intersectObjects(demo.level.scene.children, true)[0];
@@ -42,7 +42,7 @@ async function crawl() {
 }
 
 test('a controller grips the station and pulls the player', { timeout: 550000 }, async (context) => {
-    await withPage('', async ({ page, errors }) => {
+    await withPage('?spawn=hab', async ({ page, errors }) => {
         assert.equal(await page.$eval('#enter', (button) => button.disabled), false);
         await page.$eval('#enter', (button) => button.click());
         await page.waitForFunction('demo.renderer.xr.isPresenting', { timeout: 60000 });

@@ -14,7 +14,7 @@ const frames = (page, count) => page.evaluate(async (wanted) => {
 
 for (const scene of ['station', 'playground']) {
     test(`${scene}: the climber climbs, the panel tells, and all works offline once loaded`, { timeout: 550000 }, async () => {
-        await withPage(`?scene=${scene}`, async ({ page, errors, server }) => {
+        await withPage(`?scene=${scene}&spawn=${{ station: 'hab', playground: 'locker' }[scene]}`, async ({ page, errors, server }) => {
             const climber = () => page.evaluate(() => demo.world.playerPose(demo.climber.id).origin.position);
             const before = await climber();
             await page.evaluate(() => { document.getElementById('gizmos').checked = true; });

@@ -14,7 +14,7 @@ from pathlib import Path
 from parse_headers import Description, HeaderError, Reader, tokens_of
 from purposes import SCALARS, Purposes
 
-HEADERS = ("version.h", "base.h", "convert.h", "world.h", "level.h", "players.h", "your_physics.h", "match.h")
+HEADERS = ("version.h", "base.h", "convert.h", "world.h", "level.h", "players.h", "skeletons.h", "your_physics.h", "match.h")
 
 
 def layout(description: Description, pointer: int) -> dict:

@@ -117,9 +117,12 @@ class CSharp:
         self.lines += [f"                    case {i}: e{i} = value; break;" for i in cases]
         self.lines += ["                    default: throw new IndexOutOfRangeException();", "                }", "            }", "        }", "    }"]
 
+    def texts_of(self, one: dict) -> list:
+        return [part["name"] for part in self.structs.get(one["type"], {"fields": []})["fields"] if part["type"] == "char"]
+
     def wrapper(self, function: dict) -> None:
         params, before, fixes, call, results, after = [], [], [], [], [], []
-        lists = []
+        lists, last = [], []
         for one in function["params"]:
             name, role, kind = safe(one["name"]), one.get("role"), self.scalar(one["type"])
             at = one["name"] + "_at"
@@ -139,7 +142,7 @@ class CSharp:
                 params.append(f"{kind} {name}")
                 call.append(f"&{name}")
             elif role == "optional":
-                texts = [part["name"] for part in self.structs[one["type"]]["fields"] if part["type"] == "char"]
+                texts = self.texts_of(one)
                 params.append(f"{kind}? {name}" + "".join(f", string {text} = null" for text in texts))
                 before.append(f"{kind} {at} = {name}.GetValueOrDefault();")
                 for text in texts:
@@ -150,7 +153,17 @@ class CSharp:
                 if "length" in one:
                     before.append(f'Library.RequireLength({name}, {one["length"]}, "{one["name"]}");')
                 params.append(f"{'byte' if role == 'bytes' else kind}[] {name}")
-                fixes.append(f"{'byte' if role == 'bytes' else kind}* {at} = {name}")
+                texts = self.texts_of(one) if role == "array" else []
+                given = f"{one['name']}_given" if texts else name
+                if texts:
+                    before.append(f"{kind}[] {given} = Library.Copy({name});")
+                fixes.append(f"{'byte' if role == 'bytes' else kind}* {at} = {given}")
+                for text in texts:  # parallel to the elements
+                    last.append(f"string[] {text}s = null")
+                    before.append(f'byte[] {text}s_bytes = Library.Texts({text}s, {name}, "{text}s");')
+                    fixes.append(f"byte* {text}s_at = {text}s_bytes")
+                    after.append(f"for (int at = 0, i = 0; {text}s != null && i < {text}s.Length; at += Library.Size({text}s[i]), ++i) "
+                                 f"{at}[i].{text} = {text}s[i] == null ? null : {text}s_at + at;")
                 call.append(at)
             elif role == "count":
                 owner = next(p for p in function["params"] if p.get("count") == one["name"])
@@ -198,7 +211,7 @@ class CSharp:
                 call.append(f"(UIntPtr)sizeof({type_name(one['of'])})")
             else:
                 raise ValueError(f"{function['name']}: {name} has no role")
-        self.emit(function, params, before, fixes, call, results, after, lists)
+        self.emit(function, params + last, before, fixes, call, results, after, lists)
 
     def emit(self, function, params, before, fixes, call, results, after, lists) -> None:
         returns = function["returns"]

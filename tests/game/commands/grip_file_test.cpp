@@ -7,12 +7,15 @@
 
 #include "engine/geometry/grip_mesh_library.hpp"
 #include "engine/io/gltf_nodes.hpp"
+#include "game/commands/exported_objects.hpp"
 #include "game/commands/hand_export.hpp"
 #include "game/levels/gun.hpp"
 #include "game/levels/station_scene.hpp"
 #include "game/scene/scene.hpp"
 #include "game/scene/scene_file_writer.hpp"
+#include "game/view/controller_figures.hpp"
 #include "game/view/grip_fit.hpp"
+#include "systems/host/host_columns.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
 
@@ -47,7 +50,7 @@ TEST(SceneGripFile, ReadsEveryField) {
     const Result<SceneFile> scene =
         parse_scene_file(scene_with(R"([{"name": "handle", "right": {"position_m": [0.1, 0.2, 0.3],
             "rotation_xyzw": [0, 0.6, 0, 0.8], "fingers": {
-              "index": {"curl_deg": [10, 20, 30], "pressed_curl_deg": [10, 40, 50]},
+              "index": {"curl_deg": [10, 20, 30], "spread_deg": 5, "pressed_curl_deg": [10, 40, 50]},
               "thumb": {"curl_deg": [1, 2], "opposition_deg": -45}}},
             "mirror": "x", "priority": -3, "snap_radius_m": 0.05, "snap_angle_deg": 90}])"),
                          "a.json");
@@ -63,6 +66,8 @@ TEST(SceneGripFile, ReadsEveryField) {
     EXPECT_EQ(right.is_posed, (std::array{true, true, false, false, false}));
     EXPECT_NEAR(right.fingers[1].curl_rad[2], 30.0 * k_degree, 1e-15);
     EXPECT_NEAR(right.fingers[0].opposition_rad, -45.0 * k_degree, 1e-15);
+    EXPECT_NEAR(right.fingers[1].opposition_rad, 5.0 * k_degree, 1e-15);
+    EXPECT_EQ(right.pressed[1].opposition_rad, 0.0);
     EXPECT_EQ(right.fingers[0].curl_rad[2], 0.0);
     EXPECT_EQ(right.follows_trigger, (std::array{false, true, false, false, false}));
     EXPECT_NEAR(right.pressed[1].curl_rad[2], 50.0 * k_degree, 1e-15);
@@ -265,7 +270,7 @@ TEST_F(GunGrips, FileHasHandControllerAndObjectAndOpensAsASkin) {
     }
     surface.indices = {0, 1, 2};
     out.object.push_back(surface);
-    out.controller_in_hand = {Vec3(0.0, 0.02, -0.05), Quat::Identity()};
+    out.controller = {{"controller", {Vec3(0.0, 0.02, -0.05), Quat::Identity()}}};
     const std::string glb = write_grip_glb(out, rigs()[1]);
     const auto skin = parse_gltf_skin(glb, "gun.glb");
     ASSERT_TRUE(skin.ok()) << skin.error().message();
@@ -284,6 +289,33 @@ TEST_F(GunGrips, FileHasHandControllerAndObjectAndOpensAsASkin) {
                      : 0;
     }
     EXPECT_EQ(known, 4);
+}
+
+TEST_F(GunGrips, FileHasTheModelOfTheControllerWhereTheHandHoldsIt) {
+    const ControllerModels models = builtin_controllers(hand_shape(hh::World()));
+    GripScene out = grip_scene(0, HandSide::right);
+    const ControllerModel& model = models.sides[1];
+    out.controller = controller_objects(model, out.materials);
+    const auto nodes = parse_gltf_nodes(write_grip_glb(out, rigs()[1]), "gun.glb");
+    ASSERT_TRUE(nodes.ok());
+    const Pose wrist = out.grip.grip.hands[1].wrist_bs;
+    std::size_t parts = 0;
+    int with_trigger = 0;
+    for (const GltfNode& node : nodes.value()) {
+        if (node.name == "controller") {
+            const Pose joint = inverse(*node.pose_ms) * wrist;
+            EXPECT_LT((joint.position - from_host(model.fit.hand_in_grip.position)).norm(), 1e-12);
+            EXPECT_LT(joint.rotation.angularDistance(from_host(model.fit.hand_in_grip.rotation)),
+                      1e-7);
+        } else if (node.name.starts_with("controller-part-") && !node.name.ends_with("mesh")) {
+            const Pose expected = wrist * from_host(controller_in_hand(model.fit));
+            EXPECT_LT((node.pose_ms->position - expected.position).norm(), 1e-12);
+            with_trigger += node.numbers.contains(k_pressed_trigger_key) ? 1 : 0;
+            ++parts;
+        }
+    }
+    EXPECT_EQ(parts, model.meshes.size());
+    EXPECT_GE(with_trigger, 1);
 }
 
 // An author may move the object instead of the hand.

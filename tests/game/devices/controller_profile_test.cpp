@@ -205,8 +205,9 @@ struct FingerGap {
     double skin_m = 1.0;  // below 0: penetrating
     double bone_m = 1.0;  // 0: a triangle goes through the capsule's middle
 };
-std::vector<FingerGap> finger_gaps(const ControllerModel& model, const HandRig& rig) {
-    const auto fingers = fingers_around(model, rig);
+std::vector<FingerGap> finger_gaps(const ControllerModel& model, const HandRig& rig,
+                                   const std::array<FingerAngles, k_finger_count>& fingers,
+                                   const ControlValues& values) {
     const Pose wrist = from_host(hh::inverse(controller_in_hand(model.fit)));
     std::vector<FingerGap> gaps;
     for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
@@ -215,10 +216,13 @@ std::vector<FingerGap> finger_gaps(const ControllerModel& model, const HandRig& 
         for (std::size_t i = 0; i < rig.fingers[f].link_count; ++i) {
             const std::array<Vec3, 2> link = {transform_point(wrist, points[i]),
                                               transform_point(wrist, points[i + 1])};
-            for (const LevelMesh& part : model.meshes) {
-                for (const auto& [a, b, c] : part.mesh.triangles) {
-                    const Corners corners = {part.mesh.positions[a], part.mesh.positions[b],
-                                             part.mesh.positions[c]};
+            for (std::size_t m = 0; m < model.meshes.size(); ++m) {
+                const Mesh& part = model.meshes[m].mesh;
+                const Pose moved = from_host(moved_by(model.moves[m], values));
+                for (const auto& [a, b, c] : part.triangles) {
+                    const Corners corners = {transform_point(moved, part.positions[a]),
+                                             transform_point(moved, part.positions[b]),
+                                             transform_point(moved, part.positions[c])};
                     const double away_m = nearest_between(link, corners).distance_m;
                     gap.bone_m = std::min(gap.bone_m, away_m);
                     gap.skin_m = std::min(gap.skin_m, away_m - rig.fingers[f].radius_m[i]);
@@ -230,6 +234,10 @@ std::vector<FingerGap> finger_gaps(const ControllerModel& model, const HandRig& 
     return gaps;
 }
 
+std::vector<FingerGap> gaps_at_rest(const ControllerModel& model, const HandRig& rig) {
+    return finger_gaps(model, rig, fingers_around(model, rig), k_controls_at_rest);
+}
+
 // At least three fingers on it, none with its bones through it. Thumbs and index fingers begin in a
 // head that is thick where the palm is: there nothing but another place of the palm helps, and that
 // is the joint's.
@@ -237,11 +245,37 @@ void expect_held(const ControllerModels& models) {
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         int touching = 0;
         for (const FingerGap& gap :
-             finger_gaps(models.sides[index_of(side)], builtin_hand_rig(side))) {
+             gaps_at_rest(models.sides[index_of(side)], builtin_hand_rig(side))) {
             touching += gap.skin_m < 2e-3 ? 1 : 0;
             EXPECT_GT(gap.bone_m, 0.0) << models.name;
         }
         EXPECT_GE(touching, 3) << models.name;
+    }
+}
+
+// The index finger moves with the trigger, and however far the trigger is pressed, no finger's bone
+// enters the controller.
+void expect_followed(const ControllerModels& models) {
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const ControllerModel& model = models.sides[index_of(side)];
+        const HandRig rig = builtin_hand_rig(side);
+        const FollowingFingers fingers(model, rig);
+        const auto at = [&](double share) {
+            ControlValues values = k_controls_at_rest;
+            values[static_cast<std::size_t>(Control::trigger)] = share;
+            return values;
+        };
+        for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+            for (const FingerGap& gap : finger_gaps(model, rig, fingers.at(at(share)), at(share))) {
+                EXPECT_GT(gap.bone_m, 0.0) << models.name << " trigger " << share;
+            }
+        }
+        const auto index = std::ranges::find(rig.fingers, FingerName::index, &FingerRig::name);
+        const auto f = static_cast<std::size_t>(index - rig.fingers.begin());
+        const auto tip = [&](double share) {
+            return finger_points(*index, fingers.at(at(share))[f])[index->link_count];
+        };
+        EXPECT_GT((tip(1.0) - tip(0.0)).norm(), 3e-3) << models.name;
     }
 }
 
@@ -257,6 +291,7 @@ TEST(Controllers, BuiltinIsHeldInTheFistByTheTuningsJoint) {
                   0.025);
     }
     expect_held(models);
+    expect_followed(models);
 }
 
 TEST(Controllers, EveryRealProfileLoadsAndIsHeldByBothHands) {
@@ -281,6 +316,7 @@ TEST(Controllers, EveryRealProfileLoadsAndIsHeldByBothHands) {
             }
         }
         expect_held(models.value());
+        expect_followed(models.value());
         ++seen;
     }
     EXPECT_GE(seen, 1);

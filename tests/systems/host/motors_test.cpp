@@ -82,7 +82,7 @@ TEST(JointMotors, SpeedOfAHingeGrowsWithTorqueOverInertia) {
 
 TEST(JointMotors, FrictionActsAgainstTheMotor) {
     Machine machine(HH_SLIDER);
-    ASSERT_EQ(hh_joint_set_friction(machine.scene.world.get(), machine.joint, 3.0), HH_OK);
+    ASSERT_TRUE(machine.scene.world.set_friction(machine.joint, 3.0));
     ASSERT_EQ(machine.drive(HH_MOTOR_SPEED, 1.0, 4.0), HH_OK);
     machine.scene.step(45);
     EXPECT_NEAR(machine.speed(), (4.0 - 3.0) / k_mass_kg * 45 * k_step_s, 1e-6);
@@ -196,13 +196,12 @@ TEST(JointLimits, ChangeAfterCreation) {
 
 TEST(JointLimits, LatchesAreAddedAndTakenAway) {
     Machine machine(HH_SLIDER);
-    hh_world* const world = machine.scene.world.get();
-    ASSERT_EQ(hh_joint_set_latch(world, machine.joint, 0.0, 0.01, 0.0), HH_OK);
+    ASSERT_TRUE(machine.scene.world.set_latch(machine.joint, 0.0, 0.01));
     machine.scene.step(2);
     ASSERT_EQ(machine.drive(HH_MOTOR_SPEED, 1.0, 50.0), HH_OK);
     machine.scene.step(30);
     EXPECT_NEAR(machine.coordinate(), 0.0, 1e-6);
-    ASSERT_EQ(hh_joint_set_latch(world, machine.joint, 0.0, 0.0, 0.0), HH_OK);
+    ASSERT_TRUE(machine.scene.world.set_latch(machine.joint, 0.0, 0.0));
     machine.scene.step(30);
     EXPECT_GT(machine.coordinate(), 0.2);
 }

@@ -46,10 +46,8 @@ TEST(AuthoredGrip, AnglesOfLinksInvertsLinkFrames) {
         for (const FingerRig& finger : rig.fingers) {
             FingerAngles angles = coupled_angles(finger, random.between(0.0, 1.0));
             angles.curl_rad[1] += random.between(-0.2, 0.2);
-            if (finger.name == FingerName::thumb) {
-                angles.opposition_rad =
-                    random.between(finger.lower_opposition_rad, finger.upper_opposition_rad);
-            }
+            angles.opposition_rad =
+                random.between(finger.lower_opposition_rad, finger.upper_opposition_rad);
             const auto frames = finger_link_frames(finger, angles);
             std::array<Quat, k_max_links> links;
             for (std::size_t i = 0; i < finger.link_count; ++i) {

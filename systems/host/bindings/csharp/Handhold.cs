@@ -116,6 +116,23 @@ namespace Handhold {
             Encoding.UTF8.GetBytes(text, 0, text.Length, bytes, 0);
             return bytes;
         }
+        /// <summary>Texts one after the other; null: none.</summary>
+        internal static byte[] Texts(string[] texts, Array elements, string name) {
+            if (texts == null) {
+                return null;
+            }
+            RequireLength(texts, elements == null ? 0 : elements.Length, name);
+            using (System.IO.MemoryStream bytes = new System.IO.MemoryStream()) {
+                foreach (string text in texts) {
+                    bytes.Write(Text(text) ?? new byte[0], 0, Size(text));
+                }
+                return bytes.ToArray();
+            }
+        }
+        /// <summary>Bytes of Text(text).</summary>
+        internal static int Size(string text) => text == null ? 0 : Encoding.UTF8.GetByteCount(text) + 1;
+        /// <summary>A copy whose texts can be set.</summary>
+        internal static T[] Copy<T>(T[] elements) => elements == null ? null : (T[])elements.Clone();
         /// <summary>A text of the library, such as TuningInfo.name.</summary>
         public static string Text(byte* at) {
             if (at == null) {

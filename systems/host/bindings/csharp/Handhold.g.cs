@@ -2984,10 +2984,15 @@ namespace Handhold {
         }
 
         /// <summary>hh_player_set_body_rig for a skeleton as an array, of an engine that has no glTF file: 1 to 1024 joints, in any order. In other axes: handhold/convert.h. No joints: none. HH_ERROR_VALUE for parents that do not exist or form a ring; HH_ERROR_DATA says by name or index which joints are missing or implausible.</summary>
-        public unsafe void PlayerSetBodySkeleton(Player player, SkeletonJoint[] joints, HhSpace space) {
-            fixed (SkeletonJoint* joints_at = joints) {
-                Library.Check(Native.hh_player_set_body_skeleton(Handle, player, joints_at, Library.Count(joints), space));
-                GC.KeepAlive(this);
+        public unsafe void PlayerSetBodySkeleton(Player player, SkeletonJoint[] joints, HhSpace space, string[] names = null) {
+            SkeletonJoint[] joints_given = Library.Copy(joints);
+            byte[] names_bytes = Library.Texts(names, joints, "names");
+            fixed (SkeletonJoint* joints_at = joints_given) {
+                fixed (byte* names_at = names_bytes) {
+                    for (int at = 0, i = 0; names != null && i < names.Length; at += Library.Size(names[i]), ++i) joints_at[i].name = names[i] == null ? null : names_at + at;
+                    Library.Check(Native.hh_player_set_body_skeleton(Handle, player, joints_at, Library.Count(joints), space));
+                    GC.KeepAlive(this);
+                }
             }
         }
 

@@ -8,6 +8,7 @@
 #include <handhold/level.h>
 #include <handhold/match.h>
 #include <handhold/players.h>
+#include <handhold/skeletons.h>
 #include <handhold/world.h>
 #include <handhold/your_physics.h>
 

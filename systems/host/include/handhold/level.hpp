@@ -77,6 +77,14 @@ class Level : public WorldHandle {
     Status set_limits(Joint joint, double lower, double upper) {
         return hh_joint_set_limits(world_, joint, 1, lower, upper);
     }
+    // A new latch at a coordinate; range 0: none.
+    Status set_latch(Joint joint, double at, double range, double strength = 0.0) {
+        return hh_joint_set_latch(world_, joint, at, range, strength);
+    }
+    // New friction of a joint.
+    Status set_friction(Joint joint, double friction) {
+        return hh_joint_set_friction(world_, joint, friction);
+    }
     // Adds a static body for each node of a glTF file that has triangles; returns their number.
     Maybe<std::size_t> add_gltf_level(std::span<const std::byte> gltf, Pose pose = k_origin) {
         return make<std::size_t>([&](std::size_t* count) {

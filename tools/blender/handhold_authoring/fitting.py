@@ -1,0 +1,60 @@
+"""The runtime's own fit of a hand, called through the Python binding."""
+from dataclasses import dataclass
+
+from . import gltf
+
+# Joints of a hand as exported, in the order of hh_hand_joint_name; the palm has none.
+JOINTS = [None, "wrist"] + [f"{finger}-{part}" for finger, parts in (
+    ("thumb", ("metacarpal", "phalanx-proximal", "phalanx-distal", "tip")),
+    *((f"{name}-finger", ("metacarpal", "phalanx-proximal", "phalanx-intermediate", "phalanx-distal", "tip"))
+      for name in ("index", "middle", "ring", "pinky"))) for part in parts]
+FINGERS = ("thumb", "index", "middle", "ring", "little")  # as grips name them
+SIDES = ("left", "right")
+STEPS_OPEN, STEPS_CLOSED = 5, 90  # the shown hand turns to a new fit at a bounded speed
+DT_S = 1.0 / 90.0
+EYES_M = 0.45  # from the hand: within an arm's length
+
+
+class NothingToGrip(Exception):
+    pass
+
+
+@dataclass
+class Fit:
+    joints: dict  # name to pose in the object's frame, glTF's axes
+    moved_m: float  # from the wrist given to the wrist shown
+
+
+def binding():
+    """The package systems/host/bindings/python; the preferences say where it is."""
+    import handhold
+    return handhold
+
+
+def close_hand(points, triangles, wrist, side: str) -> Fit:
+    """Closes an empty hand at `wrist`, a pose in the object's frame, on the object's surface: what the game shows of a hand that grips there.
+    Raises NothingToGrip if no surface is in the hand's reach."""
+    hh = binding()
+    hand = SIDES.index(side)
+    with hh.World() as world:
+        mesh = hh.Mesh(positions=points, indices=triangles.reshape(-1))
+        body = world.body_add(name="object", shape=world.shape_add_mesh(mesh, (1.0, 1.0, 1.0)))
+        player = world.player_add(name="hand")
+        world.use_wrists(player)
+        x, y, z, *turn = gltf.numbers_of(wrist)
+        back = wrist.to_3x3().col[2] * EYES_M  # behind the wrist, where the forearm is
+        for step in range(1, STEPS_OPEN + STEPS_CLOSED + 1):
+            sample = hh.TrackingSample(time_s=step * DT_S, head=((x + back.x, y + back.y, z + back.z),))
+            sample.hands = [((x, y, z), turn)] * 2
+            sample.hand_tracked = [side == one for one in SIDES]
+            sample.grab = [side == one and step > STEPS_OPEN for one in SIDES]
+            world.step_player(DT_S, player, [sample])
+        state = world.player_hand(player, hand)
+        if state.body != body:
+            raise NothingToGrip("no surface of the object is in the hand's reach: move it nearer, palm first")
+        joints = {}
+        for name, joint in zip(JOINTS, world.player_hand_joints(player, hand, hh.HH_SPACE_WORLD)):
+            if name is not None and joint["is_valid"]:
+                at, q = joint["pose"]["position"], joint["pose"]["rotation"]
+                joints[name] = gltf.pose_of([at["x"], at["y"], at["z"], q["x"], q["y"], q["z"], q["w"]])
+        return Fit(joints, (joints["wrist"].to_translation() - wrist.to_translation()).length)
