@@ -75,6 +75,7 @@ struct ArmMemory {
         HandRest rest;
         // Turn of the shown elbow about the line from shoulder to hand, rad. Of clear_arms.
         double cleared_rad = 0.0;
+        bool cleared_known = false;  // false: the next frame turns without a limit on the rate
     };
     bool known = false;  // false: the next frame re-initialises this state
     // The head's look direction after low-pass filters of different time constants, the shortest

@@ -118,6 +118,7 @@ void visit_fields(const ArmMemory::Arm& c, V&& visit) {
     visit("hand_ps", c.hand_ps);
     visit("rest", c.rest);
     visit("cleared_rad", c.cleared_rad);
+    visit("cleared_known", c.cleared_known);
 }
 template <typename V>
 void visit_fields(const ChestOffset& c, V&& visit) {

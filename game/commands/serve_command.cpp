@@ -61,12 +61,13 @@ void log_hash(const hh::Match& match, const Scene& scene, std::uint64_t& logged)
 void report_to_agones(const MatchServer& server, double return_s, double& played_s,
                       AgonesReporter& agones) {
     const double now_s = steady_s();
-    if (server.seats().taken() > 0) {
+    const bool is_played = server.seats().taken() > 0;
+    if (is_played) {
         played_s = now_s;
     }
     agones.beat();
-    agones.set(now_s - played_s < return_s ? AgonesReporter::State::allocated
-                                           : AgonesReporter::State::ready);
+    agones.set(is_played || now_s - played_s < return_s ? AgonesReporter::State::allocated
+                                                        : AgonesReporter::State::ready);
 }
 
 }  // namespace
@@ -76,6 +77,10 @@ int serve_command(const ServeOptions& options) {
     ListenerSettings listening;
     listening.address = options.address;
     listening.port = options.port;
+    constexpr std::size_t k_links_besides =
+        16;  // links that say hello, or ask for /health or /metrics
+    listening.most_links =
+        static_cast<std::size_t>(options.players + options.spectators) + k_links_besides;
     const Result<std::unique_ptr<Listener>> listener = open_listener(listening);
     if (!listener) {
         return refuse(listener.error());

@@ -160,6 +160,9 @@ void MatchPeer::take_welcome(std::span<const std::byte> message) {
 }
 
 void MatchPeer::begin_match(std::size_t slot) {
+    if (settings_.recorder != nullptr) {
+        settings_.recorder->pause(match_);
+    }
     match_ = hh::Match();  // ends the one before: a world has one match
     slot_ = slot;
     hh_match_def def = hh::match_def();

@@ -198,10 +198,11 @@ void MatchRecorder::begin(std::uint64_t tick, std::span<const std::byte> state) 
     }
     until_ = tick;
     has_begun_ = true;
+    is_following_ = true;
 }
 
 void MatchRecorder::follow(const hh::Match& match, bool all) {
-    if (!has_begun_) {
+    if (!is_following_) {
         return;
     }
     while (!error_ && match.stats().confirmed >= until_ + (all ? 1 : k_ticks_a_part)) {
@@ -214,6 +215,13 @@ void MatchRecorder::follow(const hh::Match& match, bool all) {
             add(RecordedKind::inputs, packet_);
         }
     }
+}
+
+void MatchRecorder::pause(const hh::Match& match) {
+    if (match.is_valid()) {
+        follow(match, true);
+    }
+    is_following_ = false;
 }
 
 std::optional<FileError> MatchRecorder::finish(const hh::Match& match) {
@@ -232,6 +240,10 @@ std::optional<FileError> MatchRecorder::finish(const hh::Match& match) {
         return error_;
     }
     std::error_code failure;
+    if (!has_begun_) {
+        std::filesystem::remove(part_, failure);
+        return FileError{path_.string(), "", "nothing was recorded"};
+    }
     std::filesystem::rename(part_, path_, failure);
     if (failure) {
         fail(failure.message());

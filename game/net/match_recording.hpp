@@ -60,7 +60,10 @@ class MatchRecorder {
     // Writes ticks that are confirmed, a second at a time; with `all` those that are left too. Call
     // at least once in three seconds, and with `all` before the match's state is replaced.
     void follow(const hh::Match& match, bool all = false);
-    // Writes the rest and the end. Returns the first error since open.
+    // Writes what is confirmed, and no tick of another match until `begin`.
+    void pause(const hh::Match& match);
+    // Writes the rest and the end; without a tick there is no file, and one that was there stays.
+    // Returns the first error since open.
     [[nodiscard]] std::optional<FileError> finish(const hh::Match& match);
     // False once something could not be written; the recorder then does nothing any more.
     bool is_good() const { return !error_; }
@@ -77,6 +80,7 @@ class MatchRecorder {
     std::optional<FileError> error_;
     std::uint64_t until_ = 0;  // ticks up to this one are written
     bool has_begun_ = false;
+    bool is_following_ = false;
     std::uint64_t bytes_ = 0;
     std::vector<std::byte> packet_;  // reused
 };

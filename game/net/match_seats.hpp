@@ -25,6 +25,7 @@ struct MatchSeat {
     LinkId link = 0;
     std::string person;             // who plays, or played last; empty: nobody did
     std::uint64_t number = 0;       // MatchHello::person
+    bool has_played = false;        // true: that person has had the match's state
     double reserved_until_s = 0.0;  // while the seat is empty, it waits for that person
     // How long nothing has come of a player, or a state has taken. Pauses of the server do not
     // count.

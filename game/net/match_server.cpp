@@ -136,8 +136,10 @@ void MatchServer::tend(double now_s) {
 // Over the connection's reliable stream, so nothing comes back.
 void MatchServer::send_inputs(std::size_t place) {
     constexpr std::uint64_t k_ticks_a_message = 3;
+    constexpr std::size_t k_most_inputs_queued = 32'768;  // the rest waits: nobody is slow for it
     MatchSeat& seat = seats_.at(place);
-    while (seat.watched_until + k_ticks_a_message <= match_.stats().tick) {
+    while (seat.watched_until + k_ticks_a_message <= match_.stats().tick &&
+           listener_.queued_bytes(seat.link) < k_most_inputs_queued) {
         const std::uint64_t before = seat.watched_until;
         if (!match_.confirmed_inputs(seat.watched_until, packet_) || seat.watched_until == before) {
             begin_state(place);  // The inputs are forgotten: the state took too long.
@@ -163,9 +165,7 @@ void MatchServer::closed(LinkId link, LinkEnd why) {
     links_.erase(link);
     if (const std::optional<std::size_t> slot = seats_.of_link(link)) {
         log("left", {{"slot", seat_name(*slot)}, {"why", std::string(name_of(why))}});
-        // Nobody reserves a seat without having played.
-        const bool has_played = seats_.at(*slot).stage == SeatStage::playing;
-        empty_seat(*slot, has_played ? settings_.return_s : 0.0);
+        empty_seat(*slot, settings_.return_s);
     } else if (why != LinkEnd::closed) {
         log("cut_off", {{"link", std::to_string(link)}, {"why", std::string(name_of(why))}});
     }
@@ -177,7 +177,9 @@ void MatchServer::empty_seat(std::size_t slot, double reserved_s) {
         (void)match_.disconnect(static_cast<std::uint32_t>(slot));
     } else {
         seat.person.clear();
-        reserved_s = 0.0;
+    }
+    if (seats_.is_watching(slot) || !seat.has_played) {
+        reserved_s = 0.0;  // Nobody reserves a seat without having played.
     }
     seat.stage = SeatStage::empty;
     seat.link = 0;

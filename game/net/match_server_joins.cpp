@@ -90,6 +90,7 @@ void MatchServer::seat(LinkId link, std::size_t slot, const std::string& person,
                        std::uint64_t number) {
     MatchSeat& seat = seats_.at(slot);
     const bool returns = seat.person == person;
+    seat.has_played = seat.has_played && returns;
     ++counts_.joins;
     counts_.returns += returns ? 1U : 0U;
     seat.link = link;
@@ -167,6 +168,7 @@ void MatchServer::take_joined(LinkId link, std::span<const std::byte> message) {
          {"tick", std::to_string(match_.stats().tick)},
          {"state_bytes", std::to_string(seat.state.size())}});
     seat.stage = SeatStage::playing;
+    seat.has_played = true;
     seat.state = {};
     seat.waited_s = 0.0;
     if (!seats_.is_watching(*slot)) {

@@ -15,6 +15,7 @@ struct Trunk {
     std::array<Vec3, 3> line_ws;  // chest, waist, hips
     double radius_m = 0.0;
 };
+constexpr double k_same_share = 0.08;  // share of that radius; smaller depths count as equal
 
 // Vector to a point from the nearest point of the trunk's line.
 Vec3 from_trunk(const Trunk& trunk, const Vec3& point) {
@@ -50,34 +51,32 @@ struct Arm {
 
 double clamped(double angle) { return std::clamp(angle, -k_most_clear_rad, k_most_clear_rad); }
 
-// Returns `angle`, changed until the wrist is bent by at most k_wrist_follow_rad, or as little as a
-// turn of the elbow can.
+// Returns the angle nearest to `angle` at which the wrist is bent by at most k_wrist_follow_rad, or
+// as little as a turn of the elbow can. The forearm along the hand is
+// middle + reach cos(angle - best), because the hand is on the axis.
 double follow_wrist(const Arm& arm, double angle) {
-    constexpr int k_steps = 6;
+    constexpr double k_flat = 1e-3;  // share of the forearm: a turn changes nothing
     static const double k_least_cosine = [] {
         double sine = 0.0;
         double cosine = 1.0;
         sin_cos(k_wrist_follow_rad, sine, cosine);
         return cosine;
     }();
-    for (int step = 0; step < k_steps; ++step) {
-        const Vec3 turned = arm.elbow_at(angle);
-        const Vec3 forearm = arm.hand - turned;
-        const double length = forearm.norm();
-        const double missing = k_least_cosine * length - forearm.dot(arm.ahead);
-        if (missing <= 0.0 || length < 1e-6) {
-            break;
-        }
-        // d forearm / d angle = axis x forearm, because the hand is on the axis.
-        const double rate = arm.axis.cross(forearm).dot(arm.ahead);
-        const double by = std::min(missing / std::max(std::abs(rate), 1e-3), k_step_rad);
-        // At the worst angle, both ways are as good.
-        constexpr double k_flat = 0.02;
-        const bool outward = arm.axis.cross(turned - arm.shoulder).dot(arm.outward) > 0.0;
-        const bool rises = std::abs(rate) < k_flat * length ? outward : rate > 0.0;
-        angle = clamped(angle + (rises ? by : -by));
+    const Vec3 upper = arm.elbow - arm.shoulder;
+    const Vec3 along = upper.dot(arm.axis) * arm.axis;
+    const double length = (arm.hand - arm.elbow).norm();
+    const double cosine = -(upper - along).dot(arm.ahead);
+    const double sine = -arm.axis.cross(upper).dot(arm.ahead);
+    const double middle = (arm.hand - arm.shoulder - along).dot(arm.ahead);
+    const double reach = std::sqrt(cosine * cosine + sine * sine);
+    if (reach <= k_flat * length) {
+        return angle;
     }
-    return angle;
+    const double least = std::clamp((k_least_cosine * length - middle) / reach, -1.0, 1.0);
+    const double most_rad = arc_tangent2(std::sqrt(1.0 - least * least), least);
+    double off_rad = angle - arc_tangent2(sine, cosine);
+    off_rad -= std::abs(off_rad) > k_pi ? std::copysign(2.0 * k_pi, off_rad) : 0.0;
+    return clamped(angle - off_rad + std::clamp(off_rad, -most_rad, most_rad));
 }
 
 // An angle, and how deep elbow or forearm are then in the trunk.
@@ -93,7 +92,7 @@ Cleared leave_trunk(const Trunk& trunk, const Arm& arm, double angle) {
     constexpr int k_steps = 8;
     constexpr double k_bias = 0.4;  // an elbow in the middle of the trunk leaves to its own side
     double deepest_m = 0.0;
-    for (int step = 0; step < k_steps; ++step) {
+    for (int step = 0;; ++step) {
         const Vec3 turned = arm.elbow_at(angle);
         const Vec3 tangent = arm.axis.cross(turned - arm.shoulder);  // d turned / d angle
         double wanted = 0.0;
@@ -114,7 +113,7 @@ Cleared leave_trunk(const Trunk& trunk, const Arm& arm, double angle) {
                 wanted = rate < 0.0 ? -by : by;
             }
         }
-        if (wanted == 0.0) {
+        if (wanted == 0.0 || step == k_steps) {
             break;
         }
         angle = clamped(angle + wanted);
@@ -125,21 +124,21 @@ Cleared leave_trunk(const Trunk& trunk, const Arm& arm, double angle) {
 // Returns an angle near `angle` at which the arm is outside of the trunk. If a search from there
 // ends inside, tries others, and returns the one that ends least deep.
 double clear_angle(const Trunk& trunk, const Arm& arm, double angle) {
-    constexpr double k_same_m = 0.01;
+    const double same_m = k_same_share * trunk.radius_m;
     Cleared best = leave_trunk(trunk, arm, angle);
     for (const double from : {0.0, 0.8 * k_most_clear_rad, -0.8 * k_most_clear_rad}) {
-        if (best.depth_m < k_same_m) {
+        if (best.depth_m < same_m) {
             break;
         }
         const Cleared other = leave_trunk(trunk, arm, from);
-        if (other.depth_m < best.depth_m - k_same_m) {
+        if (other.depth_m < best.depth_m - same_m) {
             best = other;
         }
     }
     return best.angle;
 }
 
-void clear_arm(const Trunk& trunk, const Vec3& outward, double dt_s, double& cleared_rad,
+void clear_arm(const Trunk& trunk, const Vec3& outward, double dt_s, ArmMemory::Arm& memory,
                ArmPose::Arm& out) {
     const Vec3 shoulder = out.upper_ws.position;
     const Vec3 line = out.hand_ws.position - shoulder;
@@ -153,11 +152,17 @@ void clear_arm(const Trunk& trunk, const Vec3& outward, double dt_s, double& cle
                   line * (1.0 / length),
                   out.hand_ws.rotation * -Vec3::UnitZ(),
                   outward};
+    double& cleared_rad = memory.cleared_rad;
+    if (!memory.cleared_known) {
+        cleared_rad = 0.0;
+    }
     const double back = k_clear_back_radps * dt_s;
     const double from = cleared_rad - std::clamp(cleared_rad, -back, back);
     const double wanted = clear_angle(trunk, arm, follow_wrist(arm, from));
     const double most = k_clear_radps * dt_s;
-    cleared_rad = std::clamp(wanted, cleared_rad - most, cleared_rad + most);
+    cleared_rad =
+        memory.cleared_known ? std::clamp(wanted, cleared_rad - most, cleared_rad + most) : wanted;
+    memory.cleared_known = true;
     if (cleared_rad != 0.0) {
         const Quat turn = rotation_about(arm.axis, cleared_rad);
         out.upper_ws.rotation = (turn * out.upper_ws.rotation).normalized();
@@ -177,8 +182,8 @@ void clear_arms(const ClearArmsIo& io) {
                 {spine.chest_ws.position, spine.spine_ws.back().position, spine.pelvis_ws.position},
                 k_trunk_clearance_m * measures.eye_height_m / k_scale_eye_m};
             const Vec3 right = spine.chest_ws.rotation * Vec3::UnitX();
-            clear_arm(trunk, -right, io.dt_s, memory.arms[0].cleared_rad, arms.arms[0]);
-            clear_arm(trunk, right, io.dt_s, memory.arms[1].cleared_rad, arms.arms[1]);
+            clear_arm(trunk, -right, io.dt_s, memory.arms[0], arms.arms[0]);
+            clear_arm(trunk, right, io.dt_s, memory.arms[1], arms.arms[1]);
         },
         io.memory, io.spine, io.measures);
 }

@@ -22,7 +22,7 @@ struct ClearArmsIo {
     double dt_s;                           // in: > 0
     const Column<BodyMeasures>& measures;  // in: has every player
     const Column<SpinePose>& spine;        // in
-    Column<ArmMemory>& memory;             // in/out: cleared_rad
+    Column<ArmMemory>& memory;             // in/out: cleared_rad, cleared_known
     Column<ArmPose>& arms;                 // in/out: upper arms and forearms
 };
 

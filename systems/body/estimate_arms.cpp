@@ -63,6 +63,7 @@ void estimate_player(const TrackedBody& now, const EstimateStep& frame, ArmMemor
     memory.known = true;
     memory.head_ps = now.head_ps;
     for (std::size_t side = 0; side < k_hand_count; ++side) {
+        memory.arms[side].cleared_known = memory.arms[side].cleared_known && !reset;
         memory.arms[side].hand_ps = out.arms[side].hand_ps;
     }
 }

@@ -16,8 +16,9 @@ using UpdateGrabsIo = GrabSearch;  // systems/grab/shared/grab_search.hpp
 //    GrabRule::priority;
 //  - the nearest surface within HandTuning::reach_m of the palm, from any angle. Other players'
 //    heads, and their GrippableBody, count as surfaces;
-//  - in place of a surface that fingers cannot go round, one of another body that they can, within
-//    k_round_reach_m of the palm: a rail rather than the panel behind it. The hand does not snap.
+//  - in place of a surface that fingers cannot go round, one of another body that they can, or
+//    another player's arm or leg, within k_round_reach_m of the palm: a rail rather than the panel
+//    behind it. The hand does not snap.
 // The hand must get there without crossing a wall: the palm or the surface must be visible from
 // where the palm was last outside of walls (HandSight) or from the head, directly or by a detour of
 // a hand's width. A palm pushed through a surface grips that surface.

@@ -221,7 +221,9 @@ void ClientSession::note_hash() {
 }
 
 bool ClientSession::can_write_after(MatchTick after) const {
-    return can_write_confirmed(histories(), after, final_state());
+    // Predictions are written into the same ring, ahead of what is confirmed.
+    return after + k_oldest_confirmed >= now() &&
+           can_write_confirmed(histories(), after, final_state());
 }
 
 std::size_t ClientSession::write_watched(MatchTick after, MatchTick& until,

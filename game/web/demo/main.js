@@ -72,6 +72,11 @@ function makeRing() {
     rig.add(mesh);
     return mesh;
 }
+let notice = ''; // in place of the hint, until the page is loaded again
+function say(text) {
+    element('help').textContent = text;
+    element('help').hidden = text === '';
+}
 let lastOrigin;
 function showAim(pose, dt_s, isShown) {
     const { aim } = desktop;
@@ -86,8 +91,7 @@ function showAim(pose, dt_s, isShown) {
     const at = new THREE.Vector3().copy(pose.origin.position);
     hint.advance({ canReach: aim !== null, grips, moved_m: at.distanceTo(lastOrigin ?? at) }, dt_s);
     lastOrigin = at;
-    element('help').textContent = isShown ? hint.text : '';
-    element('help').hidden = element('help').textContent === '';
+    say(notice || (isShown ? hint.text : ''));
 }
 // The second player: a scripted climber's session, again and again from its spawn. (handhold climb)
 async function addClimber() {
@@ -146,7 +150,8 @@ function playRecording(dt_s) {
         path.push(world.playerPose(player).origin.position);
         if (path.length === steps) {
             demo.hash = `0x${world.hash().toString(16).padStart(16, '0')}`;
-            element('help').textContent = `The recording has ended. State hash: ${demo.hash}`;
+            notice = `The recording has ended. State hash: ${demo.hash}`;
+            say(notice);
         }
     }
 }
@@ -239,14 +244,14 @@ async function offerHeadset() {
             await renderer.xr.setSession(session);
         } catch (error) {
             button.disabled = false;
-            element('help').textContent = `The headset could not be entered: ${error.message}`;
+            notice = `The headset could not be entered: ${error.message}`;
+            say(notice);
         }
     });
 }
 
 element('loading').remove();
 element('panel').hidden = false;
-element('help').hidden = recorded === null;
 window.demo = { handhold, world, player, climber, desktop, hint, level, panel, renderer, path, advance, show };
 renderer.setAnimationLoop(onFrame);
 await offerHeadset();

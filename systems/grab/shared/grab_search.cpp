@@ -118,7 +118,7 @@ class SurfaceFinder {
     // True if the body ends beside the point in the fingers' direction or across it.
     bool is_round(const FoundSurface& found) const {
         if (found.part) {
-            return true;
+            return *found.part < BodyPart::upper_spine || *found.part > BodyPart::lower_spine;
         }
         const Vec3& normal = found.normal_ws;
         const Vec3 across = normal.cross(fingers_ws_);
@@ -128,8 +128,12 @@ class SurfaceFinder {
         return std::ranges::any_of(
             std::array{ahead, Vec3(-ahead), sideways, Vec3(-sideways)}, [&](const Vec3& way) {
                 const Vec3 beside = found.point_ws + scale_ * k_round_beside_m * way;
-                const auto near = io_.surfaces.closest_point_on(
-                    found.id, beside - scale_ * k_round_below_m * normal);
+                const Vec3 rise = scale_ * k_round_below_m * normal;
+                const auto wall = io_.surfaces.cast_ray(found.point_ws + rise, beside + rise);
+                if (wall && wall->id == found.id) {
+                    return false;  // an inner corner
+                }
+                const auto near = io_.surfaces.closest_point_on(found.id, beside - rise);
                 return near && near->distance_m > scale_ * k_round_free_m;
             });
     }

@@ -77,11 +77,17 @@ double depth_m(const HandRig& rig, const Pose& wrist, const Exit& plane) {
 Pose wrist_outside_bs(const HandSurroundings& hand, const PalmTuning& tuning) {
     const PlacedMesh& placed = hand.meshes.front();
     Pose wrist = inverse(placed.pose) * hand.wrist_bs;
-    if (const auto exit = exit_of_palm(*placed.mesh, *hand.rig, wrist, tuning.reach_m)) {
+    constexpr int k_most_faces = 3;  // faces that meet in a corner
+    bool is_moved = false;
+    for (int i = 0; i < k_most_faces; ++i) {
+        const auto exit = exit_of_palm(*placed.mesh, *hand.rig, wrist, tuning.reach_m);
+        if (!exit) {
+            break;
+        }
         wrist.position += depth_m(*hand.rig, wrist, *exit) * exit->normal;
-        return placed.pose * wrist;
+        is_moved = true;
     }
-    return hand.wrist_bs;
+    return is_moved ? placed.pose * wrist : hand.wrist_bs;
 }
 
 }  // namespace handhold

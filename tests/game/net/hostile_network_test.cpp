@@ -163,6 +163,11 @@ TEST_F(HostileNetworkTest, TokenThatExpiredMeanwhileBringsItsPlayerBackAndNobody
     EXPECT_TRUE(match.run_until(10.0, [&] { return ann.plays(); })) << ann.peer->why();
     EXPECT_EQ(ann.peer->states(), 2U);
     EXPECT_EQ(match.server->counts().returns, 1U);
+    // It is cut again while the state is on its way.
+    ann.connect(match.link());
+    ASSERT_TRUE(match.run_until(10.0, [&] { return ann.peer->stage() == PeerStage::joining; }));
+    ann.connect(match.link());
+    EXPECT_TRUE(match.run_until(10.0, [&] { return ann.plays(); })) << ann.peer->why();
     // Whoever has left needs a good token.
     ann.peer->leave();
     ASSERT_TRUE(match.run_until(10.0, [&] { return match.server->seats().taken() == 0; }));

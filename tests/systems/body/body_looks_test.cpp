@@ -254,6 +254,10 @@ TEST(BodyLooks, ForearmsFollowBentWrists) {
         }
         constexpr double k_near_rad = 0.04;
         EXPECT_LT(bend_rad(arm), std::max(k_wrist_follow_rad, best_rad) + k_near_rad) << i;
+        const Vec3 elbow = arm.forearm_ws.position;
+        arm = given;
+        body.clear_arms(1.0 / 90.0);
+        EXPECT_LT((arm.forearm_ws.position - elbow).norm(), 1e-3) << i << ": trembles at rest";
         followed += bend_rad(given) > bend_rad(arm) + 0.1 ? 1 : 0;
     }
     EXPECT_GT(followed, 30);

@@ -86,6 +86,26 @@ TEST(UpdateGrabs, RailWithinThreeCentimetresIsPreferredToThePanelUnderThePalm) {
     }
 }
 
+// A floor and a wall of one triangle mesh: the inner corner is no edge that fingers go round.
+TEST(UpdateGrabs, RailIsPreferredInTheInnerCornerOfAMeshToo) {
+    Mesh room;
+    room.positions = {{-1.0, 1.0, -1.0}, {1.0, 1.0, -1.0}, {1.0, 1.0, 1.0},
+                      {-1.0, 1.0, 1.0},  {1.0, 2.0, -1.0}, {1.0, 2.0, 1.0}};
+    room.triangles = {{0, 2, 1}, {0, 3, 2}, {1, 2, 4}, {2, 5, 4}};
+    for (const double from_wall_m : {0.025, 0.03, 0.035, 0.04}) {
+        Grabs grabs;
+        grabs.add_body(k_wall, {BodyKind::fixed, 0.0, Vec3::Zero(), 0.0},
+                       grabs.shapes.add_mesh(std::make_shared<const Mesh>(room)), {});
+        const Vec3 palm(1.0 - from_wall_m, 1.03, 0.0);
+        grabs.add_body(k_rock, {BodyKind::fixed, 0.0, Vec3::Zero(), 0.0},
+                       grabs.shapes.add_box(Vec3(0.016, 0.016, 0.6)),
+                       {palm - Vec3(0.036, 0.0, 0.0), Quat::Identity()});
+        grabs.close(k_right, palm);
+        grabs.run();
+        EXPECT_EQ(grabs.grab.at(k_right).body, k_rock) << from_wall_m;
+    }
+}
+
 TEST(UpdateGrabs, PanelOfHigherPriorityIsPreferredToARail) {
     Random random(4902);
     BarBesideThePalm bar(random, 0.016, 0.01, 0.02);

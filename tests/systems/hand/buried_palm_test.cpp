@@ -69,6 +69,50 @@ TEST(BuriedPalm, HandTrackedInsideAWallIsShownOutside) {
     EXPECT_GT(without_surface, 60);
 }
 
+// A prism along z that leaves the quarter x > 0, y > 0 free.
+Mesh make_inner_corner() {
+    constexpr std::array<std::array<double, 2>, 6> k_outline = {
+        {{-0.5, -0.5}, {1.0, -0.5}, {1.0, 0.0}, {0.0, 0.0}, {0.0, 1.0}, {-0.5, 1.0}}};
+    constexpr std::uint32_t k_count = k_outline.size();
+    Mesh mesh;
+    for (const double z : {-1.0, 1.0}) {
+        for (const auto& [x, y] : k_outline) {
+            mesh.positions.emplace_back(x, y, z);
+        }
+    }
+    for (std::uint32_t a = 0; a < k_count; ++a) {
+        const std::uint32_t b = (a + 1) % k_count;
+        mesh.triangles.push_back({a, b, a + k_count});
+        mesh.triangles.push_back({b, b + k_count, a + k_count});
+    }
+    for (std::uint32_t i = 0; i < 4; ++i) {  // fans about the inner corner
+        const std::uint32_t a = (4 + i) % k_count;
+        const std::uint32_t b = (5 + i) % k_count;
+        mesh.triangles.push_back({3, b, a});
+        mesh.triangles.push_back({3 + k_count, a + k_count, b + k_count});
+    }
+    return mesh;
+}
+
+TEST(BuriedPalm, HandTrackedInsideACornerIsShownOutsideOfBothFaces) {
+    const Mesh mesh = make_inner_corner();
+    const GripMesh corner = build_grip_mesh(mesh);
+    Random random(4906);
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        for (int i = 0; i < 100; ++i) {
+            const HandRig rig = builtin_hand_rig(side);
+            const double x = -random.between(0.02, 0.05);
+            const double y = -random.between(0.02, 0.05);
+            const Quat rotation = random.rotation();
+            FittedHand hand(corner, {Vec3(x, y, 0.0) - rotation * rig.palm_center_hs, rotation},
+                            side);
+            const Pose outside = wrist_outside_bs(hand.hands.front(), hand.tuning.palm);
+            const Vec3 palm = transform_point(outside, rig.palm_center_hs);
+            EXPECT_TRUE(palm.x() > -1e-3 && palm.y() > -1e-3) << i << ": " << palm.transpose();
+        }
+    }
+}
+
 TEST(BuriedPalm, HandOutsideOrBehindASheetStaysWhereItIsTracked) {
     const GripMesh block = make_block();
     const GripMesh sheet = build_grip_mesh(test::make_floor_mesh());
@@ -79,7 +123,13 @@ TEST(BuriedPalm, HandOutsideOrBehindASheetStaysWhereItIsTracked) {
         const FittedHand behind_sheet(sheet, wrist);
         EXPECT_EQ(wrist_outside_bs(behind_sheet.hands.front(), behind_sheet.tuning.palm).position,
                   wrist.position);
-        wrist.position.y() += 0.3;
+        double lowest = 1.0;
+        for (const PalmCapsule& capsule : rig.palm) {
+            for (const Vec3& end_hs : {capsule.a_hs, capsule.b_hs}) {
+                lowest = std::min(lowest, transform_point(wrist, end_hs).y());
+            }
+        }
+        wrist.position.y() += random.between(1e-4, 0.05) - lowest;
         const FittedHand above(block, wrist);
         EXPECT_EQ(wrist_outside_bs(above.hands.front(), above.tuning.palm).position,
                   wrist.position);

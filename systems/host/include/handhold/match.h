@@ -188,8 +188,8 @@ HH_API hh_result hh_match_sync_test(hh_match* match, const hh_match_input* input
  * spectators: over a reliable stream of yours, or into a file, which then has the whole match.
  * `until` gets the last tick written, `after` if there is nothing new: 128 ticks at most, and fewer
  * if the buffer is full. Every 90th tick carries its hash, which the reader compares.
- * HH_ERROR_VALUE if `after` is later than what is confirmed, or 448 ticks earlier; a spectator then
- * needs a state. A null `buffer` asks for HH_MATCH_INPUTS_BYTES; HH_ERROR_CAPACITY for less. */
+ * HH_ERROR_VALUE if `after` is later than what is confirmed, or too early: 320 ticks are always kept,
+ * at most 448. A spectator then needs a state. A null `buffer` asks for HH_MATCH_INPUTS_BYTES; HH_ERROR_CAPACITY for less. */
 HH_API hh_result hh_match_confirmed_inputs(const hh_match* match, uint64_t after, void* buffer,
                                            size_t capacity, size_t* size, uint64_t* until);
 
