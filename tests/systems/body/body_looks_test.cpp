@@ -93,9 +93,9 @@ TEST(BodyLooks, LegsOfAThrownBodyLookLikeLegs) {
         body.head.at(k_player).shift_m.y() = random.between(-0.2, 0.6);
         const double hz = random.between(60.0, 144.0);
         Pose& chest_ps = body.estimate.at(k_player).chest_ps;
-        std::array<Vec3, k_hand_count> before;
-        std::array<Vec3, k_hand_count> before_mps;
-        Vec3 pelvis_before;
+        std::array<Vec3, k_hand_count> before = {Vec3::Zero(), Vec3::Zero()};
+        std::array<Vec3, k_hand_count> before_mps = before;
+        Vec3 pelvis_before = Vec3::Zero();
         for (int frame = 0; frame < static_cast<int>(6.0 * hz); ++frame) {
             if (random.between(0.0, 1.0) < 1.0 / hz) {
                 chest_ps.position += random.vector(0.12);
