@@ -209,6 +209,7 @@ TEST(BodyLooks, ElbowsKeepToTheirSideOfTheTrunk) {
     test::Random random(125);
     HangingBody body;
     const Vec3 chest = body.run(0.1).chest_ws.position;
+    int changes = 0;
     for (int i = 0; i < 100; ++i) {
         const double right_m = random.between(-0.15, 0.0);
         const double up_m = random.between(-0.35, -0.1);
@@ -216,6 +217,7 @@ TEST(BodyLooks, ElbowsKeepToTheirSideOfTheTrunk) {
         const double middle_rad = random.between(-1.5, 1.5);
         body.arm_memory.at(k_player) = {};
         Vec3 before;
+        double turn_rad = 0.0;
         for (int frame = 0; frame < 200; ++frame) {
             body.arm_pose.at(k_player).arms[1] =
                 arm_at(chest + Vec3(0.19, 0.0, 0.0), hand, middle_rad + random.between(-0.1, 0.1),
@@ -224,10 +226,13 @@ TEST(BodyLooks, ElbowsKeepToTheirSideOfTheTrunk) {
             const Vec3 elbow = body.arm_pose.at(k_player).arms[1].forearm_ws.position;
             if (frame > 30) {
                 EXPECT_LT((elbow - before).norm(), 0.1) << i << " " << frame;
+                changes += turn_rad * body.arm_memory.at(k_player).arms[1].cleared_rad < 0.0;
             }
+            turn_rad = body.arm_memory.at(k_player).arms[1].cleared_rad;
             before = elbow;
         }
     }
+    EXPECT_EQ(changes, 0) << "turns to the other side";
 }
 
 // Bent wrists away from the trunk: the forearm follows the hand as far as a turn of the elbow can.
