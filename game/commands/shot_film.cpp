@@ -98,7 +98,8 @@ struct ShotFilm::Impl {
             scene.world().persistent_id.at(scene.world().render_pose.owners()[0]).value};
         Vec3 best_ws = middle_ws;
         for (int i = 0; i <= 2 * k_sides; ++i) {
-            const double turn_rad = k_step_rad * ((i + 1) / 2) * (i % 2 == 0 ? 1.0 : -1.0);
+            const int steps = (i + 1) / 2;
+            const double turn_rad = k_step_rad * steps * (i % 2 == 0 ? 1.0 : -1.0);
             const Vec3 way = rotation_about(up_ws, turn_rad) * (eye_ws - middle_ws);
             const auto hit =
                 scene.caches().collision.cast_sphere(k_camera_m, middle_ws, middle_ws + way, skip);
