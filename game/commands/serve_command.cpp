@@ -70,6 +70,43 @@ void report_to_agones(const MatchServer& server, double return_s, double& played
                                                         : AgonesReporter::State::ready);
 }
 
+// Until the options' time is over or the program is interrupted; then until all peers know.
+void serve(const ServeOptions& options, const Scene& scene, MatchServer& server) {
+    const double begin_s = steady_s();
+    std::optional<AgonesReporter> agones;
+    if (options.agones) {
+        agones.emplace(agones_port(), print_log_line);
+    }
+    double played_s = begin_s - options.return_s;
+    std::uint64_t logged = 0;
+    while (!is_interrupted() &&
+           (options.seconds == 0.0 || steady_s() - begin_s < options.seconds)) {
+        server.poll();
+        if (agones) {
+            report_to_agones(server, options.return_s, played_s, *agones);
+        }
+        log_hash(server.match(), scene, logged);
+    }
+    server.drain();
+    const double drain_s = steady_s();
+    while (!server.is_drained() && steady_s() - drain_s < k_drain_within_s) {
+        server.poll();
+    }
+    if (agones) {
+        agones->set(AgonesReporter::State::shutdown);
+    }
+}
+
+void log_end(const Scene& scene, const MatchServer& server) {
+    const hh_match_stats stats = server.match().stats();
+    print_log_line(log_line("ends", {{"tick", std::to_string(stats.tick)},
+                                     {"hash", format_hash(*server.match().hash(stats.tick))},
+                                     {"score", scene.arena ? score_text(scene.arena->state) : ""},
+                                     {"joins", std::to_string(server.counts().joins)},
+                                     {"hashes", std::to_string(stats.hashes)},
+                                     {"out_of_sync", std::to_string(stats.out_of_sync)}}));
+}
+
 }  // namespace
 
 int serve_command(const ServeOptions& options) {
@@ -77,8 +114,8 @@ int serve_command(const ServeOptions& options) {
     ListenerSettings listening;
     listening.address = options.address;
     listening.port = options.port;
-    constexpr std::size_t k_links_besides =
-        16;  // links that say hello, or ask for /health or /metrics
+    // Links that say hello, or request /health or /metrics.
+    constexpr std::size_t k_links_besides = 16;
     listening.most_links =
         static_cast<std::size_t>(options.players + options.spectators) + k_links_besides;
     const Result<std::unique_ptr<Listener>> listener = open_listener(listening);
@@ -113,39 +150,8 @@ int serve_command(const ServeOptions& options) {
                                        {"scene", scene.value().scene.name},
                                        {"players", std::to_string(options.players)},
                                        {"tokens", options.token_key.empty() ? "0" : "1"}}));
-    const double begin_s = steady_s();
-    std::optional<AgonesReporter> agones;
-    if (options.agones) {
-        agones.emplace(agones_port(), print_log_line);
-    }
-    double played_s = begin_s - options.return_s;
-    std::uint64_t logged = 0;
-    while (!is_interrupted() &&
-           (options.seconds == 0.0 || steady_s() - begin_s < options.seconds)) {
-        server.poll();
-        if (agones) {
-            report_to_agones(server, options.return_s, played_s, *agones);
-        }
-        log_hash(server.match(), scene.value().scene, logged);
-    }
-    server.drain();
-    const double drain_s = steady_s();
-    while (!server.is_drained() && steady_s() - drain_s < k_drain_within_s) {
-        server.poll();
-    }
-    if (agones) {
-        agones->set(AgonesReporter::State::shutdown);
-        agones.reset();
-    }
-    const hh_match_stats stats = server.match().stats();
-    const std::optional<ArenaGame>& arena = scene.value().scene.arena;
-    const std::string score = arena ? score_text(arena->state) : "";
-    print_log_line(log_line("ends", {{"tick", std::to_string(stats.tick)},
-                                     {"hash", format_hash(*server.match().hash(stats.tick))},
-                                     {"score", score},
-                                     {"joins", std::to_string(server.counts().joins)},
-                                     {"hashes", std::to_string(stats.hashes)},
-                                     {"out_of_sync", std::to_string(stats.out_of_sync)}}));
+    serve(options, scene.value().scene, server);
+    log_end(scene.value().scene, server);
     return finish_recording(recorder.value().get(), server.match());
 }
 

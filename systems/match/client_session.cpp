@@ -221,7 +221,7 @@ void ClientSession::note_hash() {
 }
 
 bool ClientSession::can_write_after(MatchTick after) const {
-    // Predictions are written into the same ring, ahead of what is confirmed.
+    // The history also has the predicted inputs of later ticks. They overwrite its oldest inputs.
     return after + k_oldest_confirmed >= now() &&
            can_write_confirmed(histories(), after, final_state());
 }
