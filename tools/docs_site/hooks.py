@@ -29,21 +29,18 @@ PROJECT_PAGES = ("CONTRIBUTING.md", "CHANGELOG.md")
 FOLDERS = (("Guide", "guide"), ("Reference", "reference"), ("Decisions", "decisions"))
 LANGUAGES = {".cpp": "cpp", ".hpp": "cpp", ".py": "python", ".json": "json", ".txt": "cmake", ".cmake": "cmake", ".yml": "yaml"}
 
-LINK = re.compile(r"(?P<before>!?\[(?P<text>[^\]]*)\]\()(?P<target>[^)\s]+)(?P<after>\))")
 NOT_PROSE = re.compile(r"^(?P<fence>`{3,}).*?^(?P=fence)[ \t]*$|`[^`\n]+`", re.DOTALL | re.MULTILINE)
+LINK = r"(?P<before>!?\[(?P<text>(?:`[^`\n]+`|[^\]`])*)\]\()(?P<target>[^)\s]+)(?P<after>\))"
+# What begins first wins: a link's text may hold code, and a link inside code is none.
+LINK_OR_CODE = re.compile(f"{NOT_PROSE.pattern}|{LINK}", NOT_PROSE.flags)
 LIST_ITEM = re.compile(r"( *)([-*+]|\d+\.) ")
 
 log = logging.getLogger("mkdocs.handhold")
 
 
-def outside_code(text: str, replace) -> str:
-    """Applies `replace` to the text outside fences and inline code."""
-    parts = []
-    end = 0
-    for code in NOT_PROSE.finditer(text):
-        parts += [replace(text[end:code.start()]), code[0]]
-        end = code.end()
-    return "".join(parts + [replace(text[end:])])
+def replace_links(text: str, replace) -> str:
+    """Replaces each link outside fences and inline code by `replace(match of LINK)`."""
+    return LINK_OR_CODE.sub(lambda match: replace(match) if match["target"] else match[0], text)
 
 
 def repository_path(file: File) -> str:
@@ -71,15 +68,9 @@ def site_path(path: str) -> str:
 
 def links_of(file: File) -> list[str]:
     """Repository paths of a page's link targets, in order."""
-    paths = []
-
-    def collect(prose: str) -> str:
-        targets = (match["target"].partition("#")[0] for match in LINK.finditer(prose) if not is_of_web(match["target"]))
-        paths.extend(target_path(file, target) for target in targets)
-        return prose
-
-    outside_code(Path(file.abs_src_path).read_text(encoding="utf-8"), collect)
-    return paths
+    text = Path(file.abs_src_path).read_text(encoding="utf-8")
+    targets = (match["target"] for match in LINK_OR_CODE.finditer(text) if match["target"])
+    return [target_path(file, target.partition("#")[0]) for target in targets if not is_of_web(target)]
 
 
 def title_of(file: File) -> str:
@@ -166,7 +157,7 @@ def on_page_markdown(markdown, page, config, files):
         return f"{match['before']}{on_site}{hash_sign}{anchor}{match['after']}"
 
     warn_of_lists(path, markdown)
-    return outside_code(markdown, lambda prose: LINK.sub(relink, prose))
+    return replace_links(markdown, relink)
 
 
 def on_post_page(output, page, config):
