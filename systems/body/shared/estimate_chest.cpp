@@ -44,6 +44,12 @@ ChestInputs chest_inputs(const ChestView& view, HandSide side) {
     return inputs;
 }
 
+// The line between the hands tells where the chest faces, but not if they are crossed. Distance of
+// the right hand to the right of the left one, in arm lengths, between which the line counts from
+// not at all to fully.
+constexpr double k_line_fades = -0.05;
+constexpr double k_line_full = 0.25;
+
 // Constants that make turn_to_reach_across smooth. All are measured in the view along the chest's
 // up axis: angles between straight ahead and the line from shoulder to hand, positive towards the
 // other side; distances in arm lengths. With the excess over body_constants::k_across_rad, turn =
@@ -125,8 +131,9 @@ Vec3 chest_facing(const Vec3& look_ps, const Quat& lean_ps, const TrackedBody& b
     }
     const Vec3 line = hand[1] - hand[0];
     const double rolled = lean.col(1).dot(axes.hands[1].col(1) - axes.hands[0].col(1));
-    const double right = k_hand_share * (hand[0].x() + hand[1].x()) + k_line_share * line.z() +
-                         k_roll_share * rolled;
+    const double apart = smooth_step(line.x(), k_line_fades, k_line_full);
+    const double right = k_hand_share * (hand[0].x() + hand[1].x()) +
+                         k_line_share * apart * line.z() + k_roll_share * rolled;
     const double ahead =
         1.0 - k_hand_share * (hand[0].z() + hand[1].z()) + k_line_share * std::max(line.x(), 0.0);
     const double length = std::sqrt(right * right + ahead * ahead);

@@ -14,6 +14,7 @@ CLAVICLE_CURVE = ((0.0, 0.7, 0.85, 1.05, 1.2), (0.006, 0.010, 0.018, 0.032, 0.07
 SCALE_EYE_M = 1.6
 MIRROR = np.array([-1.0, 1.0, 1.0])
 CONE, CONE_COSINE = np.array([0.54, -0.64, -0.54]), -0.087
+LINE_FADES = (-0.05, 0.25)  # k_line_fades, k_line_full of estimate_chest.cpp, arm lengths
 STEP_S = 1.0 / 90.0  # the runtime subdivides longer frames
 
 
@@ -155,7 +156,8 @@ def talked_facing(motion, constants):
     left, right = (to_facing(look, times_transposed(lean, motion.reach(side))) for side in (0, 1))
     line = right - left
     rolled = np.sum(lean[..., 1] * (motion.hand[1][..., 1] - motion.hand[0][..., 1]), -1)
-    across_x = constants["hand_share"] * (left + right)[:, 0] + constants["line_share"] * line[:, 2] + constants["roll_share"] * rolled
+    line_z = smooth_step(line[:, 0], *LINE_FADES) * line[:, 2]  # of crossed hands the line says nothing
+    across_x = constants["hand_share"] * (left + right)[:, 0] + constants["line_share"] * line_z + constants["roll_share"] * rolled
     ahead = 1.0 - constants["hand_share"] * (left + right)[:, 2] + constants["line_share"] * np.maximum(line[:, 0], 0.0)
     return look + np.clip(np.arctan2(-across_x, ahead), -CHEST_LIMIT_RAD, CHEST_LIMIT_RAD), lean_of(trunk_view(motion, constants)[1], constants["lean"])
 
