@@ -159,6 +159,7 @@ void visit_fields(const FingerPose& c, V&& visit) {
     visit("fitted_wrist_bs", c.fitted_wrist_bs);
     visit("fitted_signature", c.fitted_signature);
     visit("is_converged", c.is_converged);
+    visit("thumbs_tried", c.thumbs_tried);
 }
 template <typename V>
 void visit_fields(const ControllerToHand& c, V&& visit) {

@@ -47,7 +47,7 @@ std::optional<FitTerms> fit_terms_of(const World& world, const FrameCaches& cach
         return std::nullopt;
     }
     return shown_fit_terms(*around, world.grip_surface.at(hand), world.palm_offset.at(hand),
-                           world.finger_pose.at(hand), tuning.palm);
+                           world.finger_pose.at(hand), tuning);
 }
 
 std::optional<FitTerm> shaping_term(const FitTerms::Costs& cost_m2) {

@@ -78,30 +78,40 @@ void pose_unsupported_hand(const HandSurroundings& hand, const HandTracking& tra
     pose.is_converged = false;
 }
 
-HandFitGoal common_goal(const HandSurroundings& hand, const FingerPose& pose) {
+HandFitGoal common_goal(const HandSurroundings& hand, const FingerPose& pose,
+                        const ThumbTuning& tuning) {
     HandFitGoal goal;
-    goal.closed = pose.closed;
+    for (const FingerRig& finger : hand.rig->fingers) {
+        if (finger.name == FingerName::thumb) {
+            goal.rest_opposition_rad = rest_opposition_rad(finger, tuning);
+        }
+    }
     goal.touches = pose.touches;
     goal.is_fixed = pose.is_authored;
     goal.is_wrist_fixed = hand.authored != nullptr;
     return goal;
 }
 
-// Starts at the palm within its limits and the closed digits.
+// Starts at the palm within its limits and the closed digits. `is_first`: of the grip.
 HandFit fit_closed(const HandSurroundings& hand, const GripSurface& surface,
-                   const PalmOffset& offset, const FingerPose& pose, std::int32_t rounds,
-                   const PalmTuning& tuning, std::vector<PenaltyRow>& rows) {
-    HandFitGoal goal = common_goal(hand, pose);
+                   const PalmOffset& offset, const FingerPose& pose, bool is_first,
+                   const Tuning& tuning, std::vector<PenaltyRow>& rows) {
+    HandFitGoal goal = common_goal(hand, pose, tuning.thumb);
     goal.first = {held_wrist_bs(hand, offset), pose.closed};
     goal.is_clear = pose.is_closed_clear;
-    goal.rounds = rounds;
-    return fit_hand(hand, surface, goal, tuning, rows);
+    goal.rounds = is_first ? k_closing_rounds : k_closing_again_rounds;
+    return fit_hand(hand, surface, goal, tuning.palm, rows);
+}
+
+// A thumb that the closing left in a bad place is moved in the frames after it, one try in each.
+bool tries_thumb(const HandSurroundings& hand, const FingerPose& pose) {
+    return pose.thumbs_tried < k_thumb_tries && hand.authored == nullptr;
 }
 
 // Starts at the last fit, carried along with the tracked wrist.
 HandFit fit_last(const HandSurroundings& hand, const GripSurface& surface, const PalmOffset& offset,
-                 const FingerPose& pose, const PalmTuning& tuning, std::vector<PenaltyRow>& rows) {
-    HandFitGoal goal = common_goal(hand, pose);
+                 const FingerPose& pose, const Tuning& tuning, std::vector<PenaltyRow>& rows) {
+    HandFitGoal goal = common_goal(hand, pose, tuning.thumb);
     const Pose target{offset.target_m, rotation_from_vector(offset.target_turn_rad)};
     goal.first = {goal.is_wrist_fixed ? held_wrist_bs(hand, offset) : hand.wrist_bs * target,
                   pose.target};
@@ -112,23 +122,25 @@ HandFit fit_last(const HandSurroundings& hand, const GripSurface& surface, const
     }
     goal.is_clear = pose.is_clear;
     goal.rounds = k_rounds;
-    goal.max_flex_rad = k_max_flex_rad;
-    return fit_hand(hand, surface, goal, tuning, rows);
+    if (tries_thumb(hand, pose)) {
+        goal.thumb_try = static_cast<std::int32_t>(pose.thumbs_tried);
+    } else {
+        goal.max_flex_rad = k_max_flex_rad;
+    }
+    return fit_hand(hand, surface, goal, tuning.palm, rows);
 }
 
 HandFit best_fit(const HandSurroundings& hand, const GripSurface& surface, const Tuning& tuning,
                  const PalmOffset& offset, const FingerPose& pose, std::vector<PenaltyRow>& rows) {
     if (!pose.is_newly_closed) {
-        return fit_last(hand, surface, offset, pose, tuning.palm, rows);
+        return fit_last(hand, surface, offset, pose, tuning, rows);
     }
     const bool has_last = pose.fitted_body == hand.body && hand.authored == nullptr;
-    HandFit closed =
-        fit_closed(hand, surface, offset, pose,
-                   has_last ? k_closing_again_rounds : k_closing_rounds, tuning.palm, rows);
+    HandFit closed = fit_closed(hand, surface, offset, pose, !has_last, tuning, rows);
     if (!has_last) {
         return closed;
     }
-    HandFit last = fit_last(hand, surface, offset, pose, tuning.palm, rows);
+    HandFit last = fit_last(hand, surface, offset, pose, tuning, rows);
     return closed.cost < k_change_cost_share * last.cost ? closed : last;
 }
 
@@ -143,8 +155,8 @@ bool sticks(const HandSurroundings& hand, const FingerTuning& tuning, const Fing
 void fit_one(const HandSurroundings& hand, const GripSurface& surface, const Tuning& tuning,
              StageStats& stats, PalmOffset& offset, FingerPose& pose,
              std::vector<PenaltyRow>& rows) {
-    if (!pose.is_newly_closed && pose.fitted_signature == hand.signature &&
-        sticks(hand, tuning.finger, pose)) {
+    if (!pose.is_newly_closed && !tries_thumb(hand, pose) &&
+        pose.fitted_signature == hand.signature && sticks(hand, tuning.finger, pose)) {
         return;
     }
     const HandFit fit = best_fit(hand, surface, tuning, offset, pose, rows);
@@ -158,6 +170,8 @@ void fit_one(const HandSurroundings& hand, const GripSurface& surface, const Tun
     if (pose.is_newly_closed && fit.penetration_m > k_deep_m) {
         stats.count(Fallback::hand_penetrates);
     }
+    pose.thumbs_tried =
+        pose.fitted_body != hand.body ? 0 : std::min(pose.thumbs_tried + 1, k_thumb_tries);
     pose.is_newly_closed = false;
     pose.fitted_body = hand.body;
     pose.fitted_wrist_bs = hand.wrist_bs;
@@ -265,15 +279,15 @@ void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats,
 
 std::optional<FitTerms> shown_fit_terms(const HandSurroundings& hand, const GripSurface& surface,
                                         const PalmOffset& offset, const FingerPose& pose,
-                                        const PalmTuning& tuning) {
+                                        const Tuning& tuning) {
     if (surface.triangle == GripSurface::k_none || hand.meshes.empty()) {
         return std::nullopt;
     }
     const Pose shown{offset.shown_m, rotation_from_vector(offset.shown_turn_rad)};
-    HandFitGoal goal = common_goal(hand, pose);
+    HandFitGoal goal = common_goal(hand, pose, tuning.thumb);
     goal.first = {hand.wrist_bs * shown, pose.shown};
     goal.is_clear = pose.is_clear;
-    return fit_terms(hand, surface, goal, tuning);
+    return fit_terms(hand, surface, goal, tuning.palm);
 }
 
 }  // namespace handhold

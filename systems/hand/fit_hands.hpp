@@ -69,6 +69,6 @@ void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats,
 // inspectors; frames do not compute this. Nullopt if the hand is on no surface.
 std::optional<FitTerms> shown_fit_terms(const HandSurroundings& hand, const GripSurface& surface,
                                         const PalmOffset& offset, const FingerPose& pose,
-                                        const PalmTuning& tuning);
+                                        const Tuning& tuning);
 
 }  // namespace handhold

@@ -19,7 +19,7 @@ namespace {
 // line feed that a text-mode transfer would alter.
 constexpr char k_snapshot_magic[] = "\x89HHSNAP\n";
 constexpr std::size_t k_magic_bytes = sizeof k_snapshot_magic - 1;
-constexpr std::uint32_t k_format_version = 12;
+constexpr std::uint32_t k_format_version = 13;
 // Byte offsets of the header's fields.
 constexpr std::size_t k_version_at = k_magic_bytes;
 constexpr std::size_t k_schema_size_at = k_version_at + 4;

@@ -145,11 +145,9 @@ std::string posed_hand_line(std::int64_t id, const HandRig& rig, const PosedHand
                                     : Json(nullptr);
     line["capsules"] = capsules_json(rig, posed);
     line["fingers"] = fingers_json(rig, posed);
-    line["us"] = {{"search", posed.us.search_us},
-                  {"palm", posed.us.palm_us},
-                  {"fingers", posed.us.fingers_us},
-                  {"fit", posed.us.fit_us},
-                  {"total", posed.us.total_us()}};
+    line["us"] = {{"search", posed.us.search_us},   {"palm", posed.us.palm_us},
+                  {"fingers", posed.us.fingers_us}, {"fit", posed.us.fit_us},
+                  {"later", posed.us.later_us},     {"total", posed.us.total_us()}};
     return line.dump() + "\n";
 }
 

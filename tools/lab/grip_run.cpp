@@ -12,6 +12,7 @@
 #include "systems/hand/fit_hands.hpp"
 #include "systems/hand/search_grip.hpp"
 #include "systems/hand/shared/finger_chain.hpp"
+#include "systems/hand/shared/hand_fit.hpp"
 #include "systems/hand/shared/palm_fitter.hpp"
 #include "systems/hand/sweep_fingers.hpp"
 #include "systems/rigs/authored_hand.hpp"
@@ -69,6 +70,9 @@ class OneHand {
         timed(us.palm_us, [&] { constrain(variant); });
         timed(us.fingers_us, [&] { close(tuning, variant); });
         timed(us.fit_us, [&] { fit(k_at_once_s, tuning, variant); });
+        for (std::uint32_t i = 0; i < k_thumb_tries; ++i) {
+            timed(us.later_us, [&] { fit(k_at_once_s, tuning, variant); });
+        }
     }
 
     // Runs one frame that reuses the previous frame's results. Returns its time in microseconds.

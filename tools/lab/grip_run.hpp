@@ -36,6 +36,7 @@ struct GripTimes {  // microseconds of thread CPU time
     double palm_us = 0.0;
     double fingers_us = 0.0;
     double fit_us = 0.0;
+    double later_us = 0.0;  // later frames, which start from other thumbs; not in the total
     double total_us() const { return search_us + palm_us + fingers_us + fit_us; }
 };
 

@@ -83,8 +83,32 @@ class FitProblem {
     Unknowns solve() const {
         return minimise_penalised(hessian_, gradient_, rows_, static_cast<std::size_t>(unknowns_));
     }
+    // The same if only the unknowns from `first` on, `count` of them, change. Overwrites the
+    // problem.
+    Unknowns solve_some(int first, int count) {
+        UnknownsSquare hessian = UnknownsSquare::Zero();
+        hessian.topLeftCorner(count, count) = hessian_.block(first, first, count, count);
+        std::size_t kept = 0;
+        for (const PenaltyRow& row : rows_) {
+            if (!row.slope.segment(first, count).isZero(0.0)) {
+                PenaltyRow& to = rows_[kept++];
+                to = {moved_to_front(row.slope, first, count), row.value, row.weight};
+            }
+        }
+        const Unknowns some =
+            minimise_penalised(hessian, moved_to_front(gradient_, first, count),
+                               std::span(rows_).first(kept), static_cast<std::size_t>(count));
+        Unknowns all = Unknowns::Zero();
+        all.segment(first, count) = some.head(count);
+        return all;
+    }
 
   private:
+    static Unknowns moved_to_front(const Unknowns& x, int first, int count) {
+        Unknowns front = Unknowns::Zero();
+        front.head(count) = x.segment(first, count);
+        return front;
+    }
     static double penalty_m2(const PenaltyRow& row) {
         const double violation = std::min(0.0, row.value);
         return 0.5 * row.weight * violation * violation;

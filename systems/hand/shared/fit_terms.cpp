@@ -7,9 +7,9 @@ namespace handhold {
 
 const char* name_of(FitTerm term) {
     constexpr std::array<const char*, k_fit_term_count> k_names = {
-        "sync",   "touch", "tip",  "opposition", "spread",      "rest",
-        "alike",  "fan",   "roll", "couple",     "penetration", "overlap",
-        "joints", "bend",  "claw", "apart",      "palm limits"};
+        "sync",    "touch",  "tip",  "pad",  "opposition", "spread",
+        "rest",    "alike",  "fan",  "roll", "couple",     "penetration",
+        "overlap", "joints", "bend", "claw", "apart",      "palm limits"};
     return term < FitTerm::count ? k_names[static_cast<std::size_t>(term)] : "";
 }
 

@@ -13,9 +13,10 @@ namespace handhold {
 // for inequalities.
 enum class FitTerm : std::uint8_t {
     sync,         // the palm is away from where it is tracked
-    touch,        // a digit's nearest point is off the surface
+    touch,        // the nearest point of a digit or the palm is off the surface
     tip,          // a digit's tip is off the surface
-    opposition,   // a thumb has left the opposition of the closing
+    pad,          // a thumb's pad does not face the surface
+    opposition,   // a thumb has left the opposition of its rest pose
     spread,       // a finger has left its plane
     rest,         // an angle of a digit is away from its rest pose
     alike,        // neighbouring fingers bend differently

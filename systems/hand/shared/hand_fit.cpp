@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "systems/hand/shared/hand_objective.hpp"
 
@@ -11,6 +12,11 @@ namespace {
 // Largest step of the wrist in one round. Gaps are linearised, so longer steps are not reliable.
 constexpr double k_max_move_m = 0.02;
 constexpr double k_max_turn_rad = 0.3;
+
+constexpr int k_thumb_bends = 4;
+constexpr double k_change_thumb_share = 0.95;  // another thumb must cost less than this share
+constexpr double k_thumb_bend_share = 0.25;  // step between bends, as a share of the hinges' range
+constexpr std::int32_t k_thumb_rounds = 6;   // rounds of the thumb alone, then of the hand
 
 // Minimises the objective by Gauss-Newton steps.
 class Fitter {
@@ -23,6 +29,18 @@ class Fitter {
           objective_(hand, surface, goal, tuning, rows, nullptr) {}
 
     HandFit run() {
+        HandFit best = descend(goal_.rounds);
+        for (std::size_t f = 0; goal_.thumb_try >= 0 && f < rig_.fingers.size(); ++f) {
+            if (rig_.fingers[f].name == FingerName::thumb && !goal_.is_fixed[f]) {
+                try_thumb(f, best);
+            }
+        }
+        return best;
+    }
+
+  private:
+    // Rounds from the present pose.
+    HandFit descend(std::int32_t rounds) {
         constexpr double k_gain = 1e-6;  // smaller relative gains do not count
         constexpr double k_gain_m2 = 1e-12;
         // Relative change of the cost that justifies a next round.
@@ -30,8 +48,8 @@ class Fitter {
         double cost = objective_.evaluate(pose_);
         HandFit best = described(cost);
         best.is_converged = true;
-        for (std::int32_t round = 0; round < goal_.rounds; ++round) {
-            step();
+        for (std::int32_t round = 0; round < rounds; ++round) {
+            apply(limited(objective_.solve()));
             const double before = cost;
             const double now = objective_.evaluate(pose_);
             const bool is_gain = now < cost - k_gain * cost - k_gain_m2;
@@ -47,7 +65,59 @@ class Fitter {
         return best;
     }
 
-  private:
+    // A thumb has several minima: on this side of a rail, beyond it, beside it. Starts at the
+    // cheapest of a few bends with the rest of the hand at `best`: the thumb moves alone, then the
+    // whole hand.
+    void try_thumb(std::size_t t, HandFit& best) {
+        const HandPose hand = best.pose;
+        FingerAngles cheapest;
+        double least = std::numeric_limits<double>::infinity();
+        for (int bend = 0; bend < k_thumb_bends; ++bend) {
+            pose_ = hand;
+            pose_.fingers[t] = thumb_at(rig_.fingers[t], (goal_.thumb_try + 0.5) / k_thumb_tries,
+                                        bend * k_thumb_bend_share);
+            const double cost = objective_.evaluate_thumb(pose_, t);
+            if (cost < least) {
+                least = cost;
+                cheapest = pose_.fingers[t];
+            }
+        }
+        pose_.fingers[t] = cheapest;
+        move_thumb(t);
+        const HandFit fit = descend(k_thumb_rounds);
+        if (fit.cost < k_change_thumb_share * best.cost) {
+            best = fit;
+        }
+    }
+
+    // Shares of the ranges of the opposition and, from straight on, of the hinges.
+    static FingerAngles thumb_at(const FingerRig& thumb, double opposition, double bend) {
+        FingerAngles angles;
+        angles.opposition_rad =
+            thumb.lower_opposition_rad +
+            opposition * (thumb.upper_opposition_rad - thumb.lower_opposition_rad);
+        for (std::size_t i = 0; i < thumb.link_count; ++i) {
+            const double straight_rad = std::clamp(0.0, thumb.lower_rad[i], thumb.upper_rad[i]);
+            angles.curl_rad[i] = straight_rad + bend * (thumb.upper_rad[i] - straight_rad);
+        }
+        return angles;
+    }
+
+    // Rounds of the thumb alone. Ends at the cheapest.
+    void move_thumb(std::size_t t) {
+        double cost = objective_.evaluate_thumb(pose_, t);
+        for (std::int32_t round = 0; round < k_thumb_rounds; ++round) {
+            const FingerAngles before = pose_.fingers[t];
+            apply(objective_.solve_thumb(t));
+            const double now = objective_.evaluate_thumb(pose_, t);
+            if (!(now < cost)) {
+                pose_.fingers[t] = before;
+                return;
+            }
+            cost = now;
+        }
+    }
+
     HandFit described(double cost) const {
         HandFit fit;
         fit.cost = cost;
@@ -59,14 +129,12 @@ class Fitter {
         return fit;
     }
 
-    // Moves the pose by the solution of the problem that the objective built there.
-    void step() {
-        Unknowns change = objective_.solve();
+    static Unknowns limited(Unknowns change) {
         const double move_m = change.head<3>().norm();
         const double turn_rad = change.segment<3>(3).norm();
         change *= std::min(k_max_move_m / std::max(k_max_move_m, move_m),
                            k_max_turn_rad / std::max(k_max_turn_rad, turn_rad));
-        apply(change);
+        return change;
     }
 
     void apply(const Unknowns& change) {

@@ -18,8 +18,12 @@
 //                                            from the tracked wrist; arm = k_fit_arm_m
 //   + 2   sum_d pull(gap_d)                  nearest sphere of each digit d that touched something
 //                                            when the hand closed, or is within k_sphere_reach_m
+//   + 0.7 pull(gap_p)                        nearest sphere of the palm, within k_sphere_reach_m
 //   + 1   sum_f pull(tip_f)                  each finger's tip; fingers f are without the thumb
-//   + 0.5 tip_t^2                            the thumb's tip
+//   + tip_t^2                                the thumb's tip; beyond k_tip_reach_m as at it
+//   + 0.05 l^2 |pad_t + away_t|^2            the thumb's pad faces the surface: pad_t: unit normal
+//                                            of its last link's pad, away_t: unit, from the surface
+//                                            to the tip; beyond the tip's reach 0.1 l^2
 //   + 0.3 sum_f (l (d_f - d_f+1))^2          fan: neighbours point alike; d: direction from knuckle
 //                                            to tip, linear in the angles
 //   + 0.3 sum_f s |l (q_f - q_f+1)|^2        alike: neighbours bend alike if one of them touches
@@ -27,7 +31,7 @@
 //   + 0.1 sum_f (l (q3 - 2/3 q2))^2          couple: the last hinge follows the middle one
 //   + 0.15 (l (q3 - q2))^2                   the same for the thumb's last two hinges
 //   + 0.01 sum_f (l (q2 - q1))^2             roll: the middle bends as far as the knuckle
-//   + 0.002 (l (o - o_closed))^2             opposition: the thumb stays where it closed
+//   + 0.02 (l (o - o_rest))^2                opposition: the thumb stays near its rest pose
 //   + 0.2 sum_f (l s_f)^2                    spread: fingers stay in their planes; s: turn about
 //                                            the normal of the flat hand at the knuckle
 //   + 2e-5 sum (l (q - q_rest))^2            rest: keeps every angle determined; 0.002 for a thumb
@@ -66,18 +70,20 @@ inline constexpr double k_claw_rad = 20.0 * k_degree;
 inline constexpr double k_max_converging_rad = 4.0 * k_degree;
 inline constexpr double k_bent_spread_rad = 90.0 * k_degree;
 inline constexpr double k_bent_spread_share = 0.4;
+inline constexpr std::uint32_t k_thumb_tries = 6;
 
 struct HandFitGoal {
     HandPose first;  // where the rounds start: the closing's result, or the last fit's
-    // Angles from the closing. Only a thumb's opposition is read.
-    std::array<FingerAngles, k_finger_count> closed;
+    double rest_opposition_rad = 0.0;               // o_rest
     std::array<bool, k_finger_count> touches = {};  // the closing found a contact
     // `first` is known to be outside solids (see HandSpheres)
     std::array<bool, k_finger_count> is_clear = {};
     std::array<bool, k_finger_count> is_fixed = {};  // the angles do not change (authored poses)
     bool is_wrist_fixed = false;                     // the wrist does not move
     std::int32_t rounds = 0;                         // maximum number of rounds
-    double max_flex_rad = 0.4;                       // largest step of an angle in one round
+    // After the rounds, others start from a thumb at this opposition, of k_thumb_tries; < 0: none.
+    std::int32_t thumb_try = -1;
+    double max_flex_rad = 0.4;  // largest step of an angle in one round
 };
 
 struct HandFit {

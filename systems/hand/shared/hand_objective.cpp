@@ -11,7 +11,9 @@ namespace {
 // The weights and lengths of hand_fit.hpp.
 constexpr double k_touch = 2.0;
 constexpr double k_tip = 1.0;
-constexpr double k_thumb_tip = 0.5;
+constexpr double k_thumb_tip = 1.0;
+constexpr double k_pad = 0.05;
+constexpr double k_palm_touch = 0.7;
 constexpr double k_fan = 0.3;
 constexpr double k_alike = 0.3;
 constexpr double k_free_gap_m = 1e-3;  // gap at which fingers bend alike by half the weight
@@ -19,7 +21,7 @@ constexpr double k_couple = 0.1;
 constexpr double k_coupling = 2.0 / 3.0;
 constexpr double k_couple_thumb = 0.15;
 constexpr double k_roll = 0.01;
-constexpr double k_opposition = 0.002;
+constexpr double k_opposition = 0.02;
 constexpr double k_spread = 0.2;
 constexpr double k_rest = 2e-5;
 constexpr double k_rest_of_free_thumb = 0.002;
@@ -53,25 +55,42 @@ double opposition_share(const FingerRig& finger, double knuckle_rad) {
 }
 
 double HandObjective::evaluate(const HandPose& pose) {
+    begin(pose);
+    add_wrist();
+    for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
+        add_digit(f);
+    }
+    add_palm_touch();
+    add_neighbours();
+    add_contacts(spheres_.all());
+    add_digit_gaps();
+    add_palm_limits();
+    return problem_.cost_m2();
+}
+
+double HandObjective::evaluate_thumb(const HandPose& pose, std::size_t t) {
+    begin(pose);
+    add_digit(t);
+    add_contacts(spheres_.of_digit(t));
+    add_digit_gaps();
+    return problem_.cost_m2();
+}
+
+void HandObjective::begin(const HandPose& pose) {
     pose_ = pose;
     place_links();
     spheres_.query(pose_, frames_);
     problem_.clear();
-    add_wrist();
-    for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
-        add_hinges(f);
-        if (layout_.opposition(f) >= 0 && is_thumb(rig_.fingers[f])) {
-            add_opposition(f);
-        } else if (layout_.opposition(f) >= 0) {
-            add_spread(f);
-        }
-        add_attraction(f);
+}
+
+void HandObjective::add_digit(std::size_t f) {
+    add_hinges(f);
+    if (layout_.opposition(f) >= 0 && is_thumb(rig_.fingers[f])) {
+        add_opposition(f);
+    } else if (layout_.opposition(f) >= 0) {
+        add_spread(f);
     }
-    add_neighbours();
-    add_contacts();
-    add_digit_gaps();
-    add_palm_limits();
-    return problem_.cost_m2();
+    add_attraction(f);
 }
 
 void HandObjective::place_links() {
@@ -86,13 +105,24 @@ void HandObjective::place_links() {
 }
 
 Unknowns HandObjective::solve() {
+    add_step_limits(6, layout_.end());
+    hold_fixed_unknowns();
+    return problem_.solve();
+}
+
+Unknowns HandObjective::solve_thumb(std::size_t t) {
+    const int first = layout_.hinge(t, 0);
+    const int count = layout_.count_of(t);
+    add_step_limits(first, first + count);
+    return problem_.solve_some(first, count);
+}
+
+void HandObjective::add_step_limits(int first, int end) {
     const FitPart part(FitTerm::joints, FitTerms::k_palm);  // costs nothing where it starts
-    for (int i = 6; i < layout_.end(); ++i) {
+    for (int i = first; i < end; ++i) {
         problem_.add_row(part, unit(i), goal_.max_flex_rad, k_joint_limit * k_lever2);
         problem_.add_row(part, unit(i, -1.0), goal_.max_flex_rad, k_joint_limit * k_lever2);
     }
-    hold_fixed_unknowns();
-    return problem_.solve();
 }
 
 void HandObjective::add_wrist() {
@@ -157,7 +187,7 @@ void HandObjective::add_opposition(std::size_t f) {
     const int place = layout_.opposition(f);
     const double angle_rad = pose_.fingers[f].opposition_rad;
     problem_.add_square({FitTerm::opposition, f}, k_opposition * k_lever2,
-                        angle_rad - goal_.closed[f].opposition_rad, unit(place));
+                        angle_rad - goal_.rest_opposition_rad, unit(place));
     problem_.add_row({FitTerm::joints, f}, unit(place), angle_rad - finger.lower_opposition_rad,
                      k_joint_limit * k_lever2);
     problem_.add_row({FitTerm::joints, f}, unit(place, -1.0),
@@ -188,18 +218,44 @@ void HandObjective::add_spread(std::size_t f) {
 
 void HandObjective::add_attraction(std::size_t f) {
     for (const HandSphere& sphere : spheres_.of_digit(f)) {
-        if (!sphere.is_tip || !sphere.has_gap) {
-            continue;
-        }
-        if (is_thumb(rig_.fingers[f])) {
-            problem_.add_square({FitTerm::tip, f}, k_thumb_tip, sphere.gap_m, slope_of(sphere));
-        } else {
+        if (sphere.is_tip && is_thumb(rig_.fingers[f])) {
+            add_thumb_tip(f, sphere);
+        } else if (sphere.is_tip && sphere.has_gap) {
             add_pull({FitTerm::tip, f}, k_tip, sphere);
         }
     }
     const HandSphere* const nearest = spheres_.nearest(f);
     if (nearest != nullptr && (goal_.touches[f] || nearest->gap_m < k_sphere_reach_m)) {
         add_pull({FitTerm::touch, f}, k_touch, *nearest);
+    }
+}
+
+void HandObjective::add_thumb_tip(std::size_t f, const HandSphere& tip) {
+    if (!tip.has_gap) {  // leaving the reach of the surface must not be a gain
+        problem_.add_constant({FitTerm::tip, f}, 0.5 * k_thumb_tip * k_tip_reach_m * k_tip_reach_m);
+        problem_.add_constant({FitTerm::pad, f}, k_pad * k_lever2);
+        return;
+    }
+    problem_.add_square({FitTerm::tip, f}, k_thumb_tip, tip.gap_m, slope_of(tip));
+    const Vec3 pad = frames_[f][tip.link].rotation * -Vec3::UnitY();
+    for (int i = 0; i < 3; ++i) {
+        const Vec3 turns = pad.cross(Vec3::Unit(i));  // change of pad[i] per radian about each axis
+        Unknowns slope = Unknowns::Zero();
+        slope.segment<3>(3) = turns;
+        for (std::size_t link = 0; link <= tip.link; ++link) {
+            slope[layout_.hinge(f, link)] = hinge_axis_[f][link].dot(turns);
+        }
+        if (layout_.opposition(f) >= 0) {
+            slope[layout_.opposition(f)] = opposition_axis_[f].dot(turns);
+        }
+        problem_.add_square({FitTerm::pad, f}, k_pad * k_lever2, pad[i] + tip.away[i], slope);
+    }
+}
+
+void HandObjective::add_palm_touch() {
+    const HandSphere* const nearest = spheres_.nearest_of_palm();
+    if (nearest != nullptr) {
+        add_pull({FitTerm::touch, FitTerms::k_palm}, k_palm_touch, *nearest);
     }
 }
 
@@ -285,8 +341,8 @@ double HandObjective::along(const Unknowns& slope) const {
     return sum_rad;
 }
 
-void HandObjective::add_contacts() {
-    for (const HandSphere& sphere : spheres_.all()) {
+void HandObjective::add_contacts(std::span<const HandSphere> spheres) {
+    for (const HandSphere& sphere : spheres) {
         if (sphere.has_gap) {
             const std::size_t part = sphere.finger == HandSphere::k_palm
                                          ? FitTerms::k_palm

@@ -35,6 +35,10 @@ class HandObjective {
     // per evaluate(). goal.max_flex_rad and what the goal fixes are penalties here, so the result
     // may exceed them slightly: the caller clamps it.
     Unknowns solve();
+    // The same for the thumb at index `t` alone: the rest of the hand stays where it was at the
+    // first evaluation, and costs nothing.
+    double evaluate_thumb(const HandPose& pose, std::size_t t);
+    Unknowns solve_thumb(std::size_t t);
 
     const HandUnknowns& layout() const { return layout_; }
     // These three are as of the last evaluate(). center(): of the palm, in the body's frame.
@@ -43,8 +47,11 @@ class HandObjective {
     double penetration_m() const { return spheres_.penetration_m(); }
 
   private:
+    void begin(const HandPose& pose);
     void place_links();
     void add_wrist();
+    void add_digit(std::size_t f);
+    void add_step_limits(int first, int end);
     void add_hinges(std::size_t f);
     // Adds the couple term: the last hinge bends with its parent.
     void add_coupling(std::size_t f);
@@ -55,6 +62,8 @@ class HandObjective {
     // Adds the touch and tip terms, which pull a digit's nearest sphere and its tip to the surface.
     // Spheres at knuckles are not pulled.
     void add_attraction(std::size_t f);
+    void add_thumb_tip(std::size_t f, const HandSphere& tip);
+    void add_palm_touch();
     // Adds pull / 2 * gap^2 / (1 + gap^2 / g^2), as the square that has the same slope here
     // (iteratively reweighted least squares). A gap of 0 is pulled too, so that the wrist does not
     // leave it.
@@ -72,7 +81,7 @@ class HandObjective {
     void add_converging(std::size_t a, std::size_t b);
     // Sum of the pose's curls, weighted by `slope`.
     double along(const Unknowns& slope) const;
-    void add_contacts();
+    void add_contacts(std::span<const HandSphere> spheres);
     // Adds the inequalities that keep the thumb out of the fingers.
     void add_digit_gaps();
     void add_palm_limits();

@@ -35,7 +35,22 @@ Vec3 center_of(const HandSphere& sphere, const HandPose& pose, const HandLinkFra
     return transform_point(frame, sphere.center_ls);
 }
 
+const HandSphere* nearest_of(std::span<const HandSphere> spheres) {
+    const HandSphere* nearest = nullptr;
+    for (const HandSphere& sphere : spheres) {
+        const bool counts = sphere.has_gap && !is_knuckle(sphere);
+        if (counts && (nearest == nullptr || sphere.gap_m < nearest->gap_m)) {
+            nearest = &sphere;
+        }
+    }
+    return nearest;
+}
+
 }  // namespace
+
+bool is_knuckle(const HandSphere& sphere) {
+    return sphere.finger != HandSphere::k_palm && sphere.link == 0 && sphere.center_ls.isZero();
+}
 
 HandLinkFrames link_frames(const HandRig& rig, const HandPose& pose) {
     HandLinkFrames frames;
@@ -270,19 +285,12 @@ void HandSpheres::query_sphere(HandSphere& sphere, const HandSphere* near_sphere
     sphere.signed_m = signed_m;
 }
 
-bool is_knuckle(const HandSphere& sphere) {
-    return sphere.finger != HandSphere::k_palm && sphere.link == 0 && sphere.center_ls.isZero();
+const HandSphere* HandSpheres::nearest(std::size_t finger) const {
+    return nearest_of(of_digit(finger));
 }
 
-const HandSphere* HandSpheres::nearest(std::size_t finger) const {
-    const HandSphere* nearest = nullptr;
-    for (const HandSphere& sphere : of_digit(finger)) {
-        const bool counts = sphere.has_gap && !is_knuckle(sphere);
-        if (counts && (nearest == nullptr || sphere.gap_m < nearest->gap_m)) {
-            nearest = &sphere;
-        }
-    }
-    return nearest;
+const HandSphere* HandSpheres::nearest_of_palm() const {
+    return nearest_of(all().first(first_[0]));
 }
 
 double HandSpheres::penetration_m() const {

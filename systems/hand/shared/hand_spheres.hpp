@@ -88,6 +88,8 @@ class HandSpheres {
     }
     // The sphere of a digit with the smallest gap, knuckles left out; null: none in reach.
     const HandSphere* nearest(std::size_t finger) const;
+    // The same of the palm.
+    const HandSphere* nearest_of_palm() const;
     double penetration_m() const;  // depth of the deepest sphere, >= 0
     // Smallest gap of a digit, knuckles included; infinity: no surface in reach.
     double gap_m(std::size_t finger) const;

@@ -19,6 +19,11 @@ class HandUnknowns {
         return first_[finger] + static_cast<int>(link);
     }
     int opposition(std::size_t finger) const { return opposition_[finger]; }  // -1: none
+    // Number of the digit's unknowns, which are next to each other from hinge(finger, 0) on.
+    int count_of(std::size_t finger) const {
+        return static_cast<int>(rig_.fingers[finger].link_count) +
+               (opposition_[finger] >= 0 ? 1 : 0);
+    }
     std::size_t count() const { return count_; }
     int end() const { return static_cast<int>(count_); }
 

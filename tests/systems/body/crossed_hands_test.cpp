@@ -15,8 +15,10 @@ using test::Random;
 double turn_deg(Random& random, double crossed_m) {
     const Vec3 eyes(0.0, 1.6, 0.0);
     const auto hand = [&](double side_m) {
-        const Vec3 from(side_m, random.between(-0.5, -0.25), random.between(-0.45, -0.15));
-        return Pose{eyes + from, rotation_about(Vec3::UnitY(), random.between(-0.5, 0.5))};
+        const double below_m = random.between(0.25, 0.5);
+        const double ahead_m = random.between(0.15, 0.45);
+        return Pose{eyes + Vec3(side_m, -below_m, -ahead_m),
+                    rotation_about(Vec3::UnitY(), random.between(-0.5, 0.5))};
     };
     test::BodyColumns columns;
     columns.add_player();

@@ -45,7 +45,6 @@ struct FitTermsOfHand : testing::Test {
             wrist_bs.position + moved_m,
             (wrist_bs.rotation * rotation_about(random.direction(), 0.2)).normalized()};
         for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
-            goal.closed[f] = random_angles(f, random);
             goal.first.fingers[f] = random_angles(f, random);
             goal.touches[f] = random.between(0.0, 1.0) < 0.6;
             goal.is_clear[f] = random.between(0.0, 1.0) < 0.5;
@@ -106,7 +105,7 @@ TEST_F(FitTermsOfHand, ShownHandHasTheTermsOfItsFit) {
         hand.frame(k_unlimited_s);
         const PalmOffset& offset = hand.offset.at(k_right);
         const auto terms = shown_fit_terms(hand.hands.front(), hand.surface.at(k_right), offset,
-                                           hand.pose(), hand.tuning.palm);
+                                           hand.pose(), hand.tuning);
         ASSERT_TRUE(terms);
         const Vec3 moved_m =
             hand.palm_center_bs() - transform_point(hand.wrist_bs(), rig.palm_center_hs);
@@ -122,7 +121,7 @@ TEST_F(FitTermsOfHand, ShownHandHasTheTermsOfItsFit) {
 
 TEST_F(FitTermsOfHand, HandOnNoSurfaceHasNone) {
     const FittedHand hand(beam, {});
-    EXPECT_FALSE(shown_fit_terms(hand.hands.front(), {}, {}, {}, hand.tuning.palm));
+    EXPECT_FALSE(shown_fit_terms(hand.hands.front(), {}, {}, {}, hand.tuning));
 }
 
 TEST_F(FitTermsOfHand, ChangeOfOneFingerConcernsItAndItsNeighbours) {
@@ -203,13 +202,45 @@ TEST_F(FitTermsOfHand, TipsArePulledToTheSurface) {
             const bool is_reached = gap_m < k_tip_reach_m;
             pulled += is_reached ? 1 : 0;
             out_of_reach += is_reached ? 0 : 1;
-            const double cost_m2 = f == 0 ? 0.5 * gap_m * gap_m : pull_m2(gap_m);
-            EXPECT_NEAR(cost_of(terms, f, FitTerm::tip), is_reached ? 0.5 * cost_m2 : 0.0, 1e-9)
+            const double reach_m = std::min(gap_m, k_tip_reach_m);
+            const double of_finger_m2 = is_reached ? pull_m2(gap_m) : 0.0;
+            EXPECT_NEAR(cost_of(terms, f, FitTerm::tip),
+                        0.5 * (f == 0 ? reach_m * reach_m : of_finger_m2), 1e-9)
                 << i << ", digit " << f;
         }
     }
     EXPECT_GT(pulled, 50);
     EXPECT_GT(out_of_reach, 10);
+}
+
+// A thumb at a height over the floor, at any angle: its pad costs by how far it is from facing it.
+TEST_F(FitTermsOfHand, ThumbsPadFacesTheSurface) {
+    Random random(2608);
+    constexpr double k_lever2 = 0.05 * 0.05;
+    int reached = 0;
+    for (int i = 0; i < 60; ++i) {
+        FittedHand hand(floor, wrist_with_palm_at(rig, {0.0, 0.02, 0.0}, Vec3::UnitY()));
+        hand.search();
+        HandFitGoal goal;
+        goal.first.wrist_bs = hand.wrist_bs();
+        goal.first.wrist_bs.position.y() += random.between(0.0, 0.08);
+        goal.first.fingers[0] = random_angles(0, random);
+        const FingerRig& thumb = rig.fingers[0];
+        const auto frames_hs = finger_link_frames(thumb, goal.first.fingers[0]);
+        const Pose last = goal.first.wrist_bs * frames_hs[thumb.link_count - 1];
+        const Vec3 tip = transform_point(last, {0.0, 0.0, -thumb.length_m[thumb.link_count - 1]});
+        const double gap_m = tip.y() - thumb.radius_m[thumb.link_count - 1];
+        if (gap_m < 0.0 || std::abs(gap_m - k_tip_reach_m) < 1e-6) {
+            continue;
+        }
+        const Vec3 pad = last.rotation * -Vec3::UnitY();
+        const bool is_reached = gap_m < k_tip_reach_m;
+        reached += is_reached ? 1 : 0;
+        const double apart2 = is_reached ? (pad + Vec3::UnitY()).squaredNorm() : 2.0;
+        EXPECT_NEAR(cost_of(terms_of(hand, goal), 0, FitTerm::pad), 0.5 * 0.05 * k_lever2 * apart2,
+                    1e-12);
+    }
+    EXPECT_GT(reached, 20);
 }
 
 // Closed forms of hand_fit.hpp: claw, and the coupling of the thumb's last two hinges.

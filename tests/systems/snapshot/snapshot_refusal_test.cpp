@@ -82,7 +82,7 @@ TEST_F(SnapshotRefuses, AnotherFormatVersion) {
         SnapshotBytes other(bytes_);
         other.put(8, version);
         expect_refused(other,
-                       "byte 8: expected format version 12, found " + std::to_string(version));
+                       "byte 8: expected format version 13, found " + std::to_string(version));
     }
 }
 
