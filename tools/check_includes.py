@@ -73,6 +73,7 @@ LIBRARIES = [
     library("ngtcp2", r"ngtcp2/", r"\bngtcp2_\w+|\bNGTCP2_\w+", r"game/net/quic_\w+\.[ch]pp", "game/net/quic_*"),
     library("GnuTLS", r"gnutls/", r"\bgnutls_\w+|\bGNUTLS_\w+", r"game/net/(quic_tls\.[ch]pp|quic_callbacks\.cpp|hmac_gnutls\.cpp)",
             "game/net/quic_tls.* and hmac_gnutls.cpp"),
+    library("zstd", r"zstd", r"\bZSTD_\w+", r"game/net/pack_state_zstd\.cpp", "game/net/pack_state_zstd.cpp"),
     library("OpenSSL", r"openssl/", None, r"game/net/hmac_openssl\.cpp", "game/net/hmac_openssl.cpp"),
     library("SDL", r"SDL", r"\bSDL_\w+", r"game/desktop/window\.cpp", "game/desktop/window.cpp"),
     library("Dear ImGui", r"imgui", r"\bIm(Gui|Vec2|Vec4|Draw|Font)\w*", r"game/ui/.*", "game/ui/"),

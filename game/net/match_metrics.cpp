@@ -98,6 +98,9 @@ std::string MatchServer::metrics() const {
     out.add("failed_total", "counter", "Connections that ended by a fault of this program.",
             as_number(counts_.failed));
     out.add("states_total", "counter", "States sent to players.", as_number(counts_.states));
+    out.begin("state_bytes_total", "counter", "Bytes of these states.");
+    out.line("state_bytes_total", "{as=\"made\"}", as_number(counts_.state_bytes));
+    out.line("state_bytes_total", "{as=\"sent\"}", as_number(counts_.state_bytes_packed));
     add_traffic(listener_.counts(), out);
     return out.take();
 }

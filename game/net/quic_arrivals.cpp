@@ -12,7 +12,8 @@ constexpr std::size_t k_least_initial_bytes = 1200;
 constexpr ngtcp2_duration k_retry_within = 10 * NGTCP2_SECONDS;
 constexpr ngtcp2_duration k_token_within = 3600 * NGTCP2_SECONDS;
 // A handshake costs about a millisecond of the processor.
-constexpr JoinRate k_handshakes{32.0, 64.0};
+constexpr JoinRate k_strangers{16.0, 32.0};
+constexpr JoinRate k_handshakes{64.0, 128.0};
 constexpr JoinRate k_handshakes_of_address{8.0, 48.0};
 
 ngtcp2_version_cid read_ids(std::span<const std::uint8_t> datagram, int& result) {
@@ -25,7 +26,10 @@ ngtcp2_version_cid read_ids(std::span<const std::uint8_t> datagram, int& result)
 }  // namespace
 
 QuicArrivals::QuicArrivals(UdpSocket& socket, const UdpPlace& own)
-    : socket_(socket), own_(own), handshakes_(k_handshakes, k_handshakes_of_address) {
+    : socket_(socket),
+      own_(own),
+      of_strangers_(k_strangers, k_strangers),
+      of_addresses_(k_handshakes, k_handshakes_of_address) {
     if (!fill_randomly(secret_.data(), secret_.size())) {
         throw std::runtime_error("this system gives no random numbers");
     }
@@ -33,7 +37,9 @@ QuicArrivals::QuicArrivals(UdpSocket& socket, const UdpPlace& own)
 
 void QuicArrivals::begin_poll() {
     const double now_s = static_cast<double>(quic_now()) / NGTCP2_SECONDS;
-    handshakes_.refill(refilled_s_ > 0.0 ? now_s - refilled_s_ : 0.0);
+    const double elapsed_s = refilled_s_ > 0.0 ? now_s - refilled_s_ : 0.0;
+    of_strangers_.refill(elapsed_s);
+    of_addresses_.refill(elapsed_s);
     refilled_s_ = now_s;
     answers_ = 0;
 }
@@ -41,6 +47,9 @@ void QuicArrivals::begin_poll() {
 bool QuicArrivals::may_answer() { return ++answers_ <= k_most_answers; }
 
 std::string QuicArrivals::id_of(const UdpPlace& from, std::span<const std::uint8_t> datagram) {
+    if (datagram.empty()) {
+        return {};  // ngtcp2 ends the program
+    }
     int result = 0;
     const ngtcp2_version_cid ids = read_ids(datagram, result);
     if (result == 0) {
@@ -81,11 +90,11 @@ std::optional<QuicArrival> QuicArrivals::admit(const UdpPlace& from,
     if (arrival.header.version != NGTCP2_PROTO_VER_V1 || !check_token(arrival)) {
         return std::nullopt;
     }
-    if (!arrival.has_token && half_open >= k_most_half_open) {
-        send_retry(arrival);
-        return std::nullopt;
+    if (arrival.has_token) {
+        return of_addresses_.take(from.text()) ? std::optional(arrival) : std::nullopt;
     }
-    if (!handshakes_.take(from.text())) {
+    if (half_open >= k_most_half_open || !of_strangers_.take("")) {
+        send_retry(arrival);
         return std::nullopt;
     }
     return arrival;

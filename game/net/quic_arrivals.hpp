@@ -15,7 +15,8 @@ namespace handhold {
 // stranger sends costs at most an answer that is not longer than it.
 class QuicArrivals {
   public:
-    // While so many handshakes wait for an address to answer, further ones begin with a Retry.
+    // While so many handshakes wait for an address to answer, or many have begun of late, further
+    // ones begin with a Retry.
     static constexpr std::size_t k_most_half_open = 8;
     // Answers to strangers in one poll: Retry, other version, reset.
     static constexpr int k_most_answers = 32;
@@ -29,7 +30,7 @@ class QuicArrivals {
     // A datagram that is for no connection. nullopt: it begins none, or not yet.
     std::optional<QuicArrival> admit(const UdpPlace& from, std::span<const std::uint8_t> datagram,
                                      std::size_t half_open);
-    // Tells an arrival that there is no room.
+    // Tells an arrival that the server takes no more connections.
     void refuse(const QuicArrival& arrival);
 
     // Of tokens and resets; chosen at random when the server begins.
@@ -45,7 +46,8 @@ class QuicArrivals {
     UdpSocket& socket_;
     const UdpPlace& own_;
     QuicSecret secret_{};
-    JoinLimits handshakes_;
+    JoinLimits of_strangers_;  // handshakes, all together
+    JoinLimits of_addresses_;  // likewise, of addresses that are known to be their peer's
     double refilled_s_ = 0.0;
     int answers_ = 0;
     std::uint64_t retries_ = 0;

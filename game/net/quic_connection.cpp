@@ -11,6 +11,8 @@ namespace handhold {
 namespace {
 
 constexpr int k_most_packets_at_once = 32;
+// On a fast network ngtcp2 acknowledges at once, which would double the number of packets.
+constexpr ngtcp2_duration k_idle_between = 12 * NGTCP2_MILLISECONDS;
 
 ngtcp2_path path_of(UdpPlace& own, UdpPlace& peer) {
     return {{own.data(), UdpPlace::size()}, {peer.data(), UdpPlace::size()}, nullptr};
@@ -145,7 +147,7 @@ std::unique_ptr<QuicConnection> QuicConnection::connect(const TlsCredentials& cr
 
 void QuicConnection::read(UdpSocket& socket, const UdpPlace& from,
                           std::span<const std::uint8_t> datagram, const Take& take) {
-    if (end_ != QuicEnd::none) {
+    if (end_ != QuicEnd::none || datagram.empty()) {
         return;
     }
     UdpPlace peer = from;
@@ -255,6 +257,9 @@ void QuicConnection::write(UdpSocket& socket) {
         return;
     }
     const ngtcp2_tstamp now = quic_now();
+    if (is_idle() && now < wrote_ + k_idle_between) {
+        return;
+    }
     if (ngtcp2_conn_get_expiry(connection_) <= now) {
         if (const int result = ngtcp2_conn_handle_expiry(connection_, now); result != 0) {
             fail(socket, result);
@@ -277,18 +282,21 @@ void QuicConnection::write(UdpSocket& socket) {
         is_any = true;
         UdpPlace to;
         to.address = path.remote_addrbuf.in;
-        ++sent_.packets;
-        sent_.bytes += static_cast<std::uint64_t>(size);
         socket.send(to,
                     std::span<const std::uint8_t>(packet).first(static_cast<std::size_t>(size)));
     }
     if (is_any) {
+        wrote_ = now;
         ngtcp2_conn_update_pkt_tx_time(connection_, now);
     }
 }
 
 ngtcp2_tstamp QuicConnection::due() const {
-    return end_ == QuicEnd::none ? ngtcp2_conn_get_expiry(connection_) : UINT64_MAX;
+    if (end_ != QuicEnd::none) {
+        return UINT64_MAX;
+    }
+    const ngtcp2_tstamp expiry = ngtcp2_conn_get_expiry(connection_);
+    return is_idle() ? std::max(expiry, wrote_ + k_idle_between) : expiry;
 }
 
 UdpPlace QuicConnection::peer() const {
@@ -307,8 +315,6 @@ void QuicConnection::send_close(UdpSocket& socket, const ngtcp2_connection_close
     if (size > 0) {
         UdpPlace to;
         to.address = path.remote_addrbuf.in;
-        ++sent_.packets;
-        sent_.bytes += static_cast<std::uint64_t>(size);
         socket.send(to,
                     std::span<const std::uint8_t>(packet).first(static_cast<std::size_t>(size)));
     }

@@ -54,10 +54,10 @@ struct QuicConnectionSettings {
 };
 
 enum class QuicEnd : std::uint8_t {
-    none,     // it lives
-    closed,   // by the other side, or by us, or it is silent
+    none,     // the connection exists
+    closed,   // ended by the other side or by us, or silent
     message,  // the other side sent what is no message
-    dropped,  // it never was one, and nobody is told
+    dropped,  // never a connection; nobody is told
 };
 
 // One connection: messages of both deliveries, over datagrams (RFC 9221) and one stream each way.
@@ -94,7 +94,7 @@ class QuicConnection {
     // The address is the other side's: it has answered.
     bool has_valid_address() const { return has_valid_address_; }
     QuicEnd end() const { return end_; }
-    const std::string& why() const { return why_; }  // it has ended; one line
+    const std::string& why() const { return why_; }  // one line; empty: not ended
     UdpPlace peer() const;                           // where packets are sent
     std::size_t queued_bytes() const { return newest_bytes_ + stream_.unsent_bytes(); }
     bool is_all_delivered() const { return newest_.empty() && stream_.is_all_acknowledged(); }
@@ -103,12 +103,6 @@ class QuicConnection {
     std::uint64_t sent_messages() const { return sent_messages_; }
     std::uint64_t sent_bytes() const { return sent_bytes_; }
     std::uint64_t dropped() const { return dropped_; }  // messages of Delivery::newest
-
-    struct Traffic {
-        std::uint64_t packets = 0;
-        std::uint64_t bytes = 0;  // UDP payload
-    };
-    const Traffic& sent() const { return sent_; }
 
   private:
     friend struct QuicCallbacks;
@@ -119,6 +113,8 @@ class QuicConnection {
     void fail(UdpSocket& socket, int error);
     void send_close(UdpSocket& socket, const ngtcp2_connection_close_error& error);
     std::string text_of_error(int error) const;
+    // Nothing but acknowledgements and timers: these ride on the next tick's packet.
+    bool is_idle() const { return is_open_ && queued_bytes() == 0; }
     ngtcp2_ssize write_packet(std::span<std::uint8_t> packet, ngtcp2_path_storage& path,
                               ngtcp2_tstamp now);
     ngtcp2_ssize write_newest(std::span<std::uint8_t> packet, ngtcp2_path_storage& path,
@@ -135,7 +131,7 @@ class QuicConnection {
     std::size_t newest_bytes_ = 0;
     StreamWriter stream_;
     std::int64_t stream_id_ = -1;
-    bool is_blocked_ = false;  // by the stream's flow control, until a packet has come
+    bool is_blocked_ = false;  // true: flow control stops the stream until a packet comes
     StreamReader incoming_;
     std::vector<std::vector<std::byte>> taken_;  // messages of the packet that is read
     bool has_bad_message_ = false;
@@ -146,7 +142,7 @@ class QuicConnection {
     std::uint64_t sent_messages_ = 0;
     std::uint64_t sent_bytes_ = 0;
     std::uint64_t dropped_ = 0;
-    Traffic sent_;
+    ngtcp2_tstamp wrote_ = 0;  // when a packet was sent last
 };
 
 }  // namespace handhold

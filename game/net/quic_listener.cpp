@@ -18,7 +18,7 @@ constexpr double k_close_within_s = 0.5;
 constexpr double k_calm_s = 5.0;  // excess is forgotten after so long without any
 constexpr int k_most_throttles = 40;
 constexpr int k_kernel_buffer_bytes = 1 << 22;
-constexpr std::size_t k_headers_bytes = 28;  // of IP and UDP
+constexpr std::size_t k_headers_bytes = 28;  // headers of IP and UDP
 
 double quic_now_s() { return static_cast<double>(quic_now()) / NGTCP2_SECONDS; }
 
@@ -35,8 +35,7 @@ struct QuicPeer {
     double close_before_s = 0.0;  // 0: stays open
     LinkEnd end = LinkEnd::closed;
     bool is_ended = false;
-    QuicConnection::Traffic counted;  // part of the connection's traffic that is in the counts
-    std::uint64_t counted_messages = 0;
+    std::uint64_t counted_messages = 0;  // parts of the connection's sums that are in the counts
     std::uint64_t counted_bytes = 0;
     std::uint64_t counted_dropped = 0;
 };
@@ -79,7 +78,7 @@ class QuicListener final : public DatagramListener {
             socket_.wait(std::min(wait_s, due_in_s()));
         }
         read_all(handler);
-        tend_links(handler);
+        tend_links();
         write_all();
         forget_ended(handler);
     }
@@ -118,16 +117,15 @@ class QuicListener final : public DatagramListener {
             peer.connection->write(socket_);
             count(peer);
         }
+        counts_.sent_datagrams = socket_.sent_datagrams();
+        counts_.sent_datagram_bytes = socket_.sent_bytes();
     }
 
     void count(QuicPeer& peer) {
         const QuicConnection& now = *peer.connection;
-        counts_.sent_datagrams += now.sent().packets - peer.counted.packets;
-        counts_.sent_datagram_bytes += now.sent().bytes - peer.counted.bytes;
         counts_.sent_messages += now.sent_messages() - peer.counted_messages;
         counts_.sent_bytes += now.sent_bytes() - peer.counted_bytes;
         counts_.dropped += now.dropped() - peer.counted_dropped;
-        peer.counted = now.sent();
         peer.counted_messages = now.sent_messages();
         peer.counted_bytes = now.sent_bytes();
         peer.counted_dropped = now.dropped();
@@ -157,7 +155,11 @@ class QuicListener final : public DatagramListener {
         try {
             const std::string id = arrivals_.id_of(from, bytes);
             const auto found = ids_.find(id);
-            link = found != ids_.end() ? found->second : admit(from, bytes);
+            if (found != ids_.end()) {
+                link = found->second;
+            } else if (!id.empty()) {
+                link = admit(from, bytes);
+            }
             if (link == 0) {
                 ++counts_.stray_datagrams;
                 return;
@@ -215,8 +217,7 @@ class QuicListener final : public DatagramListener {
         links_.emplace(link, QuicPeer{.connection = std::move(connection),
                                       .budget = ReceiveBudget(settings_.budget),
                                       .address = address,
-                                      .advanced_s = quic_now_s(),
-                                      .counted = {}});
+                                      .advanced_s = quic_now_s()});
         return link;
     }
 
@@ -286,7 +287,7 @@ class QuicListener final : public DatagramListener {
         peer.connection->close(socket_);
     }
 
-    void tend_links(ListenerHandler& handler) {
+    void tend_links() {
         const double now_s = quic_now_s();
         for (auto& [link, peer] : links_) {
             const QuicConnection& connection = *peer.connection;
@@ -301,7 +302,6 @@ class QuicListener final : public DatagramListener {
                 end(peer, LinkEnd::closed);
             }
         }
-        (void)handler;
     }
 
     void forget_ended(ListenerHandler& handler) {

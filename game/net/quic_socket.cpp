@@ -89,6 +89,8 @@ UdpSocket::Read UdpSocket::receive(UdpPlace& from, std::span<const std::uint8_t>
 }
 
 void UdpSocket::send(const UdpPlace& to, std::span<const std::uint8_t> bytes) {
+    ++sent_datagrams_;
+    sent_bytes_ += bytes.size();
     (void)::sendto(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL, to.data(),
                    UdpPlace::size());
 }

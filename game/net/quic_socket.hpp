@@ -21,7 +21,7 @@ struct UdpPlace {
     sockaddr* data() { return reinterpret_cast<sockaddr*>(&address); }
     const sockaddr* data() const { return reinterpret_cast<const sockaddr*>(&address); }
     static constexpr socklen_t size() { return sizeof(sockaddr_in); }
-    std::string text() const;  // without the port
+    std::string text() const;  // numbers and dots; no port
     int port() const { return ntohs(address.sin_port); }
     bool operator==(const UdpPlace& other) const {
         return address.sin_addr.s_addr == other.address.sin_addr.s_addr &&
@@ -44,7 +44,7 @@ class UdpSocket {
 
     bool is_valid() const { return descriptor_ >= 0; }
     int descriptor() const { return descriptor_; }
-    UdpPlace place() const;  // of this end
+    UdpPlace place() const;  // address of this end
 
     enum class Read : std::uint8_t { datagram, nothing, refused };
     // The next datagram; `bytes` is valid until the next call. `refused`: the other side's system
@@ -52,11 +52,15 @@ class UdpSocket {
     Read receive(UdpPlace& from, std::span<const std::uint8_t>& bytes);
     // A datagram that the system does not take is lost.
     void send(const UdpPlace& to, std::span<const std::uint8_t> bytes);
+    std::uint64_t sent_datagrams() const { return sent_datagrams_; }
+    std::uint64_t sent_bytes() const { return sent_bytes_; }
     // Until a datagram can be read, or the time is over.
     void wait(double seconds) const;
 
   private:
     int descriptor_;
+    std::uint64_t sent_datagrams_ = 0;
+    std::uint64_t sent_bytes_ = 0;
     std::array<std::uint8_t, 2048> buffer_{};
 };
 

@@ -16,8 +16,8 @@ class StreamWriter {
     static constexpr std::size_t k_most_unsent = std::size_t{64} << 10U;
     static constexpr std::size_t k_most_in_flight = std::size_t{256} << 10U;
 
-    // False: there is no room. The receiver has not read for long. Precondition: at most 65535
-    // bytes.
+    // False: the message does not fit. The receiver has not read for long. Precondition: at most
+    // 65535 bytes.
     bool push(std::span<const std::byte> message) {
         if (unsent_bytes() + message.size() + 2 > k_most_unsent) {
             return false;
@@ -31,8 +31,8 @@ class StreamWriter {
         chunks_.push_back(std::move(chunk));
         return true;
     }
-    // What is to be sent next; its address stays the same until it is acknowledged. Empty: nothing
-    // is, or too much is in flight.
+    // The bytes to send next; their address stays the same until they are acknowledged. Empty:
+    // nothing is, or too much is in flight.
     std::span<const std::uint8_t> next() const {
         if (unsent_bytes() == 0 || sent_ - begin_ >= k_most_in_flight) {
             return {};
@@ -48,7 +48,7 @@ class StreamWriter {
             at_ = 0;
         }
     }
-    // Everything before `offset` has arrived.
+    // The other side has everything before `offset`.
     void acknowledge(std::uint64_t offset) {
         while (chunk_ > 0 && begin_ + chunks_.front().size() <= offset) {
             begin_ += chunks_.front().size();
@@ -65,9 +65,9 @@ class StreamWriter {
     std::deque<std::vector<std::uint8_t>> chunks_;
     std::size_t chunk_ = 0;    // index of the chunk that is sent next
     std::size_t at_ = 0;       // bytes of it that are sent
-    std::uint64_t begin_ = 0;  // offsets in the stream: of the first chunk,
-    std::uint64_t sent_ = 0;   // of the first byte that is not sent,
-    std::uint64_t end_ = 0;    // and after the last chunk
+    std::uint64_t begin_ = 0;  // offset of the first chunk
+    std::uint64_t sent_ = 0;   // offset of the first unsent byte
+    std::uint64_t end_ = 0;    // offset after the last chunk
     std::uint64_t acknowledged_ = 0;
 };
 
@@ -97,7 +97,7 @@ class StreamReader {
   private:
     std::size_t size() const { return message_[0] + (std::size_t{message_[1]} << 8U); }
 
-    std::vector<std::uint8_t> message_;  // with its size; not complete
+    std::vector<std::uint8_t> message_;  // incomplete message with its size
 };
 
 }  // namespace handhold

@@ -133,7 +133,7 @@ class WebSocketListener final : public Listener {
     // libwebsockets ends its waiting while the descriptor is readable, and does not read from it.
     void wake_by(int descriptor) {
         lws_sock_file_fd_type other{};
-        other.filefd = ::dup(descriptor);  // it closes its own
+        other.filefd = ::dup(descriptor);  // libwebsockets closes its own
         lws_adopt_descriptor_vhost(lws_get_vhost_by_name(context_.get(), "default"),
                                    LWS_ADOPT_RAW_FILE_DESC, other, k_websocket_protocol, nullptr);
     }
