@@ -116,6 +116,7 @@ struct QuicCallbacks {
             return NGTCP2_ERR_CALLBACK_FAILURE;
         }
         self.is_open_ = true;
+        self.wrote_ = 0;  // the handshake's last packet does not wait
         self.has_valid_address_ = true;
         if (self.settings_.secret != nullptr) {
             offer_token(connection, self);

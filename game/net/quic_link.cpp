@@ -81,7 +81,7 @@ KnownServers& known_servers() {
 class QuicLink final : public Link {
   public:
     QuicLink(const std::string& name, const QuicUrl& url, const UdpPlace& server)
-        : socket_(UdpPlace(), k_kernel_buffer_bytes),
+        : socket_(UdpPlace(), k_kernel_buffer_bytes, UdpSocket::Side::peer),
           credentials_(TlsCredentials::of_peer(url.host, url.fingerprint)) {
         QuicConnectionSettings settings;
         settings.most_message_bytes = k_most_from_server;

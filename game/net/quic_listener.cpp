@@ -46,7 +46,7 @@ class QuicListener final : public DatagramListener {
                  std::unique_ptr<TlsCredentials> credentials)
         : settings_(settings),
           credentials_(std::move(credentials)),
-          socket_(place, k_kernel_buffer_bytes),
+          socket_(place, k_kernel_buffer_bytes, UdpSocket::Side::server),
           own_(socket_.is_valid() ? socket_.place() : place),
           arrivals_(socket_, own_) {}
     ~QuicListener() override {

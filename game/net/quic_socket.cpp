@@ -2,10 +2,14 @@
 
 #include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <memory>
 
 #include <arpa/inet.h>
 #include <fcntl.h>
+#ifdef __linux__
+#include <linux/errqueue.h>
+#endif
 #include <netdb.h>
 #include <poll.h>
 #include <unistd.h>
@@ -33,8 +37,8 @@ std::optional<UdpPlace> find_place(const std::string& host, int port) {
     return out;
 }
 
-UdpSocket::UdpSocket(const UdpPlace& place, int kernel_buffer_bytes)
-    : descriptor_(::socket(AF_INET, SOCK_DGRAM, 0)) {
+UdpSocket::UdpSocket(const UdpPlace& place, int kernel_buffer_bytes, Side side)
+    : descriptor_(::socket(AF_INET, SOCK_DGRAM, 0)), side_(side) {
     if (descriptor_ < 0) {
         return;
     }
@@ -43,7 +47,7 @@ UdpSocket::UdpSocket(const UdpPlace& place, int kernel_buffer_bytes)
 #ifdef IP_RECVERR
     // The socket is not connected, so that it survives a change of network. This tells of errors
     // nevertheless.
-    const int on = 1;
+    const int on = side == Side::peer ? 1 : 0;
     ::setsockopt(descriptor_, IPPROTO_IP, IP_RECVERR, &on, sizeof(on));
 #endif
     if (::fcntl(descriptor_, F_SETFL, O_NONBLOCK) != 0 ||
@@ -71,21 +75,36 @@ UdpSocket::Read UdpSocket::receive(UdpPlace& from, std::span<const std::uint8_t>
     const ssize_t got =
         ::recvfrom(descriptor_, buffer_.data(), buffer_.size(), 0, from.data(), &size);
     if (got < 0) {
-        if (errno != ECONNREFUSED) {
-            return Read::nothing;
-        }
-#ifdef IP_RECVERR
-        // The error's details, which nobody needs, would keep the socket readable.
-        msghdr unread{};
-        std::array<char, 512> control{};
-        unread.msg_control = control.data();
-        unread.msg_controllen = control.size();
-        (void)::recvmsg(descriptor_, &unread, MSG_ERRQUEUE | MSG_DONTWAIT);
-#endif
-        return Read::refused;
+        return side_ == Side::peer && take_refusal() ? Read::refused : Read::nothing;
     }
     bytes = std::span<const std::uint8_t>(buffer_).first(static_cast<std::size_t>(got));
     return Read::datagram;
+}
+
+// Reads what the system tells of datagrams that went nowhere: unread, it would keep the socket
+// readable.
+bool UdpSocket::take_refusal() const {
+    bool is_refused = false;
+#ifdef IP_RECVERR
+    for (;;) {
+        alignas(cmsghdr) std::array<char, 512> control{};
+        msghdr told{};
+        told.msg_control = control.data();
+        told.msg_controllen = control.size();
+        if (::recvmsg(descriptor_, &told, MSG_ERRQUEUE | MSG_DONTWAIT) < 0) {
+            break;
+        }
+        for (const cmsghdr* at = CMSG_FIRSTHDR(&told); at != nullptr;
+             at = CMSG_NXTHDR(&told, const_cast<cmsghdr*>(at))) {
+            sock_extended_err error{};
+            if (at->cmsg_level == IPPROTO_IP && at->cmsg_type == IP_RECVERR) {
+                std::memcpy(&error, CMSG_DATA(at), sizeof(error));
+                is_refused = is_refused || error.ee_errno == ECONNREFUSED;
+            }
+        }
+    }
+#endif
+    return is_refused;
 }
 
 void UdpSocket::send(const UdpPlace& to, std::span<const std::uint8_t> bytes) {

@@ -37,7 +37,9 @@ class UdpSocket {
   public:
     // Bound to `place`; with port 0, to any that is free. The kernel keeps at most about
     // `kernel_buffer_bytes` of what has come; Linux takes twice as much.
-    explicit UdpSocket(const UdpPlace& place, int kernel_buffer_bytes);
+    // A peer's socket is told if nobody listens at the other side.
+    enum class Side : std::uint8_t { server, peer };
+    UdpSocket(const UdpPlace& place, int kernel_buffer_bytes, Side side);
     ~UdpSocket();
     UdpSocket(const UdpSocket&) = delete;
     UdpSocket& operator=(const UdpSocket&) = delete;
@@ -58,7 +60,10 @@ class UdpSocket {
     void wait(double seconds) const;
 
   private:
+    bool take_refusal() const;
+
     int descriptor_;
+    Side side_;
     std::uint64_t sent_datagrams_ = 0;
     std::uint64_t sent_bytes_ = 0;
     std::array<std::uint8_t, 2048> buffer_{};

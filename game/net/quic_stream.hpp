@@ -13,7 +13,7 @@ namespace handhold {
 // Messages that are sent, and kept until the other side has acknowledged them.
 class StreamWriter {
   public:
-    static constexpr std::size_t k_most_unsent = std::size_t{64} << 10U;
+    static constexpr std::size_t k_most_unsent = std::size_t{54} << 10U;
     static constexpr std::size_t k_most_in_flight = std::size_t{256} << 10U;
 
     // False: the message does not fit. The receiver has not read for long. Precondition: at most
