@@ -352,7 +352,7 @@ std::string QuicConnection::text_of_error(int error) const {
             return "other version of QUIC";
         case NGTCP2_ERR_CRYPTO:
             return std::string("TLS: ") +
-                   tls_.text_of_alert(ngtcp2_conn_get_tls_alert(connection_));
+                   TlsSession::text_of_alert(ngtcp2_conn_get_tls_alert(connection_));
         case NGTCP2_ERR_DRAINING: {
             ngtcp2_connection_close_error told;
             ngtcp2_conn_get_connection_close_error(connection_, &told);

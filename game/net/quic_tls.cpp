@@ -86,7 +86,7 @@ Fingerprint use_certificate_made_now(gnutls_certificate_credentials_t credential
            "a certificate");
     gnutls_datum_t der{};
     expect(gnutls_x509_crt_export2(made.certificate, GNUTLS_X509_FMT_DER, &der), "a certificate");
-    const Fingerprint out = fingerprint_of(der);
+    Fingerprint out = fingerprint_of(der);
     gnutls_free(der.data);
     return out;
 }
