@@ -18,6 +18,9 @@ struct ServeOptions {
     int spectators = 8;      // places for them
     std::string record;      // file of the match; empty: none
     bool agones = false;     // tells Agones' sidecar on this machine
+    // Files in PEM, for QUIC; empty: ListenerSettings::certificate.
+    std::string certificate;
+    std::string key;
 };
 // Runs a match for peers that join over a network. Prints lines of a log. After SIGTERM or SIGINT,
 // or `seconds`, tells the peers and ends with 0; k_exit_bad_file, after one line on standard error,

@@ -11,10 +11,20 @@ namespace handhold {
 
 inline void add_serve_options(CLI::App& serve, ServeOptions& options) {
     serve.add_option("--scene", options.scene, "As of run")->required();
-    serve.add_option("--port", options.port, "0: any that is free, which the log says")
+    serve
+        .add_option("--port", options.port,
+                    "Of TCP (WebSocket) and UDP (QUIC); 0: any that is free, which the log says")
         ->check(CLI::Range(0, 65535));
     serve.add_option("--address", options.address,
                      "Of the interface; default: 127.0.0.1, this machine only; 0.0.0.0: all");
+    CLI::Option* const certificate =
+        serve.add_option("--cert", options.certificate,
+                         "A file with a certificate in PEM, for QUIC; default: one is made, which "
+                         "peers know by the fingerprint in the address that the log says");
+    CLI::Option* const key =
+        serve.add_option("--key", options.key, "A file with the certificate's key in PEM");
+    certificate->needs(key);
+    key->needs(certificate);
     serve.add_option("--players", options.players, "Slots of the match; default: 4")
         ->check(CLI::Range(1, 16));
     serve.add_option("--seed", options.seed, "Of the places where players begin")
@@ -46,8 +56,8 @@ inline void add_peer_options(CLI::App& command, JoinOptions& options) {
 inline void add_join_options(CLI::App& run, JoinOptions& options) {
     CLI::Option* const join = run.add_option(
         "--join", options.url,
-        "Play in a match, in real time, without a window: ws://HOST:PORT or wss://HOST:PORT; "
-        "without --input a scripted climber plays");
+        "Play in a match, in real time, without a window: ws://HOST:PORT, wss://HOST:PORT or "
+        "quic://HOST:PORT#FINGERPRINT; without --input a scripted climber plays");
     for (const char* const own : {"--hz", "--players", "--climbers", "--spawn", "--trace", "--out",
                                   "--snapshot", "--resume", "--distance-grab"}) {
         join->excludes(run.get_option(own));
@@ -77,7 +87,8 @@ inline void add_replay_options(CLI::App& run, ReplayOptions& options) {
 inline void add_play_join_options(CLI::App& play, PlayOptions& options) {
     CLI::Option* const join = play.add_option(
         "--join", options.join,
-        "Play in a match: ws://HOST:PORT or wss://HOST:PORT; its server names the scene");
+        "Play in a match: ws://HOST:PORT, wss://HOST:PORT or quic://HOST:PORT#FINGERPRINT; its "
+        "server names the scene");
     for (const char* const own : {"--xr", "--xr-headless", "--spawn", "--jets", "--distance-grab",
                                   "--inspector", "--page", "--controllers"}) {
         join->excludes(play.get_option(own));
@@ -95,7 +106,8 @@ inline void add_bots_options(CLI::App& bots, JoinOptions& options) {
     bots.add_option("count", options.peers, "Scripted climbers, each with a world of its own")
         ->required()
         ->check(CLI::Range(1, 16));
-    bots.add_option("--join", options.url, "The server: ws://HOST:PORT or wss://HOST:PORT")
+    bots.add_option("--join", options.url,
+                    "The server: ws://HOST:PORT, wss://HOST:PORT or quic://HOST:PORT#FINGERPRINT")
         ->required();
     bots.add_option("--scene", options.scene,
                     "The server's scene, if it is not built in; default: the one that it names");

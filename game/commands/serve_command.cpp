@@ -8,6 +8,7 @@
 #include "game/net/agones.hpp"
 #include "game/net/match_scene.hpp"
 #include "game/net/match_server.hpp"
+#include "game/net/transport_kinds.hpp"
 #include "game/play/exit_status.hpp"
 #include "game/play/loading.hpp"
 #include "game/report/run_summary.hpp"
@@ -114,6 +115,8 @@ int serve_command(const ServeOptions& options) {
     ListenerSettings listening;
     listening.address = options.address;
     listening.port = options.port;
+    listening.certificate = options.certificate;
+    listening.key = options.key;
     // Links that say hello, or request /health or /metrics.
     constexpr std::size_t k_links_besides = 16;
     listening.most_links =
@@ -145,8 +148,9 @@ int serve_command(const ServeOptions& options) {
     settings.value().recorder = recorder.value().get();
     MatchServer server(scene.value().scene.host, scene.value().players, std::move(settings.value()),
                        *listener.value());
-    print_log_line(log_line("serves", {{"url", "ws://" + options.address + ":" +
-                                                   std::to_string(listener.value()->port())},
+    const std::vector<std::string> urls = listener.value()->urls();
+    print_log_line(log_line("serves", {{"url", urls.front()},
+                                       {"quic", has_quic() ? urls.back() : "none"},
                                        {"scene", scene.value().scene.name},
                                        {"players", std::to_string(options.players)},
                                        {"tokens", options.token_key.empty() ? "0" : "1"}}));

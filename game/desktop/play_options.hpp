@@ -11,7 +11,7 @@ namespace handhold {
 struct PlayOptions {
     std::string scene = "station";
     std::string spawn;  // name of the spawn; empty: the scene's first
-    // A match to join: ws://HOST:PORT or wss://HOST:PORT; empty: play alone. `scene` empty: the
+    // A match to join, as by open_link; empty: play alone. `scene` empty: the
     // one that its server names.
     std::string join;
     std::string token;    // file with a token for that match; empty: none

@@ -50,6 +50,17 @@ void add_traffic(const ListenerCounts& counts, Metrics& out) {
     out.line("cut_off_total", "{why=\"flooding\"}", as_number(counts.ended_flooding));
     out.line("cut_off_total", "{why=\"slow\"}", as_number(counts.ended_slow));
     out.line("cut_off_total", "{why=\"full\"}", as_number(counts.refused));
+    out.begin("datagrams_total", "counter", "Datagrams of QUIC.");
+    out.line("datagrams_total", "{way=\"in\"}", as_number(counts.received_datagrams));
+    out.line("datagrams_total", "{way=\"out\"}", as_number(counts.sent_datagrams));
+    out.begin("datagram_bytes_total", "counter", "Bytes in them.");
+    out.line("datagram_bytes_total", "{way=\"in\"}", as_number(counts.received_datagram_bytes));
+    out.line("datagram_bytes_total", "{way=\"out\"}", as_number(counts.sent_datagram_bytes));
+    out.begin("datagrams_ignored_total", "counter", "Datagrams that nobody read.");
+    out.line("datagrams_ignored_total", "{why=\"stray\"}", as_number(counts.stray_datagrams));
+    out.line("datagrams_ignored_total", "{why=\"budget\"}", as_number(counts.unread_datagrams));
+    out.add("retries_total", "counter", "Strangers who had to prove their address first.",
+            as_number(counts.retries));
     out.add("queued_bytes_max", "gauge", "The largest queue that a connection has had.",
             static_cast<double>(counts.most_queued_bytes));
 }
@@ -87,6 +98,9 @@ std::string MatchServer::metrics() const {
     out.add("failed_total", "counter", "Connections that ended by a fault of this program.",
             as_number(counts_.failed));
     out.add("states_total", "counter", "States sent to players.", as_number(counts_.states));
+    out.begin("state_bytes_total", "counter", "Bytes of these states.");
+    out.line("state_bytes_total", "{as=\"made\"}", as_number(counts_.state_bytes));
+    out.line("state_bytes_total", "{as=\"sent\"}", as_number(counts_.state_bytes_packed));
     add_traffic(listener_.counts(), out);
     return out.take();
 }

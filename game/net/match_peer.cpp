@@ -6,6 +6,8 @@
 #include <thread>
 #include <utility>
 
+#include "game/net/pack_state.hpp"
+
 namespace handhold {
 namespace {
 
@@ -113,7 +115,7 @@ void MatchPeer::received(std::span<const std::byte> message) {
             refused && refused->reason == NetRefusal::busy);
     } else if (kind == NetKind::welcome && stage_ == PeerStage::offered) {
         take_welcome(message);
-    } else if (kind == NetKind::state &&
+    } else if ((kind == NetKind::state || kind == NetKind::packed) &&
                (stage_ == PeerStage::joining || stage_ == PeerStage::playing)) {
         take_piece(message);
     } else if (kind == NetKind::bye) {
@@ -138,6 +140,7 @@ void MatchPeer::take_offer(std::span<const std::byte> message) {
     MatchHello hello;
     hello.person = settings_.person;
     hello.watches = settings_.watches;
+    hello.unpacks = settings_.unpacks && has_packing();
     hello.digests = settings_.digests;
     hello.token = settings_.token.substr(0, k_most_text_bytes);
     write_message(hello, message_);
@@ -192,8 +195,21 @@ void MatchPeer::take_piece(std::span<const std::byte> message) {
     }
     state_.insert(state_.end(), piece->bytes.begin(), piece->bytes.end());
     if (state_.size() == piece->total) {
-        join(piece->number);
+        take_state(*piece);
     }
+}
+
+void MatchPeer::take_state(const StatePiece& last) {
+    if (last.is_packed) {
+        std::optional<std::vector<std::byte>> state =
+            unpack_state(state_, StatePiece::k_most_total);
+        if (!state) {
+            end("the server's state cannot be unpacked");
+            return;
+        }
+        state_ = std::move(*state);
+    }
+    join(last.number);
 }
 
 void MatchPeer::join(std::uint8_t number) {

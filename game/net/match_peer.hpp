@@ -36,6 +36,7 @@ struct MatchPeerSettings {
     std::function<double()> clock;      // seconds, monotonic
     ArenaGame* arena = nullptr;         // rules of the scene; must outlive the peer. Null: none
     bool watches = false;               // a spectator: the peer has no slot, and no hands
+    bool unpacks = true;                // takes packed states, if this program can unpack them
     MatchRecorder* recorder = nullptr;  // must outlive the peer. Null: nothing is recorded
 };
 
@@ -90,6 +91,7 @@ class MatchPeer final : public LinkHandler {
     void take_offer(std::span<const std::byte> message);
     void take_welcome(std::span<const std::byte> message);
     void take_piece(std::span<const std::byte> message);
+    void take_state(const StatePiece& last);
     void begin_match(std::size_t slot);
     void join(std::uint8_t number);
     void end(std::string why, bool may_return = false);

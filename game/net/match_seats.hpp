@@ -31,6 +31,8 @@ struct MatchSeat {
     // count.
     double waited_s = 0.0;
     std::vector<std::byte> state;  // a join state on its way
+    bool unpacks = false;          // the peer takes packed states
+    bool is_packed = false;        // true: `state` is packed
     std::size_t state_sent = 0;    // bytes of it
     std::uint8_t state_number = 0;
     double state_credit_bytes = 0.0;  // what pacing allows now

@@ -49,7 +49,8 @@ struct MatchServerCounts {
     std::uint64_t joins = 0;
     std::uint64_t returns = 0;  // joins of a person who had played before
     std::uint64_t states = 0;
-    std::uint64_t state_bytes = 0;
+    std::uint64_t state_bytes = 0;         // bytes before packing
+    std::uint64_t state_bytes_packed = 0;  // bytes after packing
     std::uint64_t bad_packets = 0;   // packets of the match that it refused as damaged or forged
     std::uint64_t bad_messages = 0;  // other messages that were none
     std::uint64_t silent = 0;        // peers that were sent away for it
@@ -91,7 +92,7 @@ class MatchServer final : public ListenerHandler {
     // Who says so, or why not.
     std::optional<MatchRefused> check_hello(const MatchHello& hello, std::string& person) const;
     void refuse_link(LinkId link, const MatchRefused& refused);
-    void seat(LinkId link, std::size_t slot, const std::string& person, std::uint64_t number);
+    void seat(LinkId link, std::size_t slot, const std::string& person, const MatchHello& hello);
     void begin_state(std::size_t slot);
     double state_rate(const MatchSeat& seat) const;
     void send_state(MatchSeat& seat, double elapsed_s);

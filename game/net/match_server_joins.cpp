@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "game/net/match_server.hpp"
+#include "game/net/pack_state.hpp"
 
 namespace handhold {
 namespace {
@@ -83,11 +84,11 @@ void MatchServer::take_hello(LinkId link, std::span<const std::byte> message) {
     if (seats_.at(*slot).stage != SeatStage::empty) {
         send_away(seats_.at(*slot).link, NetBye::replaced);
     }
-    seat(link, *slot, person, hello->person);
+    seat(link, *slot, person, *hello);
 }
 
 void MatchServer::seat(LinkId link, std::size_t slot, const std::string& person,
-                       std::uint64_t number) {
+                       const MatchHello& hello) {
     MatchSeat& seat = seats_.at(slot);
     const bool returns = seat.person == person;
     seat.has_played = seat.has_played && returns;
@@ -95,7 +96,8 @@ void MatchServer::seat(LinkId link, std::size_t slot, const std::string& person,
     counts_.returns += returns ? 1U : 0U;
     seat.link = link;
     seat.person = person;
-    seat.number = number;
+    seat.number = hello.person;
+    seat.unpacks = hello.unpacks;
     const bool watches = seats_.is_watching(slot);
     write_message(MatchWelcome{watches ? MatchWelcome::k_no_slot : static_cast<std::uint8_t>(slot)},
                   message_);
@@ -124,6 +126,11 @@ void MatchServer::begin_state(std::size_t slot) {
     ++seat.state_number;
     ++counts_.states;
     counts_.state_bytes += seat.state.size();
+    seat.is_packed = seat.unpacks && has_packing();
+    if (seat.is_packed) {
+        seat.state = pack_state(seat.state);
+    }
+    counts_.state_bytes_packed += seat.state.size();
 }
 
 // The inputs after the state are forgotten after five seconds, so it must arrive before.
@@ -140,6 +147,7 @@ void MatchServer::send_state(MatchSeat& seat, double elapsed_s) {
         const auto left = std::span<const std::byte>(seat.state).subspan(seat.state_sent);
         StatePiece piece;
         piece.number = seat.state_number;
+        piece.is_packed = seat.is_packed;
         piece.total = static_cast<std::uint32_t>(seat.state.size());
         piece.offset = static_cast<std::uint32_t>(seat.state_sent);
         piece.bytes = left.first(std::min(left.size(), StatePiece::k_most_bytes));

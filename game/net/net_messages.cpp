@@ -158,7 +158,7 @@ std::string_view bye_text(NetBye bye) {
 
 std::optional<NetKind> kind_of(std::span<const std::byte> message) {
     const auto value = message.empty() ? 0U : std::to_integer<unsigned>(message[0]);
-    if ((value >= 1 && value <= 7) || value == 16 || value == 17) {
+    if ((value >= 1 && value <= 8) || value == 16 || value == 17) {
         return static_cast<NetKind>(value);
     }
     return std::nullopt;
@@ -207,7 +207,7 @@ void write_message(const MatchHello& hello, std::vector<std::byte>& message) {
     out.put(k_net_magic, 4);
     out.put(hello.version, 2);
     out.put(hello.person, 8);
-    out.put(hello.watches ? 1 : 0, 1);
+    out.put((hello.watches ? 1U : 0U) + (hello.unpacks ? 2U : 0U), 1);
     out.put_digests(hello.digests);
     out.put_text(hello.token);
 }
@@ -221,7 +221,10 @@ std::optional<MatchHello> read_hello(std::span<const std::byte> message) {
         return hello;
     }
     hello.person = in.take_as<std::uint64_t>();
-    hello.watches = take_bool(in);
+    const auto flags = in.take_as<std::uint8_t>();
+    in.expect(flags <= 3);
+    hello.watches = (flags & 1U) != 0;
+    hello.unpacks = (flags & 2U) != 0;
     in.take_digests(hello.digests);
     hello.token = in.take_text();
     return in.is_at_end() ? std::optional(hello) : std::nullopt;
@@ -253,7 +256,7 @@ std::optional<MatchWelcome> read_welcome(std::span<const std::byte> message) {
 }
 
 void write_message(const StatePiece& piece, std::vector<std::byte>& message) {
-    NetWriter out(NetKind::state, message);
+    NetWriter out(piece.is_packed ? NetKind::packed : NetKind::state, message);
     out.put(piece.number, 1);
     out.put(piece.total, 4);
     out.put(piece.offset, 4);
@@ -261,8 +264,9 @@ void write_message(const StatePiece& piece, std::vector<std::byte>& message) {
 }
 
 std::optional<StatePiece> read_state_piece(std::span<const std::byte> message) {
-    NetReader in(NetKind::state, message);
     StatePiece piece;
+    piece.is_packed = kind_of(message) == NetKind::packed;
+    NetReader in(piece.is_packed ? NetKind::packed : NetKind::state, message);
     piece.number = in.take_as<std::uint8_t>();
     piece.total = in.take_as<std::uint32_t>();
     piece.offset = in.take_as<std::uint32_t>();

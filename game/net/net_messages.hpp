@@ -14,7 +14,7 @@
 // read as a whole or not at all, and no number in it leads to more memory.
 namespace handhold {
 
-inline constexpr std::uint16_t k_net_version = 2;
+inline constexpr std::uint16_t k_net_version = 3;
 
 // What must be equal on all machines, in the order in which differences are reported.
 enum class MatchDigest : std::uint8_t { library, scene, tick, tuning, clips, bodies, shapes };
@@ -34,6 +34,7 @@ enum class NetKind : std::uint8_t {
     packet = 5,   // both: a packet of the match
     bye = 6,      // both: the connection ends
     inputs = 7,   // server, to spectators: hh_match_confirmed_inputs
+    packed = 8,   // server: a piece of a join state that pack_state has made smaller
     hello = 16,   // peer: wants to play
     joined = 17,  // peer: the state is restored
 };
@@ -51,6 +52,7 @@ struct MatchHello {
     std::uint16_t version = k_net_version;
     std::uint64_t person = 0;  // random, the same when the person returns
     bool watches = false;      // a spectator, who has no slot
+    bool unpacks = false;      // takes packed states
     MatchDigests digests{};
     std::string token;
 };
@@ -89,6 +91,7 @@ struct StatePiece {
     std::uint32_t total = 0;  // bytes of the whole state
     std::uint32_t offset = 0;
     std::span<const std::byte> bytes;  // a part of the message
+    bool is_packed = false;            // the kind of the message: state or packed
 };
 
 enum class NetBye : std::uint8_t {

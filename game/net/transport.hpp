@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "game/files/file_tools.hpp"
 
@@ -41,13 +42,16 @@ struct LinkBudget {
 struct ListenerSettings {
     std::string address = "127.0.0.1";  // address of the interface that is listened on
     int port = 0;                       // 0: any that is free
-    std::size_t most_links = 64;        // further connections are refused
+    std::size_t most_links = 64;        // further connections of a transport are refused
     std::size_t most_of_address = 48;   // likewise, connections of one address; HTTP counts too
     std::size_t most_message_bytes = 1500;
     int kernel_buffer_bytes =
         1 << 16;                // size of the kernel's send buffer; Linux takes twice as much
     double slow_after_s = 5.0;  // a connection that reads nothing for so long ends
     LinkBudget budget;
+    // Files in PEM, for QUIC; empty: a certificate is made, which peers know by its fingerprint.
+    std::string certificate;
+    std::string key;
 };
 
 // Sums over all connections since the start.
@@ -65,6 +69,14 @@ struct ListenerCounts {
     std::uint64_t ended_flooding = 0;
     std::uint64_t ended_slow = 0;
     std::size_t most_queued_bytes = 0;  // largest queue of one connection
+    // QUIC only: datagrams of UDP, and bytes in them.
+    std::uint64_t received_datagrams = 0;
+    std::uint64_t received_datagram_bytes = 0;
+    std::uint64_t sent_datagrams = 0;
+    std::uint64_t sent_datagram_bytes = 0;
+    std::uint64_t stray_datagrams = 0;   // belonged to no connection
+    std::uint64_t unread_datagrams = 0;  // lost while their connection was throttled
+    std::uint64_t retries = 0;           // strangers who had to prove their address first
 };
 
 struct HttpAnswer {
@@ -98,6 +110,8 @@ class Listener {
     Listener& operator=(const Listener&) = delete;
 
     virtual int port() const = 0;
+    // What peers join by, for each transport.
+    virtual std::vector<std::string> urls() const { return {}; }
     // Sends and receives what is possible; waits for that at most `wait_s`.
     virtual void poll(double wait_s, ListenerHandler& handler) = 0;
     // Queues a message. Nothing happens for links that do not exist.
@@ -112,7 +126,8 @@ class Listener {
 // False: this program was built without a transport and its cryptography.
 bool has_network();
 
-// Error: the port is taken, or there is no transport.
+// Listens by every transport that there is: WebSocket on TCP and QUIC on UDP, at the same port.
+// Error: the port is taken, a certificate cannot be read, or there is no transport.
 Result<std::unique_ptr<Listener>> open_listener(const ListenerSettings& settings);
 
 // What a link calls during poll. Must not throw.
@@ -142,8 +157,9 @@ class Link {
     virtual void close() = 0;
 };
 
-// Begins to connect to ws://HOST:PORT or wss://HOST:PORT. Error: no such URL, or there is no
-// transport.
+// Begins to connect to ws://HOST:PORT, wss://HOST:PORT, or quic://HOST:PORT#FINGERPRINT, which
+// needs no fingerprint if the server's certificate comes from an authority that this system
+// trusts. Error: no such URL or host, or there is no such transport.
 Result<std::unique_ptr<Link>> open_link(const std::string& url);
 
 }  // namespace handhold

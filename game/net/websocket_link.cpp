@@ -7,7 +7,7 @@
 
 #include "game/net/net_messages.hpp"
 #include "game/net/send_queue.hpp"
-#include "game/net/transport.hpp"
+#include "game/net/transport_kinds.hpp"
 #include "game/net/websocket_context.hpp"
 
 namespace handhold {
@@ -220,7 +220,7 @@ class WebSocketLink final : public Link {
 
 }  // namespace
 
-Result<std::unique_ptr<Link>> open_link(const std::string& url) {
+Result<std::unique_ptr<Link>> open_websocket_link(const std::string& url) {
     std::optional<WebSocketUrl> parsed = parse_url(url);
     if (!parsed) {
         return FileError{url, "", "expected ws://HOST:PORT or wss://HOST:PORT"};

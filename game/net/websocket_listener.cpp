@@ -8,10 +8,11 @@
 #include <vector>
 
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include "game/net/receive_budget.hpp"
 #include "game/net/send_queue.hpp"
-#include "game/net/transport.hpp"
+#include "game/net/transport_kinds.hpp"
 #include "game/net/websocket_context.hpp"
 #include "game/net/websocket_socket.hpp"
 
@@ -48,12 +49,19 @@ struct WebSocketSession {
 
 class WebSocketListener final : public Listener {
   public:
-    explicit WebSocketListener(const ListenerSettings& settings)
-        : settings_(settings), protocols_(protocols()), context_(info()) {}
+    WebSocketListener(const ListenerSettings& settings, int descriptor)
+        : settings_(settings), protocols_(protocols()), context_(info()) {
+        if (is_valid() && descriptor >= 0) {
+            wake_by(descriptor);
+        }
+    }
 
     bool is_valid() const { return context_.get() != nullptr; }
     int port() const override {
         return lws_get_vhost_listen_port(lws_get_vhost_by_name(context_.get(), "default"));
+    }
+    std::vector<std::string> urls() const override {
+        return {"ws://" + settings_.address + ":" + std::to_string(port())};
     }
 
     void poll(double wait_s, ListenerHandler& handler) override {
@@ -120,6 +128,14 @@ class WebSocketListener final : public Listener {
         info.keepalive_timeout = 5;
         info.vhost_name = "default";
         return info;
+    }
+
+    // libwebsockets ends its waiting while the descriptor is readable, and does not read from it.
+    void wake_by(int descriptor) {
+        lws_sock_file_fd_type other{};
+        other.filefd = ::dup(descriptor);  // libwebsockets closes its own
+        lws_adopt_descriptor_vhost(lws_get_vhost_by_name(context_.get(), "default"),
+                                   LWS_ADOPT_RAW_FILE_DESC, other, k_websocket_protocol, nullptr);
     }
 
     static int on_event(lws* wsi, lws_callback_reasons reason, void* user, void* in,
@@ -365,10 +381,11 @@ class WebSocketListener final : public Listener {
 
 }  // namespace
 
-bool has_network() { return true; }
+bool has_websocket() { return true; }
 
-Result<std::unique_ptr<Listener>> open_listener(const ListenerSettings& settings) {
-    auto listener = std::make_unique<WebSocketListener>(settings);
+Result<std::unique_ptr<Listener>> open_websocket_listener(const ListenerSettings& settings,
+                                                          int descriptor) {
+    auto listener = std::make_unique<WebSocketListener>(settings, descriptor);
     if (!listener->is_valid()) {
         return FileError{settings.address + ":" + std::to_string(settings.port), "",
                          "expected an address and a port that are free"};

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "components/tracking.hpp"
 #include "game/devices/desktop_body.hpp"
 
 namespace handhold {

@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "components/authored_grip.hpp"
 #include "components/tuning.hpp"
 #include "components/world.hpp"
 

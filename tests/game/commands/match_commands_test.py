@@ -6,6 +6,7 @@ import http.server
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -169,6 +170,52 @@ class Matches(unittest.TestCase):
         self.assertTrue(all(compared))
         self.assertEqual(server.lines("ends")[0]["out_of_sync"], "0")
         self.assertGreater(int(far.lines("ends")[0]["rollbacks"]), 60)
+
+    def test_peers_of_both_transports_have_equal_hashes(self):
+        server = self.start("serve", "--scene", "reach", "--players", "3")
+        serves = server.wait_for("serves")[0]
+        quic = serves["quic"].strip('"')
+        if quic == "none":
+            self.skipTest("built without ngtcp2")
+        self.assertRegex(quic, r"^quic://127\.0\.0\.1:\d+#[0-9a-f]{64}$")
+        self.assertEqual(quic.split("#")[0].rpartition(":")[2], serves["url"].rpartition(":")[2])
+        bots = self.start("bots", 1, "--join", serves["url"])
+        player = self.start("run", "--join", quic)
+        watcher = self.start("run", "--join", quic, "--watch")
+        server.wait_for("watches")
+        player.wait_for("confirmed", 3)
+        watcher.wait_for("confirmed", 2)
+        self.assert_refused(["run", "--join", quic.split("#")[0]], "the server's certificate is not known here")
+        self.assert_refused(["run", "--join", quic[:-64] + "0" * 64], "the server's certificate has another fingerprint")
+        self.assert_refused(["run", "--join", quic[:-1]], "expected quic://HOST:PORT")
+        self.assert_refused(["serve", "--scene", "reach", "--cert", "none.pem", "--key", "none.pem"], "expected a certificate in PEM")
+        server.process.send_signal(signal.SIGTERM)
+        for program in (server, bots, player, watcher):
+            self.assertEqual(program.end(), 0, program.err.read_text())
+        ours = {line["tick"]: line["hash"] for line in server.lines("confirmed")}
+        for program in (bots, player, watcher):
+            compared = [line["hash"] == ours[line["tick"]] for line in program.lines("confirmed") if line["tick"] in ours]
+            self.assertTrue(compared and all(compared))
+        self.assertEqual(server.lines("ends")[0]["out_of_sync"], "0")
+
+    def test_a_certificate_of_ones_own_is_shown(self):
+        if shutil.which("openssl") is None:
+            self.skipTest("no openssl")
+        subprocess.run("openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes -keyout key.pem -out cert.pem -days 2 "
+                       "-subj /CN=localhost".split(), check=True, capture_output=True, cwd=self.folder)
+        told = subprocess.run("openssl x509 -in cert.pem -noout -fingerprint -sha256".split(), check=True, capture_output=True, cwd=self.folder)
+        server = self.start("serve", "--scene", "reach", "--cert", "cert.pem", "--key", "key.pem")
+        address, _, fingerprint = server.wait_for("serves")[0]["quic"].strip('"').partition("#")
+        if address == "none":
+            self.skipTest("built without ngtcp2")
+        ours = told.stdout.decode().strip().partition("=")[2]
+        self.assertEqual(fingerprint, ours.replace(":", "").lower())
+        bots = self.start("bots", 1, "--join", f"{address}#{ours}", "--seconds", "1")
+        self.assertEqual(bots.end(), 0, bots.err.read_text())
+        self.assert_refused(["run", "--join", address], "the server's certificate is not known here")
+        self.assert_refused(["serve", "--scene", "reach", "--cert", "key.pem", "--key", "cert.pem"], "expected a certificate in PEM")
+        server.process.send_signal(signal.SIGTERM)
+        self.assertEqual(server.end(), 0)
 
     def test_agones_is_told_when_the_server_is_ready_played_and_ends(self):
         calls = []

@@ -15,7 +15,7 @@ class ArenaMatchTest : public testing::Test {
   protected:
     void SetUp() override {
         if (!has_network()) {
-            GTEST_SKIP() << "built without libwebsockets";
+            GTEST_SKIP() << "built without a network";
         }
     }
 };

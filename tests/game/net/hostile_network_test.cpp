@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "game/net/transport_kinds.hpp"
 #include "tests/game/net/loopback_match.hpp"
 #include "tests/game/net/raw_socket.hpp"
 
@@ -18,7 +19,7 @@ using test::RawSocket;
 class HostileNetworkTest : public testing::Test {
   protected:
     void SetUp() override {
-        if (!has_network()) {
+        if (!has_websocket()) {
             GTEST_SKIP() << "built without libwebsockets";
         }
     }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "game/net/send_queue.hpp"
+#include "game/net/transport_kinds.hpp"
 #include "tests/game/net/loopback_match.hpp"
 #include "tests/game/net/raw_socket.hpp"
 #include "tests/random.hpp"
@@ -75,7 +76,7 @@ class HostileLink final : public Link {
 class HostilePeerTest : public testing::TestWithParam<Hostility> {
   protected:
     void SetUp() override {
-        if (!has_network()) {
+        if (!has_websocket()) {
             GTEST_SKIP() << "built without libwebsockets";
         }
     }
@@ -126,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, HostilePeerTest,
 class HostileConnectionTest : public testing::Test {
   protected:
     void SetUp() override {
-        if (!has_network()) {
+        if (!has_websocket()) {
             GTEST_SKIP() << "built without libwebsockets";
         }
     }

@@ -141,7 +141,9 @@ class LoopbackMatch {
     LoopbackMatch(const LoopbackMatch&) = delete;
     LoopbackMatch& operator=(const LoopbackMatch&) = delete;
 
-    std::string url() const { return "ws://127.0.0.1:" + std::to_string(listener_->port()); }
+    // The first one: WebSocket's, where there is one.
+    std::string url() const { return listener_->urls().front(); }
+    std::string quic_url() const { return listener_->urls().back(); }
     std::unique_ptr<Link> link() const { return std::move(open_link(url()).value()); }
     const Listener& listener() const { return *listener_; }
     MatchScene& scene() { return scene_; }

@@ -24,7 +24,7 @@ class RecordedMatch : public testing::Test {
   protected:
     void SetUp() override {
         if (!has_network()) {
-            GTEST_SKIP() << "built without libwebsockets";
+            GTEST_SKIP() << "built without a network";
         }
         std::filesystem::create_directories(folder);
     }

@@ -19,7 +19,7 @@ TokenKey key_of(char c) { return {std::vector<std::byte>(32, static_cast<std::by
 // RFC 4231, test case 2.
 TEST(Tokens, HmacIsThatOfTheStandard) {
     if (!has_network()) {
-        GTEST_SKIP() << "built without libwebsockets";
+        GTEST_SKIP() << "built without a network";
     }
     const std::string key = "Jefe";
     const Sha256 sum = hmac_sha256(std::as_bytes(std::span(key)), "what do ya want for nothing?");
@@ -31,7 +31,7 @@ TEST(Tokens, HmacIsThatOfTheStandard) {
 
 TEST(Tokens, AdmitUntilTheyExpire) {
     if (!has_network()) {
-        GTEST_SKIP() << "built without libwebsockets";
+        GTEST_SKIP() << "built without a network";
     }
     const std::string token = issue_token(key_of('k'), "ann", 1000);
     EXPECT_EQ(check_token(key_of('k'), token, 999).state, TokenState::good);
@@ -43,7 +43,7 @@ TEST(Tokens, AdmitUntilTheyExpire) {
 
 TEST(Tokens, AnyChangeMakesThemBad) {
     if (!has_network()) {
-        GTEST_SKIP() << "built without libwebsockets";
+        GTEST_SKIP() << "built without a network";
     }
     const std::string token = issue_token(key_of('k'), "ann", 1000);
     for (std::size_t at = 0; at < token.size(); ++at) {

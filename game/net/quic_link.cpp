@@ -1,0 +1,213 @@
+// A peer's QUIC connection to a server, by ngtcp2.
+#include <algorithm>
+#include <charconv>
+#include <exception>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "game/net/net_messages.hpp"
+#include "game/net/quic_connection.hpp"
+#include "game/net/transport_kinds.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr std::size_t k_most_from_server = StatePiece::k_most_bytes + 64;
+constexpr std::uint64_t k_window_bytes = 512U << 10U;
+constexpr int k_kernel_buffer_bytes = 1 << 18;
+constexpr double k_close_within_s = 0.5;
+
+struct QuicUrl {
+    std::string host;
+    int port = 0;
+    Fingerprint fingerprint;
+};
+
+std::optional<QuicUrl> parse_quic_url(std::string_view url) {
+    constexpr std::string_view k_scheme = "quic://";
+    QuicUrl out;
+    if (!url.starts_with(k_scheme)) {
+        return std::nullopt;
+    }
+    url.remove_prefix(k_scheme.size());
+    if (const std::size_t hash = url.find('#'); hash != std::string_view::npos) {
+        out.fingerprint = read_fingerprint(url.substr(hash + 1));
+        if (out.fingerprint.empty()) {
+            return std::nullopt;
+        }
+        url = url.substr(0, hash);
+    }
+    const std::size_t colon = url.find(':');
+    if (colon == std::string_view::npos) {
+        return std::nullopt;
+    }
+    out.host = std::string(url.substr(0, colon));
+    const std::string_view digits = url.substr(colon + 1);
+    const char* const end = digits.data() + digits.size();
+    const auto [stop, error] = std::from_chars(digits.data(), end, out.port);
+    const bool is_good = error == std::errc{} && stop == end && !out.host.empty() &&
+                         out.port >= 1 && out.port <= 65535;
+    return is_good ? std::optional(out) : std::nullopt;
+}
+
+// Tokens of servers that this program has been connected to, by URL: with one a busy server needs
+// no Retry to know this address.
+class KnownServers {
+  public:
+    std::vector<std::uint8_t> take(const std::string& url) {
+        const auto found = tokens_.find(url);
+        return found != tokens_.end() ? std::exchange(found->second, {})
+                                      : std::vector<std::uint8_t>();
+    }
+    void keep(const std::string& url, std::span<const std::uint8_t> token) {
+        constexpr std::size_t k_most = 16;
+        constexpr std::size_t k_most_bytes = 512;
+        if (token.size() <= k_most_bytes && (tokens_.size() < k_most || tokens_.contains(url))) {
+            tokens_[url].assign(token.begin(), token.end());
+        }
+    }
+
+  private:
+    std::map<std::string, std::vector<std::uint8_t>> tokens_;
+};
+
+KnownServers& known_servers() {
+    static KnownServers known;
+    return known;
+}
+
+class QuicLink final : public Link {
+  public:
+    QuicLink(const std::string& name, const QuicUrl& url, const UdpPlace& server)
+        : socket_(UdpPlace(), k_kernel_buffer_bytes, UdpSocket::Side::peer),
+          credentials_(TlsCredentials::of_peer(url.host, url.fingerprint)) {
+        QuicConnectionSettings settings;
+        settings.most_message_bytes = k_most_from_server;
+        settings.window_bytes = k_window_bytes;
+        settings.token_given = [name](std::span<const std::uint8_t> token) {
+            known_servers().keep(name, token);
+        };
+        const std::vector<std::uint8_t> token = known_servers().take(name);
+        if (socket_.is_valid()) {
+            connection_ = QuicConnection::connect(*credentials_, socket_.place(), server, token,
+                                                  std::move(settings));
+        }
+        if (connection_ == nullptr) {
+            why_ = "no connection can be made";
+        }
+    }
+    ~QuicLink() override {
+        if (connection_ != nullptr) {
+            connection_->close(socket_);
+        }
+    }
+
+    void poll(double wait_s, LinkHandler& handler) override {
+        if (connection_ != nullptr && connection_->end() == QuicEnd::none) {
+            connection_->write(socket_);
+            wait(wait_s);
+            read(handler);
+            connection_->write(socket_);
+            end_if_due();
+        }
+        if (is_told_ || (connection_ != nullptr && connection_->end() == QuicEnd::none)) {
+            return;
+        }
+        is_told_ = true;
+        handler.closed(!why_.empty() ? why_ : connection_->why());
+    }
+
+    void send(Delivery delivery, std::span<const std::byte> message) override {
+        if (connection_ == nullptr || closes_since_ > 0) {
+            return;
+        }
+        if (!connection_->push(delivery, message)) {
+            close();
+        } else if (connection_->is_open()) {
+            connection_->write(socket_);
+        }
+    }
+
+    std::size_t queued_bytes() const override {
+        return connection_ != nullptr ? connection_->queued_bytes() : 0;
+    }
+
+    void close() override {
+        if (closes_since_ == 0) {
+            closes_since_ = quic_now();
+        }
+    }
+
+  private:
+    void wait(double wait_s) const {
+        const ngtcp2_tstamp due = connection_->due();
+        const ngtcp2_tstamp now = quic_now();
+        const double due_s = due > now ? static_cast<double>(due - now) / NGTCP2_SECONDS : 0.0;
+        socket_.wait(std::min(wait_s, due_s));
+    }
+
+    void read(LinkHandler& handler) {
+        constexpr int k_most_datagrams = 512;
+        for (int i = 0; i < k_most_datagrams && connection_->end() == QuicEnd::none; ++i) {
+            UdpPlace from;
+            std::span<const std::uint8_t> bytes;
+            const UdpSocket::Read result = socket_.receive(from, bytes);
+            if (result == UdpSocket::Read::nothing) {
+                return;
+            }
+            if (result == UdpSocket::Read::refused) {
+                if (!has_heard_) {
+                    why_ = "connection refused";
+                    connection_->close(socket_);
+                }
+                continue;
+            }
+            has_heard_ = true;
+            const bool was_open = connection_->is_open();
+            connection_->read(
+                socket_, server_place(), bytes,
+                [&handler](std::span<const std::byte> message) { handler.received(message); });
+            if (!was_open && connection_->is_open()) {
+                handler.opened();
+            }
+        }
+    }
+    // The server has one address, whatever a network on the way writes.
+    UdpPlace server_place() const { return connection_->peer(); }
+
+    void end_if_due() {
+        if (closes_since_ > 0 &&
+            (connection_->is_all_delivered() ||
+             static_cast<double>(quic_now() - closes_since_) > k_close_within_s * NGTCP2_SECONDS)) {
+            connection_->close(socket_);
+        }
+    }
+
+    UdpSocket socket_;
+    std::unique_ptr<TlsCredentials> credentials_;
+    std::unique_ptr<QuicConnection> connection_;
+    std::string why_;
+    ngtcp2_tstamp closes_since_ = 0;  // 0: stays open
+    bool has_heard_ = false;
+    bool is_told_ = false;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Link>> open_quic_link(const std::string& url) {
+    const std::optional<QuicUrl> parsed = parse_quic_url(url);
+    if (!parsed) {
+        return FileError{url, "",
+                         "expected quic://HOST:PORT, or quic://HOST:PORT#FINGERPRINT with 64 "
+                         "hexadecimal digits"};
+    }
+    const std::optional<UdpPlace> server = find_place(parsed->host, parsed->port);
+    if (!server) {
+        return FileError{url, "", "no server: there is no such host"};
+    }
+    return std::unique_ptr<Link>(std::make_unique<QuicLink>(url, *parsed, *server));
+}
+
+}  // namespace handhold

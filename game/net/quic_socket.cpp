@@ -1,0 +1,122 @@
+#include "game/net/quic_socket.hpp"
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <memory>
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#ifdef __linux__
+#include <linux/errqueue.h>
+#endif
+#include <netdb.h>
+#include <poll.h>
+#include <unistd.h>
+
+namespace handhold {
+
+std::string UdpPlace::text() const {
+    std::array<char, INET_ADDRSTRLEN> text{};
+    inet_ntop(AF_INET, &address.sin_addr, text.data(), text.size());
+    return text.data();
+}
+
+std::optional<UdpPlace> find_place(const std::string& host, int port) {
+    addrinfo hints{};
+    hints.ai_family = AF_INET;
+    hints.ai_socktype = SOCK_DGRAM;
+    addrinfo* found = nullptr;
+    if (getaddrinfo(host.c_str(), nullptr, &hints, &found) != 0 || found == nullptr) {
+        return std::nullopt;
+    }
+    const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owner(found, &freeaddrinfo);
+    UdpPlace out;
+    out.address = *reinterpret_cast<const sockaddr_in*>(found->ai_addr);
+    out.address.sin_port = htons(static_cast<std::uint16_t>(port));
+    return out;
+}
+
+UdpSocket::UdpSocket(const UdpPlace& place, int kernel_buffer_bytes, Side side)
+    : descriptor_(::socket(AF_INET, SOCK_DGRAM, 0)), side_(side) {
+    if (descriptor_ < 0) {
+        return;
+    }
+    ::setsockopt(descriptor_, SOL_SOCKET, SO_RCVBUF, &kernel_buffer_bytes,
+                 sizeof(kernel_buffer_bytes));
+#ifdef IP_RECVERR
+    // The socket is not connected, so that it survives a change of network. This tells of errors
+    // nevertheless.
+    const int on = side == Side::peer ? 1 : 0;
+    ::setsockopt(descriptor_, IPPROTO_IP, IP_RECVERR, &on, sizeof(on));
+#endif
+    if (::fcntl(descriptor_, F_SETFL, O_NONBLOCK) != 0 ||
+        ::bind(descriptor_, place.data(), UdpPlace::size()) != 0) {
+        ::close(descriptor_);
+        descriptor_ = -1;
+    }
+}
+
+UdpSocket::~UdpSocket() {
+    if (is_valid()) {
+        ::close(descriptor_);
+    }
+}
+
+UdpPlace UdpSocket::place() const {
+    UdpPlace out;
+    socklen_t size = UdpPlace::size();
+    ::getsockname(descriptor_, out.data(), &size);
+    return out;
+}
+
+UdpSocket::Read UdpSocket::receive(UdpPlace& from, std::span<const std::uint8_t>& bytes) {
+    socklen_t size = UdpPlace::size();
+    const ssize_t got =
+        ::recvfrom(descriptor_, buffer_.data(), buffer_.size(), 0, from.data(), &size);
+    if (got < 0) {
+        return side_ == Side::peer && take_refusal() ? Read::refused : Read::nothing;
+    }
+    bytes = std::span<const std::uint8_t>(buffer_).first(static_cast<std::size_t>(got));
+    return Read::datagram;
+}
+
+// Reads what the system tells of datagrams that went nowhere: unread, it would keep the socket
+// readable.
+bool UdpSocket::take_refusal() const {
+    bool is_refused = false;
+#ifdef IP_RECVERR
+    for (;;) {
+        alignas(cmsghdr) std::array<char, 512> control{};
+        msghdr told{};
+        told.msg_control = control.data();
+        told.msg_controllen = control.size();
+        if (::recvmsg(descriptor_, &told, MSG_ERRQUEUE | MSG_DONTWAIT) < 0) {
+            break;
+        }
+        for (const cmsghdr* at = CMSG_FIRSTHDR(&told); at != nullptr;
+             at = CMSG_NXTHDR(&told, const_cast<cmsghdr*>(at))) {
+            sock_extended_err error{};
+            if (at->cmsg_level == IPPROTO_IP && at->cmsg_type == IP_RECVERR) {
+                std::memcpy(&error, CMSG_DATA(at), sizeof(error));
+                is_refused = is_refused || error.ee_errno == ECONNREFUSED;
+            }
+        }
+    }
+#endif
+    return is_refused;
+}
+
+void UdpSocket::send(const UdpPlace& to, std::span<const std::uint8_t> bytes) {
+    ++sent_datagrams_;
+    sent_bytes_ += bytes.size();
+    (void)::sendto(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL, to.data(),
+                   UdpPlace::size());
+}
+
+void UdpSocket::wait(double seconds) const {
+    pollfd wanted{descriptor_, POLLIN, 0};
+    (void)::poll(&wanted, 1, static_cast<int>(std::ceil(1e3 * seconds)));
+}
+
+}  // namespace handhold

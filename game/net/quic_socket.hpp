@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include "game/files/file_tools.hpp"
+
+namespace handhold {
+
+// An address and a port of IPv4.
+struct UdpPlace {
+    sockaddr_in address{};
+
+    sockaddr* data() { return reinterpret_cast<sockaddr*>(&address); }
+    const sockaddr* data() const { return reinterpret_cast<const sockaddr*>(&address); }
+    static constexpr socklen_t size() { return sizeof(sockaddr_in); }
+    std::string text() const;  // numbers and dots; no port
+    int port() const { return ntohs(address.sin_port); }
+    bool operator==(const UdpPlace& other) const {
+        return address.sin_addr.s_addr == other.address.sin_addr.s_addr &&
+               address.sin_port == other.address.sin_port;
+    }
+};
+
+// Looks a host's name up, or reads a numeric address. nullopt: there is no such host.
+std::optional<UdpPlace> find_place(const std::string& host, int port);
+
+// A UDP socket that never waits, apart from `wait`.
+class UdpSocket {
+  public:
+    // Bound to `place`; with port 0, to any that is free. The kernel keeps at most about
+    // `kernel_buffer_bytes` of what has come; Linux takes twice as much.
+    // A peer's socket is told if nobody listens at the other side.
+    enum class Side : std::uint8_t { server, peer };
+    UdpSocket(const UdpPlace& place, int kernel_buffer_bytes, Side side);
+    ~UdpSocket();
+    UdpSocket(const UdpSocket&) = delete;
+    UdpSocket& operator=(const UdpSocket&) = delete;
+
+    bool is_valid() const { return descriptor_ >= 0; }
+    int descriptor() const { return descriptor_; }
+    UdpPlace place() const;  // address of this end
+
+    enum class Read : std::uint8_t { datagram, nothing, refused };
+    // The next datagram; `bytes` is valid until the next call. `refused`: the other side's system
+    // says that nobody listens there.
+    Read receive(UdpPlace& from, std::span<const std::uint8_t>& bytes);
+    // A datagram that the system does not take is lost.
+    void send(const UdpPlace& to, std::span<const std::uint8_t> bytes);
+    std::uint64_t sent_datagrams() const { return sent_datagrams_; }
+    std::uint64_t sent_bytes() const { return sent_bytes_; }
+    // Until a datagram can be read, or the time is over.
+    void wait(double seconds) const;
+
+  private:
+    bool take_refusal() const;
+
+    int descriptor_;
+    Side side_;
+    std::uint64_t sent_datagrams_ = 0;
+    std::uint64_t sent_bytes_ = 0;
+    std::array<std::uint8_t, 2048> buffer_{};
+};
+
+}  // namespace handhold

@@ -1,0 +1,99 @@
+// Join states on the wire.
+#include "game/net/pack_state.hpp"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "game/net/net_messages.hpp"
+#include "tests/game/net/loopback_match.hpp"
+#include "tests/random.hpp"
+
+namespace handhold::pack_state_test {
+namespace {
+
+class PackStateTest : public testing::Test {
+  protected:
+    void SetUp() override {
+        if (!has_packing()) {
+            GTEST_SKIP() << "built without zstd";
+        }
+    }
+};
+
+std::vector<std::byte> state_of(std::size_t size) {
+    std::vector<std::byte> out(size);
+    for (std::size_t i = 0; i < size; ++i) {
+        out[i] = static_cast<std::byte>(i % 251 * (i / 1000 % 7));
+    }
+    return out;
+}
+
+TEST_F(PackStateTest, WhatWasPackedIsUnpacked) {
+    for (const std::size_t size : {1U, 100U, 109'000U, 3'400'000U}) {
+        const std::vector<std::byte> state = state_of(size);
+        const auto unpacked = unpack_state(pack_state(state), StatePiece::k_most_total);
+        ASSERT_TRUE(unpacked.has_value());
+        EXPECT_TRUE(*unpacked == state);
+    }
+}
+
+TEST_F(PackStateTest, DamagedAndCutStatesAreRefused) {
+    const std::vector<std::byte> packed = pack_state(state_of(10'000));
+    for (std::size_t size = 0; size < packed.size(); ++size) {
+        EXPECT_FALSE(unpack_state(std::span(packed).first(size), 10'000).has_value()) << size;
+    }
+    test::Random random(3);
+    for (int i = 0; i < 2000; ++i) {
+        std::vector<std::byte> flipped = packed;
+        const auto at =
+            static_cast<std::size_t>(random.between(0.0, static_cast<double>(flipped.size())));
+        flipped[at] ^=
+            static_cast<std::byte>(1U << static_cast<unsigned>(random.between(0.0, 8.0)));
+        const auto unpacked = unpack_state(flipped, 20'000);
+        EXPECT_TRUE(!unpacked || unpacked->size() <= 20'000);
+    }
+}
+
+TEST_F(PackStateTest, ASmallPieceThatClaimsMuchTakesNoMemory) {
+    const std::vector<std::byte> packed = pack_state(std::vector<std::byte>(40U << 20U));
+    EXPECT_LT(packed.size(), 10'000U);
+    EXPECT_FALSE(unpack_state(packed, StatePiece::k_most_total).has_value());
+    // A frame that says eight exabytes.
+    std::vector<std::byte> bomb = {std::byte{0x28}, std::byte{0xb5}, std::byte{0x2f},
+                                   std::byte{0xfd}, std::byte{0xe0}};
+    bomb.insert(bomb.end(), 7, std::byte{0xff});
+    bomb.push_back(std::byte{0x7f});
+    bomb.insert(bomb.end(), 20, std::byte{0});
+    EXPECT_FALSE(unpack_state(bomb, StatePiece::k_most_total).has_value());
+}
+
+TEST_F(PackStateTest, PeersWithAndWithoutItPlayOneMatch) {
+    if (!has_network()) {
+        GTEST_SKIP() << "built without a network";
+    }
+    test::LoopbackMatch match(2);
+    for (const bool unpacks : {true, false}) {
+        auto peer = std::make_unique<test::LoopbackPeer>(2, unpacks ? 1 : 2);
+        peer->settings.unpacks = unpacks;
+        peer->connect(match.link());
+        match.peers.push_back(std::move(peer));
+        ASSERT_TRUE(match.run_until(20.0, [&] { return match.all_play(); }));
+        const MatchServerCounts& counts = match.server->counts();
+        EXPECT_EQ(counts.states, unpacks ? 1U : 2U);
+        RecordProperty(unpacks ? "bytes_packed" : "bytes_of_both",
+                       static_cast<int>(counts.state_bytes_packed));
+        if (unpacks) {
+            EXPECT_LT(counts.state_bytes_packed, counts.state_bytes * 7 / 10);
+            RecordProperty("bytes_made", static_cast<int>(counts.state_bytes));
+        }
+    }
+    match.run(2.0);
+    for (const auto& peer : match.peers) {
+        EXPECT_EQ(peer->different, 0U);
+        EXPECT_GT(peer->compared, 30U);
+    }
+}
+
+}  // namespace
+}  // namespace handhold::pack_state_test
