@@ -143,14 +143,13 @@ std::span<const std::byte> bytes_of(const void* bytes, std::size_t size) {
 void give_samples(const hh_match_input& given, std::uint32_t wrists, double end_s,
                   PeerInput& input) {
     using ::operator*;
-    constexpr double k_jump_s = 1.0;  // a state has set the clock
     PageMatch& all = page();
-    if (all.given_until_s > end_s + k_jump_s) {
-        all.given_until_s = 0.0;
-    }
     const hh::World& world = all.level->scene.host;
     const hh::Player player = all.level->players[all.peer->slot()];
     const double now_s = end_s + input.later_ticks * k_match_tick_s;
+    if (all.given_until_s > now_s + k_match_tick_s) {  // a state has set the clock back
+        all.given_until_s = 0.0;
+    }
     for (hh::Sample sample : std::span(given.samples, given.sample_count)) {
         sample.time_s += now_s;
         if (sample.time_s <= all.given_until_s) {

@@ -250,8 +250,8 @@ class Comparison {
         if (is_frozen && options_.freeze_s > 0.0) {
             figures_.frozen_filled += peer.end.filled;
         } else {
-            figures_.filled += peer.end.filled;
-            figures_.asked += peer.end.ticks;
+            figures_.filled += peer.end.filled - peer.end.early_filled;
+            figures_.asked += peer.end.ticks - peer.end.early_ticks;
         }
         for (const PeerSecond& second : peer.seconds) {
             const double overhead = options_.network.overhead_bytes;

@@ -31,8 +31,9 @@ struct SocketMatchFigures {
     std::uint64_t stalls = 0;
     std::uint64_t states = 0;  // states sent: one for each player, unless inputs were lost for good
     std::uint64_t rollbacks = 0;
-    std::uint64_t filled = 0;         // inputs that came too late, of players who did not freeze
-    std::uint64_t asked = 0;          // ticks of theirs
+    // Inputs that came too late after k_warm_s, and ticks then, of players who did not freeze.
+    std::uint64_t filled = 0;
+    std::uint64_t asked = 0;
     std::uint64_t frozen_filled = 0;  // inputs of the player who did
     // Ticks whose own hands, as first stepped, were compared with the confirmed ones, bit by bit;
     // those that differ; and by how many the latter are more than the inputs that were filled, 0

@@ -161,6 +161,10 @@ class SocketPeer {
                                  static_cast<double>(peer_.match().stats().steps_again - again)});
         last_frame_s_ = at_s;
         note_hashes();
+        if (at_s < k_warm_s) {
+            notes_.end.early_ticks = peer_.match().stats().ticks;
+            notes_.end.early_filled = peer_.match().stats().filled;
+        }
         while (static_cast<double>(notes_.seconds.size()) + 1.0 < at_s) {
             notes_.seconds.push_back(std::exchange(second_, {}));
         }

@@ -21,6 +21,9 @@ struct SocketPeerTask {
     std::filesystem::path notes;  // output
 };
 
+// Players find their lead in this time: what is filled in it is counted apart.
+inline constexpr double k_warm_s = 2.0;
+
 // A pose of a tracked hand in play space: position, then the rotation's x, y, z, w.
 using HandNumbers = std::array<double, 7>;
 
@@ -52,6 +55,9 @@ struct PeerEnd {
     std::uint64_t ticks = 0;
     std::uint64_t stalls = 0;
     std::uint64_t filled = 0;
+    // Of both, those of the first k_warm_s.
+    std::uint64_t early_ticks = 0;
+    std::uint64_t early_filled = 0;
     std::uint64_t rollbacks = 0;
     std::uint64_t states = 0;
     double begin_s = 0.0;  // time of the first tick, on a clock that all processes share

@@ -29,11 +29,13 @@ inline std::array<HandNumbers, 2> own_hands(const Scene& scene, hh::Player playe
 
 // Appends x, y, z of the left and the right tracked hand of each player, in the world.
 inline void add_all_hands(const MatchScene& scene, std::vector<double>& out) {
+    const World& world = scene.scene.world();
     for (const hh::Player player : scene.players) {
-        const auto pose = scene.scene.host.pose(player);
-        for (const hh_hand_state& hand : pose->hands) {
-            const hh::Vec3& at = hand.tracked.position;
-            out.insert(out.end(), {at.x, at.y, at.z});
+        const Pose& origin_ws =
+            world.player_origin.at(player_entities(world, player).player).pose_ws;
+        for (const HandNumbers& hand : own_hands(scene.scene, player)) {
+            const Vec3 at = transform_point(origin_ws, Vec3(hand[0], hand[1], hand[2]));
+            out.insert(out.end(), {at.x(), at.y(), at.z()});
         }
     }
 }

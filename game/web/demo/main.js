@@ -84,7 +84,7 @@ async function enterMatch() {
     } catch (error) {
         tell(`${query.get('join')}: ${error.message}`, 1);
         element('back').hidden = false;
-        window.demo = { error: error.message };
+        window.demo = { error: error.message, isReady: true };
         await new Promise(() => {}); // there is nothing to play
     }
 }
@@ -184,6 +184,19 @@ function playRecording(dt_s) {
         }
     }
 }
+// A match goes on between pictures, however long those take; only a headset's devices are read in its frames.
+let matchSample = null; // of mouse and keyboard
+let matchRead_ms;
+function followMatch() {
+    const now_ms = performance.now();
+    const dt_s = Math.min(1e-3 * (now_ms - (matchRead_ms ?? now_ms)), 1 / 20);
+    matchRead_ms = now_ms;
+    if (!renderer.xr.isPresenting) {
+        const devices = desktop.read(dt_s);
+        matchSample = devices.sample;
+        advanceMatch(devices);
+    }
+}
 // Ticks of the match. The controllers' joints are the level's: they are not told.
 function advanceMatch(devices) {
     match.poll(devices);
@@ -242,6 +255,10 @@ function onFrame(now_ms, frame) {
     const inHeadset = renderer.xr.isPresenting && frame !== undefined && frame !== null && space !== null;
     if (recorded) {
         playRecording(wall_s);
+    } else if (match && !inHeadset) {
+        if (matchSample) {
+            place(camera, matchSample.head);
+        }
     } else {
         const devices = inHeadset ? headset.read(frame, space, element('smooth').checked) : desktop.read(dt_s);
         advance(dt_s, devices);
@@ -308,6 +325,9 @@ element('loading').remove();
 element('panel').hidden = false;
 window.demo = { handhold, world, player, match, climber, desktop, hint, level, panel, renderer, path, advance, show };
 renderer.setAnimationLoop(onFrame);
+if (match) {
+    setInterval(followMatch, 4);
+}
 await offerHeadset();
 if ('serviceWorker' in navigator && !match) { // not on plain http
     demo.isOffline = keepOffline().then(() => true, (error) => console.warn(`not kept for offline use: ${error.message}`));

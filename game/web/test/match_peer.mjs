@@ -121,3 +121,80 @@ export function equalHashes(hashes, program) {
     }
     return equal;
 }
+
+/** A program of tests/portability/match_peer.cpp, for which this one carries the messages. */
+export class DrivenPeer {
+    #answers = Buffer.alloc(0);
+    #wake = () => {};
+    hashes = new Map();
+    report = {};
+
+    constructor(context, name, command) {
+        this.name = name;
+        this.process = spawn(command[0], command.slice(1), { stdio: ['pipe', 'pipe', 'ignore'] });
+        this.process.stdout.on('data', (data) => {
+            this.#answers = Buffer.concat([this.#answers, data]);
+            this.#wake();
+        });
+        this.process.stdin.on('error', () => {});
+        context.after(() => this.process.kill('SIGKILL'));
+    }
+    #ask(request, bytes, now_s) {
+        const head = Buffer.alloc(bytes === undefined ? 9 : 5);
+        head.write(request);
+        if (bytes === undefined) {
+            head.writeDoubleLE(now_s, 1);
+        } else {
+            head.writeUInt32LE(bytes.length, 1);
+        }
+        this.process.stdin.write(bytes === undefined ? head : Buffer.concat([head, bytes]));
+    }
+    async #take(size) {
+        while (this.#answers.length < size) {
+            if (this.process.exitCode !== null) {
+                throw new Error(`${this.name} has ended`);
+            }
+            await Promise.race([new Promise((done) => { this.#wake = done; }), sleep(1000)]);
+        }
+        const taken = this.#answers.subarray(0, size);
+        this.#answers = this.#answers.subarray(size);
+        return taken;
+    }
+    async #takeBytes() {
+        return this.#take((await this.#take(4)).readUInt32LE());
+    }
+    /** Loads the level of the server's offer. Throws the reason if it cannot. */
+    async load(offer) {
+        this.#ask('L', offer);
+        const why = (await this.#takeBytes()).toString();
+        if (why !== '') {
+            throw new Error(`${this.name}: ${why}`);
+        }
+    }
+    /** Plays until `until_ms` of performance.now(). */
+    async play(url, until_ms) {
+        const socket = new (socketType())(url, 'handhold-match');
+        socket.binaryType = 'arraybuffer';
+        const now_s = () => 1e-3 * performance.now();
+        this.#ask('C', undefined, now_s());
+        socket.onmessage = ({ data }) => this.#ask('M', Buffer.from(data));
+        while (performance.now() < until_ms) {
+            this.#ask('P', undefined, now_s());
+            const count = (await this.#take(4)).readUInt32LE();
+            for (let i = 0; i < count; ++i) {
+                const message = await this.#takeBytes();
+                if (socket.readyState === 1) {
+                    socket.send(Uint8Array.from(message));
+                }
+            }
+            const numbers = await this.#take(56);
+            const [stage, ticks, rollbacks, states, gripping, hashTick, hash] = Array.from({ length: 7 }, (_, i) => numbers.readBigUInt64LE(8 * i));
+            this.report = { stage, ticks, rollbacks, states, gripping };
+            if (hash !== 0n && hashTick > 0n) {
+                this.hashes.set(String(hashTick), `0x${hash.toString(16).padStart(16, '0')}`);
+            }
+            await sleep(4);
+        }
+        socket.close();
+    }
+}
