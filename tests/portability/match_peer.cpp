@@ -55,7 +55,7 @@ void write_bytes(std::string_view bytes) {
     std::fwrite(bytes.data(), 1, bytes.size(), stdout);
 }
 
-// Both hands move to and fro in front, and close and open again and again.
+// Both hands move back and forth in front, and close and open again and again.
 hh_tracking_sample hands_at(double t_s) {
     hh_tracking_sample sample = hh::sample();
     sample.head.position = {0.0, 1.6, 0.0};

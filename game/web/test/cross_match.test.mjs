@@ -4,7 +4,8 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { DrivenPeer, equalHashes, loadPeerModule, playOn, Program, socketType, whyNot } from './match_peer.mjs';
 
-const peers = (process.env.HANDHOLD_PEERS ?? '').split(';').filter((one) => one !== '').map((one) => one.split('='));
+const peers = (process.env.HANDHOLD_PEERS ?? '').split(';').filter((one) => one !== '')
+    .map((one) => [one.slice(0, one.indexOf('=')), one.slice(one.indexOf('=') + 1)]);
 const skip = whyNot() ?? (peers.length === 0 ? 'HANDHOLD_PEERS names no peers' : false);
 
 test('peers on other targets have the hashes of the native server', { skip, timeout: 900000 }, async (context) => {
