@@ -213,7 +213,7 @@ const matchRows = () => [
     ['score', match.score || 'none'],
     ['you', `player ${match.slot + 1} of ${match.players.length}`],
     ['tracked players', match.players.filter((id) => world.playerPose(id).hands.some((hand) => hand.is_tracked)).length],
-    ['ticks ahead of the server', Number(match.stats().tick - match.stats().confirmed)],
+    ['ticks ahead', Number(match.stats().tick - match.stats().confirmed)],
 ];
 /** One step of the world with what the devices say. */
 function advance(dt_s, { usesWrists, sample, commands }) {
