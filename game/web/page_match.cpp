@@ -55,8 +55,8 @@ class PageLink final : public Link {
 struct PageMatch {
     std::optional<MatchScene> level;
     std::vector<ShadingMesh> meshes;
-    std::vector<page_visual> visuals;
-    std::vector<page_lamp> lamps;
+    std::vector<PageVisual> visuals;
+    std::vector<PageLamp> lamps;
     double now_s = 0.0;
     std::deque<Message> incoming;
     std::deque<Message> outgoing;
@@ -79,9 +79,9 @@ const char* tell(std::string text) {
     return page().text.c_str();
 }
 
-page_visual visual_of(const SceneVisual& visual, const ShadingMesh& mesh, const World& world) {
+PageVisual visual_of(const SceneVisual& visual, const ShadingMesh& mesh, const World& world) {
     const Color& color = visual.color ? *visual.color : visual.mesh->color;
-    page_visual out{};
+    PageVisual out{};
     out.body = body_id(visual.body);
     out.vertices = mesh.vertices.data();
     out.vertex_count = static_cast<std::uint32_t>(mesh.vertices.size() / 6);
@@ -202,12 +202,12 @@ std::uint32_t page_player_count() {
 
 void page_player(std::uint32_t slot, hh_player* player) { *player = page().level->players[slot]; }
 
-std::uint32_t page_visuals(const page_visual** visuals) {
+std::uint32_t page_visuals(const PageVisual** visuals) {
     *visuals = page().visuals.data();
     return static_cast<std::uint32_t>(page().visuals.size());
 }
 
-std::uint32_t page_lamps(const page_lamp** lamps) {
+std::uint32_t page_lamps(const PageLamp** lamps) {
     *lamps = page().lamps.data();
     return static_cast<std::uint32_t>(page().lamps.size());
 }

@@ -11,7 +11,7 @@
 extern "C" {
 
 // A mesh that is drawn at a body's pose. Positions and normals are in the body's frame.
-struct page_visual {
+struct PageVisual {
     hh_body body;
     const float* vertices;         // position, normal: six numbers for each vertex
     std::uint32_t vertex_count;    // vertices, not numbers
@@ -25,7 +25,7 @@ struct page_visual {
     std::uint32_t is_moving;  // 0: the body is static
 };
 
-struct page_lamp {
+struct PageLamp {
     hh_vec3 position;
     float color[3];  // linear RGB times the intensity at 1 m
     float reach_m;
@@ -39,9 +39,9 @@ hh_world* page_world(void);
 const char* page_scene(void);
 std::uint32_t page_player_count(void);
 void page_player(std::uint32_t slot, hh_player* player);
-// Lists of page_visual and page_lamp; the scene keeps them.
-std::uint32_t page_visuals(const page_visual** visuals);
-std::uint32_t page_lamps(const page_lamp** lamps);
+// Lists of PageVisual and PageLamp; the scene keeps them.
+std::uint32_t page_visuals(const PageVisual** visuals);
+std::uint32_t page_lamps(const PageLamp** lamps);
 // The body's name.
 const char* page_body_name(const hh_body* body);
 

@@ -1,6 +1,8 @@
 #include "tools/lab/socket_match.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstring>
 #include <filesystem>
 #include <optional>
@@ -215,6 +217,10 @@ Result<Confirmed> play_again(const std::filesystem::path& file) {
     }
 }
 
+auto bits_of(const std::array<HandNumbers, 2>& hands) {
+    return std::bit_cast<std::array<std::uint64_t, sizeof(hands) / sizeof(std::uint64_t)>>(hands);
+}
+
 class Comparison {
   public:
     Comparison(const SocketMatchOptions& options, const PlayedMatch& played,
@@ -276,10 +282,7 @@ class Comparison {
                 continue;
             }
             ++figures_.own_hand_ticks;
-            different += std::memcmp(&tick->own[peer.end.slot], &peer.ticks[i].own,
-                                     sizeof(peer.ticks[i].own)) != 0
-                             ? 1U
-                             : 0U;
+            different += bits_of(tick->own[peer.end.slot]) != bits_of(peer.ticks[i].own) ? 1U : 0U;
             compare_others(std::span(peer.others).subspan(i * numbers, numbers), *tick,
                            peer.end.slot);
         }

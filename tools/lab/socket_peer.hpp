@@ -72,7 +72,7 @@ struct PeerNotes {
     std::vector<PeerFrame> frames;
     std::vector<PeerSecond> seconds;  // joining is in none
 };
-Result<PeerNotes> load_peer_notes(const std::filesystem::path& file);
+Result<PeerNotes> load_peer_notes(const std::filesystem::path& path);
 
 // Plays as a climber. Returns the exit status; an error is one line on standard error.
 int run_socket_peer(const SocketPeerTask& task);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <deque>
 #include <optional>
 #include <random>
@@ -24,7 +25,7 @@ constexpr double k_longest_look_s = 0.001;  // what is due waits at most so long
 // Waits for any of the sockets to be readable; at most k_longest_look_s.
 void wait_for(std::vector<pollfd>& sockets, double wait_s) {
     const double wait_ms = 1e3 * std::min(wait_s, k_longest_look_s);
-    ::poll(sockets.data(), sockets.size(), static_cast<int>(wait_ms + 0.5));
+    ::poll(sockets.data(), sockets.size(), static_cast<int>(std::lround(wait_ms)));
 }
 
 // One socket for all clients, and one for each client towards the server.

@@ -10,9 +10,9 @@ const stages = ['connecting', 'offered', 'joining', 'playing', 'ended'];
 const now_s = () => 1e-3 * performance.now();
 
 // Structs of page_match.hpp.
-structs.page_visual = [['body', 'hh_body'], ['vertices', 'pointer'], ['vertex_count', 'u32'], ['indices', 'pointer'], ['index_count', 'u32'],
+structs.PageVisual = [['body', 'hh_body'], ['vertices', 'pointer'], ['vertex_count', 'u32'], ['indices', 'pointer'], ['index_count', 'u32'],
     ['color', 'f32', 3], ['emissive', 'f32'], ['opacity', 'f32'], ['gloss', 'f32'], ['center', 'hh_vec3'], ['is_moving', 'u32']];
-structs.page_lamp = [['position', 'hh_vec3'], ['color', 'f32', 3], ['reach_m', 'f32']];
+structs.PageLamp = [['position', 'hh_vec3'], ['color', 'f32', 3], ['reach_m', 'f32']];
 
 function openSocket(url, WebSocketType) {
     let socket;
@@ -186,18 +186,18 @@ export class Match {
             return result === 0 ? `0x${m.view.getBigUint64(at, true).toString(16).padStart(16, '0')}` : null;
         });
     }
-    /** page_visual of what is drawn, with `vertices` and `indices` as arrays. */
+    /** PageVisual of what is drawn, with `vertices` and `indices` as arrays. */
     visuals() {
         const { memory } = this.handhold;
         const buffer = () => memory.view.buffer;
-        return this.#list('page_visual', 'page_visuals').map((one) => ({
+        return this.#list('PageVisual', 'page_visuals').map((one) => ({
             ...one,
             vertices: new Float32Array(buffer(), one.vertices, 6 * one.vertex_count).slice(),
             indices: new Uint32Array(buffer(), one.indices, one.index_count).slice(),
         }));
     }
     lamps() {
-        return this.#list('page_lamp', 'page_lamps');
+        return this.#list('PageLamp', 'page_lamps');
     }
     bodyName(body) {
         return this.handhold.scratch((m) => this.#text('page_body_name', m.takeOne('hh_body', body)));
