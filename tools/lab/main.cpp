@@ -165,6 +165,8 @@ void add_match_options(CLI::App& match, lab::MatchOptions& options) {
                     "Plays this scene of the game instead: a server and climbers as processes, "
                     "over WebSocket through a proxy with --rtt-ms, --jitter-ms and --loss")
         ->check(CLI::IsMember(strings(handhold::built_in_scenes())));
+    match.add_option("--transport", options.transport, "With --sockets: ws, or quic over UDP")
+        ->check(CLI::IsMember(std::vector<std::string>{"ws", "quic"}));
     match
         .add_option("--freeze-s", options.freeze_s,
                     "With --sockets: the last player sleeps so long")

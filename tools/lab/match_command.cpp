@@ -82,8 +82,8 @@ int match_command(const MatchOptions& options) {
                                    .bytes_per_s = 125.0 * options.kbps,
                                    .overhead_bytes = options.overhead_bytes};
     if (!options.sockets.empty()) {
-        return socket_match_command({options.sockets, options.peers, network, options.seconds,
-                                     options.freeze_s, options.seed},
+        return socket_match_command({options.sockets, options.peers, options.transport, network,
+                                     options.seconds, options.freeze_s, options.seed},
                                     options.json);
     }
     set_stage_clock(options.threads == 1 ? StageClock::thread_cpu : StageClock::wall);

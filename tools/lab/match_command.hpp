@@ -22,8 +22,9 @@ struct MatchOptions {
     double seconds = 30.0;
     std::uint64_t seed = 1;
     int threads = 1;
-    std::string sockets;    // a scene of the game, played by processes; empty: in this process
-    double freeze_s = 2.0;  // SocketMatchOptions::freeze_s
+    std::string sockets;  // a scene of the game, played by processes; empty: in this process
+    std::string transport = "ws";  // SocketMatchOptions::transport
+    double freeze_s = 2.0;         // SocketMatchOptions::freeze_s
     std::filesystem::path json;
 };
 

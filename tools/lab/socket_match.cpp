@@ -48,17 +48,37 @@ class TemporaryFolder {
 
 FileError failure(const std::string& what) { return {what, "", "expected it to work"}; }
 
-// Port of the server that logs there; nullopt: it has not begun in time.
-std::optional<int> port_in(const std::filesystem::path& log) {
-    constexpr std::string_view k_before = "url=ws://127.0.0.1:";
+// An address of the server: TRANSPORT://127.0.0.1:PORT, and what follows.
+struct ServerAddress {
+    int port = 0;
+    std::string rest;  // "#FINGERPRINT" of quic
+
+    std::string through(const std::string& transport, int proxy_port) const {
+        return transport + "://127.0.0.1:" + std::to_string(proxy_port) + rest;
+    }
+};
+// That of the server that logs there; nullopt: it has not begun in time, or has none.
+std::optional<ServerAddress> address_in(const std::filesystem::path& log,
+                                        const std::string& transport) {
+    const std::string before = transport + "://127.0.0.1:";
     const double until_s = steady_now_s() + k_load_within_s;
     while (steady_now_s() < until_s) {
         const Result<std::string> text = read_file(log, std::size_t{1} << 20U);
-        const std::size_t at = text ? text.value().find(k_before) : std::string::npos;
-        if (at != std::string::npos && text.value().find('\n', at) != std::string::npos) {
-            return std::atoi(text.value().c_str() + at + k_before.size());
+        const std::size_t serves = text ? text.value().find("event=serves") : std::string::npos;
+        const std::size_t end = text ? text.value().find('\n', serves) : std::string::npos;
+        if (end == std::string::npos) {
+            ::usleep(10000);
+            continue;
         }
-        ::usleep(10000);
+        const std::string line = text.value().substr(serves, end - serves);
+        const std::size_t at = line.find(before);
+        if (at == std::string::npos) {
+            return std::nullopt;
+        }
+        const std::string found = line.substr(at + before.size());
+        const std::size_t digits = std::min(found.find_first_not_of("0123456789"), found.size());
+        const std::string rest = found.substr(digits);
+        return ServerAddress{std::atoi(found.c_str()), rest.substr(0, rest.find_first_of(" \""))};
     }
     return std::nullopt;
 }
@@ -107,12 +127,12 @@ std::filesystem::path recording_in(const std::filesystem::path& folder) {
 }
 
 std::vector<ChildProcess> start_peers(const SocketMatchOptions& options,
-                                      const std::filesystem::path& folder, int port) {
+                                      const std::filesystem::path& folder, const std::string& url) {
     std::vector<ChildProcess> peers;
     for (int i = 0; i < options.peers; ++i) {
         SocketPeerTask task;
         task.scene = options.scene;
-        task.url = "ws://127.0.0.1:" + std::to_string(port);
+        task.url = url;
         task.seed = options.seed + static_cast<std::uint64_t>(i);
         task.seconds = options.seconds;
         task.freeze_at_s = 0.5 * options.seconds;
@@ -133,17 +153,19 @@ Result<PlayedMatch> play(const SocketMatchOptions& options, const std::filesyste
     serve.record = recording_in(folder).string();
     const std::filesystem::path log = folder / "server.log";
     ChildProcess server([&] { return serve_into(serve, log); });
-    const std::optional<int> port = port_in(log);
-    if (!port) {
-        return failure("the server");
+    const std::optional<ServerAddress> address = address_in(log, options.transport);
+    if (!address) {
+        return failure("a server with " + options.transport);
     }
     Result<std::unique_ptr<SocketProxy>> proxy =
-        open_proxy(ProxyKind::tcp, *port, options.network, options.seed);
+        open_proxy(options.transport == "quic" ? ProxyKind::udp : ProxyKind::tcp, address->port,
+                   options.network, options.seed);
     if (!proxy) {
         return proxy.error();
     }
     ChildProcess between([&] { return run_proxy(*proxy.value(), folder / "proxy"); });
-    std::vector<ChildProcess> peers = start_peers(options, folder, proxy.value()->port());
+    std::vector<ChildProcess> peers =
+        start_peers(options, folder, address->through(options.transport, proxy.value()->port()));
     const double until_s = steady_now_s() + options.seconds + k_load_within_s;
     bool is_well = true;
     for (ChildProcess& peer : peers) {

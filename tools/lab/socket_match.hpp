@@ -13,10 +13,11 @@
 namespace handhold::lab {
 
 struct SocketMatchOptions {
-    std::string scene;      // a built-in scene of the game
-    int peers = 4;          // climbers
-    NetworkTraits network;  // traits of the proxy; see ProxyKind::tcp
-    double seconds = 30.0;  // time that each player plays
+    std::string scene;             // a built-in scene of the game
+    int peers = 4;                 // climbers
+    std::string transport = "ws";  // or another that the server's log has an address of: "quic"
+    NetworkTraits network;         // traits of the proxy, which is UDP for quic
+    double seconds = 30.0;         // time that each player plays
     double freeze_s = 2.0;  // the last player's process sleeps so long in the middle of its time
     std::uint64_t seed = 1;
 };

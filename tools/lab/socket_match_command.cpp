@@ -37,7 +37,9 @@ Json network_json(const SocketMatchOptions& options) {
             {"jitter_ms", k_ms_per_s * options.network.jitter_s},
             {"loss", options.network.loss},
             {"overhead_bytes", options.network.overhead_bytes},
-            {"transport", "ws"},
+            {"burst_loss", options.network.burst_loss},
+            {"duplicate", options.network.duplication},
+            {"transport", options.transport},
             {"seed", options.seed}};
 }
 
@@ -77,7 +79,8 @@ Json json_of(const SocketMatchOptions& options, const SocketMatchFigures& figure
         {"proxy",
          {{"pieces", figures.proxy.pieces},
           {"bytes", figures.proxy.bytes},
-          {"lost", figures.proxy.lost}}}};
+          {"lost", figures.proxy.lost},
+          {"overtaken", figures.proxy.overtaken}}}};
 }
 
 // Null: the run proves what it claims.

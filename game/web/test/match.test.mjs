@@ -93,7 +93,7 @@ test('another version or level is named', { skip, timeout: 100000 }, async (cont
         }
         close() {}
     };
-    assert.equal(await whyRefused(url, { WebSocketType: claim((said) => { said[5] = 3; }) }), 'other version: the server speaks 3, this program 2');
+    assert.match(await whyRefused(url, { WebSocketType: claim((said) => { said[5] = 99; }) }), /^other version: the server speaks 99, this program \d+$/);
     for (const [index, name] of ['library', 'scene', 'tick', 'tuning', 'clips', 'bodies', 'shapes'].entries()) {
         assert.equal(await whyRefused(url, { WebSocketType: claim((said) => { said[17 + 8 * index] ^= 1; }) }), `other level: "${name}" differs`);
     }
