@@ -10,7 +10,7 @@ import { HH_LEFT, HH_RIGHT, loadHandhold } from 'handhold';
 import { Avatar, loadFigure } from './avatar.js';
 import { Desktop, FirstHint, Headset } from './devices.js';
 import { levelOfMatch, loadLevel, place, startBeforeSomethingToGrip } from './level.js';
-import { joinMatch } from './match.js';
+import { joinMatch, newPerson } from './match.js';
 import { Panel } from './panel.js';
 import { parseRecording, Playback } from './playback.js';
 
@@ -71,7 +71,8 @@ const panel = new Panel(level.names);
 async function enterMatch() {
     tell('Asking the server', 0);
     try {
-        const joined = await joinMatch(query.get('join'), { token: query.get('token') ?? '' });
+        sessionStorage.person ??= newPerson(); // who loads the page again has the slot of before
+        const joined = await joinMatch(query.get('join'), { token: query.get('token') ?? '', person: BigInt(sessionStorage.person) });
         while (joined.stage !== 'playing') {
             joined.poll({ sample: {} });
             if (joined.isOver) {
@@ -205,7 +206,7 @@ function advanceMatch(devices) {
     } else {
         notice = match.isLost ? `Connection lost: ${match.why}. Trying to return.` : '';
     }
-    if (match.player.index !== player.index) { // somebody took the slot meanwhile
+    if (match.player.index !== player.index) { // somebody has taken the slot meanwhile
         location.reload();
     }
 }

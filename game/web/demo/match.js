@@ -42,28 +42,31 @@ function fetchOffer(url, WebSocketType) {
     });
 }
 
+/** A number for `person`, which is the same when somebody returns. */
+export const newPerson = () => crypto.getRandomValues(new BigUint64Array(1))[0];
+
 /** Loads the level that the server plays and begins to join. Throws an Error with one clear line: no server, another version or level. */
-export async function joinMatch(url, { token = '', module = new URL('./match.wasm', import.meta.url), WebSocketType = globalThis.WebSocket } = {}) {
+export async function joinMatch(url, { token = '', person = newPerson(), module = new URL('./match.wasm', import.meta.url), WebSocketType = globalThis.WebSocket } = {}) {
     const [offer, handhold] = await Promise.all([fetchOffer(url, WebSocketType), loadHandhold(module)]);
     const { exports } = handhold;
     const why = handhold.scratch((m) => m.text(exports.page_load(m.takeBytes(offer), offer.byteLength)));
     if (why !== null) {
         throw new Error(why);
     }
-    return new Match(handhold, url, token, WebSocketType);
+    return new Match(handhold, url, token, person, WebSocketType);
 }
 
 export class Match {
     #url;
     #token;
     #socket;
-    #person = crypto.getRandomValues(new BigUint64Array(1))[0];
+    #person;
     #WebSocketType;
     #hasPlayed = false;
     #lost_s;
     #next_s = 0;
 
-    constructor(handhold, url, token, WebSocketType) {
+    constructor(handhold, url, token, person, WebSocketType) {
         this.handhold = handhold;
         this.world = new World(handhold, handhold.exports.page_world());
         this.scene = this.#text('page_scene');
@@ -74,6 +77,7 @@ export class Match {
         }));
         this.#url = url;
         this.#token = token;
+        this.#person = person;
         this.#WebSocketType = WebSocketType;
         this.#connect();
     }

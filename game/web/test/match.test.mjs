@@ -120,3 +120,14 @@ test('a player comes back to the same slot after the connection was cut', { skip
     assert.ok(equalHashes(hashes, server) > 0);
     match.leave();
 });
+
+test('the same person from elsewhere takes over the slot', { skip, timeout: 100000 }, async (context) => {
+    const { url } = await serve(context, '--scene', 'reach', '--players', 2);
+    const before = await enter(url, { person: 5n });
+    const after = await enter(url, { person: 5n });
+    await playOn(before, 0.5);
+    assert.ok(before.isOver);
+    assert.equal(before.why, 'the same person has joined from elsewhere');
+    assert.deepEqual([after.stage, after.slot], ['playing', 0]);
+    after.leave();
+});

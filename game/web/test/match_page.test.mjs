@@ -82,6 +82,9 @@ test('the field joins, and a page that cannot join says why', { skip, timeout: 3
         await page.waitForFunction('window.demo?.isReady', { timeout: 300000 });
         assert.equal(await page.evaluate(() => demo.match.scene), 'reach');
         assert.equal((await server.waitFor('plays')).slot, '0');
+        await page.reload();
+        await page.waitForFunction('window.demo?.isReady', { timeout: 300000 });
+        assert.equal(await page.evaluate(() => demo.match.slot), 0); // the same person
         await server.end();
         await page.waitForFunction('demo.match.isOver', { timeout: 20000 });
         await page.waitForFunction(() => document.getElementById('help').innerText.includes('the server is shutting down'), { timeout: 20000 });
