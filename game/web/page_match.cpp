@@ -179,9 +179,6 @@ MatchPeerSettings settings_of(std::uint64_t person, const char* token) {
 }
 
 }  // namespace
-}  // namespace handhold
-
-using namespace handhold;
 
 const char* page_load(const void* offer, std::size_t size) {
     try {
@@ -296,3 +293,5 @@ const char* page_score() {
     const auto& arena = page().level->scene.arena;
     return tell(arena ? score_text(arena->state) : "");
 }
+
+}  // namespace handhold

@@ -8,6 +8,7 @@
 // The web page's part of a match: the game's levels, rules and MatchPeer in its WebAssembly module.
 // JavaScript (game/web/demo/match.js) carries the messages. One match at a time; texts are one line
 // and valid until the next call of these functions.
+namespace handhold {
 extern "C" {
 
 // A mesh that is drawn at a body's pose. Positions and normals are in the body's frame.
@@ -74,4 +75,5 @@ std::uint32_t page_states(void);
 const hh_match* page_match(void);
 // "blue 2 : 1 orange", or "" in a scene without rules.
 const char* page_score(void);
-}
+}  // extern "C"
+}  // namespace handhold

@@ -21,6 +21,7 @@
 #include <io.h>
 #endif
 
+namespace handhold {
 namespace {
 
 struct PeerReport {
@@ -122,8 +123,10 @@ void poll(double now_s, std::uint64_t& gripping) {
 }
 
 }  // namespace
+}  // namespace handhold
 
 int main() {
+    using namespace handhold;
 #ifdef _WIN32
     _setmode(_fileno(stdin), _O_BINARY);
     _setmode(_fileno(stdout), _O_BINARY);
