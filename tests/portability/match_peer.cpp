@@ -56,15 +56,16 @@ void write_bytes(std::string_view bytes) {
     std::fwrite(bytes.data(), 1, bytes.size(), stdout);
 }
 
-// Both hands move back and forth in front, and close and open again and again.
+// Of a player who lies on a wall by jets, with the head down: both hands are before it, where they
+// close and open again and again.
 hh_tracking_sample hands_at(double t_s) {
     hh_tracking_sample sample = hh::sample();
     sample.head.position = {0.0, 1.6, 0.0};
-    const double phase = t_s / 2.0 - static_cast<double>(static_cast<long long>(t_s / 2.0));
-    const double wave = phase < 0.5 ? phase : 1.0 - phase;
+    const double phase = t_s - static_cast<double>(static_cast<long long>(t_s));
+    const double wave = 0.1 * (phase < 0.5 ? phase : 1.0 - phase);
     for (const hh_side side : {HH_LEFT, HH_RIGHT}) {
         const double out = side == HH_LEFT ? -0.25 : 0.25;
-        sample.hands[side].position = {out, 1.1 + 0.3 * wave, -0.3 - 0.4 * wave};
+        sample.hands[side].position = {out, 1.4 + wave, -0.35 + wave};
         sample.grab[side] = phase > 0.3 ? 1 : 0;
     }
     return sample;
@@ -103,8 +104,7 @@ void poll(double now_s, std::uint64_t& gripping) {
     hh_match_input input = hh_default_match_input();
     input.samples = &sample;
     input.sample_count = 1;
-    constexpr double k_away_s = 4.0;  // by jets, to where something can be gripped
-    input.commands.thrust.y = now_s - begin_s < k_away_s ? -1.0 : 0.0;
+    input.commands.thrust.y = -1.0;
     page_poll(now_s, &input, 0);
     constexpr std::uint32_t k_playing = 3;
     gripping += page_stage() == k_playing && grips() ? 1U : 0U;

@@ -11,7 +11,7 @@ const skip = whyNot() ?? (peers.length === 0 ? 'HANDHOLD_PEERS names no peers' :
 test('peers on other targets have the hashes of the native server', { skip, timeout: 900000 }, async (context) => {
     const seconds = Number(process.env.HANDHOLD_SECONDS ?? 10);
     const joinMatch = await loadPeerModule();
-    const server = new Program(context, 'serve', '--scene', 'reach', '--players', peers.length + 2);
+    const server = new Program(context, 'serve', '--scene', 'arena', '--players', peers.length + 2);
     const { url } = await server.waitFor('serves');
     const offer = await new Promise((done) => {
         const socket = new (socketType())(url, 'handhold-match');
@@ -26,15 +26,16 @@ test('peers on other targets have the hashes of the native server', { skip, time
     const bot = new Program(context, 'bots', 1, '--join', url);
     await bot.waitFor('plays');
     const until_ms = performance.now() + 1e3 * seconds;
-    const [{ hashes }] = await Promise.all([playOn(page, seconds), ...driven.map((peer) => peer.play(url, until_ms))]);
+    const [{ hashes, seen }] = await Promise.all([playOn(page, seconds), ...driven.map((peer) => peer.play(url, until_ms))]);
     await server.end();
     const all = [['page', hashes], ...driven.map((peer) => [peer.name, peer.hashes])];
     const equal = all.map(([name, of]) => [name, equalHashes(of, server)]);
     context.diagnostic(`${seconds} s, hashes equal to the server's: ${equal.map((one) => one.join(' ')).join(', ')}, native bot ${bot.lines('confirmed').length}`);
     for (const { name, report } of driven) {
         context.diagnostic(`${name}: ${Object.entries(report).map(([what, count]) => `${what} ${count}`).join(', ')}`);
-        assert.ok(report.rollbacks > 0n && report.gripping > 0n, name);
+        assert.ok(report.ticks > 20n * BigInt(seconds), name); // an emulator may be too slow to go ahead of the server, and so to go back
     }
+    assert.ok(seen.gripping > 20 && page.stats().rollbacks > BigInt(seconds), `${seen.gripping}, ${page.stats().rollbacks}`);
     assert.ok(equal.every(([, count]) => count >= seconds / 2 - 3 && count > 0), equal.join());
     assert.equal(server.lines('ends')[0].out_of_sync, '0');
 });
