@@ -267,6 +267,7 @@ std::uint32_t MatchPeer::step(const PeerHands& hands) {
     std::uint32_t advanced = 0;
     for (std::uint32_t i = 0; i < due; ++i) {
         input_.samples.clear();
+        input_.later_ticks = due - i - 1;
         if (!settings_.watches) {
             hands(world_.time_s() + settings_.tick_s, input_);
         }

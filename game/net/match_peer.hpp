@@ -22,6 +22,7 @@ struct PeerInput {
     std::vector<hh::Sample> samples;  // ascending times, each once
     hh_commands commands{};
     std::uint32_t buttons = 0;
+    std::uint32_t later_ticks = 0;  // in: ticks that are due after this one
 };
 // Sets the input of the tick that ends at `end_s` on the world's clock. The clock jumps when a
 // state arrives.

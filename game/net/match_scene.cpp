@@ -30,7 +30,7 @@ class Digest {
             value_ = (value_ ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3ULL;
         }
     }
-    void add(std::string_view text) { add(std::as_bytes(std::span(text))); }
+    void add(std::string_view text) { add(std::as_bytes(std::span(text.data(), text.size()))); }
     std::uint64_t value() const { return value_; }
 
   private:

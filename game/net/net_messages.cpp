@@ -23,7 +23,7 @@ class NetWriter {
     }
     void put_text(std::string_view text) {
         put(text.size(), 2);
-        const auto bytes = std::as_bytes(std::span(text));
+        const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
         bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
     }
     void put_digests(const MatchDigests& digests) {

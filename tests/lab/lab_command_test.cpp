@@ -1,6 +1,10 @@
 // `handhold-lab` as an external program: exit status, messages, files.
+#include <cstdlib>
+
+#include <nlohmann/json.hpp>
 #include <sys/wait.h>
 
+#include "game/net/transport.hpp"
 #include "lab_files.hpp"
 #include "tests/places.hpp"
 #include "tools/lab/lab_scene.hpp"
@@ -28,7 +32,9 @@ TEST_F(LabCommand, RefusesWrongFlagsWithTheUsage) {
          {"", "solve", "solve --scene chain", "solve --scene nowhere --json x",
           "solve --scene chain --json x --links 1", "solve --scene chain --json x --masses heavy",
           "solve --scene chain --json x --solver jolt", "solve --scene chain --json x --frames 0",
-          "solve --scene chain --json x --holder none", "dissolve"}) {
+          "solve --scene chain --json x --holder none", "match --json x --sockets nowhere",
+          "match --sockets arena", "match --json x --freeze-s 5", "proxy", "proxy --to 0",
+          "dissolve"}) {
         EXPECT_EQ(run(arguments), 1) << arguments;
         EXPECT_NE(err_.find("Usage:"), std::string::npos) << arguments;
     }
@@ -73,6 +79,27 @@ TEST_F(LabCommand, WritesCompleteFilesForEveryScene) {
         }
         EXPECT_EQ(parse_rows(text_of(csv)).size(), 3 * (figures["bodies"].size() + grabs));
     }
+}
+
+// Needs the wall's clock. Exit status 0 says that hashes and own hands were compared and are equal,
+// and that somebody gripped, went back and was filled.
+TEST_F(LabCommand, PlaysAMatchOfProcessesOverSockets) {
+    if (std::getenv("HANDHOLD_REALTIME_TESTS") == nullptr || !has_network()) {
+        GTEST_SKIP() << "bounds of the wall's clock: set HANDHOLD_REALTIME_TESTS";
+    }
+    ASSERT_EQ(run("match --sockets arena --peers 2 --rtt-ms 60 --jitter-ms 10 --seconds 8 "
+                  "--freeze-s 1 " +
+                  json()),
+              0)
+        << err_;
+    const auto figures = nlohmann::json::parse(text_of(folder_ / "a.json"));
+    EXPECT_EQ(figures.at("network").at("transport"), "ws");
+    EXPECT_EQ(figures.at("hashes_different"), 0);
+    EXPECT_EQ(figures.at("own_hand").at("unexplained"), 0);
+    EXPECT_EQ(figures.at("states"), 2);
+    EXPECT_GT(figures.at("freeze").at("filled"), 45);  // half of the ticks that it slept
+    EXPECT_GT(figures.at("freeze").at("others_ticks_per_s"), 60.0);
+    EXPECT_GE(figures.at("join_s").at("median"), 0.06);  // a round trip at least
 }
 
 }  // namespace

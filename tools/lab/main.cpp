@@ -6,6 +6,7 @@
 #include <handhold/version.hpp>
 
 #include "game/commands/flag_checks.hpp"
+#include "game/levels/built_in_scenes.hpp"
 #include "tools/lab/body_command.hpp"
 #include "tools/lab/grip_command.hpp"
 #include "tools/lab/hands_picture.hpp"
@@ -14,6 +15,7 @@
 #include "tools/lab/match_scene.hpp"
 #include "tools/lab/recorded_grips.hpp"
 #include "tools/lab/shown_body_command.hpp"
+#include "tools/lab/socket_match_command.hpp"
 #include "tools/lab/solve_command.hpp"
 
 namespace {
@@ -158,7 +160,41 @@ void add_match_options(CLI::App& match, lab::MatchOptions& options) {
     match.add_option("--seconds", options.seconds, "Duration")->check(number_in(3.0, 3600.0));
     match.add_option("--seed", options.seed, "Seed of the network");
     match.add_option("--threads", options.threads, "Threads of a step")->check(CLI::Range(1, 64));
+    match
+        .add_option("--sockets", options.sockets,
+                    "Plays this scene of the game instead: a server and climbers as processes, "
+                    "over WebSocket through a proxy with --rtt-ms, --jitter-ms and --loss")
+        ->check(CLI::IsMember(strings(handhold::built_in_scenes())));
+    match.add_option("--transport", options.transport, "With --sockets: ws, or quic over UDP")
+        ->check(CLI::IsMember(std::vector<std::string>{"ws", "quic"}));
+    match
+        .add_option("--freeze-s", options.freeze_s,
+                    "With --sockets: the last player sleeps so long")
+        ->check(number_in(0.0, 4.0));
     match.add_option("--json", options.json, "Output: figures")->required();
+}
+
+void add_proxy_options(CLI::App& proxy, lab::ProxyOptions& options) {
+    const CLI::Validator share = number_in(0.0, 1.0);
+    proxy.add_option("--to", options.server_port, "Port of the server on 127.0.0.1")
+        ->required()
+        ->check(CLI::Range(1, 65535));
+    proxy.add_flag("--udp", options.is_udp, "Datagrams; else TCP");
+    const auto add_time = [&proxy](const char* name, double& seconds, double factor,
+                                   const char* what) {
+        proxy
+            .add_option_function<double>(
+                name, [&seconds, factor](double ms) { seconds = factor * ms; }, what)
+            ->check(number_in(0.0, 1000.0));
+    };
+    add_time("--rtt-ms", options.network.delay_s, 0.0005, "Round trip without jitter");
+    add_time("--jitter-ms", options.network.jitter_s, 0.001, "Largest extra delay, each way");
+    proxy.add_option("--loss", options.network.loss, "Share of lost pieces")->check(share);
+    proxy.add_option("--burst-loss", options.network.burst_loss, "UDP: begins of bursts of eight")
+        ->check(share);
+    proxy.add_option("--duplicate", options.network.duplication, "UDP: share of doubled datagrams")
+        ->check(share);
+    proxy.add_option("--seed", options.seed, "Seed of the network");
 }
 
 }  // namespace
@@ -195,6 +231,10 @@ int main(int argc, char** argv) {
     CLI::App* const match = app.add_subcommand(
         "match", "A match over a simulated network: equal hashes, bytes, rollbacks and their cost");
     add_match_options(*match, match_options);
+    lab::ProxyOptions proxy_options;
+    CLI::App* const proxy =
+        app.add_subcommand("proxy", "Delays and drops what passes between two programs");
+    add_proxy_options(*proxy, proxy_options);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -208,6 +248,7 @@ int main(int argc, char** argv) {
                                      : shown->parsed()    ? *shown
                                      : recorded->parsed() ? *recorded
                                      : match->parsed()    ? *match
+                                     : proxy->parsed()    ? *proxy
                                                           : app;
         std::fprintf(stderr, "%s\n%s", error.what(), subcommand.help().c_str());
         return k_exit_usage;
@@ -223,6 +264,9 @@ int main(int argc, char** argv) {
     }
     if (recorded->parsed()) {
         return lab::recorded_grips_command(recorded_options);
+    }
+    if (proxy->parsed()) {
+        return lab::proxy_command(proxy_options);
     }
     if (match->parsed()) {
         return lab::match_command(match_options);

@@ -10,6 +10,7 @@
 #include "engine/core/text_file.hpp"
 #include "tools/lab/exit_status.hpp"
 #include "tools/lab/match_run.hpp"
+#include "tools/lab/socket_match_command.hpp"
 
 namespace handhold::lab {
 namespace {
@@ -73,18 +74,24 @@ Json json_of(const MatchOptions& options, const MatchFigures& figures) {
 }  // namespace
 
 int match_command(const MatchOptions& options) {
+    const NetworkTraits network = {.delay_s = 0.0005 * options.rtt_ms,
+                                   .jitter_s = 0.001 * options.jitter_ms,
+                                   .loss = options.loss,
+                                   .duplication = options.duplicate,
+                                   .burst_loss = options.burst_loss,
+                                   .bytes_per_s = 125.0 * options.kbps,
+                                   .overhead_bytes = options.overhead_bytes};
+    if (!options.sockets.empty()) {
+        return socket_match_command({options.sockets, options.peers, options.transport, network,
+                                     options.seconds, options.freeze_s, options.seed},
+                                    options.json);
+    }
     set_stage_clock(options.threads == 1 ? StageClock::thread_cpu : StageClock::wall);
     set_thread_count(options.threads);
     MatchRunOptions run;
     run.scene = options.scene;
     run.peers = options.peers;
-    run.network = {.delay_s = 0.0005 * options.rtt_ms,
-                   .jitter_s = 0.001 * options.jitter_ms,
-                   .loss = options.loss,
-                   .duplication = options.duplicate,
-                   .burst_loss = options.burst_loss,
-                   .bytes_per_s = 125.0 * options.kbps,
-                   .overhead_bytes = options.overhead_bytes};
+    run.network = network;
     run.seconds = options.seconds;
     run.packets_per_tick = options.packets;
     run.seed = options.seed;

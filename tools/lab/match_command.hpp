@@ -4,7 +4,8 @@
 #include <filesystem>
 #include <string>
 
-// `handhold-lab match`: a server and its peers in one process over a simulated network.
+// `handhold-lab match`: a server and its peers in one process over a simulated network, or as
+// processes over sockets.
 namespace handhold::lab {
 
 struct MatchOptions {
@@ -21,11 +22,15 @@ struct MatchOptions {
     double seconds = 30.0;
     std::uint64_t seed = 1;
     int threads = 1;
+    std::string sockets;  // a scene of the game, played by processes; empty: in this process
+    std::string transport = "ws";  // SocketMatchOptions::transport
+    double freeze_s = 2.0;         // SocketMatchOptions::freeze_s
     std::filesystem::path json;
 };
 
 // Exit status: 0; 2 with one line on standard error if the file cannot be written; 3 if a hash
-// differs, or if the run proves nothing: nobody gripped, went back or compared a hash.
+// differs, or if the run proves nothing: nobody gripped, went back or compared a hash. With
+// sockets: socket_match_command.
 int match_command(const MatchOptions& options);
 
 }  // namespace handhold::lab

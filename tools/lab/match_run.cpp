@@ -8,6 +8,7 @@
 #include "engine/core/profile.hpp"
 #include "systems/match/client_session.hpp"
 #include "systems/match/server_session.hpp"
+#include "tools/lab/holds_count.hpp"
 #include "tools/lab/match_scene.hpp"
 
 namespace handhold::lab {
@@ -93,6 +94,8 @@ class MatchRun {
             figures_.stalls += peer->session->counts().waits;
         }
         figures_.confirmed_ticks = server_->counts().ticks;
+        figures_.grips = holds_.grips;
+        figures_.shared_holds = holds_.shared_holds;
         return std::move(figures_);
     }
 
@@ -130,7 +133,7 @@ class MatchRun {
             server_hashes_.push_back(hash_simulated(scene_.world()));
             server_hands_.emplace_back();
             note_hands(scene_.match(k_match_tick_s), server_hands_.back());
-            count_grips();
+            holds_.add(scene_.world());
             if (is_warm()) {
                 figures_.server_tick_us.add(server_us_);
                 figures_.filled += server_->counts().filled - filled;
@@ -235,25 +238,6 @@ class MatchRun {
         peer.compared_until = std::max(peer.compared_until, until);
     }
 
-    void count_grips() {
-        const World& world = scene_.world();
-        std::size_t holding = 0;
-        bool is_shared = false;
-        for (std::size_t a = 0; a < world.grab.size(); ++a) {
-            const Grab& grab = world.grab.elements()[a];
-            holding += grab.kind != GripKind::none ? 1U : 0U;
-            for (std::size_t b = 0; b < a && grab.kind == GripKind::held; ++b) {
-                const Grab& other = world.grab.elements()[b];
-                is_shared = is_shared || (other.kind == GripKind::held && other.body == grab.body &&
-                                          world.hand_owner.at(world.grab.owners()[a]).player !=
-                                              world.hand_owner.at(world.grab.owners()[b]).player);
-            }
-        }
-        figures_.grips += holding > holding_ ? holding - holding_ : 0;
-        figures_.shared_holds += is_shared ? 1U : 0U;
-        holding_ = holding;
-    }
-
     void end_second() {
         for (const auto& peer : peers_) {
             if (is_warm()) {
@@ -273,7 +257,7 @@ class MatchRun {
     std::vector<HandsOfAll> server_hands_;
     double now_s_ = 0.0;
     double server_us_ = 0.0;  // since the last confirmed tick
-    std::size_t holding_ = 0;
+    HoldsCount holds_;
     MatchFigures figures_;
 };
 

@@ -3,7 +3,8 @@ import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { place } from './level.js';
 import { HH_LEFT, HH_LEFT_HAND, HH_LEFT_LOWER_ARM, HH_LEFT_UPPER_ARM, HH_RIGHT, HH_RIGHT_HAND, HH_RIGHT_LOWER_ARM, HH_RIGHT_UPPER_ARM,
-    HH_SPACE_PARENT, HH_SPACE_WORLD } from 'handhold';
+    HH_SPACE_PARENT, HH_SPACE_WORLD, HH_CHEST, HH_HEAD, HH_HIPS, HH_LEFT_FOOT, HH_LEFT_LOWER_LEG, HH_LEFT_UPPER_LEG, HH_NECK, HH_RIGHT_FOOT,
+    HH_RIGHT_LOWER_LEG, HH_RIGHT_UPPER_LEG } from 'handhold';
 
 // Pairs of joints in the order of XR_EXT_hand_tracking.
 const wrist = 1;
@@ -11,6 +12,12 @@ const fingers = [[2, 3, 4, 5], [6, 7, 8, 9, 10], [11, 12, 13, 14, 15], [16, 17, 
 const handBones = fingers.flatMap((joints) => [[wrist, joints[0]], ...joints.slice(1).map((joint, i) => [joints[i], joint])]);
 const armBones = [[HH_LEFT_UPPER_ARM, HH_LEFT_LOWER_ARM], [HH_LEFT_LOWER_ARM, HH_LEFT_HAND], [HH_RIGHT_UPPER_ARM, HH_RIGHT_LOWER_ARM],
     [HH_RIGHT_LOWER_ARM, HH_RIGHT_HAND]];
+
+// Further bones of a whole body, with their radii, m.
+const bodyBones = [[HH_HIPS, HH_CHEST, 0.12], [HH_CHEST, HH_NECK, 0.09], [HH_NECK, HH_HEAD, 0.05],
+    [HH_LEFT_UPPER_LEG, HH_LEFT_LOWER_LEG, 0.07], [HH_LEFT_LOWER_LEG, HH_LEFT_FOOT, 0.05],
+    [HH_RIGHT_UPPER_LEG, HH_RIGHT_LOWER_LEG, 0.07], [HH_RIGHT_LOWER_LEG, HH_RIGHT_FOOT, 0.05]];
+const k_head_radius_m = 0.11;
 
 const up = new THREE.Vector3(0, 1, 0);
 const from = new THREE.Vector3();
@@ -38,17 +45,20 @@ function stretch(group, a, b, radius_m) {
 }
 
 export class Avatar {
-    constructor(scene) {
+    /** color: of the clothes. isWhole: trunk, legs and head too, for players who are seen from outside. */
+    constructor(scene, { color = 0x37506e, isWhole = false } = {}) {
         const skin = new THREE.MeshStandardMaterial({ color: 0xd9dfe6, roughness: 0.55 });
-        const sleeve = new THREE.MeshStandardMaterial({ color: 0x37506e, roughness: 0.8 });
+        const sleeve = new THREE.MeshStandardMaterial({ color, roughness: 0.8 });
         this.hands = [HH_LEFT, HH_RIGHT].map(() => handBones.map(() => bone(skin)));
         this.arms = armBones.map(() => bone(sleeve));
+        this.trunk = isWhole ? bodyBones.map(() => bone(sleeve)) : [];
+        this.head = isWhole ? [new THREE.Mesh(sphere, skin)] : [];
         const marker = (color) => new THREE.Mesh(new THREE.SphereGeometry(0.012), new THREE.MeshBasicMaterial({ color, depthTest: false }));
         this.tracked = [marker(0xffb020), marker(0xffb020)];
         this.anchors = [marker(0x30e080), marker(0x30e080)];
         // The force of a hand on what it grips: 1 m for 500 N.
         this.pulls = [HH_LEFT, HH_RIGHT].map(() => new THREE.ArrowHelper(up, new THREE.Vector3(), 1, 0xff5040, 0.05, 0.03));
-        scene.add(...this.hands.flat(), ...this.arms, ...this.tracked, ...this.anchors, ...this.pulls);
+        scene.add(...this.hands.flat(), ...this.arms, ...this.trunk, ...this.head, ...this.tracked, ...this.anchors, ...this.pulls);
     }
 
     /** `figure`: what loadFigure returned for the player, if anything; its own hands are then the only ones. */
@@ -81,6 +91,11 @@ export class Avatar {
             this.arms[i].visible = !figure?.hasHands;
             stretch(this.arms[i], body[a].position, body[b].position, 0.035);
         });
+        this.trunk.forEach((mesh, i) => stretch(mesh, body[bodyBones[i][0]].position, body[bodyBones[i][1]].position, bodyBones[i][2]));
+        for (const mesh of this.head) {
+            mesh.position.copy(pose.head.position);
+            mesh.scale.setScalar(k_head_radius_m);
+        }
     }
 }
 

@@ -41,7 +41,7 @@ export class Desktop {
         this.keys = new Set();
         element.addEventListener('click', () => element.requestPointerLock?.());
         element.addEventListener('contextmenu', (event) => event.preventDefault());
-        addEventListener('keydown', (event) => this.keys.add(event.code));
+        addEventListener('keydown', (event) => { if (event.target?.tagName !== 'INPUT') this.keys.add(event.code); });
         addEventListener('keyup', (event) => this.keys.delete(event.code));
         addEventListener('blur', () => { this.keys.clear(); this.pressed.fill(false); });
         const button = (event, down) => {

@@ -63,6 +63,36 @@ async function addStatics(handhold, world, level, stem, scene, tell) {
     }
 }
 
+/** The level of a match (match.js), as loadLevel gives one. */
+export function levelOfMatch(match) {
+    const level = { scene: new THREE.Scene(), names: new Map(), movers: [], spawns: [{ name: '', position: vec([0, 0, 0]), rotation: quat([0, 0, 0, 1]) }] };
+    for (const visual of match.visuals()) {
+        const object = matchObject(visual);
+        level.names.set(visual.body.index, match.bodyName(visual.body));
+        level.scene.add(object);
+        if (visual.is_moving !== 0) {
+            level.movers.push({ body: visual.body, object });
+        } else {
+            place(object, match.world.bodyPose(visual.body));
+        }
+    }
+    addLights(level.scene, match.lamps().map(({ position, ...lamp }) => ({ ...lamp, position_m: [position.x, position.y, position.z] })));
+    return level;
+}
+function matchObject({ vertices, indices, color, emissive, opacity, gloss, center }) {
+    const geometry = new THREE.BufferGeometry();
+    const buffer = new THREE.InterleavedBuffer(vertices, 6);
+    geometry.setAttribute('position', new THREE.InterleavedBufferAttribute(buffer, 3, 0));
+    geometry.setAttribute('normal', new THREE.InterleavedBufferAttribute(buffer, 3, 3));
+    geometry.setIndex(new THREE.BufferAttribute(indices, 1));
+    const paint = new THREE.Color(...color); // linear, as three.js computes
+    const material = new THREE.MeshStandardMaterial({ color: paint, emissive: paint, emissiveIntensity: emissive, roughness: 1 - 0.7 * gloss,
+        transparent: opacity < 1, opacity, side: THREE.DoubleSide });
+    const mesh = new THREE.Mesh(geometry, material);
+    mesh.position.set(center.x, center.y, center.z);
+    return new THREE.Group().add(mesh);
+}
+
 function addShape(world, shape) {
     switch (shape.type) {
         case 'box': return world.addBox(vec(shape.half_m));

@@ -4,11 +4,13 @@
 // ?recording=FILE            plays a recorded session at 90 Hz instead, as `handhold run --input FILE` does: with equal path.
 //                            Equal hashes need sample times that are not at frame ends (the library takes one up to
 //                            1e-6 s after an end for that end), and &seconds=S beyond the last sample, which is state.
+// ?join=ws://HOST:PORT       joins the match of `handhold serve` there; &token=... where it wants one
 import * as THREE from 'three';
 import { HH_LEFT, HH_RIGHT, loadHandhold } from 'handhold';
 import { Avatar, loadFigure } from './avatar.js';
 import { Desktop, FirstHint, Headset } from './devices.js';
-import { loadLevel, place, startBeforeSomethingToGrip } from './level.js';
+import { levelOfMatch, loadLevel, place, startBeforeSomethingToGrip } from './level.js';
+import { joinMatch, newPerson } from './match.js';
 import { Panel } from './panel.js';
 import { parseRecording, Playback } from './playback.js';
 
@@ -23,24 +25,27 @@ const sceneName = query.get('scene') === 'playground' ? 'playground' : 'station'
 const folder = new URL(`${sceneName}/`, location.href);
 const loadRecording = async (url) => parseRecording(await (await fetch(url)).text());
 
-const handhold = await loadHandhold();
-const world = handhold.createWorld();
-world.loadBodyClips(await (await fetch('body_clips.json')).text());
-const level = await loadLevel(handhold, world, new URL('scene.json', folder), tell);
-const recording = query.has('recording') ? await loadRecording(new URL(query.get('recording'), location.href)) : null;
+const match = query.has('join') ? await enterMatch() : null;
+const handhold = match?.handhold ?? await loadHandhold();
+const world = match?.world ?? handhold.createWorld();
+if (!match) {
+    world.loadBodyClips(await (await fetch('body_clips.json')).text());
+}
+const level = match ? levelOfMatch(match) : await loadLevel(handhold, world, new URL('scene.json', folder), tell);
+const recording = !match && query.has('recording') ? await loadRecording(new URL(query.get('recording'), location.href)) : null;
 const recorded = recording && new Playback(recording);
 // Recordings and the climber begin at the first spawn, you beside it.
 const spawnName = query.get('spawn') ?? (recorded ? '' : { station: 'hab', playground: 'locker' }[sceneName]);
 const spawn = level.spawns.find((one) => one.name === spawnName) ?? level.spawns[0];
-if (!recorded && !query.has('spawn')) {
+if (!recorded && !match && !query.has('spawn')) {
     startBeforeSomethingToGrip(spawn, sceneName);
 }
-if (!recorded) {
+if (!recorded && !match) {
     world.setTuning('locomotion.thruster_mps2', 1.5);
 }
 const startOf = ({ position, rotation }) => ({ position, rotation });
-const player = world.addPlayer({ name: 'player0', origin: startOf(spawn) });
-const climber = recorded ? null : await addClimber();
+const player = match?.player ?? world.addPlayer({ name: 'player0', origin: startOf(spawn) });
+const climber = recorded || match ? null : await addClimber();
 
 const renderer = new THREE.WebGLRenderer({ antialias: true });
 renderer.xr.enabled = true;
@@ -52,13 +57,38 @@ rig.add(camera);
 level.scene.add(rig);
 const vignette = makeVignette();
 camera.add(vignette);
-const avatar = new Avatar(level.scene);
+const colorOf = (slot) => (match.score === '' ? 0x37506e : [0x1f5ae0, 0xe8681c][slot % 2]); // of its team
+const avatar = new Avatar(level.scene, match ? { color: colorOf(match.slot) } : {});
+const others = (match?.players ?? []).map((id, slot) => ({ id, slot })).filter(({ slot }) => slot !== match.slot)
+    .map((other) => ({ ...other, avatar: new Avatar(level.scene, { color: colorOf(other.slot), isWhole: true }) }));
 const desktop = new Desktop(renderer.domElement, world, player);
 const hint = new FirstHint();
 const ring = makeRing();
 const headset = new Headset();
 const panel = new Panel(level.names);
 
+// Resolves once the match's world is the server's; else the page stays at the reason.
+async function enterMatch() {
+    tell('Asking the server', 0);
+    try {
+        sessionStorage.person ??= newPerson(); // who loads the page again has the slot of before
+        const joined = await joinMatch(query.get('join'), { token: query.get('token') ?? '', person: BigInt(sessionStorage.person) });
+        while (joined.stage !== 'playing') {
+            joined.poll({ sample: {} });
+            if (joined.isOver) {
+                throw new Error(joined.why);
+            }
+            tell(joined.stage === 'joining' ? 'Receiving the match' : 'Joining', 0.5);
+            await new Promise((resolve) => setTimeout(resolve, 10));
+        }
+        return joined;
+    } catch (error) {
+        tell(`${query.get('join')}: ${error.message}`, 1);
+        element('back').hidden = false;
+        window.demo = { error: error.message, isReady: true };
+        await new Promise(() => {}); // there is nothing to play
+    }
+}
 function makeVignette() {
     const ring = new THREE.Mesh(new THREE.RingGeometry(0.11, 1, 48),
         new THREE.MeshBasicMaterial({ color: 0x000000, transparent: true, opacity: 0, depthTest: false }));
@@ -155,8 +185,43 @@ function playRecording(dt_s) {
         }
     }
 }
+// A match goes on between pictures, however long those take; only a headset's devices are read in its frames.
+let matchSample = null; // of mouse and keyboard
+let matchRead_ms;
+function followMatch() {
+    const now_ms = performance.now();
+    const dt_s = Math.min(1e-3 * (now_ms - (matchRead_ms ?? now_ms)), 1 / 20);
+    matchRead_ms = now_ms;
+    if (!renderer.xr.isPresenting) {
+        const devices = desktop.read(dt_s);
+        matchSample = devices.sample;
+        advanceMatch(devices);
+    }
+}
+// Ticks of the match. The controllers' joints are the level's: they are not told.
+function advanceMatch(devices) {
+    match.poll(devices);
+    if (match.isOver) {
+        notice = `The match has ended for you: ${match.why}. Load the page again to join again.`;
+    } else {
+        notice = match.isLost ? `Connection lost: ${match.why}. Trying to return.` : '';
+    }
+    if (match.player.index !== player.index) { // somebody has taken the slot meanwhile
+        location.reload();
+    }
+}
+const matchRows = () => [
+    ['score', match.score || 'none'],
+    ['you', `player ${match.slot + 1} of ${match.players.length}`],
+    ['tracked players', match.players.filter((id) => world.playerPose(id).hands.some((hand) => hand.is_tracked)).length],
+    ['ticks ahead', Number(match.stats().tick - match.stats().confirmed)],
+];
 /** One step of the world with what the devices say. */
 function advance(dt_s, { usesWrists, sample, commands }) {
+    if (match) {
+        advanceMatch({ usesWrists, sample, commands });
+        return;
+    }
     chooseHands(usesWrists);
     const end_s = world.time().time_s + dt_s;
     world.step(dt_s, [{ player, samples: [{ ...sample, time_s: end_s }], commands }, climber.read(end_s)]);
@@ -169,12 +234,15 @@ function show(dt_s, frame_ms) {
     const showsGizmos = element('gizmos').checked;
     avatar.update(world, player, pose, showsGizmos, recorded ? k_recorded_step_s : dt_s);
     climber?.update(showsGizmos, dt_s);
+    for (const other of others) {
+        other.avatar.update(world, other.id, world.playerPose(other.id), showsGizmos, dt_s);
+    }
     const v = pose.velocity_mps;
     const speed_mps = Math.hypot(v.x, v.y, v.z);
     const target = element('vignette').checked ? THREE.MathUtils.clamp((speed_mps - 1) / 2, 0, 0.9) : 0;
     vignette.material.opacity += (target - vignette.material.opacity) * Math.min(1, 6 * dt_s);
     vignette.visible = vignette.material.opacity > 0.01;
-    panel.update(world, pose, speed_mps, frame_ms);
+    panel.update(world, pose, speed_mps, frame_ms, match ? matchRows() : []);
     return pose;
 }
 
@@ -188,6 +256,10 @@ function onFrame(now_ms, frame) {
     const inHeadset = renderer.xr.isPresenting && frame !== undefined && frame !== null && space !== null;
     if (recorded) {
         playRecording(wall_s);
+    } else if (match && !inHeadset) {
+        if (matchSample) {
+            place(camera, matchSample.head);
+        }
     } else {
         const devices = inHeadset ? headset.read(frame, space, element('smooth').checked) : desktop.read(dt_s);
         advance(dt_s, devices);
@@ -252,10 +324,13 @@ async function offerHeadset() {
 
 element('loading').remove();
 element('panel').hidden = false;
-window.demo = { handhold, world, player, climber, desktop, hint, level, panel, renderer, path, advance, show };
+window.demo = { handhold, world, player, match, climber, desktop, hint, level, panel, renderer, path, advance, show };
 renderer.setAnimationLoop(onFrame);
+if (match) {
+    setInterval(followMatch, 4);
+}
 await offerHeadset();
-if ('serviceWorker' in navigator) { // not on plain http
+if ('serviceWorker' in navigator && !match) { // not on plain http
     demo.isOffline = keepOffline().then(() => true, (error) => console.warn(`not kept for offline use: ${error.message}`));
 }
 demo.isReady = true;

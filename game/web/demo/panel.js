@@ -30,8 +30,8 @@ export class Panel {
     get median_us() {
         return median(this.#steps_us);
     }
-    /** frame_ms: what the last frame cost with drawing. */
-    update(world, pose, speed_mps, frame_ms) {
+    /** frame_ms: what the last frame cost with drawing. more: further rows, shown first. */
+    update(world, pose, speed_mps, frame_ms, more = []) {
         keep(this.#steps_us, world.stats().step_us);
         keep(this.#frames_ms, frame_ms);
         if (++this.#frames % 15 !== 0) {
@@ -41,6 +41,7 @@ export class Panel {
         const hand = ({ grip, body, is_closed }) =>
             grip === HH_GRIP_NONE ? (is_closed ? 'closed, grips nothing' : 'open') : `${gripNames[grip]} ${this.#names.get(body.index) ?? ''}`;
         const rows = [
+            ...more,
             ['step, median', `${(1e-3 * this.median_us).toFixed(2)} ms`],
             ['frame cost', `${median(this.#frames_ms).toFixed(2)} ms`],
             ['speed', `${speed_mps.toFixed(2)} m/s`],
