@@ -98,7 +98,7 @@ def native_library(target: str, build: Path) -> dict[str, Entry]:
         library = build / "bin/handhold.dll"
         names = exported_by_dll(library)
         definitions = "\n".join(["LIBRARY handhold.dll", "EXPORTS", *(f"    {name}" for name in names), ""]).encode()
-        return {"bin/handhold.dll": Entry(stripped(library, "x86_64-w64-mingw32-strip"), is_program=True), "lib/handhold.def": Entry(definitions),
+        return {"bin/handhold.dll": Entry(library.read_bytes(), is_program=True), "lib/handhold.def": Entry(definitions),
                 "lib/handhold.lib": Entry(import_library(definitions, "handhold.dll"))}
     tool = {"linux-x86_64": "strip", "linux-arm64": "aarch64-linux-gnu-strip"}[target]
     full, soname = f"libhandhold.so.{number}", f"libhandhold.so.{number.rpartition('.')[0]}"

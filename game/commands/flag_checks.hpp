@@ -45,9 +45,10 @@ inline std::string choices(const std::vector<std::string>& words) {
 
 // Adds an option that takes one of the words of `values`. Help shows the words alone.
 template <typename Enum>
-requires std::is_enum_v<Enum>
-CLI::Option* add_choice(CLI::App& app, const std::string& name, Enum& chosen,
-                        const std::map<std::string, Enum>& values, const std::string& help) {
+requires std::is_enum_v<Enum> CLI::Option* add_choice(CLI::App& app, const std::string& name,
+                                                      Enum& chosen,
+                                                      const std::map<std::string, Enum>& values,
+                                                      const std::string& help) {
     std::vector<std::string> words;
     for (const auto& [word, value] : values) {
         words.push_back(word);
