@@ -56,10 +56,13 @@ make_npm_package() {
     local package=build/cross/web/package
     rm -rf "$package"
     mkdir -p "$package"
-    cp game/web/package/{package.json,README.md} game/web/package/src/* LICENSE build/cross/web/bin/handhold.wasm "$package"
+    cp game/web/package/{package.json,README.md} game/web/package/src/* LICENSE build/cross/web/bin/handhold{,-core}.wasm "$package"
     python3 -B systems/host/bindings/generate.py --check
     cp systems/host/bindings/javascript/* "$package"
-    printf 'handhold.wasm: %d bytes, %d gzipped\n' "$(stat -c %s "$package/handhold.wasm")" "$(gzip -9c "$package/handhold.wasm" | wc -c)"
+    local module
+    for module in handhold handhold-core; do
+        printf '%s.wasm: %d bytes, %d gzipped\n' $module "$(stat -c %s "$package/$module.wasm")" "$(gzip -9c "$package/$module.wasm" | wc -c)"
+    done
 }
 
 # choose_runner TARGET: sets `run`, the command before a program of the target on this machine, and `suffix`, how the program's name ends.
