@@ -1,14 +1,18 @@
 #!/usr/bin/env python3
 """Makes a package of a binding in a folder.
 
-usage: packaging/assemble.py unity|python FOLDER [--library FILE]...
+usage: packaging/assemble.py unity|python FOLDER [--library FILE]... [--archive FILE]...
     --library: the shared library to put inside, such as build/library/libhandhold.so, for Unity one for each platform; the user's installed one is
                found without it (Python)
+    --archive: takes the library out of an archive of tools/package, such as build/packages/handhold-0.2.0-windows-x86_64.zip
 """
 import argparse
 import hashlib
 import shutil
 import sys
+import tarfile
+import tempfile
+import zipfile
 from pathlib import Path
 
 SOURCE = Path(__file__).resolve().parent.parent
@@ -28,11 +32,24 @@ def platform_of(library: Path) -> str:
     """The folder for a library: those of Linux and Android have one name."""
     if library.suffix in (".dll", ".dylib"):
         return {".dll": "windows", ".dylib": "macos"}[library.suffix]
-    header = library.read_bytes()[:20]
+    read = library.read_bytes()
+    header = read[:20]
     folder = {62: "linux", 183: "android"}.get(int.from_bytes(header[18:20], "little"))  # e_machine: x86-64, AArch64
     if header[:4] != b"\x7fELF" or folder is None:
         raise SystemExit(f"{library}: neither a .dll, a .dylib nor an ELF library for x86-64 or AArch64")
+    if folder == "android" and b"libc.so.6" in read:
+        raise SystemExit(f"{library}: for Linux on Arm, where Unity does not run")
     return folder
+
+
+def library_of(archive: Path, folder: Path) -> Path:
+    """The library of an archive, unpacked into `folder`."""
+    with zipfile.ZipFile(archive) if archive.suffix == ".zip" else tarfile.open(archive) as packed:
+        packed.extractall(folder)
+    found = [*folder.rglob("handhold.dll"), *folder.rglob("libhandhold.so")]
+    if len(found) != 1:
+        raise SystemExit(f"{archive}: no archive with a shared library")
+    return found[0]
 
 
 def plugin_importer(platform: str) -> str:
@@ -61,7 +78,10 @@ def main() -> int:
     parser.add_argument("kind", choices=("unity", "python"))
     parser.add_argument("folder", type=Path)
     parser.add_argument("--library", type=Path, action="append", default=[])
+    parser.add_argument("--archive", type=Path, action="append", default=[])
     given = parser.parse_args()
+    unpacked = tempfile.TemporaryDirectory()
+    given.library += [library_of(archive, Path(unpacked.name) / str(place)) for place, archive in enumerate(given.archive)]
     folder = given.folder
     shutil.copytree(SOURCE / "packaging" / given.kind, folder, dirs_exist_ok=True)
     copy(SOURCE / "LICENSE", folder / "LICENSE.md")

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <string>
+#include <type_traits>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -31,25 +34,49 @@ inline CLI::Validator whole_number() {
             "UINT"};
 }
 
+// "a|b|c" of the words, as help shows them.
+inline std::string choices(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) {
+        text += (text.empty() ? "" : "|") + word;
+    }
+    return text;
+}
+
 // Adds an option that takes one of the words of `values`. Help shows the words alone.
 template <typename Enum>
-CLI::Option* add_choice(CLI::App& app, const std::string& name, Enum& chosen,
-                        const std::map<std::string, Enum>& values, const std::string& help) {
-    std::string words;
+requires std::is_enum_v<Enum> CLI::Option* add_choice(CLI::App& app, const std::string& name,
+                                                      Enum& chosen,
+                                                      const std::map<std::string, Enum>& values,
+                                                      const std::string& help) {
+    std::vector<std::string> words;
     for (const auto& [word, value] : values) {
-        words += (words.empty() ? "" : "|") + word;
+        words.push_back(word);
     }
-    const auto read = [=](std::string& text) {
+    const auto read = [=, shown = choices(words)](std::string& text) {
         const auto found = values.find(text);
         if (found == values.end()) {
-            return "expected " + words + ", found " + text;
+            return "expected " + shown + ", found " + text;
         }
         text = std::to_string(static_cast<int>(found->second));
         return std::string();
     };
     return app.add_option(name, chosen, help)
         ->transform(CLI::Validator(read, ""))
-        ->type_name(words);
+        ->type_name(choices(words));
+}
+
+// The same for an option whose value is the word itself.
+inline CLI::Option* add_choice(CLI::App& app, const std::string& name, std::string& chosen,
+                               const std::vector<std::string>& words, const std::string& help) {
+    const auto read = [=](std::string& text) {
+        return std::ranges::find(words, text) != words.end()
+                   ? std::string()
+                   : "expected " + choices(words) + ", found " + text;
+    };
+    return app.add_option(name, chosen, help)
+        ->check(CLI::Validator(read, ""))
+        ->type_name(choices(words));
 }
 
 }  // namespace handhold

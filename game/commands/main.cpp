@@ -121,8 +121,9 @@ void add_run_options(CLI::App& run, handhold::RunOptions& options) {
         ->needs(shots);
     run.add_flag("--distance-grab", options.distance_grab, "As in play, to see a session again");
     add_model_options(run, options.models);
-    run.add_flag("!--no-pictures", options.pictures,
-                 "With --out: files only, no pictures and no video");
+    run.add_flag_callback(
+        "--no-pictures", [&options] { options.pictures = false; },
+        "With --out: files only, no pictures and no video");
 }
 
 void add_climb_options(CLI::App& climb, handhold::ClimbOptions& options) {
@@ -145,8 +146,8 @@ void add_picture_options(CLI::App& pictures, handhold::PictureOptions& options) 
         ->check(number_in(-3600.0, 3600.0));
     pictures.add_option("--seconds", options.seconds, "After so many seconds without a player")
         ->check(number_in(0.0, 1e4));
-    pictures.add_option("--hands", options.hands, "Hold both hands before the eyes")
-        ->check(CLI::IsMember({"open", "fist"}));
+    add_choice(pictures, "--hands", options.hands, {"open", "fist"},
+               "Hold both hands before the eyes");
     pictures.add_option("--grips-of", options.grips_of,
                         "A body: hands in its authored grips, from four sides");
     add_model_options(pictures, options.models);
@@ -163,7 +164,9 @@ void add_play_options(CLI::App& play, handhold::PlayOptions& options) {
     play.add_option("--eye-scale", options.eye_scale,
                     "With --xr: of the size of picture that the headset recommends")
         ->check(number_in(0.05, 2.0));
-    play.add_flag("!--no-mirror", options.mirror, "With --xr: no window of what the left eye sees");
+    play.add_flag_callback(
+        "--no-mirror", [&options] { options.mirror = false; },
+        "With --xr: no window of what the left eye sees");
     play.add_option("--record", options.record,
                     "Save the session (.csv): run --input plays it again");
     play.add_flag("--jets", options.jets, "Small jets: the keys push as well as pull");
@@ -183,8 +186,8 @@ void add_play_options(CLI::App& play, handhold::PlayOptions& options) {
                     "How much the edges darken at speed, 0 to 1")
         ->check(number_in(0.0, 1.0));
     play.add_flag("--inspector", options.panels.inspector, "Open the inspector at once (F2)");
-    play.add_option("--page", options.page, "The inspector's page that is open")
-        ->check(CLI::IsMember({"Frame", "Hands", "Tuning", "Entities", "Gizmos"}));
+    add_choice(play, "--page", options.page, {"Frame", "Hands", "Tuning", "Entities", "Gizmos"},
+               "The inspector's page that is open");
     play.add_flag_callback(
         "--gizmos", [&options] { options.gizmos.fill(true); }, "Show what every stage did");
     const std::map<std::string, handhold::PlayerViewpoint> viewpoints = {
@@ -206,8 +209,7 @@ void add_export_grip_options(CLI::App& command, handhold::ExportGripOptions& opt
     command.add_option("--body", options.body, "Of the scene")->required();
     command.add_option("--grip", options.grip, "An authored grip's name, or that of a new one")
         ->required();
-    command.add_option("--hand", options.hand, "right or left")
-        ->check(CLI::IsMember({"right", "left"}));
+    add_choice(command, "--hand", options.hand, {"right", "left"}, "Which hand");
     command
         .add_option("--wrist", options.wrist,
                     "Of a new grip: where the hand closes, x y z and a quaternion x y z w in the "

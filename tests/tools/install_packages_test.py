@@ -41,13 +41,13 @@ class InstallPackages(unittest.TestCase):
             path.write_text(text, encoding="utf-8")
             path.chmod(0o755)
 
-    def install(self, package_set: str, wait_s: int = 30) -> subprocess.CompletedProcess:
+    def install(self, *words: str, wait_s: int = 30) -> subprocess.CompletedProcess:
         environment = os.environ | {
             "PATH": f"{self.folder / 'bin'}:{os.environ['PATH']}",
             "FAKE_APT": str(self.folder),
             "HANDHOLD_APT_WAIT_S": str(wait_s),
         }
-        return subprocess.run([SCRIPT, package_set], env=environment, capture_output=True, text=True, check=False, timeout=60)
+        return subprocess.run([SCRIPT, *words], env=environment, capture_output=True, text=True, check=False, timeout=60)
 
     def hold_lock(self):
         lock = open(self.folder / "lists_lock", "w", encoding="utf-8")
@@ -71,13 +71,25 @@ class InstallPackages(unittest.TestCase):
         self.assertEqual(self.install("ci").returncode, 0)
         self.assertEqual(self.calls(), [])
 
-    def test_ci_holds_every_other_set(self):
+    def test_ci_and_long_hold_the_sets_that_they_run(self):
         installed = {}
-        for package_set in ("demo", "test", "docs", "ci"):
+        for package_set in ("demo", "test", "docs", "blender", "native", "web", "arm64", "windows", "ci", "long"):
             self.install(package_set)
             installed[package_set] = set(self.calls()[-1].split())
-        for package_set in ("demo", "test", "docs"):
+        for package_set in ("demo", "test", "docs", "native", "web"):
             self.assertLess(installed[package_set], installed["ci"])
+        for package_set in ("ci", "blender", "arm64", "windows"):
+            self.assertLess(installed[package_set], installed["long"])
+        for package, package_set in (("mono-mcs", "test"), ("blender", "blender"), ("wine64", "windows")):
+            self.assertIn(package, installed[package_set])
+
+    def test_missing_packages_are_only_named_on_request(self):
+        run = self.install("--missing", "docs")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("mkdocs-material", run.stdout.split())
+        self.assertEqual(self.calls(), [])
+        (self.folder / "all_installed").touch()
+        self.assertEqual(self.install("--missing", "docs").stdout, "")
 
     def test_waits_until_the_lock_is_released(self):
         lock = self.hold_lock()

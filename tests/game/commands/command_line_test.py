@@ -57,6 +57,18 @@ class CommandLine(unittest.TestCase):
                 self.assertEqual(self.run_game("pictures", "--scene", "reach", "--out", "o", *words).returncode, 1)
         self.assertEqual(self.files(), set())
 
+    def test_help_shows_choices_as_words(self):
+        shown = {}
+        for command in ("run", "play", "pictures", "climb", "serve", "bots", "export-grip", "build-station"):
+            shown[command] = self.run_game(command, "--help").out
+            self.assertNotRegex(shown[command], r"[{}]|->")
+        for words in ("--turn smooth|snap", "--view behind|eyes|mirror", "--page Frame|Hands|Tuning|Entities|Gizmos"):
+            self.assertIn(words, shown["play"])
+        for words in (["pictures", "--scene", "reach", "--out", "o", "--hands", "flat"], ["play", "--turn", "0"]):
+            ended = self.run_game(*words)
+            self.assertEqual(ended.returncode, 1, ended.err)
+            self.assertIn("expected ", ended.err)
+
     def test_largest_seed_is_taken(self):
         self.assertEqual(self.run_game("run", "--scene", "reach", "--seconds", "0.1", "--seed", 2**64 - 1).returncode, 0)
 

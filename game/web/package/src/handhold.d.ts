@@ -11,7 +11,8 @@ export declare class HandholdError extends Error {
     readonly result: number;
 }
 
-/** Loads the library; without a source: the file beside this module. */
+/** Loads the library; without a source: handhold.wasm beside this module. handhold-core.wasm is smaller and lacks what reads files
+ * (glTF levels, rigs, clips, tuning), saved states and matches: their calls throw. */
 export declare function loadHandhold(source?: URL | string | BufferSource | WebAssembly.Module): Promise<Handhold>;
 
 /** Functions without a world. All of LibraryCalls are those of the C headers without hh_. */

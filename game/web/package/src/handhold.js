@@ -16,7 +16,7 @@ export class HandholdError extends Error {
 }
 
 /** Loads the library. `source`: where handhold.wasm is, its bytes, or a compiled module; by default
- * the file beside this one. */
+ * the file beside this one. handhold-core.wasm is smaller, without files, saved states and matches. */
 export async function loadHandhold(source = new URL('./handhold.wasm', import.meta.url)) {
     const system = systemCalls();
     const instance = await instantiate(source, system.imports);
@@ -130,6 +130,11 @@ export class Handhold extends LibraryCalls {
             return work(this.memory);
         } finally {
             this.memory.release(mark);
+        }
+    }
+    refuseMissing(name) {
+        if (this.exports[name] === undefined) {
+            throw new HandholdError(HH_ERROR_STATE, `HH_ERROR_STATE: ${name} is in handhold.wasm, not in the module that was loaded`);
         }
     }
     refuseInCallback(what) {

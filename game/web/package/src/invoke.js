@@ -24,6 +24,7 @@ const isStruct = (kind) => structs[kind] !== undefined;
 
 function invoke(object, name, { returns, params }, given) {
     const { library } = object;
+    library.refuseMissing(name);
     return library.scratch((m) => {
         const words = [];
         const results = [];

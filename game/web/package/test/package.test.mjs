@@ -54,6 +54,16 @@ test('every struct has the size that the library expects', () => {
     }
 });
 
+test('the smaller module lacks files, saves and matches, says so, and steps alike', async () => {
+    const core = await loadHandhold(new URL('handhold-core.wasm', folder));
+    assert.equal(playSameScene(core, handholdModule).hash, playSameScene(handhold, handholdModule).hash);
+    const missing = Object.keys(handhold.exports).filter((name) => name.startsWith('hh_') && core.exports[name] === undefined);
+    assert.ok(missing.every((name) => /match_|_rig$|gltf_level|load_(body_clips|tuning)|world_(save|restore)/.test(name)), missing.join(' '));
+    const world = core.createWorld();
+    assert.throws(() => world.loadTuning('{}'), (error) => error instanceof HandholdError && /hh_world_load_tuning is in handhold.wasm/.test(error.message));
+    world.destroy();
+});
+
 test('every function of the library is a method', () => {
     const offered = new Set(Object.values(calls).map((call) => call.method));
     // Matches are exported, and have no wrapper here.
