@@ -67,46 +67,6 @@ void clamp_players(const LimitVelocitiesIo& io, const LocomotionTuning& tuning, 
     }
 }
 
-template <typename Visit>
-void for_jointed_bodies(const ConstraintGraph& graph, const Island& island, const Visit& visit) {
-    for (const std::uint32_t block : graph.blocks_of(island)) {
-        for (const std::uint32_t i : {graph.blocks[block].a, graph.blocks[block].b}) {
-            if (is_joint(graph.blocks[block]) && graph.bodies[i].role == BodyRole::free) {
-                visit(i);
-            }
-        }
-    }
-}
-
-// Scales the velocities and spins of all jointed bodies alike, so that joints are not torn: a door
-// whose speed alone is limited goes on turning as fast as before. Starts from the solved
-// velocities.
-void clamp_jointed_bodies(const LimitVelocitiesIo& io, const Island& island, const Vec3& reference,
-                          double max_mps, double max_radps, StageStats& stats) {
-    const ConstraintGraph& graph = io.frame.graph;
-    double share = 1.0;
-    for_jointed_bodies(graph, island, [&](std::uint32_t i) {
-        const double speed_mps = (graph.bodies[i].velocity_mps - reference).norm();
-        const double spin_radps = graph.bodies[i].spin_radps.norm();
-        if (speed_mps > max_mps) {
-            const double before = (io.frame.phase[i].velocity_before_mps - reference).norm();
-            const double kept_mps =
-                std::max({max_mps, before, driven_speed(io.frame, island, reference)});
-            share = std::min(share, kept_mps / speed_mps);
-        }
-        share = spin_radps > max_radps ? std::min(share, max_radps / spin_radps) : share;
-    });
-    if (share == 1.0) {
-        return;
-    }
-    stats.count(Fallback::object_speed_clamped);
-    for_jointed_bodies(graph, island, [&](std::uint32_t i) {
-        const SolverBody& body = graph.bodies[i];
-        io.body_velocity.at(io.frame.entities[i]) = {
-            reference + share * (body.velocity_mps - reference), share * body.spin_radps};
-    });
-}
-
 // Limits the velocities of held and pushed bodies. A tracking jump may tear a body from the hand in
 // the next frame, and the body must not leave at the speed of the jump. Poses do not change: a held
 // body still follows its hand.
@@ -123,7 +83,6 @@ void clamp_handled_bodies(const LimitVelocitiesIo& io, const LocomotionTuning& t
         const Entity player = frame.entities[frame.graph.blocks[*hand].a];
         const Vec3& reference = io.reference.at(player).linear_mps;
         const double max_mps = io.origin.at(player).scale * tuning.object_speed_max_mps;
-        clamp_jointed_bodies(io, island, reference, max_mps, tuning.object_spin_max_radps, stats);
         std::optional<double> driven;  // computed once, and only if a body is fast
         for (const std::uint32_t i : frame.graph.bodies_of(island)) {
             if (frame.graph.bodies[i].role != BodyRole::free) {
