@@ -90,7 +90,8 @@ struct FingerPose {
     Pose fitted_wrist_bs;
     std::uint64_t fitted_signature = 0;
     bool is_converged = false;  // another fit for the same key would change nothing
-    // Number of other thumbs that have been tried since the hand closed on this body.
+    // Number of fits since the last closing that also started from another thumb. State, unlike
+    // other work that is spread over frames, because it says which thumbs have been rejected.
     std::uint32_t thumbs_tried = 0;
 };
 

@@ -105,7 +105,8 @@ HandFit fit_closed(const HandSurroundings& hand, const GripSurface& surface,
 
 // A thumb that the closing left in a bad place is moved in the frames after it, one try in each.
 bool tries_thumb(const HandSurroundings& hand, const FingerPose& pose) {
-    return pose.thumbs_tried < k_thumb_tries && hand.authored == nullptr;
+    return pose.thumbs_tried < k_thumb_tries && hand.authored == nullptr &&
+           std::ranges::any_of(hand.rig->fingers, can_oppose);
 }
 
 // Starts at the last fit, carried along with the tracked wrist.
@@ -122,26 +123,31 @@ HandFit fit_last(const HandSurroundings& hand, const GripSurface& surface, const
     }
     goal.is_clear = pose.is_clear;
     goal.rounds = k_rounds;
+    goal.max_flex_rad = k_max_flex_rad;
     if (tries_thumb(hand, pose)) {
         goal.thumb_try = static_cast<std::int32_t>(pose.thumbs_tried);
-    } else {
-        goal.max_flex_rad = k_max_flex_rad;
     }
     return fit_hand(hand, surface, goal, tuning.palm, rows);
 }
 
-HandFit best_fit(const HandSurroundings& hand, const GripSurface& surface, const Tuning& tuning,
+struct BestFit {
+    HandFit fit;
+    bool is_of_closing = false;
+};
+
+BestFit best_fit(const HandSurroundings& hand, const GripSurface& surface, const Tuning& tuning,
                  const PalmOffset& offset, const FingerPose& pose, std::vector<PenaltyRow>& rows) {
     if (!pose.is_newly_closed) {
-        return fit_last(hand, surface, offset, pose, tuning, rows);
+        return {fit_last(hand, surface, offset, pose, tuning, rows)};
     }
     const bool has_last = pose.fitted_body == hand.body && hand.authored == nullptr;
     HandFit closed = fit_closed(hand, surface, offset, pose, !has_last, tuning, rows);
     if (!has_last) {
-        return closed;
+        return {closed, true};
     }
     HandFit last = fit_last(hand, surface, offset, pose, tuning, rows);
-    return closed.cost < k_change_cost_share * last.cost ? closed : last;
+    const bool changes = closed.cost < k_change_cost_share * last.cost;
+    return {changes ? closed : last, changes};
 }
 
 // True if the hand keeps its last fit; the surroundings are unchanged. A hand at rest is fitted
@@ -159,7 +165,7 @@ void fit_one(const HandSurroundings& hand, const GripSurface& surface, const Tun
         pose.fitted_signature == hand.signature && sticks(hand, tuning.finger, pose)) {
         return;
     }
-    const HandFit fit = best_fit(hand, surface, tuning, offset, pose, rows);
+    const auto [fit, is_of_closing] = best_fit(hand, surface, tuning, offset, pose, rows);
     const Pose target = inverse(hand.wrist_bs) * fit.pose.wrist_bs;
     offset.target_m = target.position;
     offset.target_turn_rad = rotation_to_vector(target.rotation);
@@ -170,8 +176,11 @@ void fit_one(const HandSurroundings& hand, const GripSurface& surface, const Tun
     if (pose.is_newly_closed && fit.penetration_m > k_deep_m) {
         stats.count(Fallback::hand_penetrates);
     }
-    pose.thumbs_tried =
-        pose.fitted_body != hand.body ? 0 : std::min(pose.thumbs_tried + 1, k_thumb_tries);
+    if (is_of_closing) {
+        pose.thumbs_tried = 0;
+    } else if (tries_thumb(hand, pose)) {
+        ++pose.thumbs_tried;
+    }
     pose.is_newly_closed = false;
     pose.fitted_body = hand.body;
     pose.fitted_wrist_bs = hand.wrist_bs;

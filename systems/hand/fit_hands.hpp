@@ -29,7 +29,8 @@ struct FitHandsIo {
     const Column<GripSurface>& surface;       // in: body frame (_bs)
     Column<PalmOffset>& offset;               // in: held_*; in/out: target_*, shown_*, hand space
     // in: results of sweep_fingers (closed, touches, is_closed_clear, is_authored); in/out:
-    // is_newly_closed, target, shown, is_clear, is_converged and fitted_*; angles in radians
+    // is_newly_closed, target, shown, is_clear, is_converged, thumbs_tried and fitted_*; angles in
+    // radians
     Column<FingerPose>& fingers;
     Column<PalmPose>& palm;  // out: shown wrist, world space
 };
@@ -42,8 +43,11 @@ struct FitHandsIo {
 // tracked wrist. A hand that closes again on the body that it grips is fitted from both starts and
 // takes the closing only if its fit costs less than k_change_cost_share of the other.
 //
-// The last fit is kept without a new one while the surroundings are unchanged and the tracked wrist
-// has travelled from the last fit by
+// In each of the k_thumb_tries fits after one from a closing, the thumb also starts at another
+// opposition, outside authored grips; the hand takes it if it then costs clearly less.
+//
+// Then the last fit is kept without a new one while the surroundings are unchanged and the tracked
+// wrist has travelled from the last fit by
 //  - less than FingerTuning::reuse_travel_m, if that fit has converged;
 //  - at least that, but less than k_stick_m, outside authored grips.
 //

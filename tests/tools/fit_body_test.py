@@ -257,7 +257,7 @@ class Runtime(unittest.TestCase):
         """Lines of in.csv: hands that overtake on a rail to the left; heads that look up."""
         about = lambda axis, angle: [*(np.sin(angle / 2) * np.eye(3)[axis]), np.cos(angle / 2)]
         hands = lambda x, back: [x, 1.6, back, *about(2, 0.5)]
-        rail = [[0, 1.6, 0, *about(1, 0.65), *hands(-0.46, -over / 2), *hands(-0.46, over / 2)] for over in np.linspace(0.0, 0.4, 9)]
+        rail = [[0, 1.6, 0, *about(1, yaw), *hands(x, -over / 2), *hands(x, over / 2)] for yaw, x in ((0.65, -0.46), (-0.5, -0.75)) for over in np.linspace(0.0, 0.4, 9)]
         up = [[0, 1.6, 0, *about(0, pitch), *hands(-0.3, -0.3), *hands(0.25, -0.35)] for pitch in np.linspace(-0.3, 1.4, 9)]
         return ["1,0," + ",".join(f"{value:.9f}" for value in row) for row in rail + up]
 

@@ -14,6 +14,7 @@ constexpr double k_max_move_m = 0.02;
 constexpr double k_max_turn_rad = 0.3;
 
 constexpr int k_thumb_bends = 4;
+constexpr double k_thumb_flex_rad = 0.4;       // largest step of an angle in a round
 constexpr double k_change_thumb_share = 0.95;  // another thumb must cost less than this share
 constexpr double k_thumb_bend_share = 0.25;  // step between bends, as a share of the hinges' range
 constexpr std::int32_t k_thumb_rounds = 6;   // rounds of the thumb alone, then of the hand
@@ -26,12 +27,12 @@ class Fitter {
         : rig_(*hand.rig),
           goal_(goal),
           pose_(goal.first),
-          objective_(hand, surface, goal, tuning, rows, nullptr) {}
+          objective_(hand, surface, goal_, tuning, rows, nullptr) {}
 
     HandFit run() {
         HandFit best = descend(goal_.rounds);
         for (std::size_t f = 0; goal_.thumb_try >= 0 && f < rig_.fingers.size(); ++f) {
-            if (rig_.fingers[f].name == FingerName::thumb && !goal_.is_fixed[f]) {
+            if (can_oppose(rig_.fingers[f]) && !goal_.is_fixed[f]) {
                 try_thumb(f, best);
             }
         }
@@ -70,6 +71,7 @@ class Fitter {
     // whole hand.
     void try_thumb(std::size_t t, HandFit& best) {
         const HandPose hand = best.pose;
+        goal_.max_flex_rad = k_thumb_flex_rad;
         FingerAngles cheapest;
         double least = std::numeric_limits<double>::infinity();
         for (int bend = 0; bend < k_thumb_bends; ++bend) {
@@ -169,7 +171,7 @@ class Fitter {
     }
 
     const HandRig& rig_;
-    const HandFitGoal& goal_;
+    HandFitGoal goal_;
     HandPose pose_;
     HandObjective objective_;
 };

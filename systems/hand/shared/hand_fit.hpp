@@ -22,8 +22,8 @@
 //   + 1   sum_f pull(tip_f)                  each finger's tip; fingers f are without the thumb
 //   + tip_t^2                                the thumb's tip; beyond k_tip_reach_m as at it
 //   + 0.05 l^2 |pad_t + away_t|^2            the thumb's pad faces the surface: pad_t: unit normal
-//                                            of its last link's pad, away_t: unit, from the surface
-//                                            to the tip; beyond the tip's reach 0.1 l^2
+//                                            of its last link's pad, away_t: unit, out of the
+//                                            surface at the tip; beyond the tip's reach 0.2 l^2
 //   + 0.3 sum_f (l (d_f - d_f+1))^2          fan: neighbours point alike; d: direction from knuckle
 //                                            to tip, linear in the angles
 //   + 0.3 sum_f s |l (q_f - q_f+1)|^2        alike: neighbours bend alike if one of them touches
@@ -71,6 +71,12 @@ inline constexpr double k_max_converging_rad = 4.0 * k_degree;
 inline constexpr double k_bent_spread_rad = 90.0 * k_degree;
 inline constexpr double k_bent_spread_share = 0.4;
 inline constexpr std::uint32_t k_thumb_tries = 6;
+
+// True for a thumb with a range of opposition.
+inline bool can_oppose(const FingerRig& finger) {
+    return finger.name == FingerName::thumb &&
+           finger.lower_opposition_rad < finger.upper_opposition_rad;
+}
 
 struct HandFitGoal {
     HandPose first;  // where the rounds start: the closing's result, or the last fit's

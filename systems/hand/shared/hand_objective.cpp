@@ -233,7 +233,7 @@ void HandObjective::add_attraction(std::size_t f) {
 void HandObjective::add_thumb_tip(std::size_t f, const HandSphere& tip) {
     if (!tip.has_gap) {  // leaving the reach of the surface must not be a gain
         problem_.add_constant({FitTerm::tip, f}, 0.5 * k_thumb_tip * k_tip_reach_m * k_tip_reach_m);
-        problem_.add_constant({FitTerm::pad, f}, k_pad * k_lever2);
+        problem_.add_constant({FitTerm::pad, f}, 2.0 * k_pad * k_lever2);
         return;
     }
     problem_.add_square({FitTerm::tip, f}, k_thumb_tip, tip.gap_m, slope_of(tip));
@@ -254,7 +254,7 @@ void HandObjective::add_thumb_tip(std::size_t f, const HandSphere& tip) {
 
 void HandObjective::add_palm_touch() {
     const HandSphere* const nearest = spheres_.nearest_of_palm();
-    if (nearest != nullptr) {
+    if (nearest != nullptr && nearest->gap_m < k_sphere_reach_m) {
         add_pull({FitTerm::touch, FitTerms::k_palm}, k_palm_touch, *nearest);
     }
 }

@@ -35,6 +35,27 @@ Vec3 center_of(const HandSphere& sphere, const HandPose& pose, const HandLinkFra
     return transform_point(frame, sphere.center_ls);
 }
 
+// True if the segment crosses the surface an odd number of times. Layers closer together than
+// k_layer_m count as one.
+bool crosses_oddly(const TriangleBvh& surface, Vec3 from, const Vec3& to) {
+    constexpr double k_layer_m = 1e-6;
+    constexpr int k_most = 16;
+    bool is_odd = false;
+    for (int i = 0; i < k_most; ++i) {
+        const auto hit = surface.cast_ray(from, to);
+        if (!hit) {
+            break;
+        }
+        is_odd = !is_odd;
+        const double left_m = (to - hit->point).norm();
+        if (left_m <= k_layer_m) {
+            break;
+        }
+        from = hit->point + k_layer_m / left_m * (to - hit->point);
+    }
+    return is_odd;
+}
+
 const HandSphere* nearest_of(std::span<const HandSphere> spheres) {
     const HandSphere* nearest = nullptr;
     for (const HandSphere& sphere : spheres) {
@@ -112,10 +133,8 @@ HandSpheres::HandSpheres(const HandSurroundings& hand, const GripSurface& surfac
 std::array<double, k_finger_count + 1> HandSpheres::keep_gaps_m() const {
     std::array<double, k_finger_count + 1> nearest_m;
     nearest_m.fill(std::numeric_limits<double>::infinity());
-    nearest_m[k_finger_count] = k_extra_gap_m;
     for (const HandSphere& sphere : all()) {
-        if (!sphere.is_extra && is_queried_ && group_of(sphere) < k_finger_count &&
-            !is_knuckle(sphere)) {
+        if (!sphere.is_extra && is_queried_ && !is_knuckle(sphere)) {
             const Vec3 moved = sphere.center - sphere.searched_center;
             double& least_m = nearest_m[group_of(sphere)];
             least_m =
@@ -216,11 +235,11 @@ double HandSpheres::side_of_gripped(const HandSphere& sphere, bool is_below, boo
         return side;  // too short a path to reach the surface
     }
     const PlacedMesh& placed = hand_.meshes.front();
-    const bool crosses = placed.mesh->contact_bvh
-                             .cast_ray(inverse_transform_point(placed.pose, sphere.searched_center),
-                                       inverse_transform_point(placed.pose, sphere.center))
-                             .has_value();
-    return crosses ? -side : side;
+    return crosses_oddly(placed.mesh->contact_bvh,
+                         inverse_transform_point(placed.pose, sphere.searched_center),
+                         inverse_transform_point(placed.pose, sphere.center))
+               ? -side
+               : side;
 }
 
 // Returns `radius_m`, or the distance to the triangle that the sphere found last if that is less: a

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "beam.hpp"
+#include "systems/hand/shared/hand_fit.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold::fit_hands_test {
@@ -227,6 +228,59 @@ TEST_F(FitHands, StationaryHandConvergesAndKeepsItsFit) {
     for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
         EXPECT_EQ(hand.pose().target[f].curl_rad, before.target[f].curl_rad);
     }
+}
+
+// Each fit after the closing also starts from another thumb: it costs no more than the one before,
+// but for gaps that a fit corrects by travel alone, and after the last one the hand rests.
+TEST_F(FitHands, OtherThumbsCostNoMoreAndTheHandRestsAfterThem) {
+    Random random(2511);
+    int changed = 0;
+    int rest = 0;
+    for (int i = 0; i < 40; ++i) {
+        const Pose wrist_bs{
+            on_beam.position + random.vector(0.02),
+            (on_beam.rotation * rotation_about(random.direction(), 0.5)).normalized()};
+        FittedHand hand(beam, wrist_bs);
+        const auto cost_m2 = [&] {
+            const auto terms = shown_fit_terms(hand.hands.front(), hand.surface.at(k_right),
+                                               hand.offset.at(k_right), hand.pose(), hand.tuning);
+            return terms ? sum_of(*terms) : 0.0;
+        };
+        hand.frame(k_unlimited_s);
+        EXPECT_EQ(hand.pose().thumbs_tried, 0U);
+        const FingerAngles closed = hand.pose().target[0];
+        for (std::uint32_t frame = 1; frame <= k_thumb_tries; ++frame) {
+            const double before_m2 = cost_m2();
+            hand.frame(k_unlimited_s);
+            EXPECT_LE(cost_m2(), 1.1 * before_m2 + 1e-9) << i << ", frame " << frame;
+        }
+        const FingerAngles& thumb = hand.pose().target[0];
+        changed += std::abs(thumb.opposition_rad - closed.opposition_rad) > 0.3 ? 1 : 0;
+        for (int frame = 0; frame < 60 && !hand.pose().is_converged; ++frame) {
+            hand.frame(k_unlimited_s);
+        }
+        EXPECT_LT(test::deepest_digit_m(hand, hand.pose().target, hand.shown_bs()), 3e-3) << i;
+        const FingerPose before = hand.pose();
+        const Vec3 target_m = hand.offset.at(k_right).target_m;
+        rest += before.is_converged ? 1 : 0;
+        for (int frame = 0; frame < 10 && before.is_converged; ++frame) {
+            hand.frame(k_unlimited_s);
+            ASSERT_EQ(hand.offset.at(k_right).target_m, target_m) << i;
+            for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+                ASSERT_EQ(hand.pose().target[f].curl_rad, before.target[f].curl_rad) << i;
+                ASSERT_EQ(hand.pose().target[f].opposition_rad, before.target[f].opposition_rad);
+            }
+        }
+        hand.hands.front().is_gripping = false;
+        hand.surface.at(k_right) = {};
+        hand.sweep();
+        hand.fit(k_unlimited_s);
+        hand.hands.front().is_gripping = true;
+        hand.frame(k_unlimited_s);
+        EXPECT_EQ(hand.pose().thumbs_tried, 0U) << "a new grip";
+    }
+    EXPECT_GT(changed, 1);
+    EXPECT_GE(rest, 38);  // the others tremble by micrometres
 }
 
 TEST_F(FitHands, FitDoesNotDependOnBodyPose) {

@@ -236,7 +236,7 @@ TEST_F(FitTermsOfHand, ThumbsPadFacesTheSurface) {
         const Vec3 pad = last.rotation * -Vec3::UnitY();
         const bool is_reached = gap_m < k_tip_reach_m;
         reached += is_reached ? 1 : 0;
-        const double apart2 = is_reached ? (pad + Vec3::UnitY()).squaredNorm() : 2.0;
+        const double apart2 = is_reached ? (pad + Vec3::UnitY()).squaredNorm() : 4.0;
         EXPECT_NEAR(cost_of(terms_of(hand, goal), 0, FitTerm::pad), 0.5 * 0.05 * k_lever2 * apart2,
                     1e-12);
     }

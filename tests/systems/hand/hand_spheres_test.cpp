@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -108,6 +109,53 @@ TEST_F(HandSpheresOnFloor, CentreThatCrossesASheetIsInside) {
 // Kept gaps must not hide a digit's nearest sphere, nor one about to touch. The beam's edges turn
 // the nearest direction, which kept gaps do not see: a distance is convex along a path beside a
 // convex solid, so its linearisation is too small by at most the path's length.
+// A thumb that jumps across a beam ends on the side on which a first query finds it.
+TEST_F(HandSpheresOnFloor, ThumbsThatJumpAcrossABeamKeepTheirSides) {
+    const GripMesh beam = build_grip_mesh(test::make_beam());
+    FittedHand over(beam, hand.wrist_bs());
+    over.search();
+    test::Random random(2512);
+    int crossed = 0;
+    int compared = 0;
+    const auto thumb_at_random = [&] {
+        const FingerRig& thumb = rig.fingers[0];
+        FingerAngles angles = coupled_angles(thumb, random.between(0.0, 1.0));
+        angles.opposition_rad =
+            random.between(thumb.lower_opposition_rad, thumb.upper_opposition_rad);
+        return angles;
+    };
+    for (int i = 0; i < 300; ++i) {
+        HandPose pose = pose_at(random.between(-0.01, 0.03), 0.2);
+        HandSpheres moving(over.hands.front(), over.surface.at(k_right), {});
+        pose.fingers[0] = thumb_at_random();
+        query(moving, pose);
+        if (moving.penetration_m() > 0.0) {
+            continue;  // starts inside
+        }
+        const std::vector<HandSphere> before(moving.all().begin(), moving.all().end());
+        pose.fingers[0] = thumb_at_random();
+        query(moving, pose);
+        HandSpheres fresh(over.hands.front(), over.surface.at(k_right), {});
+        query(fresh, pose);
+        for (std::size_t k = 0; k < fresh.all().size(); ++k) {
+            const HandSphere& now = moving.all()[k];
+            if (now.finger != 0 || now.is_extra || !fresh.all()[k].has_gap || !now.has_gap) {
+                continue;
+            }
+            const Pose& beam_bs = over.hands.front().meshes.front().pose;
+            const bool meets = beam.contact_bvh
+                                   .cast_ray(inverse_transform_point(beam_bs, before[k].center),
+                                             inverse_transform_point(beam_bs, now.center))
+                                   .has_value();
+            crossed += meets && fresh.all()[k].gap_m > 0.0 ? 1 : 0;
+            ++compared;
+            EXPECT_NEAR(now.gap_m, fresh.all()[k].gap_m, 1.3e-3) << i << ", sphere " << k;
+        }
+    }
+    EXPECT_GT(crossed, 5);
+    EXPECT_GT(compared, 300);
+}
+
 TEST_F(HandSpheresOnFloor, KeptGapsLeaveTheNearestOnesClose) {
     constexpr double k_kept_path_m = 1.2e-3;
     const GripMesh beam = build_grip_mesh(test::make_beam());

@@ -77,8 +77,8 @@ TEST_F(SnapshotRefuses, AnyDamagedByte) {
 }
 
 TEST_F(SnapshotRefuses, AnotherFormatVersion) {
-    for (const std::uint32_t version : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 10U, 11U,
-                                        13U}) {  // earlier field names; a later build
+    for (const std::uint32_t version : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 10U, 11U, 12U,
+                                        14U}) {  // earlier field names; a later build
         SnapshotBytes other(bytes_);
         other.put(8, version);
         expect_refused(other,
