@@ -4,7 +4,8 @@
 usage: packaging/assemble.py unity|python FOLDER [--library FILE]... [--archive FILE]...
     --library: the shared library to put inside, such as build/library/libhandhold.so, for Unity one for each platform; the user's installed one is
                found without it (Python)
-    --archive: takes the library out of an archive of tools/package, such as build/packages/handhold-0.2.0-windows-x86_64.zip
+    --archive: takes the library and the licences of everything inside out of an archive of tools/package, such as
+               build/packages/handhold-0.2.0-windows-x86_64.zip
 """
 import argparse
 import hashlib
@@ -43,13 +44,24 @@ def platform_of(library: Path) -> str:
 
 
 def library_of(archive: Path, folder: Path) -> Path:
-    """The library of an archive, unpacked into `folder`."""
+    """Unpacks an archive into `folder` and returns its library's path."""
     with zipfile.ZipFile(archive) if archive.suffix == ".zip" else tarfile.open(archive) as packed:
         packed.extractall(folder)
     found = [*folder.rglob("handhold.dll"), *folder.rglob("libhandhold.so")]
     if len(found) != 1:
         raise SystemExit(f"{archive}: no archive with a shared library")
     return found[0]
+
+
+def copy_licenses(unpacked: Path, target: Path) -> None:
+    """Copies the licences of an unpacked archive. Archives of different dependencies share no package: one of their texts would be lost."""
+    texts = sorted(unpacked.glob("*/licenses/*.txt"))
+    if not texts:
+        raise SystemExit("the archive has no licenses")
+    for text in texts:
+        if (target / text.name).exists() and (target / text.name).read_bytes() != text.read_bytes():
+            raise SystemExit(f"the archives differ in licenses/{text.name}")
+        copy(text, target / text.name)
 
 
 def plugin_importer(platform: str) -> str:
@@ -80,8 +92,9 @@ def main() -> int:
     parser.add_argument("--library", type=Path, action="append", default=[])
     parser.add_argument("--archive", type=Path, action="append", default=[])
     given = parser.parse_args()
-    unpacked = tempfile.TemporaryDirectory()
-    given.library += [library_of(archive, Path(unpacked.name) / str(place)) for place, archive in enumerate(given.archive)]
+    temporary = tempfile.TemporaryDirectory()
+    unpacked = {Path(temporary.name) / str(place): archive for place, archive in enumerate(given.archive)}
+    given.library += [library_of(archive, place) for place, archive in unpacked.items()]
     folder = given.folder
     shutil.copytree(SOURCE / "packaging" / given.kind, folder, dirs_exist_ok=True)
     copy(SOURCE / "LICENSE", folder / "LICENSE.md")
@@ -94,6 +107,10 @@ def main() -> int:
     for library in given.library:
         plugins = folder / "Runtime/Plugins" / platform_of(library) if given.kind == "unity" else folder / "handhold"
         copy(library.resolve(), plugins / library.name)
+    licenses = folder / ("licenses" if given.kind == "unity" else "handhold/licenses")
+    shutil.rmtree(licenses, ignore_errors=True)
+    for place in unpacked:
+        copy_licenses(place, licenses)
     if given.kind == "unity":
         write_metas(folder)
     return 0

@@ -15,6 +15,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tarfile
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -55,6 +56,20 @@ def compare(expected: list[str], said: str) -> None:
         print("C says", *expected, "the binding says", *lines, sep="\n", file=sys.stderr)
         raise SystemExit(1)
     print("\n".join(lines))
+
+
+def check_licenses(kind: str, library: Path, work: Path) -> None:
+    """A package made of an archive has its licences; an archive without any is refused."""
+    command = (sys.executable, "-B", SOURCE / "packaging/assemble.py", kind, work / "of_archive", "--archive", work / "archive.tar.gz")
+    for places in (["lib/libhandhold.so", "licenses/box2d.txt"], ["lib/libhandhold.so"]):
+        with tarfile.open(work / "archive.tar.gz", "w:gz", compresslevel=1) as archive:
+            for place in places:
+                archive.add(library.resolve() if place.endswith(".so") else SOURCE / "LICENSE", f"handhold/{place}")
+        done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
+        found = [path.relative_to(work / "of_archive").as_posix() for path in (work / "of_archive").rglob("box2d.txt")]
+        expected = (0, ["licenses/box2d.txt" if kind == "unity" else "handhold/licenses/box2d.txt"]) if len(places) == 2 else (1, [])
+        if (done.returncode, found) != expected:
+            raise SystemExit(f"{kind} package of an archive with {places}: status {done.returncode}, licences {found}, {done.stderr}")
 
 
 def check_generated() -> None:
@@ -100,6 +115,7 @@ def check_python(library: Path, work: Path) -> None:
     environment = dict(os.environ, PYTHONPATH=str(BINDINGS / "python"), HANDHOLD_LIBRARY=str(library))
     compare(expected_lines(library, work), run(sys.executable, "-B", HERE / "scenes.py", env=environment))
     print(run(sys.executable, "-B", HERE / "python_test.py", env=environment))
+    check_licenses("python", library, work)
 
 
 def check_csharp(library: Path, work: Path) -> None:
@@ -130,6 +146,7 @@ def check_csharp(library: Path, work: Path) -> None:
     unity = [*sorted(package.rglob("*.cs")), HERE / "UnityStandIns.cs", HERE / "UnityScene.cs"]
     run("mcs", "-unsafe", "-warnaserror", "-define:UNITY_5_3_OR_NEWER", f"-out:{work}/unity.exe", *unity)
     print(run("mono", work / "unity.exe", env=environment).strip())
+    check_licenses("unity", library, work)
 
 
 def main() -> int:

@@ -7,8 +7,11 @@ usage: tests/packages/run.py ARCHIVE FILE REFERENCE WORK [RUNNER...]
 
 C programs are compiled with the archive alone, by pkg-config, by CMake and, for Windows, against the import library with the linker for
 Microsoft's formats. They run and get the reference's state hashes. The library exports the functions of tests/hosts/symbols.txt and no other,
-needs no library but those listed here, and has no path of this machine inside. Exit status 0: all is so.
+and needs no library but those listed here. No file of the archive names the repository's folder, the home folder or that of the dependencies'
+sources (HANDHOLD_CROSS_SOURCES). Unity and Python packages made of the archive have its licences. Exit status 0: all is so; a line "SKIPPED"
+says what could not be tried.
 """
+import fnmatch
 import json
 import os
 import re
@@ -63,9 +66,28 @@ class Trial:
     def check_files(self, library: Path, exported: set[str]) -> None:
         interface = set((SOURCE / "tests/hosts/symbols.txt").read_text(encoding="utf-8").split())
         self.require(exported == interface, f"exported, against symbols.txt: {sorted(exported ^ interface)}")
-        self.require(str(SOURCE).encode() not in library.read_bytes(), f"{library.name} holds paths of this machine")
+        self.check_paths()
         for name in ("README.md", "LICENSE", "licenses/bullet.txt", "licenses/box2d.txt", "licenses/meshoptimizer.txt", "licenses/eigen.txt"):
             self.require((self.root / name).stat().st_size > 500, f"{name} is too short")
+
+    def check_paths(self) -> None:
+        sources = Path(os.environ.get("HANDHOLD_CROSS_SOURCES", SOURCE / "build/cross/sources"))
+        folders = {str(one) for folder in (SOURCE, sources, Path.home()) for one in (folder.absolute(), folder.resolve())} - {"/"}
+        for path in (one for one in self.root.rglob("*") if one.is_file()):
+            data = path.read_bytes()
+            found = [folder for folder in sorted(folders) if f"{folder}/".encode() in data]
+            self.require(not found, f"{path.name} holds paths of this machine: {found}")
+
+    def check_packages(self, file: Path) -> None:
+        """Packages for Unity and Python of the archive have its library and all its licences."""
+        texts = {path.name: path.read_bytes() for path in (self.root / "licenses").iterdir()}
+        for kind, folder in (("unity", "licenses"), ("python", "handhold/licenses")):
+            package = self.work / kind
+            if self.archive == "linux-arm64" and kind == "unity":  # Unity does not run there
+                continue
+            run(sys.executable, "-B", SOURCE / "packaging/assemble.py", kind, package, "--archive", file)
+            copied = {path.name: path.read_bytes() for path in (package / folder).glob("*.txt")}
+            self.require(copied == texts, f"the {kind} package lacks licences: {sorted(texts.keys() ^ copied.keys())}")
 
     def check_needed(self, needed: set[str]) -> None:
         self.require(needed <= MAY_NEED[self.archive], f"also needs {sorted(needed - MAY_NEED[self.archive])}")
@@ -84,6 +106,10 @@ class Trial:
             "-DCMAKE_C_FLAGS=-ffp-contract=off", *options)
         run("cmake", "--build", folder / "build")
         return next(one for one in (folder / "build").iterdir() if one.stem == "by_cmake" and one.suffix in ("", ".exe"))
+
+
+def skip(what: str) -> None:
+    print(f"  SKIPPED: {what} (tools/install_packages test)")
 
 
 def said_by(text: str) -> str:
@@ -112,11 +138,17 @@ def try_linux(trial: Trial) -> None:
             trial.check_hash(f"{source.name} by pkg-config", said_by(said), scene)
     cross = ("-DCMAKE_SYSTEM_NAME=Linux", "-DCMAKE_SYSTEM_PROCESSOR=aarch64", f"-DCMAKE_C_COMPILER={tools}gcc") if tools else ()
     trial.check_hash("wall_hash.c by CMake", said_by(run(*trial.runner, trial.by_cmake(*cross, libraries="m"))), 1)
-    if not tools and subprocess.run(["/usr/bin/python3", "-c", "import numpy"], stderr=subprocess.DEVNULL, check=False).returncode == 0:
+    if tools:
+        return
+    if subprocess.run(["/usr/bin/python3", "-c", "import numpy"], stderr=subprocess.DEVNULL, check=False).returncode != 0:
+        skip("Python's binding, without numpy")
+    else:
         environment = dict(os.environ, PYTHONPATH=str(trial.root / "bindings/python"), HANDHOLD_LIBRARY=str(library))
         for scene, line in enumerate(run("/usr/bin/python3", "-B", SOURCE / "tests/bindings/scenes.py", env=environment).strip().splitlines()):
             trial.check_hash("Python's binding", line, scene)
-    if not tools and shutil.which("mcs") and shutil.which("mono"):
+    if not shutil.which("mcs") or not shutil.which("mono"):
+        skip("C#'s binding, without Mono")
+    else:
         program = trial.root / "lib/Scenes.exe"
         run("mcs", "-unsafe", f"-out:{program}", *sorted((trial.root / "bindings/csharp").glob("*.cs")), SOURCE / "tests/bindings/Scenes.cs")
         for scene, line in enumerate(run("mono", program, env=dict(os.environ, LD_LIBRARY_PATH=str(library.parent))).strip().splitlines()):
@@ -182,6 +214,11 @@ def try_web(trial: Trial) -> None:
     trial.check_files(module, {name for name in names if name.startswith("hh_")})
     others = {name for name in names if not name.startswith("hh_")}
     trial.require(others <= WEB_EXPORTS, f"also exports {sorted(others - WEB_EXPORTS)}")
+    # npm packs these again, and what it always takes.
+    packed = [*json.loads((trial.root / "package.json").read_text(encoding="utf-8"))["files"], "package.json", "README.md"]
+    tops = {path.name for path in trial.root.iterdir()}
+    omitted = {name for name in tops if not any(fnmatch.fnmatch(name, pattern) for pattern in packed)}
+    trial.require(not omitted, f"package.json omits {sorted(omitted)}")
     modules = trial.work / "node_modules"
     modules.mkdir()
     trial.root = trial.root.rename(modules / "handhold")
@@ -199,6 +236,8 @@ def main() -> int:
     archive, file, reference, work = sys.argv[1], *(Path(one).resolve() for one in sys.argv[2:5])
     trial = Trial(archive, file, reference, work, sys.argv[5:])
     {"linux-x86_64": try_linux, "linux-arm64": try_linux, "windows-x86_64": try_windows, "web": try_web}[archive](trial)
+    if archive != "web":
+        trial.check_packages(file)
     return 0
 
 

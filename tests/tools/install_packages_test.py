@@ -1,6 +1,7 @@
 """Runs tools/install_packages with a fake apt-get, whose lock the test holds, and a fake dpkg-query. Needs neither root nor network."""
 import fcntl
 import os
+import shutil
 import subprocess
 import tempfile
 import threading
@@ -80,7 +81,8 @@ class InstallPackages(unittest.TestCase):
             self.assertLess(installed[package_set], installed["ci"])
         for package_set in ("ci", "blender", "arm64", "windows"):
             self.assertLess(installed[package_set], installed["long"])
-        for package, package_set in (("mono-mcs", "test"), ("blender", "blender"), ("wine64", "windows")):
+        for package, package_set in (("mono-mcs", "test"), ("blender", "blender"), ("wine64", "windows"), ("node-ws", "web"), ("pkg-config", "native"),
+                                     ("chromium", "long")):
             self.assertIn(package, installed[package_set])
 
     def test_missing_packages_are_only_named_on_request(self):
@@ -90,6 +92,16 @@ class InstallPackages(unittest.TestCase):
         self.assertEqual(self.calls(), [])
         (self.folder / "all_installed").touch()
         self.assertEqual(self.install("--missing", "docs").stdout, "")
+
+    def test_what_is_missing_is_unknown_without_dpkg(self):
+        for name in ("bash", "apt-get"):
+            (self.folder / "without" / name).parent.mkdir(exist_ok=True)
+            (self.folder / "without" / name).symlink_to(shutil.which(name, path=f"{self.folder / 'bin'}:{os.environ['PATH']}"))
+        for words, status in ((["--missing", "docs"], 77), (["docs"], 0)):
+            run = subprocess.run([SCRIPT, *words], env={"PATH": str(self.folder / "without")}, capture_output=True, text=True, check=False)
+            self.assertEqual((run.returncode, run.stdout), (status, ""))
+            self.assertIn("this is no Debian", run.stderr)
+            self.assertIn("mkdocs-material", run.stderr)
 
     def test_waits_until_the_lock_is_released(self):
         lock = self.hold_lock()

@@ -6,7 +6,7 @@ import { mkdtempSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { equalHashes, game, loadPeerModule, playOn, Program, sleep, whyNot } from './match_peer.mjs';
+import { equalHashes, game, loadPeerModule, playOn, Program, sleep, socketType, whyNot } from './match_peer.mjs';
 
 const skip = whyNot() ?? false;
 const joinMatch = skip ? null : await loadPeerModule();
@@ -80,7 +80,7 @@ test('who is not admitted reads why in one line', { skip, timeout: 100000 }, asy
 test('another version or level is named', { skip, timeout: 100000 }, async (context) => {
     const { url } = await serve(context, '--scene', 'reach', '--players', 2);
     const offer = await new Promise((done) => {
-        const socket = new WebSocket(url, 'handhold-match');
+        const socket = new (socketType())(url, 'handhold-match');
         socket.binaryType = 'arraybuffer';
         socket.onmessage = ({ data }) => { socket.close(); done(new Uint8Array(data)); };
     });
@@ -104,7 +104,7 @@ test('another version or level is named', { skip, timeout: 100000 }, async (cont
 test('a player comes back to the same slot after the connection was cut', { skip, timeout: 100000 }, async (context) => {
     const { server, url } = await serve(context, '--scene', 'reach', '--players', 2);
     const sockets = [];
-    class Cut extends WebSocket {
+    class Cut extends socketType() {
         constructor(...given) {
             super(...given);
             sockets.push(this);

@@ -1,5 +1,5 @@
 // Programs and peers for tests of matches: native ones by HANDHOLD_BIN (the folder of `handhold`), and the page's peer in Node by
-// HANDHOLD_PACKAGE (the npm package) and HANDHOLD_MATCH (match.wasm).
+// HANDHOLD_PACKAGE (the npm package) and HANDHOLD_MATCH (match.wasm). With HANDHOLD_MATCH_REQUIRED=1 tests that cannot run fail.
 import { spawn, spawnSync } from 'node:child_process';
 import { copyFileSync, mkdirSync, mkdtempSync, rmSync, symlinkSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -11,14 +11,22 @@ import { pathToFileURL } from 'node:url';
 export const game = join(resolve(process.env.HANDHOLD_BIN), 'handhold');
 export const sleep = (ms) => new Promise((done) => setTimeout(done, ms));
 
-/** Null, or why matches cannot be tested here. */
+/** Null, or why matches cannot be tested here; with HANDHOLD_MATCH_REQUIRED=1 throws that. */
 export function whyNot() {
+    const why = findObstacle();
+    if (why !== null && process.env.HANDHOLD_MATCH_REQUIRED === '1') {
+        throw new Error(why);
+    }
+    return why;
+}
+function findObstacle() {
     const probe = spawnSync(game, ['run', '--join', 'ws://127.0.0.1:1'], { encoding: 'utf8' });
     if (probe.error !== undefined || probe.stderr.includes('built with libwebsockets')) {
         return 'no native game with libwebsockets';
     }
-    return socketType() === undefined ? 'no WebSocket in this Node: --experimental-websocket' : null;
+    return socketType() === undefined ? 'no WebSocket in this Node: --experimental-websocket from 20.10 on, or the package "ws" (Debian: node-ws)' : null;
 }
+/** Node's own WebSocket, else that of the package "ws" in HANDHOLD_NPM or NODE_PATH; undefined without any. */
 export function socketType() {
     if (globalThis.WebSocket !== undefined) {
         return globalThis.WebSocket;

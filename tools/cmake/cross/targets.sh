@@ -1,11 +1,12 @@
 # What tools/cross and tools/package share: Debian's packages, the dependencies' sources, the build, and how programs run. To be sourced in the
 # repository's folder, whose path is `root`. A TARGET is web, arm64, windows or native.
 
-# needs_packages SCRIPT TARGET INSTALLS: exit status 77 if packages are missing and INSTALLS is not true. SCRIPT: who asks.
+# needs_packages SCRIPT SET INSTALLS: exit status 77 if packages of this set of tools/install_packages are missing, or if that cannot be known,
+# and INSTALLS is not true. SCRIPT: who asks.
 needs_packages() {
     local missing
     ! $3 || tools/install_packages "$2"
-    missing=$(tools/install_packages --missing "$2")
+    missing=$(tools/install_packages --missing "$2") || exit
     [[ -z $missing ]] || { echo "$1: not installed: $missing (tools/install_packages $2)" >&2; exit 77; }
 }
 
