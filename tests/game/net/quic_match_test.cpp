@@ -87,7 +87,7 @@ TEST_F(QuicMatchTest, PlayerOnANarrowNetworkIsNotTakenForOneWhoDoesNotRead) {
     LoopbackPeer& peer = add_peer(match, 1, proxy.url(match.quic_url()));
     match.others = [&proxy] { proxy.poll(); };
     ASSERT_TRUE(match.run_until(20.0, [&] { return match.all_play(); }));
-    proxy.down_bytes_per_s = 600.0;
+    proxy.down_bytes_per_s = 400.0;
     match.run(10.0);
     EXPECT_EQ(match.listener().counts().ended_slow, 0U);
     EXPECT_GT(match.listener().counts().dropped, 0U);
