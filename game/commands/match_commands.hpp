@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <string>
 
+#include "game/net/transport.hpp"
+
 namespace handhold {
 
 // Options of `handhold serve`.
@@ -22,6 +24,8 @@ struct ServeOptions {
     std::string certificate;
     std::string key;
 };
+// What such a server listens by. One address alone cannot take all of its connections.
+ListenerSettings listener_settings(const ServeOptions& options);
 // Runs a match for peers that join over a network. Prints lines of a log. After SIGTERM or SIGINT,
 // or `seconds`, tells the peers and ends with 0; k_exit_bad_file, after one line on standard error,
 // if it cannot begin.

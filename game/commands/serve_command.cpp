@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
@@ -110,18 +111,23 @@ void log_end(const Scene& scene, const MatchServer& server) {
 
 }  // namespace
 
-int serve_command(const ServeOptions& options) {
-    const InterruptGuard interrupts;
-    ListenerSettings listening;
-    listening.address = options.address;
-    listening.port = options.port;
-    listening.certificate = options.certificate;
-    listening.key = options.key;
+ListenerSettings listener_settings(const ServeOptions& options) {
+    ListenerSettings out;
+    out.address = options.address;
+    out.port = options.port;
+    out.certificate = options.certificate;
+    out.key = options.key;
     // Links that say hello, or request /health or /metrics.
     constexpr std::size_t k_links_besides = 16;
-    listening.most_links =
-        static_cast<std::size_t>(options.players + options.spectators) + k_links_besides;
-    const Result<std::unique_ptr<Listener>> listener = open_listener(listening);
+    out.most_links =
+        std::max(out.most_links,
+                 static_cast<std::size_t>(options.players + options.spectators) + k_links_besides);
+    return out;
+}
+
+int serve_command(const ServeOptions& options) {
+    const InterruptGuard interrupts;
+    const Result<std::unique_ptr<Listener>> listener = open_listener(listener_settings(options));
     if (!listener) {
         return refuse(listener.error());
     }

@@ -6,7 +6,7 @@
 namespace handhold {
 
 Sha256 hmac_sha256(std::span<const std::byte> /*key*/, std::string_view /*text*/) {
-    throw std::runtime_error("built without libwebsockets (libwebsockets-dev): no tokens");
+    throw std::runtime_error("built without libwebsockets and ngtcp2: no tokens");
 }
 
 bool is_equal_in_constant_time(std::string_view /*a*/, std::string_view /*b*/) { return false; }

@@ -1,7 +1,6 @@
 // In place of hmac_openssl.cpp in a program that was built without libwebsockets, which brings
 // OpenSSL.
 #include <stdexcept>
-#include <tuple>
 
 #include <gnutls/crypto.h>
 #include <gnutls/gnutls.h>

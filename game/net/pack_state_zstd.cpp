@@ -1,3 +1,5 @@
+#include <memory>
+#include <new>
 #include <stdexcept>
 
 #include <zstd.h>
@@ -11,8 +13,15 @@ bool has_packing() { return true; }
 std::vector<std::byte> pack_state(std::span<const std::byte> state) {
     constexpr int k_level = 3;
     std::vector<std::byte> out(ZSTD_compressBound(state.size()));
+    const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(),
+                                                                       ZSTD_freeCCtx);
+    if (context == nullptr) {
+        throw std::bad_alloc();
+    }
+    ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, k_level);
+    ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
     const std::size_t size =
-        ZSTD_compress(out.data(), out.size(), state.data(), state.size(), k_level);
+        ZSTD_compress2(context.get(), out.data(), out.size(), state.data(), state.size());
     if (ZSTD_isError(size) != 0) {
         throw std::runtime_error(ZSTD_getErrorName(size));
     }

@@ -42,6 +42,7 @@ void QuicArrivals::begin_poll() {
     of_addresses_.refill(elapsed_s);
     refilled_s_ = now_s;
     answers_ = 0;
+    begun_ = 0;
 }
 
 bool QuicArrivals::may_answer() { return ++answers_ <= k_most_answers; }
@@ -90,13 +91,16 @@ std::optional<QuicArrival> QuicArrivals::admit(const UdpPlace& from,
     if (arrival.header.version != NGTCP2_PROTO_VER_V1 || !check_token(arrival)) {
         return std::nullopt;
     }
+    const bool has_room = begun_ < k_most_begun;
     if (arrival.has_token) {
-        return of_addresses_.take(from.text()) ? std::optional(arrival) : std::nullopt;
-    }
-    if (half_open >= k_most_half_open || !of_strangers_.take("")) {
+        if (!has_room || !of_addresses_.take(from.text())) {
+            return std::nullopt;
+        }
+    } else if (!has_room || half_open >= k_most_half_open || !of_strangers_.take("")) {
         send_retry(arrival);
         return std::nullopt;
     }
+    ++begun_;
     return arrival;
 }
 

@@ -20,6 +20,9 @@ class QuicArrivals {
     static constexpr std::size_t k_most_half_open = 8;
     // Answers to strangers in one poll: Retry, other version, reset.
     static constexpr int k_most_answers = 32;
+    // Handshakes that begin in one poll: they delay a tick by so many milliseconds at most. Whoever
+    // comes next tries again within half a second.
+    static constexpr int k_most_begun = 4;
 
     // Both must outlive this.
     QuicArrivals(UdpSocket& socket, const UdpPlace& own);
@@ -50,6 +53,7 @@ class QuicArrivals {
     JoinLimits of_addresses_;  // likewise, of addresses that are known to be their peer's
     double refilled_s_ = 0.0;
     int answers_ = 0;
+    int begun_ = 0;
     std::uint64_t retries_ = 0;
 };
 

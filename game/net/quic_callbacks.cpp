@@ -1,13 +1,38 @@
 #include "game/net/quic_callbacks.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <exception>
+#include <utility>
 
 #include <ngtcp2/ngtcp2_crypto.h>
 
 #include "game/net/quic_connection.hpp"
 
 namespace handhold {
+namespace {
+
+// ngtcp2 does not say for which connection it decrypts.
+thread_local std::optional<std::uint64_t> authentic_nonce;
+
+int decrypt(std::uint8_t* to, const ngtcp2_crypto_aead* aead, const ngtcp2_crypto_aead_ctx* key,
+            const std::uint8_t* from, std::size_t size, const std::uint8_t* nonce,
+            std::size_t nonce_size, const std::uint8_t* header, std::size_t header_size) {
+    const int result =
+        ngtcp2_crypto_decrypt_cb(to, aead, key, from, size, nonce, nonce_size, header, header_size);
+    if (std::uint64_t end = 0; result == 0 && nonce_size >= sizeof(end)) {
+        // The packet's number is in the last bytes (RFC 9001, 5.3).
+        std::memcpy(&end, nonce + nonce_size - sizeof(end), sizeof(end));
+        authentic_nonce = end;
+    }
+    return result;
+}
+
+}  // namespace
+
+std::optional<std::uint64_t> take_authentic_nonce() {
+    return std::exchange(authentic_nonce, std::nullopt);
+}
 
 struct QuicCallbacks {
     static QuicConnection& of(void* user_data) { return *static_cast<QuicConnection*>(user_data); }
@@ -60,6 +85,11 @@ struct QuicCallbacks {
                             std::uint64_t offset, std::uint64_t size, void* user_data,
                             void* /*stream_data*/) {
         of(user_data).stream_.acknowledge(offset + size);
+        return 0;
+    }
+    static int datagram_acknowledged(ngtcp2_conn* /*connection*/, std::uint64_t /*id*/,
+                                     void* user_data) {
+        ++of(user_data).acknowledged_datagrams_;
         return 0;
     }
 
@@ -158,7 +188,7 @@ ngtcp2_callbacks quic_callbacks(bool is_server) {
     }
     out.recv_crypto_data = ngtcp2_crypto_recv_crypto_data_cb;
     out.encrypt = ngtcp2_crypto_encrypt_cb;
-    out.decrypt = ngtcp2_crypto_decrypt_cb;
+    out.decrypt = &decrypt;
     out.hp_mask = ngtcp2_crypto_hp_mask_cb;
     out.update_key = ngtcp2_crypto_update_key_cb;
     out.delete_crypto_aead_ctx = ngtcp2_crypto_delete_crypto_aead_ctx_cb;
@@ -174,6 +204,7 @@ ngtcp2_callbacks quic_callbacks(bool is_server) {
     out.stream_reset = &QuicCallbacks::reset;
     out.stream_stop_sending = &QuicCallbacks::stop_sending;
     out.recv_datagram = &QuicCallbacks::datagram;
+    out.ack_datagram = &QuicCallbacks::datagram_acknowledged;
     return out;
 }
 

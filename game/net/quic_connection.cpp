@@ -145,16 +145,18 @@ std::unique_ptr<QuicConnection> QuicConnection::connect(const TlsCredentials& cr
     return out;
 }
 
-void QuicConnection::read(UdpSocket& socket, const UdpPlace& from,
+bool QuicConnection::read(UdpSocket& socket, const UdpPlace& from,
                           std::span<const std::uint8_t> datagram, const Take& take) {
     if (end_ != QuicEnd::none || datagram.empty()) {
-        return;
+        return false;
     }
     UdpPlace peer = from;
     const ngtcp2_path path = path_of(own_, peer);
     is_blocked_ = false;
+    (void)take_authentic_nonce();
     const int result = ngtcp2_conn_read_pkt(connection_, &path, nullptr, datagram.data(),
                                             datagram.size(), quic_now());
+    const bool is_authentic = is_new(take_authentic_nonce());
     const std::vector<std::vector<std::byte>> taken = std::exchange(taken_, {});
     if (result == 0) {
         open_stream();
@@ -164,6 +166,7 @@ void QuicConnection::read(UdpSocket& socket, const UdpPlace& from,
     for (const std::vector<std::byte>& message : taken) {
         take(message);
     }
+    return is_authentic;
 }
 
 void QuicConnection::open_stream() {

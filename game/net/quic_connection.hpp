@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -77,9 +79,10 @@ class QuicConnection {
     QuicConnection(const QuicConnection&) = delete;
     QuicConnection& operator=(const QuicConnection&) = delete;
 
-    // Reads a datagram. `take` gets each message that is complete.
+    // Reads a datagram. `take` gets each message that is complete. False: anybody may have sent
+    // it. It is not the other side's, or it has come before.
     using Take = std::function<void(std::span<const std::byte>)>;
-    void read(UdpSocket& socket, const UdpPlace& from, std::span<const std::uint8_t> datagram,
+    bool read(UdpSocket& socket, const UdpPlace& from, std::span<const std::uint8_t> datagram,
               const Take& take);
     // False: a reliable message does not fit. The receiver has not read for long.
     bool push(Delivery delivery, std::span<const std::byte> message);
@@ -98,8 +101,8 @@ class QuicConnection {
     UdpPlace peer() const;                           // where packets are sent
     std::size_t queued_bytes() const { return newest_bytes_ + stream_.unsent_bytes(); }
     bool is_all_delivered() const { return newest_.empty() && stream_.is_all_acknowledged(); }
-    // Bytes of the stream that the other side has acknowledged.
-    std::uint64_t acknowledged() const { return stream_.acknowledged(); }
+    // Grows with each acknowledgement of the other side: bytes of the stream, and datagrams.
+    std::uint64_t acknowledged() const { return stream_.acknowledged() + acknowledged_datagrams_; }
     std::uint64_t sent_messages() const { return sent_messages_; }
     std::uint64_t sent_bytes() const { return sent_bytes_; }
     std::uint64_t dropped() const { return dropped_; }  // messages of Delivery::newest
@@ -109,6 +112,14 @@ class QuicConnection {
     QuicConnection(const TlsCredentials& credentials, bool is_server,
                    QuicConnectionSettings settings);
     bool begin(int result);
+    bool is_new(std::optional<std::uint64_t> nonce) {
+        if (!nonce || std::ranges::find(nonces_, *nonce) != nonces_.end()) {
+            return false;
+        }
+        nonces_[next_nonce_] = *nonce;
+        next_nonce_ = (next_nonce_ + 1) % nonces_.size();
+        return true;
+    }
     void open_stream();
     void fail(UdpSocket& socket, int error);
     void send_close(UdpSocket& socket, const ngtcp2_connection_close_error& error);
@@ -142,6 +153,11 @@ class QuicConnection {
     std::uint64_t sent_messages_ = 0;
     std::uint64_t sent_bytes_ = 0;
     std::uint64_t dropped_ = 0;
+    std::uint64_t acknowledged_datagrams_ = 0;
+    // Of authentic packets. Copies of much older ones do not decrypt: a packet has only the end of
+    // its number, which then stands for another number.
+    std::array<std::uint64_t, 256> nonces_{};
+    std::size_t next_nonce_ = 0;
     ngtcp2_tstamp wrote_ = 0;  // when a packet was sent last
 };
 

@@ -1,7 +1,6 @@
 // A peer's QUIC connection to a server, by ngtcp2.
 #include <algorithm>
 #include <charconv>
-#include <exception>
 #include <map>
 #include <string>
 #include <utility>
@@ -17,7 +16,6 @@ namespace {
 constexpr std::size_t k_most_from_server = StatePiece::k_most_bytes + 64;
 constexpr std::uint64_t k_window_bytes = 512U << 10U;
 constexpr int k_kernel_buffer_bytes = 1 << 18;
-constexpr double k_close_within_s = 0.5;
 
 struct QuicUrl {
     std::string host;

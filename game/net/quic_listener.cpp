@@ -14,20 +14,27 @@
 namespace handhold {
 namespace {
 
-constexpr double k_close_within_s = 0.5;
-constexpr double k_calm_s = 5.0;  // excess is forgotten after so long without any
-constexpr int k_most_throttles = 40;
 constexpr int k_kernel_buffer_bytes = 1 << 22;
 constexpr std::size_t k_headers_bytes = 28;  // headers of IP and UDP
+// Of what anybody may have sent in a peer's name, so much more than the peer itself may send.
+constexpr double k_forged_share = 10.0;
+
+LinkBudget budget_of_forged(LinkBudget budget) {
+    budget.messages_per_s *= k_forged_share;
+    budget.bytes_per_s *= k_forged_share;
+    return budget;
+}
 
 double quic_now_s() { return static_cast<double>(quic_now()) / NGTCP2_SECONDS; }
 
 struct QuicPeer {
     std::unique_ptr<QuicConnection> connection;
-    ReceiveBudget budget;
+    ReceiveBudget budget;         // bytes and messages that are certainly the peer's
+    ReceiveBudget forged_budget;  // all else; beyond it the peer only loses datagrams
     std::string address;
-    bool is_opened = false;  // the handler knows of it
-    bool is_read = true;     // false: over its budget
+    bool is_opened = false;      // the handler knows of it
+    bool is_read = true;         // false: over its budget
+    bool is_forged_read = true;  // likewise
     int throttles = 0;
     double throttled_s = 0.0;  // the last time
     std::uint64_t acknowledged = 0;
@@ -214,28 +221,36 @@ class QuicListener final : public DatagramListener {
         if (connection == nullptr) {
             return 0;
         }
-        links_.emplace(link, QuicPeer{.connection = std::move(connection),
-                                      .budget = ReceiveBudget(settings_.budget),
-                                      .address = address,
-                                      .advanced_s = quic_now_s()});
+        links_.emplace(link,
+                       QuicPeer{.connection = std::move(connection),
+                                .budget = ReceiveBudget(settings_.budget),
+                                .forged_budget = ReceiveBudget(budget_of_forged(settings_.budget)),
+                                .address = address,
+                                .advanced_s = quic_now_s()});
         return link;
     }
 
     void read(LinkId link, const UdpPlace& from, std::span<const std::uint8_t> bytes,
               ListenerHandler& handler) {
         QuicPeer& peer = links_.at(link);
-        if (peer.is_ended || !take_budget(peer, 0, bytes.size() + k_headers_bytes)) {
+        if (peer.is_ended || !may_read(peer)) {
             return;
         }
-        peer.connection->read(socket_, from, bytes, [&](std::span<const std::byte> message) {
+        const auto take = [&](std::span<const std::byte> message) {
             open_if_due(link, peer, handler);
             ++counts_.received_messages;
             counts_.received_bytes += message.size();
-            (void)take_budget(peer, 1, 0);
+            charge(peer, 1, 0);
             if (peer.close_before_s == 0.0 && !peer.is_ended) {
                 handler.received(link, message);
             }
-        });
+        };
+        const std::size_t size = bytes.size() + k_headers_bytes;
+        if (peer.connection->read(socket_, from, bytes, take)) {
+            charge(peer, 0, size);
+        } else {
+            peer.is_forged_read = peer.forged_budget.take(0, size, quic_now_s());
+        }
         open_if_due(link, peer, handler);
         if (peer.connection->end() == QuicEnd::message) {
             end(peer, LinkEnd::message);
@@ -252,26 +267,30 @@ class QuicListener final : public DatagramListener {
         }
     }
 
-    // False: the connection is over its budget. What it sends is not read, so it is lost.
-    bool take_budget(QuicPeer& peer, std::size_t messages, std::size_t bytes) {
+    // False: the connection is over its budget. The datagram is not read, so it is lost.
+    bool may_read(QuicPeer& peer) {
         const double now_s = quic_now_s();
-        if (!peer.is_read) {
-            peer.is_read = peer.budget.may_read(now_s);
-            if (!peer.is_read) {
-                ++counts_.unread_datagrams;
-                return false;
-            }
+        peer.is_read = peer.is_read || peer.budget.may_read(now_s);
+        peer.is_forged_read = peer.is_forged_read || peer.forged_budget.may_read(now_s);
+        if (peer.is_read && peer.is_forged_read) {
+            return true;
         }
-        if (!peer.budget.take(messages, bytes, now_s)) {
-            ++counts_.throttled;
-            peer.throttles = now_s - peer.throttled_s > k_calm_s ? 1 : peer.throttles + 1;
-            peer.throttled_s = now_s;
-            peer.is_read = false;
-            if (peer.throttles > k_most_throttles) {
-                end(peer, LinkEnd::flooding);
-            }
+        ++counts_.unread_datagrams;
+        return false;
+    }
+
+    void charge(QuicPeer& peer, std::size_t messages, std::size_t bytes) {
+        const double now_s = quic_now_s();
+        if (peer.budget.take(messages, bytes, now_s) || !peer.is_read) {
+            return;
         }
-        return true;
+        ++counts_.throttled;
+        peer.throttles = now_s - peer.throttled_s > k_calm_s ? 1 : peer.throttles + 1;
+        peer.throttled_s = now_s;
+        peer.is_read = false;
+        if (peer.throttles > k_most_throttles) {
+            end(peer, LinkEnd::flooding);
+        }
     }
 
     // Ends a connection that misbehaves, without waiting for its queue.

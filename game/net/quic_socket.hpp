@@ -10,8 +10,6 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
-#include "game/files/file_tools.hpp"
-
 namespace handhold {
 
 // An address and a port of IPv4.

@@ -1,5 +1,6 @@
 #include "game/net/quic_tls.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <stdexcept>

@@ -8,6 +8,12 @@
 
 namespace handhold {
 
+// Excess is forgotten after so long without any.
+inline constexpr double k_calm_s = 5.0;
+// Pauses of reading before a connection is cut off as flooding. A peer whose network was away for
+// five seconds delivers at once what it kept meanwhile: by estimate 15 pauses.
+inline constexpr int k_most_throttles = 40;
+
 // How much more a connection may send now.
 class ReceiveBudget {
   public:

@@ -43,7 +43,7 @@ struct ListenerSettings {
     std::string address = "127.0.0.1";  // address of the interface that is listened on
     int port = 0;                       // 0: any that is free
     std::size_t most_links = 64;        // further connections of a transport are refused
-    std::size_t most_of_address = 48;   // likewise, connections of one address; HTTP counts too
+    std::size_t most_of_address = 48;  // limit for one address, HTTP too; at most 3/4 of most_links
     std::size_t most_message_bytes = 1500;
     int kernel_buffer_bytes =
         1 << 16;                // size of the kernel's send buffer; Linux takes twice as much

@@ -9,6 +9,9 @@
 // among them.
 namespace handhold {
 
+// A connection that is closed here has so long to send its queue.
+inline constexpr double k_close_within_s = 0.5;
+
 // A listener whose datagrams another one may wait for.
 class DatagramListener : public Listener {
   public:

@@ -108,7 +108,10 @@ Result<std::unique_ptr<Listener>> open_both(ListenerSettings settings) {
 
 bool has_network() { return has_websocket() || has_quic(); }
 
-Result<std::unique_ptr<Listener>> open_listener(const ListenerSettings& settings) {
+Result<std::unique_ptr<Listener>> open_listener(const ListenerSettings& given) {
+    ListenerSettings settings = given;
+    settings.most_of_address =
+        std::min(settings.most_of_address, settings.most_links - settings.most_links / 4);
     if (!has_quic()) {
         return open_websocket_listener(settings);
     }

@@ -19,12 +19,7 @@
 namespace handhold {
 namespace {
 
-constexpr double k_close_within_s = 0.5;
 constexpr double k_look_s = 0.02;
-constexpr double k_calm_s = 5.0;  // excess is forgotten after so long without any
-// Pauses of reading before a connection is cut off as flooding. A peer whose network was away for
-// five seconds delivers at once what it kept meanwhile: by estimate 15 pauses.
-constexpr int k_most_throttles = 40;
 
 struct WebSocketPeer {
     lws* wsi = nullptr;
@@ -51,12 +46,10 @@ class WebSocketListener final : public Listener {
   public:
     WebSocketListener(const ListenerSettings& settings, int descriptor)
         : settings_(settings), protocols_(protocols()), context_(info()) {
-        if (is_valid() && descriptor >= 0) {
-            wake_by(descriptor);
-        }
+        is_valid_ = context_.get() != nullptr && (descriptor < 0 || wake_by(descriptor));
     }
 
-    bool is_valid() const { return context_.get() != nullptr; }
+    bool is_valid() const { return is_valid_; }
     int port() const override {
         return lws_get_vhost_listen_port(lws_get_vhost_by_name(context_.get(), "default"));
     }
@@ -131,11 +124,14 @@ class WebSocketListener final : public Listener {
     }
 
     // libwebsockets ends its waiting while the descriptor is readable, and does not read from it.
-    void wake_by(int descriptor) {
+    // False: it has no room for another descriptor.
+    bool wake_by(int descriptor) {
         lws_sock_file_fd_type other{};
         other.filefd = ::dup(descriptor);  // libwebsockets closes its own
-        lws_adopt_descriptor_vhost(lws_get_vhost_by_name(context_.get(), "default"),
-                                   LWS_ADOPT_RAW_FILE_DESC, other, k_websocket_protocol, nullptr);
+        return other.filefd >= 0 &&
+               lws_adopt_descriptor_vhost(lws_get_vhost_by_name(context_.get(), "default"),
+                                          LWS_ADOPT_RAW_FILE_DESC, other, k_websocket_protocol,
+                                          nullptr) != nullptr;
     }
 
     static int on_event(lws* wsi, lws_callback_reasons reason, void* user, void* in,
@@ -376,6 +372,7 @@ class WebSocketListener final : public Listener {
     std::map<lws*, std::string> sockets_;  // addresses of all connections
     LinkId last_link_ = 0;
     ListenerCounts counts_;
+    bool is_valid_ = false;
     WebSocketContext context_;  // the last one: it calls on_event while it ends
 };
 

@@ -243,7 +243,8 @@ void page_closed(const char* why) { page().closed = why; }
 std::int32_t page_poll(double now_s, const hh_match_input* input, std::uint32_t wrists) {
     PageMatch& all = page();
     all.now_s = now_s;
-    all.snap_turns += input->commands.snap_turns;
+    all.snap_turns =
+        all.peer->stage() == PeerStage::playing ? all.snap_turns + input->commands.snap_turns : 0;
     bool is_given = false;
     try {
         return static_cast<std::int32_t>(

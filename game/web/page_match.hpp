@@ -55,8 +55,9 @@ void page_receive(const void* message, std::size_t size);
 void page_closed(const char* why);
 // Steps the ticks that are due. `input`: what the devices have said since the last call, with times
 // before now, seconds, at most 0: they end with the last tick that is due. `wrists`: bit 1 << side
-// is set if that hand's poses are wrists instead of controllers. Returns the number of ticks, or -1
-// for a defect (page_why).
+// is set if that hand's poses are wrists instead of controllers. While no tick is due, samples and
+// buttons are ignored; snap turns wait for the next tick. Returns the number of ticks, or -1 for a
+// defect (page_why).
 std::int32_t page_poll(double now_s, const hh_match_input* input, std::uint32_t wrists);
 // The next message to the server, 0 bytes: none is left.
 std::size_t page_next_message(const void** message);

@@ -9,6 +9,7 @@
 //                        each with its size (4) first, and a PeerReport
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <string_view>
 #include <vector>
 
@@ -105,7 +106,10 @@ void poll(double now_s, std::uint64_t& gripping) {
     input.samples = &sample;
     input.sample_count = 1;
     input.commands.thrust.y = -1.0;
-    page_poll(now_s, &input, 0);
+    if (page_poll(now_s, &input, 0) < 0) {
+        std::fprintf(stderr, "%s\n", page_why());
+        std::exit(1);
+    }
     constexpr std::uint32_t k_playing = 3;
     gripping += page_stage() == k_playing && grips() ? 1U : 0U;
     std::vector<std::vector<char>> kept;

@@ -3,6 +3,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 #include <utility>
 
 #include <sys/prctl.h>
@@ -14,14 +15,21 @@
 
 namespace handhold::lab {
 
+struct NoProcess final : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 // A copy of this process that does one piece of work. Ends with its parent.
 class ChildProcess {
   public:
-    // Precondition: this process has one thread.
+    // Precondition: this process has one thread. Throws NoProcess.
     template <typename Work>
     explicit ChildProcess(const Work& work) {
         std::fflush(nullptr);
         id_ = ::fork();
+        if (id_ < 0) {
+            throw NoProcess("expected room for a further process");
+        }
         if (id_ == 0) {
             ::prctl(PR_SET_PDEATHSIG, SIGKILL);
             std::_Exit(status_of(work));
@@ -39,7 +47,11 @@ class ChildProcess {
         return *this;
     }
 
-    void interrupt() const { ::kill(id_, SIGTERM); }
+    void interrupt() const {
+        if (id_ > 0) {  // -1 would be all processes
+            ::kill(id_, SIGTERM);
+        }
+    }
     // False if it has not ended by then, or not well.
     bool ends_well_within(double wait_s) {
         const double until_s = steady_now_s() + wait_s;

@@ -163,7 +163,7 @@ void add_match_options(CLI::App& match, lab::MatchOptions& options) {
     match
         .add_option("--sockets", options.sockets,
                     "Plays this scene of the game instead: a server and climbers as processes, "
-                    "over WebSocket through a proxy with --rtt-ms, --jitter-ms and --loss")
+                    "through a proxy with --rtt-ms, --jitter-ms and --loss")
         ->check(CLI::IsMember(strings(handhold::built_in_scenes())));
     match.add_option("--transport", options.transport, "With --sockets: ws, or quic over UDP")
         ->check(CLI::IsMember(std::vector<std::string>{"ws", "quic"}));

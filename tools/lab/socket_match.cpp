@@ -357,15 +357,19 @@ class Comparison {
 
 Result<SocketMatchFigures> run_socket_match(const SocketMatchOptions& options) {
     const TemporaryFolder folder;
-    const Result<PlayedMatch> played = play(options, folder.path());
-    if (!played) {
-        return played.error();
+    try {
+        const Result<PlayedMatch> played = play(options, folder.path());
+        if (!played) {
+            return played.error();
+        }
+        const Result<Confirmed> confirmed = play_again(recording_in(folder.path()));
+        if (!confirmed) {
+            return confirmed.error();
+        }
+        return Comparison(options, played.value(), confirmed.value()).run();
+    } catch (const NoProcess& error) {
+        return FileError{"a process of the match", "", error.what()};
     }
-    const Result<Confirmed> confirmed = play_again(recording_in(folder.path()));
-    if (!confirmed) {
-        return confirmed.error();
-    }
-    return Comparison(options, played.value(), confirmed.value()).run();
 }
 
 }  // namespace handhold::lab

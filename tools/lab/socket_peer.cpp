@@ -108,7 +108,7 @@ class SocketPeer {
         const double begin_s = match_now_s();
         peer_.connect(std::make_unique<CountingLink>(std::move(link.value()), second_));
         while (peer_.stage() != PeerStage::playing) {
-            peer_.poll(k_look_s, {});
+            peer_.poll(k_look_s, [](double, PeerInput&) {});
             if (peer_.stage() == PeerStage::ended || match_now_s() > begin_s + k_join_within_s) {
                 return FileError{task_.url, "", "could not join: " + peer_.why()};
             }

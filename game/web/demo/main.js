@@ -188,6 +188,8 @@ function playRecording(dt_s) {
 // A match goes on between pictures, however long those take; only a headset's devices are read in its frames.
 let matchSample = null; // of mouse and keyboard
 let matchRead_ms;
+let matchTimer;
+let matchDefect = null; // what the match has thrown: it is not stepped any more
 function followMatch() {
     const now_ms = performance.now();
     const dt_s = Math.min(1e-3 * (now_ms - (matchRead_ms ?? now_ms)), 1 / 20);
@@ -200,7 +202,18 @@ function followMatch() {
 }
 // Ticks of the match. The controllers' joints are the level's: they are not told.
 function advanceMatch(devices) {
-    match.poll(devices);
+    if (matchDefect) {
+        return;
+    }
+    try {
+        match.poll(devices);
+    } catch (error) {
+        matchDefect = error;
+        clearInterval(matchTimer);
+        console.error(error);
+        notice = `The match has ended for you: ${error.message}. Load the page again to join again.`;
+        return;
+    }
     if (match.isOver) {
         notice = `The match has ended for you: ${match.why}. Load the page again to join again.`;
     } else {
@@ -327,7 +340,7 @@ element('panel').hidden = false;
 window.demo = { handhold, world, player, match, climber, desktop, hint, level, panel, renderer, path, advance, show };
 renderer.setAnimationLoop(onFrame);
 if (match) {
-    setInterval(followMatch, 4);
+    matchTimer = setInterval(followMatch, 4);
 }
 await offerHeadset();
 if ('serviceWorker' in navigator && !match) { // not on plain http

@@ -7,6 +7,10 @@ const k_offer_within_s = 5;
 const k_return_within_s = 60;
 const k_return_every_s = 1;
 const stages = ['connecting', 'offered', 'joining', 'playing', 'ended'];
+const k_most_message_bytes = 8256; // of the server
+const k_packet = 5; // NetKind: of the match; a newer one makes up for it
+const k_most_waiting_bytes = 1000; // older packets that wait in the socket
+const isMessage = (data) => data instanceof ArrayBuffer && data.byteLength <= k_most_message_bytes;
 const now_s = () => 1e-3 * performance.now();
 
 // Structs of page_match.hpp.
@@ -36,7 +40,8 @@ function fetchOffer(url, WebSocketType) {
             finish(value);
         };
         const timer = setTimeout(() => end(reject, new Error('no server: no answer')), 1e3 * k_offer_within_s);
-        socket.onmessage = ({ data }) => end(resolve, new Uint8Array(data));
+        socket.onmessage = ({ data }) => (isMessage(data) ? end(resolve, new Uint8Array(data))
+            : end(reject, new Error('this is no server of matches')));
         socket.onclose = () => end(reject, new Error('no server: nobody listens there, or not to matches'));
         socket.onerror = () => {}; // onclose follows
     });
@@ -91,7 +96,9 @@ export class Match {
         this.#socket = socket;
         handhold.scratch((m) => handhold.exports.page_connect(this.#person, m.takeText(this.#token), now_s()));
         socket.onmessage = ({ data }) => {
-            if (socket === this.#socket) {
+            if (!isMessage(data)) {
+                socket.close();
+            } else if (socket === this.#socket) {
                 handhold.scratch((m) => handhold.exports.page_receive(m.takeBytes(new Uint8Array(data)), data.byteLength));
             }
         };
@@ -107,8 +114,10 @@ export class Match {
         this.handhold.scratch((m) => {
             const out = m.take(4);
             for (let size = exports.page_next_message(out); size > 0; size = exports.page_next_message(out)) {
-                if (this.#socket.readyState === 1) {
-                    this.#socket.send(memory.bytes(memory.view.getUint32(out, true), size).slice());
+                const message = memory.bytes(memory.view.getUint32(out, true), size).slice();
+                const isDropped = message[0] === k_packet && this.#socket.bufferedAmount > k_most_waiting_bytes;
+                if (this.#socket.readyState === 1 && !isDropped) {
+                    this.#socket.send(message);
                 }
             }
         });

@@ -38,6 +38,9 @@ export function socketType() {
     }
 }
 
+/** Also by a signal. */
+const hasEnded = (process) => process.exitCode !== null || process.signalCode !== null;
+
 /** A program of the native game and the lines of its log, as objects. */
 export class Program {
     constructor(context, ...words) {
@@ -56,7 +59,7 @@ export class Program {
     }
     async waitFor(event, count = 1) {
         for (let i = 0; this.lines(event).length < count; ++i) {
-            if (i > 6000 || this.process.exitCode !== null) {
+            if (i > 6000 || hasEnded(this.process)) {
                 throw new Error(`no ${count} times "${event}": ${this.err}`);
             }
             await sleep(10);
@@ -139,7 +142,7 @@ export class DrivenPeer {
 
     constructor(context, name, command) {
         this.name = name;
-        this.process = spawn(command[0], command.slice(1), { stdio: ['pipe', 'pipe', 'ignore'] });
+        this.process = spawn(command[0], command.slice(1), { stdio: ['pipe', 'pipe', 'inherit'] });
         this.process.stdout.on('data', (data) => {
             this.#answers = Buffer.concat([this.#answers, data]);
             this.#wake();
@@ -159,7 +162,7 @@ export class DrivenPeer {
     }
     async #take(size) {
         while (this.#answers.length < size) {
-            if (this.process.exitCode !== null) {
+            if (hasEnded(this.process)) {
                 throw new Error(`${this.name} has ended`);
             }
             await Promise.race([new Promise((done) => { this.#wake = done; }), sleep(1000)]);

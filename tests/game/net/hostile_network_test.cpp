@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "game/commands/match_commands.hpp"
 #include "game/net/transport_kinds.hpp"
 #include "tests/game/net/loopback_match.hpp"
 #include "tests/game/net/raw_socket.hpp"
@@ -135,15 +136,24 @@ TEST_F(HostileNetworkTest, AnAddressThatJoinsAgainAndAgainDoesNotUseUpTheJoinsOf
 }
 
 TEST_F(HostileNetworkTest, AnAddressThatOnlyConnectsLeavesRoomForOthers) {
-    LoopbackMatch match(2);
-    std::vector<std::unique_ptr<RawSocket>> sockets;
-    for (int i = 0; i < 80; ++i) {
-        sockets.push_back(std::make_unique<RawSocket>(match.listener().port(), "127.0.0.2", false));
+    const ListenerSettings of_serve = listener_settings({});
+    for (const bool upgrades : {false, true}) {
+        for (const std::size_t most_links : {of_serve.most_links, std::size_t{16}}) {
+            LoopbackMatch match(2, {}, [&](ListenerSettings& settings) {
+                settings.most_links = most_links;
+                settings.most_of_address = of_serve.most_of_address;
+            });
+            std::vector<std::unique_ptr<RawSocket>> sockets;
+            for (int i = 0; i < 80; ++i) {
+                sockets.push_back(
+                    std::make_unique<RawSocket>(match.listener().port(), "127.0.0.2", upgrades));
+            }
+            match.run(0.5);
+            LoopbackPeer& other = match.add_peer(1);
+            EXPECT_TRUE(match.run_until(4.0, [&] { return other.plays(); })) << other.peer->why();
+            EXPECT_GE(match.listener().counts().refused, 80 - most_links * 3 / 4);
+        }
     }
-    match.run(0.5);
-    LoopbackPeer& other = match.add_peer(1);
-    EXPECT_TRUE(match.run_until(4.0, [&] { return other.plays(); })) << other.peer->why();
-    EXPECT_GE(match.listener().counts().refused, 30U);
 }
 
 TEST_F(HostileNetworkTest, TokenThatExpiredMeanwhileBringsItsPlayerBackAndNobodyElse) {

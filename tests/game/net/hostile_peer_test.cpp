@@ -222,8 +222,9 @@ TEST_F(HostileConnectionTest, WhoJoinsAgainAndAgainIsRefusedAndOthersPlayOn) {
 TEST_F(HostileConnectionTest, NoMoreConnectionsThanTheLimitAreOpened) {
     LoopbackMatch match(2, {}, [](ListenerSettings& settings) { settings.most_links = 4; });
     std::vector<std::unique_ptr<RawSocket>> sockets;
-    for (int i = 0; i < 12; ++i) {
-        sockets.push_back(std::make_unique<RawSocket>(match.listener().port()));
+    for (int i = 0; i < 12; ++i) {  // three of each address, as many as it may have
+        const std::string from = "127.0.0." + std::to_string(2 + i % 4);
+        sockets.push_back(std::make_unique<RawSocket>(match.listener().port(), from.c_str()));
     }
     EXPECT_TRUE(match.run_until(4.0, [&] { return match.listener().counts().refused > 0; }));
     EXPECT_EQ(match.listener().counts().opened, 4U);

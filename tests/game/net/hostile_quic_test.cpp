@@ -142,10 +142,28 @@ TEST_F(HostileQuicTest, DatagramsOfEachLengthAndKindAreNone) {
     RecordProperty("stray", static_cast<int>(counts.stray_datagrams));
 }
 
+// A handshake costs a millisecond of the match's thread.
+TEST_F(HostileQuicTest, FewHandshakesBeginInOnePoll) {
+    NoHandler handler;
+    const std::unique_ptr<Listener> listener = std::move(open_listener({}).value());
+    RawUdp sender;
+    test::Random random(5);
+    for (int i = 0; i < 7; ++i) {
+        sender.send(listener->port(), false_initial(random));
+    }
+    listener->poll(0.0, handler);
+    EXPECT_EQ(listener->counts().retries, 3U);
+}
+
 // What a listener on the way may do: it sees all datagrams, and sends what it likes besides.
 enum class Mischief : std::uint8_t { truncated, flipped, replayed, noise };
 
-class MischiefTest : public testing::TestWithParam<Mischief> {
+struct MischiefCase {
+    Mischief kind;
+    int copies;  // of each datagram
+};
+
+class MischiefTest : public testing::TestWithParam<MischiefCase> {
   protected:
     void SetUp() override {
         if (!has_quic()) {
@@ -166,7 +184,7 @@ TEST_P(MischiefTest, DatagramsFromAnotherAddressChangeNothing) {
         const double draw = random.between(0.0, 1.0);
         const auto at = static_cast<std::size_t>(
             draw * static_cast<double>(std::max<std::size_t>(forged.size(), 1)));
-        switch (GetParam()) {
+        switch (GetParam().kind) {
             case Mischief::truncated:
                 forged.resize(at);
                 break;
@@ -183,7 +201,7 @@ TEST_P(MischiefTest, DatagramsFromAnotherAddressChangeNothing) {
                 });
                 break;
         }
-        for (int i = 0; i < 3; ++i) {
+        for (int i = 0; i < GetParam().copies; ++i) {
             mallory.send(match.listener().port(), forged);
             ++sent;
         }
@@ -201,14 +219,19 @@ TEST_P(MischiefTest, DatagramsFromAnotherAddressChangeNothing) {
     EXPECT_EQ(match.server->counts().bad_packets, 0U);
     EXPECT_EQ(match.server->counts().joins, 2U);
     EXPECT_EQ(match.listener().counts().opened, 2U);
+    EXPECT_EQ(match.listener().counts().throttled, 0U);
+    EXPECT_EQ(match.listener().counts().unread_datagrams, 0U);
     RecordProperty("forged", static_cast<int>(sent));
     RecordProperty("stray", static_cast<int>(match.listener().counts().stray_datagrams));
     RecordProperty("longest_poll_us", static_cast<int>(1e6 * match.longest_poll_s));
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, MischiefTest,
-                         testing::Values(Mischief::truncated, Mischief::flipped, Mischief::replayed,
-                                         Mischief::noise));
+// 40 copies are five times what the peer itself may send.
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, MischiefTest,
+    testing::Values(MischiefCase{Mischief::truncated, 3}, MischiefCase{Mischief::flipped, 3},
+                    MischiefCase{Mischief::flipped, 40}, MischiefCase{Mischief::replayed, 3},
+                    MischiefCase{Mischief::replayed, 40}, MischiefCase{Mischief::noise, 3}));
 
 // The attacker writes somebody else's address on a good first packet.
 TEST_F(HostileQuicTest, AnAddressThatNeverAnswersGetsAtMostThreeTimesWhatCame) {
@@ -292,6 +315,31 @@ TEST_F(HostileQuicTest, AFloodingPeerIsNotReadForAWhile) {
     RecordProperty("throttled", static_cast<int>(counts.throttled));
     RecordProperty("unread", static_cast<int>(counts.unread_datagrams));
     RecordProperty("longest_poll_us", static_cast<int>(1e6 * match.longest_poll_s));
+}
+
+TEST_F(HostileQuicTest, MessagesOfOneDatagramAreAllCharged) {
+    NoHandler handler;
+    const ListenerSettings settings;
+    const std::unique_ptr<Listener> listener = std::move(open_listener(settings).value());
+    RawPeer flood(listener->urls().back());
+    const std::vector<std::byte> message(1, std::byte{1});
+    const auto wall_s = [] { return test::match_clock_s() / test::k_clock_rate; };
+    const double begin_s = wall_s();
+    while (wall_s() < begin_s + 3.0) {
+        for (int i = 0; flood.is_open && i < 1000 && flood.link->queued_bytes() < 30'000; ++i) {
+            flood.link->send(Delivery::reliable, message);
+        }
+        flood.link->poll(0.001, flood);
+        listener->poll(0.0, handler);
+    }
+    const double burst_s = wall_s() - begin_s + settings.budget.burst_s;
+    const ListenerCounts& counts = listener->counts();
+    // Some datagrams, of 400 messages each, may wait for one that was lost.
+    constexpr double k_most_at_once = 10 * 400.0;
+    EXPECT_GE(counts.throttled, 1U);
+    RecordProperty("received", static_cast<int>(counts.received_messages));
+    EXPECT_LE(static_cast<double>(counts.received_messages),
+              burst_s * settings.budget.messages_per_s + k_most_at_once);
 }
 
 TEST_F(HostileQuicTest, PeersThatReadNothingAreCutOff) {

@@ -79,6 +79,22 @@ TEST_F(QuicMatchTest, MatchGoesOnWhereOneDatagramInTwentyIsLost) {
     RecordProperty("messages_dropped", static_cast<int>(match.listener().counts().dropped));
 }
 
+// Something always waits to be sent there, and the stream itself is at rest.
+TEST_F(QuicMatchTest, PlayerOnANarrowNetworkIsNotTakenForOneWhoDoesNotRead) {
+    HH_NEEDS_REAL_TIME();
+    LoopbackMatch match(2, {}, [](ListenerSettings& settings) { settings.slow_after_s = 1.0; });
+    test::UdpProxy proxy(match.listener().port());
+    LoopbackPeer& peer = add_peer(match, 1, proxy.url(match.quic_url()));
+    match.others = [&proxy] { proxy.poll(); };
+    ASSERT_TRUE(match.run_until(20.0, [&] { return match.all_play(); }));
+    proxy.down_bytes_per_s = 400.0;
+    match.run(10.0);
+    EXPECT_EQ(match.listener().counts().ended_slow, 0U);
+    EXPECT_GT(match.listener().counts().dropped, 0U);
+    EXPECT_TRUE(peer.plays());
+    RecordProperty("messages_dropped", static_cast<int>(match.listener().counts().dropped));
+}
+
 TEST_F(QuicMatchTest, PlayerWhoseAddressChangesPlaysOn) {
     LoopbackMatch match(3);
     test::UdpProxy proxy(match.listener().port());

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <span>
@@ -91,14 +94,30 @@ class UdpProxy {
         }
         while (up_->receive(bytes, from)) {
             bytes_down += bytes.size();
-            if (!is_deaf && passes(passed_down)) {
-                down_.send(peer_port_, bytes);
+            const bool has_room =
+                down_bytes_per_s >= k_wide || queued_bytes_ + bytes.size() < k_most_queued_bytes;
+            if (!is_deaf && has_room && passes(passed_down)) {
+                queued_bytes_ += bytes.size();
+                queue_.push_back(bytes);
             }
+        }
+        const double now_s = wall_s();
+        credit_ = std::min(credit_ + (now_s - polled_s_) * down_bytes_per_s, 1500.0);
+        polled_s_ = now_s;
+        while (!queue_.empty() && credit_ >= static_cast<double>(queue_.front().size())) {
+            down_.send(peer_port_, queue_.front());
+            queued_bytes_ -= queue_.front().size();
+            if (down_bytes_per_s < k_wide) {
+                credit_ -= static_cast<double>(queue_.front().size());
+            }
+            queue_.pop_front();
         }
     }
 
+    static constexpr double k_wide = 1e12;
     double loss = 0.0;
-    bool is_deaf = false;  // nothing comes back to the peer
+    double down_bytes_per_s = k_wide;  // to the peer; what waits for it is in a queue
+    bool is_deaf = false;              // nothing comes back to the peer
     std::function<void(const std::vector<std::uint8_t>&)> seen_up;
     std::uint64_t passed_up = 0;
     std::uint64_t passed_down = 0;
@@ -114,6 +133,16 @@ class UdpProxy {
         return passes;
     }
 
+    static double wall_s() {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+            .count();
+    }
+    static constexpr std::size_t k_most_queued_bytes = std::size_t{8} << 10U;
+
+    std::deque<std::vector<std::uint8_t>> queue_;
+    std::size_t queued_bytes_ = 0;
+    double credit_ = 0.0;
+    double polled_s_ = 0.0;
     int server_port_;
     int peer_port_ = 0;
     RawUdp down_;
