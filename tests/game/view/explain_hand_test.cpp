@@ -183,6 +183,16 @@ TEST(Gizmos, FitColoursAreThoseOfTheCostliestTerms) {
     EXPECT_EQ(hash_state(world), hash);
 }
 
+TEST(ExplainFit, EveryTermHasAMeaningAndAColourOfItsOwn) {
+    for (std::size_t i = 0; i < k_fit_term_count; ++i) {
+        const auto term = static_cast<FitTerm>(i);
+        ASSERT_NE(meaning_of(term), nullptr) << name_of(term);
+        for (std::size_t other = 0; other < i; ++other) {
+            EXPECT_NE(color_of(term), color_of(static_cast<FitTerm>(other))) << name_of(term);
+        }
+    }
+}
+
 TEST(PlayTally, ClimbedDistanceExcludesDrifting) {
     AtRail desk;
     PlayTally tally;
