@@ -166,7 +166,7 @@ void add_play_options(CLI::App& play, handhold::PlayOptions& options) {
         ->check(number_in(0.05, 2.0));
     play.add_flag_callback(
         "--no-mirror", [&options] { options.mirror = false; },
-        "With --xr: no window of what the left eye sees");
+        "With --xr: no window with the left eye's view");
     play.add_option("--record", options.record,
                     "Save the session (.csv): run --input plays it again");
     play.add_flag("--jets", options.jets, "Small jets: the keys push as well as pull");

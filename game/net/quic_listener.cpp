@@ -16,7 +16,7 @@ namespace {
 
 constexpr int k_kernel_buffer_bytes = 1 << 22;
 constexpr std::size_t k_headers_bytes = 28;  // headers of IP and UDP
-// Of what anybody may have sent in a peer's name, so much more than the peer itself may send.
+// Datagrams in a peer's name may come at so many times the rate that the peer itself may use.
 constexpr double k_forged_share = 10.0;
 
 LinkBudget budget_of_forged(LinkBudget budget) {

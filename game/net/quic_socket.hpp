@@ -34,7 +34,7 @@ std::optional<UdpPlace> find_place(const std::string& host, int port);
 class UdpSocket {
   public:
     // Bound to `place`; with port 0, to any that is free. The kernel keeps at most about
-    // `kernel_buffer_bytes` of what has come; Linux takes twice as much.
+    // `kernel_buffer_bytes` of unread datagrams; Linux takes twice as much.
     // A peer's socket is told if nobody listens at the other side.
     enum class Side : std::uint8_t { server, peer };
     UdpSocket(const UdpPlace& place, int kernel_buffer_bytes, Side side);

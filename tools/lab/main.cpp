@@ -1,6 +1,10 @@
 // handhold-lab: measures the runtime from outside.
+#include <algorithm>
 #include <cstdio>
+#include <functional>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <handhold/version.hpp>
@@ -197,6 +201,44 @@ void add_proxy_options(CLI::App& proxy, lab::ProxyOptions& options) {
     proxy.add_option("--seed", options.seed, "Seed of the network");
 }
 
+struct Command {
+    CLI::App* parser;
+    std::function<int()> run;
+};
+
+// `add_options` gives the parser the options that `run` gets.
+template <typename Options>
+Command make_command(CLI::App& app, const char* name, const char* description,
+                     void (&add_options)(CLI::App&, Options&), int (&run)(const Options&)) {
+    const auto options = std::make_shared<Options>();
+    CLI::App* const parser = app.add_subcommand(name, description);
+    add_options(*parser, *options);
+    return {parser, [options, &run] { return run(*options); }};
+}
+
+std::vector<Command> make_commands(CLI::App& app) {
+    return {make_command(app, "solve", "Errors, cost and momentum of one scene with one solver",
+                         add_solve_options, lab::solve_command),
+            make_command(app, "grip", "Poses a hand on a mesh for each placement", add_grip_options,
+                         lab::grip_command),
+            make_command(app, "hands-picture", "Draws posed hands on a mesh as a sheet of pictures",
+                         add_hands_picture_options, lab::hands_picture_command),
+            make_command(app, "body",
+                         "Estimates chest, shoulders and elbows from recorded heads and hands",
+                         add_body_options, lab::body_command),
+            make_command(app, "shown-body", "Measures the shown body in a session",
+                         add_shown_body_options, lab::shown_body_command),
+            make_command(app, "recorded-grips",
+                         "Measures gripping wrists and the cost of hands in recorded sessions",
+                         add_recorded_grips_options, lab::recorded_grips_command),
+            make_command(
+                app, "match",
+                "A match over a simulated network: equal hashes, bytes, rollbacks and their cost",
+                add_match_options, lab::match_command),
+            make_command(app, "proxy", "Delays and drops what passes between two programs",
+                         add_proxy_options, lab::proxy_command)};
+}
+
 }  // namespace
 
 // NOLINTNEXTLINE(bugprone-exception-escape): without memory there is no message to print either
@@ -204,72 +246,20 @@ int main(int argc, char** argv) {
     CLI::App app{"Handhold's lab: measures the runtime from outside"};
     app.set_version_flag("--version", "handhold-lab " HANDHOLD_VERSION_TEXT);
     app.require_subcommand(1);
-    lab::SolveOptions options;
-    CLI::App* const solve =
-        app.add_subcommand("solve", "Errors, cost and momentum of one scene with one solver");
-    add_solve_options(*solve, options);
-    lab::GripOptions grip_options;
-    CLI::App* const grip = app.add_subcommand("grip", "Poses a hand on a mesh for each placement");
-    add_grip_options(*grip, grip_options);
-    lab::HandsPictureOptions picture_options;
-    CLI::App* const picture =
-        app.add_subcommand("hands-picture", "Draws posed hands on a mesh as a sheet of pictures");
-    add_hands_picture_options(*picture, picture_options);
-    lab::BodyOptions body_options;
-    CLI::App* const body = app.add_subcommand(
-        "body", "Estimates chest, shoulders and elbows from recorded heads and hands");
-    add_body_options(*body, body_options);
-    lab::ShownBodyOptions shown_options;
-    CLI::App* const shown =
-        app.add_subcommand("shown-body", "Measures the shown body in a session");
-    add_shown_body_options(*shown, shown_options);
-    lab::RecordedGripsOptions recorded_options;
-    CLI::App* const recorded = app.add_subcommand(
-        "recorded-grips", "Measures gripping wrists and the cost of hands in recorded sessions");
-    add_recorded_grips_options(*recorded, recorded_options);
-    lab::MatchOptions match_options;
-    CLI::App* const match = app.add_subcommand(
-        "match", "A match over a simulated network: equal hashes, bytes, rollbacks and their cost");
-    add_match_options(*match, match_options);
-    lab::ProxyOptions proxy_options;
-    CLI::App* const proxy =
-        app.add_subcommand("proxy", "Delays and drops what passes between two programs");
-    add_proxy_options(*proxy, proxy_options);
+    const std::vector<Command> commands = make_commands(app);
+    const auto chosen = [&commands] {
+        return std::ranges::find_if(commands,
+                                    [](const Command& each) { return each.parser->parsed(); });
+    };
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) {
             return app.exit(error);  // --help
         }
-        const CLI::App& subcommand = solve->parsed()      ? *solve
-                                     : grip->parsed()     ? *grip
-                                     : picture->parsed()  ? *picture
-                                     : body->parsed()     ? *body
-                                     : shown->parsed()    ? *shown
-                                     : recorded->parsed() ? *recorded
-                                     : match->parsed()    ? *match
-                                     : proxy->parsed()    ? *proxy
-                                                          : app;
-        std::fprintf(stderr, "%s\n%s", error.what(), subcommand.help().c_str());
+        const CLI::App& parser = chosen() != commands.end() ? *chosen()->parser : app;
+        std::fprintf(stderr, "%s\n%s", error.what(), parser.help().c_str());
         return k_exit_usage;
     }
-    if (picture->parsed()) {
-        return lab::hands_picture_command(picture_options);
-    }
-    if (body->parsed()) {
-        return lab::body_command(body_options);
-    }
-    if (shown->parsed()) {
-        return lab::shown_body_command(shown_options);
-    }
-    if (recorded->parsed()) {
-        return lab::recorded_grips_command(recorded_options);
-    }
-    if (proxy->parsed()) {
-        return lab::proxy_command(proxy_options);
-    }
-    if (match->parsed()) {
-        return lab::match_command(match_options);
-    }
-    return grip->parsed() ? lab::grip_command(grip_options) : lab::solve_command(options);
+    return chosen()->run();
 }

@@ -47,14 +47,7 @@ Vec3 estimate_chest(const TrackedBody& body, const BodyAxes& axes, const Estimat
     double sine = 0.0;
     double cosine = 1.0;
     sin_cos(tuning.learned * correction.turn_rad, sine, cosine);
-    const Vec3 corrected_ps = turned_left(talked_ps, cosine, sine);
-    Vec3 wanted_ps = corrected_ps;
-    const double across_rad = turn_to_reach_across(
-        corrected_ps, lean, chest_pose(corrected_ps, lean, correction.offset, body, trunk), body);
-    if (across_rad != 0.0) {
-        sin_cos(across_rad, sine, cosine);
-        wanted_ps = turned_left(corrected_ps, cosine, sine);
-    }
+    const Vec3 wanted_ps = turned_left(talked_ps, cosine, sine);
     if (reset) {
         memory.facing_ps = wanted_ps;
         memory.chest = correction.offset;

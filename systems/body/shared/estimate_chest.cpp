@@ -50,40 +50,6 @@ ChestInputs chest_inputs(const ChestView& view, HandSide side) {
 constexpr double k_line_fades = -0.05;
 constexpr double k_line_full = 0.25;
 
-// Constants that make turn_to_reach_across smooth. All are measured in the view along the chest's
-// up axis: angles between straight ahead and the line from shoulder to hand, positive towards the
-// other side; distances in arm lengths. With the excess over body_constants::k_across_rad, turn =
-// excess^2 / (excess + k_across_soft_rad); it fades in over k_across_fade from
-// body_constants::k_across_bent.
-constexpr double k_across_soft_rad = 0.349;
-constexpr double k_across_fade = 0.15;
-// The turn fades to zero while the other hand moves from its own shoulder inwards by this many arm
-// lengths: the hands are then no longer both on one side of the body.
-constexpr double k_other_inside = 0.2;
-// Angles between which the turn fades to zero, because the hand may be behind the back instead.
-constexpr double k_across_fades_rad = 1.92;
-constexpr double k_across_ends_rad = 2.618;
-
-// Returns the turn (rad, >= 0) for a right arm that reaches across; mirror the arguments for a left
-// arm. `hand`, `other`: positions of the hands relative to their own shoulders, in the chest's axes
-// and arm lengths.
-double across_turn(const Vec3& hand, const Vec3& other) {
-    const double distance = std::sqrt(hand.x() * hand.x() + hand.z() * hand.z());
-    constexpr double k_bent = body_constants::k_across_bent;
-    const double share = smooth_step(distance, k_bent, k_bent + k_across_fade) *
-                         smooth_step(-other.x(), -k_other_inside, 0.0);
-    if (share == 0.0 || hand.x() >= 0.0) {
-        return 0.0;
-    }
-    const double angle = arc_tangent2(-hand.x(), -hand.z());
-    const double excess = angle - body_constants::k_across_rad;
-    if (excess <= 0.0) {
-        return 0.0;
-    }
-    const double ahead = 1.0 - smooth_step(angle, k_across_fades_rad, k_across_ends_rad);
-    return share * ahead * excess * excess / (excess + k_across_soft_rad);
-}
-
 }  // namespace
 
 TrunkView trunk_view(const TrackedBody& body, const BodyAxes& axes) {
@@ -172,24 +138,6 @@ ChestCorrection chest_correction(const Vec3& facing_ps, const Vec3& look_ps,
         return half * (static_cast<double>(right.values[i]) + static_cast<double>(left.values[i]));
     };
     return {lateral(0), {Vec3(lateral(1), common(2), common(3)), lateral(4)}};
-}
-
-double turn_to_reach_across(const Vec3& facing_ps, const Quat& lean_ps, const Pose& chest_ps,
-                            const TrackedBody& body) {
-    const Mat3 lean = lean_ps.toRotationMatrix();
-    const Vec3 right_ps =
-        (0.5 * body.measures.shoulder_width_m) * (chest_ps.rotation * Vec3::UnitX());
-    const double by_arm = 1.0 / arm_length_m(body.measures);
-    const auto from_shoulder = [&](HandSide side) {
-        const Vec3 shoulder_ps =
-            chest_ps.position + (side == HandSide::right ? 1.0 : -1.0) * right_ps;
-        const Vec3 hand_ps = by_arm * (body.hands_ps[index_of(side)].position - shoulder_ps);
-        return to_facing(facing_ps, lean.transpose() * hand_ps);
-    };
-    const Vec3 left = from_shoulder(HandSide::left);
-    const Vec3 right = from_shoulder(HandSide::right);
-    return across_turn(right, left) - across_turn(mirrored_if_left(left, HandSide::left),
-                                                  mirrored_if_left(right, HandSide::left));
 }
 
 Pose chest_pose(const Vec3& facing_ps, const Quat& lean_ps, const ChestOffset& offset,

@@ -45,17 +45,6 @@ ChestCorrection chest_correction(const Vec3& facing_ps, const Vec3& look_ps,
                                  const std::array<Vec3, k_look_filters>& looks_ps,
                                  const TrackedBody& body, const BodyAxes& axes);
 
-inline constexpr double k_across_most_rad = 1.1;
-
-// Turn to the left (rad) that reduces how far a nearly straight arm reaches across the chest, if it
-// reaches farther than shoulders allow. The line between the hands does not determine the chest's
-// facing if both hands are on one side, as on a rail beside the player: chest_facing may then turn
-// away from them, and the far arm would pass through the neck. Zero for the usual poses;
-// continuous; its absolute value is below k_across_most_rad. `chest_ps`: chest_pose for `facing_ps`
-// and `lean_ps`.
-double turn_to_reach_across(const Vec3& facing_ps, const Quat& lean_ps, const Pose& chest_ps,
-                            const TrackedBody& body);
-
 // The point about which a neck bends, play space: midway between the ears, about which a head nods,
 // and the base of the neck.
 Vec3 neck_pivot(const TrackedBody& body, const BodyAxes& axes);

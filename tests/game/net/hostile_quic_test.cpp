@@ -8,30 +8,19 @@
 #include "game/net/send_queue.hpp"
 #include "game/net/transport_kinds.hpp"
 #include "tests/game/net/loopback_match.hpp"
+#include "tests/game/net/quic_test.hpp"
 #include "tests/game/net/udp_proxy.hpp"
 
 namespace handhold::hostile_quic_test {
 namespace {
 
+using test::add_peer;
 using test::LoopbackMatch;
 using test::LoopbackPeer;
 using test::RawUdp;
 using test::UdpProxy;
 
-class HostileQuicTest : public testing::Test {
-  protected:
-    void SetUp() override {
-        if (!has_quic()) {
-            GTEST_SKIP() << "built without ngtcp2";
-        }
-    }
-};
-
-LoopbackPeer& add_peer(LoopbackMatch& match, std::uint64_t number, const std::string& url) {
-    match.peers.push_back(std::make_unique<LoopbackPeer>(match.scene().players.size(), number));
-    match.peers.back()->connect(std::move(open_link(url).value()));
-    return *match.peers.back();
-}
+class HostileQuicTest : public test::QuicTest {};
 
 void expect_unharmed(const LoopbackPeer& other) {
     EXPECT_TRUE(other.plays());

@@ -3,28 +3,17 @@
 
 #include "game/net/transport_kinds.hpp"
 #include "tests/game/net/loopback_match.hpp"
+#include "tests/game/net/quic_test.hpp"
 #include "tests/game/net/udp_proxy.hpp"
 
 namespace handhold::quic_match_test {
 namespace {
 
+using test::add_peer;
 using test::LoopbackMatch;
 using test::LoopbackPeer;
 
-class QuicMatchTest : public testing::Test {
-  protected:
-    void SetUp() override {
-        if (!has_quic()) {
-            GTEST_SKIP() << "built without ngtcp2";
-        }
-    }
-};
-
-LoopbackPeer& add_peer(LoopbackMatch& match, std::uint64_t number, const std::string& url) {
-    match.peers.push_back(std::make_unique<LoopbackPeer>(match.scene().players.size(), number));
-    match.peers.back()->connect(std::move(open_link(url).value()));
-    return *match.peers.back();
-}
+class QuicMatchTest : public test::QuicTest {};
 
 TEST_F(QuicMatchTest, PeersOfBothTransportsAreEqualBitForBit) {
     LoopbackMatch match(4);

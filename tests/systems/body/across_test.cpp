@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "systems/body/shared/estimate_chest.hpp"
 #include "tests/systems/body/body_columns.hpp"
 
 namespace handhold::across_test {
@@ -110,48 +109,6 @@ TEST(ReachAcross, MirroredPlayerIsMirrored) {
         const Posed b = pose_of(mirrored(body));
         EXPECT_EQ(mirrored(a.estimate.facing_ps), b.estimate.facing_ps);
         EXPECT_EQ(mirrored(a.pose.arms[1].forearm_ws.position), b.pose.arms[0].forearm_ws.position);
-    }
-}
-
-// Random poses of everything: the turn is bounded, and a millimetre changes it by little.
-TEST(ReachAcross, TurnIsBoundedAndContinuous) {
-    Random random(41);
-    int turned = 0;
-    for (int i = 0; i < 20000; ++i) {
-        Tracked body = random_body(random);
-        const Pose chest{body.head_ps.position - Vec3(0.0, 0.2, 0.0), random.rotation()};
-        const Vec3 facing =
-            rotation_about(Vec3::UnitY(), random.between(-3.0, 3.0)) * Vec3::UnitZ();
-        const auto turn = [&](const Vec3& left, const Vec3& right) {
-            const TrackedBody tracked{body.head_ps,
-                                      {Pose{left, Quat::Identity()}, Pose{right, Quat::Identity()}},
-                                      body.measures};
-            return turn_to_reach_across(facing, Quat::Identity(), chest, tracked);
-        };
-        const Vec3 left = body.head_ps.position + random.vector(0.8);
-        const Vec3 right = body.head_ps.position + random.vector(0.8);
-        const double now = turn(left, right);
-        turned += now != 0.0 ? 1 : 0;
-        ASSERT_LT(std::abs(now), 1.1);
-        const Vec3 near_left = left + 0.001 * random.direction();
-        const double then = turn(near_left, right + 0.001 * random.direction());
-        ASSERT_LT(std::abs(then - now), 0.03) << i;
-    }
-    EXPECT_GT(turned, 200);
-}
-
-TEST(ReachAcross, HandsThatDoNotBothReachToOneSideTurnNothing) {
-    Random random(43);
-    for (int i = 0; i < 2000; ++i) {
-        Tracked body = random_body(random);
-        const Pose chest{body.head_ps.position - Vec3(0.0, 0.2, 0.0), Quat::Identity()};
-        const auto hand = [&](double side) {
-            Vec3 from = random.vector(0.8);
-            from.x() = side * (0.5 * body.measures.shoulder_width_m + std::abs(from.x()));
-            return Pose{chest.position + from, Quat::Identity()};
-        };
-        const TrackedBody tracked{body.head_ps, {hand(-1.0), hand(1.0)}, body.measures};
-        EXPECT_EQ(turn_to_reach_across(-Vec3::UnitZ(), Quat::Identity(), chest, tracked), 0.0);
     }
 }
 

@@ -230,8 +230,8 @@ TEST_F(FitHands, StationaryHandConvergesAndKeepsItsFit) {
     }
 }
 
-// Each fit after the closing also starts from another thumb: it costs no more than the one before,
-// but for gaps that a fit corrects by travel alone, and after the last one the hand rests.
+// Each fit after the closing also starts from another thumb. It costs at most a tenth more than the
+// one before: a fit corrects some gaps by travel alone. After the last one the hand rests.
 TEST_F(FitHands, OtherThumbsCostNoMoreAndTheHandRestsAfterThem) {
     Random random(2511);
     int changed = 0;

@@ -48,7 +48,7 @@ def scalars(values):
     return "".join(f"inline constexpr double k_{name} = {number(value)};\n" for name, value in values.items())
 
 
-def header(notes, chest, across, pole, fade, chest_network, elbow_network):
+def header(notes, chest, pole, fade, chest_network, elbow_network):
     """notes: lines of the leading comment. The others: {name: value} or network."""
     rest = ", ".join(number(pole[name]) for name in ("rest_x", "rest_y", "rest_z"))
     wrist = "".join(f"inline constexpr double k_pole_{name} = {number(pole[name])};\n" for name in ("fingers", "back", "thumb"))
@@ -71,8 +71,6 @@ inline constexpr std::array<double, k_look_filters> k_look_lags_s = {{{lags}}};
 // The talk's formulas: chest_facing, chest_lean, chest_pose; trunk_view (nod, ears). Lengths: for an
 // eye height of k_scale_eye_m.
 {scalars(chest)}
-// turn_to_reach_across: the angle at which the turn begins, and the hand's distance, arm lengths.
-{scalars(across)}
 // The talk's formulas: elbow_pole. The rest direction is that of a right arm, in torso axes.
 inline constexpr std::array<double, 3> k_pole_rest = {{{rest}}};
 {wrist}

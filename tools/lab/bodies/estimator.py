@@ -181,27 +181,6 @@ def resting_shoulders(motion, constants, yaw, lean, offset):
     return np.stack([middle - half, middle + half])
 
 
-# ---- arms that reach across the chest
-
-ACROSS_FADES_RAD, ACROSS_ENDS_RAD = 1.92, 2.618  # estimate_chest.cpp, as are the next three
-ACROSS_SOFT_RAD, ACROSS_FADE, OTHER_INSIDE = 0.349, 0.15, 0.2
-
-
-def across_turn(hand, other, constants):
-    """Hands from their own shoulders in the chest's axes, in arm lengths, mirrored so that `hand` is the right one."""
-    share = smooth_step(np.hypot(hand[:, 0], hand[:, 2]), constants["across_bent"], constants["across_bent"] + ACROSS_FADE)
-    share = share * smooth_step(-other[:, 0], -OTHER_INSIDE, 0.0)
-    angle = np.arctan2(-hand[:, 0], -hand[:, 2])
-    excess = np.maximum(0.0, angle - constants["across_rad"])
-    ahead = 1.0 - smooth_step(angle, ACROSS_FADES_RAD, ACROSS_ENDS_RAD)
-    return share * ahead * excess ** 2 / (excess + ACROSS_SOFT_RAD)
-
-
-def turn_to_reach_across(motion, yaw, lean, resting, constants):
-    left, right = (to_facing(yaw, times_transposed(lean, (motion.hand_m[side] - resting[side]) / motion.arm_m[:, None])) for side in (0, 1))
-    return across_turn(right, left, constants) - across_turn(left * MIRROR, right * MIRROR, constants)
-
-
 # ---- the networks' inputs; the order is that of estimate_chest.cpp and elbow_direction.cpp
 
 def mirror_of(side):

@@ -1,8 +1,7 @@
-"""Where the corrections begin and end: fades of the networks, chosen by people who were not fitted, and the turn towards an arm that reaches across,
-chosen by a scripted sweep."""
+"""Where the corrections begin and end: fades of the networks, chosen by people who were not fitted."""
 import numpy as np
 
-from . import choosing, estimator, fitting, sweeps
+from . import choosing, estimator, fitting
 
 HIDDEN = 16
 FOLDS = 10
@@ -11,9 +10,6 @@ WIDTH = 5.0  # of the fades of familiarity, for smoothness
 FAMILIAR = np.arange(1.0, 6.1, 0.5)
 EQUAL, EQUAL_CLOSE = 1.001, 1.01  # errors that differ by less count as equal; close hands are a sixth of all
 NEAR, WIDTHS = np.arange(0.0, 0.51, 0.1), np.arange(0.2, 0.61, 0.1)  # of the fade at the shoulder, arm lengths
-ACROSS_BENT = (1.0, 0.95, 0.9, 0.85, 0.8, 0.75)
-ACROSS_RAD = (0.4, 1.2)
-MARGIN_M = 0.001  # poses between those of the sweep
 
 
 class Fold:
@@ -73,23 +69,3 @@ def fit_fades(every):
 def with_familiarity(network, familiar):
     network.familiar, network.foreign = familiar, familiar + WIDTH
     return network
-
-
-def fit_across(chest_constants, chest_network, pole, elbow_network, fade):
-    """(constants, (clearance with them, without)): the least mean turn that keeps both arms out of the neck; of nearly equal ones that for the
-    straightest arm."""
-    frames = sweeps.on_a_rail()
-    chest = fitting.Chest(frames, chest_constants)
-    clearance = lambda across: float(sweeps.neck_clearance_m(frames, *chest.corrected(chest_network, across), pole, elbow_network, fade).min())
-    before, tried = chest.corrected(chest_network)[0], []
-    for bent in ACROSS_BENT:
-        strong, weak = ({"across_rad": angle, "across_bent": bent} for angle in ACROSS_RAD)
-        while weak["across_rad"] - strong["across_rad"] > 0.015:  # the later a turn begins, the smaller the clearance
-            middle = {"across_rad": 0.5 * (strong["across_rad"] + weak["across_rad"]), "across_bent": bent}
-            strong, weak = (middle, weak) if clearance(middle) >= sweeps.NECK_M + MARGIN_M else (strong, middle)
-        strong["across_rad"] = round(strong["across_rad"], 2)
-        short = max(0.0, sweeps.NECK_M - clearance(strong))
-        turn = np.degrees(np.mean(np.abs(chest.corrected(chest_network, strong)[0] - before)))
-        tried.append(((short, round(float(turn)), -bent), strong))
-    across = min(tried, key=lambda each: each[0])[1]
-    return across, (clearance(across), clearance(None))

@@ -109,8 +109,8 @@ class Chest:
         turn = estimator.wrapped(motion.yaw - self.talked)
         return np.concatenate([turn[:, None], offset, roll[:, None]], -1)
 
-    def corrected(self, network, across=None):
-        """(yaw, resting shoulders). across: constants of the turn towards an arm that reaches across, or None: without it."""
+    def corrected(self, network):
+        """(yaw, resting shoulders)."""
         if network is None:
             offset = np.zeros((len(self.talked), 5))
         else:
@@ -118,10 +118,7 @@ class Chest:
             familiar = np.minimum(*(network.familiarity(each) for each in self.inputs))
             offset = 0.5 * familiar[:, None] * (right + CHEST_LATERAL * left)
         yaw = self.talked + offset[:, 0]
-        resting = lambda: estimator.resting_shoulders(self.motion, self.constants, yaw, self.lean, offset[:, 1:])
-        if across:
-            yaw = yaw + estimator.turn_to_reach_across(self.motion, yaw, self.lean, resting(), across)
-        return yaw, resting()
+        return yaw, estimator.resting_shoulders(self.motion, self.constants, yaw, self.lean, offset[:, 1:])
 
 
 def fit_chest(chest, hidden, rounds, noise, decay, seed):

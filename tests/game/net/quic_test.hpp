@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "game/net/transport_kinds.hpp"
+#include "tests/game/net/loopback_match.hpp"
+
+namespace handhold::test {
+
+// Tests that need QUIC are skipped in a build without it.
+class QuicTest : public testing::Test {
+  protected:
+    void SetUp() override {
+        if (!has_quic()) {
+            GTEST_SKIP() << "built without ngtcp2";
+        }
+    }
+};
+
+inline LoopbackPeer& add_peer(LoopbackMatch& match, std::uint64_t number, const std::string& url) {
+    match.peers.push_back(std::make_unique<LoopbackPeer>(match.scene().players.size(), number));
+    match.peers.back()->connect(std::move(open_link(url).value()));
+    return *match.peers.back();
+}
+
+}  // namespace handhold::test
