@@ -50,6 +50,7 @@ requires std::is_enum_v<Enum> CLI::Option* add_choice(CLI::App& app, const std::
                                                       const std::map<std::string, Enum>& values,
                                                       const std::string& help) {
     std::vector<std::string> words;
+    words.reserve(values.size());
     for (const auto& [word, value] : values) {
         words.push_back(word);
     }

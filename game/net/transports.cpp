@@ -108,15 +108,15 @@ Result<std::unique_ptr<Listener>> open_both(ListenerSettings settings) {
 
 bool has_network() { return has_websocket() || has_quic(); }
 
-Result<std::unique_ptr<Listener>> open_listener(const ListenerSettings& given) {
-    ListenerSettings settings = given;
-    settings.most_of_address =
+Result<std::unique_ptr<Listener>> open_listener(const ListenerSettings& settings) {
+    ListenerSettings limited = settings;
+    limited.most_of_address =
         std::min(settings.most_of_address, settings.most_links - settings.most_links / 4);
     if (!has_quic()) {
-        return open_websocket_listener(settings);
+        return open_websocket_listener(limited);
     }
     if (!has_websocket()) {
-        Result<std::unique_ptr<DatagramListener>> quic = open_quic_listener(settings);
+        Result<std::unique_ptr<DatagramListener>> quic = open_quic_listener(limited);
         if (!quic) {
             return quic.error();
         }
@@ -124,9 +124,9 @@ Result<std::unique_ptr<Listener>> open_listener(const ListenerSettings& given) {
     }
     // A port that is free for UDP may be taken for TCP.
     constexpr int k_tries = 16;
-    Result<std::unique_ptr<Listener>> out = open_both(settings);
-    for (int i = 1; i < k_tries && !out && settings.port == 0; ++i) {
-        out = open_both(settings);
+    Result<std::unique_ptr<Listener>> out = open_both(limited);
+    for (int i = 1; i < k_tries && !out && limited.port == 0; ++i) {
+        out = open_both(limited);
     }
     return out;
 }
