@@ -59,6 +59,9 @@ void add_traffic(const ListenerCounts& counts, Metrics& out) {
     out.begin("datagrams_ignored_total", "counter", "Datagrams that nobody read.");
     out.line("datagrams_ignored_total", "{why=\"stray\"}", as_number(counts.stray_datagrams));
     out.line("datagrams_ignored_total", "{why=\"budget\"}", as_number(counts.unread_datagrams));
+    out.line("datagrams_ignored_total", "{why=\"elsewhere\"}", as_number(counts.unread_elsewhere));
+    out.line("datagrams_ignored_total", "{why=\"overflow\"}",
+             as_number(counts.overflowed_datagrams));
     out.add("retries_total", "counter", "Strangers who had to prove their address first.",
             as_number(counts.retries));
     out.add("queued_bytes_max", "gauge", "The largest queue that a connection has had.",

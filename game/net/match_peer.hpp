@@ -78,6 +78,7 @@ class MatchPeer final : public LinkHandler {
     std::optional<NetBye> bye() const { return bye_; }
     std::size_t slot() const { return slot_; }  // no meaning for spectators
     bool watches() const { return settings_.watches; }
+    std::span<const hh::Player> players() const { return players_; }  // indexed by slot
     // Not valid before the first state is restored.
     const hh::Match& match() const { return match_; }
     // States that were restored.

@@ -165,8 +165,13 @@ Result<std::unique_ptr<MatchRecorder>> MatchRecorder::open(const std::filesystem
 }
 
 MatchRecorder::~MatchRecorder() {
-    if (file_ != nullptr) {
-        std::fclose(file_);
+    if (file_ == nullptr) {
+        return;
+    }
+    std::fclose(file_);
+    if (!has_begun_) {
+        std::error_code ignored;
+        std::filesystem::remove(part_, ignored);
     }
 }
 

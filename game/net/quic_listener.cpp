@@ -16,7 +16,8 @@ namespace {
 
 constexpr int k_kernel_buffer_bytes = 1 << 22;
 constexpr std::size_t k_headers_bytes = 28;  // headers of IP and UDP
-// Datagrams in a peer's name may come at so many times the rate that the peer itself may use.
+// Datagrams in a peer's name may come at so many times the rate that the peer itself may use: so
+// much from the peer's address, and so much again from all others.
 constexpr double k_forged_share = 10.0;
 
 LinkBudget budget_of_forged(LinkBudget budget) {
@@ -29,12 +30,14 @@ double quic_now_s() { return static_cast<double>(quic_now()) / NGTCP2_SECONDS; }
 
 struct QuicPeer {
     std::unique_ptr<QuicConnection> connection;
-    ReceiveBudget budget;         // bytes and messages that are certainly the peer's
-    ReceiveBudget forged_budget;  // all else; beyond it the peer only loses datagrams
+    ReceiveBudget budget;  // bytes and messages that are certainly the peer's
+    // With the peer's address. Beyond it the peer loses datagrams too.
+    ForgedGate forged_here;
+    // With another address. Beyond it only such datagrams are lost, so the peer cannot move.
+    ForgedGate forged_elsewhere;
     std::string address;
-    bool is_opened = false;      // the handler knows of it
-    bool is_read = true;         // false: over its budget
-    bool is_forged_read = true;  // likewise
+    bool is_opened = false;  // the handler knows of it
+    bool is_read = true;     // false: over its budget
     int throttles = 0;
     double throttled_s = 0.0;  // the last time
     std::uint64_t acknowledged = 0;
@@ -88,6 +91,7 @@ class QuicListener final : public DatagramListener {
         tend_links();
         write_all();
         forget_ended(handler);
+        counts_.overflowed_datagrams = socket_.overflowed_datagrams();
     }
 
     void send(LinkId link, Delivery delivery, std::span<const std::byte> message) override {
@@ -221,19 +225,21 @@ class QuicListener final : public DatagramListener {
         if (connection == nullptr) {
             return 0;
         }
-        links_.emplace(link,
-                       QuicPeer{.connection = std::move(connection),
-                                .budget = ReceiveBudget(settings_.budget),
-                                .forged_budget = ReceiveBudget(budget_of_forged(settings_.budget)),
-                                .address = address,
-                                .advanced_s = quic_now_s()});
+        const ReceiveBudget forged(budget_of_forged(settings_.budget));
+        links_.emplace(link, QuicPeer{.connection = std::move(connection),
+                                      .budget = ReceiveBudget(settings_.budget),
+                                      .forged_here = {forged},
+                                      .forged_elsewhere = {forged},
+                                      .address = address,
+                                      .advanced_s = quic_now_s()});
         return link;
     }
 
     void read(LinkId link, const UdpPlace& from, std::span<const std::uint8_t> bytes,
               ListenerHandler& handler) {
         QuicPeer& peer = links_.at(link);
-        if (peer.is_ended || !may_read(peer)) {
+        const bool is_from_peer = from == peer.connection->peer();
+        if (peer.is_ended || !may_read(peer, is_from_peer)) {
             return;
         }
         const auto take = [&](std::span<const std::byte> message) {
@@ -249,7 +255,7 @@ class QuicListener final : public DatagramListener {
         if (peer.connection->read(socket_, from, bytes, take)) {
             charge(peer, 0, size);
         } else {
-            peer.is_forged_read = peer.forged_budget.take(0, size, quic_now_s());
+            forged_gate(peer, is_from_peer).take(size, quic_now_s());
         }
         open_if_due(link, peer, handler);
         if (peer.connection->end() == QuicEnd::message) {
@@ -267,15 +273,18 @@ class QuicListener final : public DatagramListener {
         }
     }
 
+    static ForgedGate& forged_gate(QuicPeer& peer, bool is_from_peer) {
+        return is_from_peer ? peer.forged_here : peer.forged_elsewhere;
+    }
+
     // False: the connection is over its budget. The datagram is not read, so it is lost.
-    bool may_read(QuicPeer& peer) {
+    bool may_read(QuicPeer& peer, bool is_from_peer) {
         const double now_s = quic_now_s();
         peer.is_read = peer.is_read || peer.budget.may_read(now_s);
-        peer.is_forged_read = peer.is_forged_read || peer.forged_budget.may_read(now_s);
-        if (peer.is_read && peer.is_forged_read) {
+        if (peer.is_read && forged_gate(peer, is_from_peer).may_read(now_s)) {
             return true;
         }
-        ++counts_.unread_datagrams;
+        ++(is_from_peer ? counts_.unread_datagrams : counts_.unread_elsewhere);
         return false;
     }
 

@@ -9,6 +9,7 @@
 #include <fcntl.h>
 #ifdef __linux__
 #include <linux/errqueue.h>
+#include <linux/sock_diag.h>
 #endif
 #include <netdb.h>
 #include <poll.h>
@@ -112,6 +113,17 @@ void UdpSocket::send(const UdpPlace& to, std::span<const std::uint8_t> bytes) {
     sent_bytes_ += bytes.size();
     (void)::sendto(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL, to.data(),
                    UdpPlace::size());
+}
+
+std::uint64_t UdpSocket::overflowed_datagrams() const {
+#ifdef SO_MEMINFO
+    std::array<std::uint32_t, SK_MEMINFO_VARS> told{};
+    socklen_t size = sizeof(told);
+    if (::getsockopt(descriptor_, SOL_SOCKET, SO_MEMINFO, told.data(), &size) == 0) {
+        return told[SK_MEMINFO_DROPS];
+    }
+#endif
+    return 0;
 }
 
 void UdpSocket::wait(double seconds) const {

@@ -54,6 +54,8 @@ class UdpSocket {
     void send(const UdpPlace& to, std::span<const std::uint8_t> bytes);
     std::uint64_t sent_datagrams() const { return sent_datagrams_; }
     std::uint64_t sent_bytes() const { return sent_bytes_; }
+    // Datagrams that the kernel dropped because its buffer was full; 0 where it does not tell.
+    std::uint64_t overflowed_datagrams() const;
     // Until a datagram can be read, or the time is over.
     void wait(double seconds) const;
 

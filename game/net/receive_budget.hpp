@@ -53,4 +53,16 @@ class ReceiveBudget {
     double last_s_ = 0.0;
 };
 
+// Datagrams in a peer's name that are not the peer's, or copies.
+struct ForgedGate {
+    ReceiveBudget budget;
+    bool is_open = true;  // false: over its budget
+
+    bool may_read(double now_s) {
+        is_open = is_open || budget.may_read(now_s);
+        return is_open;
+    }
+    void take(std::size_t bytes, double now_s) { is_open = budget.take(0, bytes, now_s); }
+};
+
 }  // namespace handhold

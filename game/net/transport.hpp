@@ -74,9 +74,14 @@ struct ListenerCounts {
     std::uint64_t received_datagram_bytes = 0;
     std::uint64_t sent_datagrams = 0;
     std::uint64_t sent_datagram_bytes = 0;
-    std::uint64_t stray_datagrams = 0;   // belonged to no connection
-    std::uint64_t unread_datagrams = 0;  // lost while their connection was throttled
-    std::uint64_t retries = 0;           // strangers who had to prove their address first
+    std::uint64_t stray_datagrams = 0;  // belonged to no connection
+    // Lost while their connection was over a budget: with the peer's address, and in its name from
+    // others.
+    std::uint64_t unread_datagrams = 0;
+    std::uint64_t unread_elsewhere = 0;
+    // Lost because the system's buffer was full: this thread did not read in time. Linux only.
+    std::uint64_t overflowed_datagrams = 0;
+    std::uint64_t retries = 0;  // strangers who had to prove their address first
 };
 
 struct HttpAnswer {

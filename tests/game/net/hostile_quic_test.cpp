@@ -15,19 +15,13 @@ namespace handhold::hostile_quic_test {
 namespace {
 
 using test::add_peer;
+using test::expect_unharmed;
 using test::LoopbackMatch;
 using test::LoopbackPeer;
 using test::RawUdp;
 using test::UdpProxy;
 
 class HostileQuicTest : public test::QuicTest {};
-
-void expect_unharmed(const LoopbackPeer& other) {
-    EXPECT_TRUE(other.plays());
-    EXPECT_EQ(other.different, 0U);
-    EXPECT_EQ(other.peer->states(), 1U);
-    EXPECT_GT(other.compared, 40U);
-}
 
 // The header of a client's first packet, and noise that no key fits.
 std::vector<std::uint8_t> false_initial(test::Random& random) {
@@ -64,15 +58,17 @@ TEST_F(HostileQuicTest, AFloodOfFirstPacketsDelaysNobodyAndOthersJoin) {
             got_bytes += answer.size();
         }
     };
-    match.run(2.0);
+    const auto is_flooded = [&match] {
+        const ListenerCounts& counts = match.listener().counts();
+        return counts.retries > 100 && counts.stray_datagrams > 1000;
+    };
+    EXPECT_TRUE(match.run_until(60.0, is_flooded));
     LoopbackPeer& late = add_peer(match, 2, match.quic_url());
     EXPECT_TRUE(match.run_until(20.0, [&] { return late.plays(); })) << late.peer->why();
     match.run(1.0);
-    expect_unharmed(other);
+    expect_unharmed(match, other);
     EXPECT_EQ(late.different, 0U);
     const ListenerCounts& counts = match.listener().counts();
-    EXPECT_GT(counts.retries, 100U);
-    EXPECT_GT(counts.stray_datagrams, 1000U);
     EXPECT_EQ(counts.opened, 2U);
     EXPECT_LT(got_bytes, sent_bytes);  // the flood is not amplified
     RecordProperty("first_packets", static_cast<int>(sent_bytes / 1200));
@@ -144,84 +140,6 @@ TEST_F(HostileQuicTest, FewHandshakesBeginInOnePoll) {
     EXPECT_EQ(listener->counts().retries, 3U);
 }
 
-// What a listener on the way may do: it sees all datagrams, and sends what it likes besides.
-enum class Mischief : std::uint8_t { truncated, flipped, replayed, noise };
-
-struct MischiefCase {
-    Mischief kind;
-    int copies;  // of each datagram
-};
-
-class MischiefTest : public testing::TestWithParam<MischiefCase> {
-  protected:
-    void SetUp() override {
-        if (!has_quic()) {
-            GTEST_SKIP() << "built without ngtcp2";
-        }
-    }
-};
-
-TEST_P(MischiefTest, DatagramsFromAnotherAddressChangeNothing) {
-    LoopbackMatch match(3);
-    UdpProxy proxy(match.listener().port());
-    RawUdp mallory;
-    test::Random random(7);
-    std::vector<std::vector<std::uint8_t>> kept;
-    std::uint64_t sent = 0;
-    proxy.seen_up = [&](const std::vector<std::uint8_t>& bytes) {
-        std::vector<std::uint8_t> forged = bytes;
-        const double draw = random.between(0.0, 1.0);
-        const auto at = static_cast<std::size_t>(
-            draw * static_cast<double>(std::max<std::size_t>(forged.size(), 1)));
-        switch (GetParam().kind) {
-            case Mischief::truncated:
-                forged.resize(at);
-                break;
-            case Mischief::flipped:
-                forged[at] ^= 4U;
-                break;
-            case Mischief::replayed:
-                kept.push_back(forged);
-                forged = kept[static_cast<std::size_t>(draw * static_cast<double>(kept.size()))];
-                break;
-            case Mischief::noise:
-                std::ranges::generate(forged, [&random] {
-                    return static_cast<std::uint8_t>(random.between(0.0, 256.0));
-                });
-                break;
-        }
-        for (int i = 0; i < GetParam().copies; ++i) {
-            mallory.send(match.listener().port(), forged);
-            ++sent;
-        }
-    };
-    LoopbackPeer& seen = add_peer(match, 1, proxy.url(match.quic_url()));
-    LoopbackPeer& other = add_peer(match, 2, match.quic_url());
-    match.others = [&proxy] { proxy.poll(); };
-    ASSERT_TRUE(match.run_until(20.0, [&] { return match.all_play(); }));
-    const std::uint64_t down = proxy.passed_down;
-    match.run(3.0);
-    expect_unharmed(seen);
-    expect_unharmed(other);
-    EXPECT_GT(sent, 200U);
-    EXPECT_GT(proxy.passed_down, down + 100) << "the server still answers its peer";
-    EXPECT_EQ(match.server->counts().bad_packets, 0U);
-    EXPECT_EQ(match.server->counts().joins, 2U);
-    EXPECT_EQ(match.listener().counts().opened, 2U);
-    EXPECT_EQ(match.listener().counts().throttled, 0U);
-    EXPECT_EQ(match.listener().counts().unread_datagrams, 0U);
-    RecordProperty("forged", static_cast<int>(sent));
-    RecordProperty("stray", static_cast<int>(match.listener().counts().stray_datagrams));
-    RecordProperty("longest_poll_us", static_cast<int>(1e6 * match.longest_poll_s));
-}
-
-// 40 copies are five times what the peer itself may send.
-INSTANTIATE_TEST_SUITE_P(
-    Kinds, MischiefTest,
-    testing::Values(MischiefCase{Mischief::truncated, 3}, MischiefCase{Mischief::flipped, 3},
-                    MischiefCase{Mischief::flipped, 40}, MischiefCase{Mischief::replayed, 3},
-                    MischiefCase{Mischief::replayed, 40}, MischiefCase{Mischief::noise, 3}));
-
 // The attacker writes somebody else's address on a good first packet.
 TEST_F(HostileQuicTest, AnAddressThatNeverAnswersGetsAtMostThreeTimesWhatCame) {
     LoopbackMatch match(2);
@@ -289,17 +207,19 @@ TEST_F(HostileQuicTest, AFloodingPeerIsNotReadForAWhile) {
     packet[0] = static_cast<std::byte>(NetKind::packet);
     std::uint64_t sent = 0;
     match.others = [&] {
-        for (int i = 0; i < 50; ++i) {
+        // More than the burst, so that a slow machine's rounds exceed the rate too.
+        for (int i = 0; i < 400; ++i) {
             flood.link->send(Delivery::newest, packet);
             ++sent;
         }
         flood.link->poll(0.0, flood);
     };
-    match.run(3.0);
+    EXPECT_TRUE(match.run_until(30.0, [&match] {
+        const ListenerCounts& counts = match.listener().counts();
+        return counts.throttled >= 1 && counts.unread_datagrams > 0;
+    }));
+    expect_unharmed(match, other);
     const ListenerCounts& counts = match.listener().counts();
-    EXPECT_GE(counts.throttled, 1U);
-    EXPECT_GT(counts.unread_datagrams, 50U);
-    expect_unharmed(other);
     RecordProperty("sent", static_cast<int>(sent));
     RecordProperty("throttled", static_cast<int>(counts.throttled));
     RecordProperty("unread", static_cast<int>(counts.unread_datagrams));
@@ -348,7 +268,7 @@ TEST_F(HostileQuicTest, PeersThatReadNothingAreCutOff) {
     EXPECT_LE(match.listener().counts().most_queued_bytes, SendQueue::k_most_bytes);
     EXPECT_TRUE(match.run_until(5.0, [&] { return match.server->seats().taken() == 1; }));
     match.run(1.0);
-    expect_unharmed(other);
+    expect_unharmed(match, other);
 }
 
 // Whoever was forgotten by the server learns it from an answer to what they send.

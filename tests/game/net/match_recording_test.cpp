@@ -221,6 +221,11 @@ TEST_F(RecordedMatch, AnotherHashInTheEndIsFound) {
     EXPECT_NE(error.find("expected the hash of the last tick"), std::string::npos) << error;
 }
 
+TEST_F(RecordedMatch, ARecordingThatNeverBeganLeavesNoFile) {
+    ASSERT_TRUE(MatchRecorder::open(folder / "none.hhm", {}).ok());
+    EXPECT_TRUE(std::filesystem::is_empty(folder));
+}
+
 TEST_F(RecordedMatch, AFolderOrAMissingPlaceIsNoFileToWrite) {
     EXPECT_FALSE(MatchRecorder::open(folder, {}).ok());
     EXPECT_FALSE(MatchRecorder::open(folder / "none" / "x.hhm", {}).ok());

@@ -28,4 +28,12 @@ inline LoopbackPeer& add_peer(LoopbackMatch& match, std::uint64_t number, const 
     return *match.peers.back();
 }
 
+// The attack goes on until enough ticks were compared.
+inline void expect_unharmed(LoopbackMatch& match, const LoopbackPeer& other) {
+    EXPECT_TRUE(match.run_until(30.0, [&] { return other.compared > 40; }));
+    EXPECT_TRUE(other.plays());
+    EXPECT_EQ(other.different, 0U);
+    EXPECT_EQ(other.peer->states(), 1U);
+}
+
 }  // namespace handhold::test
