@@ -56,7 +56,7 @@ inline bool share_hold(const Grab& a, const Grab& b) {
 
 // True if `staying` must take a new anchor when `leaving`, the player's other hand, lets go: else
 // the player or the held body would jump by what the two hands had divided between them. Hands on
-// different things (a rail and a drawer at its end) contradict each other if `staying` has an
+// different bodies (a rail and a drawer at its end) contradict each other if `staying` has an
 // error.
 inline bool binds(const Grab& leaving, const Grab& staying) {
     constexpr double k_contradicts_m = 1e-4;

@@ -185,7 +185,7 @@ void drop_lost_grabs(const AnchorGrabsIo& io, StageStats& stats) {
     }
 }
 
-// If two hands on different things contradict each other and one of them lets go, both take a new
+// If two hands on different bodies contradict each other and one of them lets go, both take a new
 // anchor: the staying hand keeps what it holds as it is now, and the leaving hand still acts until
 // its release in this frame.
 void settle_contradictions(const AnchorGrabsIo& io, StageStats& stats) {
