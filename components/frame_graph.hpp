@@ -83,7 +83,9 @@ struct FrameGraph {
         // The body's island may push players in this frame. Set by the relax, backward and
         // contradiction phases (mark_pushed), and by accept_solution for players whose hands grip.
         bool pushed = false;
-        Vec3 velocity_before_mps = Vec3::Zero();  // velocity before the velocity solve
+        // Velocity before the velocity solve: of the centre of mass, and angular, m/s and rad/s.
+        Vec3 velocity_before_mps = Vec3::Zero();
+        Vec3 spin_before_radps = Vec3::Zero();
         // Work that the position solves of the body's islands have spent (WorkBudget). The backward
         // phase starts again from 0.
         std::uint64_t work = 0;

@@ -54,6 +54,16 @@ inline bool share_hold(const Grab& a, const Grab& b) {
     return both_fixed || (a.kind != GripKind::none && a.kind == b.kind && a.body == b.body);
 }
 
+// True if `staying` must take a new anchor when `leaving`, the player's other hand, lets go: else
+// the player or the held body would jump by what the two hands had divided between them. Hands on
+// different bodies (a rail and a drawer at its end) contradict each other if `staying` has an
+// error.
+inline bool binds(const Grab& leaving, const Grab& staying) {
+    constexpr double k_contradicts_m = 1e-4;
+    return share_hold(leaving, staying) ||
+           (staying.kind != GripKind::none && staying.error_m > k_contradicts_m);
+}
+
 // True if the hand at `index` is the first of two hands on one body: the hand that closed earlier,
 // or the left hand if both closed at the same time.
 inline bool is_first_hand(const Column<HandOwner>& owner, const Column<Grab>& grab,

@@ -272,7 +272,9 @@ void finish_positions(const FrameContext& f) {
 
 void solve_velocities(const FrameContext& f) {
     const StageTimer timer(Stage::solve_velocities, f.stats);
-    handhold::solve_velocities({.frame = f.graph(),
+    handhold::solve_velocities({.reference = f.w.reference_velocity,
+                                .origin = f.w.player_origin,
+                                .frame = f.graph(),
                                 .body_velocity = f.w.body_velocity,
                                 .player_velocity = f.w.player_velocity},
                                f.tuning, f.stats);

@@ -177,11 +177,27 @@ void drop_lost_grabs(const AnchorGrabsIo& io, StageStats& stats) {
         if (pair.grab.phase != GrabPhase::releasing || !pair.hand.resumed) {
             continue;
         }
-        if (pair.other != nullptr && share_hold(pair.grab, *pair.other)) {
+        if (pair.other != nullptr && binds(pair.grab, *pair.other)) {
             take_anchor_at_start(io, pair.player, *pair.other_hand, *pair.other);
         }
         pair.grab = {};
         stats.count(Fallback::grip_lost);
+    }
+}
+
+// If two hands on different bodies contradict each other and one of them lets go, both take a new
+// anchor: the staying hand keeps what it holds as it is now, and the leaving hand still acts until
+// its release in this frame.
+void settle_contradictions(const AnchorGrabsIo& io, StageStats& stats) {
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        const HandPair pair = pair_of(io, index);
+        if (pair.grab.phase == GrabPhase::releasing && pair.other != nullptr &&
+            pair.other->phase == GrabPhase::holding && !share_hold(pair.grab, *pair.other) &&
+            binds(pair.grab, *pair.other)) {
+            take_anchor_at_start(io, pair.player, *pair.other_hand, *pair.other);
+            take_anchor_at_start(io, pair.player, pair.hand, pair.grab);
+            stats.count(Fallback::grip_reanchored);
+        }
     }
 }
 
@@ -374,6 +390,7 @@ void anchor_grabs(const AnchorGrabsIo& io, const Tuning& tuning, StageStats& sta
     }
     drop_lost_grabs(io, stats);
     leave_shared_grips(io, tuning.phases, stats);
+    settle_contradictions(io, stats);
     reanchor_resumed_grabs(io, tuning.phases, stats);
     set_targets(io);
     limit_hand_speeds(io, tuning.tracking.max_hand_speed_mps, stats);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "systems/physics/shared/speed_limits.hpp"
+
 namespace handhold {
 namespace {
 
@@ -19,26 +21,6 @@ bool clamp_speed(const Vec3& reference_mps, double limit_mps, Vec3& velocity_mps
     }
     velocity_mps = reference_mps + relative * (limit_mps / speed);
     return true;
-}
-
-// Highest speed, relative to the reference, of the island's kinematic and heavy bodies at their
-// constraints. A body that is not faster than this may have got its velocity from one of them.
-double driven_speed(const FrameGraph& frame, const Island& island, const Vec3& reference_mps) {
-    double fastest = 0.0;
-    for (const std::uint32_t i : frame.graph.blocks_of(island)) {
-        const RowBlock& block = frame.graph.blocks[i];
-        for (const std::uint32_t index : {block.a, block.b}) {
-            const SolverBody& body = frame.graph.bodies[index];
-            if (body.role == BodyRole::fixed || body.role == BodyRole::heavy) {
-                const Vec3 arm =
-                    transform_point(frame.graph.bodies[block.a].pose_ws, block.point_a_bs) -
-                    body.pose_ws.position;
-                const Vec3 at_row = body.velocity_mps + body.spin_radps.cross(arm);
-                fastest = std::max(fastest, (at_row - reference_mps).norm());
-            }
-        }
-    }
-    return fastest;
 }
 
 // Limits the velocities of players that were pushed or that grip a surface. A tracking jump may
@@ -74,15 +56,12 @@ void clamp_handled_bodies(const LimitVelocitiesIo& io, const LocomotionTuning& t
                           StageStats& stats) {
     const FrameGraph& frame = io.frame;
     for (const Island& island : frame.graph.islands) {
-        const std::span<const std::uint32_t> blocks = frame.graph.blocks_of(island);
-        const auto hand = std::ranges::find_if(
-            blocks, [&](std::uint32_t i) { return is_drive(frame.graph.blocks[i]); });
-        if (hand == blocks.end()) {
+        const std::optional<ObjectSpeedLimit> limits =
+            object_speed_limit(frame, island, io.reference, io.origin, tuning);
+        if (!limits) {
             continue;
         }
-        const Entity player = frame.entities[frame.graph.blocks[*hand].a];
-        const Vec3& reference = io.reference.at(player).linear_mps;
-        const double max_mps = io.origin.at(player).scale * tuning.object_speed_max_mps;
+        const auto& [reference, max_mps] = *limits;
         std::optional<double> driven;  // computed once, and only if a body is fast
         for (const std::uint32_t i : frame.graph.bodies_of(island)) {
             if (frame.graph.bodies[i].role != BodyRole::free) {

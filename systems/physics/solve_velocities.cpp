@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "engine/core/parallel.hpp"
 #include "engine/solver/newton/velocities.hpp"
 #include "systems/physics/shared/mass_shares.hpp"
+#include "systems/physics/shared/speed_limits.hpp"
 
 namespace handhold {
 namespace {
@@ -20,7 +22,72 @@ VelocitySettings settings_of(const Tuning& tuning) {
     return settings;
 }
 
-void solve_islands(FrameGraph& frame, const Tuning& tuning, StageStats& stats) {
+// --- Hands that overpower a mechanism ------------------------------------------------------------
+
+// Square of the speed of the body's points, root mean square, relative to a velocity.
+double square_speed(const SolverBody& body, const Vec3& velocity_mps, const Vec3& spin_radps) {
+    const Vec3 spin_bs = body.pose_ws.rotation.conjugate() * spin_radps;
+    return velocity_mps.squaredNorm() + spin_bs.cwiseAbs2().dot(body.inertia_kgm2) / body.mass_kg;
+}
+
+bool has_joint(const ConstraintGraph& graph, const Island& island, std::uint32_t body) {
+    return std::ranges::any_of(graph.blocks_of(island), [&](std::uint32_t i) {
+        const RowBlock& block = graph.blocks[i];
+        return is_joint(block) && (block.a == body || block.b == body);
+    });
+}
+
+// True if the solve made a jointed body of an island with hands too fast.
+bool are_hands_too_strong(const SolveVelocitiesIo& io, const Island& island,
+                          const LocomotionTuning& tuning) {
+    const FrameGraph& frame = io.frame;
+    const std::optional<ObjectSpeedLimit> limits =
+        object_speed_limit(frame, island, io.reference, io.origin, tuning);
+    if (!limits) {
+        return false;
+    }
+    const auto& [reference, max_mps] = *limits;
+    return std::ranges::any_of(frame.graph.bodies_of(island), [&](std::uint32_t i) {
+        const SolverBody& body = frame.graph.bodies[i];
+        if (body.role != BodyRole::free) {
+            return false;
+        }
+        const double square = square_speed(body, body.velocity_mps - reference, body.spin_radps);
+        if (square <= max_mps * max_mps || !has_joint(frame.graph, island, i)) {
+            return false;
+        }
+        const FrameGraph::PhaseBody& before = frame.phase[i];
+        const double driven_mps = driven_speed(frame, island, reference);
+        return square > std::max(driven_mps * driven_mps,
+                                 square_speed(body, before.velocity_before_mps - reference,
+                                              before.spin_before_radps));
+    });
+}
+
+void restore_velocities(const Island& island, FrameGraph& frame) {
+    for (const std::uint32_t i : frame.graph.bodies_of(island)) {
+        frame.graph.bodies[i].velocity_mps = frame.phase[i].velocity_before_mps;
+        frame.graph.bodies[i].spin_radps = frame.phase[i].spin_before_radps;
+    }
+}
+
+// --- Islands -------------------------------------------------------------------------------------
+
+IslandView view_of(ConstraintGraph& graph, const Island& island) {
+    const WorkBudget budget;
+    return {BlockFilter::all,
+            graph.bodies,
+            graph.blocks,
+            graph.bodies_of(island),
+            graph.blocks_of(island),
+            graph.revision,
+            island.is_heap,
+            budget.velocities +
+                budget.per_block * std::min(graph.blocks_of(island).size(), budget.max_blocks)};
+}
+
+void solve_islands(const SolveVelocitiesIo& io, const Tuning& tuning, StageStats& stats) {
+    FrameGraph& frame = io.frame;
     ConstraintGraph& graph = frame.graph;
     const VelocitySettings settings = settings_of(tuning);
     if (frame.island_scratch.size() < graph.islands.size()) {
@@ -34,19 +101,15 @@ void solve_islands(FrameGraph& frame, const Tuning& tuning, StageStats& stats) {
         const std::uint32_t i = frame.island_order[order];
         const Island& island = graph.islands[i];
         set_velocity_masses(island, tuning.phases, frame);
-        const WorkBudget budget;
-        const IslandView view{
-            BlockFilter::all,
-            graph.bodies,
-            graph.blocks,
-            graph.bodies_of(island),
-            graph.blocks_of(island),
-            graph.revision,
-            island.is_heap,
-            budget.velocities +
-                budget.per_block * std::min(graph.blocks_of(island).size(), budget.max_blocks)};
-        frame.velocity_results[i] =
-            solve_island_velocities(view, settings, frame.island_scratch[i]);
+        IslandView view = view_of(graph, island);
+        VelocityResult& result = frame.velocity_results[i];
+        result = solve_island_velocities(view, settings, frame.island_scratch[i]);
+        if (are_hands_too_strong(io, island, tuning.locomotion)) {
+            restore_velocities(island, frame);
+            view.filter = BlockFilter::without_drives;
+            result = solve_island_velocities(view, settings, frame.island_scratch[i]);
+            result.without_drives = true;
+        }
     };
     parallel_for(graph.islands.size(), solve_one);
     for (const VelocityResult& result : frame.velocity_results) {
@@ -55,6 +118,9 @@ void solve_islands(FrameGraph& frame, const Tuning& tuning, StageStats& stats) {
         }
         if (result.out_of_work) {
             stats.count(Fallback::solver_budget);
+        }
+        if (result.without_drives) {
+            stats.count(Fallback::object_speed_clamped);
         }
     }
 }
@@ -88,8 +154,9 @@ void write_velocities(const SolveVelocitiesIo& io, const LocomotionTuning& tunin
 void solve_velocities(const SolveVelocitiesIo& io, const Tuning& tuning, StageStats& stats) {
     for (const std::uint32_t i : io.frame.active.list) {
         io.frame.phase[i].velocity_before_mps = io.frame.graph.bodies[i].velocity_mps;
+        io.frame.phase[i].spin_before_radps = io.frame.graph.bodies[i].spin_radps;
     }
-    solve_islands(io.frame, tuning, stats);
+    solve_islands(io, tuning, stats);
     write_velocities(io, tuning.locomotion, stats);
 }
 

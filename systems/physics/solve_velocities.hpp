@@ -11,14 +11,22 @@
 //
 // One solve over the frame's rows: hands move at their tracked velocities, and bodies in contact do
 // not approach each other. Displacement by depenetration never becomes velocity.
-// systems/physics/shared/mass_shares.hpp says who takes which share of the momentum. Fallbacks
-// counted: friction_not_converged, solver_budget, object_speed_clamped.
+// systems/physics/shared/mass_shares.hpp says who takes which share of the momentum.
+//
+// A hand has no limit of force. Near the dead centre of a mechanism (a door pulled towards its
+// hinge, a head pressed against the hub of a fan) it would give the mechanism any speed. An island
+// in which the hands make a jointed body faster than LocomotionTuning::object_speed_max_mps is
+// therefore solved without its hands in this frame: its bodies keep the velocities that they had,
+// and contacts and joints still hold. Compared is the speed of the body's points, root mean square.
+// Fallbacks counted: friction_not_converged, solver_budget, object_speed_clamped.
 namespace handhold {
 
 struct SolveVelocitiesIo {
-    FrameGraph& frame;                        // in: rows, phase; out: velocities, impulses
-    Column<BodyVelocity>& body_velocity;      // out, free bodies: world, m/s and rad/s
-    Column<PlayerVelocity>& player_velocity;  // out: world, m/s
+    const Column<ReferenceVelocity>& reference;  // in: world, m/s
+    const Column<PlayerOrigin>& origin;          // in: scale
+    FrameGraph& frame;                           // in: rows, phase; out: velocities, impulses
+    Column<BodyVelocity>& body_velocity;         // out, free bodies: world, m/s and rad/s
+    Column<PlayerVelocity>& player_velocity;     // out: world, m/s
 };
 void solve_velocities(const SolveVelocitiesIo& io, const Tuning& tuning, StageStats& stats);
 

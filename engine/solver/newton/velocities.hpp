@@ -11,7 +11,8 @@ namespace handhold {
 struct VelocityResult {
     // The stick-slip iteration did not converge, or sweeps replaced a failed direct solve.
     bool unconverged = false;
-    bool out_of_work = false;  // ended because it had spent IslandView::max_work
+    bool out_of_work = false;     // ended because it had spent IslandView::max_work
+    bool without_drives = false;  // written by the caller: the drives took no part in the solve
 };
 // Solves the same rows as the position solve for the bodies' velocities v:
 //   drives     v_a + v_drive - v_b = 0, and the same for spins (RowBlock::drive_velocity_ws_mps,

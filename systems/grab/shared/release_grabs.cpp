@@ -69,7 +69,7 @@ void release_grab(const GrabSearch& io, std::size_t index, Fallback reason, Stag
         Grab& staying = io.grab.elements()[*partner];
         const Entity hand = io.grab.owners()[*partner];
         // anchor_grabs does the same for two hands on one free body.
-        if (share_hold(grab, staying) && !share_free_body(grab, staying) && is_there(io, staying)) {
+        if (binds(grab, staying) && !share_free_body(grab, staying) && is_there(io, staying)) {
             const Pose hand_ws =
                 io.origin.at(io.owner.at(hand).player).pose_ws * io.hand.at(hand).start_ps;
             staying.anchor_bs =

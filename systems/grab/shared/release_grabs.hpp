@@ -16,7 +16,7 @@ inline const PlayerOrigin& origin_of(const GrabSearch& io, std::size_t index) {
     return io.origin.at(io.owner.at(io.grab.owners()[index]).player);
 }
 
-// Ends the grip at once. If the two hands grip together (share_hold), the other hand takes a new
+// Ends the grip at once. If the hand binds the other one (binds), the other hand takes a new
 // anchor where it is, before anything has moved, so that its own error does not move the player.
 void release_grab(const GrabSearch& io, std::size_t index, Fallback reason, StageStats& stats);
 

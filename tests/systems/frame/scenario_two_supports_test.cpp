@@ -94,6 +94,56 @@ TEST(TwoSupports, DestroyingOneSupportDoesNotMoveTheHead) {
     }
 }
 
+// One hand holds a wall, the other pulls a drawer that is at its end: each has half the error when
+// one of them lets go, is lost or loses what it holds. The other keeps what it has.
+TEST(TwoSupports, LettingGoBesideADrawerAtItsEndDoesNotMoveTheHead) {
+    enum class End { opened, lost, destroyed };
+    for (const End end : {End::opened, End::lost, End::destroyed}) {
+        for (const HandSide leaving : {HandSide::left, HandSide::right}) {
+            constexpr double k_end_s = 1.2;
+            Scenario s;
+            const Vec3 half_m(0.28, 0.05, 0.5);
+            const Entity wall = s.add_wall("wall", half_m, Vec3(-0.3, 1.0, 0.1));
+            const Entity drawer = s.add_crate("drawer", 4.0, Vec3(0.3, 1.0, 0.1), half_m);
+            Joint slider;
+            slider.kind = JointKind::slider;
+            slider.limited = true;
+            slider.lower = -0.4;
+            slider.upper = 0.0;
+            slider.b = drawer;
+            add_joint(s.world, {"slider", joint_at(s.world, slider,
+                                                   Pose{Vec3(0.3, 1.0, 0.1), Quat::Identity()})});
+            for (const HandSide side : {HandSide::left, HandSide::right}) {
+                const Vec3 hand = hand_of(s, side);
+                s.script.hands[index_of(side)] = [=](double t_s) {
+                    const double away_m = side == HandSide::right ? 0.2 * ease(t_s, 0.2, 0.8) : 0.0;
+                    return Pose{hand + Vec3(away_m, 0.0, 0.0), Quat::Identity()};
+                };
+                s.script.grabs[index_of(side)] = [=](double t_s) {
+                    return t_s > 0.05 && (end != End::opened || side != leaving || t_s < k_end_s);
+                };
+            }
+            s.add_player_here();
+            s.run(1.0);
+            ASSERT_EQ(s.grab(HandSide::right).kind, GripKind::held);
+            ASSERT_NEAR(s.grab(HandSide::left).error_m, 0.1, 1e-3);
+            const Vec3 before = s.origin();
+            if (end == End::destroyed) {
+                ASSERT_TRUE(destroy(s.world, leaving == HandSide::left ? wall : drawer));
+            } else if (end == End::lost) {
+                s.world.grab.at(s.player.hands[index_of(leaving)]).error_m = 1.0;  // beyond reach
+            }
+            s.run(0.6, [&] {
+                ASSERT_LE((s.origin() - before).norm(), 1e-3)
+                    << static_cast<int>(end) << ' ' << s.t_s();
+            });
+            EXPECT_EQ(s.grab(leaving).kind, GripKind::none);
+            EXPECT_NE(s.grab(leaving == HandSide::left ? HandSide::right : HandSide::left).kind,
+                      GripKind::none);
+        }
+    }
+}
+
 // One support moves left, the other right and faster. The head moves with the support that is held,
 // then with the mean of both, and with the first again after the second hand is overstretched.
 TEST(TwoSupports, PartingSupportsAreSharedUntilTheSecondHandReleases) {

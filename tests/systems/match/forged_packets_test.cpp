@@ -16,7 +16,7 @@
 namespace handhold::match_test {
 namespace {
 
-struct Packet {
+struct SentPacket {
     std::array<std::byte, k_most_packet_bytes> bytes{};
     std::size_t size = 0;
 
@@ -46,7 +46,7 @@ TEST(ForgedPackets, NobodyDrivesTheMatchFasterThanTheClock) {
                 }
                 StreamSource own{
                     .history = sent.get(), .base = accepted, .until = sent->final_until()};
-                Packet packet;
+                SentPacket packet;
                 packet.size = write_client_packet(header, k_people, own, packet.bytes);
                 ASSERT_EQ(server->receive(0, packet.view(), now_s), MatchRefusal::none);
                 accepted = own.until;
@@ -128,7 +128,7 @@ TEST(ForgedPackets, ALiarCostsTheOthersNothing) {
             }
             StreamSource own{.history = forged.get(), .base = base, .until = forged->final_until()};
             own.is_fresh = header.is_fresh;
-            Packet packet;
+            SentPacket packet;
             packet.size = write_client_packet(header, k_people, own, packet.bytes);
             taken += match.server.receive(k_liar, packet.view(), match.now_s) == MatchRefusal::none
                          ? 1
