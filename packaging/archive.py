@@ -142,7 +142,7 @@ def write_tar(path: Path, top: str, files: dict[str, Entry]) -> None:
 def write_zip(path: Path, top: str, files: dict[str, Entry]) -> None:
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
         for name, entry in sorted(files.items()):
-            info = zipfile.ZipInfo(f"{top}/{name}", time.gmtime(TIME_S)[:6])
+            info = zipfile.ZipInfo(f"{top}/{name}" if top else name, time.gmtime(TIME_S)[:6])
             info.external_attr = (0o755 if entry.is_program else 0o644) << 16
             info.compress_type = zipfile.ZIP_DEFLATED
             archive.writestr(info, entry.data, compresslevel=9)

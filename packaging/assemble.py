@@ -85,13 +85,16 @@ def write_metas(folder: Path) -> None:
         path.with_name(path.name + ".meta").write_text(f"fileFormatVersion: 2\nguid: {guid}\n{importer}", encoding="utf-8")
 
 
-def main() -> int:
+def parse(words: list[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("kind", choices=("unity", "python"))
     parser.add_argument("folder", type=Path)
     parser.add_argument("--library", type=Path, action="append", default=[])
     parser.add_argument("--archive", type=Path, action="append", default=[])
-    given = parser.parse_args()
+    return parser.parse_args(words)
+
+
+def make(given: argparse.Namespace) -> None:
     temporary = tempfile.TemporaryDirectory()
     unpacked = {Path(temporary.name) / str(place): archive for place, archive in enumerate(given.archive)}
     given.library += [library_of(archive, place) for place, archive in unpacked.items()]
@@ -113,6 +116,10 @@ def main() -> int:
         copy_licenses(place, licenses)
     if given.kind == "unity":
         write_metas(folder)
+
+
+def main() -> int:
+    make(parse(sys.argv[1:]))
     return 0
 
 

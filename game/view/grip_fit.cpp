@@ -14,6 +14,7 @@ FittedGrip fit_grip(const GripMesh& mesh, const HandRig& rig, const Pose& wrist_
                     const Tuning& tuning, const AuthoredHand* authored) {
     constexpr double k_at_once_s = std::numeric_limits<double>::infinity();
     constexpr int k_max_frames = 40;  // enough for the fit of a hand at rest to converge
+    constexpr int k_min_frames = 8;   // the fit tries other thumbs in the first frames
     EntityPool entities;
     const Entity hand = entities.create();
     const Entity body = entities.create();
@@ -48,7 +49,9 @@ FittedGrip fit_grip(const GripMesh& mesh, const HandRig& rig, const Pose& wrist_
                    .traces = {},
                    .scratch = fit},
                   tuning, stats);
-    for (int frame = 0; frame < k_max_frames && !fingers.at(hand).is_converged; ++frame) {
+    for (int frame = 0;
+         frame < k_min_frames || (frame < k_max_frames && !fingers.at(hand).is_converged);
+         ++frame) {
         fit_hands({.dt_s = k_at_once_s,
                    .hands = hands,
                    .hand = tracking,

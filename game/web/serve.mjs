@@ -1,4 +1,4 @@
-// Serves a folder of static files on the loopback. usage: node serve.mjs FOLDER PORT (0: any)
+// Serves a folder of static files on the loopback; a file with a .gz beside it is sent compressed. usage: node serve.mjs FOLDER PORT (0: any)
 import { createReadStream, statSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { extname, join, normalize, resolve, sep } from 'node:path';
@@ -20,7 +20,12 @@ export function serveFolder(folder, port) {
             return;
         }
         response.setHeader('content-type', types[extname(file)] ?? 'application/octet-stream');
-        createReadStream(file).pipe(response);
+        const packed = /\bgzip\b/.test(request.headers['accept-encoding'] ?? '') && statSync(`${file}.gz`, { throwIfNoEntry: false })?.isFile();
+        response.setHeader('vary', 'accept-encoding');
+        if (packed) {
+            response.setHeader('content-encoding', 'gzip');
+        }
+        createReadStream(packed ? `${file}.gz` : file).pipe(response);
     });
     return new Promise((resolve) => server.listen(port, '127.0.0.1', () => resolve(server)));
 }

@@ -132,7 +132,7 @@ def draw() -> None:
         steps()
         look((0.42, -0.28, 0.22), (0.0, 0.0, -0.01), 46.0)
         show_sidebar()
-        bpy.app.timers.register(finish, first_interval=1.5)
+        bpy.app.timers.register(finish, first_interval=3.0)
     except BaseException:
         import traceback
         traceback.print_exc()
@@ -141,8 +141,8 @@ def draw() -> None:
 
 def finish() -> None:
     """Opens the add-on's tab, which Blender 3.4 lets only the mouse do, and takes the picture afterwards."""
-    subprocess.Popen(["xdotool", "mousemove", *TAB, "sleep", "0.4", "click", "1", "sleep", "0.4", "mousemove", "300", "700"])
-    bpy.app.timers.register(shoot, first_interval=2.0)
+    subprocess.Popen(["xdotool", "mousemove", *TAB, "sleep", "1.5", "click", "1", "sleep", "1.0", "mousemove", "300", "700"])
+    bpy.app.timers.register(shoot, first_interval=8.0)
 
 
 def shoot() -> None:

@@ -12,6 +12,7 @@ const k_strangers = 24;
 const k_needed = 20;
 const k_seconds = 15;
 const k_dt_s = 1 / 90;
+const k_nothing = { canReach: false, grips: false, moved_m: 0 };
 
 const here = dirname(fileURLToPath(import.meta.url));
 const page = resolve(process.env.HANDHOLD_PAGE);
@@ -102,6 +103,8 @@ function playStranger(world, player, start, seed, farther_m) {
     let last = from;
     let grips_s = -1;
     let pulled_m = 0;
+    let hinted = hint.text;
+    let hints = 0;
     while (world.time().time_s < begin_s + k_seconds) {
         const grips = [HH_LEFT, HH_RIGHT].some((side) => world.handMovesPlayer(player, side));
         const { sample, commands } = desktop.read(k_dt_s);
@@ -111,15 +114,20 @@ function playStranger(world, player, start, seed, farther_m) {
         const at = place();
         hint.advance({ canReach: desktop.aim !== null, grips, moved_m: away(at, last) }, k_dt_s);
         last = at;
+        hints += hint.text !== hinted ? 1 : 0;
+        hinted = hint.text;
         if (grips) {
             grips_s = grips_s < 0 ? end_s - begin_s : grips_s;
             pulled_m = Math.max(pulled_m, away(at, from));
         }
     }
-    return { grips_s, pulled_m, hintGone: hint.text === '' };
+    hint.advance(k_nothing, 10); // the last line's time
+    hint.advance(k_nothing, 10);
+    return { grips_s, pulled_m, hintFollows: hints >= 3, hintGone: hint.text === '' };
 }
 
-async function countWhoGrip(context, scene, spawnName, farther_m = 0) {
+/** How many of the strangers grip and pull themselves, and for how many the hint went through its lines and is gone. */
+async function playStrangers(context, scene, spawnName, farther_m = 0) {
     const world = handhold.createWorld();
     const level = await loadLevel(handhold, world, pathToFileURL(join(page, scene, 'scene.json')), () => {});
     const spawn = level.spawns.find((one) => one.name === spawnName);
@@ -136,18 +144,48 @@ async function countWhoGrip(context, scene, spawnName, farther_m = 0) {
         world.restore(begin);
         minutes.push(playStranger(world, player, start, 530 + seed, farther_m));
     }
-    const pulls = minutes.filter(({ grips_s, pulled_m }) => grips_s >= 0 && pulled_m > 0.2);
-    context.diagnostic(`${scene}: ${minutes.filter(({ grips_s }) => grips_s >= 0).length} of ${k_strangers} strangers grip within ${k_seconds} s, ${pulls.length} pull themselves; `
-        + `the hint is gone for ${minutes.filter(({ hintGone }) => hintGone).length}; first grips after ${minutes.map(({ grips_s }) => grips_s.toFixed(1)).join(' ')} s`);
-    return pulls.length;
+    const count = (test) => minutes.filter(test).length;
+    const counts = {
+        pull: count(({ grips_s, pulled_m }) => grips_s >= 0 && pulled_m > 0.2),
+        hintFollows: count(({ hintFollows }) => hintFollows),
+        hintGone: count(({ hintGone }) => hintGone),
+    };
+    context.diagnostic(`${scene}: ${count(({ grips_s }) => grips_s >= 0)} of ${k_strangers} strangers grip within ${k_seconds} s, ${counts.pull} pull themselves; `
+        + `the hint is gone for ${counts.hintGone}; first grips after ${minutes.map(({ grips_s }) => grips_s.toFixed(1)).join(' ')} s`);
+    return counts;
 }
 
 test('twenty of twenty-four strangers grip and pull in the station', async (context) => {
-    assert.ok(await countWhoGrip(context, 'station', 'hab') >= k_needed);
+    const counts = await playStrangers(context, 'station', 'hab');
+    assert.ok(Object.values(counts).every((count) => count >= k_needed), JSON.stringify(counts));
 });
 test('twenty of twenty-four strangers grip and pull in the playground', async (context) => {
-    assert.ok(await countWhoGrip(context, 'playground', 'locker') >= k_needed);
+    const counts = await playStrangers(context, 'playground', 'locker');
+    assert.ok(Object.values(counts).every((count) => count >= k_needed), JSON.stringify(counts));
 });
-test('nobody grips far from everything', async (context) => {
-    assert.equal(await countWhoGrip(context, 'station', 'hab', 60), 0);
+test('nobody grips far from everything, and the hint stays as it is', async (context) => {
+    assert.deepEqual(await playStrangers(context, 'station', 'hab', 60), { pull: 0, hintFollows: 0, hintGone: 0 });
+});
+
+test('the hint says what comes next until somebody has pulled, and goes away for good', () => {
+    const after = (hint, seen, frames) => {
+        for (let frame = 0; frame < frames; ++frame) {
+            hint.advance({ ...k_nothing, ...seen }, k_dt_s);
+        }
+        return hint.text;
+    };
+    const [green, gripping, pulling] = [{ canReach: true }, { grips: true }, { grips: true, moved_m: 0.01 }];
+    const hint = new FirstHint();
+    assert.match(after(hint, {}, 6000), /look at/);
+    assert.match(after(hint, green, 6000), /mouse button/);
+    assert.match(after(hint, gripping, 6000), /pull/);
+    for (let grip = 0; grip < 20; ++grip) { // way of several grips does not add up, and floating is no pull
+        assert.match(after(hint, pulling, 10), /pull/);
+        assert.match(after(hint, { moved_m: 0.5 }, 10), /look at/);
+    }
+    assert.match(after(hint, pulling, 60), /Let go/);
+    assert.match(after(hint, {}, 90), /Let go/); // long enough to be read
+    for (const seen of [{}, green, pulling]) {
+        assert.equal(after(hint, seen, 900), '');
+    }
 });

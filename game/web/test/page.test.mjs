@@ -15,6 +15,8 @@ const frames = (page, count) => page.evaluate(async (wanted) => {
 for (const scene of ['station', 'playground']) {
     test(`${scene}: the climber climbs, the panel tells, and all works offline once loaded`, { timeout: 550000 }, async () => {
         await withPage(`?scene=${scene}&spawn=${{ station: 'hab', playground: 'locker' }[scene]}`, async ({ page, errors, server }) => {
+            const wire = await page.evaluate(() => performance.getEntriesByType('resource').reduce((sum, one) => sum + one.transferSize, 0));
+            assert.ok(wire > 1e6 && wire < 6e6, `${wire} bytes on the wire`);
             const climber = () => page.evaluate(() => demo.world.playerPose(demo.climber.id).origin.position);
             const before = await climber();
             await page.evaluate(() => { document.getElementById('gizmos').checked = true; });

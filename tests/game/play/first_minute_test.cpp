@@ -80,8 +80,11 @@ class Stranger {
 struct Minute {
     double grips_s = -1.0;   // of the first grip on which they can pull; negative: none
     double pulled_m = 0.0;   // farthest from the start while gripping
-    bool hint_gone = false;  // within a minute more
+    int hints = 0;           // how often the hint changed
+    bool hint_gone = false;  // once the last line's time is over
 };
+
+constexpr double k_last_line_s = 10.0;  // longer than the last line is shown
 
 Minute play(DesktopSession& session, const DesktopState& start, std::uint64_t seed) {
     session.restore(start);
@@ -90,6 +93,7 @@ Minute play(DesktopSession& session, const DesktopState& start, std::uint64_t se
     Minute minute;
     const hh::Vec3 from = session.world().pose(session.player())->origin.position;
     hh::Vec3 last = from;
+    std::string hinted = hint.text();
     while (session.world().time_s() < k_seconds) {
         const bool grips = session.world().moves_player(session.player(), HH_LEFT) ||
                            session.world().moves_player(session.player(), HH_RIGHT);
@@ -98,26 +102,36 @@ Minute play(DesktopSession& session, const DesktopState& start, std::uint64_t se
         hint.advance({session.body().can_reach(), grips, hh::length(at - last)},
                      DesktopSession::k_dt_s);
         last = at;
+        minute.hints += hint.text() != hinted ? 1 : 0;
+        hinted = hint.text();
         if (grips) {
             minute.grips_s = minute.grips_s < 0.0 ? session.world().time_s() : minute.grips_s;
             minute.pulled_m = std::max(minute.pulled_m, hh::length(at - from));
         }
     }
+    hint.advance({}, k_last_line_s);
+    hint.advance({}, k_last_line_s);
     minute.hint_gone = hint.text()[0] == '\0';
     return minute;
 }
 
-// How many of the strangers grip and pull themselves. Prints one line for each who does not.
-int count_who_grip(DesktopSession& session, const std::string& scene) {
+struct Counts {
+    int grip = 0;          // who grip and pull themselves
+    int hints_gone = 0;    // who need no hint any more
+    int hints_follow = 0;  // whose hint went through its lines: look, press, pull, let go
+};
+
+// Prints one line for each who does not grip and pull.
+Counts play_strangers(DesktopSession& session, const std::string& scene) {
     const DesktopState start = session.save();
-    int grip = 0;
-    int hints_gone = 0;
+    Counts counts;
     std::vector<double> times_s;
     for (std::uint64_t seed = 0; seed < k_strangers; ++seed) {
         const Minute minute = play(session, start, 5300 + seed);
         const bool pulls = minute.grips_s >= 0.0 && minute.pulled_m > k_pulled_m;
-        grip += pulls ? 1 : 0;
-        hints_gone += minute.hint_gone ? 1 : 0;
+        counts.grip += pulls ? 1 : 0;
+        counts.hints_gone += minute.hint_gone ? 1 : 0;
+        counts.hints_follow += minute.hints >= 3 ? 1 : 0;
         if (pulls) {
             times_s.push_back(minute.grips_s);
         } else {
@@ -129,9 +143,9 @@ int count_who_grip(DesktopSession& session, const std::string& scene) {
     std::printf(
         "%s: %d of %d strangers grip and pull within %.0f s, half of them after %.1f s; the "
         "hint is gone for %d\n",
-        scene.c_str(), grip, k_strangers, k_seconds,
-        times_s.empty() ? 0.0 : times_s[times_s.size() / 2], hints_gone);
-    return grip;
+        scene.c_str(), counts.grip, k_strangers, k_seconds,
+        times_s.empty() ? 0.0 : times_s[times_s.size() / 2], counts.hints_gone);
+    return counts;
 }
 
 DesktopSession begin(const std::string& scene) {
@@ -154,12 +168,15 @@ TEST_P(FirstMinute, BeginsBeforeSomethingWithinReach) {
 
 TEST_P(FirstMinute, TwentyOfTwentyFourStrangersGripAndPull) {
     DesktopSession session = begin(GetParam());
-    EXPECT_GE(count_who_grip(session, GetParam()), k_needed);
+    const Counts counts = play_strangers(session, GetParam());
+    EXPECT_GE(counts.grip, k_needed);
+    EXPECT_GE(counts.hints_gone, k_needed);
+    EXPECT_GE(counts.hints_follow, k_needed);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, FirstMinute, testing::Values("station", "playground"));
 
-// The measure can fail: far from everything nobody grips.
+// The measure can fail: far from everything nobody grips, and the hint stays as it is.
 TEST(FirstMinuteMeasure, NobodyGripsFarFromEverything) {
     PlayOptions options;
     Result<PlayedScene> loaded = load_played_scene(options);
@@ -167,7 +184,10 @@ TEST(FirstMinuteMeasure, NobodyGripsFarFromEverything) {
     hh::Pose far_ws = loaded.value().place.pose_ws;
     far_ws.position.y += 60.0;
     DesktopSession session(std::move(loaded.value().scene), far_ws);
-    EXPECT_EQ(count_who_grip(session, "far away"), 0);
+    const Counts counts = play_strangers(session, "far away");
+    EXPECT_EQ(counts.grip, 0);
+    EXPECT_EQ(counts.hints_gone, 0);
+    EXPECT_EQ(counts.hints_follow, 0);
 }
 
 }  // namespace

@@ -120,25 +120,39 @@ def is_fixed(name: str) -> bool:
     return name == "wrist" or name.endswith("finger-metacarpal")
 
 
-def set_pose(hand, wanted: dict) -> None:
+def set_pose(hand, wanted: dict, moves_object: bool = True) -> None:
     """Places the hand and turns its bones so that the joints get these poses (in the scene, glTF's axes). Where they lie follows from the bones.
+    Without `moves_object` the object stays where the artist holds it, and the bone of the wrist moves from it.
     Key the pose before the next update of the scene, which takes keyed bones back to their keys."""
     wrist = hand.pose.bones["wrist"]
     bone_wrist = gltf.to_blender(wanted["wrist"]) @ axes_of(wrist).inverted()
-    hand.matrix_world = bone_wrist @ wrist.bone.matrix_local.inverted()
+    if moves_object:
+        hand.matrix_world = bone_wrist @ wrist.bone.matrix_local.inverted()
     posed = {}
     to_hand = hand.matrix_world.inverted()
     for bone in hand.pose.bones:  # parents first
         rest = bone.bone.matrix_local
         local = bone.parent.bone.matrix_local.inverted() @ rest if bone.parent else rest
         above = posed[bone.parent.name] @ local if bone.parent else local
-        bone.location, bone.scale = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
-        if is_fixed(bone.name) or bone.name not in wanted:
-            bone.rotation_quaternion = Quaternion()
-        else:
+        bone.location, bone.rotation_quaternion, bone.scale = (0.0, 0.0, 0.0), Quaternion(), (1.0, 1.0, 1.0)
+        if bone == wrist and not moves_object:
+            bone.location, bone.rotation_quaternion, _ = (above.inverted() @ to_hand @ bone_wrist).decompose()
+        elif not is_fixed(bone.name) and bone.name in wanted:
             goal = to_hand @ gltf.to_blender(wanted[bone.name]) @ axes_of(bone).inverted()
             bone.rotation_quaternion = (above.inverted() @ goal).to_quaternion()
-        posed[bone.name] = above @ bone.rotation_quaternion.to_matrix().to_4x4()
+        posed[bone.name] = above @ Matrix.Translation(bone.location) @ bone.rotation_quaternion.to_matrix().to_4x4()
+
+
+def open_hand(hand) -> None:
+    """The hand as it is without anything to grip, where its object is."""
+    for bone in hand.pose.bones:
+        bone.location, bone.rotation_quaternion = (0.0, 0.0, 0.0), Quaternion()
+
+
+def tracked_wrist(hand) -> Matrix:
+    """Where the artist holds the wrist, in the scene and glTF's axes, wherever its bone has moved from there."""
+    wrist = hand.pose.bones["wrist"]
+    return gltf.to_gltf(gltf.rigid(hand.matrix_world @ wrist.bone.matrix_local @ axes_of(wrist)))
 
 
 def finger_bones(hand, finger: str = "") -> list:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import bpy
 
-from . import commands, fitting, grips, hands
+from . import commands, fitting, grips, hands, live
 
 SIDE_ITEMS = [("right", "Right", "The right hand"), ("left", "Left", "The left hand")]
 
@@ -13,7 +13,7 @@ class Preferences(bpy.types.AddonPreferences):
     bl_idname = commands.PACKAGE
 
     program: bpy.props.StringProperty(name="Program", subtype="FILE_PATH", description="The program handhold; empty: HANDHOLD_PROGRAM, or the search path")
-    binding: bpy.props.StringProperty(name="Python binding", subtype="DIR_PATH", description="The folder with the package handhold; empty: Python's own path")
+    binding: bpy.props.StringProperty(name="Python binding", subtype="DIR_PATH", description="The folder with the package handhold; empty: this archive's, else Python's own path")
     library: bpy.props.StringProperty(name="Library", subtype="FILE_PATH", description="The shared library; empty: HANDHOLD_LIBRARY, or the system's")
 
     def draw(self, _context) -> None:
@@ -21,10 +21,33 @@ class Preferences(bpy.types.AddonPreferences):
             self.layout.prop(self, name)
 
 
+def switch_live(settings, context) -> None:
+    """Called when the artist switches the live fit. What it cannot do is shown in the sidebar."""
+    settings.refused = ""
+    if not settings.live:
+        live.end()
+        return
+    try:
+        if settings.gripped is None:
+            raise ValueError("choose the object that is gripped")
+        add_binding_to_path()
+        context.scene.frame_set(hands.RELEASED)
+        live.begin(settings.gripped)
+    except (ImportError, OSError, ValueError) as error:
+        settings["live"] = False
+        settings.refused = NO_BINDING.format(error) if isinstance(error, ImportError) else str(error)
+
+
+NO_BINDING = "the Python binding or its library is not there, name them in the add-on's preferences: {}"
+
+
 class Settings(bpy.types.PropertyGroup):
     name: bpy.props.StringProperty(name="Name", default="grip", description="The grip's name, unique among those of the object")
     gripped: bpy.props.PointerProperty(name="Object", type=bpy.types.Object, description="What the hand grips. Its origin is the body's frame")
     side: bpy.props.EnumProperty(name="Hand", items=SIDE_ITEMS)
+    live: bpy.props.BoolProperty(name="Close While Dragging", update=switch_live, options={"SKIP_SAVE"},
+                                 description="The runtime fits the hand again whenever you move it, or the object. Switched off, the hand stays as it is shown")
+    refused: bpy.props.StringProperty(options={"SKIP_SAVE"})
     controllers: bpy.props.StringProperty(name="Controller", subtype="FILE_PATH", description="A profile (.json) of a real controller; empty: a plain wand")
     shows_controllers: bpy.props.BoolProperty(name="Show Controllers", default=True, update=lambda self, _: hands.show_controllers(self.shows_controllers))
     finger: bpy.props.EnumProperty(name="Finger", items=[(name, name.title(), "") for name in fitting.FINGERS], default="index")
@@ -41,8 +64,10 @@ def add_binding_to_path() -> None:
     import os
     import sys
     given = commands.preferences()
-    if given and given.binding and bpy.path.abspath(given.binding) not in sys.path:
-        sys.path.insert(0, bpy.path.abspath(given.binding))
+    inside = Path(__file__).with_name("binding")  # in the archive of tools/package
+    folder = bpy.path.abspath(given.binding) if given and given.binding else str(inside) if inside.is_dir() else ""
+    if folder and folder not in sys.path:
+        sys.path.insert(0, folder)
     if given and given.library:
         os.environ["HANDHOLD_LIBRARY"] = bpy.path.abspath(given.library)
 
@@ -72,7 +97,7 @@ class Operator(bpy.types.Operator):
             add_binding_to_path()
             said = self.work(context, settings, hand)
         except ImportError as error:
-            self.report({"ERROR"}, f"the Python binding or its library is not there, name them in the add-on's preferences: {error}")
+            self.report({"ERROR"}, NO_BINDING.format(error))
             return {"CANCELLED"}
         except (commands.Refused, fitting.NothingToGrip, ValueError, OSError) as error:
             self.report({"ERROR"}, str(error))
@@ -225,6 +250,7 @@ def register() -> None:
 
 
 def unregister() -> None:
+    live.end()
     del bpy.types.Scene.handhold
     for one in reversed(CLASSES):
         bpy.utils.unregister_class(one)

@@ -19,6 +19,9 @@ class Panel(bpy.types.Panel):
         box.operator(operators.AddHand.bl_idname, icon="VIEW_PAN")
         box.prop(settings, "shows_controllers")
         layout.operator(operators.CloseHand.bl_idname, icon="SNAP_ON")
+        layout.prop(settings, "live", toggle=True, icon="SNAP_ON" if settings.live else "SNAP_OFF")
+        if settings.refused:
+            layout.label(text=settings.refused, icon="ERROR")
         box = layout.box()
         frame = context.scene.frame_current
         box.label(text={hands.RELEASED: "Frame 1: trigger released", hands.PRESSED: "Frame 11: trigger pressed"}.get(frame, f"Frame {frame}"))
