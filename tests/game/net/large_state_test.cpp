@@ -51,6 +51,7 @@ TEST(LargeState, IsPackedInParts) {
     if (!has_network() || !has_packing()) {
         GTEST_SKIP() << "built without a network, or without zstd";
     }
+    HH_NEEDS_REAL_TIME();
     for (const bool is_packed : {false, true}) {
         test::LoopbackMatch match(
             2, [](MatchServerSettings& settings) { settings.tick_s = 1.0 / 90.0; }, {},
