@@ -262,7 +262,7 @@ int run_or_join(const handhold::RunOptions& run, handhold::JoinOptions join,
     if (!replay.file.empty()) {
         replay.scene = run.scene;
         replay.seconds = run.seconds;
-        return handhold::replay_command(replay);
+        return handhold::replay_command(replay, run);
     }
     if (join.url.empty()) {
         return handhold::run_command(run);
@@ -285,6 +285,9 @@ void add_scene_commands(Program& program) {
     run.parse_complete_callback([&p] {
         if (p.run.scene.empty() && p.join.url.empty() && p.replay.file.empty()) {
             throw CLI::RequiredError("--scene");
+        }
+        if (!p.replay.file.empty() && !p.run.out.empty() && p.run.shots.empty()) {
+            throw CLI::RequiredError("--shots, with --match and --out");
         }
     });
     add_play_options(

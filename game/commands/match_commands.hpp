@@ -54,10 +54,13 @@ struct ReplayOptions {
     std::string scene;     // empty: the built-in scene that the recording names
     double seconds = 0.0;  // 0: to its end
 };
+struct RunOptions;
 // Plays a recorded match again, without a network and as fast as it can. The last line on standard
 // output is "state_hash 0x<16 hex digits>". Returns 0, or k_exit_bad_file after one line on
 // standard error; k_exit_interrupted after a signal.
-int replay_command(const ReplayOptions& options);
+// `drawn`: RunOptions::shots, if not empty, are saved in RunOptions::out, and the recording is
+// played to the last one's end.
+int replay_command(const ReplayOptions& options, const RunOptions& drawn);
 
 // Options of `handhold token`.
 struct TokenOptions {

@@ -75,10 +75,12 @@ inline void add_join_options(CLI::App& run, JoinOptions& options) {
 // `run --match`: a recorded match. Call after add_join_options.
 inline void add_replay_options(CLI::App& run, ReplayOptions& options) {
     CLI::Option* const match = run.add_option(
-        "--match", options.file, "Play a recorded match (.hhm) again, without a network");
+        "--match", options.file,
+        "Play a recorded match (.hhm) again, without a network; with --shots and --out "
+        "it is drawn");
     for (const char* const own :
-         {"--hz", "--players", "--climbers", "--spawn", "--trace", "--out", "--snapshot",
-          "--resume", "--distance-grab", "--input", "--seed", "--join"}) {
+         {"--hz", "--players", "--climbers", "--spawn", "--trace", "--snapshot", "--resume",
+          "--distance-grab", "--input", "--seed", "--join"}) {
         match->excludes(run.get_option(own));
     }
 }
@@ -95,6 +97,10 @@ inline void add_play_join_options(CLI::App& play, PlayOptions& options) {
     }
     play.add_option("--token", options.token, "A file with a token, for servers that want one")
         ->needs(join);
+    play.add_flag("--watch", options.watches,
+                  "With --join: watch, without a slot, with a camera that flies")
+        ->needs(join)
+        ->excludes(play.get_option("--record"));
     play.parse_complete_callback([&play, &options] {
         if (!options.join.empty() && play.get_option("--scene")->count() == 0) {
             options.scene.clear();

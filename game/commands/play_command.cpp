@@ -132,6 +132,7 @@ std::optional<int> play_match(PlayProgram& program) {
     MatchPeerSettings settings = make_peer_settings(loaded.value(), entry.value().tokens.front());
     const std::vector<hh::Player> players = loaded.value().players;
     DesktopSession session(std::move(loaded.value().scene), players.front());
+    settings.watches = options.watches;
     settings.arena = session.scene().arena ? &*session.scene().arena : nullptr;
     MatchPeer peer(session.world(), players, settings);
     MatchReturn returns;
@@ -139,7 +140,9 @@ std::optional<int> play_match(PlayProgram& program) {
         return refuse(*error);
     }
     PlayedMatch match{peer, [&] {
-                          session.play_as(players[peer.slot()]);
+                          if (!peer.watches()) {
+                              session.play_as(players[peer.slot()]);
+                          }
                           return returns.goes_on(place, peer);
                       }};
     program.panels.inspector = false;
@@ -150,8 +153,11 @@ std::optional<int> play_match(PlayProgram& program) {
             return refuse({place.url, "", peer.why()});
         }
     }
-    const std::optional<int> status =
-        play_session(program, session, "slot " + std::to_string(peer.slot()), &match);
+    if (peer.watches()) {
+        program.options.viewpoint = PlayerViewpoint::free;
+    }
+    const std::string seat = peer.watches() ? "watching" : "slot " + std::to_string(peer.slot());
+    const std::optional<int> status = play_session(program, session, seat, &match);
     const bool is_cut_off = peer.stage() == PeerStage::ended && peer.bye() != NetBye::draining;
     const std::string why = peer.why();
     leave_match(peer);

@@ -14,15 +14,14 @@ namespace handhold {
 namespace {
 
 // Loads the scene's shots; fails if the list has none.
-Result<std::vector<Shot>> choose_shots(const RunOptions& options) {
+Result<std::vector<Shot>> choose_shots(const RunOptions& options, const std::string& scene) {
     Result<std::vector<Shot>> shots = load_shots(options.shots);
     if (!shots) {
         return shots.error();
     }
-    std::erase_if(shots.value(), [&](const Shot& shot) { return shot.scene != options.scene; });
+    std::erase_if(shots.value(), [&](const Shot& shot) { return shot.scene != scene; });
     if (shots.value().empty()) {
-        return FileError{options.shots, "/shots",
-                         "expected shots of the scene \"" + options.scene + "\""};
+        return FileError{options.shots, "/shots", "expected shots of the scene \"" + scene + "\""};
     }
     return shots;
 }
@@ -45,13 +44,15 @@ std::optional<FileError> check_names(const RunOptions& options, const std::vecto
 
 }  // namespace
 
-int draw_shots(const RunOptions& options, ReadySession session, PlayerModels models) {
-    Result<std::vector<Shot>> shots = choose_shots(options);
+Result<std::unique_ptr<ShotFilm>> open_shots(const RunOptions& options,
+                                             const std::string& scene_name, const Scene& scene,
+                                             PlayerModels models) {
+    Result<std::vector<Shot>> shots = choose_shots(options, scene_name);
     if (!shots) {
-        return refuse(shots.error());
+        return shots.error();
     }
-    if (const auto error = check_names(options, shots.value(), session.scene.world())) {
-        return refuse(*error);
+    if (const auto error = check_names(options, shots.value(), scene.world())) {
+        return *error;
     }
     ShotFilmSettings drawn;
     drawn.width_px = options.shot_width_px;
@@ -60,18 +61,32 @@ int draw_shots(const RunOptions& options, ReadySession session, PlayerModels mod
     drawn.out = options.out;
     drawn.models = std::move(models);
     std::string why_not;
-    const auto film = ShotFilm::open(session.scene, std::move(shots.value()), drawn, why_not);
+    std::unique_ptr<ShotFilm> film =
+        ShotFilm::open(scene, std::move(shots.value()), drawn, why_not);
     if (film == nullptr) {
-        std::fprintf(stderr, "no pictures: %s\n", why_not.c_str());
-        return k_exit_bad_file;
+        return FileError{options.out, "", "no pictures: " + why_not};
     }
+    return film;
+}
+
+int draw_shots(const RunOptions& options, ReadySession session, PlayerModels models) {
+    const auto opened = open_shots(options, options.scene, session.scene, std::move(models));
+    if (!opened) {
+        return refuse(opened.error());
+    }
+    const std::unique_ptr<ShotFilm>& film = opened.value();
     constexpr double k_after_s = 0.1;
     session.settings.seconds = film->length_s() + k_after_s;
     session.settings.keep_frames = false;
     run_session(session.scene, player_ids(session.players), session.recording, session.settings,
                 [&](const Scene&, const FrameLog& frame) { film->watch(frame.t_s); });
-    const std::size_t saved = film->finish(why_not);
-    std::printf("%s: %zu shots\n", printable(session.scene.name).c_str(), saved);
+    return finish_shots(session.scene.name, *film);
+}
+
+int finish_shots(const std::string& scene, ShotFilm& film) {
+    std::string why_not;
+    const std::size_t saved = film.finish(why_not);
+    std::printf("%s: %zu shots\n", printable(scene).c_str(), saved);
     if (is_interrupted()) {
         return k_exit_interrupted;
     }

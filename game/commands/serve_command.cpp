@@ -59,17 +59,17 @@ void log_hash(const hh::Match& match, const Scene& scene, std::uint64_t& logged)
     }
 }
 
-// Whoever was cut off may return for a while: until then the server is not free for others.
-void report_to_agones(const MatchServer& server, double return_s, double& played_s,
+// True once all players have left for good. Whoever was cut off may return for a while. The server
+// then ends, so that nobody else finds their score: the fleet starts another one.
+bool report_to_agones(const MatchServer& server, double return_s, std::optional<double>& played_s,
                       AgonesReporter& agones) {
     const double now_s = steady_s();
-    const bool is_played = server.seats().taken() > 0;
-    if (is_played) {
+    agones.beat();
+    if (server.seats().taken() > 0) {
         played_s = now_s;
     }
-    agones.beat();
-    agones.set(is_played || now_s - played_s < return_s ? AgonesReporter::State::allocated
-                                                        : AgonesReporter::State::ready);
+    agones.set(played_s ? AgonesReporter::State::allocated : AgonesReporter::State::ready);
+    return played_s && now_s - *played_s > return_s;
 }
 
 // Until the options' time is over or the program is interrupted; then until all peers know.
@@ -79,13 +79,13 @@ void serve(const ServeOptions& options, const Scene& scene, MatchServer& server)
     if (options.agones) {
         agones.emplace(agones_port(), print_log_line);
     }
-    double played_s = begin_s - options.return_s;
+    std::optional<double> played_s;
     std::uint64_t logged = 0;
     while (!is_interrupted() &&
            (options.seconds == 0.0 || steady_s() - begin_s < options.seconds)) {
         server.poll();
-        if (agones) {
-            report_to_agones(server, options.return_s, played_s, *agones);
+        if (agones && report_to_agones(server, options.return_s, played_s, *agones)) {
+            break;
         }
         log_hash(server.match(), scene, logged);
     }

@@ -12,32 +12,12 @@
 #include "game/ui/inspector.hpp"
 #include "game/ui/menu.hpp"
 #include "game/view/free_camera.hpp"
+#include "game/view/match_offsets.hpp"
 
 namespace handhold {
 namespace {
 
-// Maximum delay behind real time; beyond it, simulated time runs slower.
-constexpr double k_max_behind_s = 0.1;
 constexpr double k_status_s = 0.1;
-
-// Converts real time to a number of simulation steps.
-class Clock {
-  public:
-    // The number of steps that have become due since the last call.
-    int advance() {
-        const std::int64_t now = clock_ns();
-        behind_s_ += last_ns_ != 0 ? 1e-9 * static_cast<double>(now - last_ns_) : 0.0;
-        behind_s_ = std::min(behind_s_, k_max_behind_s);
-        last_ns_ = now;
-        const auto due = static_cast<int>(behind_s_ / DesktopSession::k_dt_s);
-        behind_s_ -= due * DesktopSession::k_dt_s;
-        return due;
-    }
-
-  private:
-    std::int64_t last_ns_ = 0;
-    double behind_s_ = 0.0;
-};
 
 // Clears the input that applies to the first step only, if a poll is followed by several steps.
 // Buttons that are held down stay.
@@ -87,6 +67,10 @@ class Loop {
         inspector_.gizmos = stage.gizmos;
         inspector_.turn_to = stage.page;
         hold_mouse(!stage.panels.inspector && !stage.panels.menu);
+        if (viewpoint_ == PlayerViewpoint::free) {
+            viewpoint_ = PlayerViewpoint::eyes;
+            look_from(PlayerViewpoint::free);
+        }
     }
 
     PlayEnd run() {
@@ -131,6 +115,9 @@ class Loop {
                 hold_mouse(!panels.inspector && !panels.menu);
                 break;
             case PlayKey::view:
+                if (stage_.match != nullptr && stage_.match->peer.watches()) {
+                    return;  // nobody's eyes
+                }
                 look_from(static_cast<PlayerViewpoint>((static_cast<int>(viewpoint_) + 1) %
                                                        k_player_viewpoints));
                 break;
@@ -165,7 +152,10 @@ class Loop {
 
     // Not const: outside cameras update the walls they avoid.
     Pose camera_ws() {
-        const RenderPose& render = scene().world().render_pose.at(player());
+        const std::size_t index = scene().world().render_pose.find_index(player());
+        const RenderPose& stepped = scene().world().render_pose.elements()[index];
+        const RenderPose render =
+            index < offsets_.size() ? displaced(stepped, offsets_[index]) : stepped;
         switch (viewpoint_) {
             case PlayerViewpoint::mirror:
                 return outside_.before(render);
@@ -261,6 +251,10 @@ class Loop {
                 input.commands = stage_.session.advance_devices(input_, end_s, input.samples);
                 clear_momentary_input(input_);
             });
+        if (stage_.match->peer.watches()) {
+            free_.fly(input_, ticks * DesktopSession::k_dt_s);
+            clear_momentary_input(input_);
+        }
         ends_ = ends_ || !stage_.match->goes_on();
         if (ticks > 0) {
             note_frame(us_since(begin_ns) / ticks);
@@ -271,6 +265,10 @@ class Loop {
     }
 
     void draw(double dt_s) {
+        if (stage_.match != nullptr) {
+            note_shown_offsets(stage_.match->peer, scene(), offsets_);
+            stage_.view.show_displaced(offsets_);
+        }
         ui_.wheel = std::exchange(wheel_, 0.0F);
         ui_.text = std::exchange(typed_, {});
         if (holds_mouse_) {
@@ -363,9 +361,10 @@ class Loop {
     FreeCamera free_;
     PlayerViewpoint viewpoint_;
     InspectorMemory inspector_;
-    std::optional<hh::Vec3> last_ws_;  // place of the play space in the last picture
-    std::vector<Line> marks_;          // reused memory
-    Clock clock_;
+    std::optional<hh::Vec3> last_ws_;   // place of the play space in the last picture
+    std::vector<ShownOffset> offsets_;  // indexed by player; empty when playing alone
+    std::vector<Line> marks_;           // reused memory
+    StepClock clock_{DesktopSession::k_dt_s};
     DesktopInput input_;
     DesktopInput held_;  // grips held at the last poll
     GamepadMemory gamepad_;

@@ -42,11 +42,12 @@ struct PlayStage {
     PlaySettings& settings;
     PlayPanels& panels;
     PlayTally& tally;
-    Image& picture;                                     // the last picture drawn
-    std::array<int, 2> picture_size;                    // width and height in pixels
-    GizmoSet gizmos;                                    // gizmos that are on at the start
-    std::string page;                                   // page of the inspector; empty: its first
-    PlayerViewpoint viewpoint = PlayerViewpoint::eyes;  // first viewpoint; must not be `free`
+    Image& picture;                   // the last picture drawn
+    std::array<int, 2> picture_size;  // width and height in pixels
+    GizmoSet gizmos;                  // gizmos that are on at the start
+    std::string page;                 // page of the inspector; empty: its first
+    PlayerViewpoint viewpoint =
+        PlayerViewpoint::eyes;  // first viewpoint; `free` begins at the eyes
     // End of the session on the scene's clock; 0: never.
     double end_s = 0.0;
     std::FILE* status = nullptr;  // gets a line every tenth of a second; may be null

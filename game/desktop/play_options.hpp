@@ -14,9 +14,10 @@ struct PlayOptions {
     // A match to join, as by open_link; empty: play alone. `scene` empty: the
     // one that its server names.
     std::string join;
-    std::string token;    // file with a token for that match; empty: none
-    std::string record;   // where the session is saved; empty: nowhere
-    std::string picture;  // a PNG of the last picture; empty: none
+    std::string token;     // file with a token for that match; empty: none
+    bool watches = false;  // true: `join` takes no slot
+    std::string record;    // where the session is saved; empty: nowhere
+    std::string picture;   // a PNG of the last picture; empty: none
     PlayerModelFiles models;
     std::string report;  // statistics and costs (.json) at the end; empty: none
     std::string status;  // a line of JSON every tenth of a second (.jsonl); empty: none

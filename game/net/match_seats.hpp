@@ -3,12 +3,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <handhold/match.h>
 
+#include "game/net/pack_state.hpp"
 #include "game/net/transport.hpp"
 
 namespace handhold {
@@ -30,10 +32,11 @@ struct MatchSeat {
     // How long nothing has come of a player, or a state has taken. Pauses of the server do not
     // count.
     double waited_s = 0.0;
-    std::vector<std::byte> state;  // a join state on its way
-    bool unpacks = false;          // the peer takes packed states
-    bool is_packed = false;        // true: `state` is packed
-    std::size_t state_sent = 0;    // bytes of it
+    std::vector<std::byte> state;         // a join state on its way
+    std::unique_ptr<StatePacker> packer;  // null: `state` is complete
+    bool unpacks = false;                 // the peer takes packed states
+    bool is_packed = false;               // true: `state` is packed
+    std::size_t state_sent = 0;           // bytes of it
     std::uint8_t state_number = 0;
     double state_credit_bytes = 0.0;  // what pacing allows now
     std::uint64_t watched_until = 0;  // spectators: the last tick that was sent

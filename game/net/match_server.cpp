@@ -7,6 +7,9 @@
 namespace handhold {
 namespace {
 
+// Join states are packed at this rate, all together: about 0.6 ms of the processor in a tick. After
+// a longer pause more at once, because a state must arrive in time.
+constexpr double k_packed_bytes_per_s = 16e6;
 // A longer time between two polls is the server's own pause.
 constexpr double k_longest_counted_s = 0.1;
 
@@ -109,10 +112,12 @@ void MatchServer::tend(double now_s) {
     metrics_left_ =
         std::min(metrics_left_ + elapsed_s * settings_.metrics.per_s, settings_.metrics.at_once);
     const double waited_s = std::min(elapsed_s, k_longest_counted_s);
+    auto to_pack_bytes = static_cast<std::size_t>(elapsed_s * k_packed_bytes_per_s);
     for (std::size_t slot = 0; slot < seats_.count(); ++slot) {
         MatchSeat& seat = seats_.at(slot);
         seat.waited_s += waited_s;
         if (seat.stage == SeatStage::joining) {
+            pack_state_of(seat, to_pack_bytes);
             send_state(seat, elapsed_s);
             const double to_send_s = static_cast<double>(seat.state.size()) / state_rate(seat);
             if (seat.waited_s > settings_.hello_within_s + to_send_s) {
@@ -184,6 +189,7 @@ void MatchServer::empty_seat(std::size_t slot, double reserved_s) {
     seat.stage = SeatStage::empty;
     seat.link = 0;
     seat.state = {};
+    seat.packer.reset();
     seat.reserved_until_s = settings_.clock() + reserved_s;
 }
 

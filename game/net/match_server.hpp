@@ -95,6 +95,7 @@ class MatchServer final : public ListenerHandler {
     void seat(LinkId link, std::size_t slot, const std::string& person, const MatchHello& hello);
     void begin_state(std::size_t slot);
     double state_rate(const MatchSeat& seat) const;
+    void pack_state_of(MatchSeat& seat, std::size_t& left_bytes);
     void send_state(MatchSeat& seat, double elapsed_s);
     void send_inputs(std::size_t place);
     void take_packet(LinkId link, std::span<const std::byte> packet);

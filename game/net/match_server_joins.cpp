@@ -1,9 +1,9 @@
 // How peers are admitted to a match, and get its state.
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "game/net/match_server.hpp"
-#include "game/net/pack_state.hpp"
 
 namespace handhold {
 namespace {
@@ -127,10 +127,25 @@ void MatchServer::begin_state(std::size_t slot) {
     ++counts_.states;
     counts_.state_bytes += seat.state.size();
     seat.is_packed = seat.unpacks && has_packing();
+    seat.packer.reset();
     if (seat.is_packed) {
-        seat.state = pack_state(seat.state);
+        seat.packer = StatePacker::begin(std::exchange(seat.state, {}));
+    } else {
+        counts_.state_bytes_packed += seat.state.size();
     }
-    counts_.state_bytes_packed += seat.state.size();
+}
+
+// `left_bytes`: what may still be packed in this poll, for all seats.
+void MatchServer::pack_state_of(MatchSeat& seat, std::size_t& left_bytes) {
+    if (seat.packer == nullptr || left_bytes == 0) {
+        return;
+    }
+    left_bytes -= seat.packer->advance(left_bytes);
+    if (seat.packer->is_done()) {
+        seat.state = seat.packer->take();
+        seat.packer.reset();
+        counts_.state_bytes_packed += seat.state.size();
+    }
 }
 
 // The inputs after the state are forgotten after five seconds, so it must arrive before.
@@ -168,7 +183,7 @@ void MatchServer::take_joined(LinkId link, std::span<const std::byte> message) {
     }
     MatchSeat& seat = seats_.at(*slot);
     if (seat.stage != SeatStage::joining || *number != seat.state_number ||
-        seat.state_sent < seat.state.size()) {
+        seat.packer != nullptr || seat.state_sent < seat.state.size()) {
         return;
     }
     log(seats_.is_watching(*slot) ? "watches" : "plays",

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <memory>
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 #include <zstd.h>
 
@@ -8,25 +10,73 @@
 
 namespace handhold {
 
+namespace {
+
+void check_zstd(std::size_t result) {
+    if (ZSTD_isError(result) != 0) {
+        throw std::runtime_error(ZSTD_getErrorName(result));
+    }
+}
+
+class ZstdPacker final : public StatePacker {
+  public:
+    explicit ZstdPacker(std::vector<std::byte> state)
+        : state_(std::move(state)),
+          packed_(ZSTD_compressBound(state_.size())),
+          context_(ZSTD_createCCtx(), ZSTD_freeCCtx) {
+        constexpr int k_level = 3;
+        if (context_ == nullptr) {
+            throw std::bad_alloc();
+        }
+        ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_compressionLevel, k_level);
+        ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_checksumFlag, 1);
+        check_zstd(ZSTD_CCtx_setPledgedSrcSize(context_.get(), state_.size()));
+    }
+
+    std::size_t advance(std::size_t bytes) override {
+        const std::size_t before = read_;
+        ZSTD_inBuffer in = {state_.data(), std::min(state_.size(), read_ + bytes), read_};
+        ZSTD_outBuffer out = {packed_.data(), packed_.size(), written_};
+        const bool is_last = in.size == state_.size();
+        // There is room for the whole result, so one call takes all of the part.
+        const std::size_t left =
+            ZSTD_compressStream2(context_.get(), &out, &in, is_last ? ZSTD_e_end : ZSTD_e_continue);
+        check_zstd(left);
+        read_ = in.pos;
+        written_ = out.pos;
+        is_done_ = is_last && left == 0;
+        return read_ - before;
+    }
+    bool is_done() const override { return is_done_; }
+    std::vector<std::byte> take() override {
+        packed_.resize(written_);
+        return std::move(packed_);
+    }
+
+  private:
+    std::vector<std::byte> state_;
+    std::vector<std::byte> packed_;
+    std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context_;
+    std::size_t read_ = 0;
+    std::size_t written_ = 0;
+    bool is_done_ = false;
+};
+
+}  // namespace
+
 bool has_packing() { return true; }
 
-std::vector<std::byte> pack_state(std::span<const std::byte> state) {
-    constexpr int k_level = 3;
-    std::vector<std::byte> out(ZSTD_compressBound(state.size()));
-    const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(),
-                                                                       ZSTD_freeCCtx);
-    if (context == nullptr) {
-        throw std::bad_alloc();
+std::unique_ptr<StatePacker> StatePacker::begin(std::vector<std::byte> state) {
+    return std::make_unique<ZstdPacker>(std::move(state));
+}
+
+std::vector<std::byte> pack_state(std::vector<std::byte> state) {
+    const std::size_t size = state.size();
+    ZstdPacker packer(std::move(state));
+    while (!packer.is_done()) {
+        packer.advance(size);
     }
-    ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, k_level);
-    ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
-    const std::size_t size =
-        ZSTD_compress2(context.get(), out.data(), out.size(), state.data(), state.size());
-    if (ZSTD_isError(size) != 0) {
-        throw std::runtime_error(ZSTD_getErrorName(size));
-    }
-    out.resize(size);
-    return out;
+    return packer.take();
 }
 
 std::optional<std::vector<std::byte>> unpack_state(std::span<const std::byte> packed,

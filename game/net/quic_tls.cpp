@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdlib>
 #include <stdexcept>
 
 #include <arpa/inet.h>
@@ -145,7 +146,15 @@ std::unique_ptr<TlsCredentials> TlsCredentials::of_peer(const std::string& host,
     out->host_ = host;
     out->fingerprint_ = fingerprint;
     if (fingerprint.empty()) {
-        (void)gnutls_certificate_set_x509_system_trust(out->credentials_);  // none: nobody is
+        // As OpenSSL does for wss://. None: nobody is trusted.
+        // NOLINTNEXTLINE(concurrency-mt-unsafe): no thread changes the environment
+        const char* const file = std::getenv("SSL_CERT_FILE");
+        if (file != nullptr) {
+            (void)gnutls_certificate_set_x509_trust_file(out->credentials_, file,
+                                                         GNUTLS_X509_FMT_PEM);
+        } else {
+            (void)gnutls_certificate_set_x509_system_trust(out->credentials_);
+        }
     }
     return out;
 }

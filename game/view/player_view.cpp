@@ -162,7 +162,9 @@ void PlayerView::add_player(std::size_t index, BodyFigures::Seen seen, RenderFra
     constexpr std::size_t k_who_plays = 0;
     const World& world = scene_->world();
     const Entity player = world.render_pose.owners()[index];
-    const RenderPose& render = world.render_pose.elements()[index];
+    const RenderPose& stepped = world.render_pose.elements()[index];
+    const RenderPose render =
+        index < offsets_.size() ? displaced(stepped, offsets_[index]) : stepped;
     const std::size_t first_own = frame.instances.size();
     if (scene_->arena) {
         const bool is_blue = team_of(index) == ArenaTeam::blue;
@@ -207,9 +209,30 @@ void PlayerView::add_player(std::size_t index, BodyFigures::Seen seen, RenderFra
     }
 }
 
+// The scene's instances come first, in the order of its visuals. A body that several hands hold
+// follows the first one.
+void PlayerView::displace_held_bodies(RenderFrame& frame) const {
+    const World& world = scene_->world();
+    for (std::size_t i = 0; i < scene_->visuals.size() && !offsets_.empty(); ++i) {
+        for (std::size_t hand = 0; hand < world.grab.size(); ++hand) {
+            const Grab& grab = world.grab.elements()[hand];
+            if (grab.kind != GripKind::held || grab.body != scene_->visuals[i].body) {
+                continue;
+            }
+            const HandOwner& owner = world.hand_owner.at(world.grab.owners()[hand]);
+            const std::size_t player = world.render_pose.find_index(owner.player);
+            if (player < offsets_.size()) {
+                frame.instances[i].pose_ws.position += offsets_[player].hands[index_of(owner.side)];
+            }
+            break;
+        }
+    }
+}
+
 RenderFrame PlayerView::make_frame(const Camera& camera, std::optional<std::size_t> without_head,
                                    std::span<const Line> marks) {
     RenderFrame frame = make_scene_frame(*scene_, visuals_);
+    displace_held_bodies(frame);
     hands_.begin();
     body_.begin();
     const Column<RenderPose>& players = scene_->world().render_pose;

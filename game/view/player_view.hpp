@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "components/render.hpp"
 #include "game/render/renderer.hpp"
 #include "game/scene/scene.hpp"
 #include "game/view/player_models.hpp"
+#include "game/view/shown_offset.hpp"
 
 namespace handhold {
 
@@ -40,6 +40,11 @@ class PlayerView {
     void show_controls(std::size_t index, const std::array<ControlValues, k_hand_count>& values) {
         controls_ = PlayerControls{index, values};
     }
+    // Draws players, and what their hands hold, displaced; indexed by player, and the rest of them
+    // are not.
+    void show_displaced(std::span<const ShownOffset> offsets) {
+        offsets_.assign(offsets.begin(), offsets.end());
+    }
     // Shows a sheet of panels in the world; nullopt: none.
     void show_sheet(const std::optional<Sheet>& sheet) { sheet_ = sheet; }
     // The OpenGL context. Valid as long as the view.
@@ -50,6 +55,7 @@ class PlayerView {
     PlayerView(const Scene& scene, PlayerModels models, Renderer renderer);
     RenderFrame make_frame(const Camera& camera, std::optional<std::size_t> without_head,
                            std::span<const Line> marks);
+    void displace_held_bodies(RenderFrame& frame) const;
     void add_player(std::size_t index, BodyFigures::Seen seen, RenderFrame& frame);
     void add_hand(HandSide side, const RenderPose::Hand& hand, const Quat& forearm_ws,
                   const ControlValues& controls, RenderFrame& frame);
@@ -78,6 +84,7 @@ class PlayerView {
     std::optional<ControllerFigures> controllers_;
     std::optional<PlayerControls> controls_;
     std::optional<Sheet> sheet_;
+    std::vector<ShownOffset> offsets_;
     GhostSettings ghosts_;
     bool shows_hand_lines_ = true;
     float hidden_lines_ = RenderFrame{}.hidden_lines;

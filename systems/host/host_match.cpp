@@ -348,6 +348,21 @@ hh_result hh_match_hash(const hh_match* match, uint64_t tick, uint64_t* hash) {
     });
 }
 
+hh_result hh_match_shown_offsets(const hh_match* match, uint32_t slot, hh_vec3* head, hh_vec3* left,
+                                 hh_vec3* right) {
+    return call([&] {
+        const hh_match& of_host = match_of(match);
+        require(head != nullptr && left != nullptr && right != nullptr, HH_ERROR_NULL,
+                "an output is null");
+        const std::size_t wanted = slot_of(of_host, slot);
+        const PlayerPoints offset =
+            of_host.client != nullptr ? of_host.client->shown_offsets()[wanted] : PlayerPoints{};
+        *head = to_c(offset.head);
+        *left = to_c(offset.hands[index_of(HandSide::left)]);
+        *right = to_c(offset.hands[index_of(HandSide::right)]);
+    });
+}
+
 hh_result hh_match_events_sized(const hh_match* match, const hh_match_event** events, size_t* count,
                                 size_t event_size) {
     return call([&] {

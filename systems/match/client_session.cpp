@@ -39,6 +39,7 @@ void ClientSession::start_here() {
     hash_tick_ = 0;
     hashes_.forget();
     needs_state_ = false;
+    shown_.forget();
 }
 
 std::optional<FileError> ClientSession::join(std::span<const std::byte> state,
@@ -174,6 +175,7 @@ void ClientSession::go_back() {
         return;
     }
     has_wrong_ = false;
+    shown_.begin_correction(match_);
     const std::size_t place = (first_wrong_ - 1) % k_window;
     states_[place].restore(match_.world);
     if (match_.host.restore != nullptr) {
@@ -182,6 +184,7 @@ void ClientSession::go_back() {
     while (now() < present) {
         step_once(false);
     }
+    shown_.end_correction(match_);
     const std::uint64_t depth = present - first_wrong_ + 1;
     ++counts_.rollbacks;
     counts_.steps_again += depth;
@@ -206,6 +209,7 @@ bool ClientSession::advance(const MatchInput& own, bool is_shown) {
         history.set(tick, input, InputKind::own);
     }
     step_once(is_shown);
+    shown_.advance(match_.dt_s);
     ++counts_.ticks;
     note_hash();
     return true;

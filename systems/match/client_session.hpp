@@ -12,6 +12,7 @@
 #include "systems/match/match_world.hpp"
 #include "systems/match/shared/predict_input.hpp"
 #include "systems/match/shared/send_marks.hpp"
+#include "systems/match/shown_offsets.hpp"
 #include "systems/match/tick_pacer.hpp"
 #include "systems/snapshot/simulated_state.hpp"
 
@@ -84,6 +85,8 @@ class ClientSession {
     // True if the server's hash of a confirmed tick differs from this world's, or the server has
     // dropped inputs that this machine lacks: the host must fetch a new state and call join.
     bool needs_state() const { return needs_state_; }
+    // What to add to the drawn positions of players; indexed by slot, m.
+    const PointsOfAll& shown_offsets() const { return shown_.offsets(); }
     const ClientCounts& counts() const { return counts_; }
     const StageStats& stats() const { return stats_; }  // statistics of the last step
     const InputHistory& inputs_of(std::size_t slot) const { return histories_[slot]; }
@@ -116,6 +119,7 @@ class ClientSession {
     bool is_start_kept_ = false;  // the state of the first tick is kept by the first advance
     MatchTick first_wrong_ = 0;   // a tick that was stepped with other inputs than the final ones
     bool has_wrong_ = false;
+    ShownOffsets shown_;
     SendMarks marks_;
     std::uint64_t packets_ = 0;
     TickPacer pacer_;

@@ -16,6 +16,7 @@
 #include "tools/lab/hands_picture.hpp"
 #include "tools/lab/lab_scene.hpp"
 #include "tools/lab/match_command.hpp"
+#include "tools/lab/match_film.hpp"
 #include "tools/lab/match_scene.hpp"
 #include "tools/lab/recorded_grips.hpp"
 #include "tools/lab/shown_body_command.hpp"
@@ -178,6 +179,35 @@ void add_match_options(CLI::App& match, lab::MatchOptions& options) {
     match.add_option("--json", options.json, "Output: figures")->required();
 }
 
+void add_match_film_options(CLI::App& film, lab::MatchFilmOptions& options) {
+    film.add_option("--scene", options.scene, "A built-in scene, a scene file or a level");
+    film.add_option("--input", options.inputs, "Two recorded sessions (.csv)")
+        ->required()
+        ->expected(2);
+    film.add_option("--out", options.out, "Output: a folder for pictures")
+        ->required()
+        ->check(CLI::ExistingDirectory);
+    film.add_option("--rtt-ms", options.rtt_ms, "Round trip without jitter")
+        ->check(number_in(0.0, 1000.0));
+    film.add_option("--jitter-ms", options.jitter_ms, "Largest extra delay, each way")
+        ->check(number_in(0.0, 500.0));
+    film.add_option("--loss", options.loss, "Share of lost packets")->check(number_in(0.0, 1.0));
+    film.add_option("--from-s", options.from_s, "Time of the first picture")
+        ->check(number_in(1.0, 3600.0));
+    film.add_option("--seconds", options.seconds, "Length")->check(number_in(0.1, 600.0));
+    film.add_option("--ticks", options.ticks_a_picture, "Ticks between two pictures")
+        ->check(CLI::Range(1, 90));
+    film.add_flag("!--as-stepped", options.hides_corrections,
+                  "Draws players where they were stepped, without hiding corrections");
+    film.add_option("--camera", options.from_m,
+                    "Metres to the right of, above and before the player")
+        ->delimiter(',');
+    film.add_option("--fov", options.fov_deg, "Vertical, degrees")->check(number_in(5.0, 120.0));
+    film.add_option("--width", options.width_px, "Of a picture")->check(CLI::Range(64, 4096));
+    film.add_option("--height", options.height_px, "Of a picture")->check(CLI::Range(64, 4096));
+    film.add_option("--seed", options.seed, "Seed of the network");
+}
+
 void add_proxy_options(CLI::App& proxy, lab::ProxyOptions& options) {
     const CLI::Validator share = number_in(0.0, 1.0);
     proxy.add_option("--to", options.server_port, "Port of the server on 127.0.0.1")
@@ -235,6 +265,9 @@ std::vector<Command> make_commands(CLI::App& app) {
                 app, "match",
                 "A match over a simulated network: equal hashes, bytes, rollbacks and their cost",
                 add_match_options, lab::match_command),
+            make_command(app, "match-film",
+                         "Draws a player at the same ticks as two machines of a match show them",
+                         add_match_film_options, lab::match_film_command),
             make_command(app, "proxy", "Delays and drops what passes between two programs",
                          add_proxy_options, lab::proxy_command)};
 }

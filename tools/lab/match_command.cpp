@@ -33,6 +33,15 @@ Json mean_and_p99_of(const Series& series) {
     return {{"mean", mean_of(series)}, {"p99", series.quantile(0.99)}};
 }
 
+// A tick's motion beyond the true one.
+Json jumps_of(const Series& stepped, const Series& shown) {
+    return {{"ticks", stepped.values.size()},
+            {"stepped_p99", k_mm_per_m * stepped.quantile(0.99)},
+            {"shown_p99", k_mm_per_m * shown.quantile(0.99)},
+            {"stepped_max", k_mm_per_m * stepped.max()},
+            {"shown_max", k_mm_per_m * shown.max()}};
+}
+
 Json json_of(const MatchOptions& options, const MatchFigures& figures) {
     const double filled_share =
         figures.asked > 0 ? static_cast<double>(figures.filled) / static_cast<double>(figures.asked)
@@ -67,6 +76,14 @@ Json json_of(const MatchOptions& options, const MatchFigures& figures) {
         {"others_hand_error_mm",
          {{"median", k_mm_per_m * figures.others_hand_m.quantile(0.5)},
           {"p95", k_mm_per_m * figures.others_hand_m.quantile(0.95)}}},
+        {"others_shown_error_mm",
+         {{"median", k_mm_per_m * figures.others_shown_m.quantile(0.5)},
+          {"p95", k_mm_per_m * figures.others_shown_m.quantile(0.95)}}},
+        {"beyond_true_motion_mm",
+         {{"own_view", jumps_of(figures.own_view_raw_m, figures.own_view_m)},
+          {"own_view_shared_load",
+           jumps_of(figures.own_view_shared_raw_m, figures.own_view_shared_m)},
+          {"others_hands", jumps_of(figures.others_jump_raw_m, figures.others_jump_m)}}},
         {"grips", figures.grips},
         {"shared_holds", figures.shared_holds}};
 }

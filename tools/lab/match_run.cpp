@@ -24,21 +24,36 @@ double us_since(std::int64_t begin_ns) {
     return 1e-3 * static_cast<double>(stage_now_ns() - begin_ns);
 }
 
-// Positions of all players' tracked hands, in the world.
-using HandsOfAll = std::array<std::array<Vec3, k_hand_count>, k_most_match_players>;
-void note_hands(const MatchWorld& match, HandsOfAll& out) {
+PointsOfAll moved_by(const PointsOfAll& points, const PointsOfAll& offsets) {
+    PointsOfAll out = points;
+    for (std::size_t slot = 0; slot < out.size(); ++slot) {
+        out[slot].head += offsets[slot].head;
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            out[slot].hands[side] += offsets[slot].hands[side];
+        }
+    }
+    return out;
+}
+
+// True if a hand of this player and one of another hold the same body.
+bool shares_a_body(const MatchWorld& match, std::size_t slot) {
     const World& world = match.world;
-    for (std::size_t i = 0; i < world.hand_owner.size(); ++i) {
-        const HandOwner& owner = world.hand_owner.elements()[i];
-        const Entity hand = world.hand_owner.owners()[i];
-        for (std::size_t slot = 0; slot < match.player_count; ++slot) {
-            if (find_by_id(world, match.players[slot]) == owner.player) {
-                const Pose hand_ws = world.player_origin.at(owner.player).pose_ws *
-                                     world.hand_tracking.at(hand).pose_ps;
-                out[slot][index_of(owner.side)] = hand_ws.position;
+    const Entity player = find_by_id(world, match.players[slot]);
+    for (std::size_t a = 0; a < world.grab.size(); ++a) {
+        const Grab& own = world.grab.elements()[a];
+        if (own.kind == GripKind::none ||
+            world.hand_owner.at(world.grab.owners()[a]).player != player) {
+            continue;
+        }
+        for (std::size_t b = 0; b < world.grab.size(); ++b) {
+            const Grab& other = world.grab.elements()[b];
+            if (other.kind != GripKind::none && other.body == own.body &&
+                world.hand_owner.at(world.grab.owners()[b]).player != player) {
+                return true;
             }
         }
     }
+    return false;
 }
 
 struct Peer {
@@ -53,7 +68,8 @@ struct Peer {
     double down_bytes = 0.0;
     InputsBefore before = {&k_away_input, &k_away_input, &k_away_input};
     std::array<MatchInput, 4> inputs;  // the last ones
-    std::array<HandsOfAll, k_kept> first_shown;
+    std::array<PointsOfAll, k_kept> first_stepped;
+    std::array<PointsOfAll, k_kept> first_shown;  // drawn positions
 };
 
 class MatchRun {
@@ -73,7 +89,7 @@ class MatchRun {
             server_->connect(i);
         }
         server_hashes_.push_back(hash_simulated(scene_.world()));
-        server_hands_.emplace_back();
+        note_server();
     }
 
     MatchFigures run() {
@@ -131,8 +147,7 @@ class MatchRun {
                 break;
             }
             server_hashes_.push_back(hash_simulated(scene_.world()));
-            server_hands_.emplace_back();
-            note_hands(scene_.match(k_match_tick_s), server_hands_.back());
+            note_server();
             holds_.add(scene_.world());
             if (is_warm()) {
                 figures_.server_tick_us.add(server_us_);
@@ -152,6 +167,15 @@ class MatchRun {
             peers_[i]->down_bytes += static_cast<double>(size) + options_.network.overhead_bytes;
             figures_.largest_packet = std::max<std::uint64_t>(figures_.largest_packet, size);
             network_.send(place_of_server(), i, std::span(packet).first(size), now_s_);
+        }
+    }
+
+    void note_server() {
+        const MatchWorld match = scene_.match(k_match_tick_s);
+        note_points(match, server_points_.emplace_back());
+        auto& shares = server_shares_.emplace_back();
+        for (std::size_t i = 0; i < peer_count(); ++i) {
+            shares[i] = shares_a_body(match, i);
         }
     }
 
@@ -203,7 +227,9 @@ class MatchRun {
             }
             measure_input(peer, own);
         }
-        note_hands(peer.scene->match(k_match_tick_s), peer.first_shown[tick % k_kept]);
+        PointsOfAll& stepped = peer.first_stepped[tick % k_kept];
+        note_points(peer.scene->match(k_match_tick_s), stepped);
+        peer.first_shown[tick % k_kept] = moved_by(stepped, peer.session->shown_offsets());
     }
 
     void measure_input(Peer& peer, const MatchInput& own) {
@@ -228,14 +254,49 @@ class MatchRun {
             }
             ++figures_.hashes_compared;
             figures_.hashes_different += session.hash_at(tick) != server_hashes_[tick] ? 1U : 0U;
-            for (std::size_t slot = 0; slot < peer_count() && is_warm(); ++slot) {
-                for (std::size_t side = 0; side < k_hand_count && slot != i; ++side) {
-                    const Vec3& shown = peer.first_shown[tick % k_kept][slot][side];
-                    figures_.others_hand_m.add((shown - server_hands_[tick][slot][side]).norm());
-                }
+            if (is_warm()) {
+                compare_shown(i, tick);
             }
         }
         peer.compared_until = std::max(peer.compared_until, until);
+    }
+
+    void compare_shown(std::size_t i, MatchTick tick) {
+        const Peer& peer = *peers_[i];
+        const PointsOfAll& truth = server_points_[tick];
+        const PointsOfAll& truth_before = server_points_[tick - 1];
+        const auto now = [tick](const auto& kept) -> const PointsOfAll& {
+            return kept[tick % k_kept];
+        };
+        const auto before = [tick](const auto& kept) -> const PointsOfAll& {
+            return kept[(tick - 1) % k_kept];
+        };
+        const auto view_beyond_m = [&](const auto& kept) {
+            return (now(kept)[i].head - before(kept)[i].head - truth[i].head + truth_before[i].head)
+                .norm();
+        };
+        const bool shares = server_shares_[tick][i];
+        (shares ? figures_.own_view_shared_raw_m : figures_.own_view_raw_m)
+            .add(view_beyond_m(peer.first_stepped));
+        (shares ? figures_.own_view_shared_m : figures_.own_view_m)
+            .add(view_beyond_m(peer.first_shown));
+        for (std::size_t slot = 0; slot < peer_count(); ++slot) {
+            for (std::size_t side = 0; side < k_hand_count && slot != i; ++side) {
+                const Vec3& true_m = truth[slot].hands[side];
+                const Vec3 true_step_m = true_m - truth_before[slot].hands[side];
+                const auto jump_m = [&](const auto& kept) {
+                    return (now(kept)[slot].hands[side] - before(kept)[slot].hands[side] -
+                            true_step_m)
+                        .norm();
+                };
+                figures_.others_hand_m.add(
+                    (now(peer.first_stepped)[slot].hands[side] - true_m).norm());
+                figures_.others_shown_m.add(
+                    (now(peer.first_shown)[slot].hands[side] - true_m).norm());
+                figures_.others_jump_raw_m.add(jump_m(peer.first_stepped));
+                figures_.others_jump_m.add(jump_m(peer.first_shown));
+            }
+        }
     }
 
     void end_second() {
@@ -254,7 +315,8 @@ class MatchRun {
     std::unique_ptr<ServerSession> server_;
     std::vector<std::unique_ptr<Peer>> peers_;
     std::vector<std::uint64_t> server_hashes_;
-    std::vector<HandsOfAll> server_hands_;
+    std::vector<PointsOfAll> server_points_;
+    std::vector<std::array<bool, k_most_match_players>> server_shares_;
     double now_s_ = 0.0;
     double server_us_ = 0.0;  // since the last confirmed tick
     HoldsCount holds_;

@@ -38,6 +38,15 @@ struct MatchFigures {
     Series down_kbps;                // likewise, to each client
     Series input_bytes;
     Series others_hand_m;  // tracked hands of others, as first stepped, against the final ones
+    // Motion in a tick beyond the true one, as stepped and with ShownOffsets. The own view: while
+    // somebody else holds the same body too, and at other times.
+    Series own_view_shared_raw_m;
+    Series own_view_shared_m;
+    Series own_view_raw_m;
+    Series own_view_m;
+    Series others_jump_raw_m;  // hands of others
+    Series others_jump_m;
+    Series others_shown_m;  // drawn hands of others, against the final ones
     std::uint64_t largest_packet = 0;
 };
 

@@ -2,7 +2,7 @@
 // NAME=COMMAND by semicolons (tests/portability/match_peer.cpp). Other variables: match_peer.mjs. HANDHOLD_SECONDS: length, default 10.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { DrivenPeer, equalHashes, loadPeerModule, playOn, Program, socketType, whyNot } from './match_peer.mjs';
+import { DrivenPeer, equalHashes, loadPeerModule, playOn, Program, readOffer, whyNot } from './match_peer.mjs';
 
 const peers = (process.env.HANDHOLD_PEERS ?? '').split(';').filter((one) => one !== '')
     .map((one) => [one.slice(0, one.indexOf('=')), one.slice(one.indexOf('=') + 1)]);
@@ -13,11 +13,7 @@ test('peers on other targets have the hashes of the native server', { skip, time
     const joinMatch = await loadPeerModule();
     const server = new Program(context, 'serve', '--scene', 'arena', '--players', peers.length + 2);
     const { url } = await server.waitFor('serves');
-    const offer = await new Promise((done) => {
-        const socket = new (socketType())(url, 'handhold-match');
-        socket.binaryType = 'arraybuffer';
-        socket.onmessage = ({ data }) => { socket.close(); done(Buffer.from(data)); };
-    });
+    const offer = await readOffer(url);
     const driven = peers.map(([name, command]) => new DrivenPeer(context, name, command.split(' ')));
     for (const peer of driven) {
         await peer.load(offer);

@@ -6,7 +6,7 @@ import { mkdtempSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { equalHashes, game, loadPeerModule, playOn, Program, sleep, socketType, whyNot } from './match_peer.mjs';
+import { equalHashes, game, loadPeerModule, playOn, Program, readOffer, sleep, socketType, whyNot } from './match_peer.mjs';
 
 const skip = whyNot() ?? false;
 const joinMatch = skip ? null : await loadPeerModule();
@@ -79,11 +79,7 @@ test('who is not admitted reads why in one line', { skip, timeout: 100000 }, asy
 
 test('another version or level is named', { skip, timeout: 100000 }, async (context) => {
     const { url } = await serve(context, '--scene', 'reach', '--players', 2);
-    const offer = await new Promise((done) => {
-        const socket = new (socketType())(url, 'handhold-match');
-        socket.binaryType = 'arraybuffer';
-        socket.onmessage = ({ data }) => { socket.close(); done(new Uint8Array(data)); };
-    });
+    const offer = await readOffer(url);
     // Stands for a server that says something else. Bytes 5, 6: version; from 17 on the digests, eight bytes each.
     const claim = (change) => class {
         constructor() {

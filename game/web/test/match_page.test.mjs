@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { equalHashes, Program, whyNot } from './match_peer.mjs';
-import { withPage } from './page.mjs';
+import { playInPage, withPage } from './page.mjs';
 
 const skip = whyNot() ?? false;
 const seconds = Number(process.env.HANDHOLD_SECONDS ?? 10);
@@ -14,36 +14,13 @@ async function serve(context, ...words) {
 }
 const query = (url) => `?join=${encodeURIComponent(url)}`;
 
-/** Plays in the page: the player flies to a wall and grips there, again and again. Returns [tick, hash] of confirmed ticks, and what was seen. */
-const play = (page, length_s) => page.evaluate(async (wanted_s) => {
-    const hashes = new Map();
-    let gripping = 0;
-    demo.desktop.keys.add('KeyQ');
-    for (let i = 0; i < 20 * wanted_s; ++i) {
-        demo.desktop.pitch = -1.2;
-        demo.desktop.pressed.fill(i % 40 > 10);
-        if (i === 140) {
-            demo.desktop.keys.clear();
-        }
-        await new Promise((done) => setTimeout(done, 50));
-        const tick = demo.match.stats().confirmed / 180n * 180n;
-        const hash = tick > 0n ? demo.match.hash(tick) : null;
-        if (hash !== null) {
-            hashes.set(String(tick), hash);
-        }
-        gripping += demo.world.playerPose(demo.player).hands.some(({ grip }) => grip !== 0) ? 1 : 0;
-    }
-    const { ticks, rollbacks, filled, deepest } = demo.match.stats();
-    return { hashes: [...hashes], gripping, ticks: Number(ticks), rollbacks: Number(rollbacks), filled: Number(filled), deepest: Number(deepest) };
-}, length_s);
-
 test('the page plays in the arena with two native bots: equal hashes', { skip, timeout: 400000 }, async (context) => {
     const { server, url } = await serve(context, '--scene', 'arena', '--players', 4);
     const bots = new Program(context, 'bots', 2, '--join', url);
     await server.waitFor('plays', 2);
     await withPage(query(url), async ({ page, errors }) => {
         assert.equal(await page.evaluate(() => demo.error), undefined);
-        const seen = await play(page, seconds);
+        const seen = await playInPage(page, seconds);
         if (process.env.HANDHOLD_PICTURES) {
             await page.evaluate(() => { // the bots, from where the player is
                 const [{ head }, ...others] = [demo.player, ...demo.match.players].map((id) => demo.world.playerPose(id));

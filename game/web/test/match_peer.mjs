@@ -72,6 +72,13 @@ export class Program {
     }
 }
 
+/** The server's first message. */
+export const readOffer = (url) => new Promise((done) => {
+    const socket = new (socketType())(url, 'handhold-match');
+    socket.binaryType = 'arraybuffer';
+    socket.onmessage = ({ data }) => { socket.close(); done(new Uint8Array(data)); };
+});
+
 /** The page's module match.js, in a folder where 'handhold' is the package. */
 export async function loadPeerModule() {
     const folder = mkdtempSync(join(tmpdir(), 'handhold-match-'));

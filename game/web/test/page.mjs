@@ -30,3 +30,26 @@ export async function withPage(query, work, { script = '', viewport = { width: 3
         server.closeAllConnections();
     }
 }
+
+/** In a match: the player flies to a wall and grips there, again and again. Returns [tick, hash] of confirmed ticks, and what was seen. */
+export const playInPage = (page, length_s) => page.evaluate(async (wanted_s) => {
+    const hashes = new Map();
+    let gripping = 0;
+    demo.desktop.keys.add('KeyQ');
+    for (let i = 0; i < 20 * wanted_s; ++i) {
+        demo.desktop.pitch = -1.2;
+        demo.desktop.pressed.fill(i % 40 > 10);
+        if (i === 140) {
+            demo.desktop.keys.clear();
+        }
+        await new Promise((done) => setTimeout(done, 50));
+        const tick = demo.match.stats().confirmed / 180n * 180n;
+        const hash = tick > 0n ? demo.match.hash(tick) : null;
+        if (hash !== null) {
+            hashes.set(String(tick), hash);
+        }
+        gripping += demo.world.playerPose(demo.player).hands.some(({ grip }) => grip !== 0) ? 1 : 0;
+    }
+    const { ticks, rollbacks, filled, deepest } = demo.match.stats();
+    return { hashes: [...hashes], gripping, ticks: Number(ticks), rollbacks: Number(rollbacks), filled: Number(filled), deepest: Number(deepest) };
+}, length_s);

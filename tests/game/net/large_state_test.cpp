@@ -1,6 +1,7 @@
 // A level whose state is large: whoever joins gets it before the inputs after it are forgotten.
 #include <gtest/gtest.h>
 
+#include "game/net/pack_state.hpp"
 #include "tests/game/net/loopback_match.hpp"
 
 namespace handhold::large_state_test {
@@ -42,6 +43,28 @@ TEST(LargeState, OfMoreThanTwoAndAHalfMegabytesIsJoined) {
         RecordProperty(is_quic ? "quic_datagrams" : "state_bytes",
                        static_cast<int>(is_quic ? match.listener().counts().sent_datagrams
                                                 : match.server->counts().state_bytes));
+    }
+}
+
+// How long the match's thread is busy at once while a player joins, with packing and without.
+TEST(LargeState, IsPackedInParts) {
+    if (!has_network() || !has_packing()) {
+        GTEST_SKIP() << "built without a network, or without zstd";
+    }
+    HH_NEEDS_REAL_TIME();
+    for (const bool is_packed : {false, true}) {
+        test::LoopbackMatch match(
+            2, [](MatchServerSettings& settings) { settings.tick_s = 1.0 / 90.0; }, {},
+            crowded_match);
+        test::LoopbackPeer peer(2, 1, {}, crowded_match);
+        peer.settings.unpacks = is_packed;
+        match.run(0.2);
+        match.longest_poll_s = 0.0;
+        peer.connect(match.link());
+        match.others = [&peer] { peer.poll(); };
+        EXPECT_TRUE(match.run_until(30.0, [&] { return peer.plays(); })) << peer.peer->why();
+        RecordProperty(is_packed ? "longest_poll_us_packed" : "longest_poll_us",
+                       static_cast<int>(1e6 * match.longest_poll_s));
     }
 }
 

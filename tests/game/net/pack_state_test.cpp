@@ -38,6 +38,24 @@ TEST_F(PackStateTest, WhatWasPackedIsUnpacked) {
     }
 }
 
+TEST_F(PackStateTest, PartsMakeAWholeAndNoneIsLargerThanAsked) {
+    for (const std::size_t size : {1U, 64U << 10U, 200'000U}) {
+        const std::vector<std::byte> state = state_of(size);
+        const std::unique_ptr<StatePacker> packer = StatePacker::begin(state);
+        std::size_t packed = 0;
+        for (int part = 0; !packer->is_done() && part < 100; ++part) {
+            const std::size_t now = packer->advance(10'000);
+            EXPECT_LE(now, 10'000U);
+            packed += now;
+        }
+        ASSERT_TRUE(packer->is_done());
+        EXPECT_EQ(packed, size);
+        const auto unpacked = unpack_state(packer->take(), StatePiece::k_most_total);
+        ASSERT_TRUE(unpacked.has_value());
+        EXPECT_TRUE(*unpacked == state);
+    }
+}
+
 TEST_F(PackStateTest, DamagedAndCutStatesAreRefused) {
     const std::vector<std::byte> state = state_of(10'000);
     const std::vector<std::byte> packed = pack_state(state);

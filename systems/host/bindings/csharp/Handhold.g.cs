@@ -1886,6 +1886,8 @@ namespace Handhold {
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_match_hash(IntPtr match, ulong tick, ulong* hash);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_match_shown_offsets(IntPtr match, uint slot, Vec3* head, Vec3* left, Vec3* right);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_match_events_sized(IntPtr match, MatchEvent** events, UIntPtr* count, UIntPtr event_size);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_default_match_stats_sized(MatchStats* filled, UIntPtr size);

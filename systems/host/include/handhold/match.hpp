@@ -195,6 +195,17 @@ class Match {
     Maybe<std::uint64_t> hash(std::uint64_t tick) const {
         return value<std::uint64_t>([&](auto* out) { return hh_match_hash(match_, tick, out); });
     }
+    // What to add to drawn positions: hh_match_shown_offsets. Indexed by hh_side: hands.
+    struct ShownOffsets {
+        hh_vec3 head{};
+        std::array<hh_vec3, 2> hands{};
+    };
+    Maybe<ShownOffsets> shown_offsets(std::uint32_t slot) const {
+        return value<ShownOffsets>([&](auto* out) {
+            return hh_match_shown_offsets(match_, slot, &out->head, &out->hands[HH_LEFT],
+                                          &out->hands[HH_RIGHT]);
+        });
+    }
     // Events of the last call that stepped. Valid until the next one.
     std::span<const hh_match_event> events() const {
         const hh_match_event* events = nullptr;

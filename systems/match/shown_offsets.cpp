@@ -1,0 +1,67 @@
+#include "systems/match/shown_offsets.hpp"
+
+#include <algorithm>
+
+namespace handhold {
+namespace {
+
+// 0.05 = exp(-3): the time constant is a third.
+constexpr double k_time_constants = 3.0;
+
+void add_correction(const Vec3& before, const Vec3& after, Vec3& offset) {
+    offset += before - after;
+    if (offset.norm() > ShownOffsets::k_most_m) {
+        offset = Vec3::Zero();
+    }
+}
+
+}  // namespace
+
+void note_points(const MatchWorld& match, PointsOfAll& out) {
+    const World& world = match.world;
+    out = {};
+    for (std::size_t slot = 0; slot < match.player_count; ++slot) {
+        const Entity player = find_by_id(world, match.players[slot]);
+        if (const PlayerOrigin* const origin = world.player_origin.find(player)) {
+            const Vec3& head_ps = world.head_tracking.at(player).pose_ps.position;
+            out[slot].head = transform_point(origin->pose_ws, head_ps);
+        }
+        for (std::size_t i = 0; i < world.hand_owner.size(); ++i) {
+            const HandOwner& owner = world.hand_owner.elements()[i];
+            if (owner.player != player) {
+                continue;
+            }
+            const Entity hand = world.hand_owner.owners()[i];
+            const Grab& grab = world.grab.at(hand);
+            const BodyPose* const held =
+                grab.kind != GripKind::none ? world.body_pose.find(grab.body) : nullptr;
+            out[slot].hands[index_of(owner.side)] =
+                held != nullptr ? transform_point(held->pose_ws, grab.anchor_bs.position)
+                                : transform_point(world.player_origin.at(player).pose_ws,
+                                                  world.hand_tracking.at(hand).pose_ps.position);
+        }
+    }
+}
+
+void ShownOffsets::end_correction(const MatchWorld& match) {
+    note_points(match, after_);
+    for (std::size_t slot = 0; slot < match.player_count; ++slot) {
+        add_correction(before_[slot].head, after_[slot].head, offsets_[slot].head);
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            add_correction(before_[slot].hands[side], after_[slot].hands[side],
+                           offsets_[slot].hands[side]);
+        }
+    }
+}
+
+void ShownOffsets::advance(double dt_s) {
+    const double left = std::max(0.0, 1.0 - k_time_constants * dt_s / k_shown_correction_s);
+    for (PlayerPoints& offset : offsets_) {
+        offset.head *= left;
+        for (Vec3& hand : offset.hands) {
+            hand *= left;
+        }
+    }
+}
+
+}  // namespace handhold

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+
+#include "components/world.hpp"
+#include "systems/match/match_world.hpp"
+
+namespace handhold {
+
+// Points that a player is recognised by, in the world.
+struct PlayerPoints {
+    Vec3 head = Vec3::Zero();
+    // Indexed by HandSide: the tracked hand, or where a gripping hand holds.
+    std::array<Vec3, k_hand_count> hands = {Vec3::Zero(), Vec3::Zero()};
+};
+using PointsOfAll = std::array<PlayerPoints, k_most_match_players>;  // indexed by slot
+
+// Of the players that are in the world; the others' are zero.
+void note_points(const MatchWorld& match, PointsOfAll& out);
+
+// What a client adds to drawn positions, so that a correction of wrong guesses moves them within
+// k_shown_correction_s instead of at once: the positions before the correction less those after it,
+// less and less. State for the eye only; it is never part of the world.
+//
+// A player's own head moves by a correction when somebody else pulls at what they hold: that offset
+// is for the own view too, with all that it shows of the player.
+class ShownOffsets {
+  public:
+    // Time after which a correction is shown but for a twentieth, s.
+    static constexpr double k_shown_correction_s = 0.12;
+    // A larger correction is no wrong guess but a teleport, and is shown at once.
+    static constexpr double k_most_m = 0.5;
+
+    // Call before and after the world went back and was stepped again to the same tick.
+    void begin_correction(const MatchWorld& match) { note_points(match, before_); }
+    void end_correction(const MatchWorld& match);
+    // Call once a tick.
+    void advance(double dt_s);
+    void forget() { offsets_ = {}; }
+
+    // Displacements, m; indexed by slot.
+    const PointsOfAll& offsets() const { return offsets_; }
+
+  private:
+    PointsOfAll before_;
+    PointsOfAll after_;
+    PointsOfAll offsets_;
+};
+
+}  // namespace handhold
