@@ -119,16 +119,16 @@ FigureKit build_neck(double length_m) {
     FigureKit kit;
     for (int i = 0; i < 4; ++i) {
         const double y = length_m * (static_cast<double>(i) + 0.2) / 4.0;
-        kit.add(joint, make_torus(0.042, 0.013, 32, 10), {Vec3(0.0, y, 0.0), upright()});
+        kit.add(joint, make_torus(0.052, 0.014, 32, 10), {Vec3(0.0, y, 0.0), upright()});
     }
-    kit.add(metal, make_cylinder(Vec3::Zero(), Vec3(0.0, length_m, 0.0), 0.034, 24));
+    kit.add(metal, make_cylinder(Vec3::Zero(), Vec3(0.0, length_m, 0.0), 0.046, 24));
     return kit;
 }
 
 FigureKit build_clavicle(double length_m) {
     FigureKit kit;
-    kit.add(joint,
-            make_capsule(Vec3(0.0, 0.0, -0.25 * length_m), Vec3(0.0, 0.0, -length_m), 0.040, 20));
+    kit.add(joint, make_capsule(Vec3(0.0, 0.0, -0.10 * length_m), Vec3(0.0, 0.0, -0.9 * length_m),
+                                0.047, 20));
     // The shoulder's cap over the ball joint of the arm.
     Mesh cap = make_sphere(1.0, 32);
     stretch(cap, Vec3(0.060, 0.056, 0.062));

@@ -27,12 +27,14 @@ Pose carried(const Pose& bone, const Pose& above, const Pose& above_now) {
     return above_now * (inverse(above) * bone);
 }
 
-// Returns the part of a turn that a knee allows: about its hinge, and not beyond its least
-// bend.
+// Returns the part of a turn that a knee allows: about its hinge, and not beyond its least or
+// greatest bend.
 Vec3 knee_turn(const Pose& thigh_ws, const Pose& shin_ws, const Vec3& turn) {
     const Vec3 down = thigh_ws.rotation.conjugate() * (shin_ws.rotation * -Vec3::UnitY());
     const double bent = arc_tangent2(down.z(), -down.y());
-    return {std::min(turn.x(), std::max(0.0, bent - k_least_knee_rad)), 0.0, 0.0};
+    return {std::clamp(turn.x(), std::min(0.0, bent - k_knee_max_rad),
+                       std::max(0.0, bent - k_least_knee_rad)),
+            0.0, 0.0};
 }
 
 void turn_leg(const ClipTurns& turns, std::size_t first, const Pose& pelvis, const Pose& pelvis_now,

@@ -16,7 +16,7 @@ constexpr double k_brake_share = 0.6;
 // Distance between knees and between ankles, along the pelvis, in distances between the hips.
 constexpr double k_legs_apart = 0.75;
 // Least share of the leg's length between hip and ankle that a lagging foot may take.
-constexpr double k_shortest_leg = 0.05;
+constexpr double k_shortest_leg = 0.01;
 
 // The hip relative to the chest, and the longest distance from there to the ankle.
 struct Reach {

@@ -5,20 +5,40 @@
 namespace handhold {
 namespace {
 
+void turn_bone(const Quat& turn, const Vec3& centre, Pose& bone) {
+    bone = {centre + turn * (bone.position - centre), (turn * bone.rotation).normalized()};
+}
+
+// Turns pelvis and legs about a point.
+void turn_below_spine(const Quat& turn, const Vec3& centre, SpinePose& pose) {
+    turn_bone(turn, centre, pose.pelvis_ws);
+    for (SpinePose::Leg& leg : pose.legs) {
+        turn_bone(turn, centre, leg.thigh_ws);
+        turn_bone(turn, centre, leg.shin_ws);
+        turn_bone(turn, centre, leg.foot_ws);
+    }
+}
+
 // Turns spine and legs about the chest.
 void turn_below_chest(const Quat& turn, SpinePose& pose) {
     const Vec3 chest = pose.chest_ws.position;
-    const auto turn_bone = [&](Pose& bone) {
-        bone = {chest + turn * (bone.position - chest), (turn * bone.rotation).normalized()};
-    };
     for (Pose& link : pose.spine_ws) {
-        turn_bone(link);
+        turn_bone(turn, chest, link);
     }
-    turn_bone(pose.pelvis_ws);
-    for (SpinePose::Leg& leg : pose.legs) {
-        turn_bone(leg.thigh_ws);
-        turn_bone(leg.shin_ws);
-        turn_bone(leg.foot_ws);
+    turn_below_spine(turn, chest, pose);
+}
+
+// Turns pelvis and legs about the pelvis' origin until the line from the left to the right hip is
+// at most `most_rad` from `before_ws`.
+void turn_hips(const Vec3& before_ws, double most_rad, SpinePose& pose) {
+    constexpr double k_parallel = 1e-12;
+    const Vec3 line = pose.legs[1].thigh_ws.position - pose.legs[0].thigh_ws.position;
+    const Vec3 normal = line.cross(before_ws);
+    const double length = normal.norm();
+    const double angle_rad = arc_tangent2(length, line.dot(before_ws));
+    if (angle_rad > most_rad && length > k_parallel) {
+        const Quat turn = rotation_about(normal / length, angle_rad - most_rad);
+        turn_below_spine(turn, pose.pelvis_ws.position, pose);
     }
 }
 
@@ -28,7 +48,8 @@ void limit_pelvis(const LimitPelvisIo& io) {
     for (std::size_t index = 0; index < io.pose.size(); ++index) {
         const Entity player = io.pose.owners()[index];
         SpinePose& pose = io.pose.elements()[index];
-        ShownJoint& pelvis = io.memory.at(player).pelvis;
+        SpineMemory& memory = io.memory.at(player);
+        ShownJoint& pelvis = memory.pelvis;
         const auto& [origin_ws, scale] = io.origin.at(player);
         const Mat3 to_ws = origin_ws.rotation.toRotationMatrix();
         const Vec3 wanted_m =
@@ -52,6 +73,7 @@ void limit_pelvis(const LimitPelvisIo& io) {
                              pose);
         }
         pelvis = {true, wanted_m, shown_m, (shown_m - pelvis.shown_m) / io.dt_s};
+        turn_hips(to_ws * (memory.hips_m[1] - memory.hips_m[0]), k_hips_radps * io.dt_s, pose);
     }
 }
 

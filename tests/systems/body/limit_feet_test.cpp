@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "systems/body/shared/fold_body.hpp"
 #include "tests/random.hpp"
 #include "tests/systems/frame/column_scene.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "systems/body/limit_feet.hpp"
 #include "tests/random.hpp"
 #include "tests/systems/frame/column_scene.hpp"
 
@@ -106,6 +107,47 @@ TEST(LimitPelvis, ThrownPelvisKeepsItsLimitsAndBonesAndArrives) {
         }
         EXPECT_EQ(trunk.pose.at(k_player).pelvis_ws.position,
                   (origin_ws * Pose{trunk.scale * (turn * Vec3(0.0, -0.5, 0.0)), turn}).position);
+    }
+    EXPECT_GT(limited, 1000);
+}
+
+// A trunk that turns over in one frame, about any axis through the chest.
+TEST(LimitPelvis, HipsOfAPelvisThatTurnsOverKeepTheirRateAndArrive) {
+    Random random(5003);
+    int limited = 0;
+    for (int i = 0; i < 50; ++i) {
+        const Pose origin_ws = random.pose(5.0);
+        Trunk trunk(origin_ws, random.between(0.1, 10.0));
+        const auto limit_both = [&] {
+            trunk.limit();
+            limit_feet({.dt_s = k_dt_s,
+                        .origin = trunk.origin,
+                        .memory = trunk.memory,
+                        .pose = trunk.pose});
+        };
+        const auto hips = [&] {
+            const auto& legs = trunk.pose.at(k_player).legs;
+            return Vec3(legs[1].thigh_ws.position - legs[0].thigh_ws.position);
+        };
+        trunk.put(Quat::Identity());
+        limit_both();
+        const Vec3 axis = random.direction();
+        const Quat turn = rotation_about(axis, random.between(0.5, 2.5));
+        Vec3 before = hips();
+        for (int frame = 0; frame < 270; ++frame) {
+            trunk.put(turn);
+            const Pose given_pelvis = trunk.pose.at(k_player).pelvis_ws;
+            limit_both();
+            const double angle_rad = arc_tangent2(before.cross(hips()).norm(), before.dot(hips()));
+            EXPECT_LT(angle_rad, k_hips_radps * k_dt_s + k_rounding_m) << frame;
+            EXPECT_NEAR(hips().norm(), trunk.scale * 0.18, trunk.scale * k_rounding_m);
+            const SpinePose& shown = trunk.pose.at(k_player);
+            limited += shown.pelvis_ws.rotation.dot(given_pelvis.rotation) < 0.999 ? 1 : 0;
+            before = hips();
+        }
+        EXPECT_LT(
+            (hips() - origin_ws.rotation * (turn * Vec3(trunk.scale * 0.18, 0.0, 0.0))).norm(),
+            trunk.scale * k_rounding_m);
     }
     EXPECT_GT(limited, 1000);
 }
