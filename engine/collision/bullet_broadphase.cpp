@@ -16,10 +16,10 @@ btDbvtVolume to_volume(const Bounds& bounds) {
 
 // A leaf's box is larger than the body's bounds by this share of the body's radius, on each side. A
 // body that drifts changes the tree only when it leaves that box.
-constexpr double k_room_share = 0.2;
-// A leaf's box is replaced if it exceeds the bounds by more than this many times that room: the body
-// was fast and has become slow.
-constexpr double k_max_rooms = 4.0;
+constexpr double k_slack_share = 0.2;
+// A leaf's box is replaced if it exceeds the bounds by more than this many times that slack: the
+// body was fast and has become slow.
+constexpr double k_max_slacks = 4.0;
 
 bool has_shape(const ColliderProxy& proxy) { return proxy.shape != k_no_shape; }
 
@@ -56,12 +56,12 @@ void Broadphase::place(BroadphaseBody& body, const ShapeExtent& extent) {
         return;
     }
     body.bounds_ws = swept_bounds(extent, body.proxy.from_ws, body.proxy.to_ws);
-    const double room_m = k_room_share * extent.radius_m;
+    const double slack_m = k_slack_share * extent.radius_m;
     if (body.leaf != nullptr && contains(body.leaf_ws, body.bounds_ws) &&
-        contains(body.bounds_ws.grown(k_max_rooms * room_m), body.leaf_ws)) {
+        contains(body.bounds_ws.grown(k_max_slacks * slack_m), body.leaf_ws)) {
         return;
     }
-    body.leaf_ws = body.bounds_ws.grown(room_m);
+    body.leaf_ws = body.bounds_ws.grown(slack_m);
     note_moved_leaf(body);
     btDbvtVolume volume = to_volume(body.leaf_ws);
     if (body.leaf == nullptr && !parked_.empty()) {

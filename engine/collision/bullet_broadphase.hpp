@@ -17,7 +17,7 @@ struct BroadphaseBody {
     ColliderProxy proxy;
     Bounds bounds_ws;            // swept, from from_ws to to_ws
     btDbvtNode* leaf = nullptr;  // null: not in the tree, because a pose is invalid
-    Bounds leaf_ws;              // the leaf's box: contains bounds_ws, with room to move
+    Bounds leaf_ws;              // box of the leaf: contains bounds_ws, with slack
     std::uint64_t stamp = 0;     // change counter at this body's last change
     // Free bodies only: a region around the body that no partner's bounds reach into, unless the
     // partner changed after change number `isolated_since`. Partners are all non-free bodies and
@@ -92,7 +92,7 @@ class Broadphase {
     void add_neighbour(std::size_t body, std::size_t other, double margin_m);
 
     std::vector<BroadphaseBody> bodies_;
-    std::vector<std::uint64_t> ids_;           // of bodies_, close together for find_index
+    std::vector<std::uint64_t> ids_;           // ids of bodies_, close together for find_index
     std::vector<BroadphaseBody> next_bodies_;  // double buffer of match_bodies
     btDbvt tree_;
     // Unused leaves. They stay in the tree, because Bullet frees the memory of removed leaves.
@@ -106,7 +106,7 @@ class Broadphase {
     // update_neighbours; until then its body is in moved_leaves_.
     std::vector<std::vector<std::size_t>> neighbours_;
     std::vector<std::size_t> moved_leaves_;
-    double neighbour_margin_m_ = -1.0;  // below 0: all lists are outdated
+    double neighbour_margin_m_ = -1.0;  // negative: all lists are outdated
 };
 
 }  // namespace handhold

@@ -1,6 +1,7 @@
 // Face-face contacts come from Bullet's polygon clipping. This file adds two points for nearly
-// parallel edges (Bullet gives one, and its perturbed manifolds are off by up to 0.7 mm), the curved
-// sides of cylinders, and the same for two boxes in their own axes, at a quarter of the cost.
+// parallel edges (Bullet gives one, and its perturbed manifolds are off by up to 0.7 mm), the
+// curved sides of cylinders, and the same for two boxes in their own axes, at a quarter of the
+// cost.
 #include "engine/collision/bullet_manifold.hpp"
 
 #include <algorithm>
@@ -139,7 +140,7 @@ struct BoxPolygon {
 // clip() for two boxes.
 template <typename Visit>
 void clip_boxes(const Convex& ground, const Convex& body, const Vec3& up, const Visit& visit) {
-    constexpr double k_inside_m = 1e-9;  // as Convex::prisms
+    constexpr double k_inside_m = 1e-9;  // offset of the sides, as in Convex::prisms
     const BoxFace face(to_local(ground, up));
     const BoxFace incident(to_local(body, -up));
     const btTransform to_ground = ground.pose_ns.inverseTimes(body.pose_ns);
@@ -213,7 +214,8 @@ std::optional<std::array<Vec3, 2>> supporting_box_edge(const Convex& box, const 
     if (local.cwiseAbs().minCoeff(&axis) >= k_edge_sine) {
         return std::nullopt;
     }
-    Vec3 from = box.box_half_m->array() * (local.array() >= 0.0).select(Vec3::Ones(), -Vec3::Ones()).array();
+    Vec3 from = box.box_half_m->array() *
+                (local.array() >= 0.0).select(Vec3::Ones(), -Vec3::Ones()).array();
     Vec3 to = from;
     from[axis] = -(*box.box_half_m)[axis];
     to[axis] = (*box.box_half_m)[axis];

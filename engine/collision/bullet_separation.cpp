@@ -10,7 +10,7 @@
 
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
 
-#include "engine/collision/box_separation.hpp"
+#include "engine/collision/bullet_box_separation.hpp"
 
 namespace handhold {
 namespace {

@@ -5,8 +5,8 @@
 #include "engine/collision/bullet_convex.hpp"
 
 // Signed distance of two convex cores (shapes without their radii): of boxes in closed form
-// (box_separation.hpp), of all others by Bullet's GJK and EPA. All values are in near space (suffix
-// _ns): b's axes with the origin at a's position.
+// (bullet_box_separation.hpp), of all others by Bullet's GJK and EPA. All values are in near space
+// (suffix _ns): b's axes with the origin at a's position.
 namespace handhold {
 
 struct CoreSeparation {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/collision/box_separation.hpp"
+#include "engine/collision/bullet_box_separation.hpp"
 
 namespace handhold {
 namespace {
@@ -72,8 +72,7 @@ void measure(const Convex& placed, const Convex& b, Approach& approach) {
 // safe step. Boxes have one in closed form, without their distance.
 void find_gap(const Convex& placed, const Convex& b, Approach& approach) {
     if (are_boxes(placed, b)) {
-        const BoxAxis axis =
-            find_box_axis(placed, b, std::numeric_limits<double>::infinity());
+        const BoxAxis axis = find_box_axis(placed, b, std::numeric_limits<double>::infinity());
         if (axis.separation_m > k_sweep_touch_m) {
             approach.gap_m = axis.separation_m;
             approach.impact.normal = axis.normal;
@@ -149,8 +148,8 @@ ApproachState advance(const ConvexPart& a, const RelativeMotion& motion, const C
         return ApproachState::touches;
     }
     const double closing_m = max_closing_m(a, motion, approach.impact.normal);
-    // Along this direction, the shapes overlap by at most `left_m` before the end of the motion, and
-    // no more along the shortest way out.
+    // Along this direction, the shapes overlap by at most `left_m` before the end of the motion,
+    // and no more along the shortest way out.
     const double left_m = (1.0 - approach.fraction) * closing_m - gap;
     const bool may_graze = limit.grazing_m > 0.0 && left_m < limit.grazing_m;
     if (!(closing_m > 0.0) || may_graze) {

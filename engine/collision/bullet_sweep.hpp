@@ -41,7 +41,7 @@ struct Impact {
 
 // Where a sweep ends.
 struct SweepLimit {
-    double fraction = 1.0;  // of the motion; touches from there on are not searched
+    double fraction = 1.0;  // share of the motion after which no touch is searched
     // A touch after which the shapes can overlap by no more than this until the end of the motion
     // may be left out.
     double grazing_m = 0.0;

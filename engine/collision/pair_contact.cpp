@@ -74,7 +74,8 @@ std::optional<Impact> first_impact_on_mesh(const PairIo& io, const ConvexPart& a
     while (!queue.empty()) {
         std::ranges::pop_heap(queue, touches_later);
         TriangleApproach& next = queue.back();
-        const ApproachState state = advance(a, motion, place(next.triangle), {limit, grazing_m}, next.approach);
+        const ApproachState state =
+            advance(a, motion, place(next.triangle), {limit, grazing_m}, next.approach);
         if (state == ApproachState::continues) {
             std::ranges::push_heap(queue, touches_later);
             continue;
@@ -155,8 +156,7 @@ void add_contacts_at(const PairIo& io, const Pose& pose_ns, const Pose& from_ns)
             if (are_beyond_margin(io.a[i], a, part, b, margin_m)) {
                 continue;
             }
-            if (const auto separation =
-                    separate_within(a, b, margin_m + a.radius_m + b.radius_m)) {
+            if (const auto separation = separate_within(a, b, margin_m + a.radius_m + b.radius_m)) {
                 add_manifold(a, b, *separation, margin_m, scratch.clip, scratch.contacts);
             }
         }

@@ -11,13 +11,18 @@ b3Vec3 to_vec3(const std::array<double, 3>& v) {
     return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 b3Quat to_quat(const std::array<double, 4>& q) {
-    return {{static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2])}, static_cast<float>(q[3])};
+    return {{static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2])},
+            static_cast<float>(q[3])};
 }
-b3WorldTransform to_transform(const Placed& pose) { return {b3ToPos(to_vec3(pose.position)), to_quat(pose.rotation)}; }
+b3WorldTransform to_transform(const Placed& pose) {
+    return {b3ToPos(to_vec3(pose.position)), to_quat(pose.rotation)};
+}
 
 b3BodyId add_body(b3WorldId world, const Body& body) {
     b3BodyDef def = b3DefaultBodyDef();
-    def.type = body.motion == Motion::free ? b3_dynamicBody : body.motion == Motion::driven ? b3_kinematicBody : b3_staticBody;
+    def.type = body.motion == Motion::free     ? b3_dynamicBody
+               : body.motion == Motion::driven ? b3_kinematicBody
+                                               : b3_staticBody;
     def.position = b3ToPos(to_vec3(body.pose.position));
     def.rotation = to_quat(body.pose.rotation);
     def.linearVelocity = to_vec3(body.velocity_mps);
@@ -56,7 +61,8 @@ int main(int count, char** arguments) {
     const auto dt_s = static_cast<float>(1.0 / scene.hz);
     time_frames(scene, "Box3D", [&](int frame) {
         if (static_cast<std::size_t>(frame) < scene.driven.size()) {
-            b3Body_SetTargetTransform(driven, to_transform(scene.driven[static_cast<std::size_t>(frame)]), dt_s, true);
+            b3Body_SetTargetTransform(
+                driven, to_transform(scene.driven[static_cast<std::size_t>(frame)]), dt_s, true);
         }
         b3World_Step(world, dt_s, 4);
     });

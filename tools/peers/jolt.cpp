@@ -1,9 +1,9 @@
-// Runs a scene of boxes in Jolt at its default settings, one thread, no sleeping. usage: peer_jolt SCENE
-#include <Jolt/Jolt.h>
-
+// Runs a scene of boxes in Jolt at its default settings, one thread, no sleeping. usage: peer_jolt
+// SCENE
 #include <Jolt/Core/Factory.h>
 #include <Jolt/Core/JobSystemSingleThreaded.h>
 #include <Jolt/Core/TempAllocator.h>
+#include <Jolt/Jolt.h>
 #include <Jolt/Physics/Body/BodyCreationSettings.h>
 #include <Jolt/Physics/Collision/Shape/BoxShape.h>
 #include <Jolt/Physics/PhysicsSettings.h>
@@ -20,7 +20,9 @@ JPH::Vec3 to_vec3(const std::array<double, 3>& v) {
     return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 JPH::Quat to_quat(const std::array<double, 4>& q) {
-    return JPH::Quat(static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2]), static_cast<float>(q[3])).Normalized();
+    return JPH::Quat(static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2]),
+                     static_cast<float>(q[3]))
+        .Normalized();
 }
 
 // Two layers: what may move, and what never does. The latter does not collide with itself.
@@ -34,7 +36,9 @@ class Layers final : public JPH::BroadPhaseLayerInterface {
         return JPH::BroadPhaseLayer(static_cast<JPH::BroadPhaseLayer::Type>(layer));
     }
 #if defined(JPH_EXTERNAL_PROFILE) || defined(JPH_PROFILE_ENABLED)
-    const char* GetBroadPhaseLayerName(JPH::BroadPhaseLayer /*layer*/) const override { return "layer"; }
+    const char* GetBroadPhaseLayerName(JPH::BroadPhaseLayer /*layer*/) const override {
+        return "layer";
+    }
 #endif
 };
 
@@ -47,15 +51,18 @@ class LayerAgainstTree final : public JPH::ObjectVsBroadPhaseLayerFilter {
 
 class LayerPairs final : public JPH::ObjectLayerPairFilter {
   public:
-    bool ShouldCollide(JPH::ObjectLayer a, JPH::ObjectLayer b) const override { return a == k_moving || b == k_moving; }
+    bool ShouldCollide(JPH::ObjectLayer a, JPH::ObjectLayer b) const override {
+        return a == k_moving || b == k_moving;
+    }
 };
 
 JPH::BodyID add_body(JPH::BodyInterface& bodies, const Body& body) {
     const JPH::EMotionType motion = body.motion == Motion::free     ? JPH::EMotionType::Dynamic
                                     : body.motion == Motion::driven ? JPH::EMotionType::Kinematic
                                                                     : JPH::EMotionType::Static;
-    JPH::BodyCreationSettings settings(new JPH::BoxShape(to_vec3(body.half_m)), JPH::RVec3(to_vec3(body.pose.position)),
-                                       to_quat(body.pose.rotation), motion, body.motion == Motion::fixed ? k_still : k_moving);
+    JPH::BodyCreationSettings settings(
+        new JPH::BoxShape(to_vec3(body.half_m)), JPH::RVec3(to_vec3(body.pose.position)),
+        to_quat(body.pose.rotation), motion, body.motion == Motion::fixed ? k_still : k_moving);
     settings.mFriction = static_cast<float>(body.friction);
     settings.mRestitution = static_cast<float>(body.restitution);
     settings.mAllowSleeping = false;
@@ -99,7 +106,8 @@ int main(int count, char** arguments) {
     time_frames(scene, "Jolt", [&](int frame) {
         if (static_cast<std::size_t>(frame) < scene.driven.size()) {
             const Placed& pose = scene.driven[static_cast<std::size_t>(frame)];
-            physics.GetBodyInterface().MoveKinematic(driven, JPH::RVec3(to_vec3(pose.position)), to_quat(pose.rotation), dt_s);
+            physics.GetBodyInterface().MoveKinematic(driven, JPH::RVec3(to_vec3(pose.position)),
+                                                     to_quat(pose.rotation), dt_s);
         }
         physics.Update(dt_s, 1, &memory, &jobs);
     });

@@ -12,10 +12,12 @@
 #include <string>
 #include <vector>
 
-// A scene of boxes without joints, as text that tools/bench_peers writes, and the loop that times an engine on it.
+// A scene of boxes without joints, as text that tools/bench_peers writes, and the loop that times
+// an engine on it.
 //   hz F, frames N
-//   body free|fixed|driven half(3) mass inertia(3) friction restitution position(3) rotation(x,y,z,w) velocity(3) spin(3)
-//   pose position(3) rotation(4)       of the driven body, one per frame
+//   body free|fixed|driven half(3) mass inertia(3) friction restitution position(3)
+//   rotation(x,y,z,w) velocity(3) spin(3) pose position(3) rotation(4)       of the driven body,
+//   one per frame
 // Units are SI, everything is in the world's frame. At most one body is driven.
 namespace handhold::peers {
 
@@ -42,7 +44,7 @@ struct Scene {
     double hz = 90.0;
     int frames = 0;
     std::vector<Body> bodies;
-    std::vector<Placed> driven;  // of the driven body, at the end of each frame
+    std::vector<Placed> driven;  // poses of the driven body at the end of each frame
 };
 
 template <std::size_t N>
@@ -65,9 +67,12 @@ inline Scene read_scene(const char* path) {
             in >> scene.frames;
         } else if (word == "body") {
             Body body;
-            in >> word >> body.half_m >> body.mass_kg >> body.inertia_kgm2 >> body.friction >> body.restitution >> body.pose.position >>
-                body.pose.rotation >> body.velocity_mps >> body.spin_radps;
-            body.motion = word == "free" ? Motion::free : word == "driven" ? Motion::driven : Motion::fixed;
+            in >> word >> body.half_m >> body.mass_kg >> body.inertia_kgm2 >> body.friction >>
+                body.restitution >> body.pose.position >> body.pose.rotation >> body.velocity_mps >>
+                body.spin_radps;
+            body.motion = word == "free"     ? Motion::free
+                          : word == "driven" ? Motion::driven
+                                             : Motion::fixed;
             scene.bodies.push_back(body);
         } else if (word == "pose") {
             in >> scene.driven.emplace_back().position >> scene.driven.back().rotation;
@@ -89,12 +94,15 @@ inline double now_us() {
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
 #else
-    return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    return std::chrono::duration<double, std::micro>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
 #endif
 }
 
 // Calls step(frame) for each frame and prints the times of these calls as one line of JSON.
-inline void time_frames(const Scene& scene, const std::string& engine, const std::function<void(int)>& step) {
+inline void time_frames(const Scene& scene, const std::string& engine,
+                        const std::function<void(int)>& step) {
     std::vector<double> us;
     for (int frame = 0; frame < scene.frames; ++frame) {
         const double begin_us = now_us();
@@ -102,9 +110,12 @@ inline void time_frames(const Scene& scene, const std::string& engine, const std
         us.push_back(now_us() - begin_us);
     }
     std::sort(us.begin(), us.end());
-    const auto quantile = [&us](double share) { return us[static_cast<std::size_t>(share * static_cast<double>(us.size() - 1))]; };
-    std::printf("{\"engine\":\"%s\",\"us_per_frame\":{\"median\":%.3f,\"p99\":%.3f,\"max\":%.3f}}\n", engine.c_str(), quantile(0.5),
-                quantile(0.99), us.back());
+    const auto quantile = [&us](double share) {
+        return us[static_cast<std::size_t>(share * static_cast<double>(us.size() - 1))];
+    };
+    std::printf(
+        "{\"engine\":\"%s\",\"us_per_frame\":{\"median\":%.3f,\"p99\":%.3f,\"max\":%.3f}}\n",
+        engine.c_str(), quantile(0.5), quantile(0.99), us.back());
 }
 
 }  // namespace handhold::peers

@@ -265,24 +265,19 @@ void RowSweeps::push(const PackedRow& row, double impulse) {
     }
 }
 
-// visit() for a group of one unilateral row: a contact or a limit.
-double RowSweeps::visit_unilateral(std::uint32_t row) {
-    const PackedRow& packed = packed_[row];
-    double& lambda = lambda_[row];
-    const double residual = values_[row] + motion_of(packed) + alpha_[row] * lambda;
-    const double change = std::max(lambda - residual * packed.inverse_diagonal, 0.0) - lambda;
-    if (change == 0.0) {
-        return 0.0;
-    }
-    lambda += change;
-    push(packed, change);
-    return std::abs(change) * diagonal_[row];
-}
-
 // Makes one Gauss-Seidel step for a group. Returns the largest change of the group's residuals.
 double RowSweeps::visit(const Group& group) {
-    if (group.is_unilateral) {
-        return visit_unilateral(group.row);
+    if (group.is_unilateral) {  // one row: a contact or a limit
+        const PackedRow& packed = packed_[group.row];
+        double& lambda = lambda_[group.row];
+        const double residual = values_[group.row] + motion_of(packed) + alpha_[group.row] * lambda;
+        const double change = std::max(lambda - residual * packed.inverse_diagonal, 0.0) - lambda;
+        if (change == 0.0) {
+            return 0.0;
+        }
+        lambda += change;
+        push(packed, change);
+        return std::abs(change) * diagonal_[group.row];
     }
     std::array<double, 3> wanted{};
     double square = 0.0;

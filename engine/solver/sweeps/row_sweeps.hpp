@@ -115,7 +115,6 @@ class RowSweeps {
     double motion_of(const PackedRow& row) const;
     void push(const PackedRow& row, double impulse);
     double visit(const Group& group);
-    double visit_unilateral(std::uint32_t row);
     double sweep(bool forwards, bool only_stiff);
     void accelerate(double& last_square);
     void sweep_until(double tolerance, bool only_stiff, const SweepLimits& limits);

@@ -118,8 +118,8 @@ TEST(BoxPairs, AgreeWithGjkAndEpaInRandomPoses) {
     EXPECT_GT(same_normal, k_rounds * 99 / 100);  // the others have two shortest exits
 }
 
-// A gap that the closest features leave is found whatever they are: the second box touches the first
-// with a face, an edge or a corner and is moved off along the normal.
+// A gap that the closest features leave is found whatever they are: the second box touches the
+// first with a face, an edge or a corner and is moved off along the normal.
 TEST(BoxPairs, GapIsThatOfTheClosestFeatures) {
     Random random(302);
     for (int round = 0; round < 4000; ++round) {
@@ -135,19 +135,18 @@ TEST(BoxPairs, GapIsThatOfTheClosestFeatures) {
         const auto corner_along = [](const Vec3& half, const Vec3& direction) {
             return Vec3(direction.array().sign() * half.array());
         };
-        const Vec3 corner_b =
-            transform_point(pair.pose_b, corner_along(pair.half_b, normal_bs));
-        const Vec3 corner_a = pair.pose_a.rotation *
-                              corner_along(pair.half_a, pair.pose_a.rotation.conjugate() *
-                                                            Vec3(-normal_ws));
+        const Vec3 corner_b = transform_point(pair.pose_b, corner_along(pair.half_b, normal_bs));
+        const Vec3 corner_a =
+            pair.pose_a.rotation *
+            corner_along(pair.half_a, pair.pose_a.rotation.conjugate() * Vec3(-normal_ws));
         const double gap_m = random.between(1e-4, 0.02);
         pair.pose_a.position = corner_b + gap_m * normal_ws - corner_a;
         const Measured measured = measure(pair, 0.05);
         ASSERT_FALSE(measured.as_boxes.empty()) << round;
         ASSERT_NEAR(deepest_of(measured.as_boxes).separation_m, gap_m, 1e-9) << round;
-        ASSERT_LT((pair.pose_b.rotation * deepest_of(measured.as_boxes).normal_b_bs - normal_ws)
-                      .norm(),
-                  1e-7)
+        ASSERT_LT(
+            (pair.pose_b.rotation * deepest_of(measured.as_boxes).normal_b_bs - normal_ws).norm(),
+            1e-7)
             << round;
     }
 }

@@ -23,9 +23,8 @@ struct BoxAxis {
 // `enough_m`. Precondition here and below: are_boxes(a, b).
 BoxAxis find_box_axis(const Convex& a, const Convex& b, double enough_m);
 
-// separate() for two boxes, to 1e-9 m. If the boxes overlap equally deep through a face and across
-// two edges, takes the face. nullopt only if the distance exceeds `limit_m`, as soon as an axis
-// shows it.
+// separate() for two boxes. If they overlap equally deep through a face and across two edges, takes
+// the face. nullopt only if the distance exceeds `limit_m`, as soon as an axis shows it.
 std::optional<CoreSeparation> separate_boxes(const Convex& a, const Convex& b, double limit_m);
 
 }  // namespace handhold

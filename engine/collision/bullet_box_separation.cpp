@@ -1,4 +1,4 @@
-#include "engine/collision/box_separation.hpp"
+#include "engine/collision/bullet_box_separation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -87,12 +87,11 @@ void visit_axes(const Boxes& boxes, const Visit& visit) {
             if (sine2 < k_parallel_sine2) {
                 continue;
             }
-            const double along = std::abs(boxes.in_a[i2] * boxes.turn(i1, j) -
-                                          boxes.in_a[i1] * boxes.turn(i2, j));
-            const double reach = half_a[i1] * boxes.cosine(i2, j) +
-                                 half_a[i2] * boxes.cosine(i1, j) +
-                                 half_b[j1] * boxes.cosine(i, j2) +
-                                 half_b[j2] * boxes.cosine(i, j1);
+            const double along =
+                std::abs(boxes.in_a[i2] * boxes.turn(i1, j) - boxes.in_a[i1] * boxes.turn(i2, j));
+            const double reach =
+                half_a[i1] * boxes.cosine(i2, j) + half_a[i2] * boxes.cosine(i1, j) +
+                half_b[j1] * boxes.cosine(i, j2) + half_b[j2] * boxes.cosine(i, j1);
             if (!visit(Axis{Feature::edges, i, j, (along - reach) / std::sqrt(sine2)})) {
                 return;
             }
@@ -204,8 +203,8 @@ CoreSeparation overlap_along(const Boxes& boxes, const Axis& axis) {
 // A corner of one box and the point of the other that is nearest to it.
 struct CornerGap {
     double square = std::numeric_limits<double>::infinity();
-    Vec3 corner;  // in its own box's axes
-    Vec3 point;   // in the other box's axes
+    Vec3 corner;  // position in its own box's axes
+    Vec3 point;   // position in the other box's axes
 };
 
 // The smallest distance of a corner of `box` to the box with half extents `other_half_m`.
@@ -231,8 +230,7 @@ CornerGap nearest_corner(const Vec3& half_m, const Mat3& axes, const Vec3& centr
 CoreSeparation nearest_by_corners(const Boxes& boxes) {
     const CornerGap of_a =
         nearest_corner(boxes.a.half_m, boxes.turn.transpose(), boxes.in_b, boxes.b.half_m);
-    const CornerGap of_b =
-        nearest_corner(boxes.b.half_m, boxes.turn, -boxes.in_a, boxes.a.half_m);
+    const CornerGap of_b = nearest_corner(boxes.b.half_m, boxes.turn, -boxes.in_a, boxes.a.half_m);
     CoreSeparation result;
     if (of_a.square <= of_b.square) {
         result.point_a_ns = boxes.a.at(of_a.corner);
@@ -247,7 +245,7 @@ CoreSeparation nearest_by_corners(const Boxes& boxes) {
 
 // Replaces `result` by a pair of points within two edges if these are nearer. Two edges are the
 // closest features only if their axis has the largest separation. If faces are parallel to it, each
-// box has several edges that are farthest along the axis, and all are tried.
+// box has several edges that are farthest along the axis, and all are tested.
 void compare_edges(const Boxes& boxes, double largest_m, CoreSeparation& result) {
     visit_axes(boxes, [&](const Axis& axis) {
         if (axis.feature != Feature::edges || axis.separation_m < largest_m - k_edge_gain_m) {
@@ -257,14 +255,14 @@ void compare_edges(const Boxes& boxes, double largest_m, CoreSeparation& result)
         const Vec3 normal = normal_of(boxes, axis);
         const Vec3 into_a = -(boxes.a.axes_ns.transpose() * normal);
         const Vec3 into_b = boxes.b.axes_ns.transpose() * normal;
-        const auto is_tried = [&](const Vec3& into, int along, unsigned other) {
+        const auto is_tested = [&](const Vec3& into, int along, unsigned other) {
             return ((other & 1U) == 0 || std::abs(into[next_axis(along)]) < k_parallel_face) &&
                    ((other & 2U) == 0 || std::abs(into[last_axis(along)]) < k_parallel_face);
         };
         for (unsigned of_a = 0; of_a < 4; ++of_a) {
             for (unsigned of_b = 0; of_b < 4; ++of_b) {
                 CoreSeparation found;
-                if (is_tried(into_a, axis.i, of_a) && is_tried(into_b, axis.j, of_b) &&
+                if (is_tested(into_a, axis.i, of_a) && is_tested(into_b, axis.j, of_b) &&
                     closest_on_edges(boxes,
                                      {edge_middle(boxes.a, axis.i, into_a, of_a),
                                       edge_middle(boxes.b, axis.j, into_b, of_b), axis.i, axis.j},
