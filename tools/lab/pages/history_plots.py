@@ -3,6 +3,8 @@ import csv
 import html
 import re
 
+from .svg import nice_ticks
+
 WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 720, 300, 60, 20, 34, 66
 GREEN, BLUE, RED = "#0b8f64", "#3b7fd4", "#c8553d"
 UNITS_US = {"us": 1.0, "ms": 1e3}
@@ -48,10 +50,9 @@ def plot(title, series, factor):
     py = lambda value: HEIGHT - BOTTOM - value / (1.08 * most) * (HEIGHT - TOP - BOTTOM)
     parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" font-family="sans-serif" font-size="12" fill="#808488">',
              f'<title>{html.escape(title)}</title><text x="{LEFT}" y="18" font-size="14">{html.escape(title)}</text>']
-    for i in range(5):
-        value = most * i / 4
+    for value in nice_ticks(most):
         parts.append(f'<line x1="{LEFT}" x2="{WIDTH - RIGHT}" y1="{py(value):.1f}" y2="{py(value):.1f}" stroke="#80848840"/>'
-                     f'<text x="{LEFT - 6}" y="{py(value) + 4:.1f}" text-anchor="end">{value:.3g}</text>')
+                     f'<text x="{LEFT - 6}" y="{py(value) + 4:.1f}" text-anchor="end">{value:g}</text>')
     for i, label in enumerate(labels):
         if i % max(1, len(labels) // 12) == 0:
             parts.append(f'<text transform="translate({px(label):.1f} {HEIGHT - BOTTOM + 14}) rotate(30)" font-size="10">{label.split()[0]}</text>')
