@@ -1,9 +1,12 @@
 // Runs a scene of boxes in Jolt at its default settings, one thread, no sleeping. usage: peer_jolt
 // SCENE
+// clang-format off: Jolt.h comes before all other headers of Jolt
+#include <Jolt/Jolt.h>
+// clang-format on
+
 #include <Jolt/Core/Factory.h>
 #include <Jolt/Core/JobSystemSingleThreaded.h>
 #include <Jolt/Core/TempAllocator.h>
-#include <Jolt/Jolt.h>
 #include <Jolt/Physics/Body/BodyCreationSettings.h>
 #include <Jolt/Physics/Collision/Shape/BoxShape.h>
 #include <Jolt/Physics/PhysicsSettings.h>
